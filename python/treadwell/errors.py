@@ -1,0 +1,12 @@
+"""The errors that a user can meet: one base class, and one for bad input."""
+
+
+class TreadwellError(Exception):
+    """Anything that goes wrong in treadwell and is reported in one message, without a traceback."""
+
+
+class InputError(TreadwellError):
+    """What the user gave is bad: a file, a key, a value, an option. The command line exits with 2.
+
+    The message names the file, the key or line, what was found and what is allowed.
+    """
