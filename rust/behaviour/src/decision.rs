@@ -1,0 +1,68 @@
+//! What every behaviour sees and says.
+
+use localization::Estimate;
+use mapping::FloorView;
+use planning::{Goal, Plan};
+
+use crate::Command;
+
+/// Why a behaviour failed as a program.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum BehaviourError {
+    /// A behaviour of the user's failed.
+    #[error("{0}")]
+    Failed(String),
+}
+
+/// Everything a decision may rest on.
+#[derive(Debug, Clone, Copy)]
+pub struct Situation<'a> {
+    /// Nanoseconds since the start.
+    pub time_ns: u64,
+    /// Where the robot believes to be.
+    pub estimate: &'a Estimate,
+    /// What it knows of the floor.
+    pub view: &'a FloorView,
+    /// The way to the goal, once one was planned.
+    pub plan: Option<&'a Plan>,
+    /// The goal that is pursued now.
+    pub goal: &'a Goal,
+    /// Whether that goal is the last one (not a via point).
+    pub last_goal: bool,
+    /// Whether the walker stands still on both soles.
+    pub standing: bool,
+    /// Where the head looks now.
+    pub gaze: crate::Gaze,
+    /// Depth frames taken into the map so far.
+    pub frames_used: u64,
+    /// When the last frame was taken into the map, nanoseconds since the start; `None` before the first.
+    pub last_frame_ns: Option<u64>,
+}
+
+/// What the robot declares.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outcome {
+    /// It has arrived and stands.
+    GoalReached,
+    /// It found no way that it may take, and stands. `word: sentence`.
+    Refused(String),
+}
+
+/// The product of a behaviour.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decision {
+    /// What the walker is told.
+    pub command: Command,
+    /// Name of the state, as in the recording's lane.
+    pub state: &'static str,
+    /// Set when a via point is passed: go for the next goal.
+    pub goal_passed: bool,
+    /// Set when the episode is over for the robot.
+    pub outcome: Option<Outcome>,
+}
+
+/// Decides what to do next.
+pub trait Behaviour: Send {
+    /// The decision at a control tick.
+    fn next(&mut self, situation: &Situation<'_>) -> Result<Decision, BehaviourError>;
+}

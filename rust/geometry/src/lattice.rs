@@ -1,0 +1,228 @@
+//! Cells and metres meet here and nowhere else; grids hold one value a cell.
+//!
+//! A *cell* is integers, a *point* is metres, an *index* is an offset into storage. Rows run along +y, columns along +x.
+
+/// A cell of a lattice. Any integer, also outside a grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Cell {
+    /// Along +x.
+    pub col: i32,
+    /// Along +y.
+    pub row: i32,
+}
+
+impl Cell {
+    /// A cell from its column and row.
+    pub const fn new(col: i32, row: i32) -> Self {
+        Self { col, row }
+    }
+}
+
+/// Square cells over the plane: the corner of cell (0, 0) lies at `origin_m`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lattice {
+    /// Lower-left corner of cell (0, 0), metres.
+    pub origin_m: [f64; 2],
+    /// Side of a cell, metres.
+    pub cell_m: f64,
+}
+
+impl Lattice {
+    /// The cell that contains the point: rounds down.
+    pub fn cell_at(&self, x_m: f64, y_m: f64) -> Cell {
+        Cell {
+            col: ((x_m - self.origin_m[0]) / self.cell_m).floor() as i32,
+            row: ((y_m - self.origin_m[1]) / self.cell_m).floor() as i32,
+        }
+    }
+
+    /// Centre of a cell, metres.
+    pub fn center_of(&self, cell: Cell) -> [f64; 2] {
+        [
+            self.origin_m[0] + (f64::from(cell.col) + 0.5) * self.cell_m,
+            self.origin_m[1] + (f64::from(cell.row) + 0.5) * self.cell_m,
+        ]
+    }
+}
+
+/// A rectangle of cells, both ends included; empty where `min > max`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CellArea {
+    /// Smallest column and row.
+    pub min: Cell,
+    /// Largest column and row.
+    pub max: Cell,
+}
+
+impl CellArea {
+    /// No cell.
+    pub const EMPTY: Self = Self {
+        min: Cell::new(i32::MAX, i32::MAX),
+        max: Cell::new(i32::MIN, i32::MIN),
+    };
+
+    /// Whether it holds no cell.
+    pub const fn is_empty(&self) -> bool {
+        self.min.col > self.max.col || self.min.row > self.max.row
+    }
+
+    /// Grows to hold `cell`.
+    pub fn include(&mut self, cell: Cell) {
+        self.min = Cell::new(self.min.col.min(cell.col), self.min.row.min(cell.row));
+        self.max = Cell::new(self.max.col.max(cell.col), self.max.row.max(cell.row));
+    }
+
+    /// Whether it holds `cell`.
+    pub const fn contains(&self, cell: Cell) -> bool {
+        cell.col >= self.min.col
+            && cell.col <= self.max.col
+            && cell.row >= self.min.row
+            && cell.row <= self.max.row
+    }
+
+    /// Its cells, row by row.
+    pub fn cells(self) -> impl Iterator<Item = Cell> {
+        (self.min.row..=self.max.row)
+            .flat_map(move |row| (self.min.col..=self.max.col).map(move |col| Cell { col, row }))
+    }
+}
+
+/// A value for every cell of a rectangle that starts at cell (0, 0); stored row by row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid<T> {
+    cols: usize,
+    rows: usize,
+    values: Vec<T>,
+}
+
+impl<T: Clone> Grid<T> {
+    /// A grid that holds `value` everywhere.
+    pub fn filled(cols: usize, rows: usize, value: T) -> Self {
+        Self {
+            cols,
+            rows,
+            values: vec![value; cols * rows],
+        }
+    }
+
+    /// Sets every cell to `value`.
+    pub fn fill(&mut self, value: &T) {
+        self.values.fill(value.clone());
+    }
+
+    /// Moves the content so that what was at cell (c + cols, r + rows) is now at (c, r); what comes in is `value`.
+    pub fn shift(&mut self, cols: i32, rows: i32, value: &T) {
+        if cols == 0 && rows == 0 {
+            return;
+        }
+        let source = |cell: Cell| Cell::new(cell.col + cols, cell.row + rows);
+        let (width, height) = (self.cols as i32, self.rows as i32);
+        // Walk in the direction in which a source is read before it is overwritten.
+        let row_at = |i: i32| if rows >= 0 { i } else { height - 1 - i };
+        let col_at = |i: i32| if cols >= 0 { i } else { width - 1 - i };
+        for row in (0..height).map(row_at) {
+            for col in (0..width).map(col_at) {
+                let cell = Cell::new(col, row);
+                let moved = self.get(source(cell)).unwrap_or(value).clone();
+                if let Some(slot) = self.get_mut(cell) {
+                    *slot = moved;
+                }
+            }
+        }
+    }
+}
+
+impl<T> Grid<T> {
+    /// Number of columns.
+    pub const fn cols(&self) -> usize {
+        self.cols
+    }
+
+    /// Number of rows.
+    pub const fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// All cells of the grid.
+    pub const fn area(&self) -> CellArea {
+        CellArea {
+            min: Cell::new(0, 0),
+            max: Cell::new(self.cols as i32 - 1, self.rows as i32 - 1),
+        }
+    }
+
+    /// Offset of a cell into [`Self::values`], `None` outside.
+    pub const fn index(&self, cell: Cell) -> Option<usize> {
+        if cell.col < 0
+            || cell.row < 0
+            || cell.col as usize >= self.cols
+            || cell.row as usize >= self.rows
+        {
+            None
+        } else {
+            Some(cell.row as usize * self.cols + cell.col as usize)
+        }
+    }
+
+    /// The value of a cell, `None` outside.
+    pub fn get(&self, cell: Cell) -> Option<&T> {
+        self.index(cell).map(|index| &self.values[index])
+    }
+
+    /// The value of a cell for writing, `None` outside.
+    pub fn get_mut(&mut self, cell: Cell) -> Option<&mut T> {
+        self.index(cell).map(|index| &mut self.values[index])
+    }
+
+    /// All values, row by row.
+    pub fn values(&self) -> &[T] {
+        &self.values
+    }
+
+    /// All values for writing, row by row.
+    pub fn values_mut(&mut self) -> &mut [T] {
+        &mut self.values
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_cell_contains_its_own_center(
+            col in -500..500i32, row in -500..500i32, x in -3.0..3.0f64, y in -3.0..3.0f64, cell_m in 0.01..0.5f64,
+        ) {
+            let lattice = Lattice { origin_m: [x, y], cell_m };
+            let cell = Cell::new(col, row);
+            let [cx, cy] = lattice.center_of(cell);
+            prop_assert_eq!(lattice.cell_at(cx, cy), cell);
+        }
+
+        #[test]
+        fn shifting_moves_every_value_and_fills_the_rest(cols in -4..5i32, rows in -4..5i32) {
+            let mut grid = Grid::filled(5, 3, 0);
+            for (i, value) in grid.values_mut().iter_mut().enumerate() {
+                *value = i as i32 + 1;
+            }
+            let before = grid.clone();
+            grid.shift(cols, rows, &0);
+            for cell in before.area().cells() {
+                let expected = before.get(Cell::new(cell.col + cols, cell.row + rows)).copied().unwrap_or(0);
+                prop_assert_eq!(grid.get(cell).copied(), Some(expected));
+            }
+        }
+    }
+
+    #[test]
+    fn an_area_holds_what_it_was_given_and_no_less() {
+        let mut area = CellArea::EMPTY;
+        assert!(area.is_empty());
+        area.include(Cell::new(3, -1));
+        area.include(Cell::new(1, 4));
+        assert!(area.contains(Cell::new(2, 0)) && !area.contains(Cell::new(0, 0)));
+        assert_eq!(area.cells().count(), 3 * 6);
+    }
+}

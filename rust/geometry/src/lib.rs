@@ -1,0 +1,37 @@
+//! Frames and typed poses, angles, planes, outlines, lattices and grids: the words all other crates speak in.
+//!
+//! Poses are named `target_from_source`, and the types say the same in the same order, so that adjacent words cancel:
+//!
+//! ```
+//! use geometry::{Camera, Point, Pose, Robot, World};
+//! let world_from_robot = Pose::<World, Robot>::from_yaw(1.0, 2.0, 0.0, 0.0);
+//! let robot_from_camera = Pose::<Robot, Camera>::identity();
+//! let point_in_camera = Point::<Camera>::new(0.0, 0.0, 1.0);
+//! let point_in_world: Point<World> = world_from_robot * (robot_from_camera * point_in_camera);
+//! assert_eq!(point_in_world.inner.z, 1.0);
+//! ```
+//!
+//! ```compile_fail,E0308
+//! use geometry::{Camera, Point, Pose, Robot, World};
+//! let world_from_robot = Pose::<World, Robot>::identity();
+//! let point_in_camera = Point::<Camera>::new(0.0, 0.0, 1.0);
+//! let wrong = world_from_robot * point_in_camera; // a point in the camera is not a point in the robot
+//! ```
+
+mod angle;
+mod config;
+mod frames;
+mod lattice;
+mod outline;
+mod planar;
+mod plane;
+mod pose;
+
+pub use angle::{angle_between, wrap_angle};
+pub use config::{ConfigError, require};
+pub use frames::{Camera, LeftSole, Map, Odometry, RightSole, Robot, Torso, World};
+pub use lattice::{Cell, CellArea, Grid, Lattice};
+pub use outline::{Outline, OutlineError};
+pub use planar::PlanarPose;
+pub use plane::Plane;
+pub use pose::{Point, Pose, Vector};

@@ -1,0 +1,42 @@
+//! What every localizer does: carry odometry into the map frame, corrected by what it knows.
+
+use geometry::{Map, Odometry, Pose, Robot};
+use mapping::FloorView;
+use segmentation::Planes;
+
+use crate::BodyState;
+
+/// Why a localizer gave no estimate.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum LocalizerError {
+    /// A localizer of the user's failed.
+    #[error("{0}")]
+    Failed(String),
+}
+
+/// Where the robot believes to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Nanoseconds since the start.
+    pub time_ns: u64,
+    /// The robot in the map.
+    pub map_from_robot: Pose<Map, Robot>,
+    /// The odometry frame in the map: what the localizer corrected so far.
+    pub map_from_odometry: Pose<Map, Odometry>,
+    /// Whether the estimate may be acted on.
+    pub lost: bool,
+}
+
+/// Keeps the robot's pose in the map.
+pub trait Localizer: Send {
+    /// Called when a depth frame was segmented, before the map takes it in; `body` is the body state at the exposure.
+    fn correct(
+        &mut self,
+        body: &BodyState,
+        planes: &Planes,
+        view: &FloorView,
+    ) -> Result<(), LocalizerError>;
+
+    /// The estimate at a control tick, from odometry and the corrections so far.
+    fn estimate(&mut self, body: &BodyState) -> Result<Estimate, LocalizerError>;
+}

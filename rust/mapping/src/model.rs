@@ -1,0 +1,77 @@
+//! What every world model does: take in a frame, say what changed, show floors, obstacles and the unknown.
+
+use geometry::{Cell, CellArea, Grid, Lattice, Map, Pose, Robot};
+use segmentation::Planes;
+
+/// Why a frame could not be inserted. The map is unchanged.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MapError {
+    /// A pose with a component that is no number.
+    #[error("the robot's pose must be finite")]
+    PoseNotFinite,
+    /// A world model of the user's failed.
+    #[error("{0}")]
+    Failed(String),
+}
+
+/// What is at a place, seen from above: equation (5) of 000.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Surface {
+    /// Not seen yet, or no longer sure.
+    #[default]
+    Unknown,
+    /// A flat surface to step on, at this height in the map frame, m.
+    Floor(f32),
+    /// Something to keep away from; its top at this height in the map frame, m, as coarse as the model is.
+    Obstacle(f32),
+}
+
+/// The floor, obstacle and unknown view that planners read. Cells are fixed to the map; the window moves with the robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FloorView {
+    /// Where the cells lie in the map frame.
+    pub lattice: Lattice,
+    /// What is in each cell.
+    pub cells: Grid<Surface>,
+    /// How often each cell was seen as floor by a frame (saturating); judged by the score, of use to planners.
+    pub sightings: Grid<u16>,
+}
+
+impl FloorView {
+    /// What is at a point of the map frame; unknown outside the window.
+    pub fn at(&self, x_m: f64, y_m: f64) -> Surface {
+        self.cells
+            .get(self.lattice.cell_at(x_m, y_m))
+            .copied()
+            .unwrap_or_default()
+    }
+
+    /// What is in a cell; unknown outside the window.
+    pub fn cell(&self, cell: Cell) -> Surface {
+        self.cells.get(cell).copied().unwrap_or_default()
+    }
+}
+
+/// What inserting a frame did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Insertion {
+    /// Cells of the view that may have changed.
+    pub changed: CellArea,
+    /// Height by which the frame was shifted to fit the floor that is known, m, where there was enough to match.
+    pub height_shift_m: Option<f64>,
+    /// Whether the frame was used, or withdrawn as unreliable.
+    pub used: bool,
+}
+
+/// Keeps a model of the world.
+pub trait WorldModel: Send {
+    /// Moves the window to the robot, takes in one frame seen from `map_from_robot`, and says what changed.
+    fn insert(
+        &mut self,
+        planes: &Planes,
+        map_from_robot: &Pose<Map, Robot>,
+    ) -> Result<Insertion, MapError>;
+
+    /// The floor, obstacle and unknown view, as of the last insertion.
+    fn view(&self) -> &FloorView;
+}

@@ -1,0 +1,91 @@
+//! What every planner produces: a path, or the reason why there is none.
+
+use geometry::PlanarPose;
+use mapping::FloorView;
+
+/// Why planning failed as a program. "There is no way" is no failure: see [`NoWay`].
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PlanError {
+    /// A start or goal that is no number.
+    #[error("{0} must be finite")]
+    NotFinite(&'static str),
+    /// A planner of the user's failed.
+    #[error("{0}")]
+    Failed(String),
+}
+
+/// Where to go: any place inside the disc on which the robot can stand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Goal {
+    /// Centre of the disc in the map frame, m.
+    pub x_m: f64,
+    /// Centre of the disc in the map frame, m.
+    pub y_m: f64,
+    /// Radius of the disc, m.
+    pub radius_m: f64,
+    /// Height of the level, m, where several lie above each other.
+    pub height_m: Option<f64>,
+}
+
+/// A path on the ground.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Path {
+    /// Points in the map frame from the robot to the goal, m, no further apart than a cell's diagonal.
+    pub points_m: Vec<[f64; 2]>,
+    /// For each point, whether what lies there was never seen.
+    pub unknown: Vec<bool>,
+    /// For each point, distance to the nearest obstacle, m.
+    pub clearance_m: Vec<f64>,
+    /// What it costs, in metres of open known floor.
+    pub cost_m: f64,
+}
+
+/// The word of a refusal, as in `result.json`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Refusal {
+    /// Something stands in every way.
+    Blocked,
+    /// There are gaps, but none is as wide as the robot.
+    TooNarrow,
+    /// A drop.
+    Drop,
+    /// No other word holds.
+    NoPath,
+}
+
+impl Refusal {
+    /// The word as written in `result.json`.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Blocked => "blocked",
+            Self::TooNarrow => "too_narrow",
+            Self::Drop => "drop",
+            Self::NoPath => "no_path",
+        }
+    }
+}
+
+/// There is no way that the robot may take.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NoWay {
+    /// The most specific word that holds.
+    pub refusal: Refusal,
+    /// One sentence with figures.
+    pub sentence: String,
+}
+
+/// The product of a planner.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// The way, or why there is none.
+    pub way: Result<Path, NoWay>,
+    /// Whether it was planned anew; false: the path before still holds (its passed part cut off).
+    pub replanned: bool,
+}
+
+/// Finds a way over the floor that the world model shows.
+pub trait Planner: Send {
+    /// A way from `start` to `goal`. Plans anew only when the path before no longer holds.
+    fn plan(&mut self, view: &FloorView, start: PlanarPose, goal: &Goal)
+    -> Result<Plan, PlanError>;
+}

@@ -1,0 +1,227 @@
+//! What a robot's folder says of its body, as plain data.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+/// The left or the right leg.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Side {
+    /// The robot's left, +y.
+    Left,
+    /// The robot's right, -y.
+    Right,
+}
+
+impl Side {
+    /// Both, left first: the order of every array over the feet.
+    pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
+
+    /// 0 for left, 1 for right: the index into arrays over the feet.
+    pub const fn index(self) -> usize {
+        match self {
+            Self::Left => 0,
+            Self::Right => 1,
+        }
+    }
+
+    /// The other one.
+    #[must_use]
+    pub const fn other(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+        }
+    }
+
+    /// +1 for left, -1 for right: the sign of y.
+    pub const fn sign(self) -> f64 {
+        match self {
+            Self::Left => 1.0,
+            Self::Right => -1.0,
+        }
+    }
+}
+
+/// A whole robot. Lengths in metres, angles in radians, masses in kilograms, torques in newton metres.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Description {
+    /// The folder's name.
+    pub name: String,
+    /// Links, each behind its parent; the first is the root.
+    pub links: Vec<LinkDescription>,
+    /// Names of the joints in joint order: that of every array over joints.
+    pub joints: Vec<String>,
+    /// Joint angles of the upright stance, rad, in joint order.
+    pub stand: Vec<f64>,
+    /// Link that counts as the trunk's root.
+    pub torso: String,
+    /// The two legs.
+    pub legs: Legs,
+    /// The joints that turn the head.
+    pub head: Head,
+    /// Where the arms are held: joint name to angle, rad.
+    pub arms_rest: BTreeMap<String, f64>,
+    /// The inertial measurement unit.
+    pub imu: ImuMount,
+    /// The depth camera.
+    pub camera: CameraMount,
+    /// Size of the whole body for clearances.
+    pub body: Extent,
+    /// `[gait]` of robot.toml as it stands there; read by the walker.
+    #[serde(default)]
+    pub gait: serde_json::Value,
+}
+
+/// One rigid link and the joint, if any, that turns it against its parent.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LinkDescription {
+    /// The link's name.
+    pub name: String,
+    /// Index of the parent in the list of links; `None` for the root.
+    pub parent: Option<usize>,
+    /// Origin in the parent's frame, m.
+    pub position: [f64; 3],
+    /// Orientation in the parent's frame at joint angle zero, quaternion w, x, y, z.
+    pub orientation: [f64; 4],
+    /// Mass, kg.
+    pub mass: f64,
+    /// Centre of mass in the link's frame, m.
+    pub center_of_mass: [f64; 3],
+    /// Ixx, Iyy, Izz, Ixy, Ixz, Iyz about the centre of mass along the link's axes, kg m^2.
+    pub inertia: [f64; 6],
+    /// The hinge that turns this link, if any.
+    pub joint: Option<JointDescription>,
+}
+
+/// A hinge with its motor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JointDescription {
+    /// The joint's name.
+    pub name: String,
+    /// Unit axis in the link's frame.
+    pub axis: [f64; 3],
+    /// A point of the axis in the link's frame, m.
+    pub anchor: [f64; 3],
+    /// Smallest and largest angle, rad.
+    pub range: [f64; 2],
+    /// Largest torque, N m.
+    pub peak_torque: f64,
+    /// Speed at which no torque is left, rad/s.
+    pub no_load_speed: f64,
+    /// Stiffness of the servo, N m/rad.
+    pub kp: f64,
+    /// Damping of the servo, N m s/rad.
+    pub kv: f64,
+}
+
+/// Both legs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Legs {
+    /// The left leg.
+    pub left: Leg,
+    /// The right leg.
+    pub right: Leg,
+}
+
+impl Legs {
+    /// The leg of that side.
+    pub const fn get(&self, side: Side) -> &Leg {
+        match side {
+            Side::Left => &self.left,
+            Side::Right => &self.right,
+        }
+    }
+}
+
+/// A leg of six joints, from the hip down.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Leg {
+    /// Hip yaw, hip roll, hip pitch, knee pitch, ankle pitch, ankle roll.
+    pub joints: [String; 6],
+    /// The sole at its end.
+    pub sole: Sole,
+}
+
+/// The rectangle that a foot stands on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sole {
+    /// Link that carries it.
+    pub link: String,
+    /// Centre of the rectangle in the link's frame, in the plane that touches the ground, m.
+    pub position: [f64; 3],
+    /// Extent along x, m.
+    pub length: f64,
+    /// Extent along y, m.
+    pub width: f64,
+}
+
+/// The joints that turn the head.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Head {
+    /// Turns about the vertical.
+    pub pan: String,
+    /// Nods.
+    pub tilt: String,
+}
+
+/// Where the inertial measurement unit sits.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImuMount {
+    /// Link that carries it.
+    pub link: String,
+    /// Position in the link's frame, m.
+    pub position: [f64; 3],
+    /// Orientation in the link's frame, quaternion w, x, y, z.
+    pub orientation: [f64; 4],
+}
+
+/// Where the depth camera sits and what it is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraMount {
+    /// Link that carries it.
+    pub link: String,
+    /// Optical centre in the link's frame, m.
+    pub position: [f64; 3],
+    /// Optical frame (x right, y down, z forward) in the link's frame, quaternion w, x, y, z.
+    pub orientation: [f64; 4],
+    /// Image width, pixels.
+    pub width: usize,
+    /// Image height, pixels.
+    pub height: usize,
+    /// Focal length, pixels (square pixels).
+    pub focal: f64,
+    /// Time between exposures, s.
+    pub period: f64,
+    /// What is known of the stereo matching.
+    pub stereo: StereoDescription,
+}
+
+/// What the core knows of its stereo camera.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StereoDescription {
+    /// Distance between the eyes, m.
+    pub baseline: f64,
+    /// Side of the matching window, pixels.
+    pub window: usize,
+}
+
+/// Size of the whole body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Extent {
+    /// Radius of the upright cylinder that holds the robot while it walks, m.
+    pub radius: f64,
+    /// Height of the top of the head while it stands, m.
+    pub height: f64,
+}

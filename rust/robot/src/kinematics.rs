@@ -1,0 +1,305 @@
+//! Forward kinematics: the pose of every link in the root's frame.
+
+use std::collections::BTreeMap;
+
+use geometry::{Camera, Pose, Torso};
+use nalgebra::{
+    Isometry3, Matrix3, Point3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3,
+};
+
+use crate::{Description, Side};
+
+/// Why a description is no robot.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum BodyError {
+    /// A name that is not there.
+    #[error("{role}: there is no {kind} `{name}`; there are {available}")]
+    UnknownName {
+        /// Who asks for it.
+        role: String,
+        /// Link or joint.
+        kind: &'static str,
+        /// The name asked for.
+        name: String,
+        /// The names that exist.
+        available: String,
+    },
+    /// A number that cannot be.
+    #[error("{what} must be {allowed}, got {found}")]
+    BadValue {
+        /// Which.
+        what: String,
+        /// What is allowed.
+        allowed: &'static str,
+        /// What was found.
+        found: String,
+    },
+    /// Joint angles of the wrong number.
+    #[error("{expected} joint angles are needed, got {found}")]
+    WrongJointCount {
+        /// Number of joints.
+        expected: usize,
+        /// Number given.
+        found: usize,
+    },
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Hinge {
+    pub(crate) index: usize,
+    pub(crate) axis: Unit<Vector3<f64>>,
+    pub(crate) anchor: Vector3<f64>,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Link {
+    pub(crate) parent: Option<usize>,
+    pub(crate) parent_from_link_at_zero: Isometry3<f64>,
+    pub(crate) hinge: Option<Hinge>,
+    pub(crate) mass_kg: f64,
+    pub(crate) center_of_mass: Point3<f64>,
+    pub(crate) inertia: Matrix3<f64>,
+}
+
+/// A robot's body, ready to compute with. The frame of all results is [`Torso`]: the root link.
+#[derive(Debug, Clone)]
+pub struct Body {
+    description: Description,
+    pub(crate) links: Vec<Link>,
+    link_index: BTreeMap<String, usize>,
+    joint_index: BTreeMap<String, usize>,
+    leg_joints: [[usize; 6]; 2],
+    sole_links: [usize; 2],
+    link_from_sole: [Isometry3<f64>; 2],
+    camera_link: usize,
+    link_from_camera: Isometry3<f64>,
+    imu_link: usize,
+    link_from_imu: Isometry3<f64>,
+}
+
+/// The pose of every link in the torso's frame, in the order of the description's links.
+#[derive(Debug, Clone, Default)]
+pub struct LinkPoses {
+    /// `torso_from_link`, one a link.
+    pub torso_from_link: Vec<Isometry3<f64>>,
+}
+
+fn isometry(position: [f64; 3], wxyz: [f64; 4]) -> Isometry3<f64> {
+    let [w, x, y, z] = wxyz;
+    Isometry3::from_parts(
+        Translation3::from(position),
+        UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)),
+    )
+}
+
+fn find(
+    names: &BTreeMap<String, usize>,
+    kind: &'static str,
+    role: &str,
+    name: &str,
+) -> Result<usize, BodyError> {
+    names
+        .get(name)
+        .copied()
+        .ok_or_else(|| BodyError::UnknownName {
+            role: role.to_owned(),
+            kind,
+            name: name.to_owned(),
+            available: names.keys().cloned().collect::<Vec<_>>().join(", "),
+        })
+}
+
+impl Body {
+    /// Checks a description and prepares it.
+    pub fn new(description: Description) -> Result<Self, BodyError> {
+        let joint_index: BTreeMap<_, _> = description
+            .joints
+            .iter()
+            .enumerate()
+            .map(|(i, name)| (name.clone(), i))
+            .collect();
+        let link_index: BTreeMap<_, _> = description
+            .links
+            .iter()
+            .enumerate()
+            .map(|(i, link)| (link.name.clone(), i))
+            .collect();
+        let links = build_links(&description, &joint_index)?;
+        let leg = |side: Side| description.legs.get(side);
+        let mut leg_joints = [[0; 6]; 2];
+        let mut sole_links = [0; 2];
+        let mut link_from_sole = [Isometry3::identity(); 2];
+        for side in Side::BOTH {
+            for (slot, name) in leg_joints[side.index()].iter_mut().zip(&leg(side).joints) {
+                *slot = find(&joint_index, "joint", "legs", name)?;
+            }
+            sole_links[side.index()] = find(&link_index, "link", "sole", &leg(side).sole.link)?;
+            link_from_sole[side.index()] = isometry(leg(side).sole.position, [1.0, 0.0, 0.0, 0.0]);
+        }
+        if description.stand.len() != description.joints.len() {
+            return Err(BodyError::WrongJointCount {
+                expected: description.joints.len(),
+                found: description.stand.len(),
+            });
+        }
+        let camera_link = find(&link_index, "link", "camera", &description.camera.link)?;
+        let imu_link = find(&link_index, "link", "imu", &description.imu.link)?;
+        Ok(Self {
+            link_from_camera: isometry(description.camera.position, description.camera.orientation),
+            link_from_imu: isometry(description.imu.position, description.imu.orientation),
+            camera_link,
+            imu_link,
+            leg_joints,
+            sole_links,
+            link_from_sole,
+            links,
+            link_index,
+            joint_index,
+            description,
+        })
+    }
+
+    /// What it was made from.
+    pub const fn description(&self) -> &Description {
+        &self.description
+    }
+
+    /// Number of joints.
+    pub fn joint_count(&self) -> usize {
+        self.description.joints.len()
+    }
+
+    /// Index of a joint by its name; `role` says who asks, for the error.
+    pub fn joint(&self, role: &str, name: &str) -> Result<usize, BodyError> {
+        find(&self.joint_index, "joint", role, name)
+    }
+
+    /// Index of a link by its name; `role` says who asks, for the error.
+    pub fn link(&self, role: &str, name: &str) -> Result<usize, BodyError> {
+        find(&self.link_index, "link", role, name)
+    }
+
+    /// Joint indices of a leg from the hip down: yaw, roll, pitch, knee, ankle pitch, ankle roll.
+    pub const fn leg_joints(&self, side: Side) -> &[usize; 6] {
+        &self.leg_joints[side.index()]
+    }
+
+    /// Index of the link that carries the sole.
+    pub const fn sole_link(&self, side: Side) -> usize {
+        self.sole_links[side.index()]
+    }
+
+    /// Fills `poses` with the pose of every link at these joint angles (rad, joint order). Allocates on the first call only.
+    pub fn pose_links(
+        &self,
+        joint_positions_rad: &[f64],
+        poses: &mut LinkPoses,
+    ) -> Result<(), BodyError> {
+        if joint_positions_rad.len() != self.joint_count() {
+            return Err(BodyError::WrongJointCount {
+                expected: self.joint_count(),
+                found: joint_positions_rad.len(),
+            });
+        }
+        poses.torso_from_link.clear();
+        for link in &self.links {
+            let Some(parent) = link.parent else {
+                poses.torso_from_link.push(Isometry3::identity());
+                continue;
+            };
+            let mut pose = poses.torso_from_link[parent] * link.parent_from_link_at_zero;
+            if let Some(hinge) = &link.hinge {
+                let turn =
+                    UnitQuaternion::from_axis_angle(&hinge.axis, joint_positions_rad[hinge.index]);
+                let shift = hinge.anchor - turn * hinge.anchor;
+                pose *= Isometry3::from_parts(Translation3::from(shift), turn);
+            }
+            poses.torso_from_link.push(pose);
+        }
+        Ok(())
+    }
+
+    /// Pose of a sole in the torso.
+    pub fn torso_from_sole(&self, poses: &LinkPoses, side: Side) -> Isometry3<f64> {
+        poses.torso_from_link[self.sole_links[side.index()]] * self.link_from_sole[side.index()]
+    }
+
+    /// Pose of the camera's optical frame in the torso.
+    pub fn torso_from_camera(&self, poses: &LinkPoses) -> Pose<Torso, Camera> {
+        Pose::wrap(poses.torso_from_link[self.camera_link] * self.link_from_camera)
+    }
+
+    /// Pose of the inertial measurement unit in the torso.
+    pub fn torso_from_imu(&self, poses: &LinkPoses) -> Isometry3<f64> {
+        poses.torso_from_link[self.imu_link] * self.link_from_imu
+    }
+
+    /// Whole mass, kg.
+    pub fn mass_kg(&self) -> f64 {
+        self.links.iter().map(|link| link.mass_kg).sum()
+    }
+
+    /// Centre of mass of the whole body in the torso's frame.
+    pub fn center_of_mass_in_torso(&self, poses: &LinkPoses) -> Point3<f64> {
+        let mut sum = Vector3::zeros();
+        for (link, pose) in self.links.iter().zip(&poses.torso_from_link) {
+            sum += (pose * link.center_of_mass).coords * link.mass_kg;
+        }
+        Point3::from(sum / self.mass_kg())
+    }
+}
+
+fn build_links(
+    description: &Description,
+    joint_index: &BTreeMap<String, usize>,
+) -> Result<Vec<Link>, BodyError> {
+    let mut links = Vec::with_capacity(description.links.len());
+    for (i, link) in description.links.iter().enumerate() {
+        let bad = |what: &str, allowed: &'static str, found: String| BodyError::BadValue {
+            what: format!("link `{}`: {what}", link.name),
+            allowed,
+            found,
+        };
+        if link.parent.is_none() != (i == 0) || link.parent.is_some_and(|parent| parent >= i) {
+            return Err(bad(
+                "parent",
+                "a link before it",
+                format!("{:?}", link.parent),
+            ));
+        }
+        if !(link.mass.is_finite() && link.mass >= 0.0) {
+            return Err(bad("mass", ">= 0", link.mass.to_string()));
+        }
+        let hinge = match &link.joint {
+            None => None,
+            Some(joint) => {
+                let axis = Unit::try_new(Vector3::from(joint.axis), 1e-9).ok_or_else(|| {
+                    bad("joint axis", "longer than 0", format!("{:?}", joint.axis))
+                })?;
+                let index = find(joint_index, "joint", "links", &joint.name)?;
+                Some(Hinge {
+                    index,
+                    axis,
+                    anchor: Vector3::from(joint.anchor),
+                })
+            }
+        };
+        let [xx, yy, zz, xy, xz, yz] = link.inertia;
+        links.push(Link {
+            parent: link.parent,
+            parent_from_link_at_zero: isometry(link.position, link.orientation),
+            hinge,
+            mass_kg: link.mass,
+            center_of_mass: Point3::from(link.center_of_mass),
+            inertia: Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz),
+        });
+    }
+    if links.is_empty() {
+        return Err(BodyError::BadValue {
+            what: "links".to_owned(),
+            allowed: "one or more",
+            found: "none".to_owned(),
+        });
+    }
+    Ok(links)
+}

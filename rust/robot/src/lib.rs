@@ -1,0 +1,12 @@
+//! The body of a robot as the core knows it: links, joints, soles, camera mount; where everything is at given joint angles.
+//!
+//! All of it is data from the robot's folder. The harness reads the folder and hands over a [`Description`].
+
+mod description;
+mod kinematics;
+
+pub use description::{
+    CameraMount, Description, Extent, Head, ImuMount, JointDescription, Leg, Legs, LinkDescription,
+    Side, Sole, StereoDescription,
+};
+pub use kinematics::{Body, BodyError, LinkPoses};

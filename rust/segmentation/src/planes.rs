@@ -1,0 +1,78 @@
+//! What every segmenter produces: planes, labels, and points with the height of the floor they belong to.
+
+use geometry::{Camera, Outline, Plane, Point, Pose, Robot};
+use sensing::Scan;
+
+/// Why a scan could not be segmented. The segmenter's state is unchanged.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SegmentError {
+    /// The scan has another size than the one the segmenter was made for.
+    #[error("a scan must have {expected} pixels, got {found}")]
+    WrongSize {
+        /// Pixels expected.
+        expected: usize,
+        /// Pixels found.
+        found: usize,
+    },
+    /// A segmenter of the user's failed.
+    #[error("{0}")]
+    Failed(String),
+}
+
+/// One planar region, in the robot's frame after the ground plane corrected the camera's pose.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaneRegion {
+    /// Number of supporting points.
+    pub support: usize,
+    /// Mean of the supporting points.
+    pub mean: Point<Robot>,
+    /// Unit normal (towards the camera) and signed distance, robot frame.
+    pub plane: Plane,
+    /// Convex boundary of the supporting points, seen from above; none for planes seen as a line from above.
+    pub boundary: Option<Outline>,
+    /// Height of the surface above the robot's ground, m, when the plane is horizontal.
+    pub floor_height_m: Option<f64>,
+}
+
+/// The product of a segmenter; reused from frame to frame.
+#[derive(Debug, Clone)]
+pub struct Planes {
+    /// When the picture was taken, nanoseconds since the start.
+    pub exposure_ns: u64,
+    /// The regions.
+    pub regions: Vec<PlaneRegion>,
+    /// Index of the ground among the regions, where it was found.
+    pub ground: Option<usize>,
+    /// Camera in the robot's frame after correction by the ground plane; the measured one where no ground was found.
+    pub robot_from_camera: Pose<Robot, Camera>,
+    /// Region of each pixel plus one, row by row; 0 where it belongs to none.
+    pub labels: Vec<u16>,
+    /// Position of each pixel's point in the robot's frame, m; NaN where nothing was seen.
+    pub points_in_robot_m: Vec<[f32; 3]>,
+    /// `h` of the paper (000, section III.A): height of the horizontal plane that a pixel belongs to, m; NaN is *invalid*.
+    pub floor_height_m: Vec<f32>,
+    /// Whether the points' heights may be trusted: the ground was found in this frame, or its correction is tracked.
+    pub reliable: bool,
+}
+
+impl Planes {
+    /// An empty product for images of `pixels` pixels.
+    pub fn new(pixels: usize) -> Self {
+        Self {
+            exposure_ns: 0,
+            regions: Vec::new(),
+            ground: None,
+            robot_from_camera: Pose::identity(),
+            labels: vec![0; pixels],
+            points_in_robot_m: vec![[f32::NAN; 3]; pixels],
+            floor_height_m: vec![f32::NAN; pixels],
+            reliable: false,
+        }
+    }
+}
+
+/// Finds planes in a scan.
+pub trait Segmenter: Send {
+    /// Fills `planes` from `scan`. Finding nothing is an ordinary product: no regions, no ground, not reliable.
+    fn segment(&mut self, scan: &Scan, planes: &mut Planes) -> Result<(), SegmentError>;
+}

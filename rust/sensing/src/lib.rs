@@ -1,0 +1,9 @@
+//! What the robot senses, and nothing else: no pose, no truth.
+
+mod camera;
+mod observation;
+mod scan;
+
+pub use camera::Intrinsics;
+pub use observation::{Frame, Observation, ObservationError};
+pub use scan::{Scan, ScanError};
