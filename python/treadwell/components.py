@@ -1,0 +1,41 @@
+"""The components that a scenario can name, with one line each: the one list of them in Python."""
+
+import re
+from typing import Final
+
+COMPONENTS: Final[dict[str, dict[str, str]]] = {
+    "world_model": {
+        "fog": "floor and obstacle grid over an 8-bit occupancy grid, 4 cm cells, shifts with the robot",
+    },
+    "segmenter": {
+        "scan_line": "planes by scan-line grouping, thresholds follow the local noise",
+    },
+    "localizer": {
+        "odometry": "legs' odometry from encoders, gyro and foot contact",
+        "truth": "the simulator's own pose; for ablations only, the result says so",
+    },
+    "planner": {
+        "a_star": "A* on the grid by clearance, unknown cells at a price",
+    },
+    "behaviour": {
+        "walking": "walks the path, looks around, stops for what appears, refuses when there is no way",
+    },
+}
+"""Slot of `[navigation]` -> name -> description."""
+
+STAGES: Final[tuple[str, ...]] = ("walker", "gaze", "recognizer", "sensing")
+"""Stages of the core that have parameters (`[navigation.walker]`) but are not chosen by name."""
+
+CLASS_NAME: Final = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*", re.ASCII)
+"""A user's own component: `package.module:Class`."""
+
+
+def is_component(slot: str, name: str) -> bool:
+    """Say whether `name` can stand in `slot`: one of the list, or `package.module:Class`."""
+    return name in COMPONENTS[slot] or (len(name) <= 256 and bool(CLASS_NAME.fullmatch(name)))
+
+
+def parameter_tables() -> list[str]:
+    """Return the names that a table `[navigation.<name>]` can have, sorted."""
+    names = {name for slot in COMPONENTS.values() for name in slot}
+    return sorted(names | set(STAGES))

@@ -1,0 +1,77 @@
+"""The number, name and table types that the models of a scenario file are made of."""
+
+from typing import Annotated, Final
+
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
+
+LARGEST_M: Final = 100.0
+"""Nothing in a scenario is farther away or longer than this, in metres."""
+
+
+class Table(BaseModel):
+    """A table of the file: no unknown keys, no conversions, no NaN or infinity, never changed."""
+
+    model_config = ConfigDict(
+        extra="forbid",
+        strict=True,
+        allow_inf_nan=False,
+        frozen=True,
+        populate_by_name=True,
+        validate_default=False,
+    )
+
+
+def _shape(value: object) -> str:
+    return "list" if isinstance(value, list | tuple) else "number"
+
+
+Coordinate = Annotated[float, Field(ge=-LARGEST_M, le=LARGEST_M)]
+"""A coordinate in the world, metres."""
+Length = Annotated[float, Field(gt=0.0, le=LARGEST_M)]
+"""An extent, metres."""
+Height = Annotated[float, Field(ge=-10.0, le=10.0)]
+"""A level or a base above the ground, metres."""
+Angle = Annotated[float, Field(ge=-12.6, le=12.6)]
+"""An angle, radians, at most two turns (degrees by mistake are often more)."""
+Seconds = Annotated[float, Field(ge=0.0, le=36000.0)]
+"""A time or a duration, simulated seconds."""
+Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
+"""A share, 0 to 1."""
+Friction = Annotated[float, Field(ge=0.0, le=10.0)]
+"""A sliding friction coefficient."""
+
+Point2 = Annotated[tuple[Coordinate, Coordinate], Field(strict=False)]
+"""World x, y in metres."""
+Point3 = Annotated[tuple[Coordinate, Coordinate, Coordinate], Field(strict=False)]
+"""World x, y, z in metres."""
+Size2 = Annotated[tuple[Length, Length], Field(strict=False)]
+"""Length along x, width along y in metres."""
+Size3 = Annotated[tuple[Length, Length, Length], Field(strict=False)]
+"""Length along x, width along y, height along z in metres."""
+
+Rise = Annotated[float, Field(gt=0.0, le=2.0)]
+"""One step's height, metres."""
+MOST_STEPS: Final = 100
+LengthOrList = Annotated[
+    Annotated[Length, Tag("number")]
+    | Annotated[
+        tuple[Length, ...], Field(strict=False, min_length=1, max_length=MOST_STEPS), Tag("list")
+    ],
+    Discriminator(_shape),
+]
+"""One length for all steps, or one per step."""
+RiseOrList = Annotated[
+    Annotated[Rise, Tag("number")]
+    | Annotated[
+        tuple[Rise, ...], Field(strict=False, min_length=1, max_length=MOST_STEPS), Tag("list")
+    ],
+    Discriminator(_shape),
+]
+"""One rise for all steps, or one per step."""
+
+Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,63}$")]
+"""A scenario's name: it becomes part of a folder's name."""
+ElementName = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_ -]{0,63}$")]
+"""An element's name: no dot (it is part of a dotted key) and no digit first (that is an index)."""
+FileName = Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f]{1,255}$")]
+"""A file beside the scenario file."""
