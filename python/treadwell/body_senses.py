@@ -1,0 +1,181 @@
+"""The senses of the robot's own body: encoders, the inertial unit, the foot forces."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+# Two readings of an encoder this far apart (s) give a joint's velocity.
+VELOCITY_SPAN = 0.02
+# After a longer gap (s) the velocity before it says nothing about the acceleration.
+LONGEST_TICK = 0.05
+
+
+class MotorSide(Protocol):
+    """The motors: the encoders sit on their side of the gears' play."""
+
+    def measured_angle(self, position: Floats) -> Floats:
+        """Return the motors' angles (n,) rad at these joint angles (n,) rad."""
+
+
+class Encoders:
+    """Joint positions with an offset each, in steps of a quantum; velocities with noise."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        joints: Sequence[str],
+        quantum: float,
+        offsets: Floats,
+        rng: np.random.Generator,
+    ) -> None:
+        """Find the joints.
+
+        Args:
+            model: the compiled world with the robot.
+            joints: hinges, in the robot's order.
+            quantum: rad, step of the readings; 0 for exact readings and velocities.
+            offsets: (n,) rad, what each encoder reads too much.
+            rng: the velocities' noise.
+        """
+        ids = [model.joint(joint).id for joint in joints]
+        self._positions = model.jnt_qposadr[ids].copy()
+        self._velocities = model.jnt_dofadr[ids].copy()
+        self._quantum = quantum
+        # Two readings differ by two independent rounding errors, each of sigma quantum / sqrt(12).
+        self._velocity_noise = quantum / (np.sqrt(6.0) * VELOCITY_SPAN)
+        self._rng = rng
+        self.offsets = np.array(offsets, np.float64)
+
+    def read(self, data: mujoco.MjData, motors: MotorSide | None) -> tuple[Floats, Floats]:
+        """Return the readings (n,) rad and the velocities (n,) rad/s.
+
+        Args:
+            data: the state.
+            motors: whose angles are read; None: the joints' own, as if there were no play.
+        """
+        angles = data.qpos[self._positions]
+        if motors is not None:
+            angles = motors.measured_angle(angles)
+        readings = angles + self.offsets
+        velocities = data.qvel[self._velocities]
+        if self._quantum > 0.0:
+            readings = np.rint(readings / self._quantum) * self._quantum
+            velocities += self._velocity_noise * self._rng.standard_normal(velocities.shape)
+        return readings, velocities
+
+
+@dataclass(frozen=True)
+class ImuNoise:
+    """Errors of the inertial unit; the biases are sigmas from which each episode draws.
+
+    Attributes:
+        gyro_noise: rad/s, sigma of each sample.
+        gyro_bias: rad/s, sigma.
+        accelerometer_noise: m/s², sigma of each sample.
+        accelerometer_bias: m/s², sigma.
+    """
+
+    gyro_noise: float = 0.0
+    gyro_bias: float = 0.0
+    accelerometer_noise: float = 0.0
+    accelerometer_bias: float = 0.0
+
+
+class Imu:
+    """Gyro and accelerometer at a site of the model.
+
+    The accelerometer integrates over the tick, as one with an anti-aliasing filter does: a
+    sample is the mean specific force since the one before, not the peak of an impact.
+    """
+
+    def __init__(
+        self, model: mujoco.MjModel, site: str, noise: ImuNoise, rng: np.random.Generator
+    ) -> None:
+        """Draw the biases.
+
+        Args:
+            model: the compiled world with the robot.
+            site: where the unit sits; its axes are the site's.
+            noise: its errors; all zero for an ideal one.
+            rng: biases and noise.
+        """
+        self._model = model
+        self._site = model.site(site).id
+        self._noise = np.repeat([noise.gyro_noise, noise.accelerometer_noise], 3)
+        self._bias = rng.standard_normal(6)
+        self._bias *= np.repeat([noise.gyro_bias, noise.accelerometer_bias], 3)
+        self._exact = not self._noise.any()
+        self._rng = rng
+        self._velocity = np.zeros(3)
+        self._time_ns: int | None = None
+        self._motion = np.empty(6)
+
+    def read(self, data: mujoco.MjData, time_ns: int) -> tuple[Floats, Floats]:
+        """Return the angular velocity (3,) rad/s and the specific force (3,) m/s².
+
+        Args:
+            data: the state, with velocities of its bodies as the last step left them.
+            time_ns: now.
+        """
+        site = mujoco.mjtObj.mjOBJ_SITE
+        mujoco.mj_objectVelocity(self._model, data, site, self._site, self._motion, 0)
+        acceleration = -self._model.opt.gravity
+        if self._time_ns is not None:
+            passed = (time_ns - self._time_ns) * 1e-9
+            if 0.0 < passed <= LONGEST_TICK:
+                acceleration += (self._motion[3:] - self._velocity) / passed
+        self._velocity[:] = self._motion[3:]
+        self._time_ns = time_ns
+        sensor_from_world = data.site_xmat[self._site].reshape(3, 3).T
+        sample = np.concatenate(
+            [sensor_from_world @ self._motion[:3], sensor_from_world @ acceleration]
+        )
+        sample += self._bias
+        if not self._exact:
+            sample += self._noise * self._rng.standard_normal(6)
+        return sample[:3], sample[3:]
+
+
+class FootForces:
+    """The force sensors under the soles: they push, they never pull."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        sensors: Sequence[Sequence[str]],
+        noise: float,
+        noise_absolute: float,
+        rng: np.random.Generator,
+    ) -> None:
+        """Find the touch sensors.
+
+        Args:
+            model: the compiled world with the robot.
+            sensors: the names, left foot and right foot, each front left, front right, rear left,
+                rear right.
+            noise: sigma of each sample as a share of the force; both 0 for ideal sensors.
+            noise_absolute: N, sigma of what is added to each sample besides.
+            rng: the noise.
+        """
+        self._at = np.array(
+            [[int(model.sensor(name).adr[0]) for name in foot] for foot in sensors], np.intp
+        )
+        self._noise = noise
+        self._noise_absolute = noise_absolute
+        self._exact = noise == 0.0 and noise_absolute == 0.0
+        self._rng = rng
+
+    def read(self, data: mujoco.MjData) -> Floats:
+        """Return the forces (2, 4) N."""
+        forces = np.asarray(data.sensordata[self._at], np.float64)
+        if not self._exact:
+            share, added = self._rng.standard_normal((2, *forces.shape))
+            forces += self._noise * share * forces + self._noise_absolute * added
+            np.maximum(forces, 0.0, out=forces)
+        return forces

@@ -1,0 +1,149 @@
+"""The depth camera without its errors: rays cast through every pixel into the simulated world."""
+
+from dataclasses import dataclass, field
+from typing import Self
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+# MuJoCo's camera looks along -z with y up, the optical frame along z with y down.
+MUJOCO_FROM_OPTICAL = np.diag([1.0, -1.0, -1.0])
+# MuJoCo's own default of what is shown: groups 3 to 5 hold what only collides, and marks.
+VISIBLE_GROUPS = np.array([1, 1, 1, 0, 0, 0], np.uint8)
+
+
+@dataclass(frozen=True)
+class Pinhole:
+    """A camera without distortion and with square pixels.
+
+    Pixel centres are at integer coordinates, the optical axis goes through
+    ((width - 1) / 2, (height - 1) / 2).
+
+    Attributes:
+        width: columns.
+        height: rows.
+        focal: focal length, pixels.
+    """
+
+    width: int
+    height: int
+    focal: float
+
+    def __post_init__(self) -> None:
+        """Refuse a camera that cannot be built."""
+        if self.width < 1 or self.height < 1:
+            raise ValueError(f"camera size must be > 0, got {self.width} x {self.height}")
+        if not 0.0 < self.focal < np.inf:
+            raise ValueError(f"camera focal length must be > 0, got {self.focal}")
+
+    @classmethod
+    def of_view(cls, width: int, height: int, horizontal_fov: float) -> Self:
+        """Return the camera that sees `horizontal_fov` (rad) between its left and right border."""
+        if not 0.0 < horizontal_fov < np.pi:
+            raise ValueError(f"camera.horizontal_fov must be in 0 to pi, got {horizontal_fov}")
+        return cls(width, height, float(width / 2 / np.tan(horizontal_fov / 2)))
+
+    def directions(self) -> Floats:
+        """Return the rays of all pixels, (h * w, 3), optical frame, row by row, each with z = 1."""
+        u = (np.arange(self.width) - (self.width - 1) / 2) / self.focal
+        v = (np.arange(self.height) - (self.height - 1) / 2) / self.focal
+        x, y = np.meshgrid(u, v)
+        return np.stack([x, y, np.ones_like(x)], axis=-1).reshape(-1, 3)
+
+
+@dataclass(frozen=True)
+class Mount:
+    """How the camera really sits against where the model has it; the core is not told.
+
+    Attributes:
+        rotation: (3, 3), model's optical frame from the real optical frame.
+        translation: (3,) metres, of the real camera in the model's optical frame.
+    """
+
+    rotation: Floats = field(default_factory=lambda: np.eye(3))
+    translation: Floats = field(default_factory=lambda: np.zeros(3))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cast:
+    """What the rays of one frame met.
+
+    Attributes:
+        depth: (h, w) metres along the optical axis, NaN where a ray met nothing.
+        geom: (h, w) the met geom's id, -1 for none.
+        position: (3,) metres, the camera in the world.
+        rotation: (3, 3) world from optical frame.
+    """
+
+    depth: Floats
+    geom: NDArray[np.int32]
+    position: Floats
+    rotation: Floats
+
+
+class DepthCamera:
+    """Casts a ray through every pixel.
+
+    It sees the geoms of groups 0 to 2 with alpha above 0, the robot's own body included, except
+    those of the body that carries the camera: that one would stand before its own lens.
+    """
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        camera: str,
+        pinhole: Pinhole,
+        mount: Mount | None = None,
+        far: float = 20.0,
+    ) -> None:
+        """Prepare the rays.
+
+        Args:
+            model: the compiled world with the robot.
+            camera: name of the camera in the model.
+            pinhole: size and focal lengths.
+            mount: how the real camera sits against the model's; default: exactly there.
+            far: metres, nothing beyond is looked for.
+        """
+        self.pinhole = pinhole
+        self._model = model
+        self._camera = model.camera(camera).id
+        self._body = int(model.cam_bodyid[self._camera])
+        self._mount = mount or Mount()
+        self._far = far
+        self._directions = pinhole.directions()
+        count = len(self._directions)
+        self._geom = np.empty(count, np.int32)
+        self._depth = np.empty(count)
+
+    def pose(self, data: mujoco.MjData) -> tuple[Floats, Floats]:
+        """Return the real camera's position (3,) and rotation (3, 3), world from optical frame."""
+        nominal = data.cam_xmat[self._camera].reshape(3, 3) @ MUJOCO_FROM_OPTICAL
+        position = data.cam_xpos[self._camera] + nominal @ self._mount.translation
+        return position, nominal @ self._mount.rotation
+
+    def cast(self, data: mujoco.MjData) -> Cast:
+        """Return what each pixel's ray meets, by the poses that `data` holds."""
+        position, rotation = self.pose(data)
+        rays = self._directions @ rotation.T
+        # The rays are not normalised: MuJoCo's distance along a ray with z = 1 is the depth.
+        mujoco.mj_multiRay(
+            self._model,
+            data,
+            position,
+            rays.reshape(-1),
+            VISIBLE_GROUPS,
+            True,
+            self._body,
+            self._geom,
+            self._depth,
+            None,
+            len(self._depth),
+            self._far,
+        )
+        shape = (self.pinhole.height, self.pinhole.width)
+        depth = np.where(self._geom >= 0, self._depth, np.nan).reshape(shape)
+        return Cast(depth, self._geom.reshape(shape).copy(), position, rotation)

@@ -1,0 +1,48 @@
+"""What the robot's senses tell it at one control tick: all that the core is given. No pose."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Frame:
+    """One image of the depth camera.
+
+    Attributes:
+        exposure_ns: time at which the camera saw this, nanoseconds since the start.
+        arrival_ns: time at which the frame was handed over; never before the exposure.
+        depth: (h, w) float32, metres along the optical axis, row 0 at the top, column 0 at the
+            left; NaN where nothing was seen.
+    """
+
+    exposure_ns: int
+    arrival_ns: int
+    depth: NDArray[np.float32]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Observation:
+    """The measurements of one control tick.
+
+    Attributes:
+        time_ns: nanoseconds since the start.
+        joint_positions: (n,) rad, by the robot's joint order, as the encoders read.
+        joint_velocities: (n,) rad/s, by the robot's joint order.
+        angular_velocity: (3,) rad/s, in the IMU's frame.
+        specific_force: (3,) m/s², in the IMU's frame; at rest it points up with 9.81.
+        foot_forces: (2, 4) N, rows left and right; columns front left, front right, rear left,
+            rear right.
+        depth: the frame that arrived at this tick, if one did.
+    """
+
+    time_ns: int
+    joint_positions: Floats
+    joint_velocities: Floats
+    angular_velocity: Floats
+    specific_force: Floats
+    foot_forces: Floats
+    depth: Frame | None
