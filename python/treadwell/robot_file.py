@@ -1,0 +1,231 @@
+"""The parsed `robot.toml` of a robot's folder: what the MJCF cannot say of the robot."""
+
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    FiniteFloat,
+    StringConstraints,
+    ValidationError,
+    model_validator,
+)
+
+from treadwell.errors import InputError
+
+Name = Annotated[str, StringConstraints(min_length=1, max_length=100)]
+Positive = Annotated[FiniteFloat, Field(gt=0.0)]
+NotNegative = Annotated[FiniteFloat, Field(ge=0.0)]
+Share = Annotated[FiniteFloat, Field(ge=0.0, le=1.0)]
+Position = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
+
+
+class Table(BaseModel):
+    """A table of the file: unknown keys, NaN and infinity are refused."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class RobotTable(Table):
+    """`[robot]`: who it is and the name of its MJCF file, which lies in the same folder."""
+
+    name: Name
+    description: str = ""
+    model: Annotated[str, StringConstraints(pattern=r"^[\w.-]+\.xml$")]
+
+
+class BodyTable(Table):
+    """`[body]`: the link that is the torso; radius and height (m) of the cylinder around it all."""
+
+    torso: Name
+    radius: Positive
+    height: Positive
+
+
+class SoleTable(Table):
+    """`[legs.*.sole]`: a rectangle; its centre in the link's frame, on the ground, metres."""
+
+    link: Name
+    position: Position
+    length: Positive
+    width: Positive
+
+
+class LegTable(Table):
+    """`[legs.*]`: joints from the hip down (yaw, roll, pitch, knee, ankle pitch, ankle roll).
+
+    `touch` names the force sensors front left, front right, rear left, rear right.
+    """
+
+    joints: tuple[Name, Name, Name, Name, Name, Name]
+    touch: tuple[Name, Name, Name, Name]
+    sole: SoleTable
+
+
+class LegsTable(Table):
+    """`[legs]`: both."""
+
+    left: LegTable
+    right: LegTable
+
+
+class TrunkTable(Table):
+    """`[trunk]`: the joints between pelvis and torso, from below; there may be none."""
+
+    joints: tuple[Name, ...] = ()
+
+
+class HeadTable(Table):
+    """`[head]`: the joints that turn and nod the camera."""
+
+    pan: Name
+    tilt: Name
+
+
+class ArmsTable(Table):
+    """`[arms]`: `rest`, the angle (rad) at which each joint of the arms is held."""
+
+    rest: dict[Name, FiniteFloat] = {}
+
+
+class ImuTable(Table):
+    """`[imu]`: the site, its sensors, standard deviations per axis: rad/s and m/s²."""
+
+    site: Name
+    gyro: Name
+    accelerometer: Name
+    gyro_noise: NotNegative = 0.0
+    gyro_bias: NotNegative = 0.0
+    accelerometer_noise: NotNegative = 0.0
+    accelerometer_bias: NotNegative = 0.0
+
+
+class EncodersTable(Table):
+    """`[encoders]`: quantum and whole play (rad); bounds of constant errors (rad, m)."""
+
+    quantum: NotNegative = 0.0
+    play: NotNegative = 0.0
+    leg_offset: NotNegative = 0.0
+    camera_roll_pitch_error: NotNegative = 0.0
+    camera_yaw_error: NotNegative = 0.0
+    camera_position_error: NotNegative = 0.0
+
+
+class FeetTable(Table):
+    """`[feet]`: standard deviation of a force sensor: share of the value, and newtons."""
+
+    force_noise: NotNegative = 0.0
+    force_noise_absolute: NotNegative = 0.0
+
+
+class StereoTable(Table):
+    """`[camera.stereo]`: baseline (m), matching window, noise and limits of disparity (pixels)."""
+
+    baseline: Positive
+    window: Annotated[int, Field(ge=1, le=31)]
+    disparity_noise_fixed: NotNegative = 0.0
+    disparity_noise_temporal: NotNegative = 0.0
+    quantum: NotNegative = 0.0
+    min_disparity: Positive
+    max_disparity: Positive
+    mismatch_rate: Share = 0.0
+    dropout_rate: Share = 0.0
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.window % 2 == 0:
+            raise ValueError("window must be odd")
+        if self.max_disparity <= self.min_disparity:
+            raise ValueError("max_disparity must be above min_disparity")
+        return self
+
+
+class CameraTable(Table):
+    """`[camera]`: a camera of the MJCF; image size (pixels), fields of view (rad), period (s)."""
+
+    name: Name
+    sensor: Literal["stereo"]
+    width: Annotated[int, Field(ge=8, le=640)]
+    height: Annotated[int, Field(ge=8, le=480)]
+    horizontal_fov: Annotated[FiniteFloat, Field(gt=0.0, lt=3.0)]
+    vertical_fov: Annotated[FiniteFloat, Field(gt=0.0, lt=3.0)]
+    period: Positive
+    stereo: StereoTable
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        ticks = self.period / 0.01
+        if ticks < 1.0 - 1e-9 or abs(ticks - round(ticks)) > 1e-6:
+            raise ValueError("period must be a multiple of the control tick, 0.01 s")
+        return self
+
+
+class MotorsTable(Table):
+    """`[motors.*]`: torques (N·m), speed (rad/s) and servo gains that some joints share.
+
+    `stall_torque` is where the torque-speed line starts; without it, at `peak_torque`.
+    """
+
+    joints: Annotated[tuple[Name, ...], Field(min_length=1)]
+    peak_torque: Positive
+    stall_torque: Positive | None = None
+    no_load_speed: Positive
+    kp: Positive
+    kv: NotNegative
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.stall_torque is not None and self.stall_torque < self.peak_torque:
+            raise ValueError("stall_torque must not be below peak_torque")
+        return self
+
+
+class RobotFile(Table):
+    """The whole file. `gait` goes to the walker as it is."""
+
+    robot: RobotTable
+    body: BodyTable
+    legs: LegsTable
+    trunk: TrunkTable = TrunkTable()
+    head: HeadTable
+    arms: ArmsTable = ArmsTable()
+    imu: ImuTable
+    encoders: EncodersTable = EncodersTable()
+    feet: FeetTable = FeetTable()
+    camera: CameraTable
+    motors: dict[Name, MotorsTable]
+    gait: dict[str, Any] = {}
+
+
+def read_robot_file(path: Path) -> RobotFile:
+    """Read and check a `robot.toml`.
+
+    Raises:
+        InputError: the file is missing, no TOML, or does not have the form above.
+    """
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: is no valid TOML: {error}") from error
+    try:
+        return RobotFile.model_validate(table)
+    except ValidationError as error:
+        raise InputError("\n".join(_lines(path, error))) from error
+
+
+def _lines(path: Path, error: ValidationError) -> list[str]:
+    """Return a line for each thing that is wrong: the file, the key, what it is and was."""
+    lines = []
+    for item in error.errors():
+        key = ".".join(str(part) for part in item["loc"])
+        message = item["msg"].removeprefix("Value error, ")
+        found = "" if isinstance(item["input"], dict | BaseModel) else f", got {item['input']!r}"
+        if item["type"] == "extra_forbidden":
+            message, found = "unknown key", ""
+        lines.append(f"{path}: {key}: {message}{found}")
+    return lines
