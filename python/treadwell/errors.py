@@ -10,3 +10,15 @@ class InputError(TreadwellError):
 
     The message names the file, the key or line, what was found and what is allowed.
     """
+
+
+class CoreError(TreadwellError):
+    """A stage of the core refused what it was given, or failed; the message names the stage."""
+
+
+class EpisodeError(TreadwellError):
+    """The episode cannot go on: the physics diverged, or a component of the user's failed."""
+
+
+class SimulationError(TreadwellError):
+    """The physics left what it can compute: a state that is not finite, or a full buffer."""

@@ -1,0 +1,1 @@
+"""A testbed in which a small humanoid finds its own way over an obstacle course, by its senses alone."""
