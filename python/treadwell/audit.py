@@ -1,0 +1,163 @@
+"""The audit: what plain MuJoCo needs to step to the same states as a run did, and that it does."""
+
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from treadwell.errors import InputError
+
+STEPS_PER_TICK = 5
+"""Physics steps between two rows of `qpos`: one control tick."""
+STATE = mujoco.mjtState.mjSTATE_INTEGRATION
+DATA_FIELDS = ("xfrc_applied", "qpos", "qvel", "mocap_pos", "mocap_quat")
+"""Fields of MuJoCo's data that an event may set; any other name is a field of the model."""
+_OWN_KEYS = ("qpos", "qvel")
+"""Fields that move by themselves. Their keys begin with `event_`, and a row of NaN sets nothing."""
+
+
+class Rows:
+    """A two-dimensional array that grows by rows."""
+
+    def __init__(self, width: int) -> None:
+        """Make room for rows of this width."""
+        self._rows = np.empty((1024, width))
+        self._count = 0
+
+    def append(self, row: NDArray[np.float64]) -> None:
+        """Copy a row to the end."""
+        if self._count == len(self._rows):
+            self._rows = np.concatenate([self._rows, np.empty_like(self._rows)])
+        self._rows[self._count] = row
+        self._count += 1
+
+    def array(self) -> NDArray[np.float64]:
+        """Return (n, width): the rows so far, a view."""
+        return self._rows[: self._count]
+
+
+class Audit:
+    """Collects the audit of one run: contract.md, *audit*.
+
+    `physics.npz` holds `state0`, `ctrl`, `qpos`, and with events `event_step` (n,): row i of every
+    further array was set before physics step `event_step[i]`. The arrays have the names of
+    MuJoCo's fields (`xfrc_applied`, `mocap_pos`, `geom_friction`, ...), each row the whole field;
+    `event_qpos` and `event_qvel` are NaN where an event left them alone.
+    """
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        """Keep the model and the state as they are before the first step."""
+        self._model = np.empty(mujoco.mj_sizeModel(model), dtype=np.uint8)
+        mujoco.mj_saveModel(model, None, self._model)
+        self._state0 = np.empty(mujoco.mj_stateSize(model, STATE))
+        mujoco.mj_getState(model, data, self._state0, STATE)
+        self.ctrl = Rows(model.nu)
+        self.qpos = Rows(model.nq)
+        self._event_step: list[int] = []
+        self._events: dict[str, list[NDArray[Any]]] = {}
+
+    def event(self, step: int, field: str, before: NDArray[Any], after: NDArray[Any]) -> None:
+        """Keep what an event set.
+
+        Args:
+            step: the physics step before which it was set.
+            field: name of the field.
+            before: the whole field as it was.
+            after: the whole field as it is now.
+        """
+        if not self._event_step or self._event_step[-1] != step:
+            self._event_step.append(step)
+            for name, rows in self._events.items():
+                rows.append(_untouched(name, rows[-1]))
+        if field not in self._events:
+            earlier = _untouched(field, np.array(before))
+            self._events[field] = [earlier] * len(self._event_step)
+        self._events[field][-1] = np.array(after)
+
+    def save(self, folder: Path) -> None:
+        """Write `model.mjb` and `physics.npz` into a folder that exists."""
+        self._model.tofile(folder / "model.mjb")
+        arrays: dict[str, Any] = {
+            "state0": self._state0,
+            "ctrl": self.ctrl.array(),
+            "qpos": self.qpos.array(),
+        }
+        if self._event_step:
+            arrays["event_step"] = np.array(self._event_step, dtype=np.int64)
+            for field, rows in self._events.items():
+                arrays[_key(field)] = np.stack(rows)
+        np.savez(folder / "physics.npz", **arrays)
+
+
+def replay_audit(folder: Path) -> int | None:
+    """Step plain MuJoCo through an audit and compare the states bit for bit.
+
+    Args:
+        folder: with `model.mjb` and `physics.npz`.
+
+    Returns:
+        The first row of `qpos` that differs, or None if all are the same.
+
+    Raises:
+        InputError: a file is missing or broken, or they do not belong together.
+    """
+    model, arrays = _load(folder)
+    data = mujoco.MjData(model)
+    mujoco.mj_setState(model, data, arrays["state0"], STATE)
+    events = {int(step): row for row, step in enumerate(arrays.get("event_step", ()))}
+    fields = [key for key in arrays if key not in ("state0", "ctrl", "qpos", "event_step")]
+    for step, ctrl in enumerate(arrays["ctrl"]):
+        if step in events:
+            for key in fields:
+                _set(model, data, key.removeprefix("event_"), arrays[key][events[step]])
+        data.ctrl[:] = ctrl
+        mujoco.mj_step(model, data)
+        tick, rest = divmod(step + 1, STEPS_PER_TICK)
+        if rest == 0 and not np.array_equal(arrays["qpos"][tick - 1], data.qpos):
+            return tick - 1
+    return None
+
+
+def _load(folder: Path) -> tuple[mujoco.MjModel, dict[str, NDArray[Any]]]:
+    try:
+        model = mujoco.MjModel.from_binary_path(str(folder / "model.mjb"))
+    except ValueError as error:
+        raise InputError(f"{folder / 'model.mjb'}: is missing or broken") from error
+    path = folder / "physics.npz"
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            arrays = {key: file[key] for key in file.files}
+        ctrl, qpos, state0 = arrays["ctrl"], arrays["qpos"], arrays["state0"]
+    except (OSError, ValueError, EOFError, KeyError) as error:
+        raise InputError(f"{path}: is missing or broken: {error}") from error
+    fits = (
+        ctrl.ndim == qpos.ndim == 2
+        and ctrl.shape[1] == model.nu
+        and qpos.shape == (len(ctrl) // STEPS_PER_TICK, model.nq)
+        and state0.shape == (mujoco.mj_stateSize(model, STATE),)
+        and all(
+            len(array) == len(arrays["event_step"])
+            for key, array in arrays.items()
+            if key not in ("state0", "ctrl", "qpos") and "event_step" in arrays
+        )
+    )
+    if not fits:
+        raise InputError(f"{path}: does not fit model.mjb beside it")
+    return model, arrays
+
+
+def _key(field: str) -> str:
+    return f"event_{field}" if field in _OWN_KEYS else field
+
+
+def _untouched(field: str, row: NDArray[Any]) -> NDArray[Any]:
+    return np.full_like(row, np.nan) if field in _OWN_KEYS else row
+
+
+def _set(model: mujoco.MjModel, data: mujoco.MjData, field: str, row: NDArray[Any]) -> None:
+    if field in _OWN_KEYS and np.isnan(row).all():
+        return
+    owner = data if field in DATA_FIELDS else model
+    getattr(owner, field)[:] = row
