@@ -25,4 +25,6 @@ def data_folder(kind: Literal["models", "scenarios"]) -> Path:
         if place.is_dir():
             return place
     looked = " and ".join(str(place) for place in places)
-    raise TreadwellError(f"the folder {kind} is missing from this installation (looked at {looked})")
+    raise TreadwellError(
+        f"the folder {kind} is missing from this installation (looked at {looked})"
+    )

@@ -73,62 +73,73 @@ class Motors:
         self._half_play = 0.5 * play
         self._follow = -np.expm1(-timestep / PLAY_TIME)
         takes_up = np.maximum(PLAY_TORQUE * limits.peak_torque, limits.kp * self._half_play)
-        self._per_torque = 1.0 / takes_up
+        self._lead_per_torque = self._half_play / takes_up
         self._slope = limits.stall_torque / limits.no_load_speed
+        self._least, self._most = np.zeros(n), limits.peak_torque
+        self._negative_half_play = np.full(n, -self._half_play)
+        self._positive_half_play = np.full(n, self._half_play)
         self._lead = np.zeros(n)
         self._angle = np.zeros(n)
+        self._asked = np.zeros(n)
         self._torque = np.zeros(n)
-        self._a = np.empty(n)
-        self._b = np.empty(n)
+        self._scratch = np.empty(n)
+        self._forward = np.empty(n)
+        self._backward = np.empty(n)
 
     @property
     def angle(self) -> Floats:
-        """(n,) rad: the motors' angles at the last `update`; what an encoder sees."""
+        """(n,) rad: the motors' angles at the last `torques`."""
         return self._angle
 
-    @property
-    def torque(self) -> Floats:
-        """(n,) N·m: the torques of the last `update`."""
-        return self._torque
-
     def measured_angle(self, position: Floats) -> Floats:
-        """Return the motors' angles (n,) rad at these joint angles (n,) rad."""
+        """Return the motors' angles (n,) rad, which encoders see, at joint angles (n,) rad."""
         return position + self._lead
 
-    def update(self, targets: JointTargets, position: Floats, velocity: Floats) -> Floats:
+    def command(self, targets: JointTargets) -> None:
+        """Take what is asked for from now on."""
+        limits = self.limits
+        self._asked = targets.torque + limits.kp * targets.position + limits.kv * targets.velocity
+
+    def bounds(self, velocity: Floats) -> tuple[Floats, Floats]:
+        """Return the largest forward and backward torque at joint velocities (n,) rad/s.
+
+        Returns:
+            Two times (n,) N·m, neither negative; the arrays are used again at the next call.
+        """
+        scratch, forward, backward = self._scratch, self._forward, self._backward
+        np.multiply(self._slope, velocity, out=scratch)
+        np.subtract(self.limits.stall_torque, scratch, out=forward)
+        np.add(self.limits.stall_torque, scratch, out=backward)
+        forward.clip(self._least, self._most, out=forward)
+        backward.clip(self._least, self._most, out=backward)
+        return forward, backward
+
+    def torques(self, position: Floats, velocity: Floats) -> Floats:
         """Return the torques for the coming physics step.
 
         Args:
-            targets: what is asked for.
             position: (n,) rad, true joint angles.
             velocity: (n,) rad/s, true joint velocities.
 
         Returns:
             (n,) N·m; the array is used again at the next call.
         """
-        limits, torque, a, b = self.limits, self._torque, self._a, self._b
-        np.add(position, self._lead, out=self._angle)
-        np.subtract(targets.position, self._angle, out=torque)
-        np.multiply(torque, limits.kp, out=torque)
-        np.subtract(targets.velocity, velocity, out=a)
-        np.multiply(a, limits.kv, out=a)
-        np.add(torque, a, out=torque)
-        np.add(torque, targets.torque, out=torque)
+        limits, torque, scratch, lead = self.limits, self._torque, self._scratch, self._lead
+        np.add(position, lead, out=self._angle)
+        np.multiply(self._angle, limits.kp, out=scratch)
+        np.subtract(self._asked, scratch, out=torque)
+        np.multiply(velocity, limits.kv, out=scratch)
+        np.subtract(torque, scratch, out=torque)
 
-        np.multiply(velocity, self._slope, out=a)
-        np.subtract(limits.stall_torque, a, out=b)
-        np.clip(b, 0.0, limits.peak_torque, out=b)
-        np.minimum(torque, b, out=torque)
-        np.add(limits.stall_torque, a, out=b)
-        np.clip(b, 0.0, limits.peak_torque, out=b)
-        np.negative(b, out=b)
-        np.maximum(torque, b, out=torque)
+        forward, backward = self.bounds(velocity)
+        np.minimum(torque, forward, out=torque)
+        np.negative(backward, out=backward)
+        np.maximum(torque, backward, out=torque)
 
         if self._half_play > 0.0:
-            np.multiply(torque, self._per_torque, out=a)
-            np.clip(a, -1.0, 1.0, out=a)
-            np.multiply(a, self._half_play, out=a)
-            np.subtract(a, self._lead, out=a)
-            np.multiply(a, self._follow, out=a)
-            np.add(self._lead, a, out=self._lead)
+            np.multiply(torque, self._lead_per_torque, out=scratch)
+            scratch.clip(self._negative_half_play, self._positive_half_play, out=scratch)
+            np.subtract(scratch, lead, out=scratch)
+            np.multiply(scratch, self._follow, out=scratch)
+            np.add(lead, scratch, out=lead)
         return torque

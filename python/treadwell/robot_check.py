@@ -1,4 +1,4 @@
-"""Whether a `robot.toml` fits its MJCF: names that exist, a body that can be described and driven."""
+"""Whether a `robot.toml` fits its MJCF: names that exist, a body that can be driven."""
 
 import math
 from collections.abc import Iterable
@@ -30,30 +30,34 @@ def check_robot(toml: Path, mjcf: Path, model: mujoco.MjModel, file: RobotFile) 
     Raises:
         InputError: they do not; names the file, the key, what was found and what is allowed.
     """
-    _check_tree(mjcf, model)
+    _check_links(mjcf, model)
+    _check_joints(mjcf, model)
     _Checker(toml, mjcf, model, file).check()
 
 
-def _check_tree(mjcf: Path, model: mujoco.MjModel) -> None:
-    """Refuse what is not one free root with hinges, one at most per link, each with a range."""
+def _check_links(mjcf: Path, model: mujoco.MjModel) -> None:
+    """Refuse what is not one free root with named links, one joint at most for each."""
     for field in ("body_mass", "body_pos", "body_ipos", "body_inertia", "jnt_range", "jnt_axis"):
         if not np.isfinite(getattr(model, field)).all():
             raise InputError(f"{mjcf}: a number is not finite ({field})")
+    if model.njnt < 2 or model.jnt_type[0] != mujoco.mjtJoint.mjJNT_FREE:
+        raise InputError(f"{mjcf}: the root body needs a free joint, and joints must follow it")
+    for body in range(1, model.nbody):
+        joints, name = int(model.body_jntnum[body]), model.body(body).name
+        if not name:
+            raise InputError(f"{mjcf}: body {body} has no name")
+        if model.body_parentid[body] == 0 and body > 1:
+            raise InputError(f"{mjcf}: there must be one root body, {name!r} is another")
+        if joints > 1:
+            raise InputError(f"{mjcf}: body {name!r} has {joints} joints, 1 is the limit")
+
+
+def _check_joints(mjcf: Path, model: mujoco.MjModel) -> None:
+    """Refuse what is not a named hinge with a range, and a physics step that is not ours."""
     if model.opt.timestep != PHYSICS_STEP:
         raise InputError(
             f"{mjcf}: option.timestep must be {PHYSICS_STEP}, got {model.opt.timestep:g}"
         )
-    if model.njnt < 2 or model.jnt_type[0] != mujoco.mjtJoint.mjJNT_FREE:
-        raise InputError(f"{mjcf}: the root body needs a free joint")
-    for body in range(1, model.nbody):
-        parent, joints = int(model.body_parentid[body]), int(model.body_jntnum[body])
-        name = model.body(body).name
-        if not name:
-            raise InputError(f"{mjcf}: body {body} has no name")
-        if parent == 0 and body > 1:
-            raise InputError(f"{mjcf}: there must be one root body, {name!r} is another")
-        if joints > 1:
-            raise InputError(f"{mjcf}: body {name!r} has {joints} joints, 1 is the limit")
     for joint in range(1, model.njnt):
         name = model.joint(joint).name
         if not name:
@@ -119,7 +123,7 @@ class _Checker:
             )
             if not on_joint or not torque or joint in actuators:
                 raise InputError(
-                    f"{self.mjcf}: actuator {name!r} must be a <motor> of gear 1 on a joint of its own"
+                    f"{self.mjcf}: actuator {name!r} must be a <motor> of gear 1 on its own joint"
                 )
             actuators[joint] = i
         groups: dict[str, str] = {}
@@ -161,7 +165,9 @@ class _Checker:
         link = self._find(f"{key}.sole.link", leg.sole.link, self.links, "link")
         if link != bodies[-1]:
             end = model.body(bodies[-1]).name
-            self._fail(f"{key}.sole.link", f"must be the leg's last, {end!r}, got {leg.sole.link!r}")
+            self._fail(
+                f"{key}.sole.link", f"must be the leg's last, {end!r}, got {leg.sole.link!r}"
+            )
         for name in leg.touch:
             self._check_sensor(f"{key}.touch", name, mujoco.mjtSensor.mjSENS_TOUCH, "touch", None)
         data = mujoco.MjData(model)

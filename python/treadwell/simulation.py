@@ -87,12 +87,14 @@ class Simulation:
     @property
     def joint_positions(self) -> NDArray[np.float64]:
         """(n,) rad, the true joint angles in joint order; a view."""
-        return self.data.qpos[self._positions]
+        view: NDArray[np.float64] = self.data.qpos[self._positions]
+        return view
 
     @property
     def joint_velocities(self) -> NDArray[np.float64]:
         """(n,) rad/s, the true joint velocities in joint order; a view."""
-        return self.data.qvel[self._velocities]
+        view: NDArray[np.float64] = self.data.qvel[self._velocities]
+        return view
 
     def advance(self, targets: JointTargets) -> None:
         """Advance by one control tick: five physics steps, with the servos at each.
@@ -102,9 +104,10 @@ class Simulation:
         """
         model, data, audit = self.model, self.data, self.audit
         self._check_targets(targets)
+        self.motors.command(targets)
         positions, velocities, ctrl = self.joint_positions, self.joint_velocities, data.ctrl
         for _ in range(STEPS_PER_TICK):
-            ctrl[self._actuators] = self.motors.update(targets, positions, velocities)
+            ctrl[self._actuators] = self.motors.torques(positions, velocities)
             audit.ctrl.append(ctrl)
             mujoco.mj_step2(model, data)
             mujoco.mj_step1(model, data)
@@ -143,7 +146,7 @@ class Simulation:
         quat, rotation, root = np.empty(4), np.empty(9), robot.stand_qpos
         mujoco.mju_axisAngle2Quat(quat, np.array([0.0, 0.0, 1.0]), turn)
         mujoco.mju_quat2Mat(rotation, quat)
-        qpos = self.data.qpos.copy()
+        qpos: NDArray[np.float64] = self.data.qpos.copy()
         base = int(self.model.joint(robot.base).qposadr[0])
         qpos[base : base + 3] = rotation.reshape(3, 3) @ (root[:3] - centres)
         qpos[base : base + 3] += (start.x, start.y, start.height)
