@@ -74,6 +74,11 @@ class StereoConfig:
             raise ValueError(
                 f"camera.stereo.mismatch_rate must be within 0 and 1, got {self.mismatch_rate}"
             )
+        if not 0.0 <= self.valid_blank <= self.valid_textured <= 1.0:
+            raise ValueError(
+                "camera.stereo.valid_textured must be within valid_blank and 1, "
+                f"got {self.valid_textured}"
+            )
 
 
 def window_sum(image: Floats32, window: int) -> Floats32:
@@ -181,6 +186,7 @@ class StereoModel:
         self._wave_phase = pattern.uniform(0.0, 2.0 * np.pi, shape)
         self._surface_step = pattern.uniform(0.0, 2.0 * np.pi)
         share = np.linspace(config.valid_blank, config.valid_textured, TEXTURE_LEVELS)
+        share = np.clip(share, 1e-12, 1.0 - 1e-12)
         normal = NormalDist()
         self._match_below = np.array([normal.inv_cdf(float(p)) for p in share])
         self._columns = np.arange(pinhole.width, dtype=np.float32)

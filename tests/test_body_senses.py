@@ -1,0 +1,171 @@
+"""Tests of encoders, inertial unit and foot forces."""
+
+import mujoco
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from treadwell.body_senses import Encoders, FootForces, Imu, ImuNoise
+from treadwell.random_streams import stream
+
+QUANTUM = np.radians(0.088)
+TICK = 10_000_000
+TOUCH = (("a", "b", "c", "d"), ("d", "c", "b", "a"))
+MODEL = mujoco.MjModel.from_xml_string("""
+<mujoco><option timestep="0.002"/>
+<default><site type="box" size="0.05 0.05 0.02"/></default>
+<worldbody><geom type="plane" size="5 5 1"/>
+  <body name="body" pos="0 0 0.1"><freejoint/><geom type="box" size="0.1 0.1 0.1" mass="2"/>
+    <site name="imu" type="sphere" size="0.01" pos="0.03 0 0.02" euler="90 0 0"/>
+    <site name="a" pos="0.05 0.05 -0.1"/><site name="b" pos="0.05 -0.05 -0.1"/>
+    <site name="c" pos="-0.05 0.05 -0.1"/><site name="d" pos="-0.05 -0.05 -0.1"/>
+    <body pos="0 0 0.2"><joint name="one" axis="0 1 0"/><geom size="0.01" mass="0.01"/>
+      <body pos="0 0 0.1"><joint name="two"/><geom size="0.01" mass="0.01"/></body></body>
+  </body>
+</worldbody>
+<sensor><touch name="a" site="a"/><touch name="b" site="b"/><touch name="c" site="c"/>
+  <touch name="d" site="d"/></sensor></mujoco>
+""")
+
+
+def state() -> mujoco.MjData:
+    data = mujoco.MjData(MODEL)
+    mujoco.mj_forward(MODEL, data)
+    return data
+
+
+class Play:
+    """Motors that lead their joints by a constant."""
+
+    def measured_angle(self, position: NDArray[np.float64]) -> NDArray[np.float64]:
+        return position + 0.5
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.floats(-2.0, 2.0), st.floats(-0.1, 0.1))
+def test_an_encoder_reads_its_joint_and_offset_to_half_a_quantum(angle: float, offset: float) -> None:
+    data = state()
+    data.joint("two").qpos = angle
+    offsets = np.array([offset, 0.0])
+    encoders = Encoders(MODEL, ("two", "one"), QUANTUM, offsets, stream(0, "e"))
+    readings, _ = encoders.read(data, None)
+    assert abs(readings[0] - (angle + offset)) <= QUANTUM / 2 + 1e-12
+    assert readings[0] / QUANTUM == pytest.approx(np.rint(readings[0] / QUANTUM), abs=1e-6)
+    assert readings[1] == 0.0
+
+
+def test_ideal_encoders_are_exact() -> None:
+    data = state()
+    data.joint("one").qpos, data.joint("two").qpos = 0.1234567, -0.7654321
+    data.joint("one").qvel, data.joint("two").qvel = 1.5, -2.5
+    encoders = Encoders(MODEL, ("one", "two"), 0.0, np.zeros(2), stream(0, "e"))
+    positions, velocities = encoders.read(data, None)
+    assert positions.tolist() == [0.1234567, -0.7654321]
+    assert velocities.tolist() == [1.5, -2.5]
+    assert data.joint("one").qvel == 1.5
+
+
+def test_encoders_sit_at_the_motors() -> None:
+    encoders = Encoders(MODEL, ("one", "two"), 0.0, np.zeros(2), stream(0, "e"))
+    positions, _ = encoders.read(state(), Play())
+    assert positions.tolist() == [0.5, 0.5]
+
+
+def test_velocities_have_the_noise_of_two_readings() -> None:
+    data = state()
+    data.joint("one").qvel = 1.0
+    encoders = Encoders(MODEL, ("one",), QUANTUM, np.zeros(1), stream(0, "e"))
+    found = np.array([encoders.read(data, None)[1][0] for _ in range(3000)])
+    assert found.mean() == pytest.approx(1.0, abs=0.003)
+    assert found.std() == pytest.approx(QUANTUM * np.sqrt(2 / 12) / 0.02, rel=0.05)
+
+
+def test_at_rest_the_accelerometer_reads_gravity_upward_in_its_own_frame() -> None:
+    imu = Imu(MODEL, "imu", ImuNoise(), stream(0, "i"))
+    angular_velocity, specific_force = imu.read(state(), 0)
+    np.testing.assert_allclose(angular_velocity, 0.0, atol=1e-12)
+    # The site is turned by 90 degrees about x: its y points up.
+    np.testing.assert_allclose(specific_force, [0.0, 9.81, 0.0], atol=1e-9)
+
+
+def test_a_falling_body_feels_no_force() -> None:
+    data = state()
+    data.qpos[2] = 2.0
+    imu = Imu(MODEL, "imu", ImuNoise(), stream(0, "i"))
+    force = np.zeros(3)
+    for i in range(5):
+        for _ in range(5):
+            mujoco.mj_step(MODEL, data)
+        _, force = imu.read(data, i * TICK)
+    np.testing.assert_allclose(force, 0.0, atol=0.05)
+
+
+def test_the_gyro_reads_in_the_sites_frame_and_the_lever_is_felt() -> None:
+    data = state()
+    data.qpos[2] = 2.0
+    rate = 3.0
+    data.qvel[5] = rate
+    imu = Imu(MODEL, "imu", ImuNoise(), stream(0, "i"))
+    forces = []
+    for i in range(20):
+        for _ in range(5):
+            mujoco.mj_step(MODEL, data)
+        angular_velocity, force = imu.read(data, i * TICK)
+        np.testing.assert_allclose(angular_velocity, [0.0, rate, 0.0], atol=1e-2)
+        forces.append(force)
+    # It flies freely: what is felt is the centripetal pull toward the axis, 0.03 m away.
+    assert np.mean(forces[2:], axis=0)[0] == pytest.approx(-(rate**2) * 0.03, abs=0.02)
+
+
+def test_the_accelerometer_does_not_take_a_pause_for_a_jerk() -> None:
+    data = state()
+    imu = Imu(MODEL, "imu", ImuNoise(), stream(0, "i"))
+    imu.read(data, 0)
+    data.qvel[0] = 1.0
+    mujoco.mj_forward(MODEL, data)
+    _, force = imu.read(data, 1_000_000_000)
+    np.testing.assert_allclose(force, [0.0, 9.81, 0.0], atol=1e-9)
+
+
+def test_biases_stay_and_noise_is_new() -> None:
+    noise = ImuNoise(0.002, 0.00087, 0.15, 0.05)
+    data = state()
+    biases = []
+    for seed in range(60):
+        imu = Imu(MODEL, "imu", noise, stream(seed, "i"))
+        samples = np.array([np.concatenate(imu.read(data, i * TICK)) for i in range(400)])
+        assert samples.std(axis=0)[:3] == pytest.approx(0.002, rel=0.25)
+        assert samples.std(axis=0)[3:] == pytest.approx(0.15, rel=0.25)
+        biases.append(samples.mean(axis=0) - [0, 0, 0, 0, 9.81, 0])
+    assert np.std(biases, axis=0)[:3] == pytest.approx(0.00087, rel=0.3)
+    assert np.std(biases, axis=0)[3:] == pytest.approx(0.05, rel=0.3)
+
+
+def standing() -> mujoco.MjData:
+    data = state()
+    for _ in range(500):
+        mujoco.mj_step(MODEL, data)
+    return data
+
+
+def test_the_feet_carry_the_weight() -> None:
+    feet = FootForces(MODEL, TOUCH, 0.0, 0.0, stream(0, "f"))
+    forces = feet.read(standing())
+    assert forces.shape == (2, 4)
+    assert forces[0].sum() == pytest.approx(2.02 * 9.81, rel=0.01)
+    np.testing.assert_array_equal(forces[0], forces[1][::-1])
+
+
+def test_foot_forces_are_noisy_and_never_pull() -> None:
+    data = standing()
+    exact = FootForces(MODEL, TOUCH, 0.0, 0.0, stream(0, "f")).read(data)
+    feet = FootForces(MODEL, TOUCH, 0.02, 0.1, stream(0, "f"))
+    found = np.array([feet.read(data) for _ in range(2000)])
+    expected = np.sqrt((0.02 * exact) ** 2 + 0.1**2)
+    np.testing.assert_allclose(found.std(axis=0), expected, rtol=0.1)
+    data.sensordata[:] = 0.0
+    lifted = np.array([feet.read(data) for _ in range(200)])
+    assert lifted.min() == 0.0
+    assert lifted.max() > 0.0

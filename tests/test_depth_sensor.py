@@ -1,0 +1,97 @@
+"""Tests of the depth camera in time."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from treadwell.depth import DepthCamera, Pinhole
+from treadwell.depth_sensor import DepthSensor
+from treadwell.observation import Frame
+
+TICK = 10_000_000
+PERIOD = 80_000_000
+MODEL = mujoco.MjModel.from_xml_string("""
+<mujoco><worldbody><geom type="plane" size="5 5 1"/><body name="eye" pos="0 0 0.5">
+  <joint name="lift" type="slide" axis="0 0 1"/><geom size="0.01"/><camera name="eye"/>
+</body></worldbody></mujoco>
+""")
+
+
+def sensor(latency: int = 0) -> tuple[DepthSensor, mujoco.MjData]:
+    data = mujoco.MjData(MODEL)
+    mujoco.mj_forward(MODEL, data)
+    camera = DepthCamera(MODEL, "eye", Pinhole(8, 6, 10.0))
+    return DepthSensor(MODEL, camera, None, np.ones(MODEL.ngeom), PERIOD, latency), data
+
+
+def frames(seen: DepthSensor, data: mujoco.MjData, ticks: range) -> list[Frame]:
+    found = [seen.observe(data, i * TICK) for i in ticks]
+    return [frame for frame in found if frame is not None]
+
+
+def test_frames_come_at_multiples_of_the_period() -> None:
+    seen, data = sensor()
+    found = frames(seen, data, range(100))
+    assert [frame.exposure_ns for frame in found] == [i * PERIOD for i in range(13)]
+    assert all(frame.arrival_ns == frame.exposure_ns for frame in found)
+
+
+@pytest.mark.parametrize(("latency", "arrives"), [(15_000_000, 2), (80_000_000, 8), (250_000_000, 25)])
+def test_a_frame_arrives_late_and_shows_what_was_at_its_exposure(
+    latency: int, arrives: int
+) -> None:
+    seen, data = sensor(latency)
+    for i in range(60):
+        data.qpos[0] = 0.001 * i
+        frame = seen.observe(data, i * TICK)
+        assert (frame is not None) == (i >= arrives and (i - arrives) % 8 == 0)
+        if frame is not None:
+            exposed = i - arrives
+            assert frame.exposure_ns == exposed * TICK
+            assert frame.arrival_ns == i * TICK
+            np.testing.assert_allclose(frame.depth, 0.5 + 0.001 * exposed, atol=1e-6)
+
+
+def test_a_blind_camera_exposes_nothing_and_sees_again_afterwards() -> None:
+    seen, data = sensor()
+    seen.observe(data, 0)
+    seen.blind(3 * PERIOD)
+    found = frames(seen, data, range(1, 40))
+    assert [frame.exposure_ns for frame in found] == [3 * PERIOD, 4 * PERIOD]
+
+
+def test_what_was_under_way_arrives_though_the_camera_is_blind() -> None:
+    seen, data = sensor(latency=50_000_000)
+    seen.observe(data, 0)
+    seen.blind(10 * PERIOD)
+    found = frames(seen, data, range(1, 40))
+    assert [(frame.exposure_ns, frame.arrival_ns) for frame in found] == [(0, 50_000_000)]
+
+
+def test_looking_does_not_change_the_physics() -> None:
+    model = mujoco.MjModel.from_xml_string("""
+    <mujoco><worldbody><geom type="plane" size="5 5 1"/><body pos="0 0 0.3"><freejoint/>
+      <geom type="box" size="0.1 0.1 0.1"/><camera name="eye"/></body></worldbody></mujoco>""")
+    ends = []
+    for looks in (False, True):
+        data = mujoco.MjData(model)
+        data.qvel[:] = [0.3, 0.1, 0.0, 1.0, 2.0, 3.0]
+        camera = DepthCamera(model, "eye", Pinhole(8, 6, 10.0))
+        seen = DepthSensor(model, camera, None, np.ones(model.ngeom), PERIOD, 0)
+        for i in range(200):
+            if looks:
+                seen.observe(data, i * PERIOD)
+            mujoco.mj_step(model, data)
+        ends.append(data.qpos.copy())
+    np.testing.assert_array_equal(ends[0], ends[1])
+
+
+def test_what_cannot_be_is_refused() -> None:
+    camera = DepthCamera(MODEL, "eye", Pinhole(8, 6, 10.0))
+    texture = np.ones(MODEL.ngeom)
+    with pytest.raises(ValueError, match="period must be > 0"):
+        DepthSensor(MODEL, camera, None, texture, 0, 0)
+    with pytest.raises(ValueError, match="latency must be >= 0"):
+        DepthSensor(MODEL, camera, None, texture, PERIOD, -1)
+    with pytest.raises(ValueError, match="texture: 2 geoms, got 1 values"):
+        DepthSensor(MODEL, camera, None, texture[:1], PERIOD, 0)
