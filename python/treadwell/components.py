@@ -5,7 +5,7 @@ from typing import Final
 
 COMPONENTS: Final[dict[str, dict[str, str]]] = {
     "world_model": {
-        "fog": "floor and obstacle grid over an 8-bit occupancy grid, 4 cm cells, shifts with the robot",
+        "fog": "floor and obstacle grid over an 8-bit occupancy grid, moves with the robot",
     },
     "segmenter": {
         "scan_line": "planes by scan-line grouping, thresholds follow the local noise",
@@ -18,7 +18,7 @@ COMPONENTS: Final[dict[str, dict[str, str]]] = {
         "a_star": "A* on the grid by clearance, unknown cells at a price",
     },
     "behaviour": {
-        "walking": "walks the path, looks around, stops for what appears, refuses when there is no way",
+        "walking": "walks the path, looks around, stops for what appears, refuses where no way is",
     },
 }
 """Slot of `[navigation]` -> name -> description."""

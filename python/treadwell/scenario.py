@@ -1,9 +1,16 @@
-"""A scenario: what a TOML file under `scenarios/` says, checked, with draws and overrides applied."""
+"""A scenario: what its TOML file says, checked, with draws and overrides applied."""
 
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, PrivateAttr, field_validator, model_validator
+from pydantic import (
+    ConfigDict,
+    Field,
+    PrivateAttr,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
 from pydantic_core import PydanticCustomError
 
 from treadwell.components import COMPONENTS, is_component, parameter_tables
@@ -72,7 +79,7 @@ class Sensors(Table):
 class Navigation(Table):
     """Which components navigate, and their parameters (`[navigation.<component>]`)."""
 
-    model_config = {**Table.model_config, "extra": "allow"}
+    model_config = ConfigDict(extra="allow")
 
     world_model: str = "fog"
     segmenter: str = "scan_line"
@@ -83,12 +90,13 @@ class Navigation(Table):
 
     @field_validator("world_model", "segmenter", "localizer", "planner", "behaviour")
     @classmethod
-    def _is_a_component(cls, value: str, info: Any) -> str:
-        if not is_component(info.field_name, value):
+    def _is_a_component(cls, value: str, info: ValidationInfo) -> str:
+        slot = str(info.field_name)
+        if not is_component(slot, value):
             raise PydanticCustomError(
                 "component",
                 "must be {names} or 'package.module:Class'",
-                {"names": ", ".join(COMPONENTS[info.field_name]), "among": info.field_name},
+                {"names": ", ".join(COMPONENTS[slot]), "among": slot},
             )
         return value
 
@@ -144,8 +152,11 @@ class Scenario(Table):
     @model_validator(mode="after")
     def _names_are_unique(self) -> Self:
         seen: set[str] = set()
-        added = [(("event", i, "element"), e.element) for i, e in enumerate(self.event)
-                 if isinstance(e, Add)]
+        added = [
+            (("event", i, "element"), e.element)
+            for i, e in enumerate(self.event)
+            if isinstance(e, Add)
+        ]
         for where, element in [(("course", i), e) for i, e in enumerate(self.course)] + added:
             if element.name is None:
                 continue

@@ -191,17 +191,7 @@ class Mjcf(ElementTable):
 
 
 Element = Annotated[
-    Stairs
-    | Sill
-    | Platform
-    | Box
-    | Cylinder
-    | Wall
-    | Ramp
-    | Rubble
-    | Mesh
-    | Scatter
-    | Mjcf,
+    Stairs | Sill | Platform | Box | Cylinder | Wall | Ramp | Rubble | Mesh | Scatter | Mjcf,
     Field(discriminator="kind"),
 ]
 """Any element of `[[course]]`."""

@@ -1,4 +1,4 @@
-"""One clear line for each thing that is wrong in a scenario: key, what was found, what is allowed."""
+"""One clear line for each fault of a scenario: key, what was found, what is allowed."""
 
 import difflib
 import json
@@ -49,12 +49,12 @@ def shown(value: object, longest: int = 60) -> str:
 def value_at(raw: object, path: Path) -> object:
     """Return what stands at a path of keys and indices, `MISSING` when nothing does."""
     for key in path:
-        if isinstance(raw, Mapping) and key in raw:
-            raw = raw[key]
-        elif isinstance(raw, list | tuple) and isinstance(key, int) and 0 <= key < len(raw):
-            raw = raw[key]
-        else:
+        known = isinstance(raw, Mapping) and key in raw
+        if isinstance(raw, list | tuple) and isinstance(key, int):
+            known = 0 <= key < len(raw)
+        if not known:
             return MISSING
+        raw = raw[key]  # type: ignore[index]
     return raw
 
 
@@ -104,14 +104,16 @@ def describe(error: ErrorDetails, raw: Mapping[str, Any]) -> str:
         text = "must be a table"
     found = value_at(raw, path)
     if kind == "literal_error":
-        text += nearest(found, str(context["expected"]).replace("'", "").replace(" or ", ", ")
-                        .split(", "))
+        text += nearest(
+            found, str(context["expected"]).replace("'", "").replace(" or ", ", ").split(", ")
+        )
     elif kind == "component":
         text += nearest(found, COMPONENTS[context["among"]])
     elif kind == "string_pattern_mismatch":
-        text = {"name": "must be up to 64 letters, digits, - or _ (an element's may have spaces, "
-                        "and starts with a letter)"}.get(
-            str(path[-1]), "must be 1 to 255 characters, none of them a control character")
+        text = {
+            "name": "must be up to 64 letters, digits, - or _ (an element's may have spaces, "
+            "and starts with a letter)"
+        }.get(str(path[-1]), "must be 1 to 255 characters, none of them a control character")
     return _line(path, raw, text)
 
 

@@ -80,8 +80,10 @@ def find_scenario(name_or_path: str | Path) -> Path:
     if stem in names:
         return data_folder("scenarios") / f"{stem}.toml"
     if exists:
-        raise InputError(f"{shortened(text)}: found something that is not a file; "
-                         "must be a scenario file or a scenario's name")
+        raise InputError(
+            f"{shortened(text)}: found something that is not a file; "
+            "must be a scenario file or a scenario's name"
+        )
     raise InputError(
         f"{shortened(text)}: no such file or scenario; scenarios: {', '.join(names)}"
         f"{nearest(stem, names)}"
@@ -150,8 +152,11 @@ def _check_files(scenario: Scenario, raw: dict[str, Any]) -> list[str]:
     """Return a line for each file that an element names and that cannot be used."""
     elements = [(("course", i), element) for i, element in enumerate(scenario.course)]
     lines = []
-    added = [(("event", i, "element"), event.element)
-             for i, event in enumerate(scenario.event) if isinstance(event, Add)]
+    added = [
+        (("event", i, "element"), event.element)
+        for i, event in enumerate(scenario.event)
+        if isinstance(event, Add)
+    ]
     for path, element in [*elements, *added]:
         if isinstance(element, Mesh | Mjcf):
             fault = asset_fault(scenario.folder, element.file, SUFFIXES[element.kind])

@@ -43,7 +43,7 @@ class Draw(Table):
             )
         return self
 
-    def sample(self, seed: int, key: str) -> Any:
+    def sample(self, seed: int, key: str) -> object:
         """Return the value for a seed: each key has its own generator, so none disturbs another."""
         generator = np.random.default_rng([seed, zlib.crc32(key.encode())])
         if self.uniform is not None:
@@ -115,8 +115,9 @@ def assign(raw: dict[str, Any], key: str, value: object) -> None:
                 place = place[index]
         else:
             parent = ".".join(words[:depth])
-            raise InputError(f"{shortened(key)}: {shortened(parent)} is {shown(place)}, "
-                             "not a table or a list")
+            raise InputError(
+                f"{shortened(key)}: {shortened(parent)} is {shown(place)}, not a table or a list"
+            )
 
 
 def _index(place: list[Any], word: str, key: str) -> int:
@@ -124,14 +125,17 @@ def _index(place: list[Any], word: str, key: str) -> int:
     if word.isascii() and word.isdigit():
         if len(word) < 10 and int(word) < len(place):
             return int(word)
-        raise InputError(f"{shortened(key)}: found index {shortened(word)}; "
-                         f"there are {len(place)} entries, counted from 0")
+        raise InputError(
+            f"{shortened(key)}: found index {shortened(word)}; "
+            f"there are {len(place)} entries, counted from 0"
+        )
     names = element_names(place) if all(isinstance(item, Mapping) for item in place) else []
     if word in names:
         return names.index(word)
     allowed = f"one of {', '.join(names[:30])} or an index" if names else "an index"
-    raise InputError(f"{shortened(key)}: found {shown(word)}; must be {allowed}"
-                     f"{nearest(word, names)}")
+    raise InputError(
+        f"{shortened(key)}: found {shown(word)}; must be {allowed}{nearest(word, names)}"
+    )
 
 
 def apply_draws(raw: dict[str, Any], seed: int) -> list[str]:
