@@ -6,7 +6,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-
 from treadwell.body_senses import Encoders, FootForces, Imu, ImuNoise
 from treadwell.random_streams import stream
 
@@ -45,7 +44,9 @@ class Play:
 
 @settings(max_examples=50, deadline=None)
 @given(st.floats(-2.0, 2.0), st.floats(-0.1, 0.1))
-def test_an_encoder_reads_its_joint_and_offset_to_half_a_quantum(angle: float, offset: float) -> None:
+def test_an_encoder_reads_its_joint_and_offset_to_half_a_quantum(
+    angle: float, offset: float
+) -> None:
     data = state()
     data.joint("two").qpos = angle
     offsets = np.array([offset, 0.0])

@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
 from treadwell.depth import DepthCamera, Mount, Pinhole
 
 WORLD = """
@@ -20,7 +19,7 @@ WORLD = """
   </body>
 </worldbody></mujoco>
 """
-PINHOLE = Pinhole.of_view(88, 72, np.radians(47.0))
+PINHOLE = Pinhole(88, 72, 101.4)
 
 
 def world(height: float, tilt: float, yaw: float = 0.0) -> tuple[mujoco.MjModel, mujoco.MjData]:
@@ -85,9 +84,7 @@ def test_a_mount_moves_the_rays_as_moving_the_camera_does() -> None:
     model, data = world(0.5, 0.6 + turn)
     there = DepthCamera(model, "eye", PINHOLE).cast(data)
     model, data = world(0.5, 0.6)
-    nod = np.array(
-        [[1, 0, 0], [0, np.cos(turn), np.sin(turn)], [0, -np.sin(turn), np.cos(turn)]]
-    )
+    nod = np.array([[1, 0, 0], [0, np.cos(turn), np.sin(turn)], [0, -np.sin(turn), np.cos(turn)]])
     mounted = DepthCamera(model, "eye", PINHOLE, Mount(rotation=nod)).cast(data)
     floor = model.geom("floor").id
     both = (there.geom == floor) & (mounted.geom == floor)
@@ -100,12 +97,6 @@ def test_a_mounts_translation_is_in_the_optical_frame() -> None:
     nearer = Mount(translation=np.array([0.0, 0.0, 0.01]))
     cast = DepthCamera(model, "eye", PINHOLE, nearer).cast(data)
     assert cast.depth[0, 0] == pytest.approx(0.49, abs=1e-6)
-
-
-@pytest.mark.parametrize("fov", [0.0, -1.0, np.pi, np.nan])
-def test_a_field_of_view_that_no_camera_has_is_refused(fov: float) -> None:
-    with pytest.raises(ValueError, match="horizontal_fov"):
-        Pinhole.of_view(88, 72, fov)
 
 
 def test_an_empty_image_is_refused() -> None:

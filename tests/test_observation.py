@@ -4,7 +4,6 @@ from dataclasses import FrozenInstanceError, fields
 
 import numpy as np
 import pytest
-
 from treadwell.observation import Frame, Observation
 
 

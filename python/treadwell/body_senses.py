@@ -120,7 +120,7 @@ class Imu:
         """Return the angular velocity (3,) rad/s and the specific force (3,) m/s².
 
         Args:
-            data: the state, with velocities of its bodies as the last step left them.
+            data: the state, with the velocities of its bodies up to date.
             time_ns: now.
         """
         site = mujoco.mjtObj.mjOBJ_SITE

@@ -1,7 +1,6 @@
 """The depth camera without its errors: rays cast through every pixel into the simulated world."""
 
 from dataclasses import dataclass, field
-from typing import Self
 
 import mujoco
 import numpy as np
@@ -38,13 +37,6 @@ class Pinhole:
             raise ValueError(f"camera size must be > 0, got {self.width} x {self.height}")
         if not 0.0 < self.focal < np.inf:
             raise ValueError(f"camera focal length must be > 0, got {self.focal}")
-
-    @classmethod
-    def of_view(cls, width: int, height: int, horizontal_fov: float) -> Self:
-        """Return the camera that sees `horizontal_fov` (rad) between its left and right border."""
-        if not 0.0 < horizontal_fov < np.pi:
-            raise ValueError(f"camera.horizontal_fov must be in 0 to pi, got {horizontal_fov}")
-        return cls(width, height, float(width / 2 / np.tan(horizontal_fov / 2)))
 
     def directions(self) -> Floats:
         """Return the rays of all pixels, (h * w, 3), optical frame, row by row, each with z = 1."""

@@ -41,8 +41,7 @@ class DepthSensor:
             raise ValueError(f"sensors.latency must be >= 0, got {latency_ns} ns")
         if len(texture) != model.ngeom:
             raise ValueError(f"texture: {model.ngeom} geoms, got {len(texture)} values")
-        self.texture = texture
-        self._model = model
+        self._texture = texture
         self._camera = camera
         self._stereo = stereo
         self._period_ns = period_ns
@@ -59,7 +58,7 @@ class DepthSensor:
         """Expose when it is time, and return the newest frame that has arrived since the last call.
 
         Args:
-            data: the state; where a frame is exposed, its body poses are brought up to date.
+            data: the state, with all poses up to date; nothing in it is changed.
             time_ns: now, in steps no longer than the period.
         """
         if time_ns >= self._next_ns:
@@ -74,10 +73,7 @@ class DepthSensor:
 
     def _expose(self, data: mujoco.MjData) -> NDArray[np.float32]:
         """Return the depth image (h, w) of the present state."""
-        mujoco.mj_kinematics(self._model, data)
-        mujoco.mj_comPos(self._model, data)
-        mujoco.mj_camlight(self._model, data)
         cast = self._camera.cast(data)
         if self._stereo is None:
             return cast.depth.astype(np.float32)
-        return self._stereo.see(cast, self.texture)
+        return self._stereo.see(cast, self._texture)

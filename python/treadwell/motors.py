@@ -58,6 +58,11 @@ class Motors:
     by half of the play in the direction of the torque; the lead follows a change of sign with a
     time constant of `PLAY_TIME` and grows with the torque up to `PLAY_TORQUE` of the peak, or more
     for a stiff servo, so that the loop through it has a gain below one and is stable.
+
+    Attributes:
+        limits: what each motor can do.
+        encoder_offsets: (n,) rad, what each encoder reads too much: the servo goes by its encoder.
+            Zero unless it is given the array of the senses.
     """
 
     def __init__(self, limits: MotorLimits, *, play: float, timestep: float) -> None:
@@ -70,6 +75,7 @@ class Motors:
         """
         self.limits = limits
         n = limits.kp.size
+        self.encoder_offsets: Floats = np.zeros(n)
         self._half_play = 0.5 * play
         self._follow = -np.expm1(-timestep / PLAY_TIME)
         takes_up = np.maximum(PLAY_TORQUE * limits.peak_torque, limits.kp * self._half_play)
@@ -78,6 +84,7 @@ class Motors:
         self._least, self._most = np.zeros(n), limits.peak_torque
         self._negative_half_play = np.full(n, -self._half_play)
         self._positive_half_play = np.full(n, self._half_play)
+        self.encoder_offsets = np.zeros(n)
         self._lead = np.zeros(n)
         self._angle = np.zeros(n)
         self._asked = np.zeros(n)
@@ -98,7 +105,8 @@ class Motors:
     def command(self, targets: JointTargets) -> None:
         """Take what is asked for from now on."""
         limits = self.limits
-        self._asked = targets.torque + limits.kp * targets.position + limits.kv * targets.velocity
+        position = targets.position - self.encoder_offsets
+        self._asked = targets.torque + limits.kp * position + limits.kv * targets.velocity
 
     def bounds(self, velocity: Floats) -> tuple[Floats, Floats]:
         """Return the largest forward and backward torque at joint velocities (n,) rad/s.

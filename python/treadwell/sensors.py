@@ -12,6 +12,7 @@ from treadwell.camera_error import CameraError, CameraErrorBounds, draw_camera_e
 from treadwell.depth import DepthCamera, Mount, Pinhole
 from treadwell.depth_sensor import DepthSensor
 from treadwell.observation import Observation
+from treadwell.robot_description import focal_length
 from treadwell.robot_file import RobotFile
 from treadwell.stereo import StereoConfig, StereoModel
 
@@ -57,6 +58,10 @@ class SensedRobot(Protocol):
     def joints(self) -> tuple[str, ...]:
         """The names of its joints, in joint order."""
 
+    @property
+    def nominal(self) -> mujoco.MjModel:
+        """Its model, alone in an empty world."""
+
 
 class Sensors:
     """All senses of one robot in one episode.
@@ -77,13 +82,13 @@ class Sensors:
 
         Args:
             model: the compiled world with the robot.
-            robot: its file and joint order.
+            robot: its file, joint order and model.
             settings: which senses are noisy, and the latency.
             streams: the episode's random numbers, by a component's name.
             texture: for each geom id, how well stereo sees it, 0 (blank) to 1; default: all 1.
         """
         file = robot.file
-        error = _camera_error(model, file, streams("sensors.camera"))
+        error = _camera_error(robot.nominal, file, streams("sensors.camera"))
         self._joint_order = {name: i for i, name in enumerate(robot.joints)}
         self._encoders = self._build_encoders(model, robot, settings, streams, error)
         self._imu = _imu(model, file, settings, streams)
@@ -92,7 +97,10 @@ class Sensors:
 
     @property
     def encoder_offsets(self) -> Floats:
-        """(n,) rad: what the encoders read too much; the servos go by them too."""
+        """(n,) rad: what the encoders read too much; for `Motors.encoder_offsets`, as it is.
+
+        The array changes when an encoder shifts.
+        """
         return self._encoders.offsets
 
     def observe(
@@ -101,7 +109,8 @@ class Sensors:
         """Return what the senses say now; call it at every control tick.
 
         Args:
-            data: the state, as the last step left it.
+            data: the state; poses and velocities up to date, forces those of the last step.
+                Nothing in it is changed.
             time_ns: now, nanoseconds since the start.
             motors: whose angles the encoders read; None: the joints' own.
         """
@@ -152,9 +161,7 @@ def _camera_joints(file: RobotFile) -> tuple[str, ...]:
     return (*file.trunk.joints, file.head.pan, file.head.tilt)
 
 
-def _camera_error(
-    model: mujoco.MjModel, file: RobotFile, rng: np.random.Generator
-) -> CameraError:
+def _camera_error(model: mujoco.MjModel, file: RobotFile, rng: np.random.Generator) -> CameraError:
     weights = [TRUNK_WEIGHT] * len(file.trunk.joints) + [1.0, 1.0]
     table = file.encoders
     bounds = CameraErrorBounds(
@@ -164,9 +171,7 @@ def _camera_error(
     return draw_camera_error(model, file.camera.name, joints, weights, bounds, rng)
 
 
-def _imu(
-    model: mujoco.MjModel, file: RobotFile, settings: SensorSettings, streams: Streams
-) -> Imu:
+def _imu(model: mujoco.MjModel, file: RobotFile, settings: SensorSettings, streams: Streams) -> Imu:
     noise = ImuNoise()
     if settings.imu != "ideal":
         noise = ImuNoise(
@@ -197,7 +202,7 @@ def _depth(
     texture: Floats | None,
 ) -> DepthSensor:
     table = file.camera
-    pinhole = Pinhole.of_view(table.width, table.height, table.horizontal_fov)
+    pinhole = Pinhole(table.width, table.height, focal_length(file))
     stereo = None
     if settings.depth == "ideal":
         mount = Mount()
