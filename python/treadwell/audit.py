@@ -2,6 +2,7 @@
 
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
 
 import mujoco
 import numpy as np
@@ -107,11 +108,13 @@ def replay_audit(folder: Path) -> int | None:
     data = mujoco.MjData(model)
     mujoco.mj_setState(model, data, arrays["state0"], STATE)
     events = {int(step): row for row, step in enumerate(arrays.get("event_step", ()))}
-    fields = [key for key in arrays if key not in ("state0", "ctrl", "qpos", "event_step")]
+    fields = [(arrays[key], _field(model, data, key)) for key in _event_keys(arrays)]
     for step, ctrl in enumerate(arrays["ctrl"]):
         if step in events:
-            for key in fields:
-                _set(model, data, key.removeprefix("event_"), arrays[key][events[step]])
+            for rows, array in fields:
+                row = rows[events[step]]
+                if not np.isnan(row).all():
+                    array[:] = row
         data.ctrl[:] = ctrl
         mujoco.mj_step(model, data)
         tick, rest = divmod(step + 1, STEPS_PER_TICK)
@@ -127,25 +130,40 @@ def _load(folder: Path) -> tuple[mujoco.MjModel, dict[str, NDArray[Any]]]:
         raise InputError(f"{folder / 'model.mjb'}: is missing or broken") from error
     path = folder / "physics.npz"
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as file:
             arrays = {key: file[key] for key in file.files}
-        ctrl, qpos, state0 = arrays["ctrl"], arrays["qpos"], arrays["state0"]
-    except (OSError, ValueError, EOFError, KeyError) as error:
+        whole = _fits(model, arrays)
+    except (OSError, ValueError, EOFError, KeyError, AttributeError, BadZipFile) as error:
         raise InputError(f"{path}: is missing or broken: {error}") from error
-    fits = (
-        ctrl.ndim == qpos.ndim == 2
+    if not whole:
+        raise InputError(f"{path}: does not fit model.mjb beside it")
+    return model, arrays
+
+
+def _fits(model: mujoco.MjModel, arrays: dict[str, NDArray[Any]]) -> bool:
+    """Whether all arrays are there with the sizes that the model asks for."""
+    ctrl, qpos, state0 = arrays["ctrl"], arrays["qpos"], arrays["state0"]
+    data, events = mujoco.MjData(model), arrays.get("event_step", ())
+    return (
+        ctrl.ndim == 2
         and ctrl.shape[1] == model.nu
         and qpos.shape == (len(ctrl) // STEPS_PER_TICK, model.nq)
         and state0.shape == (mujoco.mj_stateSize(model, STATE),)
         and all(
-            len(array) == len(arrays["event_step"])
-            for key, array in arrays.items()
-            if key not in ("state0", "ctrl", "qpos") and "event_step" in arrays
+            arrays[key].shape == (len(events), *_field(model, data, key).shape)
+            for key in _event_keys(arrays)
         )
     )
-    if not fits:
-        raise InputError(f"{path}: does not fit model.mjb beside it")
-    return model, arrays
+
+
+def _event_keys(arrays: dict[str, NDArray[Any]]) -> list[str]:
+    return [key for key in arrays if key not in ("state0", "ctrl", "qpos", "event_step")]
+
+
+def _field(model: mujoco.MjModel, data: mujoco.MjData, key: str) -> NDArray[Any]:
+    field = key.removeprefix("event_")
+    array: NDArray[Any] = getattr(data if field in DATA_FIELDS else model, field)
+    return array
 
 
 def _key(field: str) -> str:
@@ -154,10 +172,3 @@ def _key(field: str) -> str:
 
 def _untouched(field: str, row: NDArray[Any]) -> NDArray[Any]:
     return np.full_like(row, np.nan) if field in _OWN_KEYS else row
-
-
-def _set(model: mujoco.MjModel, data: mujoco.MjData, field: str, row: NDArray[Any]) -> None:
-    if field in _OWN_KEYS and np.isnan(row).all():
-        return
-    owner = data if field in DATA_FIELDS else model
-    getattr(owner, field)[:] = row

@@ -1,0 +1,181 @@
+"""Claims about the physics: a robot stands by its motors alone, and a run can be stepped again."""
+
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from treadwell.audit import replay_audit
+from treadwell.errors import InputError, SimulationError
+from treadwell.motors import JointTargets
+from treadwell.robot import Robot, load_robot
+from treadwell.simulation import Simulation, Start
+
+
+@pytest.fixture(scope="module")
+def qrio() -> Robot:
+    return load_robot("qrio")
+
+
+@pytest.fixture(scope="module")
+def flat(qrio: Robot) -> mujoco.MjModel:
+    spec = qrio.spec()
+    spec.worldbody.add_geom(name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1])
+    return spec.compile()
+
+
+def standing(robot: Robot) -> JointTargets:
+    return JointTargets(robot.stand, np.zeros(26), np.zeros(26))
+
+
+@pytest.mark.parametrize("play", [True, False])
+def test_held_in_the_keyframe_by_its_servos_the_robot_stands_for_five_seconds(
+    qrio: Robot, flat: mujoco.MjModel, play: bool
+) -> None:
+    simulation = Simulation(flat, qrio, play=play)
+    for _ in range(500):
+        simulation.advance(standing(qrio))
+    data = simulation.data
+    assert simulation.time_ns == 5_000_000_000
+    assert data.time == pytest.approx(5.0)
+    assert not data.xfrc_applied.any()
+    assert not data.qfrc_applied.any()
+    assert data.body("torso").xmat[8] > np.cos(0.1)
+    assert data.body("pelvis").xpos == pytest.approx([0.0, 0.0, 0.22], abs=0.01)
+    assert np.abs(simulation.joint_velocities).max() < 0.02
+    forces = [
+        data.sensor(name).data[0]
+        for leg in (qrio.file.legs.left, qrio.file.legs.right)
+        for name in leg.touch
+    ]
+    assert sum(forces) == pytest.approx(7.0 * 9.81, rel=0.01)
+
+
+def test_without_torque_the_robot_falls(qrio: Robot, flat: mujoco.MjModel) -> None:
+    simulation = Simulation(flat, qrio)
+    simulation.motors.limits.peak_torque[:] = 0.0
+    try:
+        for _ in range(150):
+            simulation.advance(standing(qrio))
+    finally:
+        simulation.motors.limits.peak_torque[:] = qrio.nominal.actuator_ctrlrange[:, 1]
+    assert simulation.data.body("pelvis").xpos[2] < 0.15
+
+
+def test_the_start_puts_the_middle_of_the_soles_at_the_place_with_the_yaw(
+    qrio: Robot, flat: mujoco.MjModel
+) -> None:
+    simulation = Simulation(flat, qrio, Start(x=1.2, y=-0.7, yaw=2.0, height=0.12))
+    left, right = (simulation.data.site(f"{side}_sole") for side in ("left", "right"))
+    assert 0.5 * (left.xpos + right.xpos) == pytest.approx([1.2, -0.7, 0.12], abs=1e-5)
+    assert left.xmat.reshape(3, 3)[:, 0] == pytest.approx([np.cos(2), np.sin(2), 0], abs=1e-5)
+    across = (left.xpos - right.xpos) / 0.085
+    assert across == pytest.approx([-np.sin(2), np.cos(2), 0], abs=1e-5)
+
+
+def test_each_torque_that_reaches_mujoco_is_within_peak_and_line(
+    qrio: Robot, flat: mujoco.MjModel
+) -> None:
+    simulation = Simulation(flat, qrio)
+    rng = np.random.default_rng(0)
+    limits = qrio.limits
+    for _ in range(40):
+        wild = JointTargets(rng.normal(0, 2, 26), rng.normal(0, 9, 26), rng.normal(0, 9, 26))
+        velocity = simulation.joint_velocities.copy()
+        simulation.advance(wild)
+        first = simulation.audit.ctrl.array()[-5]
+        assert (np.abs(first) <= limits.peak_torque).all()
+        line = limits.stall_torque * (1.0 - np.abs(velocity) / limits.no_load_speed)
+        driving = first * velocity > 0.0
+        assert (np.abs(first) <= np.maximum(line, 0.0) + 1e-12)[driving].all()
+        assert (simulation.data.ctrl == simulation.audit.ctrl.array()[-1]).all()
+
+
+def eventful(robot: Robot, model: mujoco.MjModel) -> Simulation:
+    """Two seconds with a push, a slippery floor and a kidnapping."""
+    simulation = Simulation(model, robot, Start(yaw=0.4))
+    push = np.zeros((model.nbody, 6))
+    push[model.body("torso").id, 1] = 4.0
+    friction = model.geom_friction.copy()
+    for tick in range(200):
+        if tick == 50:
+            simulation.set("xfrc_applied", push)
+        if tick == 60:
+            simulation.set("xfrc_applied", 0.0)
+        if tick == 80:
+            slippery = friction.copy()
+            slippery[:, 0] = 0.3
+            simulation.set("geom_friction", slippery)
+        if tick == 120:
+            simulation.set("qpos", simulation.standing_qpos(Start(1.0, 1.0, -1.0)))
+            simulation.set("qvel", 0.0)
+        simulation.advance(standing(robot))
+    model.geom_friction[:] = friction
+    return simulation
+
+
+def test_plain_mujoco_steps_to_the_same_states_bit_for_bit(
+    qrio: Robot, flat: mujoco.MjModel, tmp_path: Path
+) -> None:
+    simulation = eventful(qrio, flat)
+    simulation.save_audit(tmp_path)
+    with np.load(tmp_path / "physics.npz") as arrays:
+        assert arrays["ctrl"].shape == (1000, 26)
+        assert arrays["qpos"].shape == (200, 33)
+        assert arrays["event_step"].tolist() == [250, 300, 400, 600]
+        assert arrays["xfrc_applied"].shape == (4, flat.nbody, 6)
+        assert np.isnan(arrays["event_qpos"][:3]).all()
+    assert replay_audit(tmp_path) is None
+
+
+@pytest.mark.parametrize("key", ["ctrl", "xfrc_applied", "geom_friction", "qpos", "event_qpos"])
+def test_a_changed_audit_does_not_step_to_the_same_states(
+    qrio: Robot, flat: mujoco.MjModel, tmp_path: Path, key: str
+) -> None:
+    eventful(qrio, flat).save_audit(tmp_path)
+    with np.load(tmp_path / "physics.npz") as file:
+        arrays = dict(file)
+    arrays[key][-1 if key == "event_qpos" else 2] += 1e-3
+    np.savez(tmp_path / "physics.npz", **arrays)
+    assert replay_audit(tmp_path) is not None
+
+
+@pytest.mark.parametrize("name", ["model.mjb", "physics.npz"])
+def test_a_cut_audit_is_refused(
+    qrio: Robot, flat: mujoco.MjModel, tmp_path: Path, name: str
+) -> None:
+    eventful(qrio, flat).save_audit(tmp_path)
+    whole = (tmp_path / name).read_bytes()
+    (tmp_path / name).write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(InputError, match=name):
+        replay_audit(tmp_path)
+    (tmp_path / name).unlink()
+    with pytest.raises(InputError, match=name):
+        replay_audit(tmp_path)
+
+
+def test_two_runs_give_the_same_states(qrio: Robot, flat: mujoco.MjModel) -> None:
+    first, second = (eventful(qrio, flat).audit.qpos.array() for _ in range(2))
+    assert (first == second).all()
+
+
+def test_targets_that_are_not_finite_are_refused(qrio: Robot, flat: mujoco.MjModel) -> None:
+    simulation = Simulation(flat, qrio)
+    position = qrio.stand.copy()
+    position[3] = np.nan
+    with pytest.raises(SimulationError, match="position"):
+        simulation.advance(JointTargets(position, np.zeros(26), np.zeros(26)))
+    with pytest.raises(SimulationError, match="torque"):
+        simulation.advance(JointTargets(qrio.stand, np.zeros(26), np.zeros(25)))
+
+
+def test_physics_that_diverge_are_an_error_with_the_time(
+    qrio: Robot, flat: mujoco.MjModel, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)  # MuJoCo writes its warnings to a file there
+    simulation = Simulation(flat, qrio)
+    simulation.advance(standing(qrio))
+    simulation.set("qvel", np.full(flat.nv, 1e12))
+    with pytest.raises(SimulationError, match=r"diverged at 0\.02 s"):
+        simulation.advance(standing(qrio))
