@@ -1,12 +1,14 @@
-"""What happens on the way: a scenario's events, applied to the physics and logged for the audit."""
+"""What happens on the way: a scenario's events, applied to the physics when they are due."""
 
 import math
-from dataclasses import dataclass, field
-from typing import Final, Literal
+from dataclasses import dataclass
+from typing import Final, Protocol
 
 import mujoco
 import numpy as np
+from numpy.typing import ArrayLike
 
+from treadwell.audit import STEPS_PER_TICK
 from treadwell.course import LEVEL_TOLERANCE, Course, CourseElement
 from treadwell.course_model import parked
 from treadwell.course_pieces import Floats, about_z
@@ -26,25 +28,17 @@ from treadwell.scenario_events import (
 from treadwell.scenario_values import element_names
 
 PUSH_SECONDS: Final = 0.1
-STEPS_A_MOVE: Final = 5
-"""Physics steps between two places of a moving element: one control tick."""
-
-Field = Literal["xfrc_applied", "qpos", "mocap_pos", "geom_friction"]
 
 
-@dataclass(frozen=True, eq=False)
-class Change:
-    """One write to the physics, for the audit: before step `step`, `field` became `value`.
+class Physics(Protocol):
+    """What events change: the simulation, as far as they need it."""
 
-    Attributes:
-        step: the number of steps done before; setting the field and then stepping repeats it.
-        field: of `MjData`, or of `MjModel` for `geom_friction`.
-        value: the whole field as it was set.
-    """
+    model: mujoco.MjModel
+    data: mujoco.MjData
+    steps: int
 
-    step: int
-    field: Field
-    value: Floats
+    def set(self, field: str, value: ArrayLike) -> None:
+        """Set a whole field of the model or the data before the next step, and audit it."""
 
 
 @dataclass
@@ -57,55 +51,50 @@ class Motion:
     speed: float
 
 
-@dataclass
 class Events:
     """Applies each event of a scenario once, when its time or place has come.
 
-    Call `before_step` before every physics step. What events do to the senses is read from
+    Call `before_tick` before every control tick. What events do to the senses is read from
     `is_blind` and `encoder_offsets`.
 
     Attributes:
-        log: every write to the physics in order.
         encoder_offsets: joint -> radians that its encoder reads wrong by.
         present: names of the elements that are there now.
-        fired: (time in seconds, what happened) in order, for the record.
+        fired: (time in seconds, `do`) of what has happened, in order, for the record.
     """
 
-    scenario: Scenario
-    course: Course
-    robot: Robot
-    log: list[Change] = field(default_factory=list)
-    encoder_offsets: dict[str, float] = field(default_factory=dict)
-    present: set[str] = field(default_factory=set)
-    fired: list[tuple[float, str]] = field(default_factory=list)
+    def __init__(self, scenario: Scenario, course: Course, robot: Robot) -> None:
+        """Resolve names and indices once.
 
-    def __post_init__(self) -> None:
-        """Resolve names and indices once."""
-        model = self.course.model
-        self._pending: list[tuple[int, Event]] = list(enumerate(self.scenario.event))
-        self._added = _added_names(self.scenario)
-        self._torso = model.body(self.robot.file.body.torso).id
-        self._base = int(model.joint(self.robot.base).qposadr[0])
-        self._timestep = float(model.opt.timestep)
+        Args:
+            scenario: whose events these are.
+            course: built from it.
+            robot: the robot on it.
+        """
+        self.encoder_offsets: dict[str, float] = {}
+        self.present = {element.name for element in course.elements if element.present}
+        self.fired: list[tuple[float, str]] = []
+        self._course = course
+        self._pending: list[tuple[int, Event]] = list(enumerate(scenario.event))
+        self._added = _added_names(scenario)
+        self._torso = course.model.body(robot.file.body.torso).id
+        self._base = int(course.model.joint(robot.base).qposadr[0])
         self._pushes: list[tuple[int, Floats]] = []
         self._motions: dict[str, Motion] = {}
         self._blind_until = -math.inf
-        self.present |= {element.name for element in self.course.elements if element.present}
 
-    def before_step(self, data: mujoco.MjData, step: int) -> None:
-        """Do what is due before the physics makes step number `step`, counted from 0."""
+    def before_tick(self, physics: Physics) -> None:
+        """Do what is due before the physics goes on by one control tick."""
         if not (self._pending or self._pushes or self._motions):
             return
-        time = step * self._timestep
-        position = data.qpos[self._base : self._base + 2]
-        due = [item for item in self._pending if _is_due(item[1], time, position)]
-        for index, event in due:
-            self._pending.remove((index, event))
-            self.fired.append((time, event.do))
-            self._apply(index, event, data, step)
-        self._end_pushes(data, step)
-        if step % STEPS_A_MOVE == 0:
-            self._advance_motions(data, step)
+        time = physics.steps * physics.model.opt.timestep
+        position = physics.data.qpos[self._base : self._base + 2].copy()
+        for item in [item for item in self._pending if _is_due(item[1], time, position)]:
+            self._pending.remove(item)
+            self.fired.append((time, item[1].do))
+            self._apply(*item, physics, time)
+        self._end_pushes(physics)
+        self._advance_motions(physics)
 
     def is_blind(self, time: float) -> bool:
         """Say whether the depth camera sees nothing at a simulated time, seconds."""
@@ -119,94 +108,96 @@ class Events:
         return offset
 
     def _apply(  # noqa: C901 - one case for each kind of event
-        self, index: int, event: Event, data: mujoco.MjData, step: int
+        self, index: int, event: Event, physics: Physics, time: float
     ) -> None:
         match event:
             case Add():
-                self._put(self._added[index], data, step, there=True)
+                self._put(self._added[index], physics, there=True)
             case Remove():
                 if event.name in self.present:
                     self._motions.pop(event.name, None)
-                    self._put(event.name, data, step, there=False)
+                    self._put(event.name, physics, there=False)
             case Move():
-                element = self.course.element(event.name)
+                element = self._course.element(event.name)
                 if element is not None and event.name in self.present:
                     self._motions[event.name] = Motion(element, np.array(event.to), event.speed)
             case Push():
-                last = step + round(PUSH_SECONDS / self._timestep)
+                last = physics.steps + round(PUSH_SECONDS / physics.model.opt.timestep)
                 self._pushes.append((last, np.array(event.impulse) / PUSH_SECONDS))
-                self._set_force(data, step)
+                self._set_force(physics)
             case Kidnap():
-                self._kidnap(event, data, step)
+                self._kidnap(event, physics)
             case Blind():
-                self._blind_until = max(self._blind_until, step * self._timestep + event.duration)
+                self._blind_until = max(self._blind_until, time + event.duration)
             case ChangeFriction():
-                self.course.model.geom_friction[:, 0] = event.value
-                self._write("geom_friction", self.course.model.geom_friction, step)
+                friction = physics.model.geom_friction.copy()
+                friction[:, 0] = event.value
+                physics.set("geom_friction", friction)
             case EncoderOffset():
                 before = self.encoder_offsets.get(event.joint, 0.0)
                 self.encoder_offsets[event.joint] = before + event.value
 
-    def _put(self, name: str, data: mujoco.MjData, step: int, *, there: bool) -> None:
+    def _put(self, name: str, physics: Physics, *, there: bool) -> None:
         """Let an element appear where the scenario has it, or vanish."""
-        element = self.course.element(name)
+        element = self._course.element(name)
         if element is None or element.mocap_id is None:
             return
-        data.mocap_pos[element.mocap_id] = element.origin if there else parked(element.origin)
+        places = physics.data.mocap_pos.copy()
+        places[element.mocap_id] = element.origin if there else parked(element.origin)
         (self.present.add if there else self.present.discard)(name)
-        self._write("mocap_pos", data.mocap_pos, step)
+        physics.set("mocap_pos", places)
 
-    def _set_force(self, data: mujoco.MjData, step: int) -> None:
+    def _set_force(self, physics: Physics) -> None:
         """Set the sum of all pushes that act, as a force on the torso in the world frame."""
-        data.xfrc_applied[self._torso, :3] = sum((force for _, force in self._pushes), np.zeros(3))
-        self._write("xfrc_applied", data.xfrc_applied, step)
+        forces = physics.data.xfrc_applied.copy()
+        forces[self._torso, :3] = sum((force for _, force in self._pushes), np.zeros(3))
+        physics.set("xfrc_applied", forces)
 
-    def _end_pushes(self, data: mujoco.MjData, step: int) -> None:
-        acting = [push for push in self._pushes if step < push[0]]
+    def _end_pushes(self, physics: Physics) -> None:
+        acting = [push for push in self._pushes if physics.steps < push[0]]
         if len(acting) < len(self._pushes):
             self._pushes = acting
-            self._set_force(data, step)
+            self._set_force(physics)
 
-    def _advance_motions(self, data: mujoco.MjData, step: int) -> None:
+    def _advance_motions(self, physics: Physics) -> None:
         """Take every moving element on by one control tick, in the order in which they began."""
         if not self._motions:
             return
+        places = physics.data.mocap_pos.copy()
         for name, motion in list(self._motions.items()):
-            place = data.mocap_pos[motion.element.mocap_id]
+            place = places[motion.element.mocap_id]
             way = motion.target - place[:2]
             distance = float(np.hypot(*way))
-            stride = motion.speed * STEPS_A_MOVE * self._timestep
+            stride = motion.speed * STEPS_PER_TICK * physics.model.opt.timestep
             if distance <= stride:
                 place[:2] = motion.target
                 del self._motions[name]
             else:
                 place[:2] += way * (stride / distance)
-        self._write("mocap_pos", data.mocap_pos, step)
+        physics.set("mocap_pos", places)
 
-    def _kidnap(self, event: Kidnap, data: mujoco.MjData, step: int) -> None:
+    def _kidnap(self, event: Kidnap, physics: Physics) -> None:
         """Put the robot elsewhere as it stands: its height above the surface and its tilt stay."""
-        pose = data.qpos[self._base : self._base + 7]
-        below = self._surface(float(pose[0]), float(pose[1]), float(pose[2]), None)
-        above = self._surface(*event.position, math.inf, event.height)
+        positions = physics.data.qpos.copy()
+        pose = positions[self._base : self._base + 7]
+        before = self._surface(float(pose[0]), float(pose[1]), float(pose[2]), None)
+        after = self._surface(*event.position, math.inf, event.height)
         w, x, y, z = pose[3:7]
         yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
         turned = np.zeros(4)
         mujoco.mju_mulQuat(turned, about_z(event.yaw - yaw), pose[3:7])
         pose[:2] = event.position
-        pose[2] += above - below
+        pose[2] += after - before
         pose[3:7] = turned
-        self._write("qpos", data.qpos, step)
+        physics.set("qpos", positions)
 
     def _surface(self, x: float, y: float, z: float, height: float | None) -> float:
         """Return the surface at a point: the one named, or the highest that lies below `z`."""
-        levels = self.course.levels_at(x, y) or [0.0]
+        levels = self._course.levels_at(x, y) or [0.0]
         if height is not None:
             named = [level for level in levels if abs(level - height) <= LEVEL_TOLERANCE]
             return named[0] if named else height
         return max((level for level in levels if level < z), default=levels[0])
-
-    def _write(self, name: Field, value: Floats, step: int) -> None:
-        self.log.append(Change(step, name, np.array(value)))
 
 
 def _added_names(scenario: Scenario) -> dict[int, str]:
