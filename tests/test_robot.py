@@ -8,7 +8,6 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-
 from treadwell.data import data_folder
 from treadwell.errors import InputError
 from treadwell.robot import Robot, load_robot, robot_names

@@ -5,7 +5,6 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-
 from treadwell.audit import replay_audit
 from treadwell.errors import InputError, SimulationError
 from treadwell.motors import JointTargets
