@@ -1,0 +1,48 @@
+# Everything a newcomer needs: `make demo`, then `make test`. Rust, Python 3.11 and a package registry are enough.
+
+PYTHON ?= python3
+UV_VERSION := 0.13.8
+# uv from the machine where it is there, else a pinned one in a folder of the project.
+UV := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
+RUN := $(UV) run --locked --quiet
+DEMO ?= slalom
+
+.PHONY: setup demo test check lint format bench clean
+
+setup: .venv/.ready ## the environment in .venv, with the command .venv/bin/treadwell
+
+.venv/.ready: $(UV) pyproject.toml uv.lock Cargo.toml Cargo.lock
+	$(UV) sync --locked
+	@touch $@
+
+.uv/bin/uv:
+	$(PYTHON) -m venv .uv
+	.uv/bin/pip install --quiet --disable-pip-version-check uv==$(UV_VERSION)
+
+demo: setup ## one episode: the result, and where its pictures are
+	$(RUN) treadwell run $(DEMO)
+
+test: setup lint ## every check and every test
+	$(CARGO_TEST)
+	cargo test --workspace --doc --quiet
+	$(RUN) pytest -q
+
+CARGO_TEST := $(shell cargo nextest --version >/dev/null 2>&1 && echo "cargo nextest run --workspace" || echo "cargo test --workspace --lib --bins --tests")
+
+lint: setup
+	cargo fmt --check
+	cargo clippy --workspace --all-targets --quiet -- -D warnings
+	$(RUN) ruff check
+	$(RUN) ruff format --check
+	$(RUN) mypy
+	$(RUN) python -m mypy.stubtest treadwell._core
+
+format: setup
+	cargo fmt
+	$(RUN) ruff check --fix
+	$(RUN) ruff format
+
+check: test
+
+clean:
+	rm -rf target .venv .uv dist
