@@ -213,7 +213,7 @@ def _depth(
         stereo = StereoModel(StereoConfig(**values), pinhole, pattern, noise)
     return DepthSensor(
         model,
-        DepthCamera(model, table.name, pinhole, mount),
+        DepthCamera(model, table.name, pinhole, mount, every_pixel=stereo is None),
         stereo,
         np.ones(model.ngeom) if texture is None else texture,
         round(table.period * 1e9),
