@@ -1,0 +1,51 @@
+"""Claims about robot.toml: what does not have its form is refused with the key."""
+
+from pathlib import Path
+
+import pytest
+from treadwell.data import data_folder
+from treadwell.errors import InputError
+from treadwell.robot_file import read_robot_file
+
+QRIO = data_folder("models") / "qrio" / "robot.toml"
+
+BROKEN = [
+    ("[head]", "[head", "TOML"),
+    ("kp = 150.0", "kp = 0.0", r"motors\.hip_and_knee\.kp.*greater than 0, got 0"),
+    ("kp = 150.0", "kp = nan", r"motors\.hip_and_knee\.kp"),
+    ("kp = 150.0", "kb = 150.0", r"motors\.hip_and_knee\.kb: unknown key"),
+    ("period = 0.08", "period = 0.085", "multiple of the control tick"),
+    ("stall_torque = 1.4", "stall_torque = 0.4", "must not be below peak_torque"),
+    ('model = "qrio.xml"', 'model = "../qrio.xml"', r"robot\.model"),
+]
+
+
+def test_the_file_of_qrio_has_the_form() -> None:
+    assert read_robot_file(QRIO).robot.model == "qrio.xml"
+
+
+@pytest.mark.parametrize(("old", "new", "message"), BROKEN)
+def test_a_broken_file_is_refused_with_its_path_and_key(
+    tmp_path: Path, old: str, new: str, message: str
+) -> None:
+    text = QRIO.read_text(encoding="utf-8")
+    assert old in text
+    path = tmp_path / "robot.toml"
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    with pytest.raises(InputError, match=message) as error:
+        read_robot_file(path)
+    assert str(path) in str(error.value)
+
+
+def test_every_wrong_key_is_told_at_once(tmp_path: Path) -> None:
+    text = QRIO.read_text(encoding="utf-8")
+    path = tmp_path / "robot.toml"
+    text = text.replace("radius = 0.14", "radius = 0").replace("width = 88", "width = 8.5")
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=r"body\.radius.*got 0\n.*camera\.width.*got 8\.5"):
+        read_robot_file(path)
+
+
+def test_a_missing_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"robot\.toml: cannot be read"):
+        read_robot_file(tmp_path / "robot.toml")
