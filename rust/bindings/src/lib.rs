@@ -1,13 +1,24 @@
 //! The Python module `treadwell._core`: converts and forwards, decides nothing. One file a class.
 
+mod components;
 mod error;
 mod observation;
+mod pilot;
+mod products;
+mod situation;
 
 use pyo3::prelude::*;
 
 #[pymodule]
 mod _core {
     use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use super::pilot::{PyPilot, PyTick};
+    #[pymodule_export]
+    use super::products::{PyBodyState, PyFloorView, PyPlanes};
+    #[pymodule_export]
+    use super::situation::{PyGoal, PyScan, PySituation};
 
     /// Version of the core; equal to the package's.
     #[pyfunction]

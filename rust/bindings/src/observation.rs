@@ -19,7 +19,11 @@ pub(crate) fn empty() -> Observation {
     }
 }
 
-fn read_vector(object: &Bound<'_, PyAny>, name: &Bound<'_, pyo3::types::PyString>, into: &mut [f64]) -> PyResult<()> {
+fn read_vector(
+    object: &Bound<'_, PyAny>,
+    name: &Bound<'_, pyo3::types::PyString>,
+    into: &mut [f64],
+) -> PyResult<()> {
     let array: PyReadonlyArray1<'_, f64> = object.getattr(name)?.extract()?;
     let view = array.as_array();
     if view.len() != into.len() {
@@ -35,7 +39,11 @@ fn read_vector(object: &Bound<'_, PyAny>, name: &Bound<'_, pyo3::types::PyString
     Ok(())
 }
 
-fn read_joints(object: &Bound<'_, PyAny>, name: &Bound<'_, pyo3::types::PyString>, into: &mut Vec<f64>) -> PyResult<()> {
+fn read_joints(
+    object: &Bound<'_, PyAny>,
+    name: &Bound<'_, pyo3::types::PyString>,
+    into: &mut Vec<f64>,
+) -> PyResult<()> {
     let array: PyReadonlyArray1<'_, f64> = object.getattr(name)?.extract()?;
     into.clear();
     into.extend(array.as_array().iter());
@@ -62,16 +70,40 @@ pub(crate) fn read(
 ) -> PyResult<()> {
     let py = object.py();
     into.time_ns = object.getattr(intern!(py, "time_ns"))?.extract()?;
-    read_joints(object, intern!(py, "joint_positions"), &mut into.joint_positions_rad)?;
-    read_joints(object, intern!(py, "joint_velocities"), &mut into.joint_velocities_radps)?;
-    read_vector(object, intern!(py, "angular_velocity"), &mut into.angular_velocity_radps)?;
-    read_vector(object, intern!(py, "specific_force"), &mut into.specific_force_mps2)?;
+    read_joints(
+        object,
+        intern!(py, "joint_positions"),
+        &mut into.joint_positions_rad,
+    )?;
+    read_joints(
+        object,
+        intern!(py, "joint_velocities"),
+        &mut into.joint_velocities_radps,
+    )?;
+    read_vector(
+        object,
+        intern!(py, "angular_velocity"),
+        &mut into.angular_velocity_radps,
+    )?;
+    read_vector(
+        object,
+        intern!(py, "specific_force"),
+        &mut into.specific_force_mps2,
+    )?;
     let feet: PyReadonlyArray2<'_, f64> = object.getattr(intern!(py, "foot_forces"))?.extract()?;
     let feet = feet.as_array();
     if feet.dim() != (2, 4) {
-        return Err(PyValueError::new_err(format!("foot_forces must be (2, 4), got {:?}", feet.dim())));
+        return Err(PyValueError::new_err(format!(
+            "foot_forces must be (2, 4), got {:?}",
+            feet.dim()
+        )));
     }
-    for (slot, value) in into.foot_forces_n.as_flattened_mut().iter_mut().zip(feet.iter()) {
+    for (slot, value) in into
+        .foot_forces_n
+        .as_flattened_mut()
+        .iter_mut()
+        .zip(feet.iter())
+    {
         *slot = *value;
     }
     if let Some(frame) = into.depth.take() {

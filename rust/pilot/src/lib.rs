@@ -1,1 +1,16 @@
-//! pilot
+//! One tick through all floors. Wires the stages together and contains no algorithm.
+
+mod error;
+mod goals;
+mod perception;
+mod registry;
+mod settings;
+mod tick;
+mod timing;
+
+pub use error::PilotError;
+pub use perception::Perception;
+pub use registry::Components;
+pub use settings::{GoalSettings, Navigation, Settings, StartSettings};
+pub use tick::{Pilot, Tick};
+pub use timing::{STAGES, Timing};

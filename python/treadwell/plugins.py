@@ -1,0 +1,58 @@
+"""Components of the user's: found by `package.module:Class`, made, and checked for their methods."""
+
+import importlib
+from typing import Any
+
+from treadwell.components import COMPONENTS
+from treadwell.errors import InputError
+
+METHODS = {
+    "segmenter": ("segment",),
+    "world_model": ("insert", "view"),
+    "localizer": ("correct", "estimate"),
+    "planner": ("plan",),
+    "behaviour": ("next",),
+}
+"""Slot -> the methods of its protocol in `treadwell.protocols`."""
+
+
+def load_component(slot: str, name: str, parameters: dict[str, Any]) -> object:
+    """Return an object of the class that `name` means.
+
+    Args:
+        slot: which component it is to be.
+        name: `package.module:Class`.
+        parameters: keyword arguments for the class: its table `[navigation.Class]`.
+
+    Raises:
+        InputError: there is no such module or class, it cannot be made, or a method is missing.
+    """
+    where = f"navigation.{slot}"
+    module_name, _, class_name = name.partition(":")
+    try:
+        module = importlib.import_module(module_name)
+    except Exception as error:
+        raise InputError(f"{where}: cannot import {module_name}: {error!r}") from error
+    made = getattr(module, class_name, None)
+    if made is None:
+        raise InputError(f"{where}: {module_name} has no class {class_name}")
+    try:
+        component: object = made(**parameters)
+    except Exception as error:
+        raise InputError(f"{where}: cannot make {name}: {error!r}") from error
+    check_component(slot, component)
+    return component
+
+
+def check_component(slot: str, component: object) -> None:
+    """Refuse an object that lacks a method of its slot's protocol.
+
+    Raises:
+        InputError: the slot or a method does not exist.
+    """
+    if slot not in COMPONENTS:
+        raise InputError(f"{slot}: no such component; there are {', '.join(COMPONENTS)}")
+    missing = [name for name in METHODS[slot] if not callable(getattr(component, name, None))]
+    if missing:
+        kind = type(component).__name__
+        raise InputError(f"{slot}: {kind} has no method {', '.join(missing)}")

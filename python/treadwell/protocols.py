@@ -1,0 +1,132 @@
+"""The five components that a user can replace, as protocols of the same shape as the core's traits.
+
+A component is chosen by name, by `package.module:Class` in a scenario, or given as an object to
+`treadwell.run`. Inputs are read-only. What a method raises ends the episode with the outcome
+`error` and the component's name. Map frame, metres and radians throughout; a pose is
+(x, y, z, yaw).
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from treadwell._core import BodyState, FloorView, Goal, Planes, Scan, Situation
+
+Pose = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Segmentation:
+    """What a segmenter finds in a scan.
+
+    Attributes:
+        labels: (pixels,) uint16, region of each pixel plus one, 0 for none; row by row.
+        floor_heights: for each region its height above the robot's ground in metres, None when it
+            is not horizontal.
+        robot_from_camera: (4, 4) the camera's pose, corrected where the ground allows it.
+        ground: index of the region that is the ground, None when it was not found.
+        reliable: whether the heights may be trusted.
+    """
+
+    labels: NDArray[np.uint16]
+    floor_heights: list[float | None]
+    robot_from_camera: NDArray[np.float64]
+    ground: int | None
+    reliable: bool
+
+
+class Segmenter(Protocol):
+    """Finds planes in a scan."""
+
+    def segment(self, scan: Scan, /) -> Segmentation:
+        """Return the regions of one depth image."""
+
+
+class FloorMap(Protocol):
+    """The floor, obstacle and unknown view that planners read; the core's `FloorView` is one."""
+
+    @property
+    def origin(self) -> tuple[float, float]:
+        """Lower-left corner of cell (0, 0), m."""
+
+    @property
+    def cell(self) -> float:
+        """Side of a cell, m."""
+
+    @property
+    def kind(self) -> NDArray[np.uint8]:
+        """(rows, cols): 0 unknown, 1 floor, 2 obstacle; rows along +y."""
+
+    @property
+    def height(self) -> NDArray[np.float32]:
+        """(rows, cols): height in the map frame, m; NaN where unknown."""
+
+
+class WorldModel(Protocol):
+    """Keeps a model of the world."""
+
+    def insert(self, planes: Planes, pose: Pose, /) -> bool:
+        """Take in one frame seen from `pose`; return whether it was used."""
+
+    def view(self) -> FloorMap:
+        """Return what planners read, as of the last insertion."""
+
+
+class Localizer(Protocol):
+    """Keeps the robot's pose in the map."""
+
+    def correct(self, body: BodyState, planes: Planes, view: FloorView, /) -> None:
+        """Learn from a segmented frame, before the map takes it in."""
+
+    def estimate(self, body: BodyState, /) -> Pose:
+        """Return the pose at a control tick."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plan:
+    """What a planner found.
+
+    Attributes:
+        path: (n, 2) points from the robot to the goal, None when there is no way.
+        reason: one sentence when there is no way.
+        replanned: whether it was planned anew.
+    """
+
+    path: NDArray[np.float64] | None
+    reason: str = ""
+    replanned: bool = True
+
+
+class Planner(Protocol):
+    """Finds a way over the floor that the world model shows."""
+
+    def plan(self, view: FloorView, start: tuple[float, float, float], goal: Goal, /) -> Plan:
+        """Return a way from `start` (x, y, yaw) to the goal's disc."""
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """What a behaviour decides.
+
+    Attributes:
+        state: name of the state, for the recording's lane.
+        velocity: (forward m/s, left m/s, counter-clockwise rad/s), None to stand.
+        gaze: (pan to the left, down from the horizon), rad.
+        goal_passed: go for the next goal.
+        outcome: `goal_reached`, or `word: sentence` to refuse; None to go on.
+    """
+
+    state: str
+    velocity: tuple[float, float, float] | None = None
+    gaze: tuple[float, float] = (0.0, 0.6)
+    goal_passed: bool = False
+    outcome: str | None = None
+
+
+class Behaviour(Protocol):
+    """Decides what to do next."""
+
+    def next(self, situation: Situation, /) -> Decision:
+        """Return the decision at a control tick."""

@@ -1,0 +1,101 @@
+//! A planner of the user's.
+
+use geometry::PlanarPose;
+use mapping::{FloorView, Surface};
+use numpy::PyReadonlyArray2;
+use planning::{Goal, NoWay, Path, Plan, PlanError, Planner, Refusal};
+use pyo3::exceptions::PyValueError;
+use pyo3::intern;
+use pyo3::prelude::*;
+
+use super::sentence;
+use crate::products::PyFloorView;
+use crate::situation::PyGoal;
+
+struct PythonPlanner(Py<PyAny>);
+
+/// Wraps an object with the method of `treadwell.protocols.Planner`.
+pub(crate) fn planner(object: Py<PyAny>) -> Box<dyn Planner> {
+    Box::new(PythonPlanner(object))
+}
+
+impl PythonPlanner {
+    fn ask(
+        &self,
+        py: Python<'_>,
+        view: &FloorView,
+        start: PlanarPose,
+        goal: &Goal,
+    ) -> PyResult<Plan> {
+        let arguments = (
+            PyFloorView(view.clone()),
+            (start.x_m, start.y_m, start.yaw_rad),
+            PyGoal(*goal),
+        );
+        let plan = self
+            .0
+            .bind(py)
+            .call_method1(intern!(py, "plan"), arguments)?;
+        let replanned = plan.getattr(intern!(py, "replanned"))?.extract()?;
+        let path = plan.getattr(intern!(py, "path"))?;
+        if path.is_none() {
+            let sentence: String = plan.getattr(intern!(py, "reason"))?.extract()?;
+            return Ok(Plan {
+                way: Err(NoWay {
+                    refusal: Refusal::NoPath,
+                    sentence,
+                }),
+                replanned,
+            });
+        }
+        let points: PyReadonlyArray2<'_, f64> = path.extract()?;
+        let points = points.as_array();
+        if points.ncols() != 2 || points.nrows() == 0 {
+            return Err(PyValueError::new_err(format!(
+                "path must be (n, 2) with n > 0, got {:?}",
+                points.dim()
+            )));
+        }
+        if points.iter().any(|value| !value.is_finite()) {
+            return Err(PyValueError::new_err("path must be finite"));
+        }
+        let points_m: Vec<[f64; 2]> = points
+            .rows()
+            .into_iter()
+            .map(|row| [row[0], row[1]])
+            .collect();
+        Ok(Plan {
+            way: Ok(describe(points_m, view)),
+            replanned,
+        })
+    }
+}
+
+/// Adds to the user's points what the core's planners say of theirs. Clearance is not known: it counts as wide.
+fn describe(points_m: Vec<[f64; 2]>, view: &FloorView) -> Path {
+    let unknown = points_m
+        .iter()
+        .map(|[x, y]| view.at(*x, *y) == Surface::Unknown)
+        .collect();
+    let clearance_m = vec![f64::INFINITY; points_m.len()];
+    let length = |pair: &[[f64; 2]]| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
+    let cost_m = points_m.windows(2).map(length).sum();
+    Path {
+        points_m,
+        unknown,
+        clearance_m,
+        cost_m,
+    }
+}
+
+impl Planner for PythonPlanner {
+    fn plan(
+        &mut self,
+        view: &FloorView,
+        start: PlanarPose,
+        goal: &Goal,
+    ) -> Result<Plan, PlanError> {
+        Python::attach(|py| self.ask(py, view, start, goal))
+            .map_err(|error| PlanError::Failed(sentence(&error)))
+    }
+}

@@ -1,0 +1,100 @@
+//! A world model of the user's.
+
+use geometry::{Grid, Lattice, Map, Pose, Robot};
+use mapping::{FloorView, Insertion, MapError, Surface, WorldModel};
+use numpy::PyReadonlyArray2;
+use pyo3::exceptions::PyValueError;
+use pyo3::intern;
+use pyo3::prelude::*;
+use segmentation::Planes;
+
+use super::sentence;
+use crate::products::PyPlanes;
+
+struct PythonWorldModel {
+    object: Py<PyAny>,
+    view: FloorView,
+}
+
+/// Wraps an object with the methods of `treadwell.protocols.WorldModel`.
+pub(crate) fn world_model(object: Py<PyAny>) -> Box<dyn WorldModel> {
+    let view = FloorView {
+        lattice: Lattice {
+            origin_m: [0.0; 2],
+            cell_m: 1.0,
+        },
+        cells: Grid::filled(0, 0, Surface::Unknown),
+        sightings: Grid::filled(0, 0, 0),
+    };
+    Box::new(PythonWorldModel { object, view })
+}
+
+impl PythonWorldModel {
+    fn ask(
+        &mut self,
+        py: Python<'_>,
+        planes: &Planes,
+        map_from_robot: &Pose<Map, Robot>,
+    ) -> PyResult<bool> {
+        let origin = map_from_robot.origin().inner;
+        let pose = (origin.x, origin.y, origin.z, map_from_robot.yaw_rad());
+        let object = self.object.bind(py);
+        let used = object.call_method1(intern!(py, "insert"), (PyPlanes(planes.clone()), pose))?;
+        read_view(&object.call_method0(intern!(py, "view"))?, &mut self.view)?;
+        used.extract()
+    }
+}
+
+fn read_view(object: &Bound<'_, PyAny>, into: &mut FloorView) -> PyResult<()> {
+    let py = object.py();
+    let kind: PyReadonlyArray2<'_, u8> = object.getattr(intern!(py, "kind"))?.extract()?;
+    let height: PyReadonlyArray2<'_, f32> = object.getattr(intern!(py, "height"))?.extract()?;
+    let (kind, height) = (kind.as_array(), height.as_array());
+    if kind.dim() != height.dim() {
+        return Err(PyValueError::new_err(format!(
+            "kind and height must have one shape, got {:?} and {:?}",
+            kind.dim(),
+            height.dim()
+        )));
+    }
+    into.lattice.origin_m = object.getattr(intern!(py, "origin"))?.extract()?;
+    into.lattice.cell_m = object.getattr(intern!(py, "cell"))?.extract()?;
+    let (rows, cols) = kind.dim();
+    if (into.cells.rows(), into.cells.cols()) != (rows, cols) {
+        into.cells = Grid::filled(cols, rows, Surface::Unknown);
+        into.sightings = Grid::filled(cols, rows, 0);
+    }
+    for ((slot, &kind), &height) in into.cells.values_mut().iter_mut().zip(kind).zip(height) {
+        *slot = match kind {
+            0 => Surface::Unknown,
+            1 => Surface::Floor(height),
+            2 => Surface::Obstacle(height),
+            other => {
+                return Err(PyValueError::new_err(format!(
+                    "kind must be 0, 1 or 2, got {other}"
+                )));
+            }
+        };
+    }
+    Ok(())
+}
+
+impl WorldModel for PythonWorldModel {
+    fn insert(
+        &mut self,
+        planes: &Planes,
+        map_from_robot: &Pose<Map, Robot>,
+    ) -> Result<Insertion, MapError> {
+        let used = Python::attach(|py| self.ask(py, planes, map_from_robot))
+            .map_err(|error| MapError::Failed(sentence(&error)))?;
+        Ok(Insertion {
+            changed: self.view.cells.area(),
+            height_shift_m: None,
+            used,
+        })
+    }
+
+    fn view(&self) -> &FloorView {
+        &self.view
+    }
+}

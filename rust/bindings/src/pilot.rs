@@ -1,0 +1,174 @@
+//! The pilot: an observation in, joint targets out, every product to look at.
+
+use behaviour::Outcome;
+use numpy::{PyArray1, PyArray2, ToPyArray};
+use pilot::{Components, Pilot, STAGES, Settings};
+use pyo3::prelude::*;
+use sensing::{Frame, Observation};
+
+use crate::components;
+use crate::error::{bad_setting, failed};
+use crate::observation;
+use crate::products::{PyFloorView, PyPlanes, matrix};
+
+/// The whole core: an observation in, joint targets out.
+#[pyclass(name = "Pilot", module = "treadwell._core")]
+pub(crate) struct PyPilot {
+    pilot: Pilot,
+    observation: Observation,
+    spare: Option<Frame>,
+}
+
+/// What the core made of one observation.
+#[pyclass(frozen, name = "Tick", module = "treadwell._core")]
+pub(crate) struct PyTick {
+    /// (n,) rad, joint order.
+    #[pyo3(get)]
+    positions: Py<PyArray1<f64>>,
+    /// (n,) rad/s, joint order.
+    #[pyo3(get)]
+    velocities: Py<PyArray1<f64>>,
+    /// (n,) N m, joint order, on top of the servo's own.
+    #[pyo3(get)]
+    torques: Py<PyArray1<f64>>,
+    /// Name of the behaviour's state.
+    #[pyo3(get)]
+    state: &'static str,
+    /// "goal_reached", "refused" or None.
+    #[pyo3(get)]
+    outcome: Option<&'static str>,
+    /// `word: sentence` of a refusal, else None.
+    #[pyo3(get)]
+    reason: Option<String>,
+    /// (x m, y m, z m, yaw rad) of the robot in the map, as believed.
+    #[pyo3(get)]
+    estimate: [f64; 4],
+    /// (x m, y m, z m, yaw rad) of the robot by leg odometry alone.
+    #[pyo3(get)]
+    odometry: [f64; 4],
+}
+
+fn flat<T, S>(pose: &geometry::Pose<T, S>) -> [f64; 4] {
+    let origin = pose.origin().inner;
+    [origin.x, origin.y, origin.z, pose.yaw_rad()]
+}
+
+#[pymethods]
+impl PyPilot {
+    #[new]
+    #[pyo3(signature = (settings, *, segmenter=None, world_model=None, localizer=None, planner=None, behaviour=None))]
+    fn new(
+        py: Python<'_>,
+        settings: &str,
+        segmenter: Option<Py<PyAny>>,
+        world_model: Option<Py<PyAny>>,
+        localizer: Option<Py<PyAny>>,
+        planner: Option<Py<PyAny>>,
+        behaviour: Option<Py<PyAny>>,
+    ) -> PyResult<Self> {
+        let settings: Settings =
+            serde_json::from_str(settings).map_err(|error| bad_setting(py, &error))?;
+        let given = Components {
+            segmenter: segmenter.map(components::segmenter),
+            world_model: world_model.map(components::world_model),
+            localizer: localizer.map(components::localizer),
+            planner: planner.map(components::planner),
+            behaviour: behaviour.map(components::behaviour),
+        };
+        let pilot = Pilot::new(settings, given).map_err(|error| {
+            if error.is_bad_setting() {
+                bad_setting(py, &error)
+            } else {
+                failed(py, &error)
+            }
+        })?;
+        Ok(Self {
+            pilot,
+            observation: observation::empty(),
+            spare: None,
+        })
+    }
+
+    /// Takes in an observation and says what the motors shall do.
+    fn tick(&mut self, py: Python<'_>, observation: &Bound<'_, PyAny>) -> PyResult<PyTick> {
+        observation::read(observation, &mut self.observation, &mut self.spare)?;
+        let (pilot, observation) = (&mut self.pilot, &self.observation);
+        let tick = py
+            .detach(|| pilot.tick(observation))
+            .map_err(|error| failed(py, &error))?;
+        let (outcome, reason) = match &tick.decision.outcome {
+            None => (None, None),
+            Some(Outcome::GoalReached) => (Some("goal_reached"), None),
+            Some(Outcome::Refused(reason)) => (Some("refused"), Some(reason.clone())),
+        };
+        Ok(PyTick {
+            positions: tick.targets.positions_rad.to_pyarray(py).unbind(),
+            velocities: tick.targets.velocities_radps.to_pyarray(py).unbind(),
+            torques: tick.targets.torques_nm.to_pyarray(py).unbind(),
+            state: tick.decision.state,
+            outcome,
+            reason,
+            estimate: flat(&tick.estimate.map_from_robot),
+            odometry: flat(&tick.body_state.odometry_from_robot),
+        })
+    }
+
+    /// The planes of the last frame; a copy.
+    fn planes(&self) -> PyPlanes {
+        PyPlanes(self.pilot.perception().planes().clone())
+    }
+
+    /// The map's view; a copy.
+    fn view(&self) -> PyFloorView {
+        PyFloorView(self.pilot.perception().view().clone())
+    }
+
+    /// (n, 2) m: the path in the map frame; None where there is none.
+    fn path<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray2<f64>>> {
+        let path = self.pilot.plan()?.way.as_ref().ok()?;
+        let rows: Vec<Vec<f64>> = path.points_m.iter().map(|point| point.to_vec()).collect();
+        PyArray2::from_vec2(py, &rows).ok()
+    }
+
+    /// (4, 4): the camera in the robot's frame at the last frame, corrected by the ground plane.
+    fn robot_from_camera<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        matrix(py, &self.pilot.perception().planes().robot_from_camera)
+    }
+
+    /// How often a way was planned anew after the first.
+    #[getter]
+    fn replans(&self) -> u64 {
+        self.pilot.replans()
+    }
+
+    /// Steps taken so far.
+    #[getter]
+    fn steps_taken(&self) -> u64 {
+        self.pilot.steps_taken()
+    }
+
+    /// Frames taken into the map so far.
+    #[getter]
+    fn frames_used(&self) -> u64 {
+        self.pilot.perception().frames_used()
+    }
+
+    /// (pan to the left, down from the horizon) rad: where the head is told to look.
+    #[getter]
+    fn gaze(&self) -> [f64; 2] {
+        let gaze = self.pilot.gaze();
+        [gaze.pan_rad, gaze.down_rad]
+    }
+
+    /// Seconds that each stage took at the last tick, in the order of `stages`; NaN where it did not run.
+    #[getter]
+    fn timing(&self) -> [f64; STAGES.len()] {
+        self.pilot.timing().seconds
+    }
+
+    /// Names of the stages that `timing` counts.
+    #[classattr]
+    const fn stages() -> [&'static str; STAGES.len()] {
+        STAGES
+    }
+}

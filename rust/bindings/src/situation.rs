@@ -1,0 +1,143 @@
+//! What a user's planner and behaviour are told: the goal, the scan, the situation.
+
+use behaviour::Situation;
+use numpy::{PyArray2, PyArrayMethods, ToPyArray};
+use planning::Goal;
+use pyo3::prelude::*;
+
+use crate::products::{PyFloorView, matrix};
+
+/// Where to go: any place inside the disc on which the robot can stand.
+#[pyclass(frozen, name = "Goal", module = "treadwell._core")]
+pub(crate) struct PyGoal(pub(crate) Goal);
+
+#[pymethods]
+impl PyGoal {
+    /// (x, y) m: the disc's centre in the map frame.
+    #[getter]
+    fn position(&self) -> [f64; 2] {
+        [self.0.x_m, self.0.y_m]
+    }
+
+    /// The disc's radius, m.
+    #[getter]
+    fn radius(&self) -> f64 {
+        self.0.radius_m
+    }
+
+    /// Height of the level, m, or None.
+    #[getter]
+    fn height(&self) -> Option<f64> {
+        self.0.height_m
+    }
+}
+
+/// A depth image with where the joints say that the camera was.
+#[pyclass(frozen, name = "Scan", module = "treadwell._core")]
+pub(crate) struct PyScan(pub(crate) sensing::Scan);
+
+#[pymethods]
+impl PyScan {
+    /// When the picture was taken, nanoseconds since the start.
+    #[getter]
+    fn exposure_ns(&self) -> u64 {
+        self.0.exposure_ns
+    }
+
+    /// (h, w) float32: disparities, pixels; NaN where nothing was seen.
+    #[getter]
+    fn disparity<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let camera = self.0.camera;
+        self.0
+            .disparity_px
+            .to_pyarray(py)
+            .reshape([camera.height, camera.width])
+    }
+
+    /// Focal length, pixels.
+    #[getter]
+    fn focal(&self) -> f64 {
+        self.0.camera.focal_px
+    }
+
+    /// Distance between the eyes, m.
+    #[getter]
+    fn baseline(&self) -> f64 {
+        self.0.camera.baseline_m
+    }
+
+    /// (4, 4): the camera in the robot's frame by the measured joints.
+    #[getter]
+    fn robot_from_camera<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        matrix(py, &self.0.robot_from_camera)
+    }
+}
+
+/// Everything a decision may rest on.
+#[pyclass(frozen, name = "Situation", module = "treadwell._core")]
+pub(crate) struct PySituation {
+    /// Nanoseconds since the start.
+    #[pyo3(get)]
+    time_ns: u64,
+    /// (x m, y m, z m, yaw rad) of the robot in the map, as believed.
+    #[pyo3(get)]
+    estimate: [f64; 4],
+    /// (x, y) m of the goal that is pursued now.
+    #[pyo3(get)]
+    goal: [f64; 2],
+    /// Its radius, m.
+    #[pyo3(get)]
+    goal_radius: f64,
+    /// Whether it is the last one.
+    #[pyo3(get)]
+    last_goal: bool,
+    /// Points of the way, m; None where no way is known.
+    #[pyo3(get)]
+    path: Option<Vec<[f64; 2]>>,
+    /// Why there is no way, else None.
+    #[pyo3(get)]
+    no_way: Option<String>,
+    /// Whether the walker stands still on both soles.
+    #[pyo3(get)]
+    standing: bool,
+    /// (pan to the left, down from the horizon) rad: where the head looks.
+    #[pyo3(get)]
+    gaze: [f64; 2],
+    /// Depth frames taken into the map so far.
+    #[pyo3(get)]
+    frames_used: u64,
+    view: mapping::FloorView,
+}
+
+impl PySituation {
+    pub(crate) fn new(situation: &Situation<'_>) -> Self {
+        let pose = &situation.estimate.map_from_robot;
+        let origin = pose.origin().inner;
+        let way = situation.plan.map(|plan| &plan.way);
+        Self {
+            time_ns: situation.time_ns,
+            estimate: [origin.x, origin.y, origin.z, pose.yaw_rad()],
+            goal: [situation.goal.x_m, situation.goal.y_m],
+            goal_radius: situation.goal.radius_m,
+            last_goal: situation.last_goal,
+            path: way
+                .and_then(|way| way.as_ref().ok())
+                .map(|path| path.points_m.clone()),
+            no_way: way
+                .and_then(|way| way.as_ref().err())
+                .map(|no| format!("{}: {}", no.refusal.word(), no.sentence)),
+            standing: situation.standing,
+            gaze: [situation.gaze.pan_rad, situation.gaze.down_rad],
+            frames_used: situation.frames_used,
+            view: situation.view.clone(),
+        }
+    }
+}
+
+#[pymethods]
+impl PySituation {
+    /// The map's view; a copy.
+    fn view(&self) -> PyFloorView {
+        PyFloorView(self.view.clone())
+    }
+}

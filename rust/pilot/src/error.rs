@@ -1,0 +1,59 @@
+//! Everything that can stop the core, with the stage that said so.
+
+use behaviour::BehaviourError;
+use geometry::ConfigError;
+use localization::{LocalizerError, ProprioceptionError};
+use mapping::MapError;
+use planning::PlanError;
+use robot::BodyError;
+use segmentation::SegmentError;
+use sensing::{ObservationError, ScanError};
+use walking::WalkError;
+
+/// Why the core could not be built, or could not take an observation.
+#[derive(Debug, thiserror::Error)]
+pub enum PilotError {
+    /// A setting that cannot be used.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// A robot that is none.
+    #[error("robot: {0}")]
+    Body(#[from] BodyError),
+    /// Settings that are not what they should be.
+    #[error("settings: {0}")]
+    Settings(String),
+    /// An observation that is refused; nothing changed.
+    #[error("observation: {0}")]
+    Observation(#[from] ObservationError),
+    /// A depth image that is refused.
+    #[error("scan: {0}")]
+    Scan(#[from] ScanError),
+    /// Proprioception failed.
+    #[error("body state: {0}")]
+    BodyState(#[from] ProprioceptionError),
+    /// The segmenter failed.
+    #[error("segmenter: {0}")]
+    Segmenter(#[from] SegmentError),
+    /// The world model failed.
+    #[error("world_model: {0}")]
+    WorldModel(#[from] MapError),
+    /// The localizer failed.
+    #[error("localizer: {0}")]
+    Localizer(#[from] LocalizerError),
+    /// The planner failed.
+    #[error("planner: {0}")]
+    Planner(#[from] PlanError),
+    /// The behaviour failed.
+    #[error("behaviour: {0}")]
+    Behaviour(#[from] BehaviourError),
+    /// The walker failed.
+    #[error("walker: {0}")]
+    Walker(#[from] WalkError),
+}
+
+impl PilotError {
+    /// Whether it is the user's settings that are bad, not the program or its input.
+    pub const fn is_bad_setting(&self) -> bool {
+        matches!(self, Self::Config(_) | Self::Body(_) | Self::Settings(_))
+    }
+}

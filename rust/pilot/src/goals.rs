@@ -1,0 +1,83 @@
+//! Where to go, one place after the other.
+
+use geometry::{ConfigError, require};
+use planning::Goal;
+
+use crate::GoalSettings;
+
+/// The via points in order, the goal last.
+#[derive(Debug, Clone)]
+pub(crate) struct Goals {
+    places: Vec<Goal>,
+    next: usize,
+}
+
+impl Goals {
+    pub(crate) fn new(settings: &[GoalSettings]) -> Result<Self, ConfigError> {
+        require(!settings.is_empty(), "goal", "one place or more", "none")?;
+        for goal in settings {
+            let finite = goal.position.iter().all(|value| value.is_finite());
+            require(
+                finite,
+                "goal.position",
+                "finite",
+                format!("{:?}", goal.position),
+            )?;
+            require(goal.radius > 0.0, "goal.radius", "> 0", goal.radius)?;
+        }
+        Ok(Self {
+            places: settings.iter().copied().map(Goal::from).collect(),
+            next: 0,
+        })
+    }
+
+    /// The place that is pursued now.
+    pub(crate) fn current(&self) -> &Goal {
+        &self.places[self.next]
+    }
+
+    /// Whether it is the last.
+    pub(crate) fn is_last(&self) -> bool {
+        self.next + 1 == self.places.len()
+    }
+
+    /// Goes for the next place; stays at the last.
+    pub(crate) fn advance(&mut self) {
+        if !self.is_last() {
+            self.next += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place(x: f64) -> GoalSettings {
+        GoalSettings {
+            position: [x, 0.0],
+            height: None,
+            radius: 0.1,
+        }
+    }
+
+    #[test]
+    fn the_places_come_in_order_and_the_last_stays() {
+        let mut goals = Goals::new(&[place(1.0), place(2.0)]).unwrap();
+        assert!(goals.current().x_m == 1.0 && !goals.is_last());
+        goals.advance();
+        assert!(goals.current().x_m == 2.0 && goals.is_last());
+        goals.advance();
+        assert!(goals.current().x_m == 2.0);
+    }
+
+    #[test]
+    fn a_goal_without_a_radius_is_refused_by_name() {
+        let error = Goals::new(&[GoalSettings {
+            radius: 0.0,
+            ..place(1.0)
+        }])
+        .unwrap_err();
+        assert_eq!(error.to_string(), "goal.radius must be > 0, got 0");
+    }
+}

@@ -1,0 +1,96 @@
+//! What a depth frame sets off: scan, planes, pose, map.
+
+use geometry::{Camera, Pose, Robot};
+use localization::{BodyState, Localizer};
+use mapping::{Insertion, WorldModel};
+use robot::Body;
+use segmentation::{Planes, Segmenter};
+use sensing::{Frame, Intrinsics, Scan};
+
+use crate::PilotError;
+use crate::timing::{Stage, Timing};
+
+/// The stages from the depth image to the map, with their products.
+pub struct Perception {
+    segmenter: Box<dyn Segmenter>,
+    world_model: Box<dyn WorldModel>,
+    scan: Scan,
+    planes: Planes,
+    insertion: Option<Insertion>,
+    frames_used: u64,
+    last_frame_ns: Option<u64>,
+}
+
+impl Perception {
+    pub(crate) fn new(
+        segmenter: Box<dyn Segmenter>,
+        world_model: Box<dyn WorldModel>,
+        camera: Intrinsics,
+    ) -> Self {
+        Self {
+            segmenter,
+            world_model,
+            scan: Scan::new(camera),
+            planes: Planes::new(camera.width * camera.height),
+            insertion: None,
+            frames_used: 0,
+            last_frame_ns: None,
+        }
+    }
+
+    /// Takes in a frame; `body_then` is the body state at its exposure.
+    pub(crate) fn see(
+        &mut self,
+        frame: &Frame,
+        body: &Body,
+        body_then: &BodyState,
+        localizer: &mut dyn Localizer,
+        timing: &mut Timing,
+    ) -> Result<(), PilotError> {
+        let robot_from_camera: Pose<Robot, Camera> =
+            body_then.robot_from_torso * body.torso_from_camera(&body_then.links);
+        self.scan.read(frame, robot_from_camera)?;
+        timing.measure(Stage::Segment, || {
+            self.segmenter.segment(&self.scan, &mut self.planes)
+        })?;
+        let estimate = timing.measure(Stage::Localize, || {
+            localizer.correct(body_then, &self.planes, self.world_model.view())?;
+            localizer.estimate(body_then)
+        })?;
+        let insertion = timing.measure(Stage::Map, || {
+            self.world_model
+                .insert(&self.planes, &estimate.map_from_robot)
+        })?;
+        if insertion.used {
+            self.frames_used += 1;
+            self.last_frame_ns = Some(frame.arrival_ns);
+        }
+        self.insertion = Some(insertion);
+        Ok(())
+    }
+
+    /// The planes of the last frame.
+    pub const fn planes(&self) -> &Planes {
+        &self.planes
+    }
+
+    /// The map's view.
+    pub fn view(&self) -> &mapping::FloorView {
+        self.world_model.view()
+    }
+
+    /// What the last frame did to the map.
+    pub const fn insertion(&self) -> Option<&Insertion> {
+        self.insertion.as_ref()
+    }
+
+    /// Frames taken into the map so far.
+    pub const fn frames_used(&self) -> u64 {
+        self.frames_used
+    }
+
+    /// When the last frame was taken into the map, nanoseconds since the start.
+    pub const fn last_frame_ns(&self) -> Option<u64> {
+        self.last_frame_ns
+    }
+}

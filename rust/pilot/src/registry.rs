@@ -1,0 +1,105 @@
+//! Which component a name stands for: the one place where a new one is added.
+
+use std::collections::BTreeMap;
+
+use behaviour::{Behaviour, WalkingBehaviour};
+use geometry::ConfigError;
+use localization::{Localizer, OdometryLocalizer};
+use mapping::{Fog, WorldModel};
+use planning::{AStar, Planner};
+use robot::Body;
+use segmentation::{ScanLine, Segmenter};
+use sensing::Intrinsics;
+use serde::de::DeserializeOwned;
+
+use crate::{PilotError, Settings};
+
+/// The five components. One that is `None` is built by its name in the settings.
+#[derive(Default)]
+pub struct Components {
+    /// Finds planes.
+    pub segmenter: Option<Box<dyn Segmenter>>,
+    /// Keeps the map.
+    pub world_model: Option<Box<dyn WorldModel>>,
+    /// Keeps the robot's pose.
+    pub localizer: Option<Box<dyn Localizer>>,
+    /// Finds the way.
+    pub planner: Option<Box<dyn Planner>>,
+    /// Decides.
+    pub behaviour: Option<Box<dyn Behaviour>>,
+}
+
+fn unknown(slot: &str, name: &str, known: &str) -> PilotError {
+    ConfigError {
+        key: format!("navigation.{slot}"),
+        allowed: format!("one of {known}"),
+        found: name.to_owned(),
+    }
+    .into()
+}
+
+/// Reads `[navigation.<name>]`; the defaults where it is not there.
+pub(crate) fn table<T: DeserializeOwned + Default>(
+    tables: &BTreeMap<String, serde_json::Value>,
+    name: &str,
+) -> Result<T, PilotError> {
+    tables.get(name).map_or_else(
+        || Ok(T::default()),
+        |value| {
+            T::deserialize(value)
+                .map_err(|error| PilotError::Settings(format!("navigation.{name}: {error}")))
+        },
+    )
+}
+
+pub(crate) fn segmenter(
+    settings: &Settings,
+    camera: Intrinsics,
+) -> Result<Box<dyn Segmenter>, PilotError> {
+    let tables = &settings.navigation.tables;
+    match settings.navigation.segmenter.as_str() {
+        "scan_line" => Ok(Box::new(ScanLine::new(
+            table(tables, "scan_line")?,
+            camera,
+        )?)),
+        other => Err(unknown("segmenter", other, "scan_line")),
+    }
+}
+
+pub(crate) fn world_model(settings: &Settings) -> Result<Box<dyn WorldModel>, PilotError> {
+    let tables = &settings.navigation.tables;
+    match settings.navigation.world_model.as_str() {
+        "fog" => Ok(Box::new(Fog::new(table(tables, "fog")?)?)),
+        other => Err(unknown("world_model", other, "fog")),
+    }
+}
+
+pub(crate) fn localizer(settings: &Settings) -> Result<Box<dyn Localizer>, PilotError> {
+    let tables = &settings.navigation.tables;
+    match settings.navigation.localizer.as_str() {
+        "odometry" => Ok(Box::new(OdometryLocalizer::new(
+            settings.start.into(),
+            table(tables, "odometry")?,
+        )?)),
+        other => Err(unknown("localizer", other, "odometry")),
+    }
+}
+
+pub(crate) fn planner(settings: &Settings, body: &Body) -> Result<Box<dyn Planner>, PilotError> {
+    let tables = &settings.navigation.tables;
+    match settings.navigation.planner.as_str() {
+        "a_star" => Ok(Box::new(AStar::new(
+            table(tables, "a_star")?,
+            body.description().body.radius,
+        )?)),
+        other => Err(unknown("planner", other, "a_star")),
+    }
+}
+
+pub(crate) fn behaviour(settings: &Settings) -> Result<Box<dyn Behaviour>, PilotError> {
+    let tables = &settings.navigation.tables;
+    match settings.navigation.behaviour.as_str() {
+        "walking" => Ok(Box::new(WalkingBehaviour::new(table(tables, "walking")?)?)),
+        other => Err(unknown("behaviour", other, "walking")),
+    }
+}

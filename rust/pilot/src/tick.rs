@@ -1,0 +1,179 @@
+//! One tick: from an observation to joint targets.
+
+use behaviour::{Behaviour, Decision, Gaze, Situation};
+use geometry::PlanarPose;
+use localization::{BodyState, BodyStateHistory, Estimate, Localizer, Proprioception};
+use planning::{Plan, Planner};
+use robot::Body;
+use sensing::{Frame, Intrinsics, Observation};
+use walking::{JointTargets, Walker};
+
+use crate::goals::Goals;
+use crate::perception::Perception;
+use crate::registry::{self, Components};
+use crate::timing::{Stage, Timing};
+use crate::{PilotError, Settings};
+
+/// The whole core: the same on a real robot.
+pub struct Pilot {
+    body: Body,
+    camera: Intrinsics,
+    proprioception: Proprioception,
+    history: BodyStateHistory,
+    perception: Perception,
+    localizer: Box<dyn Localizer>,
+    planner: Box<dyn Planner>,
+    behaviour: Box<dyn Behaviour>,
+    walker: Walker,
+    goals: Goals,
+    plan: Option<Plan>,
+    replans: u64,
+    time_ns: Option<u64>,
+    timing: Timing,
+}
+
+/// The products of a tick.
+#[derive(Debug)]
+pub struct Tick<'a> {
+    /// What the motors are told.
+    pub targets: &'a JointTargets,
+    /// Where the robot believes to be.
+    pub estimate: Estimate,
+    /// What it decided.
+    pub decision: Decision,
+    /// What the body itself tells.
+    pub body_state: &'a BodyState,
+}
+
+impl Pilot {
+    /// Builds the core. A component that is given takes the place of the named one.
+    pub fn new(settings: Settings, given: Components) -> Result<Self, PilotError> {
+        let body = Body::new(settings.robot.clone())?;
+        let camera = Intrinsics::from(&body.description().camera);
+        let tables = &settings.navigation.tables;
+        let segmenter = given
+            .segmenter
+            .map_or_else(|| registry::segmenter(&settings, camera), Ok)?;
+        let world_model = given
+            .world_model
+            .map_or_else(|| registry::world_model(&settings), Ok)?;
+        Ok(Self {
+            proprioception: Proprioception::new(&body, registry::table(tables, "proprioception")?)?,
+            history: BodyStateHistory::default(),
+            perception: Perception::new(segmenter, world_model, camera),
+            localizer: given
+                .localizer
+                .map_or_else(|| registry::localizer(&settings), Ok)?,
+            planner: given
+                .planner
+                .map_or_else(|| registry::planner(&settings, &body), Ok)?,
+            behaviour: given
+                .behaviour
+                .map_or_else(|| registry::behaviour(&settings), Ok)?,
+            walker: Walker::new(&body)?,
+            goals: Goals::new(&settings.goals)?,
+            plan: None,
+            replans: 0,
+            time_ns: None,
+            timing: Timing::default(),
+            camera,
+            body,
+        })
+    }
+
+    /// Takes in an observation and says what the motors shall do. On an error nothing was taken in.
+    pub fn tick(&mut self, observation: &Observation) -> Result<Tick<'_>, PilotError> {
+        observation.check(self.body.joint_count(), &self.camera, self.time_ns)?;
+        self.time_ns = Some(observation.time_ns);
+        self.timing = Timing::default();
+        let state = self
+            .timing
+            .measure(Stage::Localize, || self.proprioception.update(observation))?;
+        self.history.push(state);
+        if let Some(frame) = &observation.depth {
+            self.see_and_plan(frame)?;
+        }
+        let state = self.proprioception.state();
+        let estimate = self
+            .timing
+            .measure(Stage::Localize, || self.localizer.estimate(state))?;
+        let situation = Situation {
+            time_ns: observation.time_ns,
+            estimate: &estimate,
+            view: self.perception.view(),
+            plan: self.plan.as_ref(),
+            goal: self.goals.current(),
+            last_goal: self.goals.is_last(),
+            standing: self.walker.standing(),
+            gaze: self.walker.gaze(),
+            frames_used: self.perception.frames_used(),
+            last_frame_ns: self.perception.last_frame_ns(),
+        };
+        let decision = self
+            .timing
+            .measure(Stage::Behave, || self.behaviour.next(&situation))?;
+        if decision.goal_passed {
+            self.goals.advance();
+            self.plan = None;
+        }
+        let targets = self.timing.measure(Stage::Walk, || {
+            self.walker.step(&decision.command, observation, state)
+        })?;
+        Ok(Tick {
+            targets,
+            estimate,
+            decision,
+            body_state: state,
+        })
+    }
+
+    fn see_and_plan(&mut self, frame: &Frame) -> Result<(), PilotError> {
+        let Some(body_then) = self.history.at(frame.exposure_ns) else {
+            return Ok(());
+        };
+        let (localizer, timing) = (self.localizer.as_mut(), &mut self.timing);
+        self.perception
+            .see(frame, &self.body, body_then, localizer, timing)?;
+        let estimate = self.localizer.estimate(self.proprioception.state())?;
+        let map_from_robot = estimate.map_from_robot;
+        let origin = map_from_robot.origin().inner;
+        let start = PlanarPose::new(origin.x, origin.y, map_from_robot.yaw_rad());
+        let plan = self.timing.measure(Stage::Plan, || {
+            self.planner
+                .plan(self.perception.view(), start, self.goals.current())
+        })?;
+        self.replans += u64::from(plan.replanned && self.plan.is_some());
+        self.plan = Some(plan);
+        Ok(())
+    }
+
+    /// The stages from the depth image to the map, with their products.
+    pub const fn perception(&self) -> &Perception {
+        &self.perception
+    }
+
+    /// The way to the current goal, once one was planned.
+    pub const fn plan(&self) -> Option<&Plan> {
+        self.plan.as_ref()
+    }
+
+    /// How often a way was planned anew after the first.
+    pub const fn replans(&self) -> u64 {
+        self.replans
+    }
+
+    /// Steps taken so far.
+    pub fn steps_taken(&self) -> u64 {
+        self.walker.steps_taken()
+    }
+
+    /// Where the head is told to look.
+    pub fn gaze(&self) -> Gaze {
+        self.walker.gaze()
+    }
+
+    /// How long each stage took at the last tick.
+    pub const fn timing(&self) -> &Timing {
+        &self.timing
+    }
+}
