@@ -151,12 +151,15 @@ def test_an_encoder_shifts_from_then_on() -> None:
     seen = senses(world, IDEAL)
     before = seen.observe(world.data, 0).joint_positions
     held = seen.encoder_offsets
-    seen.shift_encoder("left_knee_pitch", 0.02)
+    for _ in range(2):
+        seen.set_encoder_shifts({"left_knee_pitch": 0.02})
     after = seen.observe(world.data, TICK_NS).joint_positions
     changed = np.zeros(len(ROBOT.joints))
     changed[ROBOT.joints.index("left_knee_pitch")] = 0.02
     np.testing.assert_allclose(after - before, changed, atol=1e-12)
     np.testing.assert_array_equal(held, changed)
+    seen.set_encoder_shifts({})
+    assert not held.any()
 
 
 def test_a_blinded_robot_gets_no_frames_for_that_long() -> None:

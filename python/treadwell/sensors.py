@@ -1,6 +1,6 @@
 """The senses of the harness: from the simulator's state to the Observation that the core gets."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Protocol
 
 import mujoco
@@ -91,6 +91,7 @@ class Sensors:
         error = _camera_error(robot.nominal, file, streams("sensors.camera"))
         self._joint_order = {name: i for i, name in enumerate(robot.joints)}
         self._encoders = self._build_encoders(model, robot, settings, streams, error)
+        self._drawn_offsets = self._encoders.offsets.copy()
         self._imu = _imu(model, file, settings, streams)
         self._feet = _feet(model, file, settings, streams)
         self._depth = _depth(model, file, settings, streams, error.mount, texture)
@@ -99,7 +100,7 @@ class Sensors:
     def encoder_offsets(self) -> Floats:
         """(n,) rad: what the encoders read too much; for `Motors.encoder_offsets`, as it is.
 
-        The array changes when an encoder shifts.
+        Always the same array; what is in it changes when an encoder shifts.
         """
         return self._encoders.offsets
 
@@ -131,9 +132,16 @@ class Sensors:
         """Let the camera expose nothing before this time."""
         self._depth.blind(until_ns)
 
-    def shift_encoder(self, joint: str, value: float) -> None:
-        """Let the encoder of `joint` read `value` (rad) more than it did."""
-        self._encoders.offsets[self._joint_order[joint]] += value
+    def set_encoder_shifts(self, shifts: Mapping[str, float]) -> None:
+        """Let encoders read more than they did at the start; those not named as at the start.
+
+        Args:
+            shifts: rad, by the joint's name.
+        """
+        offsets = self._encoders.offsets
+        offsets[:] = self._drawn_offsets
+        for joint, shift in shifts.items():
+            offsets[self._joint_order[joint]] += shift
 
     def _build_encoders(
         self,
