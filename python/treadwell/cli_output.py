@@ -1,0 +1,89 @@
+"""How the command line speaks: JSON or text on standard output, messages and errors beside it."""
+
+import json
+import os
+import sys
+from collections.abc import Callable, Sequence
+from typing import Any, Final
+
+from treadwell.errors import InputError, TreadwellError
+
+PASSED: Final = 0
+FAILED: Final = 1
+BAD_INPUT: Final = 2
+ERROR: Final = 3
+INTERRUPTED: Final = 130
+SHOW_TRACEBACK: Final = "TREADWELL_TRACEBACK"
+"""Environment variable: when it is set, an unexpected error shows where it happened."""
+
+
+def write_json(document: object) -> None:
+    """Write a document to standard output; nothing else goes there with `--json`."""
+    sys.stdout.write(json.dumps(document, indent=2, allow_nan=False, default=str) + "\n")
+    sys.stdout.flush()
+
+
+def write_message(text: str) -> None:
+    """Write a line to standard error."""
+    sys.stderr.write(text.rstrip("\n") + "\n")
+    sys.stderr.flush()
+
+
+def write_table(title: str, header: Sequence[str], rows: Sequence[Sequence[object]]) -> None:
+    """Write a table to standard output."""
+    from rich.box import SIMPLE_HEAD
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(title=Text(title, style="bold"), box=SIMPLE_HEAD, title_justify="left")
+    for name in header:
+        table.add_column(name)
+    for row in rows:
+        # Text and not markup: names and descriptions are the user's.
+        table.add_row(*(Text(str(cell)) for cell in row))
+    Console().print(table)
+
+
+def guarded(command: Callable[[], Any], *, as_json: bool) -> int:
+    """Run a command and return its exit status; whatever goes wrong becomes one message.
+
+    Args:
+        command: returns an exit status, or None for success.
+        as_json: write the error as JSON to standard output, too.
+    """
+    try:
+        status = command()
+        sys.stdout.flush()
+    except KeyboardInterrupt:
+        return _fail("interrupted", INTERRUPTED, as_json=as_json)
+    except BrokenPipeError:
+        # Who reads our output has had enough; what Python flushes at the end must not fail again.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return PASSED
+    except Exception as error:
+        if os.environ.get(SHOW_TRACEBACK):
+            raise
+        return _fail(*_verdict(error), as_json=as_json)
+    return PASSED if status is None else int(status)
+
+
+def _verdict(error: Exception) -> tuple[str, int]:
+    """Return the message and the exit status that an error means."""
+    usage = getattr(error, "format_message", None)
+    if usage is not None and getattr(error, "exit_code", None) == BAD_INPUT:
+        return str(usage()), BAD_INPUT
+    if isinstance(error, TreadwellError):
+        return str(error), BAD_INPUT if isinstance(error, InputError) else ERROR
+    text = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    if not isinstance(error, OSError | MemoryError):
+        text += f"\n(this is a fault of treadwell; set {SHOW_TRACEBACK}=1 to see where)"
+    return text, ERROR
+
+
+def _fail(message: str, status: int, *, as_json: bool) -> int:
+    if message:  # nothing when help was shown because there was no command
+        write_message(f"treadwell: {message}" if status == INTERRUPTED else f"error: {message}")
+    if as_json:
+        write_json({"error": message, "status": status})
+    return status

@@ -1,0 +1,87 @@
+"""The live line of a run: simulated time, state, distance to the goal, real-time factor."""
+
+import sys
+from types import TracebackType
+from typing import TYPE_CHECKING, Self
+
+if TYPE_CHECKING:
+    from rich.status import Status
+
+SECONDS_A_LINE = 5.0
+"""Simulated seconds between two lines where there is no terminal."""
+
+
+def line(time_s: float, state: str, distance_m: float, real_time_factor: float) -> str:
+    """Return the progress line.
+
+    Args:
+        time_s: simulated seconds since the start.
+        state: what the behaviour is doing.
+        distance_m: from the goal, metres.
+        real_time_factor: simulated seconds for each second of the clock.
+    """
+    return (
+        f"{time_s:6.1f} s  {state:<10}  {distance_m:5.2f} m to the goal  {real_time_factor:5.1f}x"
+    )
+
+
+class Progress:
+    """Shows on standard error how a run gets on.
+
+    On a terminal one line renews itself; otherwise a plain line is written every five simulated
+    seconds and at every change of state. A context manager: the line vanishes with it.
+    """
+
+    def __init__(self, title: str = "", *, terminal: bool | None = None) -> None:
+        """Show nothing yet.
+
+        Args:
+            title: what runs.
+            terminal: whether standard error is one; looked up when None.
+        """
+        self._title = title
+        self._terminal = sys.stderr.isatty() if terminal is None else terminal
+        self._status: Status | None = None
+        self._state = ""
+        self._next_s = 0.0
+
+    def __enter__(self) -> Self:
+        """Begin."""
+        if self._terminal:
+            from rich.console import Console
+            from rich.text import Text
+
+            self._status = Console(stderr=True).status(Text(self._title))
+            self._status.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        """Take the line away, whatever happened."""
+        if self._status is not None:
+            self._status.stop()
+            self._status = None
+
+    def update(self, time_s: float, state: str, distance_m: float, real_time_factor: float) -> None:
+        """Show where the run is; call it as often as you like.
+
+        Args:
+            time_s: simulated seconds since the start.
+            state: what the behaviour is doing.
+            distance_m: from the goal, metres.
+            real_time_factor: simulated seconds for each second of the clock.
+        """
+        text = line(time_s, state, distance_m, real_time_factor)
+        if self._status is not None:
+            from rich.text import Text
+
+            self._status.update(Text(f"{self._title}  {text}"))
+        elif not self._terminal and (time_s >= self._next_s or state != self._state):
+            self._next_s = (time_s // SECONDS_A_LINE + 1) * SECONDS_A_LINE
+            self._state = state
+            sys.stderr.write(f"{self._title} {text}\n".lstrip())
+            sys.stderr.flush()
