@@ -10,6 +10,9 @@ pub enum ProprioceptionError {
     /// The joints do not fit the body.
     #[error(transparent)]
     Body(#[from] robot::BodyError),
+    /// A reading that is no number, or a time that does not advance.
+    #[error(transparent)]
+    Observation(#[from] sensing::ObservationError),
 }
 
 /// The product of proprioception, made anew at every control tick.

@@ -1,7 +1,21 @@
 //! Where the robot is: attitude from the inertial measurement unit, foot contacts, leg odometry, and the localizer.
 
+mod attitude;
 mod body_state;
+mod config;
+mod contact;
+mod history;
+mod leg_odometry;
+mod levelling;
 mod localizer;
+mod odometry_localizer;
+mod proprioception;
+#[cfg(test)]
+mod synthetic_walk;
 
 pub use body_state::{BodyState, ProprioceptionError};
+pub use config::ProprioceptionConfig;
+pub use history::BodyStateHistory;
 pub use localizer::{Estimate, Localizer, LocalizerError};
+pub use odometry_localizer::{OdometryLocalizer, OdometryLocalizerConfig};
+pub use proprioception::Proprioception;

@@ -1,0 +1,122 @@
+//! Where the robot has walked to: forward kinematics from the feet that hold, turned by the attitude.
+//!
+//! A foot that takes hold is anchored where it then is. The torso is where the anchors and the legs say, blended by load.
+//! Heights are kept apart: an anchor's height is that of its level, so that small errors of tilt do not climb.
+
+use geometry::{Odometry, Pose, Robot, angle_between};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use robot::Side;
+
+use crate::ProprioceptionConfig;
+use crate::contact::Contacts;
+
+/// The legs as they are now.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Legs {
+    /// Orientation of the torso.
+    pub(crate) odometry_from_torso_rotation: UnitQuaternion<f64>,
+    /// Pose of each sole in the torso, left and right.
+    pub(crate) torso_from_sole: [Isometry3<f64>; 2],
+}
+
+impl Legs {
+    /// From the torso's origin to the centre of the sole, in the odometry frame's axes, m.
+    fn reach_m(&self, side: Side) -> Vector3<f64> {
+        self.odometry_from_torso_rotation * self.torso_from_sole[side.index()].translation.vector
+    }
+
+    /// Mean heading of the feet, rad.
+    pub(crate) fn heading_rad(&self) -> f64 {
+        let [left, right] = self.torso_from_sole.map(|torso_from_sole| {
+            let toes =
+                self.odometry_from_torso_rotation * (torso_from_sole.rotation * Vector3::x());
+            toes.y.atan2(toes.x)
+        });
+        left + 0.5 * angle_between(left, right)
+    }
+}
+
+/// Torso position by leg odometry.
+#[derive(Debug, Clone)]
+pub(crate) struct LegOdometry {
+    anchors_m: [Option<Vector3<f64>>; 2],
+    torso_m: Vector3<f64>,
+}
+
+impl LegOdometry {
+    pub(crate) const fn new() -> Self {
+        Self {
+            anchors_m: [None; 2],
+            torso_m: Vector3::new(0.0, 0.0, 0.0),
+        }
+    }
+
+    /// The torso's origin in the odometry frame, m.
+    pub(crate) const fn torso_m(&self) -> Vector3<f64> {
+        self.torso_m
+    }
+
+    /// Puts the point midway between the soles at the origin, both on one level.
+    pub(crate) fn start(&mut self, legs: &Legs) {
+        let reaches = Side::BOTH.map(|side| legs.reach_m(side));
+        self.torso_m = -(reaches[0] + reaches[1]) / 2.0;
+        self.anchors_m = reaches.map(|reach| {
+            let sole = self.torso_m + reach;
+            Some(Vector3::new(sole.x, sole.y, 0.0))
+        });
+    }
+
+    /// Takes in the legs and what they carry; returns the robot's frame.
+    pub(crate) fn update(
+        &mut self,
+        legs: &Legs,
+        contacts: &Contacts,
+        config: &ProprioceptionConfig,
+    ) -> Pose<Odometry, Robot> {
+        self.renew_anchors(legs, contacts, config);
+        let weights = contacts.weights(config);
+        let (mut torso, mut level_m, mut sum) = (Vector3::zeros(), 0.0, 0.0);
+        for side in Side::BOTH {
+            let weight = weights[side.index()];
+            if let Some(anchor) = self.anchors_m[side.index()].filter(|_| weight > 0.0) {
+                torso += (anchor - legs.reach_m(side)) * weight;
+                level_m += anchor.z * weight;
+                sum += weight;
+            }
+        }
+        if sum > 0.0 {
+            self.torso_m = torso / sum;
+            level_m /= sum;
+        }
+        let middle = self.torso_m + (legs.reach_m(Side::Left) + legs.reach_m(Side::Right)) / 2.0;
+        Pose::from_yaw(middle.x, middle.y, level_m, legs.heading_rad())
+    }
+
+    fn renew_anchors(&mut self, legs: &Legs, contacts: &Contacts, config: &ProprioceptionConfig) {
+        for side in Side::BOTH {
+            let other = self.anchors_m[side.other().index()];
+            let anchor = &mut self.anchors_m[side.index()];
+            if contacts.holds(side) {
+                if anchor.is_none() {
+                    let mut landed = self.torso_m + legs.reach_m(side);
+                    if let Some(other) =
+                        other.filter(|o| (o.z - landed.z).abs() < config.level_band)
+                    {
+                        landed.z = other.z;
+                    }
+                    *anchor = Some(landed);
+                }
+            } else if other.is_some() && contacts.holds(side.other()) {
+                *anchor = None;
+            }
+        }
+    }
+}
+
+/// The torso's pose from its orientation and position.
+pub(crate) fn odometry_from_torso(
+    rotation: UnitQuaternion<f64>,
+    torso_m: Vector3<f64>,
+) -> Isometry3<f64> {
+    Isometry3::from_parts(Translation3::from(torso_m), rotation)
+}

@@ -1,0 +1,178 @@
+//! The localizer `odometry`: leg odometry as it is, its height drawn to the floor in the map.
+
+use geometry::{ConfigError, Map, Odometry, Pose, Robot, require};
+use mapping::{FloorView, Surface};
+use segmentation::Planes;
+use serde::{Deserialize, Serialize};
+
+use crate::{BodyState, Estimate, Localizer, LocalizerError};
+
+/// Settings of [`OdometryLocalizer`]: `[navigation.odometry]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct OdometryLocalizerConfig {
+    /// Share by which a depth frame draws the robot's height to the floor's; 0: never.
+    pub height_gain: f64,
+    /// A floor further away than this is another level, m.
+    pub height_gate: f64,
+}
+
+impl Default for OdometryLocalizerConfig {
+    fn default() -> Self {
+        Self {
+            height_gain: 0.1,
+            height_gate: 0.012,
+        }
+    }
+}
+
+/// Section IV of 000: (x, y, yaw) by odometry, z_R filtered with Floor(x_R, y_R).
+#[derive(Debug, Clone)]
+pub struct OdometryLocalizer {
+    config: OdometryLocalizerConfig,
+    map_from_robot_at_start: Pose<Map, Robot>,
+    map_from_odometry: Option<Pose<Map, Odometry>>,
+}
+
+impl OdometryLocalizer {
+    /// Starts at a pose that is told.
+    pub fn new(
+        map_from_robot_at_start: Pose<Map, Robot>,
+        config: OdometryLocalizerConfig,
+    ) -> Result<Self, ConfigError> {
+        let gain = config.height_gain;
+        require(
+            (0.0..=1.0).contains(&gain),
+            "navigation.odometry.height_gain",
+            "between 0 and 1",
+            gain,
+        )?;
+        let gate = config.height_gate;
+        require(
+            gate.is_finite() && gate > 0.0,
+            "navigation.odometry.height_gate",
+            "> 0",
+            gate,
+        )?;
+        Ok(Self {
+            config,
+            map_from_robot_at_start,
+            map_from_odometry: None,
+        })
+    }
+
+    /// At the first body state the robot is where it was told to start.
+    fn map_from_odometry(&mut self, body: &BodyState) -> Pose<Map, Odometry> {
+        let start = self.map_from_robot_at_start;
+        *self
+            .map_from_odometry
+            .get_or_insert_with(|| start * body.odometry_from_robot.inverse())
+    }
+}
+
+impl Localizer for OdometryLocalizer {
+    fn correct(
+        &mut self,
+        body: &BodyState,
+        _planes: &Planes,
+        view: &FloorView,
+    ) -> Result<(), LocalizerError> {
+        let map_from_odometry = self.map_from_odometry(body);
+        let robot_in_map = (map_from_odometry * body.odometry_from_robot)
+            .origin()
+            .inner;
+        if let Surface::Floor(floor_m) = view.at(robot_in_map.x, robot_in_map.y) {
+            let error_m = f64::from(floor_m) - robot_in_map.z;
+            if error_m.abs() < self.config.height_gate {
+                let mut corrected = map_from_odometry.inner;
+                corrected.translation.vector.z += self.config.height_gain * error_m;
+                self.map_from_odometry = Some(Pose::wrap(corrected));
+            }
+        }
+        Ok(())
+    }
+
+    fn estimate(&mut self, body: &BodyState) -> Result<Estimate, LocalizerError> {
+        let map_from_odometry = self.map_from_odometry(body);
+        Ok(Estimate {
+            time_ns: body.time_ns,
+            map_from_robot: map_from_odometry * body.odometry_from_robot,
+            map_from_odometry,
+            lost: false,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic_walk::state_at;
+    use geometry::{Grid, Lattice};
+    use proptest::prelude::*;
+
+    fn view(surface: Surface) -> FloorView {
+        FloorView {
+            lattice: Lattice {
+                origin_m: [-2.0, -2.0],
+                cell_m: 0.04,
+            },
+            cells: Grid::filled(100, 100, surface),
+            sightings: Grid::filled(100, 100, 1),
+        }
+    }
+
+    fn localizer(start: Pose<Map, Robot>) -> OdometryLocalizer {
+        OdometryLocalizer::new(start, OdometryLocalizerConfig::default()).unwrap()
+    }
+
+    proptest! {
+        #[test]
+        fn the_first_estimate_is_the_start(x in -3.0..3.0f64, y in -3.0..3.0f64, yaw in -3.0..3.0f64) {
+            let start = Pose::from_yaw(x, y, 0.12, yaw);
+            let mut body = state_at(0);
+            body.odometry_from_robot = Pose::from_yaw(0.1, -0.2, 0.0, 0.3);
+            let estimate = localizer(start).estimate(&body).unwrap();
+            prop_assert!((estimate.map_from_robot.inner.translation.vector - start.inner.translation.vector).norm() < 1e-12);
+            prop_assert!((estimate.map_from_robot.yaw_rad() - yaw).abs() < 1e-9);
+        }
+
+        #[test]
+        fn the_height_is_drawn_to_the_floor_of_its_level_only(error_m in -0.03..0.03f64) {
+            let mut localizer = localizer(Pose::identity());
+            let view = view(Surface::Floor(error_m as f32));
+            for _ in 0..100 {
+                localizer.correct(&state_at(0), &Planes::new(0), &view).unwrap();
+            }
+            let height_m = localizer.estimate(&state_at(0)).unwrap().map_from_robot.origin().inner.z;
+            let expected_m = if error_m.abs() < 0.012 { error_m } else { 0.0 };
+            prop_assert!((height_m - expected_m).abs() < 1e-5);
+        }
+    }
+
+    #[test]
+    fn an_unknown_floor_changes_nothing() {
+        let mut localizer = localizer(Pose::identity());
+        for surface in [Surface::Unknown, Surface::Obstacle(0.005)] {
+            localizer
+                .correct(&state_at(0), &Planes::new(0), &view(surface))
+                .unwrap();
+        }
+        let estimate = localizer.estimate(&state_at(0)).unwrap();
+        assert_eq!(estimate.map_from_robot.origin().inner.z, 0.0);
+    }
+
+    #[test]
+    fn a_gain_above_one_is_refused() {
+        let config = OdometryLocalizerConfig {
+            height_gain: 1.5,
+            ..OdometryLocalizerConfig::default()
+        };
+        let message = OdometryLocalizer::new(Pose::identity(), config)
+            .unwrap_err()
+            .to_string();
+        assert_eq!(
+            message,
+            "navigation.odometry.height_gain must be between 0 and 1, got 1.5"
+        );
+    }
+}

@@ -1,0 +1,234 @@
+//! The body's own senses at every control tick: observation in, body state out.
+
+use geometry::{ConfigError, Pose};
+use nalgebra::{UnitQuaternion, Vector3};
+use robot::{Body, LinkPoses, Side};
+use sensing::{Observation, ObservationError};
+
+use crate::attitude::{AttitudeFilter, ImuSample};
+use crate::contact::Contacts;
+use crate::leg_odometry::{LegOdometry, Legs, odometry_from_torso};
+use crate::levelling::Levelling;
+use crate::{BodyState, ProprioceptionConfig, ProprioceptionError};
+
+const GRAVITY_MPS2: f64 = 9.81;
+/// Speeds of trunk joints below this are the encoders' noise, rad/s.
+const JOINT_SPEED_FLOOR_RADPS: f64 = 0.1;
+
+/// A joint between the root and the inertial measurement unit.
+#[derive(Debug, Clone, Copy)]
+struct ChainJoint {
+    link: usize,
+    joint: usize,
+    axis_in_link: Vector3<f64>,
+}
+
+/// Attitude, contacts and leg odometry.
+#[derive(Debug, Clone)]
+pub struct Proprioception {
+    body: Body,
+    config: ProprioceptionConfig,
+    imu_chain: Vec<ChainJoint>,
+    attitude: AttitudeFilter,
+    levelling: Levelling,
+    contacts: Contacts,
+    odometry: LegOdometry,
+    state: BodyState,
+    before_ns: Option<u64>,
+}
+
+impl Proprioception {
+    /// For this robot. Odometry starts with the robot's frame at its origin, at the first observation.
+    pub fn new(body: &Body, config: ProprioceptionConfig) -> Result<Self, ConfigError> {
+        config.check()?;
+        Ok(Self {
+            imu_chain: chain_to_imu(body),
+            attitude: AttitudeFilter::new(&config),
+            levelling: Levelling::new(),
+            contacts: Contacts::new(body.mass_kg() * GRAVITY_MPS2, &config),
+            odometry: LegOdometry::new(),
+            state: BodyState {
+                time_ns: 0,
+                odometry_from_torso_rotation: UnitQuaternion::identity(),
+                angular_velocity_radps: Vector3::zeros(),
+                links: LinkPoses {
+                    torso_from_link: Vec::with_capacity(body.description().links.len()),
+                },
+                foot_loads_n: [0.0; 2],
+                support: Side::Left,
+                odometry_from_robot: Pose::identity(),
+                robot_from_torso: Pose::identity(),
+            },
+            before_ns: None,
+            body: body.clone(),
+            config,
+        })
+    }
+
+    /// The body state at this observation. A refused observation leaves everything as it was.
+    pub fn update(&mut self, observation: &Observation) -> Result<&BodyState, ProprioceptionError> {
+        self.check(observation)?;
+        self.body
+            .pose_links(&observation.joint_positions_rad, &mut self.state.links)?;
+        let passed_s = self.before_ns.map_or(0.0, |before_ns| {
+            (observation.time_ns - before_ns) as f64 * 1e-9
+        });
+        let first = self.before_ns.is_none();
+        self.before_ns = Some(observation.time_ns);
+        self.contacts
+            .update(&observation.foot_forces_n, &self.config);
+        let sample = ImuSample {
+            angular_velocity_radps: Vector3::from(observation.angular_velocity_radps),
+            specific_force_mps2: Vector3::from(observation.specific_force_mps2),
+        };
+        let both_feet = self.contacts.both_hold();
+        self.attitude
+            .update(&sample, passed_s, both_feet, &self.config);
+        let torso_from_sole =
+            Side::BOTH.map(|side| self.body.torso_from_sole(&self.state.links, side));
+        let torso_from_imu_measured = self.body.torso_from_imu(&self.state.links).rotation;
+        let learning = self.levelling.is_learning(self.config.level_time);
+        if learning && self.attitude.is_still(&self.config) {
+            let up_in_imu = self.attitude.odometry_from_imu().inverse() * Vector3::z();
+            let up_by_imu = torso_from_imu_measured * up_in_imu;
+            let up_by_soles =
+                torso_from_sole.map(|torso_from_sole| torso_from_sole.rotation * Vector3::z());
+            let up_by_soles = up_by_soles[0] + up_by_soles[1];
+            let limit_rad = self.config.level_limit;
+            self.levelling
+                .learn(&up_by_imu, &up_by_soles, passed_s, limit_rad);
+        }
+        let torso_from_imu = self.levelling.correction() * torso_from_imu_measured;
+        let mut legs = Legs {
+            odometry_from_torso_rotation: self.attitude.odometry_from_imu()
+                * torso_from_imu.inverse(),
+            torso_from_sole,
+        };
+        if first {
+            let heading_rad = legs.heading_rad();
+            self.attitude.turn_odometry(-heading_rad);
+            legs.odometry_from_torso_rotation =
+                self.attitude.odometry_from_imu() * torso_from_imu.inverse();
+            self.odometry.start(&legs);
+        }
+        let rate_in_imu = sample.angular_velocity_radps - self.attitude.bias_radps();
+        let trunk_rate = self.trunk_rate_radps(&observation.joint_velocities_radps);
+        self.state.angular_velocity_radps = torso_from_imu * rate_in_imu - trunk_rate;
+        self.fill(observation.time_ns, &legs);
+        Ok(&self.state)
+    }
+
+    /// The state of the last observation; at the origin before the first.
+    pub const fn state(&self) -> &BodyState {
+        &self.state
+    }
+
+    /// What the gyroscope is believed to read at rest, rad/s, in the frame of the inertial measurement unit.
+    pub const fn gyro_bias_radps(&self) -> Vector3<f64> {
+        self.attitude.bias_radps()
+    }
+
+    /// Whether the robot has stood still on both feet for a while.
+    pub fn is_still(&self) -> bool {
+        self.attitude.is_still(&self.config)
+    }
+
+    fn fill(&mut self, time_ns: u64, legs: &Legs) {
+        let odometry_from_robot = self.odometry.update(legs, &self.contacts, &self.config);
+        let rotation = legs.odometry_from_torso_rotation;
+        let odometry_from_torso = odometry_from_torso(rotation, self.odometry.torso_m());
+        self.state.time_ns = time_ns;
+        self.state.odometry_from_torso_rotation = rotation;
+        self.state.foot_loads_n = self.contacts.loads_n();
+        self.state.support = self.contacts.support();
+        self.state.odometry_from_robot = odometry_from_robot;
+        self.state.robot_from_torso =
+            Pose::wrap(odometry_from_robot.inner.inverse() * odometry_from_torso);
+    }
+
+    /// Angular velocity that the trunk's joints give the inertial measurement unit against the root, rad/s.
+    fn trunk_rate_radps(&self, joint_velocities_radps: &[f64]) -> Vector3<f64> {
+        self.imu_chain
+            .iter()
+            .map(|part| {
+                let speed = joint_velocities_radps[part.joint];
+                let sure = (speed.abs() - JOINT_SPEED_FLOOR_RADPS)
+                    .max(0.0)
+                    .copysign(speed);
+                self.state.links.torso_from_link[part.link].rotation * part.axis_in_link * sure
+            })
+            .sum()
+    }
+
+    fn check(&self, observation: &Observation) -> Result<(), ObservationError> {
+        let expected = self.body.joint_count();
+        for (field, values) in [
+            ("joint_positions", &observation.joint_positions_rad),
+            ("joint_velocities", &observation.joint_velocities_radps),
+        ] {
+            let found = values.len();
+            if found != expected {
+                return Err(ObservationError::WrongLength {
+                    field,
+                    expected,
+                    found,
+                });
+            }
+        }
+        for (field, values) in [
+            (
+                "joint_positions",
+                observation.joint_positions_rad.as_slice(),
+            ),
+            (
+                "joint_velocities",
+                observation.joint_velocities_radps.as_slice(),
+            ),
+            (
+                "angular_velocity",
+                observation.angular_velocity_radps.as_slice(),
+            ),
+            ("specific_force", observation.specific_force_mps2.as_slice()),
+            ("foot_forces", observation.foot_forces_n.as_flattened()),
+        ] {
+            if let Some(found) = values.iter().copied().find(|value| !value.is_finite()) {
+                return Err(ObservationError::NotFinite { field, found });
+            }
+        }
+        match self.before_ns {
+            Some(before_ns) if observation.time_ns <= before_ns => {
+                Err(ObservationError::TimeWentBack {
+                    before_ns,
+                    now_ns: observation.time_ns,
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn chain_to_imu(body: &Body) -> Vec<ChainJoint> {
+    let description = body.description();
+    let mut chain = Vec::new();
+    let mut at = description
+        .links
+        .iter()
+        .position(|link| link.name == description.imu.link);
+    while let Some(index) = at {
+        let link = &description.links[index];
+        if let Some(joint) = &link.joint
+            && let Ok(joint_index) = body.joint("imu", &joint.name)
+        {
+            chain.push(ChainJoint {
+                link: index,
+                joint: joint_index,
+                axis_in_link: Vector3::from(joint.axis).normalize(),
+            });
+        }
+        at = link.parent;
+    }
+    chain
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,329 @@
+//! Test support: a small biped, and the observations that it would make on a walk with known footholds.
+
+use std::collections::BTreeMap;
+
+use geometry::PlanarPose;
+use nalgebra::{Isometry3, Matrix6, Translation3, UnitQuaternion, Vector3, Vector6};
+use robot::{
+    Body, CameraMount, Description, Extent, Head, ImuMount, JointDescription, Leg, Legs,
+    LinkDescription, LinkPoses, Side, Sole, StereoDescription,
+};
+use sensing::Observation;
+
+use crate::{BodyState, Proprioception, ProprioceptionConfig};
+
+pub(crate) const TICK_NS: u64 = 10_000_000;
+const HIP_Y_M: f64 = 0.0425;
+const HIP_HEIGHT_M: f64 = 0.22;
+const JOINTS: usize = 13;
+
+fn link(
+    name: &str,
+    parent: Option<usize>,
+    position: [f64; 3],
+    axis: Option<[f64; 3]>,
+) -> LinkDescription {
+    LinkDescription {
+        name: name.to_owned(),
+        parent,
+        position,
+        orientation: [1.0, 0.0, 0.0, 0.0],
+        mass: 0.5,
+        center_of_mass: [0.0; 3],
+        inertia: [1e-4, 1e-4, 1e-4, 0.0, 0.0, 0.0],
+        joint: axis.map(|axis| JointDescription {
+            name: name.to_owned(),
+            axis,
+            anchor: [0.0; 3],
+            range: [-2.5, 2.5],
+            peak_torque: 6.0,
+            no_load_speed: 7.0,
+            kp: 150.0,
+            kv: 3.0,
+        }),
+    }
+}
+
+/// Two legs of 100 + 100 mm and a waist that carries the inertial measurement unit.
+pub(crate) fn biped() -> Body {
+    let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    let mut links = vec![link("pelvis", None, [0.0; 3], None)];
+    for (side, sign) in [("left", 1.0), ("right", -1.0)] {
+        let parts = [
+            ("hip_yaw", [0.0, sign * HIP_Y_M, 0.0], z),
+            ("hip_roll", [0.0; 3], x),
+            ("hip_pitch", [0.0; 3], y),
+            ("knee", [0.0, 0.0, -0.1], y),
+            ("ankle_pitch", [0.0, 0.0, -0.1], y),
+            ("foot", [0.0; 3], x),
+        ];
+        for (i, (name, position, axis)) in parts.into_iter().enumerate() {
+            let parent = if i == 0 { 0 } else { links.len() - 1 };
+            links.push(link(
+                &format!("{side}_{name}"),
+                Some(parent),
+                position,
+                Some(axis),
+            ));
+        }
+    }
+    links.push(link("waist", Some(0), [0.0, 0.0, 0.05], Some(y)));
+    let leg = |side: &str| Leg {
+        joints: [
+            "hip_yaw",
+            "hip_roll",
+            "hip_pitch",
+            "knee",
+            "ankle_pitch",
+            "foot",
+        ]
+        .map(|name| format!("{side}_{name}")),
+        sole: Sole {
+            link: format!("{side}_foot"),
+            position: [0.0, 0.0, -0.04],
+            length: 0.105,
+            width: 0.075,
+        },
+    };
+    describe(links, leg("left"), leg("right"))
+}
+
+fn describe(links: Vec<LinkDescription>, left: Leg, right: Leg) -> Body {
+    let joints: Vec<String> = links
+        .iter()
+        .filter_map(|l| l.joint.as_ref())
+        .map(|j| j.name.clone())
+        .collect();
+    Body::new(Description {
+        name: "biped".to_owned(),
+        stand: vec![0.0; joints.len()],
+        joints,
+        links,
+        torso: "waist".to_owned(),
+        legs: Legs { left, right },
+        head: Head {
+            pan: "waist".to_owned(),
+            tilt: "waist".to_owned(),
+        },
+        arms_rest: BTreeMap::new(),
+        imu: ImuMount {
+            link: "waist".to_owned(),
+            position: [0.0; 3],
+            orientation: [1.0, 0.0, 0.0, 0.0],
+        },
+        camera: CameraMount {
+            link: "waist".to_owned(),
+            position: [0.0; 3],
+            orientation: [1.0, 0.0, 0.0, 0.0],
+            width: 88,
+            height: 72,
+            focal: 100.0,
+            period: 0.08,
+            stereo: StereoDescription {
+                baseline: 0.06,
+                window: 5,
+            },
+        },
+        body: Extent {
+            radius: 0.14,
+            height: 0.58,
+        },
+        gait: serde_json::Value::Null,
+    })
+    .unwrap()
+}
+
+/// A body state at the origin.
+pub(crate) fn state_at(time_ns: u64) -> BodyState {
+    let mut state = Proprioception::new(&biped(), ProprioceptionConfig::default())
+        .unwrap()
+        .state()
+        .clone();
+    state.time_ns = time_ns;
+    state.links.torso_from_link = vec![Isometry3::identity(); 4];
+    state
+}
+
+/// A walker without dynamics: it goes from foothold to foothold and writes down what its sensors would say.
+pub(crate) struct Walk {
+    pub(crate) body: Body,
+    pub(crate) observations: Vec<Observation>,
+    /// True robot frame at each observation: x, y, yaw and the level.
+    pub(crate) truth: Vec<(PlanarPose, f64)>,
+    soles: [(PlanarPose, f64); 2],
+    torso: Isometry3<f64>,
+    joints: Vec<f64>,
+}
+
+impl Walk {
+    /// Stands at the origin.
+    pub(crate) fn new() -> Self {
+        let mut joints = vec![0.0; JOINTS];
+        for leg in [0, 6] {
+            joints[leg + 2] = -0.4;
+            joints[leg + 3] = 0.8;
+            joints[leg + 4] = -0.4;
+        }
+        let soles = [1.0, -1.0].map(|sign| (PlanarPose::new(0.0, sign * HIP_Y_M, 0.0), 0.0));
+        Self {
+            body: biped(),
+            observations: Vec::new(),
+            truth: Vec::new(),
+            soles,
+            torso: Isometry3::translation(0.0, 0.0, HIP_HEIGHT_M),
+            joints,
+        }
+    }
+
+    /// Stands on both feet for a number of ticks.
+    pub(crate) fn stand(mut self, ticks: usize) -> Self {
+        for _ in 0..ticks {
+            self.tick(0.5, self.soles, Side::Left);
+        }
+        self
+    }
+
+    /// Moves one foot to a place and a level: 10 ticks of load shift, 20 in the air, 10 of load shift back to the middle.
+    pub(crate) fn step(mut self, side: Side, to: PlanarPose, level_m: f64) -> Self {
+        let from = self.soles;
+        let lifted = if side == Side::Left { 1.0 } else { 0.0 };
+        for tick in 1..=10 {
+            self.tick(
+                0.5 + (lifted - 0.5) * f64::from(tick) / 10.0,
+                from,
+                side.other(),
+            );
+        }
+        for tick in 1..=20 {
+            let share = f64::from(tick) / 20.0;
+            let (start, start_level_m) = from[side.index()];
+            let mut soles = from;
+            soles[side.index()] = (
+                PlanarPose::new(
+                    start.x_m + (to.x_m - start.x_m) * share,
+                    start.y_m + (to.y_m - start.y_m) * share,
+                    start.yaw_rad + (to.yaw_rad - start.yaw_rad) * share,
+                ),
+                start_level_m
+                    + (level_m - start_level_m) * share
+                    + 0.02 * (share * std::f64::consts::PI).sin(),
+            );
+            self.tick(lifted, soles, side.other());
+        }
+        for tick in 1..=10 {
+            self.tick(
+                lifted + (0.5 - lifted) * f64::from(tick) / 10.0,
+                self.soles,
+                side.other(),
+            );
+        }
+        self
+    }
+
+    /// Walks `count` steps; each brings one foot to where `forward`, and `turn_rad` more of heading, put it.
+    pub(crate) fn walk(mut self, count: usize, forward_m: f64, turn_rad: f64) -> Self {
+        let mut at = PlanarPose::default();
+        for step in 0..count {
+            let side = if step % 2 == 0 {
+                Side::Left
+            } else {
+                Side::Right
+            };
+            if step > 0 {
+                at = at.compose(&PlanarPose::new(forward_m, 0.0, turn_rad));
+            }
+            let foot = at.compose(&PlanarPose::new(
+                forward_m * 0.5,
+                side.sign() * HIP_Y_M,
+                turn_rad * 0.5,
+            ));
+            self = self.step(side, foot, 0.0);
+        }
+        self
+    }
+
+    fn tick(&mut self, right_share: f64, soles: [(PlanarPose, f64); 2], support: Side) {
+        self.soles = soles;
+        let [(left, left_m), (right, right_m)] = soles;
+        let yaw_rad = f64::midpoint(left.yaw_rad, right.yaw_rad);
+        let middle = PlanarPose::new(
+            f64::midpoint(left.x_m, right.x_m),
+            f64::midpoint(left.y_m, right.y_m),
+            yaw_rad,
+        );
+        let level_m = soles[support.index()].1;
+        let before = self.torso;
+        let turn = UnitQuaternion::from_euler_angles(0.02 * (right_share - 0.5), 0.0, yaw_rad);
+        let height_m = HIP_HEIGHT_M - 0.02 + (left_m.min(right_m)).max(-0.1);
+        self.torso =
+            Isometry3::from_parts(Translation3::new(middle.x_m, middle.y_m, height_m), turn);
+        for side in Side::BOTH {
+            let (sole, sole_m) = soles[side.index()];
+            let odometry_from_sole = Isometry3::from_parts(
+                Translation3::new(sole.x_m, sole.y_m, sole_m),
+                UnitQuaternion::from_euler_angles(0.0, 0.0, sole.yaw_rad),
+            );
+            self.solve_leg(side, &(self.torso.inverse() * odometry_from_sole));
+        }
+        let weight_n = self.body.mass_kg() * 9.81;
+        let turned = before.rotation.inverse() * self.torso.rotation;
+        let first = self.observations.is_empty();
+        let rate = if first {
+            Vector3::zeros()
+        } else {
+            turned.scaled_axis() / 0.01
+        };
+        let force = self.torso.rotation.inverse() * Vector3::new(0.0, 0.0, 9.81);
+        self.observations.push(Observation {
+            time_ns: self.observations.len() as u64 * TICK_NS,
+            joint_positions_rad: self.joints.clone(),
+            joint_velocities_radps: vec![0.0; JOINTS],
+            angular_velocity_radps: rate.into(),
+            specific_force_mps2: force.into(),
+            foot_forces_n: [
+                [weight_n * (1.0 - right_share) / 4.0; 4],
+                [weight_n * right_share / 4.0; 4],
+            ],
+            depth: None,
+        });
+        self.truth.push((middle, level_m));
+    }
+
+    /// Newton's method on the forward kinematics, from the angles of the tick before.
+    fn solve_leg(&mut self, side: Side, torso_from_sole: &Isometry3<f64>) {
+        let indices = *self.body.leg_joints(side);
+        for _ in 0..30 {
+            let error = self.sole_error(side, torso_from_sole);
+            if error.norm() < 1e-13 {
+                break;
+            }
+            let mut jacobian = Matrix6::zeros();
+            for (column, &joint) in indices.iter().enumerate() {
+                let angle = self.joints[joint];
+                self.joints[joint] = angle + 1e-6;
+                jacobian.set_column(
+                    column,
+                    &((self.sole_error(side, torso_from_sole) - error) / 1e-6),
+                );
+                self.joints[joint] = angle;
+            }
+            let change = jacobian.lu().solve(&error).unwrap();
+            for (&joint, change) in indices.iter().zip(change.iter()) {
+                self.joints[joint] -= change;
+            }
+        }
+        assert!(
+            self.sole_error(side, torso_from_sole).norm() < 1e-9,
+            "the walk asks for an impossible leg"
+        );
+    }
+
+    fn sole_error(&self, side: Side, torso_from_sole: &Isometry3<f64>) -> Vector6<f64> {
+        let mut links = LinkPoses::default();
+        self.body.pose_links(&self.joints, &mut links).unwrap();
+        let is = self.body.torso_from_sole(&links, side);
+        let shift = is.translation.vector - torso_from_sole.translation.vector;
+        let turn = (torso_from_sole.rotation.inverse() * is.rotation).scaled_axis();
+        Vector6::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
+    }
+}
