@@ -8,7 +8,8 @@ pub enum World {}
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Map {}
 
-/// Where leg odometry counts from: equal to [`World`] at the start, drifts as feet slip and the gyroscope errs.
+/// Where leg odometry counts from. Origin and axes: the robot's frame at the first tick; drifts against the world as feet
+/// slip and the gyroscope errs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Odometry {}
 
