@@ -10,6 +10,8 @@ from treadwell.robot_file import read_robot_file
 QRIO = data_folder("models") / "qrio" / "robot.toml"
 
 BROKEN = [
+    ("[gait]", "[gait]\nextra = nan", "gait: must hold finite numbers"),
+    ("[gait]", "[gait]\nextra = 2026-01-01", "gait: must hold finite numbers"),
     ("[head]", "[head", "TOML"),
     ("kp = 150.0", "kp = 0.0", r"motors\.hip_and_knee\.kp.*greater than 0, got 0"),
     ("kp = 150.0", "kp = nan", r"motors\.hip_and_knee\.kp"),

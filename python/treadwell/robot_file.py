@@ -1,5 +1,6 @@
 """The parsed `robot.toml` of a robot's folder: what the MJCF cannot say of the robot."""
 
+import json
 import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -11,6 +12,7 @@ from pydantic import (
     FiniteFloat,
     StringConstraints,
     ValidationError,
+    field_validator,
     model_validator,
 )
 
@@ -198,6 +200,15 @@ class RobotFile(Table):
     camera: CameraTable
     motors: dict[Name, MotorsTable]
     gait: dict[str, Any] = {}
+
+    @field_validator("gait")
+    @classmethod
+    def _check_gait(cls, gait: dict[str, Any]) -> dict[str, Any]:
+        try:
+            json.dumps(gait, allow_nan=False)
+        except (TypeError, ValueError) as error:
+            raise ValueError("must hold finite numbers, strings, booleans and lists") from error
+        return gait
 
 
 def read_robot_file(path: Path) -> RobotFile:

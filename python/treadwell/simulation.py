@@ -1,5 +1,6 @@
 """The physics of one episode: the robot at its start, stepped by its motors alone, and audited."""
 
+import logging
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,9 @@ from treadwell.robot import Robot
 
 TICK_NS = 10_000_000
 """The control tick, nanoseconds."""
+
+# By default MuJoCo appends its warnings to a file in the current folder.
+mujoco.set_mju_user_warning(logging.getLogger(__name__).warning)
 
 
 @dataclass(frozen=True, slots=True)
