@@ -1,5 +1,8 @@
 //! World models: what the robot knows of the ground around it.
 
 mod model;
+pub mod surface;
+pub mod volume;
 
 pub use model::{FloorView, Insertion, MapError, Surface, WorldModel};
+pub use surface::{Fog, FogConfig, Update};

@@ -1,0 +1,201 @@
+//! The floor height grid: equations (2), (4), (8) and (9) of 000.
+
+use geometry::{Cell, CellArea, Grid, Lattice};
+
+use super::{FogConfig, LabelledFrame, Update};
+use crate::volume::OccupancyGrid;
+
+/// There is no floor height: below every height.
+pub const INVALID: f32 = f32::NEG_INFINITY;
+
+/// Equation (9): the height to keep where `stored` is known and `measured` is seen.
+pub fn merge_height(stored: f32, measured: f32, epsilon: f32, nu: f32) -> f32 {
+    if measured < stored - epsilon {
+        stored
+    } else if measured > stored + epsilon {
+        measured
+    } else {
+        nu * stored + (1.0 - nu) * measured
+    }
+}
+
+/// Heights of the highest horizontal surface of each cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FloorGrid {
+    lattice: Lattice,
+    heights: Grid<f32>,
+    /// Frames that saw the surface which the cell holds.
+    sightings: Grid<u16>,
+    epsilon: f32,
+    nu: f32,
+    /// Of the frame that is being inserted, per cell: highest supported height, sum and number of those within epsilon.
+    frame_top: Grid<f32>,
+    frame_sum: Grid<(f64, u32)>,
+    /// Cells with a supported height in this frame, and the cell of every point (or none).
+    frame_cells: Vec<Cell>,
+    point_cells: Vec<Option<Cell>>,
+}
+
+impl FloorGrid {
+    /// A grid without any height, equation (4).
+    pub fn new(lattice: Lattice, config: &FogConfig) -> Self {
+        let n = config.cells;
+        Self {
+            lattice,
+            heights: Grid::filled(n, n, INVALID),
+            sightings: Grid::filled(n, n, 0),
+            epsilon: config.epsilon as f32,
+            nu: config.nu as f32,
+            frame_top: Grid::filled(n, n, INVALID),
+            frame_sum: Grid::filled(n, n, (0.0, 0)),
+            frame_cells: Vec::with_capacity(n * n),
+            point_cells: Vec::new(),
+        }
+    }
+
+    /// Equation (2): height of the floor of a cell, m; `None` is *invalid*, also outside.
+    pub fn height(&self, cell: Cell) -> Option<f32> {
+        self.heights
+            .get(cell)
+            .copied()
+            .filter(|&height| height != INVALID)
+    }
+
+    /// Height of the floor at a place of the map frame, m.
+    pub fn height_at(&self, x_m: f64, y_m: f64) -> Option<f64> {
+        self.height(self.lattice.cell_at(x_m, y_m)).map(f64::from)
+    }
+
+    /// All heights; [`INVALID`] where there is none.
+    pub const fn heights(&self) -> &Grid<f32> {
+        &self.heights
+    }
+
+    /// How many frames saw the surface that a cell holds.
+    pub fn sightings(&self, cell: Cell) -> u16 {
+        self.sightings.get(cell).copied().unwrap_or(0)
+    }
+
+    /// Moves the window by whole cells to where `lattice` lies.
+    pub fn shift(&mut self, cols: i32, rows: i32, lattice: Lattice) {
+        self.heights.shift(cols, rows, &INVALID);
+        self.sightings.shift(cols, rows, &0);
+        self.lattice = lattice;
+    }
+
+    /// Equation (8): forgets heights of the area that the occupancy grid no longer supports, by (3) and (7).
+    pub fn verify(&mut self, occupancy: &OccupancyGrid, area: CellArea) {
+        for cell in area.cells() {
+            let Some(height) = self.height(cell) else {
+                continue;
+            };
+            let [x, y] = self.lattice.center_of(cell);
+            if !occupancy.is_occupied([x, y, f64::from(height)]) {
+                self.set(cell, INVALID, 0);
+            }
+        }
+    }
+
+    /// Equation (9) for the frame's points whose height the occupancy grid supports.
+    ///
+    /// Per frame, a cell is updated once, with the mean of the heights within epsilon of the highest one that was seen.
+    pub fn update(&mut self, frame: &LabelledFrame, occupancy: &OccupancyGrid, update: Update) {
+        self.point_cells.clear();
+        for point in &frame.points {
+            let [x, y, _] = point.position_m;
+            let height = point.floor_height_m;
+            let supported = !height.is_nan() && occupancy.is_occupied([x, y, height]);
+            let cell = supported.then(|| self.lattice.cell_at(x, y));
+            self.point_cells.push(cell);
+            let Some(top) = cell.and_then(|cell| self.frame_top.get_mut(cell)) else {
+                continue;
+            };
+            if *top == INVALID {
+                self.frame_cells.extend(cell);
+            }
+            *top = top.max(height as f32);
+        }
+        for (point, &cell) in frame.points.iter().zip(&self.point_cells) {
+            let Some(cell) = cell else { continue };
+            let height = point.floor_height_m as f32;
+            if update == Update::PerPoint {
+                if let Some(stored) = self.heights.get_mut(cell) {
+                    *stored = merge_height(*stored, height, self.epsilon, self.nu);
+                }
+            } else if let (Some(&top), Some(sum)) =
+                (self.frame_top.get(cell), self.frame_sum.get_mut(cell))
+                && height >= top - self.epsilon
+            {
+                *sum = (sum.0 + point.floor_height_m, sum.1 + 1);
+            }
+        }
+        self.finish(update);
+    }
+
+    /// Applies what was gathered of the frame and clears it.
+    fn finish(&mut self, update: Update) {
+        while let Some(cell) = self.frame_cells.pop() {
+            let Some(&stored) = self.heights.get(cell) else {
+                continue;
+            };
+            let seen = self.sightings(cell);
+            let (Some(top), Some(sum)) =
+                (self.frame_top.get_mut(cell), self.frame_sum.get_mut(cell))
+            else {
+                continue;
+            };
+            let measured = match update {
+                Update::PerFrame => (sum.0 / f64::from(sum.1)) as f32,
+                Update::PerPoint => *top,
+            };
+            *top = INVALID;
+            *sum = (0.0, 0);
+            if measured < stored - self.epsilon {
+                continue;
+            }
+            let same = measured <= stored + self.epsilon;
+            let height = match update {
+                Update::PerFrame => merge_height(stored, measured, self.epsilon, self.nu),
+                Update::PerPoint => stored,
+            };
+            self.set(cell, height, if same { seen.saturating_add(1) } else { 1 });
+        }
+    }
+
+    fn set(&mut self, cell: Cell, height: f32, seen: u16) {
+        if let (Some(slot), Some(count)) =
+            (self.heights.get_mut(cell), self.sightings.get_mut(cell))
+        {
+            (*slot, *count) = (height, seen);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EPSILON: f32 = 0.015;
+    const NU: f32 = 0.9;
+
+    #[test]
+    fn a_lower_height_is_ignored() {
+        assert_eq!(merge_height(0.1, 0.08, EPSILON, NU), 0.1);
+    }
+
+    #[test]
+    fn a_higher_height_replaces() {
+        assert_eq!(merge_height(0.1, 0.12, EPSILON, NU), 0.12);
+    }
+
+    #[test]
+    fn a_height_of_the_same_surface_is_smoothed() {
+        assert!((merge_height(0.1, 0.11, EPSILON, NU) - 0.101).abs() < 1e-7);
+    }
+
+    #[test]
+    fn an_invalid_height_lies_below_every_height() {
+        assert_eq!(merge_height(INVALID, -5.0, EPSILON, NU), -5.0);
+        assert!(INVALID < f32::MIN);
+    }
+}

@@ -1,0 +1,155 @@
+//! Labelled points of one frame in the map frame: steps 1 and 2 of the update in 000, section III.A.
+
+use geometry::{Map, Pose, Robot};
+use nalgebra::Point3;
+use segmentation::Planes;
+
+use crate::volume::Ray;
+
+/// A point with the height of the floor that it belongs to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LabelledPoint {
+    /// Its position in the map frame, m.
+    pub position_m: [f64; 3],
+    /// Height of its horizontal plane in the map frame, m; NaN is *invalid*.
+    pub floor_height_m: f64,
+    /// Whether something was seen here; false: the ray was cut at the longest range.
+    pub hit: bool,
+}
+
+/// One frame's points and where they were seen from. Reused from frame to frame.
+#[derive(Debug, Clone, Default)]
+pub struct LabelledFrame {
+    /// The camera in the map frame, m.
+    pub eye_m: [f64; 3],
+    /// What was seen.
+    pub points: Vec<LabelledPoint>,
+}
+
+impl LabelledFrame {
+    /// Carries the points to the map frame: turned by the heading, moved by the position, `h_G = h_R + z_R`.
+    /// Points on a horizontal plane are moved along their ray to its height when `snap`.
+    pub fn read(
+        &mut self,
+        planes: &Planes,
+        map_from_robot: &Pose<Map, Robot>,
+        snap: bool,
+        max_range_m: f64,
+    ) {
+        let eye = (*map_from_robot * planes.robot_from_camera.origin()).inner;
+        self.eye_m = [eye.x, eye.y, eye.z];
+        self.points.clear();
+        let rotation = map_from_robot.inner.rotation.to_rotation_matrix();
+        let translation = map_from_robot.inner.translation.vector;
+        for (point, &height) in planes.points_in_robot_m.iter().zip(&planes.floor_height_m) {
+            let [x, y, z] = point.map(f64::from);
+            if !(x + y + z).is_finite() {
+                continue;
+            }
+            let mut at = rotation * Point3::new(x, y, z) + translation;
+            let floor_height_m = f64::from(height) + translation.z;
+            if snap && let Some(factor) = snap_factor(eye.z, at.z, floor_height_m) {
+                at = eye + (at - eye) * factor;
+            }
+            let range = (at - eye).norm();
+            let hit = range <= max_range_m;
+            if !hit {
+                at = eye + (at - eye) * (max_range_m / range);
+            }
+            self.points.push(LabelledPoint {
+                position_m: [at.x, at.y, at.z],
+                floor_height_m: if hit { floor_height_m } else { f64::NAN },
+                hit,
+            });
+        }
+    }
+
+    /// Moves the whole frame up.
+    pub fn raise(&mut self, height_m: f64) {
+        self.eye_m[2] += height_m;
+        for point in &mut self.points {
+            point.position_m[2] += height_m;
+            point.floor_height_m += height_m;
+        }
+    }
+
+    /// The lines of sight.
+    pub fn rays(&self) -> impl Iterator<Item = Ray> {
+        self.points.iter().map(|point| Ray {
+            end_m: point.position_m,
+            hit: point.hit,
+        })
+    }
+}
+
+/// By how much a ray is stretched to end at its plane's height; `None` where that is no small correction.
+fn snap_factor(eye_z_m: f64, z_m: f64, floor_height_m: f64) -> Option<f64> {
+    let factor = (floor_height_m - eye_z_m) / (z_m - eye_z_m);
+    (factor > 0.5 && factor < 2.0).then_some(factor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geometry::Camera;
+    use proptest::prelude::*;
+
+    fn planes(point: [f32; 3], height: f32) -> Planes {
+        let mut planes = Planes::new(1);
+        planes.robot_from_camera = Pose::<Robot, Camera>::from_yaw(0.0, 0.0, 0.5, 0.0);
+        planes.points_in_robot_m[0] = point;
+        planes.floor_height_m[0] = height;
+        planes
+    }
+
+    proptest! {
+        #[test]
+        fn points_are_turned_then_moved_and_invalid_stays_invalid(
+            x in -2.0..2.0f32, y in -2.0..2.0f32, z in -0.2..0.4f32, pose in prop::array::uniform4(-1.0..1.0f64),
+        ) {
+            let [px, py, pz, yaw] = pose;
+            let map_from_robot = Pose::from_yaw(px, py, pz, yaw);
+            let mut frame = LabelledFrame::default();
+            frame.read(&planes([x, y, z], f32::NAN), &map_from_robot, true, 10.0);
+            let (sin, cos) = yaw.sin_cos();
+            let (x, y, z) = (f64::from(x), f64::from(y), f64::from(z));
+            let expected = [cos * x - sin * y + px, sin * x + cos * y + py, z + pz];
+            for (found, wanted) in frame.points[0].position_m.iter().zip(expected) {
+                prop_assert!((found - wanted).abs() < 1e-12);
+            }
+            prop_assert!(frame.points[0].floor_height_m.is_nan());
+            frame.read(&planes([1.0, 0.0, 0.0], 0.25), &map_from_robot, false, 10.0);
+            prop_assert!((frame.points[0].floor_height_m - (0.25 + pz)).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_snapped_point_lies_on_its_plane_and_on_its_ray() {
+        let mut frame = LabelledFrame::default();
+        frame.read(
+            &planes([0.5, 0.0, 0.02], 0.0),
+            &Pose::identity(),
+            true,
+            10.0,
+        );
+        let [x, _, z] = frame.points[0].position_m;
+        assert!(z.abs() < 1e-9, "{z}");
+        assert!((x / 0.5 - 0.5 / 0.48).abs() < 1e-6, "{x}");
+    }
+
+    #[test]
+    fn what_is_too_far_only_clears() {
+        let mut frame = LabelledFrame::default();
+        frame.read(&planes([6.0, 0.0, 0.5], 0.5), &Pose::identity(), true, 2.0);
+        let point = frame.points[0];
+        assert!(!point.hit && point.floor_height_m.is_nan());
+        assert!((point.position_m[0] - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn points_not_seen_are_left_out() {
+        let mut frame = LabelledFrame::default();
+        frame.read(&planes([f32::NAN; 3], 0.0), &Pose::identity(), true, 2.0);
+        assert!(frame.points.is_empty());
+    }
+}

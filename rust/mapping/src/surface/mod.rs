@@ -1,0 +1,14 @@
+//! Surfaces: the floor grid and the floor and obstacle grid.
+
+mod config;
+mod floor;
+mod fog;
+mod frame;
+mod matching;
+mod window;
+
+pub use config::{FogConfig, Update};
+pub use floor::{FloorGrid, INVALID, merge_height};
+pub use fog::Fog;
+pub use frame::{LabelledFrame, LabelledPoint};
+pub use matching::height_shift;
