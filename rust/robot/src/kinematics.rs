@@ -184,6 +184,13 @@ impl Body {
         &self.leg_joints[side.index()]
     }
 
+    /// The link that a joint turns, by the joint's index, with what is known of the joint.
+    pub fn hinge(&self, joint: usize) -> Option<(usize, &crate::JointDescription)> {
+        let turned = |link: &Link| link.hinge.as_ref().is_some_and(|hinge| hinge.index == joint);
+        let link = self.links.iter().position(turned)?;
+        Some((link, self.description.links[link].joint.as_ref()?))
+    }
+
     /// Index of the link that carries the sole.
     pub const fn sole_link(&self, side: Side) -> usize {
         self.sole_links[side.index()]

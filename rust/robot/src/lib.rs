@@ -4,6 +4,7 @@
 
 mod description;
 mod kinematics;
+mod statics;
 
 pub use description::{
     CameraMount, Description, Extent, Head, ImuMount, JointDescription, Leg, Legs, LinkDescription,

@@ -1,5 +1,25 @@
 //! From commands to joint targets: footsteps, centre of mass, swing foot, leg inverse kinematics, stabiliser.
+//!
+//! [`Gait`](gait::Gait) decides which foot moves where and when, [`dcm`] gives the motion of the centre of mass for it,
+//! [`balance`] measures how far the robot is from it, [`support`] says where the feet have to push, [`capture`] moves a step when
+//! pushing is not enough, and [`leg`] turns all of it into joint angles.
 
+pub mod balance;
+pub mod capture;
+mod config;
+pub mod dcm;
+mod error;
+pub mod feet;
+pub mod footsteps;
+pub mod gait;
+mod gaze;
+pub mod leg;
+pub mod support;
+pub mod swing;
 mod targets;
+mod walker;
 
+pub use config::GaitConfig;
+pub use error::WalkError;
 pub use targets::JointTargets;
+pub use walker::Walker;

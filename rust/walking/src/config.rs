@@ -1,0 +1,175 @@
+//! `[gait]` of robot.toml: how this robot walks.
+
+use geometry::{ConfigError, require};
+use serde::{Deserialize, Serialize};
+
+/// The gait's parameters. Lengths in metres, times in seconds, angles in radians.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct GaitConfig {
+    /// Time from one landing to the next, s.
+    pub step_time: f64,
+    /// Part of the step time in which both feet carry, s.
+    pub double_support: f64,
+    /// Time to shift the weight onto the first foot, and at the end back to the middle, s.
+    pub shift_time: f64,
+    /// Height of the swing foot's sole over the higher of its two ends, m.
+    pub step_height: f64,
+    /// Longest step forward, m: from beside the standing foot to where it lands.
+    pub max_forward: f64,
+    /// Longest step backward, m.
+    pub max_backward: f64,
+    /// Largest extra distance between the feet in a side step, m.
+    pub max_sideways: f64,
+    /// Largest turn of one step, rad.
+    pub max_turn: f64,
+    /// Distance between the centres of the soles when they are side by side, m.
+    pub stance_width: f64,
+    /// Least gap between the soles, m.
+    pub foot_gap: f64,
+    /// Height of the hips' centres over the soles, m.
+    pub hip_height: f64,
+    /// The leg never gets longer than this share of its straight length.
+    pub max_extension: f64,
+    /// Where the foot carries: this far from the sole's middle towards the other foot, m.
+    pub support_inward: f64,
+    /// The centre of pressure keeps this far from the sole's edges, m.
+    pub sole_margin: f64,
+    /// Gain from the error of the divergent component of motion to the centre of pressure; stable above 1.
+    pub dcm_gain: f64,
+    /// Share of the measured speed of the centre of mass that a tick takes over.
+    pub velocity_blend: f64,
+    /// How fast the reference follows the measured centre of mass, 1/s.
+    pub reference_pull: f64,
+    /// Speed at which a foot yields to a wrong share of the load, m/s per N.
+    pub load_gain: f64,
+    /// How fast the difference of the feet's heights is forgotten, 1/s.
+    pub load_leak: f64,
+    /// Largest difference of the feet's heights through load control, m.
+    pub load_limit: f64,
+    /// Load at which a foot counts as landed before its time, N.
+    pub landing_load: f64,
+    /// Errors at landing up to this are left to the ankles, m; above, the step is moved.
+    pub capture_deadband: f64,
+    /// The farthest that a step is moved to catch a push, m.
+    pub capture_limit: f64,
+    /// Largest acceleration of a step's clock to catch a push.
+    pub capture_hurry: f64,
+    /// Largest speed of the head's joints, rad/s.
+    pub gaze_speed: f64,
+}
+
+impl Default for GaitConfig {
+    fn default() -> Self {
+        Self {
+            step_time: 0.6,
+            double_support: 0.15,
+            shift_time: 0.6,
+            step_height: 0.02,
+            max_forward: 0.07,
+            max_backward: 0.05,
+            max_sideways: 0.06,
+            max_turn: 0.3,
+            stance_width: 0.085,
+            foot_gap: 0.008,
+            hip_height: 0.223,
+            max_extension: 0.985,
+            support_inward: 0.0,
+            sole_margin: 0.006,
+            dcm_gain: 3.0,
+            velocity_blend: 0.5,
+            reference_pull: 0.0,
+            load_gain: 0.002,
+            load_leak: 0.5,
+            load_limit: 0.012,
+            landing_load: 6.0,
+            capture_deadband: 0.01,
+            capture_limit: 0.08,
+            capture_hurry: 1.0,
+            gaze_speed: 2.0,
+        }
+    }
+}
+
+impl GaitConfig {
+    /// Refuses what no gait can have.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        let positive = [
+            ("step_time", self.step_time),
+            ("double_support", self.double_support),
+            ("shift_time", self.shift_time),
+            ("step_height", self.step_height),
+            ("max_forward", self.max_forward),
+            ("max_backward", self.max_backward),
+            ("max_sideways", self.max_sideways),
+            ("max_turn", self.max_turn),
+            ("stance_width", self.stance_width),
+            ("hip_height", self.hip_height),
+            ("max_extension", self.max_extension),
+            ("landing_load", self.landing_load),
+            ("capture_hurry", self.capture_hurry),
+            ("gaze_speed", self.gaze_speed),
+        ];
+        let not_negative = [
+            ("foot_gap", self.foot_gap),
+            ("sole_margin", self.sole_margin),
+            ("reference_pull", self.reference_pull),
+            ("load_gain", self.load_gain),
+            ("load_leak", self.load_leak),
+            ("load_limit", self.load_limit),
+            ("capture_deadband", self.capture_deadband),
+            ("capture_limit", self.capture_limit),
+        ];
+        for (name, value) in positive {
+            let holds = value.is_finite() && value > 0.0;
+            require(holds, &format!("gait.{name}"), "> 0", value)?;
+        }
+        for (name, value) in not_negative {
+            let holds = value.is_finite() && value >= 0.0;
+            require(holds, &format!("gait.{name}"), ">= 0", value)?;
+        }
+        let limited = [
+            (
+                self.double_support < self.step_time,
+                "double_support",
+                "below step_time",
+                self.double_support,
+            ),
+            (
+                self.max_extension < 1.0,
+                "max_extension",
+                "below 1",
+                self.max_extension,
+            ),
+            (
+                self.dcm_gain.is_finite() && self.dcm_gain > 1.0,
+                "dcm_gain",
+                "> 1",
+                self.dcm_gain,
+            ),
+            (
+                (0.0..=1.0).contains(&self.velocity_blend),
+                "velocity_blend",
+                "from 0 to 1",
+                self.velocity_blend,
+            ),
+            (
+                self.support_inward.is_finite(),
+                "support_inward",
+                "finite",
+                self.support_inward,
+            ),
+            (
+                self.capture_hurry >= 1.0,
+                "capture_hurry",
+                ">= 1",
+                self.capture_hurry,
+            ),
+            (self.max_turn < 1.0, "max_turn", "below 1", self.max_turn),
+        ];
+        for (holds, name, allowed, value) in limited {
+            require(holds, &format!("gait.{name}"), allowed, value)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,82 @@
+//! Small corrections of the feet's heights: sharing the load while both stand, yielding to an early landing.
+
+use robot::Side;
+
+use crate::GaitConfig;
+use crate::gait::{FootPose, Phase};
+
+/// Share of the swing after which a load on the foot is a landing.
+const LANDING_SHARE: f64 = 0.6;
+
+/// Heights that are added to the planned ones.
+#[derive(Debug, Clone)]
+pub struct FeetControl {
+    config: GaitConfig,
+    tilt_m: f64,
+    landed: [f64; 2],
+    held: Option<(Side, f64)>,
+}
+
+impl FeetControl {
+    /// Without any correction yet.
+    pub fn new(config: &GaitConfig) -> Self {
+        Self {
+            config: config.clone(),
+            tilt_m: 0.0,
+            landed: [0.0; 2],
+            held: None,
+        }
+    }
+
+    /// Takes in the loads on the feet. While both stand, the one with more than its share yields upwards, the other one down;
+    /// a foot that finds the ground before its time stays at that height.
+    pub fn update(
+        &mut self,
+        phase: &Phase,
+        share: &[f64; 2],
+        loads_n: &[f64; 2],
+        weight_n: f64,
+        passed_s: f64,
+    ) {
+        let config = &self.config;
+        let forget = 1.0 - (config.load_leak * passed_s).min(1.0);
+        self.tilt_m *= forget;
+        for height in &mut self.landed {
+            *height *= forget;
+        }
+        if let Phase::Single {
+            elapsed_s,
+            duration_s,
+            swing,
+        } = phase
+        {
+            let landed = loads_n[swing.side.index()] > config.landing_load
+                && elapsed_s / duration_s > LANDING_SHARE;
+            if landed && self.held.is_none() {
+                self.held = Some((swing.side, f64::NAN));
+            }
+            return;
+        }
+        if let Some((_, height)) = self.held.take() {
+            debug_assert!(height.is_finite());
+        }
+        let error = 0.5 * ((loads_n[0] - loads_n[1]) - (share[0] - share[1]) * weight_n);
+        self.tilt_m = (self.tilt_m + config.load_gain * error * passed_s)
+            .clamp(-config.load_limit, config.load_limit);
+    }
+
+    /// The foot's place with the corrections.
+    pub fn place(&mut self, mut foot: FootPose, side: Side) -> FootPose {
+        let index = side.index();
+        if let Some((held, height)) = &mut self.held
+            && *held == side
+        {
+            if height.is_nan() {
+                *height = foot.z_m;
+            }
+            self.landed[index] = *height - foot.z_m;
+        }
+        foot.z_m += side.sign() * 0.5 * self.tilt_m + self.landed[index].max(0.0);
+        foot
+    }
+}

@@ -1,0 +1,94 @@
+//! The head: turns the camera to where the command looks.
+
+use behaviour::Gaze;
+use nalgebra::Vector3;
+use robot::{Body, LinkPoses};
+
+use crate::WalkError;
+
+/// Moves pan and tilt with limited speed.
+#[derive(Debug, Clone)]
+pub struct Head {
+    joints: [usize; 2],
+    ranges_rad: [[f64; 2]; 2],
+    signs: [f64; 2],
+    down_at_zero_rad: f64,
+    speed_radps: f64,
+    angles_rad: [f64; 2],
+}
+
+impl Head {
+    /// Learns from the kinematics how the head's joints turn the camera when all other joints are as in the upright stance.
+    pub fn new(body: &Body, speed_radps: f64) -> Result<Self, WalkError> {
+        let description = body.description();
+        let names = [&description.head.pan, &description.head.tilt];
+        let mut joints = [0; 2];
+        let mut ranges_rad = [[0.0; 2]; 2];
+        for (slot, name) in names.into_iter().enumerate() {
+            joints[slot] = body.joint("head", name)?;
+            ranges_rad[slot] = body
+                .hinge(joints[slot])
+                .map_or([0.0; 2], |(_, joint)| joint.range);
+        }
+        let mut poses = LinkPoses::default();
+        let mut look = |pan: f64, tilt: f64| -> Result<Vector3<f64>, WalkError> {
+            let mut angles = description.stand.clone();
+            angles[joints[0]] = pan;
+            angles[joints[1]] = tilt;
+            body.pose_links(&angles, &mut poses)?;
+            Ok(body.torso_from_camera(&poses).inner.rotation * Vector3::z())
+        };
+        let down = |axis: Vector3<f64>| -axis.z.atan2(axis.x.hypot(axis.y));
+        let small = 0.01;
+        let (straight, panned, tilted) = (look(0.0, 0.0)?, look(small, 0.0)?, look(0.0, small)?);
+        let left = panned.y.atan2(panned.x) - straight.y.atan2(straight.x);
+        let angles_rad = [description.stand[joints[0]], description.stand[joints[1]]];
+        Ok(Self {
+            joints,
+            ranges_rad,
+            signs: [left.signum(), (down(tilted) - down(straight)).signum()],
+            down_at_zero_rad: down(straight),
+            speed_radps,
+            angles_rad,
+        })
+    }
+
+    /// Turns towards `gaze` for `passed_s`; writes angles and speeds of both joints.
+    pub fn turn(
+        &mut self,
+        gaze: &Gaze,
+        passed_s: f64,
+        positions_rad: &mut [f64],
+        velocities_radps: &mut [f64],
+    ) {
+        let wanted = [
+            gaze.pan_rad * self.signs[0],
+            (gaze.down_rad - self.down_at_zero_rad) * self.signs[1],
+        ];
+        let most = self.speed_radps * passed_s;
+        for slot in 0..2 {
+            let [low, high] = self.ranges_rad[slot];
+            let before = self.angles_rad[slot];
+            let goal = if wanted[slot].is_finite() {
+                wanted[slot].clamp(low, high)
+            } else {
+                before
+            };
+            self.angles_rad[slot] = before + (goal - before).clamp(-most, most);
+            positions_rad[self.joints[slot]] = self.angles_rad[slot];
+            velocities_radps[self.joints[slot]] = if passed_s > 0.0 {
+                (self.angles_rad[slot] - before) / passed_s
+            } else {
+                0.0
+            };
+        }
+    }
+
+    /// Where it was told to look at the last tick.
+    pub fn gaze(&self) -> Gaze {
+        Gaze {
+            pan_rad: self.angles_rad[0] * self.signs[0],
+            down_rad: self.angles_rad[1] * self.signs[1] + self.down_at_zero_rad,
+        }
+    }
+}

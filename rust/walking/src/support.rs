@@ -1,0 +1,92 @@
+//! Where the soles can push, and how a wanted zero moment point is shared between them.
+
+use nalgebra::Vector2;
+use robot::{Body, Side};
+
+use crate::gait::FootPose;
+
+/// How the feet carry: what the torques are fed forward for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pressure {
+    /// Share of the weight on each foot; sums to 1.
+    pub share: [f64; 2],
+    /// Point in the plan frame at which each foot pushes, m.
+    pub point: [Vector2<f64>; 2],
+    /// The zero moment point that results, m.
+    pub zmp: Vector2<f64>,
+}
+
+/// The soles without their margins.
+#[derive(Debug, Clone)]
+pub struct Soles {
+    half: [Vector2<f64>; 2],
+}
+
+impl Soles {
+    /// The soles of the body, smaller by `margin_m` all around.
+    pub fn new(body: &Body, margin_m: f64) -> Self {
+        Self {
+            half: Side::BOTH.map(|side| {
+                let sole = &body.description().legs.get(side).sole;
+                Vector2::new(
+                    (0.5 * sole.length - margin_m).max(0.0),
+                    (0.5 * sole.width - margin_m).max(0.0),
+                )
+            }),
+        }
+    }
+
+    /// The point of a standing foot's sole that is nearest to `point`, axis by axis.
+    pub fn nearest(&self, foot: &FootPose, side: Side, point: &Vector2<f64>) -> Vector2<f64> {
+        let (x, y) = foot.planar.inverse().apply(point.x, point.y);
+        let half = &self.half[side.index()];
+        let (x, y) = foot
+            .planar
+            .apply(x.clamp(-half.x, half.x), y.clamp(-half.y, half.y));
+        Vector2::new(x, y)
+    }
+
+    /// The zero moment point `wanted`, as nearly as one foot gives it.
+    pub fn on_one(&self, feet: &[FootPose; 2], stance: Side, wanted: &Vector2<f64>) -> Pressure {
+        let zmp = self.nearest(&feet[stance.index()], stance, wanted);
+        let mut share = [0.0; 2];
+        share[stance.index()] = 1.0;
+        Pressure {
+            share,
+            point: Side::BOTH.map(|side| {
+                if side == stance {
+                    zmp
+                } else {
+                    center(&feet[side.index()])
+                }
+            }),
+            zmp,
+        }
+    }
+
+    /// The zero moment point `wanted`, as nearly as both feet give it: shared along the line between them, the rest within each.
+    pub fn on_both(
+        &self,
+        feet: &[FootPose; 2],
+        carry: &[Vector2<f64>; 2],
+        wanted: &Vector2<f64>,
+    ) -> Pressure {
+        let line = carry[0] - carry[1];
+        let length2 = line.norm_squared().max(1e-9);
+        let left = ((wanted - carry[1]).dot(&line) / length2).clamp(0.0, 1.0);
+        let rest = wanted - (carry[1] + line * left);
+        let point = Side::BOTH.map(|side| {
+            let index = side.index();
+            self.nearest(&feet[index], side, &(carry[index] + rest))
+        });
+        Pressure {
+            share: [left, 1.0 - left],
+            point,
+            zmp: point[0] * left + point[1] * (1.0 - left),
+        }
+    }
+}
+
+fn center(foot: &FootPose) -> Vector2<f64> {
+    Vector2::new(foot.planar.x_m, foot.planar.y_m)
+}
