@@ -11,6 +11,13 @@ pub struct BodyStateHistory {
     tolerance_ns: u64,
 }
 
+impl Default for BodyStateHistory {
+    /// More than a second at 100 Hz, to within a tick.
+    fn default() -> Self {
+        Self::new(128, 10_000_000)
+    }
+}
+
 impl BodyStateHistory {
     /// Keeps the last `capacity` states (at least one). A state is given for times up to `tolerance_ns` beside it.
     pub fn new(capacity: usize, tolerance_ns: u64) -> Self {
@@ -24,7 +31,7 @@ impl BodyStateHistory {
     }
 
     /// Keeps a copy of `state`; forgets the oldest when full.
-    pub fn record(&mut self, state: &BodyState) {
+    pub fn push(&mut self, state: &BodyState) {
         if self.states.len() < self.capacity {
             self.newest = self.states.len();
             self.states.push(state.clone());
@@ -75,7 +82,7 @@ mod tests {
         fn the_state_at_a_time_is_the_nearest_one(ticks in 1..60u64, back_ns in 0..500_000_000u64) {
             let mut history = BodyStateHistory::new(20, TICK_NS / 2);
             for tick in 0..ticks {
-                history.record(&state_at(tick * TICK_NS));
+                history.push(&state_at(tick * TICK_NS));
             }
             let newest_ns = (ticks - 1) * TICK_NS;
             prop_assert_eq!(history.newest().map(|state| state.time_ns), Some(newest_ns));
@@ -92,7 +99,7 @@ mod tests {
     fn a_full_ring_reuses_its_memory() {
         let mut history = BodyStateHistory::new(3, TICK_NS);
         for tick in 0..3 {
-            history.record(&state_at(tick * TICK_NS));
+            history.push(&state_at(tick * TICK_NS));
         }
         let before: Vec<_> = history
             .states
@@ -100,7 +107,7 @@ mod tests {
             .map(|s| s.links.torso_from_link.as_ptr())
             .collect();
         for tick in 3..9 {
-            history.record(&state_at(tick * TICK_NS));
+            history.push(&state_at(tick * TICK_NS));
         }
         let after: Vec<_> = history
             .states
