@@ -233,10 +233,7 @@ def _belongs(model: mujoco.MjModel, geom: int, prefix: str) -> bool:
         not model.geom_contype[geom] and not model.geom_conaffinity[geom]
     ):
         return False
-    body = int(model.geom_bodyid[geom])
-    return any(
-        str(name).startswith(prefix) for name in (model.geom(geom).name, model.body(body).name)
-    )
+    return bool(model.geom(geom).name.startswith(prefix))
 
 
 def _place_root(spec: mujoco.MjSpec, robot: Robot, scenario: Scenario) -> None:

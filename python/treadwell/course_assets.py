@@ -79,6 +79,11 @@ def read_mjcf(folder: Path, file: str, what: str) -> mujoco.MjSpec:
     for items in (spec.keys, spec.actuators, spec.sensors, spec.cameras):
         for item in list(items):
             spec.delete(item)
+    taken = {geom.name for geom in spec.geoms}
+    for number, geom in enumerate(geom for geom in spec.geoms if not geom.name):
+        # Found again by its name after it was attached.
+        name = f"geom {number + 1}"
+        geom.name = name if name not in taken else f"{name} of {len(taken)}"
     spec.memory = -1
     compiled(spec.copy(), what)
     return spec
@@ -103,7 +108,7 @@ def mjcf_pieces(
         vertices = center + (signs * size) @ rotation.T
         quaternion = np.zeros(4)
         mujoco.mju_mat2Quat(quaternion, data.geom_xmat[geom])
-        name = model.geom(geom).name or f"geom {geom_ids.index(geom) + 1}"
+        name = model.geom(geom).name.rpartition("/")[2]
         pieces.append(Piece("box", name, vertices, center, size.copy(), quaternion))
         if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_BOX and rotation[2, 2] > 0.9999:
             tops.append(level(name, vertices[4:, :2], float(vertices[4, 2])))

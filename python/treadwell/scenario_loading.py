@@ -126,7 +126,7 @@ def _apply(
 ) -> list[str]:
     """Apply settings, draws and flags in place, in the order of their rank."""
     settings = [parse_setting(setting) for setting in overrides]
-    early = {i for i, (key, _) in enumerate(settings) if split_key(key)[0] in {"seed", "vary"}}
+    early = {i for i, (key, _) in enumerate(settings) if _first_word(key) in {"seed", "vary"}}
     lines: list[str] = []
 
     def assign_all(indices: Sequence[int]) -> None:
@@ -146,6 +146,13 @@ def _apply(
     if robot is not None:
         raw["robot"] = robot
     return lines
+
+
+def _first_word(key: str) -> str:
+    try:
+        return split_key(key)[0]
+    except InputError as error:
+        raise InputError(f"--set {error}") from None
 
 
 def _check_files(scenario: Scenario, raw: dict[str, Any]) -> list[str]:
