@@ -79,7 +79,7 @@ impl Default for GaitConfig {
             dcm_gain: 3.0,
             velocity_blend: 0.5,
             reference_pull: 0.0,
-            load_gain: 0.002,
+            load_gain: 0.0006,
             load_leak: 0.5,
             load_limit: 0.012,
             landing_load: 6.0,
