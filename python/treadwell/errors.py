@@ -22,3 +22,7 @@ class EpisodeError(TreadwellError):
 
 class SimulationError(TreadwellError):
     """The physics left what it can compute: a state that is not finite, or a full buffer."""
+
+
+class RecordingError(TreadwellError):
+    """A recording cannot be written any more: a full disk, a file that vanished. Names the file."""
