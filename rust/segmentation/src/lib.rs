@@ -1,5 +1,9 @@
 //! Planes in a scan: scan-line grouping, region growing, the ground plane, labelled points.
 
 mod planes;
+mod scan_line;
+#[cfg(test)]
+mod synthetic;
 
 pub use planes::{PlaneRegion, Planes, SegmentError, Segmenter};
+pub use scan_line::{ScanLine, ScanLineConfig};

@@ -1,0 +1,138 @@
+//! Fits over eroded regions: the height of each, and the one tilt that all horizontal regions share.
+//!
+//! With the camera turned wrong by a small tilt `(a, b)` (the true upward direction is `(a, b, 1)` in the robot's axes as
+//! believed), a horizontal surface shows `d = q (g - a X - b Y)`, where `X`, `Y`, `g` are linear in the pixel. One step of
+//! Gauss and Newton over all regions, each with its own `q`, gives the tilt.
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::grouping::Region;
+use super::strips::Picture;
+use super::view::View;
+
+/// Matching windows of 5x5 overlap: so many neighbouring pixels tell as much as one independent one.
+const SHARED_BY: f64 = 25.0;
+/// Residuals beyond so many noises are left out.
+const OUTLIER: f32 = 3.5;
+/// A tilt is there when its squared distance from none, in its own errors, is above this (2 degrees of freedom, 0.1 %).
+const SIGNIFICANT: f64 = 13.8;
+
+/// Sums over the pixels of one region; `e` is the residual at the `q` that the sums were made with.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct RegionFit {
+    /// Pixels that took part.
+    pub(super) count: u32,
+    q: f64,
+    gg: f64,
+    gt: Vector2<f64>,
+    tt: Matrix2<f64>,
+    ge: f64,
+    te: Vector2<f64>,
+    ee: f64,
+}
+
+impl RegionFit {
+    /// What the region tells of the tilt once its own height is eliminated: information and its product with the tilt.
+    fn tilt_equation(&self) -> (Matrix2<f64>, Vector2<f64>) {
+        if self.gg <= 0.0 {
+            return (Matrix2::zeros(), Vector2::zeros());
+        }
+        (
+            (self.tt - self.gt * self.gt.transpose() / self.gg) / SHARED_BY,
+            (self.te - self.gt * (self.ge / self.gg)) / SHARED_BY,
+        )
+    }
+
+    /// The region's own tilt, and whether it is more than noise.
+    pub(super) fn own_tilt(&self) -> (Vector2<f64>, bool) {
+        let (information, product) = self.tilt_equation();
+        // A weak wish for no tilt keeps regions that are a line from giving nonsense.
+        let tilt = (information + Matrix2::identity())
+            .try_inverse()
+            .map_or_else(Vector2::zeros, |inverse| inverse * product);
+        (tilt, tilt.dot(&product) > SIGNIFICANT)
+    }
+
+    /// Whether the region may be horizontal when the camera's tilt is known to `limit_rad`.
+    pub(super) fn is_level(&self, limit_rad: f64) -> bool {
+        let (tilt, significant) = self.own_tilt();
+        !significant || tilt.norm() < limit_rad
+    }
+
+    /// `q` when the camera is tilted by `tilt`.
+    pub(super) fn q(&self, tilt: &Vector2<f64>) -> f64 {
+        if self.gg <= 0.0 {
+            return self.q;
+        }
+        self.q + (self.ge - self.gt.dot(tilt)) / self.gg
+    }
+
+    /// Root mean square residual in noises, at the best `q`.
+    pub(super) fn roughness(&self) -> f64 {
+        if self.count == 0 || self.gg <= 0.0 {
+            return f64::INFINITY;
+        }
+        ((self.ee - self.ge * self.ge / self.gg).max(0.0) / f64::from(self.count)).sqrt()
+    }
+}
+
+/// Adds up the fit of every region over the pixels that `labels` gives it.
+pub(super) fn fit_regions(
+    picture: Picture<'_>,
+    view: &View,
+    regions: &[Region],
+    labels: &[u16],
+    fits: &mut Vec<RegionFit>,
+) {
+    fits.clear();
+    fits.extend(regions.iter().map(|region| RegionFit {
+        q: f64::from(region.q),
+        ..RegionFit::default()
+    }));
+    for (at, &label) in labels.iter().enumerate() {
+        if label == 0 {
+            continue;
+        }
+        let index = usize::from(label) - 1;
+        let (col, row) = (at % picture.width, at / picture.width);
+        let (d, g, q) = (picture.disparity_px[at], picture.g[at], regions[index].q);
+        let sigma = picture.noise.at(col, row);
+        let miss = (d - q * g) / sigma;
+        // Also false where nothing was seen.
+        if miss.abs() < OUTLIER {
+            let fit = &mut fits[index];
+            let tilt = Vector2::new(
+                f64::from(-q * view.x.at(col, row) / sigma),
+                f64::from(-q * view.y.at(col, row) / sigma),
+            );
+            let (g, e) = (f64::from(g / sigma), f64::from(miss));
+            fit.count += 1;
+            fit.gg += g * g;
+            fit.gt += tilt * g;
+            fit.tt += tilt * tilt.transpose();
+            fit.ge += g * e;
+            fit.te += tilt * e;
+            fit.ee += e * e;
+        }
+    }
+}
+
+/// The tilt that the level regions share, drawn towards `expected` as far as they leave it open.
+pub(super) fn shared_tilt(
+    fits: &[RegionFit],
+    level_rad: f64,
+    expected: &Vector2<f64>,
+    expected_sigma_rad: f64,
+) -> Vector2<f64> {
+    let prior = 1.0 / (expected_sigma_rad * expected_sigma_rad);
+    let mut information = Matrix2::identity() * prior;
+    let mut product = expected * prior;
+    for fit in fits.iter().filter(|fit| fit.is_level(level_rad)) {
+        let (a, b) = fit.tilt_equation();
+        information += a;
+        product += b;
+    }
+    information
+        .try_inverse()
+        .map_or(*expected, |inverse| inverse * product)
+}

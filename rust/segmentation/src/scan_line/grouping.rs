@@ -1,0 +1,281 @@
+//! Region growing: segments of neighbouring strips that show one surface, then pixels, then regions of equal height.
+
+use super::strips::{Picture, Segment};
+
+/// Most regions that are told apart in one frame; smaller ones are left out.
+pub(super) const MAX_REGIONS: usize = 63;
+
+/// A horizontal region while it grows.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Region {
+    /// Disparity over `g`, 1/m.
+    pub(super) q: f32,
+    /// Pixels.
+    pub(super) support: usize,
+}
+
+/// Thresholds of the growth, in noise, and sizes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct GrowthRules {
+    /// Columns of a strip.
+    pub(super) strip: usize,
+    /// Surfaces closer than this are one.
+    pub(super) join: f32,
+    /// A pixel closer than this belongs to the surface.
+    pub(super) accept: f32,
+    /// Smallest region, pixels.
+    pub(super) min_region: usize,
+}
+
+/// Grows regions. Keeps its buffers.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Grouping {
+    parent: Vec<usize>,
+    region_of: Vec<u16>,
+    queue: Vec<usize>,
+    contacts: Vec<(u32, f32)>,
+}
+
+fn root(parent: &[usize], mut at: usize) -> usize {
+    while parent[at] != at {
+        at = parent[at];
+    }
+    at
+}
+
+impl Grouping {
+    /// Joins the segments of neighbouring strips that overlap and agree; fills `regions` with the groups that are large
+    /// enough and `labels` with their pixels (0: none, i + 1: region i).
+    pub(super) fn group(
+        &mut self,
+        picture: Picture<'_>,
+        segments: &[Segment],
+        rules: GrowthRules,
+        regions: &mut Vec<Region>,
+        labels: &mut [u16],
+    ) {
+        self.parent.clear();
+        self.parent.extend(0..segments.len());
+        let mut left = 0;
+        for (at, segment) in segments.iter().enumerate() {
+            while segments[left].strip + 1 < segment.strip {
+                left += 1;
+            }
+            let mut other = left;
+            while segments[other].strip + 1 == segment.strip {
+                if alike(picture, rules, &segments[other], segment) {
+                    let (a, b) = (root(&self.parent, other), root(&self.parent, at));
+                    self.parent[a.max(b)] = a.min(b);
+                }
+                other += 1;
+            }
+        }
+        self.collect(segments, rules, regions);
+        labels.fill(0);
+        for (at, segment) in segments.iter().enumerate() {
+            let label = self.region_of[root(&self.parent, at)];
+            if label == 0 {
+                continue;
+            }
+            let q = regions[usize::from(label) - 1].q;
+            let first = segment.strip * rules.strip;
+            let end = (first + rules.strip).min(picture.width);
+            for row in segment.first..segment.end {
+                for at in row * picture.width + first..row * picture.width + end {
+                    let sigma = picture.noise.at(at % picture.width, row);
+                    if (picture.disparity_px[at] - q * picture.g[at]).abs() < rules.accept * sigma {
+                        labels[at] = label;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Numbers the groups that are large enough, in the order of their first segments.
+    fn collect(&mut self, segments: &[Segment], rules: GrowthRules, regions: &mut Vec<Region>) {
+        regions.clear();
+        self.contacts.clear();
+        self.contacts.resize(segments.len(), (0, 0.0));
+        self.region_of.clear();
+        self.region_of.resize(segments.len(), 0);
+        for (at, segment) in segments.iter().enumerate() {
+            let group = &mut self.contacts[root(&self.parent, at)];
+            group.0 += ((segment.end - segment.first) * rules.strip) as u32;
+            group.1 += segment.weight;
+        }
+        for at in 0..segments.len() {
+            if self.parent[at] == at
+                && self.contacts[at].0 as usize >= rules.min_region
+                && regions.len() < MAX_REGIONS
+            {
+                regions.push(Region::default());
+                self.region_of[at] = regions.len() as u16;
+            }
+        }
+        for (at, segment) in segments.iter().enumerate() {
+            let group = root(&self.parent, at);
+            let label = usize::from(self.region_of[group]);
+            if label > 0 {
+                regions[label - 1].q += segment.q * segment.weight / self.contacts[group].1;
+                regions[label - 1].support += (segment.end - segment.first) * rules.strip;
+            }
+        }
+    }
+
+    /// Lets the regions take in the neighbouring pixels that lie on their surfaces; a pixel goes to the surface that it
+    /// is closest to among its neighbours'.
+    pub(super) fn grow(
+        &mut self,
+        picture: Picture<'_>,
+        rules: GrowthRules,
+        regions: &[Region],
+        labels: &mut [u16],
+    ) {
+        let width = picture.width;
+        let inner = |at: usize| {
+            let col = at % width;
+            col > 0 && col + 1 < width && at >= width && at + width < labels.len()
+        };
+        self.queue.clear();
+        self.queue.extend((0..labels.len()).filter(|&at| {
+            labels[at] > 0
+                && inner(at)
+                && [at - 1, at + 1, at - width, at + width]
+                    .iter()
+                    .any(|&beside| labels[beside] != labels[at])
+        }));
+        let mut next = 0;
+        while next < self.queue.len() {
+            let at = self.queue[next];
+            next += 1;
+            let label = labels[at];
+            let q = regions[usize::from(label) - 1].q;
+            for beside in [at - 1, at + 1, at - width, at + width] {
+                let d = picture.disparity_px[beside];
+                if d.is_nan() || labels[beside] == label {
+                    continue;
+                }
+                let (col, row) = (beside % width, beside / width);
+                let sigma = picture.noise.at(col, row);
+                let miss = (d - q * picture.g[beside]).abs();
+                let beats = match labels[beside] {
+                    0 => miss < rules.accept * sigma,
+                    other => {
+                        let rival = regions[usize::from(other) - 1].q;
+                        miss + sigma < (d - rival * picture.g[beside]).abs()
+                    }
+                };
+                let whole =
+                    col > 0 && col + 1 < width && beside >= width && beside + width < labels.len();
+                if beats {
+                    labels[beside] = label;
+                    if whole {
+                        self.queue.push(beside);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Joins regions that touch and have equal heights, drops what is too small, and numbers the rest anew. Supports are
+    /// counted in pixels afterwards; `q` is the mean by support.
+    pub(super) fn merge(
+        &mut self,
+        picture: Picture<'_>,
+        rules: GrowthRules,
+        regions: &mut Vec<Region>,
+        labels: &mut [u16],
+    ) {
+        let count = regions.len();
+        self.count_contacts(picture, count, labels);
+        self.parent.clear();
+        self.parent.extend(0..count);
+        for i in 0..count {
+            for j in i + 1..count {
+                let (times, limit) = self.contacts[i * count + j];
+                if times < 4 {
+                    continue;
+                }
+                // The mean of sigma / g at the border turns the noise into a difference of q.
+                let apart = (regions[i].q - regions[j].q).abs();
+                if apart < rules.join * limit / times as f32 {
+                    let (a, b) = (root(&self.parent, i), root(&self.parent, j));
+                    self.parent[a.max(b)] = a.min(b);
+                }
+            }
+        }
+        self.region_of.clear();
+        self.region_of.resize(count, 0);
+        for region in regions.iter_mut() {
+            region.support = 0;
+        }
+        for &label in labels.iter().filter(|&&label| label > 0) {
+            regions[usize::from(label) - 1].support += 1;
+        }
+        for i in 0..count {
+            let to = root(&self.parent, i);
+            if to != i {
+                let (part, whole) = (regions[i], regions[to]);
+                let support = part.support + whole.support;
+                if support > 0 {
+                    regions[to].q = (part.q * part.support as f32 + whole.q * whole.support as f32)
+                        / support as f32;
+                    regions[to].support = support;
+                }
+            }
+        }
+        let mut kept = 0;
+        for i in 0..count {
+            if self.parent[i] == i && regions[i].support >= rules.min_region {
+                regions[kept] = regions[i];
+                kept += 1;
+                self.region_of[i] = kept as u16;
+            }
+        }
+        for i in 0..count {
+            self.region_of[i] = self.region_of[root(&self.parent, i)];
+        }
+        regions.truncate(kept);
+        for label in labels.iter_mut().filter(|label| **label > 0) {
+            *label = self.region_of[usize::from(*label) - 1];
+        }
+    }
+
+    /// How often the pixels of two regions lie side by side or two apart, and the sum of `sigma / g` there.
+    fn count_contacts(&mut self, picture: Picture<'_>, count: usize, labels: &[u16]) {
+        let width = picture.width;
+        self.contacts.clear();
+        self.contacts.resize(count * count, (0, 0.0));
+        for at in 0..labels.len() {
+            let label = usize::from(labels[at]);
+            if label == 0 {
+                continue;
+            }
+            for step in [1, 2, width, 2 * width] {
+                let Some(&other) = labels.get(at + step) else {
+                    continue;
+                };
+                let other = usize::from(other);
+                if other != 0 && other != label {
+                    let (i, j) = (label.min(other) - 1, label.max(other) - 1);
+                    let contact = &mut self.contacts[i * count + j];
+                    contact.0 += 1;
+                    contact.1 += picture.noise.at(at % width, at / width) / picture.g[at];
+                }
+            }
+        }
+    }
+}
+
+/// Whether two segments of neighbouring strips show one surface.
+fn alike(picture: Picture<'_>, rules: GrowthRules, a: &Segment, b: &Segment) -> bool {
+    let (first, end) = (a.first.max(b.first), a.end.min(b.end));
+    let shorter = (a.end - a.first).min(b.end - b.first);
+    if end < first || 2 * (end - first) < shorter {
+        return false;
+    }
+    let row = usize::midpoint(first, end);
+    let col = (b.strip * rules.strip).min(picture.width - 1);
+    let g = picture.g[row * picture.width + col];
+    (a.q - b.q).abs() * g < rules.join * picture.noise.at(col, row)
+}

@@ -1,0 +1,114 @@
+//! A first guess of the camera's tilt: the one under which the heights of all points pile up most sharply.
+
+use nalgebra::Vector2;
+
+use super::strips::Picture;
+use super::view::View;
+
+/// Every so many columns and rows one pixel is looked at.
+const STRIDE: (usize, usize) = (2, 3);
+/// Height of a bin, m.
+const BIN_M: f32 = 0.006;
+/// Number of bins.
+const BINS: usize = 96;
+
+/// Where the search looks.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SearchArea {
+    /// Tilts up to this in both directions, rad.
+    pub(super) tilt_rad: f64,
+    /// First step of the search, rad; halved until it is below 0.4 degrees.
+    pub(super) step_rad: f64,
+    /// Depths below the camera that count, m.
+    pub(super) below_m: (f64, f64),
+}
+
+/// Searches the tilt. Keeps its buffer.
+#[derive(Debug, Clone, Default)]
+pub(super) struct HorizonSearch {
+    // g, X, Y over the disparity: the depth below the camera is their combination; and a weight.
+    samples: Vec<[f32; 4]>,
+}
+
+impl HorizonSearch {
+    /// The tilt `(a, b)` with the sharpest heights. `picture.g` must belong to `view`.
+    pub(super) fn search(
+        &mut self,
+        picture: Picture<'_>,
+        view: &View,
+        area: SearchArea,
+    ) -> Vector2<f64> {
+        self.samples.clear();
+        let height = picture.disparity_px.len() / picture.width;
+        for row in (0..height).step_by(STRIDE.1) {
+            for col in (row / STRIDE.1 % STRIDE.0..picture.width).step_by(STRIDE.0) {
+                let d = picture.disparity_px[row * picture.width + col];
+                if d.is_nan() {
+                    continue;
+                }
+                let g = picture.g[row * picture.width + col];
+                let sigma = picture.noise.at(col, row);
+                self.samples.push([
+                    g / d,
+                    view.x.at(col, row) / d,
+                    view.y.at(col, row) / d,
+                    d / sigma,
+                ]);
+            }
+        }
+        let steps = (area.tilt_rad / area.step_rad).round() as i32;
+        let mut best = self.sharpest(&Vector2::zeros(), area.step_rad, steps, area);
+        let mut step = area.step_rad / 2.0;
+        while step > 0.0035 {
+            best = self.sharpest(&best, step, 1, area);
+            step /= 2.0;
+        }
+        best
+    }
+
+    /// The best of a square of tilts around `center`; of equals, the one nearest to it.
+    fn sharpest(
+        &self,
+        center: &Vector2<f64>,
+        step: f64,
+        steps: i32,
+        area: SearchArea,
+    ) -> Vector2<f64> {
+        let mut best = *center;
+        let mut most = self.sharpness(center, area);
+        for i in -steps..=steps {
+            for j in -steps..=steps {
+                if i == 0 && j == 0 {
+                    continue;
+                }
+                let tilt = center + Vector2::new(f64::from(i), f64::from(j)) * step;
+                let sharpness = self.sharpness(&tilt, area);
+                if sharpness > most {
+                    most = sharpness;
+                    best = tilt;
+                }
+            }
+        }
+        best
+    }
+
+    /// Sum of squares of the histogram of depths below the camera.
+    fn sharpness(&self, tilt: &Vector2<f64>, area: SearchArea) -> f32 {
+        let mut histogram = [0.0_f32; BINS + 1];
+        let (a, b) = (tilt.x as f32, tilt.y as f32);
+        let lowest = area.below_m.0 as f32;
+        let span = ((area.below_m.1 - area.below_m.0) as f32 / BIN_M).min(BINS as f32 - 1.0);
+        for [g, x, y, weight] in &self.samples {
+            let bin = (g - a * x - b * y - lowest) / BIN_M;
+            if bin >= 0.0 && bin < span {
+                let (index, part) = (bin as usize, bin.fract());
+                histogram[index] += weight * (1.0 - part);
+                histogram[index + 1] += weight * part;
+            }
+        }
+        histogram
+            .windows(2)
+            .map(|pair| (pair[0] + pair[1]).powi(2))
+            .sum()
+    }
+}

@@ -1,0 +1,137 @@
+//! The local noise of the disparities, for thresholds that adapt to it (003, section III).
+
+/// Pixels between the three disparities that are compared: more than a matching window, so that they err independently.
+const REACH: usize = 6;
+/// Blocks across and down the image that have a noise of their own.
+const BLOCKS: (usize, usize) = (4, 3);
+/// Steps of the histogram of differences, and their size in noise floors.
+const BINS: usize = 64;
+const BIN: f32 = 0.1;
+/// The lower quartile of the size of a normal variable with sigma 1.
+const QUARTILE: f32 = 0.318_64;
+/// Fewest differences that tell anything.
+const MIN_SAMPLES: u32 = 60;
+
+/// A noise for each block of the image.
+#[derive(Debug, Clone)]
+pub(super) struct NoiseMap {
+    width: usize,
+    height: usize,
+    floor_px: f32,
+    ceiling_px: f32,
+    sigma_px: [f32; BLOCKS.0 * BLOCKS.1],
+}
+
+impl NoiseMap {
+    pub(super) fn new(width: usize, height: usize, floor_px: f64, ceiling: f64) -> Self {
+        Self {
+            width,
+            height,
+            floor_px: floor_px as f32,
+            ceiling_px: (floor_px * ceiling) as f32,
+            sigma_px: [floor_px as f32; BLOCKS.0 * BLOCKS.1],
+        }
+    }
+
+    /// Measures the noise in each block.
+    ///
+    /// A plane is linear in column and row, so second differences `d(-6) - 2 d(0) + d(6)` hold noise alone; their lower
+    /// quartile ignores the pixels at edges. Rows and columns are measured apart and the smaller one counts: edges
+    /// that run across the image disturb the columns alone.
+    pub(super) fn measure(&mut self, disparity_px: &[f32]) {
+        let (across, down) = BLOCKS;
+        for block in 0..across * down {
+            let (i, j) = (block % across, block / across);
+            let cols = (i * self.width / across, (i + 1) * self.width / across);
+            let rows = (j * self.height / down, (j + 1) * self.height / down);
+            let along_rows = self.quartile(disparity_px, cols, rows, (REACH, 0));
+            let along_cols = self.quartile(disparity_px, cols, rows, (0, REACH));
+            let sigma = match (along_rows, along_cols) {
+                (Some(a), Some(b)) => a.min(b),
+                (Some(a), None) | (None, Some(a)) => a,
+                (None, None) => self.floor_px,
+            };
+            self.sigma_px[block] = sigma.clamp(self.floor_px, self.ceiling_px);
+        }
+    }
+
+    fn quartile(
+        &self,
+        disparity_px: &[f32],
+        cols: (usize, usize),
+        rows: (usize, usize),
+        reach: (usize, usize),
+    ) -> Option<f32> {
+        let mut counts = [0_u32; BINS + 1];
+        let offset = reach.1 * self.width + reach.0;
+        let per_bin = 1.0 / (BIN * self.floor_px);
+        let mut total = 0;
+        for row in rows.0.max(reach.1)..rows.1.min(self.height.saturating_sub(reach.1)) {
+            let from = row * self.width + cols.0.max(reach.0);
+            let to = row * self.width + cols.1.min(self.width.saturating_sub(reach.0));
+            for at in (from..to).step_by(2) {
+                let bend =
+                    disparity_px[at - offset] - 2.0 * disparity_px[at] + disparity_px[at + offset];
+                if !bend.is_nan() {
+                    // Three independent values with weights 1, -2, 1 have sqrt(6) times the noise of one.
+                    let bin = (bend.abs() * per_bin * 0.408_25) as usize;
+                    counts[bin.min(BINS)] += 1;
+                    total += 1;
+                }
+            }
+        }
+        if total < MIN_SAMPLES {
+            return None;
+        }
+        let mut below = 0.0;
+        let wanted = total as f32 / 4.0;
+        for (bin, &count) in counts.iter().enumerate() {
+            let count = count as f32;
+            if below + count >= wanted {
+                let part = (wanted - below) / count;
+                return Some((bin as f32 + part) * BIN * self.floor_px / QUARTILE);
+            }
+            below += count;
+        }
+        None
+    }
+
+    /// Noise at a pixel, px.
+    pub(super) fn at(&self, col: usize, row: usize) -> f32 {
+        let i = col * BLOCKS.0 / self.width;
+        let j = row * BLOCKS.1 / self.height;
+        self.sigma_px[j * BLOCKS.0 + i]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic::Noise;
+
+    fn measured(sigma_px: f64) -> f32 {
+        let (width, height) = (88, 72);
+        let mut image: Vec<f32> = (0..width * height)
+            .map(|i| 4.0 + 0.1 * (i / width) as f32 + 0.02 * (i % width) as f32)
+            .collect();
+        Noise::new(7).correlated(width, sigma_px, &mut image);
+        let mut map = NoiseMap::new(width, height, 0.05, 20.0);
+        map.measure(&image);
+        map.sigma_px.iter().sum::<f32>() / map.sigma_px.len() as f32
+    }
+
+    #[test]
+    fn the_measured_noise_follows_the_true_one() {
+        for sigma in [0.125, 0.25, 0.5] {
+            let ratio = f64::from(measured(sigma)) / sigma;
+            assert!((0.7..1.15).contains(&ratio), "{sigma}: {ratio}");
+        }
+    }
+
+    #[test]
+    fn nothing_seen_means_the_calibrated_floor() {
+        let mut map = NoiseMap::new(88, 72, 0.125, 4.0);
+        map.measure(&vec![f32::NAN; 88 * 72]);
+        assert!(map.sigma_px.iter().all(|&sigma| sigma == 0.125));
+    }
+}

@@ -1,0 +1,157 @@
+//! From regions in disparity to planes, points and floor heights in the robot's frame.
+
+use geometry::{Outline, Plane, Point, Pose, Robot};
+use nalgebra::{Isometry3, Point2, Point3, Translation3, Unit, UnitQuaternion, Vector3};
+
+use super::{Levelled, ScanLine};
+use crate::{PlaneRegion, Planes};
+
+/// Corners that are kept while outlines are made.
+#[derive(Debug, Clone, Default)]
+pub(super) struct ProductBuffers {
+    corners: Vec<Point2<f64>>,
+    numbers: Vec<u16>,
+}
+
+impl ScanLine {
+    /// Fills regions, labels, points and floor heights. `rise_m` is what the ground adds to the camera's height.
+    pub(super) fn fill_product(&mut self, levelled: &Levelled, rise_m: f64, planes: &mut Planes) {
+        let predicted = levelled.predicted.inner;
+        let mut position = predicted.translation.vector;
+        position.z += rise_m;
+        let rotation = UnitQuaternion::from_rotation_matrix(&levelled.turn()) * predicted.rotation;
+        planes.robot_from_camera = Pose::wrap(Isometry3::from_parts(
+            Translation3::from(position),
+            rotation,
+        ));
+        self.place_points(levelled, &position, planes);
+        self.describe_level_regions(levelled, &position, planes);
+        planes.floor_height_m.fill(f32::NAN);
+        for (at, label) in self.labels.iter_mut().enumerate() {
+            *label = match *label {
+                0 => 0,
+                label => self.product.numbers[usize::from(label) - 1],
+            };
+            if *label > 0
+                && let Some(height_m) = planes.regions[usize::from(*label) - 1].floor_height_m
+            {
+                planes.floor_height_m[at] = height_m as f32;
+            }
+        }
+        self.walls.find(
+            &self.disparity_px,
+            &self.camera,
+            &self.noise,
+            &mut self.labels,
+            planes,
+        );
+        planes.labels.copy_from_slice(&self.labels);
+    }
+
+    /// Every pixel's point: `position + f B / d * ray`.
+    fn place_points(&self, levelled: &Levelled, position: &Vector3<f64>, planes: &mut Planes) {
+        let width = self.camera.width;
+        let view = &levelled.view;
+        let (px, py, pz) = (position.x as f32, position.y as f32, position.z as f32);
+        for (row, (points, disparities)) in planes
+            .points_in_robot_m
+            .chunks_exact_mut(width)
+            .zip(self.disparity_px.chunks_exact(width))
+            .enumerate()
+        {
+            let starts = [view.x.at(0, row), view.y.at(0, row), view.g.at(0, row)];
+            for (col, (point, &d)) in points.iter_mut().zip(disparities).enumerate() {
+                // NaN where nothing was seen stays NaN.
+                let (col, nearness) = (col as f32, 1.0 / d);
+                *point = [
+                    px + (starts[0] + view.x.per_col * col) * nearness,
+                    py + (starts[1] + view.y.per_col * col) * nearness,
+                    pz - (starts[2] + view.g.per_col * col) * nearness,
+                ];
+            }
+        }
+    }
+
+    /// Describes each region that was grown as horizontal; those that turn out tilted get no floor height.
+    fn describe_level_regions(
+        &mut self,
+        levelled: &Levelled,
+        position: &Vector3<f64>,
+        planes: &mut Planes,
+    ) {
+        planes.regions.clear();
+        self.product.numbers.clear();
+        let ground = planes.ground;
+        for index in 0..self.regions.len() {
+            let (region, fit) = (self.regions[index], &self.fits[index]);
+            let (own, significant) = fit.own_tilt();
+            let is_level = !significant || own.norm() < self.config.floor_tilt;
+            if !is_level {
+                // Slices of walls and of slopes: what is left for generic planes.
+                self.product.numbers.push(0);
+                continue;
+            }
+            let height_m = if ground == Some(index) {
+                0.0
+            } else {
+                position.z - 1.0 / f64::from(region.q)
+            };
+            if ground == Some(index) {
+                planes.ground = Some(planes.regions.len());
+            }
+            let (support, mean) = self.outline_corners(index, levelled, position, height_m);
+            self.product.numbers.push(planes.regions.len() as u16 + 1);
+            planes.regions.push(PlaneRegion {
+                support,
+                mean: Point::<Robot>::wrap(mean),
+                plane: Plane {
+                    normal: Unit::new_unchecked(Vector3::z()),
+                    distance_m: height_m,
+                },
+                boundary: Outline::hull(&self.product.corners).ok(),
+                floor_height_m: Some(height_m),
+            });
+        }
+    }
+
+    /// Collects where the outermost pixels of each row meet the region's plane; returns the number of pixels and the mean
+    /// of where they all do.
+    fn outline_corners(
+        &mut self,
+        index: usize,
+        levelled: &Levelled,
+        position: &Vector3<f64>,
+        height_m: f64,
+    ) -> (usize, Point3<f64>) {
+        let width = self.camera.width;
+        let view = &levelled.view;
+        let label = index as u16 + 1;
+        let below_m = position.z - height_m;
+        let corners = &mut self.product.corners;
+        corners.clear();
+        let (mut support, mut sum) = (0, [0.0, 0.0]);
+        for (row, labels) in self.labels.chunks_exact(width).enumerate() {
+            let mut ends: Option<(Point2<f64>, Point2<f64>)> = None;
+            for (col, _) in labels.iter().enumerate().filter(|(_, l)| **l == label) {
+                let nearness = below_m / f64::from(view.g.at(col, row));
+                let point = Point2::new(
+                    position.x + f64::from(view.x.at(col, row)) * nearness,
+                    position.y + f64::from(view.y.at(col, row)) * nearness,
+                );
+                support += 1;
+                sum[0] += point.x;
+                sum[1] += point.y;
+                ends = Some((ends.map_or(point, |(first, _)| first), point));
+            }
+            if let Some((first, last)) = ends {
+                corners.push(first);
+                corners.push(last);
+            }
+        }
+        let count = support.max(1) as f64;
+        (
+            support,
+            Point3::new(sum[0] / count, sum[1] / count, height_m),
+        )
+    }
+}
