@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from treadwell.course import Course, build_course
 from treadwell.course_assets import read_mjcf
 from treadwell.course_model import COLOURS, GROUND, PARKED
-from treadwell.course_pieces import clipped, convex_outline, rectangle, signed_distance
+from treadwell.course_outlines import clipped, convex_outline, rectangle, signed_distance
 from treadwell.course_plan import all_elements
 from treadwell.course_scatter import LOWEST, Ground
 from treadwell.course_stairs import stairs_pieces, treads_of

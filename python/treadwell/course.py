@@ -10,8 +10,10 @@ import numpy.typing as npt
 
 from treadwell.course_assets import compiled, mjcf_pieces, read_mjcf
 from treadwell.course_check import check_start
+from treadwell.course_levels import levels, surface_height
 from treadwell.course_model import PREFIX, add_ground, add_movable_body, add_pieces
-from treadwell.course_pieces import Floats, Piece, Top, about_z, signed_distance
+from treadwell.course_outlines import Floats
+from treadwell.course_pieces import Piece, Top, about_z
 from treadwell.course_plan import PlannedElement, plan_elements
 from treadwell.errors import InputError
 from treadwell.robot import Robot
@@ -104,33 +106,14 @@ class Course:
 
     def levels_at(self, x: float, y: float) -> list[float]:
         """Return the heights of all surfaces at a world point that something can stand on."""
-        return levels(self.elements, x, y)
+        return levels_at(self.elements, x, y)
 
 
-def surface_height(tops: list[Top], points: Floats) -> Floats:
-    """Return the height of the highest of the tops, or the ground, at points (n, 2), metres."""
-    height = np.zeros(len(points))
-    for top in tops:
-        over = top.contains(points)
-        height[over] = np.maximum(height[over], top.height_at(points[over]))
-    return height
-
-
-def levels(elements: tuple[CourseElement, ...], x: float, y: float) -> list[float]:
-    """Return the heights of the surfaces at a point, lowest first; what is built over is none."""
-    point = np.array([[x, y]])
-    tops = [top for e in elements if e.present for top in e.tops if top.contains(point)[0]]
-    heights = sorted({0.0, *(round(float(top.height_at(point)[0]), 6) for top in tops)})
-    solids = [
-        piece.vertices[:, 2]
-        for e in elements
-        if e.present and e.walkable
-        for piece in e.pieces
-        if piece.is_upright and signed_distance(piece.outline, point)[0] < 0.0
-    ]
-    return [
-        h for h in heights if not any(z.min() <= h + 1e-3 and h < z.max() - 5e-3 for z in solids)
-    ]
+def levels_at(elements: tuple[CourseElement, ...], x: float, y: float) -> list[float]:
+    """Return the heights of all surfaces of elements, and of the ground, at a world point."""
+    there = [element for element in elements if element.present and element.walkable]
+    tops = [top for element in there for top in element.tops]
+    return levels(tops, [piece for element in there for piece in element.pieces], x, y)
 
 
 def build_course(scenario: Scenario, robot: Robot) -> Course:
@@ -291,7 +274,7 @@ def _level(
     Raises:
         InputError: there is no surface at the height that is named.
     """
-    heights = levels(elements, *position) or [0.0]
+    heights = levels_at(elements, *position) or [0.0]
     if height is None:
         return heights[-1]
     best = min(heights, key=lambda candidate: abs(candidate - height))

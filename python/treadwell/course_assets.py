@@ -6,7 +6,8 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from treadwell.course_pieces import Floats, Piece, Top, about_z, level
+from treadwell.course_outlines import Floats
+from treadwell.course_pieces import Piece, Top, about_z, level
 from treadwell.course_xml import check_xml
 from treadwell.errors import InputError
 from treadwell.scenario_elements import Mesh

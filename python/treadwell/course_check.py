@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 
 from treadwell.course_model import GROUND
-from treadwell.course_pieces import signed_distance
+from treadwell.course_outlines import signed_distance
 from treadwell.errors import InputError
 from treadwell.robot import Robot
 from treadwell.scenario import Scenario

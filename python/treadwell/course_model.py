@@ -6,7 +6,8 @@ from typing import Final
 import mujoco
 import numpy as np
 
-from treadwell.course_pieces import Floats, Piece
+from treadwell.course_outlines import Floats
+from treadwell.course_pieces import Piece
 from treadwell.scenario_elements import Box, ElementTable
 
 PREFIX: Final = "course/"

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 
 from treadwell.course_assets import mesh_piece
-from treadwell.course_pieces import Floats, Piece, Top, simple_pieces
+from treadwell.course_outlines import Floats
+from treadwell.course_pieces import Piece, Top, simple_pieces
 from treadwell.course_scatter import scattered
 from treadwell.course_stairs import stairs_pieces
 from treadwell.errors import InputError

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from treadwell.course_pieces import Floats, Piece, convex_outline, signed_distance, simple_pieces
+from treadwell.course_outlines import Floats, convex_outline, signed_distance
+from treadwell.course_pieces import Piece, simple_pieces
 from treadwell.errors import InputError
 from treadwell.random_streams import stream
 from treadwell.scenario_elements import Box, Cylinder, Scatter

@@ -4,16 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from treadwell.course_pieces import (
-    Floats,
-    Piece,
-    Top,
-    block,
-    clipped,
-    heading,
-    level,
-    rectangle,
-)
+from treadwell.course_outlines import Floats, clipped, heading, rectangle
+from treadwell.course_pieces import Piece, Top, block, level
 from treadwell.scenario_elements import Stairs
 
 RUN_ON = 0.02

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 from treadwell.audit import STEPS_PER_TICK
 from treadwell.course import LEVEL_TOLERANCE, Course, CourseElement
 from treadwell.course_model import parked
-from treadwell.course_pieces import Floats, about_z
+from treadwell.course_outlines import Floats
+from treadwell.course_pieces import about_z
 from treadwell.robot import Robot
 from treadwell.scenario import Scenario
 from treadwell.scenario_events import (

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.course import Course, CourseElement
-from treadwell.course_pieces import signed_distance
+from treadwell.course_outlines import signed_distance
 from treadwell.map_memory import FLOOR, OBSTACLE, RememberedMap
 from treadwell.result import LocalizationErrors, MapCounts, Spread, SurfaceEntry, Timing
 
