@@ -31,8 +31,8 @@ impl Lattice {
     /// The cell that contains the point: rounds down.
     pub fn cell_at(&self, x_m: f64, y_m: f64) -> Cell {
         Cell {
-            col: ((x_m - self.origin_m[0]) / self.cell_m).floor() as i32,
-            row: ((y_m - self.origin_m[1]) / self.cell_m).floor() as i32,
+            col: floor((x_m - self.origin_m[0]) / self.cell_m),
+            row: floor((y_m - self.origin_m[1]) / self.cell_m),
         }
     }
 
@@ -43,6 +43,12 @@ impl Lattice {
             self.origin_m[1] + (f64::from(cell.row) + 0.5) * self.cell_m,
         ]
     }
+}
+
+/// Rounds down without the call that `f64::floor` is on the oldest processors; saturates.
+fn floor(value: f64) -> i32 {
+    let towards_zero = value as i32;
+    towards_zero.saturating_sub(i32::from(value < f64::from(towards_zero)))
 }
 
 /// A rectangle of cells, both ends included; empty where `min > max`.

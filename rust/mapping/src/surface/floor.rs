@@ -196,6 +196,5 @@ mod tests {
     #[test]
     fn an_invalid_height_lies_below_every_height() {
         assert_eq!(merge_height(INVALID, -5.0, EPSILON, NU), -5.0);
-        assert!(INVALID < f32::MIN);
     }
 }

@@ -1,5 +1,6 @@
 //! Volumes: the voxel occupancy grid, its sensor model and its rays.
 
+mod columns;
 mod occupancy;
 mod probability;
 mod ray;

@@ -2,6 +2,8 @@
 
 use geometry::{Cell, CellArea, Lattice};
 
+use super::columns::for_each_column;
+use super::ray::Part;
 use super::{ProbabilityTable, VoxelWalk};
 use crate::surface::Update;
 
@@ -119,16 +121,19 @@ impl OccupancyGrid {
         let mut area = CellArea::EMPTY;
         for ray in rays {
             let end = self.placement.in_voxels(ray.end_m);
-            let Some(walk) = VoxelWalk::new(eye, end, size) else {
+            let Some(part) = Part::inside(eye, end, size) else {
                 continue;
             };
-            let last = walk.last;
-            let hit = ray.hit && walk.ends_inside;
-            area.include(walk.first());
-            area.include(Cell::new(last[0], last[1]));
+            area.include(Cell::new(part.first[0], part.first[1]));
+            area.include(Cell::new(part.last[0], part.last[1]));
+            let hit = ray.hit && part.ends_inside;
             match update {
-                Update::PerFrame => self.mark(walk, last, hit),
-                Update::PerPoint => self.apply_ray(walk, last, hit),
+                Update::PerFrame => self.mark(&part, hit),
+                Update::PerPoint => {
+                    if let Some(walk) = VoxelWalk::new(eye, end, size) {
+                        self.apply_ray(walk, hit);
+                    }
+                }
             }
         }
         if update == Update::PerFrame {
@@ -195,11 +200,18 @@ impl OccupancyGrid {
     }
 
     /// Per frame: remembers what the ray passed and hit.
-    fn mark(&mut self, walk: VoxelWalk, last: [i32; 3], hit: bool) {
-        let cols = self.size.cols;
-        for [x, y, z] in walk {
-            self.passed[y as usize * cols + x as usize] |= 1 << z;
-        }
+    fn mark(&mut self, part: &Part, hit: bool) {
+        let (cols, passed) = (self.size.cols, &mut self.passed);
+        let Part {
+            from,
+            to,
+            first,
+            last,
+            ..
+        } = *part;
+        for_each_column(from, to, first, last, cols, |cell, layers| {
+            passed[cell] |= layers;
+        });
         if hit {
             let cell = last[1] as usize * cols + last[0] as usize;
             self.hits[cell] |= 1 << last[2];
@@ -230,7 +242,8 @@ impl OccupancyGrid {
     }
 
     /// Per point, as the paper writes: every voxel of every ray, at once.
-    fn apply_ray(&mut self, walk: VoxelWalk, last: [i32; 3], hit: bool) {
+    fn apply_ray(&mut self, walk: VoxelWalk, hit: bool) {
+        let last = walk.last;
         for voxel in walk {
             let [x, y, z] = voxel.map(|v| v as usize);
             let cell = y * self.size.cols + x;

@@ -1,9 +1,51 @@
 //! Exact voxel traversal of a segment (Amanatides and Woo 1987), clipped to the grid.
 
-use geometry::Cell;
+/// The part of a segment that lies inside the grid. Coordinates are in voxels: voxel (i, j, k) fills `i..i+1`, `j..j+1`,
+/// `k..k+1`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Part {
+    pub(super) from: [f64; 3],
+    pub(super) to: [f64; 3],
+    /// Voxels of the two ends.
+    pub(super) first: [i32; 3],
+    pub(super) last: [i32; 3],
+    /// Whether the segment's own end lies inside.
+    pub(super) ends_inside: bool,
+}
+
+impl Part {
+    /// `None` where segment and grid do not meet.
+    #[inline]
+    pub(super) fn inside(from: [f64; 3], to: [f64; 3], size: [i32; 3]) -> Option<Self> {
+        let ends_inside = contains(size, to);
+        let (mut start, mut end) = (from, to);
+        if !ends_inside || !contains(size, from) {
+            let along = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
+            let (enter, leave) = clip(from, along, size)?;
+            for a in 0..3 {
+                let at = |t: f64| (from[a] + t * along[a]).clamp(0.0, f64::from(size[a]));
+                start[a] = if enter > 0.0 { at(enter) } else { from[a] };
+                end[a] = if leave < 1.0 { at(leave) } else { to[a] };
+            }
+        }
+        // Casting rounds towards zero; nothing here is negative.
+        let voxel = |at: [f64; 3]| std::array::from_fn(|a| (at[a] as i32).min(size[a] - 1));
+        Some(Self {
+            from: start,
+            to: end,
+            first: voxel(start),
+            last: voxel(end),
+            ends_inside,
+        })
+    }
+}
+
+fn contains(size: [i32; 3], at: [f64; 3]) -> bool {
+    (0..3).all(|a| at[a] >= 0.0 && at[a] < f64::from(size[a]))
+}
 
 /// The voxels that a segment passes, in order, from its start (or where it enters the grid) to its end (or where it
-/// leaves the grid). Coordinates are in voxels: voxel (i, j, k) fills `i..i+1`, `j..j+1`, `k..k+1`.
+/// leaves the grid).
 #[derive(Debug, Clone)]
 pub struct VoxelWalk {
     voxel: [i32; 3],
@@ -23,45 +65,30 @@ pub struct VoxelWalk {
 impl VoxelWalk {
     /// The walk from `from` to `to` (both in voxels) through a grid of `size` voxels; `None` where they do not meet.
     pub fn new(from: [f64; 3], to: [f64; 3], size: [i32; 3]) -> Option<Self> {
-        let along = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
-        let (enter, leave) = clip(from, along, size)?;
+        let part = Part::inside(from, to, size)?;
         let mut walk = Self {
-            voxel: [0; 3],
+            voxel: part.first,
             step: [0; 3],
             left: [0; 3],
             t_next: [f64::INFINITY; 3],
             t_step: [f64::INFINITY; 3],
             remaining: 1,
-            last: [0; 3],
-            ends_inside: (0..3).all(|a| to[a] >= 0.0 && to[a] < f64::from(size[a])),
+            last: part.last,
+            ends_inside: part.ends_inside,
         };
         for a in 0..3 {
-            let voxel_at = |t: f64| {
-                let at = if t == 1.0 {
-                    to[a]
-                } else {
-                    from[a] + t * along[a]
-                };
-                (at.floor() as i32).clamp(0, size[a] - 1)
-            };
-            let (first, last) = (voxel_at(enter), voxel_at(leave));
-            walk.voxel[a] = first;
-            walk.last[a] = last;
+            let (first, last) = (part.first[a], part.last[a]);
             walk.left[a] = (last - first).abs();
             walk.remaining += walk.left[a];
             if walk.left[a] > 0 {
+                let along = to[a] - from[a];
                 walk.step[a] = (last - first).signum();
                 let border = f64::from(first + i32::from(walk.step[a] > 0));
-                walk.t_next[a] = (border - from[a]) / along[a];
-                walk.t_step[a] = 1.0 / along[a].abs();
+                walk.t_next[a] = (border - from[a]) / along;
+                walk.t_step[a] = 1.0 / along.abs();
             }
         }
         Some(walk)
-    }
-
-    /// The cell, seen from above, in which the walk stands.
-    pub const fn first(&self) -> Cell {
-        Cell::new(self.voxel[0], self.voxel[1])
     }
 }
 
