@@ -6,6 +6,8 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
 LARGEST_M: Final = 100.0
 """Nothing in a scenario is farther away or longer than this, in metres."""
+SMALLEST_M: Final = 0.001
+"""Nothing in a scenario is thinner than this, in metres: MuJoCo makes no sense of it."""
 
 
 class Table(BaseModel):
@@ -27,7 +29,7 @@ def _shape(value: object) -> str:
 
 Coordinate = Annotated[float, Field(ge=-LARGEST_M, le=LARGEST_M)]
 """A coordinate in the world, metres."""
-Length = Annotated[float, Field(gt=0.0, le=LARGEST_M)]
+Length = Annotated[float, Field(ge=SMALLEST_M, le=LARGEST_M)]
 """An extent, metres."""
 Height = Annotated[float, Field(ge=-10.0, le=10.0)]
 """A level or a base above the ground, metres."""
@@ -49,7 +51,7 @@ Size2 = Annotated[tuple[Length, Length], Field(strict=False)]
 Size3 = Annotated[tuple[Length, Length, Length], Field(strict=False)]
 """Length along x, width along y, height along z in metres."""
 
-Rise = Annotated[float, Field(gt=0.0, le=2.0)]
+Rise = Annotated[float, Field(ge=SMALLEST_M, le=2.0)]
 """One step's height, metres."""
 MOST_STEPS: Final = 100
 LengthOrList = Annotated[
