@@ -1,0 +1,103 @@
+"""How the recording opens: the views, where they are, and the colours of what they show."""
+
+from typing import Final
+
+import numpy as np
+import rerun.blueprint as rrb
+from numpy.typing import NDArray
+
+UNSEEN: Final = (150, 150, 150)
+"""Grey: points without a plane, cells never seen."""
+OBSTACLE: Final = (30, 30, 34)
+TRUTH: Final = (40, 160, 90)
+ESTIMATE: Final = (70, 130, 240)
+ODOMETRY: Final = (240, 150, 40)
+PATH: Final = (255, 70, 160)
+GOAL: Final = (60, 200, 90, 110)
+GROUND_PLANE: Final = (95, 185, 120)
+STATE_COLOURS: Final = (
+    0x4C8BF5FF,
+    0xF5A623FF,
+    0x9B59B6FF,
+    0x2ECC71FF,
+    0xE74C3CFF,
+    0x1ABC9CFF,
+    0xF1C40FFF,
+    0x95A5A6FF,
+)
+
+_VIRIDIS: Final = np.array(
+    [
+        (68, 1, 84), (72, 40, 120), (62, 74, 137), (49, 104, 142), (38, 130, 142),
+        (31, 158, 137), (53, 183, 121), (110, 206, 88), (181, 222, 43), (253, 231, 37),
+    ],
+    dtype=np.float64,
+)  # fmt: skip
+_PLANES: Final = np.array(
+    [
+        (31, 119, 180), (255, 127, 14), (214, 39, 40), (148, 103, 189), (140, 86, 75),
+        (227, 119, 194), (188, 189, 34), (23, 190, 207), (255, 187, 120), (197, 176, 213),
+    ],
+    dtype=np.uint8,
+)  # fmt: skip
+
+
+def height_colours(height: NDArray[np.float32], low: float, high: float) -> NDArray[np.uint8]:
+    """Return colours (n, 3) of heights (n,) m, dark at `low` and bright at `high`."""
+    share = np.clip((height - low) / (high - low), 0.0, 1.0) * (len(_VIRIDIS) - 1)
+    index = np.minimum(share.astype(np.intp), len(_VIRIDIS) - 2)
+    rest = (share - index)[:, None]
+    mixed = (1.0 - rest) * _VIRIDIS[index] + rest * _VIRIDIS[index + 1]
+    return np.asarray(mixed, dtype=np.uint8)
+
+
+def plane_colours(labels: NDArray[np.uint16], ground: int) -> NDArray[np.uint8]:
+    """Return colours (n, 3) of points by their plane; grey without one, green on the ground."""
+    table = np.empty((int(labels.max(initial=0)) + 1, 3), dtype=np.uint8)
+    table[:] = _PLANES[(np.arange(len(table)) - 1) % len(_PLANES)]
+    table[0] = UNSEEN
+    if 0 < ground < len(table):
+        table[ground] = GROUND_PLANE
+    return table[labels]
+
+
+def blueprint(centre: tuple[float, float, float], extent: float) -> rrb.Blueprint:
+    """Return the views: the world large, map and camera beside it, states and plots below.
+
+    Args:
+        centre: m, world: what the first view looks at.
+        extent: m, size of the course.
+    """
+    x, y, z = centre
+    away = max(1.6, 0.75 * extent)
+    world = rrb.Spatial3DView(
+        origin="/world",
+        name="World",
+        background=rrb.Background(color=(236, 239, 243, 255)),
+        line_grid=rrb.LineGrid3D(visible=True, spacing=0.2, color=(120, 125, 135, 60)),
+        eye_controls=rrb.EyeControls3D(
+            position=(x - 0.6 * away, y - 0.95 * away, z + 0.8 * away),
+            look_target=(x, y, z),
+            eye_up=(0.0, 0.0, 1.0),
+        ),
+    )
+    pictures = rrb.Vertical(
+        rrb.Spatial2DView(origin="/camera/depth", name="Depth"),
+        rrb.Spatial2DView(origin="/map/floor", name="Floor and obstacle grid"),
+        rrb.Spatial2DView(origin="/map/clearance", name="Distance to obstacles"),
+    )
+    plots = rrb.Horizontal(
+        rrb.TimeSeriesView(origin="/error", name="Error against truth (m, rad)"),
+        rrb.TimeSeriesView(origin="/timing", name="Time a stage takes (ms)"),
+    )
+    return rrb.Blueprint(
+        rrb.Vertical(
+            rrb.Horizontal(world, pictures, column_shares=[3, 1]),
+            rrb.StateTimelineView(origin="/behaviour", name="Behaviour"),
+            plots,
+            row_shares=[6, 1, 2],
+        ),
+        rrb.TimePanel(state="collapsed", timeline="time"),
+        rrb.SelectionPanel(state="collapsed"),
+        rrb.BlueprintPanel(state="collapsed"),
+    )

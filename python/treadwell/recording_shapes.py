@@ -1,0 +1,185 @@
+"""MuJoCo's geoms as shapes of the recording: sizes once, poses in one batch a kind and frame."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import mujoco
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+_KINDS: Final = {
+    int(mujoco.mjtGeom.mjGEOM_BOX): "boxes",
+    int(mujoco.mjtGeom.mjGEOM_CAPSULE): "capsules",
+    int(mujoco.mjtGeom.mjGEOM_CYLINDER): "cylinders",
+    int(mujoco.mjtGeom.mjGEOM_ELLIPSOID): "ellipsoids",
+    int(mujoco.mjtGeom.mjGEOM_SPHERE): "ellipsoids",
+}
+_COLLISION_GROUP: Final = 3
+"""Geoms of this group and above are for touching, not for looking at."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Batch:
+    """Geoms of one kind.
+
+    Attributes:
+        kind: boxes, capsules, cylinders or ellipsoids.
+        geoms: ids.
+        sizes: (n, 3) MuJoCo's `geom_size`, m; for a sphere three times its radius.
+        colours: (n, 4) uint8.
+    """
+
+    kind: str
+    geoms: NDArray[np.intp]
+    sizes: Floats
+    colours: NDArray[np.uint8]
+
+
+class Shapes:
+    """Some geoms of a model, to be drawn under one entity."""
+
+    def __init__(self, model: mujoco.MjModel, geoms: NDArray[np.intp], entity: str) -> None:
+        """Sort the geoms.
+
+        Args:
+            model: the compiled course.
+            geoms: ids of those to draw; planes are left out.
+            entity: path of the entity.
+        """
+        self.entity = entity
+        self._body = np.asarray(model.geom_bodyid)
+        self._local = np.asarray(model.geom_pos), np.asarray(model.geom_quat)
+        types = np.asarray(model.geom_type)[geoms]
+        self._batches = []
+        for kind in sorted(set(_KINDS.values())):
+            ids = geoms[[_KINDS.get(int(t)) == kind for t in types]]
+            if len(ids):
+                sizes = np.array(model.geom_size)[ids]
+                spheres = np.asarray(model.geom_type)[ids] == mujoco.mjtGeom.mjGEOM_SPHERE
+                sizes[spheres] = sizes[spheres, :1]
+                self._batches.append(Batch(kind, ids, sizes, colours(model, ids)))
+        self._meshes = [int(g) for g in geoms[types == mujoco.mjtGeom.mjGEOM_MESH]]
+        self._model = model
+
+    def draw(self, stream: rr.RecordingStream) -> None:
+        """Log what never changes: sizes and colours."""
+        solid = rr.components.FillMode.Solid
+        for batch in self._batches:
+            size, shade = batch.sizes, batch.colours
+            shape: rr.AsComponents
+            if batch.kind == "boxes":
+                shape = rr.Boxes3D.from_fields(half_sizes=size, colors=shade, fill_mode=solid)
+            elif batch.kind == "ellipsoids":
+                shape = rr.Ellipsoids3D.from_fields(half_sizes=size, colors=shade, fill_mode=solid)
+            else:
+                kind = rr.Cylinders3D if batch.kind == "cylinders" else rr.Capsules3D
+                shape = kind.from_fields(
+                    lengths=2 * size[:, 1], radii=size[:, 0], colors=shade, fill_mode=solid
+                )
+            stream.log(f"{self.entity}/{batch.kind}", shape, static=True)
+        for geom in self._meshes:
+            stream.log(f"{self.entity}/mesh_{geom}", self._mesh(geom), static=True)
+
+    def pose(
+        self,
+        stream: rr.RecordingStream,
+        positions: Floats,
+        orientations: Floats,
+        *,
+        static: bool = False,
+    ) -> None:
+        """Log where the geoms are.
+
+        Args:
+            stream: the recording.
+            positions: (nbody, 3) of MuJoCo's bodies, m.
+            orientations: (nbody, 4) wxyz.
+            static: for what never moves.
+        """
+        for batch in self._batches:
+            centres, quaternions = self._poses(batch.geoms, positions, orientations)
+            xyzw = quaternions[:, [1, 2, 3, 0]]
+            shape: rr.AsComponents
+            if batch.kind == "capsules":
+                # A capsule of the recording begins at its pose; MuJoCo's lies around it.
+                centres = centres - batch.sizes[:, 1:2] * rotated(quaternions, (0.0, 0.0, 1.0))
+                shape = rr.Capsules3D.from_fields(translations=centres, quaternions=xyzw)
+            elif batch.kind == "boxes":
+                shape = rr.Boxes3D.from_fields(centers=centres, quaternions=xyzw)
+            elif batch.kind == "cylinders":
+                shape = rr.Cylinders3D.from_fields(centers=centres, quaternions=xyzw)
+            else:
+                shape = rr.Ellipsoids3D.from_fields(centers=centres, quaternions=xyzw)
+            stream.log(f"{self.entity}/{batch.kind}", shape, static=static)
+        for geom in self._meshes:
+            at, turn = self._poses(np.array([geom]), positions, orientations)
+            stream.log(
+                f"{self.entity}/mesh_{geom}",
+                rr.InstancePoses3D(translations=at, quaternions=turn[:, [1, 2, 3, 0]]),
+                static=static,
+            )
+
+    def _poses(
+        self, geoms: NDArray[np.intp], positions: Floats, orientations: Floats
+    ) -> tuple[Floats, Floats]:
+        """Return world positions (n, 3) and quaternions (n, 4) wxyz of geoms."""
+        body = self._body[geoms]
+        turn = orientations[body]
+        return (
+            positions[body] + rotated(turn, self._local[0][geoms]),
+            multiplied(turn, self._local[1][geoms]),
+        )
+
+    def _mesh(self, geom: int) -> rr.Mesh3D:
+        model = self._model
+        mesh = int(model.geom_dataid[geom])
+        vertex, face = int(model.mesh_vertadr[mesh]), int(model.mesh_faceadr[mesh])
+        return rr.Mesh3D(
+            vertex_positions=model.mesh_vert[vertex : vertex + int(model.mesh_vertnum[mesh])],
+            triangle_indices=model.mesh_face[face : face + int(model.mesh_facenum[mesh])],
+            albedo_factor=colours(model, np.array([geom]))[0],
+        )
+
+
+def robot_geoms(model: mujoco.MjModel, root: str) -> NDArray[np.intp]:
+    """Return the ids of a robot's visible geoms, all of them if none is marked as visible.
+
+    Args:
+        model: the compiled course.
+        root: name of the robot's root link.
+    """
+    links = np.asarray(model.body_rootid)[np.asarray(model.geom_bodyid)] == model.body(root).id
+    visible = links & (np.asarray(model.geom_group) < _COLLISION_GROUP)
+    return np.flatnonzero(visible if visible.any() else links)
+
+
+def colours(model: mujoco.MjModel, geoms: NDArray[np.intp]) -> NDArray[np.uint8]:
+    """Return the geoms' colours by material or their own, (n, 4)."""
+    rgba = np.array(model.geom_rgba)[geoms]
+    material = np.asarray(model.geom_matid)[geoms]
+    if model.nmat:
+        has = material >= 0
+        rgba[has] = np.asarray(model.mat_rgba)[material[has]]
+    scaled: NDArray[np.uint8] = np.round(255 * np.clip(rgba, 0.0, 1.0)).astype(np.uint8)
+    return scaled
+
+
+def rotated(quaternions: Floats, vectors: Floats | tuple[float, float, float]) -> Floats:
+    """Return vectors (n, 3) or (3,) turned by quaternions (n, 4) wxyz."""
+    w, u = quaternions[:, :1], quaternions[:, 1:]
+    v = np.broadcast_to(np.asarray(vectors, dtype=np.float64), u.shape)
+    t = 2.0 * np.cross(u, v)
+    turned: Floats = v + w * t + np.cross(u, t)
+    return turned
+
+
+def multiplied(first: Floats, second: Floats) -> Floats:
+    """Return the quaternion products (n, 4) wxyz: the second turn comes first."""
+    a, b = first, second
+    w = a[:, 0] * b[:, 0] - (a[:, 1:] * b[:, 1:]).sum(axis=1)
+    v = a[:, :1] * b[:, 1:] + b[:, :1] * a[:, 1:] + np.cross(a[:, 1:], b[:, 1:])
+    product: Floats = np.column_stack([w, v])
+    return product

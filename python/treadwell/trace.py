@@ -1,0 +1,62 @@
+"""What the recorder is given at each camera frame: plain arrays, made by the core and the judge."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Trace:
+    """One camera frame. The world frame and the map frame are the same; lengths in metres.
+
+    Attributes:
+        time_ns: nanoseconds since the start.
+        map_from_robot: (4, 4) where the robot believes to be.
+        odometry_from_robot: (4, 4) by leg odometry alone, moved to start where the estimate did.
+        truth_from_robot: (4, 4) where it is.
+        map_from_camera: (4, 4) the camera as the core has it; None before the first frame.
+        depth: (h, w) float32, NaN where nothing was seen; None without a frame.
+        points: (n, 3) float32, map frame; NaN where nothing was seen.
+        labels: (n,) uint16, plane of each point plus one, 0 for none.
+        ground: label of the ground's plane, 0 where it was not found.
+        view_origin: (x, y) lower-left corner of the map's window, map frame.
+        view_cell: side of a cell.
+        view_kind: (rows, cols) uint8: 0 unknown, 1 floor, 2 obstacle; rows along +y.
+        view_height: (rows, cols) float32, NaN where unknown.
+        sightings: (rows, cols) uint16, frames that saw the cell as floor.
+        clearance: (rows, cols) float32, distance to the nearest obstacle; None without one.
+        path: (n, 2) the path in the map frame; empty without one.
+        state: name of the behaviour's state.
+        goal: (x, y) of the goal that is pursued now.
+        gaze: (pan to the left, down from the horizon) rad.
+        body_positions: (nbody, 3) true poses of MuJoCo's bodies (`xpos`).
+        body_orientations: (nbody, 4) wxyz (`xquat`).
+        timing: stage -> seconds at this frame; NaN where it did not run.
+    """
+
+    time_ns: int
+    map_from_robot: Floats
+    odometry_from_robot: Floats
+    truth_from_robot: Floats
+    map_from_camera: Floats | None = None
+    depth: NDArray[np.float32] | None = None
+    points: NDArray[np.float32] | None = None
+    labels: NDArray[np.uint16] | None = None
+    ground: int = 0
+    view_origin: tuple[float, float]
+    view_cell: float
+    view_kind: NDArray[np.uint8]
+    view_height: NDArray[np.float32]
+    sightings: NDArray[np.uint16]
+    clearance: NDArray[np.float32] | None = None
+    path: Floats
+    state: str
+    goal: tuple[float, float]
+    gaze: tuple[float, float]
+    body_positions: Floats
+    body_orientations: Floats
+    timing: Mapping[str, float] = field(default_factory=dict)
