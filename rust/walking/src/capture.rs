@@ -2,22 +2,25 @@
 
 use geometry::PlanarPose;
 use nalgebra::Vector2;
+use robot::Side;
 
-use crate::footsteps::FootstepPlanner;
-use crate::gait::{Gait, Phase};
-use crate::support::Soles;
 use crate::GaitConfig;
+use crate::footsteps::FootstepPlanner;
+use crate::gait::{Gait, Phase, Swing};
+use crate::support::Soles;
 
 /// Share of the swing after which the landing stays where it is.
 const COMMITTED: f64 = 0.85;
 /// Fastest that a landing is moved, m/s.
 const SPEED_MPS: f64 = 1.0;
 
-/// Moves landings.
+/// Moves landings and holds or hurries the steps' clock.
 #[derive(Debug, Clone)]
 pub struct Capture {
     config: GaitConfig,
     planner: FootstepPlanner,
+    phase: Option<(Side, bool)>,
+    held_s: f64,
 }
 
 impl Capture {
@@ -26,13 +29,16 @@ impl Capture {
         Self {
             config: config.clone(),
             planner,
+            phase: None,
+            held_s: 0.0,
         }
     }
 
     /// Moves the landing of the step under way by what the ankles cannot take back of the DCM's `error` before it; returns how
-    /// fast the step's clock is to run.
+    /// fast the step's clock is to run: faster when the robot falls towards the swing foot, slower while it leans outwards over
+    /// the standing one, where a step would not help.
     pub fn adjust(
-        &self,
+        &mut self,
         gait: &mut Gait,
         soles: &Soles,
         error: &Vector2<f64>,
@@ -41,47 +47,93 @@ impl Capture {
     ) -> f64 {
         let stance_point = gait.zmp();
         let feet = gait.feet;
-        let Phase::Single {
-            elapsed_s,
-            duration_s,
-            swing,
-        } = &mut gait.phase
-        else {
-            return 1.0;
+        let (rate, phase) = match &mut gait.phase {
+            Phase::Standing | Phase::Double { next: None, .. } => (1.0, None),
+            Phase::Double {
+                next: Some(swing), ..
+            } => {
+                let stance = &feet[swing.side.other().index()].planar;
+                let (_, across) = turned(stance, error);
+                let late = (across.abs() - self.config.capture_deadband).max(0.0);
+                (
+                    1.0 - (late / self.config.capture_hold).min(1.0),
+                    Some((swing.side, false)),
+                )
+            }
+            Phase::Single {
+                elapsed_s,
+                duration_s,
+                swing,
+            } => {
+                let left_s = (*duration_s - *elapsed_s).max(0.0);
+                let growth = (omega * left_s).exp();
+                let stance = swing.side.other();
+                let foot = &feet[stance.index()];
+                let best = error * (growth / (growth - 1.0).max(0.01));
+                let given = soles.nearest(foot, stance, &(stance_point + best)) - stance_point;
+                let rest = error * growth - given * (growth - 1.0);
+                let (x, y) = turned(&foot.planar, &rest);
+                let shift = Vector2::new(self.beyond(x), self.beyond(y));
+                if *elapsed_s < COMMITTED * *duration_s {
+                    self.move_landing(swing, &foot.planar, &shift, passed_s);
+                }
+                (
+                    self.rate(shift.y * swing.side.sign()),
+                    Some((swing.side, true)),
+                )
+            }
         };
-        let left_s = (*duration_s - *elapsed_s).max(0.0);
-        let growth = (omega * left_s).exp();
-        if growth < 1.01 {
-            return 1.0;
-        }
-        let stance = swing.side.other();
-        let stance_foot = &feet[stance.index()];
-        let wanted = stance_point + error * (growth / (growth - 1.0));
-        let given = soles.nearest(stance_foot, stance, &wanted);
-        let rest = error * growth - (given - stance_point) * (growth - 1.0);
-        let heading = PlanarPose::new(0.0, 0.0, -stance_foot.planar.yaw_rad);
-        let (x, y) = heading.apply(rest.x, rest.y);
-        let beyond = |value: f64| {
-            let dead = self.config.capture_deadband;
-            (value - value.clamp(-dead, dead))
-                .clamp(-self.config.capture_limit, self.config.capture_limit)
-        };
-        let (x, y) = (beyond(x), beyond(y));
-        if *elapsed_s < COMMITTED * *duration_s {
-            let mut local = stance_foot.planar.relative(&swing.planned.planar);
-            local.x_m += x;
-            local.y_m += y;
-            let goal = self.planner.keep_apart(
-                &stance_foot.planar,
-                &stance_foot.planar.compose(&local),
-                swing.side,
-            );
-            let most = SPEED_MPS * passed_s;
-            let to = &mut swing.to.planar;
-            to.x_m += (goal.x_m - to.x_m).clamp(-most, most);
-            to.y_m += (goal.y_m - to.y_m).clamp(-most, most);
-        }
-        let outward = y * swing.side.sign();
-        1.0 + (outward / self.config.capture_limit).clamp(0.0, 1.0) * (self.config.capture_hurry - 1.0)
+        self.limit(rate, phase, passed_s)
     }
+
+    fn beyond(&self, value: f64) -> f64 {
+        let dead = self.config.capture_deadband;
+        let limit = self.config.capture_limit;
+        (value - value.clamp(-dead, dead)).clamp(-limit, limit)
+    }
+
+    fn rate(&self, towards_swing: f64) -> f64 {
+        if towards_swing > 0.0 {
+            let need = (towards_swing / self.config.capture_limit).min(1.0);
+            1.0 + need * (self.config.capture_hurry - 1.0)
+        } else {
+            1.0 - (-towards_swing / self.config.capture_hold).min(1.0)
+        }
+    }
+
+    fn move_landing(
+        &self,
+        swing: &mut Swing,
+        stance: &PlanarPose,
+        shift: &Vector2<f64>,
+        passed_s: f64,
+    ) {
+        let mut local = stance.relative(&swing.planned.planar);
+        local.x_m += shift.x;
+        local.y_m += shift.y;
+        let goal = self
+            .planner
+            .keep_apart(stance, &stance.compose(&local), swing.side);
+        let most = SPEED_MPS * passed_s;
+        let to = &mut swing.to.planar;
+        to.x_m += (goal.x_m - to.x_m).clamp(-most, most);
+        to.y_m += (goal.y_m - to.y_m).clamp(-most, most);
+    }
+
+    /// A clock that was held long enough in one phase runs again.
+    fn limit(&mut self, rate: f64, phase: Option<(Side, bool)>, passed_s: f64) -> f64 {
+        if phase != self.phase {
+            self.phase = phase;
+            self.held_s = 0.0;
+        }
+        if self.held_s > self.config.capture_patience {
+            return rate.max(1.0);
+        }
+        self.held_s += (1.0 - rate).max(0.0) * passed_s;
+        rate
+    }
+}
+
+fn turned(stance: &PlanarPose, vector: &Vector2<f64>) -> (f64, f64) {
+    PlanarPose::new(0.0, 0.0, -stance.yaw_rad).apply(vector.x, vector.y)
 }

@@ -55,6 +55,12 @@ pub struct GaitConfig {
     pub capture_limit: f64,
     /// Largest acceleration of a step's clock to catch a push.
     pub capture_hurry: f64,
+    /// Error to the outer side, beyond the dead band, at which a step's clock stands still, m.
+    pub capture_hold: f64,
+    /// Longest time that the clock is held in a phase, s.
+    pub capture_patience: f64,
+    /// Share of the measured tilt that the swing foot makes up for.
+    pub swing_tilt: f64,
     /// Largest speed of the head's joints, rad/s.
     pub gaze_speed: f64,
 }
@@ -86,6 +92,9 @@ impl Default for GaitConfig {
             capture_deadband: 0.01,
             capture_limit: 0.08,
             capture_hurry: 1.0,
+            capture_hold: 0.01,
+            capture_patience: 0.6,
+            swing_tilt: 1.0,
             gaze_speed: 2.0,
         }
     }
@@ -108,6 +117,7 @@ impl GaitConfig {
             ("max_extension", self.max_extension),
             ("landing_load", self.landing_load),
             ("capture_hurry", self.capture_hurry),
+            ("capture_hold", self.capture_hold),
             ("gaze_speed", self.gaze_speed),
         ];
         let not_negative = [
@@ -119,6 +129,8 @@ impl GaitConfig {
             ("load_limit", self.load_limit),
             ("capture_deadband", self.capture_deadband),
             ("capture_limit", self.capture_limit),
+            ("capture_patience", self.capture_patience),
+            ("swing_tilt", self.swing_tilt),
         ];
         for (name, value) in positive {
             let holds = value.is_finite() && value > 0.0;

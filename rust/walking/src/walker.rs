@@ -19,6 +19,10 @@ use crate::{GaitConfig, JointTargets, WalkError};
 
 /// Longest time between ticks that counts, s; also a tick when there was none before.
 const TICK_S: f64 = 0.01;
+/// How fast the correction of the swing foot for the tilt comes and goes, 1/s.
+const TILT_FADE: f64 = 6.0;
+/// Tilt that is not worth a correction, rad.
+const TILT_DEADBAND_RAD: f64 = 0.02;
 
 /// Walks. One a robot; see the crate's page for the parts.
 #[derive(Debug, Clone)]
@@ -41,6 +45,7 @@ pub struct Walker {
     yaw_rad: f64,
     pressure: Pressure,
     reference: Reference,
+    swing_tilt: [f64; 2],
     last_ns: Option<u64>,
 }
 
@@ -103,6 +108,7 @@ impl Walker {
                 zmp: standing,
                 dcm: standing,
             },
+            swing_tilt: [0.0; 2],
             last_ns: None,
             gait,
             config,
@@ -242,8 +248,9 @@ impl Walker {
                 Translation3::new(foot.planar.x_m, foot.planar.y_m, foot.z_m),
                 UnitQuaternion::from_axis_angle(&Vector3::z_axis(), foot.planar.yaw_rad),
             );
+            let lean = self.lean(&plan_from_torso, side, passed_s);
             let leg = &self.legs[side.index()];
-            let solution = leg.solve(&(torso_from_plan * plan_from_sole));
+            let solution = leg.solve(&(torso_from_plan * lean * plan_from_sole));
             for (&joint, &angle) in leg.joints().iter().zip(&solution.angles_rad) {
                 let before = self.targets.positions_rad[joint];
                 self.targets.velocities_radps[joint] = (angle - before) / passed_s;
@@ -251,6 +258,33 @@ impl Walker {
             }
         }
         Ok(())
+    }
+
+    /// How the plan appears to a leg whose foot is in the air, as seen from the reference's torso: leaning by the measured tilt,
+    /// so that the foot meets the ground at its time. Fades in after lifting and out after landing.
+    fn lean(
+        &mut self,
+        plan_from_torso: &Isometry3<f64>,
+        side: Side,
+        passed_s: f64,
+    ) -> Isometry3<f64> {
+        let goal = match &self.gait.phase {
+            Phase::Single { swing, .. } if swing.side == side => self.config.swing_tilt,
+            _ => 0.0,
+        };
+        let weight = &mut self.swing_tilt[side.index()];
+        *weight += (goal - *weight).clamp(-TILT_FADE * passed_s, TILT_FADE * passed_s);
+        if *weight <= 0.0 {
+            return Isometry3::identity();
+        }
+        let measured = self.balance.plan_from_torso;
+        let error = (measured.rotation * plan_from_torso.rotation.inverse()).scaled_axis();
+        let size = error.norm();
+        let used = (size - TILT_DEADBAND_RAD).max(0.0) / size.max(1e-9) * *weight;
+        let turn = UnitQuaternion::from_scaled_axis(-error * used);
+        let pivot = self.gait.feet[side.other().index()];
+        let pivot = Vector3::new(pivot.planar.x_m, pivot.planar.y_m, pivot.z_m);
+        Isometry3::from_parts(Translation3::from(pivot - turn * pivot), turn)
     }
 
     /// Height of the torso's origin: the hips at their height over the lower foot, lower where a leg would get too long.
