@@ -32,6 +32,16 @@ pub(super) struct RegionFit {
 }
 
 impl RegionFit {
+    fn add(&mut self, g: f64, tilt: Vector2<f64>, e: f64) {
+        self.count += 1;
+        self.gg += g * g;
+        self.gt += tilt * g;
+        self.tt += tilt * tilt.transpose();
+        self.ge += g * e;
+        self.te += tilt * e;
+        self.ee += e * e;
+    }
+
     /// What the region tells of the tilt once its own height is eliminated: information and its product with the tilt.
     fn tilt_equation(&self) -> (Matrix2<f64>, Vector2<f64>) {
         if self.gg <= 0.0 {
@@ -89,30 +99,24 @@ pub(super) fn fit_regions(
         q: f64::from(region.q),
         ..RegionFit::default()
     }));
-    for (at, &label) in labels.iter().enumerate() {
-        if label == 0 {
-            continue;
-        }
-        let index = usize::from(label) - 1;
-        let (col, row) = (at % picture.width, at / picture.width);
-        let (d, g, q) = (picture.disparity_px[at], picture.g[at], regions[index].q);
-        let sigma = picture.noise.at(col, row);
-        let miss = (d - q * g) / sigma;
-        // Also false where nothing was seen.
-        if miss.abs() < OUTLIER {
-            let fit = &mut fits[index];
-            let tilt = Vector2::new(
-                f64::from(-q * view.x.at(col, row) / sigma),
-                f64::from(-q * view.y.at(col, row) / sigma),
-            );
-            let (g, e) = (f64::from(g / sigma), f64::from(miss));
-            fit.count += 1;
-            fit.gg += g * g;
-            fit.gt += tilt * g;
-            fit.tt += tilt * tilt.transpose();
-            fit.ge += g * e;
-            fit.te += tilt * e;
-            fit.ee += e * e;
+    let width = picture.width;
+    for (row, line) in labels.chunks_exact(width).enumerate() {
+        for (col, &label) in line.iter().enumerate() {
+            if label == 0 {
+                continue;
+            }
+            let (at, index) = (row * width + col, usize::from(label) - 1);
+            let (g, q) = (picture.g[at], regions[index].q);
+            let precision = 1.0 / picture.sigma_px[at];
+            let miss = (picture.disparity_px[at] - q * g) * precision;
+            // Also false where nothing was seen.
+            if miss.abs() < OUTLIER {
+                let tilt = Vector2::new(
+                    f64::from(-q * view.x.at(col, row) * precision),
+                    f64::from(-q * view.y.at(col, row) * precision),
+                );
+                fits[index].add(f64::from(g * precision), tilt, f64::from(miss));
+            }
         }
     }
 }
@@ -127,7 +131,7 @@ pub(super) fn shared_tilt(
     let prior = 1.0 / (expected_sigma_rad * expected_sigma_rad);
     let mut information = Matrix2::identity() * prior;
     let mut product = expected * prior;
-    for fit in fits.iter().filter(|fit| fit.is_level(level_rad)) {
+    for fit in fits.iter().filter(|fit| fit.own_tilt().0.norm() < level_rad) {
         let (a, b) = fit.tilt_equation();
         information += a;
         product += b;

@@ -81,10 +81,11 @@ impl Grouping {
             let first = segment.strip * rules.strip;
             let end = (first + rules.strip).min(picture.width);
             for row in segment.first..segment.end {
-                for at in row * picture.width + first..row * picture.width + end {
-                    let sigma = picture.noise.at(at % picture.width, row);
-                    if (picture.disparity_px[at] - q * picture.g[at]).abs() < rules.accept * sigma {
-                        labels[at] = label;
+                let line = row * picture.width + first..row * picture.width + end;
+                for (at, target) in line.clone().zip(&mut labels[line]) {
+                    let limit = rules.accept * picture.sigma_px[at];
+                    if (picture.disparity_px[at] - q * picture.g[at]).abs() < limit {
+                        *target = label;
                     }
                 }
             }
@@ -132,9 +133,10 @@ impl Grouping {
         labels: &mut [u16],
     ) {
         let width = picture.width;
+        let pixels = labels.len();
         let inner = |at: usize| {
             let col = at % width;
-            col > 0 && col + 1 < width && at >= width && at + width < labels.len()
+            col > 0 && col + 1 < width && at >= width && at + width < pixels
         };
         self.queue.clear();
         self.queue.extend((0..labels.len()).filter(|&at| {
@@ -155,8 +157,7 @@ impl Grouping {
                 if d.is_nan() || labels[beside] == label {
                     continue;
                 }
-                let (col, row) = (beside % width, beside / width);
-                let sigma = picture.noise.at(col, row);
+                let sigma = picture.sigma_px[beside];
                 let miss = (d - q * picture.g[beside]).abs();
                 let beats = match labels[beside] {
                     0 => miss < rules.accept * sigma,
@@ -165,11 +166,9 @@ impl Grouping {
                         miss + sigma < (d - rival * picture.g[beside]).abs()
                     }
                 };
-                let whole =
-                    col > 0 && col + 1 < width && beside >= width && beside + width < labels.len();
                 if beats {
                     labels[beside] = label;
-                    if whole {
+                    if inner(beside) {
                         self.queue.push(beside);
                     }
                 }
@@ -260,7 +259,7 @@ impl Grouping {
                     let (i, j) = (label.min(other) - 1, label.max(other) - 1);
                     let contact = &mut self.contacts[i * count + j];
                     contact.0 += 1;
-                    contact.1 += picture.noise.at(at % width, at / width) / picture.g[at];
+                    contact.1 += picture.sigma_px[at] / picture.g[at];
                 }
             }
         }
@@ -277,5 +276,5 @@ fn alike(picture: Picture<'_>, rules: GrowthRules, a: &Segment, b: &Segment) -> 
     let row = usize::midpoint(first, end);
     let col = (b.strip * rules.strip).min(picture.width - 1);
     let g = picture.g[row * picture.width + col];
-    (a.q - b.q).abs() * g < rules.join * picture.noise.at(col, row)
+    (a.q - b.q).abs() * g < rules.join * picture.sigma_px[row * picture.width + col]
 }

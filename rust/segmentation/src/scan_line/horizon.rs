@@ -47,7 +47,7 @@ impl HorizonSearch {
                     continue;
                 }
                 let g = picture.g[row * picture.width + col];
-                let sigma = picture.noise.at(col, row);
+                let sigma = picture.sigma_px[row * picture.width + col];
                 self.samples.push([
                     g / d,
                     view.x.at(col, row) / d,

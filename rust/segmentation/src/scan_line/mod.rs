@@ -54,6 +54,7 @@ pub struct ScanLine {
     camera: Intrinsics,
     correction: Correction,
     noise: NoiseMap,
+    sigma_px: Vec<f32>,
     disparity_px: Vec<f32>,
     g: Vec<f32>,
     labels: Vec<u16>,
@@ -112,6 +113,7 @@ impl ScanLine {
                 config.noise_ceiling,
             ),
             correction: Correction::new(),
+            sigma_px: vec![0.0; pixels],
             disparity_px: vec![f32::NAN; pixels],
             g: vec![0.0; pixels],
             labels: vec![0; pixels],
@@ -144,7 +146,7 @@ impl ScanLine {
             width,
             disparity_px: &self.disparity_px,
             g: &self.g,
-            noise: &self.noise,
+            sigma_px: &self.sigma_px,
         };
         let strip_rules = StripRules {
             strip: config.strip,
@@ -208,7 +210,7 @@ impl ScanLine {
             width,
             disparity_px: &self.disparity_px,
             g: &self.g,
-            noise: &self.noise,
+            sigma_px: &self.sigma_px,
         };
         fit_regions(picture, view, &self.regions, &self.eroded, &mut self.fits);
         for (region, fit) in self.regions.iter_mut().zip(&self.fits) {
@@ -223,7 +225,7 @@ impl ScanLine {
             width: self.camera.width,
             disparity_px: &self.disparity_px,
             g: &self.g,
-            noise: &self.noise,
+            sigma_px: &self.sigma_px,
         };
         let height_m = level.predicted.inner.translation.z;
         let area = if self.searching() {
@@ -302,6 +304,7 @@ impl Segmenter for ScanLine {
             &mut self.disparity_px,
         );
         self.noise.measure(&self.disparity_px);
+        self.noise.fill(&mut self.sigma_px);
         let predicted = self.correction.predict(&scan.robot_from_camera);
         let mut levelled = self.level(predicted);
         let ground = self.find_ground(&levelled);

@@ -96,11 +96,16 @@ impl NoiseMap {
         None
     }
 
-    /// Noise at a pixel, px.
-    pub(super) fn at(&self, col: usize, row: usize) -> f32 {
-        let i = col * BLOCKS.0 / self.width;
-        let j = row * BLOCKS.1 / self.height;
-        self.sigma_px[j * BLOCKS.0 + i]
+    /// Fills `image` with the noise at every pixel, px, row by row.
+    pub(super) fn fill(&self, image: &mut [f32]) {
+        let (across, down) = BLOCKS;
+        for (row, line) in image.chunks_exact_mut(self.width).enumerate() {
+            let j = (row * down / self.height).min(down - 1);
+            for i in 0..across {
+                let cols = i * self.width / across..(i + 1) * self.width / across;
+                line[cols].fill(self.sigma_px[j * across + i]);
+            }
+        }
     }
 }
 

@@ -41,7 +41,7 @@ impl ScanLine {
         self.walls.find(
             &self.disparity_px,
             &self.camera,
-            &self.noise,
+            &self.sigma_px,
             &mut self.labels,
             planes,
         );

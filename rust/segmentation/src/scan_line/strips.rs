@@ -1,14 +1,22 @@
 //! Scan lines: strips of a few columns, cut into the pieces on which `q = d / g` is constant (Jiang and Bunke 1994, with
 //! one parameter a line instead of two, and the best partition instead of a recursive split).
 
-use super::NoiseMap;
-
 /// Rays that fall less than this (as a share of `f B`) see nothing horizontal worth having.
 const MIN_FALL: f32 = 0.05;
 /// Rows without a measurement that a line may bridge.
 const MAX_GAP: usize = 3;
 /// Widest strip, pixels.
 pub(super) const MAX_STRIP: usize = 32;
+
+/// Price of a steep line on a strip, in squared noise.
+const STEEP_PRICE: f64 = 40.0;
+/// A line is steep when its disparity changes by less than this of what a horizontal surface's would from row to row
+/// (0.6 for a slope of 14 degrees as of stairs, -1 for a wall).
+const STEEP: f64 = 0.3;
+
+/// Marks of segments that are horizontal, and of those that are part of something steep.
+const LEVEL: usize = usize::MAX;
+const DROPPED: usize = usize::MAX - 1;
 
 /// A piece of a strip that lies on one horizontal surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,8 +55,8 @@ pub(super) struct Picture<'a> {
     pub(super) disparity_px: &'a [f32],
     /// `g` of each pixel, m px.
     pub(super) g: &'a [f32],
-    /// Local noise.
-    pub(super) noise: &'a NoiseMap,
+    /// Local noise, px.
+    pub(super) sigma_px: &'a [f32],
 }
 
 /// Cuts strips into segments. Keeps its buffers.
@@ -59,6 +67,50 @@ pub(super) struct Strips {
     sums: Vec<[f64; 3]>,
     best: Vec<f64>,
     from: Vec<usize>,
+    // Sums over the strip's rows so far for lines in row and disparity.
+    lines: Vec<LineSums>,
+    // Where the segments of the partition start, as positions among the strip's rows.
+    cuts: Vec<usize>,
+}
+
+/// Sums for a straight line through disparities, weighted by the inverse square of the noise.
+#[derive(Debug, Clone, Copy, Default)]
+struct LineSums {
+    w: f64,
+    row: f64,
+    row_row: f64,
+    d: f64,
+    row_d: f64,
+    d_d: f64,
+    g: f64,
+    row_g: f64,
+}
+
+impl LineSums {
+    fn with(&self, row: f64, d: f64, g: f64, w: f64) -> Self {
+        Self {
+            w: self.w + w,
+            row: self.row + w * row,
+            row_row: self.row_row + w * row * row,
+            d: self.d + w * d,
+            row_d: self.row_d + w * row * d,
+            d_d: self.d_d + w * d * d,
+            g: self.g + w * g,
+            row_g: self.row_g + w * row * g,
+        }
+    }
+
+    /// Squared residuals, in noise, of the best line between two sums, where that line is steep.
+    fn steep_cost(&self, before: &Self) -> Option<f64> {
+        let (w, row) = (self.w - before.w, self.row - before.row);
+        let (d, g) = (self.d - before.d, self.g - before.g);
+        let rows = self.row_row - before.row_row - row * row / w;
+        let row_d = self.row_d - before.row_d - row * d / w;
+        let row_g = self.row_g - before.row_g - row * g / w;
+        let steep = row_d * g < STEEP * row_g * d;
+        (steep && rows > 0.0)
+            .then(|| self.d_d - before.d_d - d * d / w - row_d * row_d / rows)
+    }
 }
 
 impl Strips {
@@ -73,8 +125,7 @@ impl Strips {
         let height = picture.disparity_px.len() / picture.width;
         for strip in 0..strips {
             self.rows.clear();
-            self.sums.clear();
-            self.sums.push([0.0; 3]);
+            self.start_run();
             for row in 0..height {
                 let Some((q, weight)) = strip_row(picture, rules, strip, row) else {
                     continue;
@@ -89,6 +140,12 @@ impl Strips {
                 let (q, weight) = (f64::from(q), f64::from(weight));
                 self.sums
                     .push([w + weight, wq + weight * q, wqq + weight * q * q]);
+                let line = self.lines[self.lines.len() - 1];
+                let at = row * picture.width + strip * rules.strip;
+                let sigma = f64::from(picture.sigma_px[at]);
+                let g = weight.sqrt() * sigma;
+                self.lines
+                    .push(line.with(row as f64, q * g, g, 1.0 / (sigma * sigma)));
             }
             self.cut_run(strip, rules, segments);
         }
@@ -122,28 +179,81 @@ impl Strips {
                 self.best[end] = least + f64::from(rules.price);
                 self.from[end] = start_of_least;
             }
-            let first_new = segments.len();
+            self.cuts.clear();
             let mut end = count;
             while end > 0 {
-                let start = self.from[end];
-                let (weight, weighted) = (
-                    self.sums[end][0] - self.sums[start][0],
-                    self.sums[end][1] - self.sums[start][1],
-                );
-                segments.push(Segment {
-                    strip,
-                    first: self.rows[start],
-                    end: self.rows[end - 1] + 1,
-                    q: (weighted / weight) as f32,
-                    weight: weight as f32,
-                });
-                end = start;
+                self.cuts.push(end);
+                end = self.from[end];
             }
-            segments[first_new..].reverse();
+            self.cuts.push(0);
+            self.cuts.reverse();
+            self.drop_walls(f64::from(rules.price));
+            self.append(strip, segments);
         }
+        self.start_run();
+    }
+
+    fn start_run(&mut self) {
         self.rows.clear();
         self.sums.clear();
         self.sums.push([0.0; 3]);
+        self.lines.clear();
+        self.lines.push(LineSums::default());
+    }
+
+    /// A wall is cut into slices, too. Drops the runs of segments that one steep line explains at a lower price, by dynamic
+    /// programming over the segments: `from` then holds, by position among the cuts, where a run began or `LEVEL`.
+    fn drop_walls(&mut self, price: f64) {
+        self.best[0] = 0.0;
+        for j in 1..self.cuts.len() {
+            let (start, end) = (self.cuts[j - 1], self.cuts[j]);
+            let mut least = self.best[j - 1] + self.level_cost(start, end) + price;
+            let mut choice = LEVEL;
+            for i in 0..j {
+                let cost = self.lines[end].steep_cost(&self.lines[self.cuts[i]]);
+                if let Some(cost) = cost.map(|cost| self.best[i] + cost + STEEP_PRICE)
+                    && cost < least
+                {
+                    least = cost;
+                    choice = i;
+                }
+            }
+            self.best[j] = least;
+            self.from[j] = choice;
+        }
+        let mut j = self.cuts.len() - 1;
+        while j > 0 {
+            let run = self.from[j];
+            if run == LEVEL {
+                j -= 1;
+            } else {
+                self.from[run + 1..=j].fill(DROPPED);
+                j = run;
+            }
+        }
+    }
+
+    fn level_cost(&self, start: usize, end: usize) -> f64 {
+        let (a, b) = (self.sums[start], self.sums[end]);
+        let weighted = b[1] - a[1];
+        b[2] - a[2] - weighted * weighted / (b[0] - a[0])
+    }
+
+    fn append(&self, strip: usize, segments: &mut Vec<Segment>) {
+        for (pair, choice) in self.cuts.windows(2).zip(&self.from[1..]) {
+            let (start, end) = (pair[0], pair[1]);
+            if *choice == DROPPED {
+                continue;
+            }
+            let (a, b) = (self.sums[start], self.sums[end]);
+            segments.push(Segment {
+                strip,
+                first: self.rows[start],
+                end: self.rows[end - 1] + 1,
+                q: ((b[1] - a[1]) / (b[0] - a[0])) as f32,
+                weight: (b[0] - a[0]) as f32,
+            });
+        }
     }
 }
 
@@ -162,7 +272,7 @@ fn strip_row(
         &picture.disparity_px[line + first..line + end],
         &picture.g[line + first..line + end],
     );
-    let sigma = picture.noise.at((first + end) / 2, row);
+    let sigma = picture.sigma_px[line + usize::midpoint(first, end)];
     let least_fall = MIN_FALL * rules.scale;
     let mut sorted = [0.0_f32; MAX_STRIP];
     let mut count = 0;
@@ -200,12 +310,12 @@ mod tests {
     use super::*;
 
     fn cut(disparity_px: &[f32], g: &[f32], width: usize) -> Vec<Segment> {
-        let noise = NoiseMap::new(width, disparity_px.len() / width, 0.125, 4.0);
+        let sigma_px = vec![0.125; disparity_px.len()];
         let picture = Picture {
             width,
             disparity_px,
             g,
-            noise: &noise,
+            sigma_px: &sigma_px,
         };
         let rules = StripRules {
             strip: 8,

@@ -7,7 +7,6 @@ use geometry::{Outline, Plane, Point};
 use nalgebra::{Matrix3, Point2, Point3, Unit, Vector3};
 use sensing::Intrinsics;
 
-use super::NoiseMap;
 use crate::{PlaneRegion, Planes};
 
 /// Side of a block, pixels.
@@ -74,14 +73,14 @@ impl Walls {
         &mut self,
         disparity_px: &[f32],
         camera: &Intrinsics,
-        noise: &NoiseMap,
+        sigma_px: &[f32],
         labels: &mut [u16],
         planes: &mut Planes,
     ) {
         let image = Image {
             disparity_px,
             camera,
-            noise,
+            sigma_px,
             across: camera.width / BLOCK,
             down: camera.height / BLOCK,
         };
@@ -114,7 +113,7 @@ impl Walls {
             let plane = (sums.count() >= MIN_BLOCK)
                 .then(|| sums.plane())
                 .flatten()
-                .filter(|plane| sums.roughness_px(plane) < SMOOTH * image.sigma_px(block));
+                .filter(|plane| sums.roughness_px(plane) < SMOOTH * image.block_sigma_px(block));
             self.blocks.push(Block {
                 sums,
                 plane,
@@ -139,7 +138,7 @@ impl Walls {
                 let Some(other) = block.plane.filter(|_| !block.taken) else {
                     continue;
                 };
-                if image.apart_px(beside, &plane, &other) < AGREE * image.sigma_px(beside) {
+                if image.apart_px(beside, &plane, &other) < AGREE * image.block_sigma_px(beside) {
                     self.blocks[beside].taken = true;
                     self.members.push(beside);
                     sums.moments += block.sums.moments;
@@ -175,7 +174,7 @@ impl Walls {
                 let ray = Vector3::from(image.camera.ray(col, row));
                 let there = in_camera.dot(&ray);
                 let miss = f64::from(image.disparity_px[at]) - there;
-                let close = miss.abs() < ACCEPT * f64::from(image.noise.at(col, row));
+                let close = miss.abs() < ACCEPT * f64::from(image.sigma_px[at]);
                 if labels[at] == 0 && close && there > 0.0 {
                     labels[at] = label;
                     support += 1;
@@ -200,7 +199,7 @@ impl Walls {
 struct Image<'a> {
     disparity_px: &'a [f32],
     camera: &'a Intrinsics,
-    noise: &'a NoiseMap,
+    sigma_px: &'a [f32],
     across: usize,
     down: usize,
 }
@@ -211,9 +210,9 @@ impl Image<'_> {
         (top..top + BLOCK).flat_map(move |row| (left..left + BLOCK).map(move |col| (col, row)))
     }
 
-    fn sigma_px(&self, block: usize) -> f64 {
+    fn block_sigma_px(&self, block: usize) -> f64 {
         let (col, row) = (block % self.across * BLOCK, block / self.across * BLOCK);
-        f64::from(self.noise.at(col + BLOCK / 2, row + BLOCK / 2))
+        f64::from(self.sigma_px[(row + BLOCK / 2) * self.camera.width + col + BLOCK / 2])
     }
 
     fn neighbours(&self, block: usize) -> impl Iterator<Item = usize> {
