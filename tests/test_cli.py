@@ -80,7 +80,7 @@ def test_a_misuse_is_one_message_and_status_2(
     arguments: list[str], expected: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     if arguments[0] == "run":
-        pytest.importorskip("treadwell.episode")
+        pytest.importorskip("treadwell.runner")
     assert execute(arguments) == 2
     captured = capsys.readouterr()
     assert expected in captured.err
@@ -180,8 +180,7 @@ def test_run_hands_its_options_on_and_returns_the_outcomes_status(
         seen.update(options, scenario=scenario)
         return SimpleNamespace(document=result(**changes), folder=tmp_path)
 
-    monkeypatch.setitem(sys.modules, "treadwell.episode", SimpleNamespace(run=run))
-    monkeypatch.setattr("treadwell.episode", SimpleNamespace(run=run), raising=False)
+    monkeypatch.setitem(sys.modules, "treadwell.runner", SimpleNamespace(run=run))
     arguments = ["run", "x", "--seed", "4", "--set", "a=1", "--set", "b=2", "--no-record"]
     assert execute([*arguments, "--json"]) == status
     assert json.loads(capsys.readouterr().out) == result(**changes)

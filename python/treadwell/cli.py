@@ -60,9 +60,9 @@ def _options(
     *, version: Annotated[bool, typer.Option("--version", help="Show the version.")] = False
 ) -> None:
     if version:
-        from importlib.metadata import version as installed
+        from treadwell import __version__
 
-        typer.echo(f"treadwell {installed('treadwell')}")
+        typer.echo(f"treadwell {__version__}")
         raise typer.Exit
 
 

@@ -42,10 +42,10 @@ def run(
         view: show the physics in a window.
         as_json: write `result.json` to standard output instead of a table.
     """
-    from treadwell import episode
+    from treadwell.runner import run as run_episode
 
     with Progress(Path(scenario).stem) as progress:
-        result = episode.run(
+        result = run_episode(
             scenario,
             robot=robot,
             seed=seed,
