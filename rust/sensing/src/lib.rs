@@ -3,7 +3,9 @@
 mod camera;
 mod observation;
 mod scan;
+mod self_filter;
 
 pub use camera::Intrinsics;
 pub use observation::{Frame, Observation, ObservationError};
 pub use scan::{Scan, ScanError};
+pub use self_filter::{SelfFilter, SelfFilterConfig};
