@@ -2,6 +2,8 @@
 
 mod command;
 mod decision;
+mod walking;
 
 pub use command::{Command, Footstep, Gaze, Motion, Velocity};
 pub use decision::{Behaviour, BehaviourError, Decision, Outcome, Situation};
+pub use walking::{WalkingBehaviour, WalkingConfig};

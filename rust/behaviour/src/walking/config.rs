@@ -1,0 +1,198 @@
+//! Settings of the behaviour `walking`.
+
+use geometry::{ConfigError, require};
+use serde::{Deserialize, Serialize};
+
+/// Settings of [`crate::WalkingBehaviour`]: `[navigation.walking]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct WalkingConfig {
+    /// Walking speed on open known ground, m/s.
+    pub forward_speed: f64,
+    /// Largest speed of side steps, m/s.
+    pub side_speed: f64,
+    /// Largest turning speed, rad/s.
+    pub turn_speed: f64,
+    /// Speed where ground lies ahead that stayed unknown after having been looked at, m/s.
+    pub creep_speed: f64,
+    /// How far ahead on the path the robot steers to, m.
+    pub lookahead: f64,
+    /// A heading further off than this is turned to on the spot, rad,
+    pub turn_above: f64,
+    /// until it is no further off than this, rad.
+    pub turn_until: f64,
+    /// Nearer than this to its end the path is followed with side steps instead of turns, m.
+    pub approach: f64,
+    /// The robot walks slower where an obstacle is nearer to the path than this, m.
+    pub slow_clearance: f64,
+    /// Something new on the path within this distance stops the robot, m.
+    pub stopping_distance: f64,
+    /// Half the width of the path that must stay free, m.
+    pub corridor: f64,
+    /// The robot stands at least this long when something appeared, s.
+    pub stop_time: f64,
+    /// Unknown ground on the path is looked at when it is nearer than this, m.
+    pub look_distance: f64,
+    /// Ground nearer than this lies below the camera's view, m.
+    pub unseen_radius: f64,
+    /// Steepest look, to the ground before the feet, below the horizon, rad.
+    pub gaze_steep: f64,
+    /// Look at the ground near by, rad.
+    pub gaze_near: f64,
+    /// Look at the ground further away, rad.
+    pub gaze_far: f64,
+    /// Speed of the gaze, rad/s.
+    pub gaze_speed: f64,
+    /// How far to each side the robot looks around, rad.
+    pub sweep: f64,
+    /// Share of the goal's radius within which the robot has arrived.
+    pub arrive_share: f64,
+    /// Where the path ends, the robot has also arrived this deep inside the goal's disc, m.
+    pub arrive_margin: f64,
+    /// The robot declares that it has arrived after standing this long, s.
+    pub arrive_time: f64,
+    /// Without a frame for longer than this the robot stands and waits, s;
+    pub blind_after: f64,
+    /// it gives up after this, s.
+    pub blind_limit: f64,
+    /// "No way" must be the planner's answer for this long, s, and in all directions looked at.
+    pub refuse_time: f64,
+    /// Without headway for this long the robot looks around, s;
+    pub patience: f64,
+    /// it gives up after this many times.
+    pub tries: u32,
+}
+
+impl Default for WalkingConfig {
+    fn default() -> Self {
+        Self {
+            forward_speed: 0.10,
+            side_speed: 0.04,
+            turn_speed: 0.4,
+            creep_speed: 0.04,
+            lookahead: 0.22,
+            turn_above: 0.7,
+            turn_until: 0.2,
+            approach: 0.2,
+            slow_clearance: 0.22,
+            stopping_distance: 0.4,
+            corridor: 0.1,
+            stop_time: 1.0,
+            look_distance: 0.4,
+            unseen_radius: 0.2,
+            gaze_steep: 1.0,
+            gaze_near: 0.85,
+            gaze_far: 0.5,
+            gaze_speed: 0.9,
+            sweep: 1.1,
+            arrive_share: 0.35,
+            arrive_margin: 0.03,
+            arrive_time: 0.5,
+            blind_after: 1.0,
+            blind_limit: 10.0,
+            refuse_time: 3.0,
+            patience: 15.0,
+            tries: 3,
+        }
+    }
+}
+
+impl WalkingConfig {
+    /// Refuses what cannot be used.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        let positive = [
+            ("forward_speed", self.forward_speed),
+            ("side_speed", self.side_speed),
+            ("turn_speed", self.turn_speed),
+            ("creep_speed", self.creep_speed),
+            ("lookahead", self.lookahead),
+            ("turn_above", self.turn_above),
+            ("turn_until", self.turn_until),
+            ("slow_clearance", self.slow_clearance),
+            ("corridor", self.corridor),
+            ("gaze_speed", self.gaze_speed),
+            ("blind_after", self.blind_after),
+            ("patience", self.patience),
+        ];
+        for (name, value) in positive {
+            let key = format!("navigation.walking.{name}");
+            require(value.is_finite() && value > 0.0, &key, "> 0", value)?;
+        }
+        let not_negative = [
+            ("approach", self.approach),
+            ("stopping_distance", self.stopping_distance),
+            ("stop_time", self.stop_time),
+            ("look_distance", self.look_distance),
+            ("unseen_radius", self.unseen_radius),
+            ("sweep", self.sweep),
+            ("arrive_margin", self.arrive_margin),
+            ("arrive_time", self.arrive_time),
+            ("refuse_time", self.refuse_time),
+        ];
+        for (name, value) in not_negative {
+            let key = format!("navigation.walking.{name}");
+            require(value.is_finite() && value >= 0.0, &key, ">= 0", value)?;
+        }
+        for (name, value) in [
+            ("gaze_steep", self.gaze_steep),
+            ("gaze_near", self.gaze_near),
+            ("gaze_far", self.gaze_far),
+        ] {
+            let key = format!("navigation.walking.{name}");
+            require((0.0..1.5).contains(&value), &key, "from 0 to 1.5", value)?;
+        }
+        let ordered = [
+            (
+                "turn_until",
+                self.turn_until < self.turn_above,
+                "below turn_above",
+                self.turn_until,
+            ),
+            (
+                "blind_limit",
+                self.blind_limit > self.blind_after,
+                "above blind_after",
+                self.blind_limit,
+            ),
+            (
+                "arrive_share",
+                self.arrive_share > 0.0 && self.arrive_share <= 1.0,
+                "in (0, 1]",
+                self.arrive_share,
+            ),
+        ];
+        for (name, holds, allowed, value) in ordered {
+            require(holds, &format!("navigation.walking.{name}"), allowed, value)?;
+        }
+        let tries = self.tries;
+        require(tries > 0, "navigation.walking.tries", "> 0", tries)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shipped_settings_are_allowed() {
+        assert_eq!(WalkingConfig::default().check(), Ok(()));
+    }
+
+    #[test]
+    fn a_bad_setting_is_refused_by_name() {
+        let config = WalkingConfig {
+            forward_speed: -0.1,
+            ..WalkingConfig::default()
+        };
+        let message = config.check().unwrap_err().to_string();
+        assert_eq!(
+            message,
+            "navigation.walking.forward_speed must be > 0, got -0.1"
+        );
+        let config = WalkingConfig {
+            blind_limit: 0.5,
+            ..WalkingConfig::default()
+        };
+        assert!(config.check().is_err());
+    }
+}

@@ -1,0 +1,189 @@
+//! Where the head looks: sweeps while standing, glances while walking.
+
+use crate::Gaze;
+use crate::walking::WalkingConfig;
+
+/// Moves the gaze with a limited speed, so that every patch of ground is in several frames.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Gazer {
+    at: Gaze,
+}
+
+impl Gazer {
+    /// Where the head is told to look.
+    pub(crate) const fn at(&self) -> Gaze {
+        self.at
+    }
+
+    /// Takes up from where the head is.
+    pub(crate) const fn start(&mut self, gaze: Gaze) {
+        self.at = gaze;
+    }
+
+    /// One tick towards `goal`.
+    pub(crate) fn turn(&mut self, goal: Gaze, passed_s: f64, speed_radps: f64) {
+        let most = speed_radps * passed_s;
+        self.at.pan_rad += (goal.pan_rad - self.at.pan_rad).clamp(-most, most);
+        self.at.down_rad += (goal.down_rad - self.at.down_rad).clamp(-most, most);
+    }
+
+    fn is_at(&self, goal: Gaze) -> bool {
+        (self.at.pan_rad - goal.pan_rad).abs() < 1e-6
+            && (self.at.down_rad - goal.down_rad).abs() < 1e-6
+    }
+}
+
+const LONGEST_SWEEP: usize = 6;
+
+/// A list of places to look at, one after the other.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sweep {
+    places: [Gaze; LONGEST_SWEEP],
+    count: usize,
+    next: usize,
+    last_frame_at: Option<u64>,
+}
+
+/// Frames that must have been used after the last place was reached.
+const FRAMES_AT_THE_END: u64 = 2;
+
+impl Sweep {
+    fn new(places: &[(f64, f64)]) -> Self {
+        let mut sweep = Self {
+            places: [Gaze::default(); LONGEST_SWEEP],
+            count: places.len().min(LONGEST_SWEEP),
+            next: 0,
+            last_frame_at: None,
+        };
+        for (slot, &(pan_rad, down_rad)) in sweep.places.iter_mut().zip(places) {
+            *slot = Gaze { pan_rad, down_rad };
+        }
+        sweep
+    }
+
+    /// All that can be seen from here: near from left to right, then far from right to left.
+    pub(crate) fn around(config: &WalkingConfig) -> Self {
+        let (side, near, far) = (config.sweep, config.gaze_near, config.gaze_far);
+        Self::new(&[
+            (0.0, config.gaze_steep),
+            (side, near),
+            (-side, near),
+            (-side, far),
+            (side, far),
+            (0.0, far),
+        ])
+    }
+
+    /// A place at `bearing_rad`, and what lies around it.
+    pub(crate) fn at(bearing_rad: f64, config: &WalkingConfig) -> Self {
+        let bearing_rad = bearing_rad.clamp(-config.sweep, config.sweep);
+        let (left, right) = (bearing_rad + 0.3, bearing_rad - 0.3);
+        let (steep, near) = (config.gaze_steep, config.gaze_near);
+        Self::new(&[
+            (left, steep),
+            (right, steep),
+            (right, near),
+            (left, near),
+            (bearing_rad, near),
+        ])
+    }
+
+    /// One tick; true when all was looked at and the frames of it were used.
+    pub(crate) fn advance(
+        &mut self,
+        gazer: &mut Gazer,
+        frames_used: u64,
+        passed_s: f64,
+        speed_radps: f64,
+    ) -> bool {
+        if self.next < self.count {
+            let goal = self.places[self.next];
+            gazer.turn(goal, passed_s, speed_radps);
+            self.next += usize::from(gazer.is_at(goal));
+            return false;
+        }
+        let since = *self.last_frame_at.get_or_insert(frames_used);
+        frames_used >= since + FRAMES_AT_THE_END
+    }
+}
+
+/// Where to look while walking: along the path, by turns far and near, swaying a little.
+pub(crate) fn glance(time_s: f64, bearing_rad: f64, config: &WalkingConfig) -> Gaze {
+    const PERIOD_S: f64 = 3.0;
+    const SWAY_RAD: f64 = 0.35;
+    let phase = (time_s / PERIOD_S).fract();
+    let sway_rad = SWAY_RAD * (std::f64::consts::TAU * time_s / (1.5 * PERIOD_S)).sin();
+    Gaze {
+        pan_rad: (bearing_rad + sway_rad).clamp(-config.sweep, config.sweep),
+        down_rad: if phase < 0.6 {
+            config.gaze_far
+        } else {
+            config.gaze_near
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run(mut sweep: Sweep, frame_every: usize) -> (usize, Vec<Gaze>) {
+        let config = WalkingConfig::default();
+        let mut gazer = Gazer::default();
+        let mut seen = Vec::new();
+        for tick in 0..3000 {
+            seen.push(gazer.at());
+            let frames = if frame_every == 0 {
+                0
+            } else {
+                tick / frame_every
+            };
+            if sweep.advance(&mut gazer, frames as u64, 0.01, config.gaze_speed) {
+                return (tick, seen);
+            }
+        }
+        (usize::MAX, seen)
+    }
+
+    #[test]
+    fn a_look_around_reaches_both_sides_near_and_far_and_ends() {
+        let config = WalkingConfig::default();
+        let (ticks, seen) = run(Sweep::around(&config), 8);
+        assert!(ticks < 1200, "{ticks}");
+        for (pan, down) in [
+            (1.1, 0.85),
+            (-1.1, 0.85),
+            (1.1, 0.5),
+            (-1.1, 0.5),
+            (0.0, 1.0),
+        ] {
+            let reached = |gaze: &Gaze| {
+                (gaze.pan_rad - pan).abs() < 0.02 && (gaze.down_rad - down).abs() < 0.02
+            };
+            assert!(seen.iter().any(reached), "{pan} {down}");
+        }
+    }
+
+    #[test]
+    fn a_sweep_does_not_end_without_frames() {
+        assert_eq!(
+            run(Sweep::at(0.3, &WalkingConfig::default()), 0).0,
+            usize::MAX
+        );
+    }
+
+    #[test]
+    fn a_glance_stays_within_the_necks_reach_and_sees_near_and_far() {
+        let config = WalkingConfig::default();
+        let glances: Vec<_> = (0..600)
+            .map(|i| glance(f64::from(i) * 0.01, 2.0, &config))
+            .collect();
+        assert!(
+            glances
+                .iter()
+                .all(|gaze| gaze.pan_rad.abs() <= config.sweep)
+        );
+        assert!(glances.iter().any(|gaze| gaze.down_rad == config.gaze_far));
+        assert!(glances.iter().any(|gaze| gaze.down_rad == config.gaze_near));
+    }
+}

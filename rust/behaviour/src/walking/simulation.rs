@@ -1,0 +1,312 @@
+//! Test support: a point that walks over a plane of cells, sees what its gaze covers, and plans by Dijkstra.
+
+use std::collections::BinaryHeap;
+
+use geometry::{Cell, Grid, Lattice, PlanarPose, Pose};
+use localization::Estimate;
+use mapping::{FloorView, Surface};
+use planning::{Goal, NoWay, Path, Plan, Refusal};
+
+use crate::{
+    Behaviour, Decision, Gaze, Motion, Outcome, Situation, WalkingBehaviour, WalkingConfig,
+};
+
+pub(crate) const TICK_NS: u64 = 10_000_000;
+const EYE_HEIGHT_M: f64 = 0.46;
+const BODY_RADIUS_M: f64 = 0.14;
+const CELL_M: f64 = 0.04;
+const CELLS: usize = 120;
+
+/// The plane with all that stands on it: discs of x, y, radius in metres.
+pub(crate) struct Simulation {
+    pub(crate) obstacles: Vec<[f64; 3]>,
+    /// Patches that stereo never sees.
+    pub(crate) holes: Vec<[f64; 3]>,
+    pub(crate) blind: bool,
+    /// Whether the planner says that there is no way.
+    pub(crate) closed: bool,
+    pub(crate) pose: PlanarPose,
+    pub(crate) goal: Goal,
+    pub(crate) last_goal: bool,
+    pub(crate) time_ns: u64,
+    pub(crate) view: FloorView,
+    pub(crate) plan: Option<Plan>,
+    pub(crate) behaviour: WalkingBehaviour,
+    /// State, and the place where it began.
+    pub(crate) states: Vec<(&'static str, PlanarPose)>,
+    gaze: Gaze,
+    frames: u64,
+    last_frame_ns: Option<u64>,
+    standing_ticks: u32,
+    blocked_cells: usize,
+}
+
+impl Simulation {
+    pub(crate) fn new(start: PlanarPose, goal: [f64; 2]) -> Self {
+        let half_m = CELLS as f64 * CELL_M / 2.0;
+        Self {
+            obstacles: Vec::new(),
+            holes: Vec::new(),
+            blind: false,
+            closed: false,
+            pose: start,
+            goal: Goal {
+                x_m: goal[0],
+                y_m: goal[1],
+                radius_m: 0.15,
+                height_m: None,
+            },
+            last_goal: true,
+            time_ns: 0,
+            view: FloorView {
+                lattice: Lattice {
+                    origin_m: [-half_m, -half_m],
+                    cell_m: CELL_M,
+                },
+                cells: Grid::filled(CELLS, CELLS, Surface::Unknown),
+                sightings: Grid::filled(CELLS, CELLS, 0),
+            },
+            plan: None,
+            behaviour: WalkingBehaviour::new(WalkingConfig::default()).unwrap(),
+            states: Vec::new(),
+            gaze: Gaze::default(),
+            frames: 0,
+            last_frame_ns: None,
+            standing_ticks: 100,
+            blocked_cells: usize::MAX,
+        }
+    }
+
+    /// One tick of 10 ms.
+    pub(crate) fn tick(&mut self) -> Decision {
+        if self.time_ns.is_multiple_of(8 * TICK_NS) && !self.blind {
+            self.see();
+            self.make_plan();
+        }
+        let map_from_robot = Pose::from_yaw(self.pose.x_m, self.pose.y_m, 0.0, self.pose.yaw_rad);
+        let estimate = Estimate {
+            time_ns: self.time_ns,
+            map_from_robot,
+            map_from_odometry: Pose::identity(),
+            lost: false,
+        };
+        let decision = self
+            .behaviour
+            .next(&Situation {
+                time_ns: self.time_ns,
+                estimate: &estimate,
+                view: &self.view,
+                plan: self.plan.as_ref(),
+                goal: &self.goal,
+                last_goal: self.last_goal,
+                standing: self.standing_ticks > 60,
+                gaze: self.gaze,
+                frames_used: self.frames,
+                last_frame_ns: self.last_frame_ns,
+            })
+            .unwrap();
+        self.obey(&decision);
+        self.time_ns += TICK_NS;
+        decision
+    }
+
+    /// Runs until something is declared; the time in seconds with it.
+    pub(crate) fn run(&mut self, limit_s: f64) -> (Option<Outcome>, f64) {
+        while (self.time_ns as f64) * 1e-9 < limit_s {
+            let decision = self.tick();
+            if decision.outcome.is_some() {
+                return (decision.outcome, self.time_ns as f64 * 1e-9);
+            }
+        }
+        (None, limit_s)
+    }
+
+    pub(crate) fn was_in(&self, state: &str) -> bool {
+        self.states.iter().any(|(name, _)| *name == state)
+    }
+
+    fn obey(&mut self, decision: &Decision) {
+        if self
+            .states
+            .last()
+            .is_none_or(|(name, _)| *name != decision.state)
+        {
+            self.states.push((decision.state, self.pose));
+        }
+        self.gaze = decision.command.gaze;
+        assert!(self.gaze.pan_rad.is_finite() && self.gaze.down_rad.is_finite());
+        match decision.command.motion {
+            Motion::Walk(velocity) => {
+                let step =
+                    [velocity.x_mps, velocity.y_mps, velocity.yaw_radps].map(|speed| speed * 0.01);
+                assert!(step.iter().all(|value| value.is_finite()), "{velocity:?}");
+                self.pose = self
+                    .pose
+                    .compose(&PlanarPose::new(step[0], step[1], step[2]));
+                self.standing_ticks = 0;
+            }
+            _ => self.standing_ticks += 1,
+        }
+    }
+
+    fn truth(&self, [x, y]: [f64; 2]) -> Surface {
+        let within = |discs: &[[f64; 3]]| discs.iter().any(|d| (d[0] - x).hypot(d[1] - y) < d[2]);
+        if within(&self.holes) {
+            Surface::Unknown
+        } else if within(&self.obstacles) {
+            Surface::Obstacle(0.3)
+        } else {
+            Surface::Floor(0.0)
+        }
+    }
+
+    fn see(&mut self) {
+        let robot_from_map = self.pose.inverse();
+        for cell in self.view.cells.area().cells() {
+            let center = self.view.lattice.center_of(cell);
+            let surface = self.truth(center);
+            if self.view.cell(cell) == surface {
+                continue;
+            }
+            let (x, y) = robot_from_map.apply(center[0], center[1]);
+            let distance_m = x.hypot(y);
+            let pan_error_rad = geometry::angle_between(self.gaze.pan_rad, y.atan2(x));
+            let down_rad = EYE_HEIGHT_M.atan2((distance_m - 0.05).max(0.01));
+            let in_view =
+                pan_error_rad.abs() < 0.41 && (down_rad - self.gaze.down_rad).abs() < 0.34;
+            if in_view && distance_m < 2.0 {
+                if let Some(slot) = self.view.cells.get_mut(cell) {
+                    *slot = surface;
+                }
+            }
+        }
+        self.frames += 1;
+        self.last_frame_ns = Some(self.time_ns);
+    }
+
+    fn make_plan(&mut self) {
+        let blocked_cells = self
+            .view
+            .cells
+            .values()
+            .iter()
+            .filter(|s| matches!(s, Surface::Obstacle(_)))
+            .count();
+        if self.closed {
+            let no_way = NoWay {
+                refusal: Refusal::Blocked,
+                sentence: "walls all around".to_owned(),
+            };
+            self.plan = Some(Plan {
+                way: Err(no_way),
+                replanned: true,
+            });
+            self.blocked_cells = usize::MAX;
+            return;
+        }
+        let kept = self
+            .plan
+            .as_ref()
+            .and_then(|plan| plan.way.as_ref().ok())
+            .cloned();
+        let way = match kept {
+            Some(mut path) if blocked_cells == self.blocked_cells => {
+                let from = |p: &[f64; 2]| (p[0] - self.pose.x_m).hypot(p[1] - self.pose.y_m);
+                let nearest = (0..path.points_m.len())
+                    .min_by(|&a, &b| from(&path.points_m[a]).total_cmp(&from(&path.points_m[b])));
+                let passed = nearest.unwrap_or(0);
+                let _ = path.points_m.drain(..passed);
+                let _ = path.unknown.drain(..passed);
+                let _ = path.clearance_m.drain(..passed);
+                Plan {
+                    way: Ok(path),
+                    replanned: false,
+                }
+            }
+            _ => Plan {
+                way: self.shortest_path(),
+                replanned: true,
+            },
+        };
+        self.blocked_cells = blocked_cells;
+        self.plan = Some(way);
+    }
+
+    /// Dijkstra from the goal over all cells that are far enough from what is known to stand there.
+    fn shortest_path(&self) -> Result<Path, NoWay> {
+        let lattice = self.view.lattice;
+        let mut cost = Grid::filled(CELLS, CELLS, f64::INFINITY);
+        let goal = lattice.cell_at(self.goal.x_m, self.goal.y_m);
+        let mut open = BinaryHeap::new();
+        open.push((std::cmp::Reverse(0_u64), goal));
+        if let Some(slot) = cost.get_mut(goal) {
+            *slot = 0.0;
+        }
+        while let Some((std::cmp::Reverse(key), cell)) = open.pop() {
+            let here = cost.get(cell).copied().unwrap_or(f64::INFINITY);
+            if key as f64 > here * 1e6 + 1.0 {
+                continue;
+            }
+            for (dc, dr) in NEIGHBOURS {
+                let next = Cell::new(cell.col + dc, cell.row + dr);
+                let there = here + CELL_M * f64::from(dc * dc + dr * dr).sqrt();
+                let known = cost.get(next).copied().unwrap_or(f64::NEG_INFINITY);
+                if there < known - 1e-9 && self.is_free(lattice.center_of(next)) {
+                    if let Some(slot) = cost.get_mut(next) {
+                        *slot = there;
+                    }
+                    open.push((std::cmp::Reverse((there * 1e6) as u64), next));
+                }
+            }
+        }
+        let mut path = Path::default();
+        let mut cell = lattice.cell_at(self.pose.x_m, self.pose.y_m);
+        while cell != goal {
+            path.points_m.push(lattice.center_of(cell));
+            let cost_of = |cell: &Cell| cost.get(*cell).copied().unwrap_or(f64::INFINITY);
+            let best = NEIGHBOURS
+                .map(|(dc, dr)| Cell::new(cell.col + dc, cell.row + dr))
+                .into_iter()
+                .min_by(|a, b| cost_of(a).total_cmp(&cost_of(b)));
+            match best {
+                Some(next) if cost_of(&next).is_finite() && path.points_m.len() < CELLS * CELLS => {
+                    cell = next
+                }
+                _ => {
+                    return Err(NoWay {
+                        refusal: Refusal::Blocked,
+                        sentence: "all cells around are blocked".to_owned(),
+                    });
+                }
+            }
+        }
+        path.points_m.push([self.goal.x_m, self.goal.y_m]);
+        path.unknown = path
+            .points_m
+            .iter()
+            .map(|p| self.view.at(p[0], p[1]) == Surface::Unknown)
+            .collect();
+        path.clearance_m = vec![0.5; path.points_m.len()];
+        Ok(path)
+    }
+
+    fn is_free(&self, [x, y]: [f64; 2]) -> bool {
+        let known =
+            |disc: &&[f64; 3]| matches!(self.view.at(disc[0], disc[1]), Surface::Obstacle(_));
+        self.obstacles
+            .iter()
+            .filter(known)
+            .all(|d| (d[0] - x).hypot(d[1] - y) > d[2] + BODY_RADIUS_M)
+    }
+}
+
+const NEIGHBOURS: [(i32, i32); 8] = [
+    (1, 0),
+    (-1, 0),
+    (0, 1),
+    (0, -1),
+    (1, 1),
+    (1, -1),
+    (-1, 1),
+    (-1, -1),
+];

@@ -1,0 +1,262 @@
+//! What the robot does in each state, and what comes next.
+
+use geometry::{angle_between, wrap_angle};
+
+use super::{Moment, WalkingBehaviour};
+use crate::walking::ahead::unknown_ahead;
+use crate::walking::gaze::{Sweep, glance};
+use crate::walking::progress::Headway;
+use crate::walking::state::State;
+use crate::walking::track::{Track, turn_speed};
+use crate::{Gaze, Motion, Velocity};
+
+/// Without a plan for less than this the last command holds, s.
+const HOLD_S: f64 = 0.3;
+/// A way must hold this long to end a look around before its end, s.
+const SURE_S: f64 = 0.5;
+/// Looks in that many directions, this far apart (rad), see all around.
+const LOOKS: u32 = 3;
+const LOOK_APART_RAD: f64 = 2.1;
+/// A turn ends after this, wherever it points, s.
+const LONGEST_TURN_S: f64 = 15.0;
+/// A look around ends after this, whatever the frames do, s.
+const LONGEST_LOOK_S: f64 = 20.0;
+/// Above this a turn keeps its direction, rad.
+const KEEP_DIRECTION_RAD: f64 = 2.4;
+
+impl WalkingBehaviour {
+    /// One tick of the present state.
+    pub(super) fn act(&mut self, moment: &Moment<'_>) -> Motion {
+        match self.state {
+            State::LookAround => self.look_around(moment),
+            State::Walk => self.walk(moment),
+            State::Turn => self.turn(moment),
+            State::Stop => self.stop(moment),
+            State::Arrive => self.arrive(moment),
+            State::Refuse => {
+                self.gaze_at(moment, 0.0, self.config.gaze_far);
+                Motion::Stand
+            }
+            State::Blind => self.wait_for_sight(moment),
+        }
+    }
+
+    fn look_around(&mut self, moment: &Moment<'_>) -> Motion {
+        let frames = moment.situation.frames_used;
+        let speed_radps = self.config.gaze_speed;
+        let seen = self
+            .sweep
+            .advance(&mut self.gazer, frames, moment.passed_s, speed_radps);
+        let found_a_way = self.looks > 0 && self.way_s > SURE_S;
+        if seen || found_a_way || self.state_s > LONGEST_LOOK_S {
+            if let Some((path, track)) = &moment.track {
+                let view = moment.situation.view;
+                self.looked.mark(path, track, view, &self.config);
+                self.looks = 0;
+                self.set_off(track);
+            } else {
+                self.look_elsewhere(moment);
+            }
+        }
+        Motion::Stand
+    }
+
+    /// There is no way from what was seen here: turn and look there, and give up when all around was looked at.
+    fn look_elsewhere(&mut self, moment: &Moment<'_>) {
+        self.looks += 1;
+        if self.looks < LOOKS {
+            self.turn_to_rad = Some(wrap_angle(moment.pose.yaw_rad + LOOK_APART_RAD));
+            self.enter(State::Turn);
+            return;
+        }
+        if self.no_way_s >= self.config.refuse_time
+            && let Some(reason) = self.no_way_reason(moment)
+        {
+            self.refuse(reason);
+            return;
+        }
+        self.sweep = Sweep::around(&self.config);
+        self.state_s = 0.0;
+    }
+
+    /// Walk, or first turn to where the way leads.
+    fn set_off(&mut self, track: &Track) {
+        self.turn_to_rad = None;
+        let turn = self.must_turn(track);
+        self.enter(if turn { State::Turn } else { State::Walk });
+    }
+
+    fn must_turn(&self, track: &Track) -> bool {
+        track.remaining_m >= self.config.approach
+            && track.bearing_rad().abs() > self.config.turn_above
+    }
+
+    fn walk(&mut self, moment: &Moment<'_>) -> Motion {
+        let Some((path, track)) = &moment.track else {
+            return self.without_way(moment);
+        };
+        if let Some(motion) = self.check_way(moment) {
+            return motion;
+        }
+        let view = moment.situation.view;
+        let (unknown, stays_unknown) = unknown_ahead(path, track, view, &self.looked, &self.config);
+        if let Some(place_m) = unknown {
+            self.look(Sweep::at(moment.bearing_rad(place_m), &self.config));
+            return Motion::Stand;
+        }
+        if self.must_turn(track) {
+            self.enter(State::Turn);
+        }
+        self.idle_s = 0.0;
+        let gaze = glance(self.elapsed_s, track.bearing_rad(), &self.config);
+        self.gazer
+            .turn(gaze, moment.passed_s, self.config.gaze_speed);
+        let limit_mps = if stays_unknown {
+            self.config.creep_speed
+        } else {
+            f64::INFINITY
+        };
+        Motion::Walk(track.velocity(limit_mps, &self.config))
+    }
+
+    fn turn(&mut self, moment: &Moment<'_>) -> Motion {
+        let error_rad = if let Some(goal_rad) = self.turn_to_rad {
+            if self.way_s > SURE_S {
+                self.turn_to_rad = None;
+                self.enter(State::Stop);
+                return Motion::Stand;
+            }
+            angle_between(moment.pose.yaw_rad, goal_rad)
+        } else {
+            let Some((_, track)) = &moment.track else {
+                return self.without_way(moment);
+            };
+            if let Some(motion) = self.check_way(moment) {
+                return motion;
+            }
+            track.bearing_rad()
+        };
+        let done = error_rad.abs() < self.config.turn_until || self.state_s > LONGEST_TURN_S;
+        if done && self.turn_to_rad.take().is_some() {
+            self.look(Sweep::around(&self.config));
+            return Motion::Stand;
+        }
+        if done {
+            self.enter(State::Walk);
+        }
+        self.gaze_at(moment, error_rad, self.config.gaze_near);
+        Motion::Walk(Velocity {
+            yaw_radps: self.turn_velocity(error_rad),
+            ..Velocity::default()
+        })
+    }
+
+    /// A turn that is nearly half a circle does not change its mind about the side.
+    fn turn_velocity(&self, error_rad: f64) -> f64 {
+        let speed_radps = turn_speed(error_rad, &self.config);
+        match &self.motion {
+            Motion::Walk(before)
+                if error_rad.abs() > KEEP_DIRECTION_RAD
+                    && before.x_mps == 0.0
+                    && before.yaw_radps != 0.0 =>
+            {
+                speed_radps.copysign(before.yaw_radps)
+            }
+            _ => speed_radps,
+        }
+    }
+
+    /// Looks at what is new on the way, and at the watchdog; a motion when that ends the state.
+    fn check_way(&mut self, moment: &Moment<'_>) -> Option<Motion> {
+        let (path, track) = moment.track.as_ref()?;
+        if moment.new_frame {
+            let view = moment.situation.view;
+            let obstacle_m = self.followed.obstacle_m(view, &moment.pose, &self.config);
+            self.followed.keep(path, track.nearest);
+            if obstacle_m.is_some() {
+                self.watched_m = obstacle_m;
+                self.enter(State::Stop);
+                return Some(Motion::Stand);
+            }
+        }
+        let detour = moment.situation.plan.is_some_and(|plan| plan.replanned);
+        let (remaining_m, passed_s) = (track.remaining_m, moment.passed_s);
+        match self
+            .progress
+            .watch(remaining_m, detour, passed_s, &self.config)
+        {
+            Headway::Fine => return None,
+            Headway::Stuck => self.look(Sweep::around(&self.config)),
+            Headway::Hopeless => {
+                let (tries, patience_s) = (self.progress.tries(), self.config.patience);
+                self.refuse(format!(
+                    "blocked: no headway in {tries} tries of {patience_s:.0} s, {remaining_m:.2} m before the goal"
+                ));
+            }
+        }
+        Some(Motion::Stand)
+    }
+
+    /// Just after a goal was passed the plan is not there yet; else the way is gone.
+    fn without_way(&mut self, moment: &Moment<'_>) -> Motion {
+        let waiting = moment.situation.plan.is_none() && self.no_plan_s < HOLD_S;
+        if waiting {
+            return self.motion.clone();
+        }
+        self.watched_m = None;
+        self.enter(State::Stop);
+        Motion::Stand
+    }
+
+    fn stop(&mut self, moment: &Moment<'_>) -> Motion {
+        let bearing_rad = self
+            .watched_m
+            .map_or(0.0, |place_m| moment.bearing_rad(place_m));
+        self.gaze_at(moment, bearing_rad, self.config.gaze_near);
+        if self.standing_s > 0.0 && self.state_s > self.config.stop_time {
+            match &moment.track {
+                Some((_, track)) => self.set_off(track),
+                None => {
+                    self.looks = 0;
+                    self.look(Sweep::around(&self.config));
+                }
+            }
+        }
+        Motion::Stand
+    }
+
+    fn arrive(&mut self, moment: &Moment<'_>) -> Motion {
+        self.gaze_at(moment, 0.0, self.config.gaze_far);
+        if self.standing_s > self.config.arrive_time && !self.is_inside(moment) {
+            self.watched_m = None;
+            self.enter(State::Stop);
+        }
+        Motion::Stand
+    }
+
+    fn wait_for_sight(&mut self, moment: &Moment<'_>) -> Motion {
+        self.gaze_at(moment, 0.0, self.config.gaze_near);
+        let lost = moment.situation.estimate.lost;
+        let unseen_s = self.unseen_s(moment.situation);
+        if !lost && unseen_s < self.config.blind_after {
+            self.look(Sweep::around(&self.config));
+        } else if self.state_s > self.config.blind_limit {
+            self.refuse(if lost {
+                format!(
+                    "lost: the robot has not known where it is for {:.0} s",
+                    self.state_s
+                )
+            } else {
+                format!("lost: nothing has been seen for {unseen_s:.0} s")
+            });
+        }
+        Motion::Stand
+    }
+
+    fn gaze_at(&mut self, moment: &Moment<'_>, pan_rad: f64, down_rad: f64) {
+        let pan_rad = pan_rad.clamp(-self.config.sweep, self.config.sweep);
+        let goal = Gaze { pan_rad, down_rad };
+        self.gazer
+            .turn(goal, moment.passed_s, self.config.gaze_speed);
+    }
+}
