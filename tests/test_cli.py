@@ -72,6 +72,9 @@ def test_list_has_everything(what: str, capsys: pytest.CaptureFixture[str]) -> N
         (["check", "slalom", "--robot", "qiro"], "did you mean 'qrio'?"),
         (["check", "slalom", "slalom"], "slalom"),
         (["check", "slalom", "--set", "start.position=[0.75, 0.12]"], "inside the obstacle"),
+        (["check", "slalom", "--set", "navigation.fog.cell=0"], "navigation.fog.cell"),
+        (["check", "slalom", "--set", "navigation.fog.sell=1"], "sell"),
+        (["check", "slalom", "--set", "navigation.planner=no.such:Thing"], "no.such"),
         (["list", "robot"], "robots"),
         (["run", "slalon"], "did you mean 'slalom'?"),
     ],
@@ -79,8 +82,6 @@ def test_list_has_everything(what: str, capsys: pytest.CaptureFixture[str]) -> N
 def test_a_misuse_is_one_message_and_status_2(
     arguments: list[str], expected: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    if arguments[0] == "run":
-        pytest.importorskip("treadwell.runner")
     assert execute(arguments) == 2
     captured = capsys.readouterr()
     assert expected in captured.err

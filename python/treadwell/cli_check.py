@@ -5,7 +5,9 @@ from typing import Any
 
 from treadwell.cli_output import write_table
 from treadwell.course import Course, build_course
+from treadwell.errors import InputError
 from treadwell.robot import load_robot
+from treadwell.scenario import Scenario
 from treadwell.scenario_events import EventTable
 from treadwell.scenario_loading import load_scenario
 
@@ -27,6 +29,7 @@ def checked(
     scenario = load_scenario(name_or_path, robot=robot, seed=seed, overrides=settings)
     body = load_robot(scenario.robot)
     course = build_course(scenario, body)
+    _check_components(scenario)
     return {
         "scenario": scenario.name,
         "description": scenario.description,
@@ -98,6 +101,20 @@ def show(document: Mapping[str, Any]) -> None:
         write_table(
             "events", ("when", "what"), [(e["when"], e["what"]) for e in document["events"]]
         )
+
+
+def _check_components(scenario: Scenario) -> None:
+    """Let the core read the components' parameters: what they may be, only it knows.
+
+    Raises:
+        InputError: with the key that the core refuses.
+    """
+    from treadwell.episode import Episode
+
+    try:
+        Episode(scenario)
+    except InputError as error:
+        raise InputError(f"{scenario.path}: {error}") from None
 
 
 def _elements(course: Course) -> list[dict[str, Any]]:
