@@ -73,6 +73,12 @@ impl Moment<'_> {
         self.situation.plan.is_some_and(|plan| plan.way.is_err())
     }
 
+    /// Why there is no way, in the planner's words.
+    fn no_way_reason(&self) -> Option<String> {
+        let no_way = self.situation.plan?.way.as_ref().err()?;
+        Some(format!("{}: {}", no_way.refusal.word(), no_way.sentence))
+    }
+
     /// Direction of a place of the map, rad to the left of straight ahead.
     fn bearing_rad(&self, [x, y]: [f64; 2]) -> f64 {
         let (x, y) = self.pose.inverse().apply(x, y);
@@ -192,7 +198,7 @@ impl WalkingBehaviour {
         } else if self.is_blind(moment) {
             self.enter(State::Blind);
         } else if self.idle_s > LONGEST_IDLE_S {
-            let reason = self.no_way_reason(moment).unwrap_or_else(|| {
+            let reason = moment.no_way_reason().unwrap_or_else(|| {
                 format!("lost: no step towards the goal could be taken for {LONGEST_IDLE_S:.0} s")
             });
             self.refuse(reason);
@@ -231,12 +237,6 @@ impl WalkingBehaviour {
     fn is_inside(&self, moment: &Moment<'_>) -> bool {
         let radius_m = moment.situation.goal.radius_m;
         moment.goal_distance_m() <= radius_m - self.config.arrive_margin.min(0.5 * radius_m)
-    }
-
-    fn no_way_reason(&self, moment: &Moment<'_>) -> Option<String> {
-        let plan = moment.situation.plan?;
-        let no_way = plan.way.as_ref().err()?;
-        Some(format!("{}: {}", no_way.refusal.word(), no_way.sentence))
     }
 
     fn outcome(&self, moment: &Moment<'_>) -> Option<Outcome> {

@@ -133,6 +133,10 @@ impl WalkingConfig {
             let key = format!("navigation.walking.{name}");
             require(value.is_finite() && value >= 0.0, &key, ">= 0", value)?;
         }
+        self.check_relations()
+    }
+
+    fn check_relations(&self) -> Result<(), ConfigError> {
         for (name, value) in [
             ("gaze_steep", self.gaze_steep),
             ("gaze_near", self.gaze_near),

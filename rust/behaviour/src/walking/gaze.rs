@@ -131,13 +131,9 @@ mod tests {
         let config = WalkingConfig::default();
         let mut gazer = Gazer::default();
         let mut seen = Vec::new();
-        for tick in 0..3000 {
+        for tick in 0..3000_usize {
             seen.push(gazer.at());
-            let frames = if frame_every == 0 {
-                0
-            } else {
-                tick / frame_every
-            };
+            let frames = tick.checked_div(frame_every).unwrap_or(0);
             if sweep.advance(&mut gazer, frames as u64, 0.01, config.gaze_speed) {
                 return (tick, seen);
             }

@@ -174,10 +174,11 @@ impl Simulation {
             let down_rad = EYE_HEIGHT_M.atan2((distance_m - 0.05).max(0.01));
             let in_view =
                 pan_error_rad.abs() < 0.41 && (down_rad - self.gaze.down_rad).abs() < 0.34;
-            if in_view && distance_m < 2.0 {
-                if let Some(slot) = self.view.cells.get_mut(cell) {
-                    *slot = surface;
-                }
+            if in_view
+                && distance_m < 2.0
+                && let Some(slot) = self.view.cells.get_mut(cell)
+            {
+                *slot = surface;
             }
         }
         self.frames += 1;
@@ -270,7 +271,7 @@ impl Simulation {
                 .min_by(|a, b| cost_of(a).total_cmp(&cost_of(b)));
             match best {
                 Some(next) if cost_of(&next).is_finite() && path.points_m.len() < CELLS * CELLS => {
-                    cell = next
+                    cell = next;
                 }
                 _ => {
                     return Err(NoWay {

@@ -70,7 +70,7 @@ impl WalkingBehaviour {
             return;
         }
         if self.no_way_s >= self.config.refuse_time
-            && let Some(reason) = self.no_way_reason(moment)
+            && let Some(reason) = moment.no_way_reason()
         {
             self.refuse(reason);
             return;
@@ -214,12 +214,11 @@ impl WalkingBehaviour {
             .map_or(0.0, |place_m| moment.bearing_rad(place_m));
         self.gaze_at(moment, bearing_rad, self.config.gaze_near);
         if self.standing_s > 0.0 && self.state_s > self.config.stop_time {
-            match &moment.track {
-                Some((_, track)) => self.set_off(track),
-                None => {
-                    self.looks = 0;
-                    self.look(Sweep::around(&self.config));
-                }
+            if let Some((_, track)) = &moment.track {
+                self.set_off(track);
+            } else {
+                self.looks = 0;
+                self.look(Sweep::around(&self.config));
             }
         }
         Motion::Stand
