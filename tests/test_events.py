@@ -1,6 +1,7 @@
 """Events: each happens once, when its time or place has come, and writes only what it says."""
 
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import mujoco
@@ -8,12 +9,15 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
+from treadwell.audit import replay_audit
 from treadwell.course import Course, build_course
 from treadwell.course_model import PARKED
 from treadwell.events import PUSH_SECONDS, Events
+from treadwell.motors import JointTargets
 from treadwell.robot import load_robot
 from treadwell.scenario import Scenario
 from treadwell.scenario_events import EVENTS
+from treadwell.simulation import Simulation, Start
 
 ROBOT = load_robot("qrio")
 TICK_STEPS = 5
@@ -196,3 +200,35 @@ def test_every_kind_of_event_is_handled() -> None:
     events, physics, _ = prepared(*({"at": 0, "do": do, **t} for do, t in tables.items()))
     advance(events, physics, 0.05)
     assert [do for _, do in events.fired] == list(tables)
+
+
+def test_plain_mujoco_repeats_a_run_with_every_event_that_touches_the_physics(
+    tmp_path: Path,
+) -> None:
+    scenario = Scenario.model_validate(
+        {
+            "schema": 1,
+            "name": "x",
+            "start": {},
+            "goal": {},
+            "course": [{"kind": "cylinder", "name": "post"}],
+            "event": [
+                {"at": 0.1, "do": "add", "element": {"kind": "box", "position": [0.3, 0.0]}},
+                {"at": 0.1, "do": "push", "impulse": [0.3, 0.2, 0.0]},
+                {"at": 0.15, "do": "move", "name": "post", "to": [0.2, 0.0], "speed": 5.0},
+                {"at": 0.3, "do": "friction", "value": 0.3},
+                {"at": 0.4, "do": "kidnap", "position": [-1.0, 0.0], "yaw": 0.5},
+                {"at": 0.5, "do": "remove", "name": "post"},
+            ],
+        }
+    )
+    course = build_course(scenario, ROBOT)
+    simulation = Simulation(course.model, ROBOT, Start())
+    events = Events(scenario, course, ROBOT)
+    still = np.zeros(len(ROBOT.joints))
+    for _ in range(70):
+        events.before_tick(simulation)
+        simulation.advance(JointTargets(ROBOT.stand, still, still))
+    assert len(events.fired) == 6
+    simulation.save_audit(tmp_path)
+    assert replay_audit(tmp_path) is None
