@@ -9,7 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, Polygon
+from matplotlib.patches import Circle, Patch, Polygon
 
 from treadwell.course import Course
 from treadwell.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
@@ -19,7 +19,7 @@ from treadwell.trajectory import Trajectory
 NAME: Final = "map.png"
 _UNKNOWN: Final = (0.80, 0.80, 0.82)
 _OBSTACLE: Final = (0.09, 0.09, 0.11)
-_BELIEVED, _TRUE, _OUTLINE, _GOAL = "#ff5fa2", "#ffffff", "#e4572e", "#2bb673"
+_BELIEVED, _TRUE, _OUTLINE, _GOAL = "#ff5fa2", "#ffffff", "#e4572e", "#b8f53d"
 _LEAST_SPAN: Final = 0.02
 """Metres that the colours span at least, to either side of the middle."""
 _MARGIN: Final = 0.25
@@ -73,9 +73,14 @@ def draw_map(
     bar.outline.set_visible(False)
     axes.set_title(_title(result), fontsize=11, loc="left", pad=10)
     axes.legend(
+        handles=[
+            *axes.get_legend_handles_labels()[0],
+            Patch(color=_OBSTACLE, label="obstacle"),
+            Patch(facecolor=_UNKNOWN, edgecolor="#8a8d94", label="never seen"),
+        ],
         loc="upper center",
         bbox_to_anchor=(0.5, -0.14 if height < _NARROW else -0.09),
-        ncols=4,
+        ncols=6,
         frameon=True,
         facecolor="#b9bcc4",
         edgecolor="none",

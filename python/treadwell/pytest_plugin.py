@@ -1,0 +1,122 @@
+"""The pytest plugin: a scenario file is a test, passed when it meets its expectations."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from treadwell.errors import TreadwellError
+
+if TYPE_CHECKING:
+    from treadwell.result import Result
+
+_RUNS = "treadwell_runs"
+
+
+class ScenarioFailure(Exception):
+    """A scenario ran and did not meet its expectations."""
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Let a folder for the runs of failed scenarios be chosen."""
+    parser.addini(_RUNS, "folder for the runs of failed scenarios", default="runs/pytest")
+
+
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    """Collect every TOML file that says to be a scenario."""
+    if file_path.suffix != ".toml" or not is_scenario(file_path):
+        return None
+    return ScenarioFile.from_parent(parent, path=file_path)
+
+
+def is_scenario(path: Path) -> bool:
+    """Say whether a file looks like a scenario, broken or not: it has a line `schema = ...`."""
+    try:
+        with path.open(encoding="utf-8", errors="replace") as file:
+            lines = file.read(20_000).splitlines()
+    except OSError:
+        return False
+    keys = {line.partition("=")[0].strip() for line in lines if "=" in line}
+    return "schema" in keys and {"name", "position"} & keys != set()
+
+
+class ScenarioFile(pytest.File):
+    """A scenario file."""
+
+    def collect(self) -> Iterator[pytest.Item]:
+        """Yield the one test that it is."""
+        yield ScenarioItem.from_parent(self, name=self.path.stem)
+
+
+class ScenarioItem(pytest.Item):
+    """The run of a scenario."""
+
+    def __init__(self, **kwargs: Any) -> None:  # noqa: ANN401 - pytest's own arguments
+        """Mark it as a scenario, so that `-m` can choose."""
+        super().__init__(**kwargs)
+        self.add_marker("scenario")
+
+    def runtest(self) -> None:
+        """Run it."""
+        run_scenario(self.path, runs_folder(self.config))
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], *_: object) -> str:  # type: ignore[override]
+        """Return what was not met and where the run lies, without a traceback of ours."""
+        if isinstance(excinfo.value, ScenarioFailure | TreadwellError):
+            return str(excinfo.value)
+        return str(super().repr_failure(excinfo))
+
+    def reportinfo(self) -> tuple[Path, None, str]:
+        """Return where the test is and what it is called."""
+        return self.path, None, f"scenario {self.path.stem}"
+
+
+@pytest.fixture
+def treadwell_scenario(request: pytest.FixtureRequest) -> Callable[..., "Result"]:
+    """A function that runs a scenario as `treadwell.run` does, and fails where it does not pass."""
+
+    def run(scenario: str | Path, **options: Any) -> "Result":  # noqa: ANN401 - as treadwell.run
+        return run_scenario(scenario, runs_folder(request.config), **options)
+
+    return run
+
+
+def runs_folder(config: pytest.Config) -> Path:
+    """Return the folder for the runs of failed scenarios."""
+    return config.rootpath / str(config.getini(_RUNS))
+
+
+def run_scenario(scenario: str | Path, runs: Path, **options: Any) -> "Result":  # noqa: ANN401
+    """Run a scenario; its folder stays when it fails and goes when it passes.
+
+    Args:
+        scenario: name or path.
+        runs: folder in which the run's own folder is made.
+        options: as for `treadwell.run`.
+
+    Raises:
+        ScenarioFailure: it does not meet its expectations; the run's folder is named.
+        TreadwellError: it could not be run.
+    """
+    import shutil
+
+    import treadwell
+
+    out = free_folder(runs, Path(scenario).stem)
+    run = treadwell.run(scenario, out=out, **options)
+    if not run.passed:
+        said = "\n".join(f"  {failure}" for failure in run.result.failures)
+        raise ScenarioFailure(f"{run.result.scenario}: {run.outcome}\n{said}\nrun: {run.folder}")
+    shutil.rmtree(run.folder)
+    result: Result = run.result
+    return result
+
+
+def free_folder(runs: Path, name: str) -> Path:
+    """Return a folder in `runs` that does not exist yet: the name, or with a number behind it."""
+    number, folder = 1, runs / name
+    while folder.exists():
+        number += 1
+        folder = runs / f"{name}-{number}"
+    return folder
