@@ -6,6 +6,7 @@ mod observation;
 mod pilot;
 mod products;
 mod situation;
+mod walker;
 
 use pyo3::prelude::*;
 
@@ -19,6 +20,8 @@ mod _core {
     use super::products::{PyBodyState, PyFloorView, PyPlanes};
     #[pymodule_export]
     use super::situation::{PyGoal, PyScan, PySituation};
+    #[pymodule_export]
+    use super::walker::PyWalker;
 
     /// Version of the core; equal to the package's.
     #[pyfunction]
