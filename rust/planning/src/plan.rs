@@ -1,6 +1,6 @@
 //! What every planner produces: a path, or the reason why there is none.
 
-use geometry::PlanarPose;
+use geometry::{Grid, PlanarPose};
 use mapping::FloorView;
 
 /// Why planning failed as a program. "There is no way" is no failure: see [`NoWay`].
@@ -84,8 +84,13 @@ pub struct Plan {
 }
 
 /// Finds a way over the floor that the world model shows.
-pub trait Planner: Send {
+pub trait Planner: Send + Sync {
     /// A way from `start` to `goal`. Plans anew only when the path before no longer holds.
     fn plan(&mut self, view: &FloorView, start: PlanarPose, goal: &Goal)
     -> Result<Plan, PlanError>;
+
+    /// Distance of each cell of the view to the nearest obstacle at the last call, m; `None` where the planner has none.
+    fn clearance(&self) -> Option<&Grid<f32>> {
+        None
+    }
 }

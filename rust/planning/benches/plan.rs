@@ -1,0 +1,63 @@
+//! Time to plan on the map's 100x100 window: a new path, and one that is kept.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use geometry::{Grid, Lattice, PlanarPose};
+use mapping::{FloorView, Surface};
+use planning::{AStar, AStarConfig, Goal, Planner};
+
+/// A slalom of walls from one corner to the other.
+fn slalom() -> FloorView {
+    let mut cells = Grid::filled(100, 100, Surface::Floor(0.0));
+    for cell in cells.area().cells() {
+        let gap = if cell.col / 20 % 2 == 0 {
+            cell.row > 75
+        } else {
+            cell.row < 25
+        };
+        if let Some(slot) = cells.get_mut(cell)
+            && cell.col % 20 == 15
+            && !gap
+        {
+            *slot = Surface::Obstacle(0.3);
+        }
+    }
+    FloorView {
+        lattice: Lattice {
+            origin_m: [-2.0, -2.0],
+            cell_m: 0.04,
+        },
+        cells,
+        sightings: Grid::filled(100, 100, 9),
+    }
+}
+
+fn plan(criterion: &mut Criterion) {
+    let view = slalom();
+    let goal = Goal {
+        x_m: 1.8,
+        y_m: 1.8,
+        radius_m: 0.15,
+        height_m: None,
+    };
+    let start = PlanarPose::new(-1.8, -1.8, 0.0);
+    let Ok(fresh) = AStar::new(AStarConfig::default(), 0.14) else {
+        return;
+    };
+    let _ = criterion.bench_function("a_star 100x100, new", |bencher| {
+        let mut planner = fresh.clone();
+        let mut odd = false;
+        bencher.iter(|| {
+            // Another radius is another goal: nothing is kept.
+            odd = !odd;
+            let radius_m = if odd { 0.15 } else { 0.16 };
+            planner.plan(&view, start, &Goal { radius_m, ..goal })
+        });
+    });
+    let _ = criterion.bench_function("a_star 100x100, kept", |bencher| {
+        let mut planner = fresh.clone();
+        bencher.iter(|| planner.plan(&view, start, &goal));
+    });
+}
+
+criterion_group!(benches, plan);
+criterion_main!(benches);

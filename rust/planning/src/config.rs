@@ -1,0 +1,105 @@
+//! Parameters of the planner, checked once.
+
+use geometry::{ConfigError, require};
+use serde::{Deserialize, Serialize};
+
+/// Parameters of A* on the floor and obstacle grid: `[navigation.a_star]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AStarConfig {
+    /// Radius of the upright cylinder that must stay clear of obstacles, m; default: the robot's own.
+    pub radius: Option<f64>,
+    /// Distance kept beyond the radius, m: sway, and what the map and the pose are wrong by.
+    pub margin: f64,
+    /// Up to this far beyond radius and margin, being near to an obstacle costs, m.
+    pub soft_range: f64,
+    /// What a metre costs more at the edge of what is allowed; falls to nothing over `soft_range`.
+    pub soft_cost: f64,
+    /// What a metre costs more where nothing was seen yet.
+    pub unknown_cost: f64,
+    /// What a metre costs more that is too near to an obstacle, where the robot already stands too near.
+    pub escape_cost: f64,
+    /// How far from the robot it may leave a place that is too near to an obstacle, m.
+    pub escape_range: f64,
+    /// Largest difference in height between neighbouring cells that is walked over, m.
+    pub max_step: f64,
+    /// Sightings from which on a cell's height may make it a step.
+    pub step_sightings: u16,
+    /// How far the robot may leave the path before it is planned anew, m.
+    pub stray: f64,
+    /// A path through what became known is given up for one that costs less than this part of it.
+    pub better: f64,
+}
+
+impl Default for AStarConfig {
+    fn default() -> Self {
+        Self {
+            radius: None,
+            margin: 0.03,
+            soft_range: 0.16,
+            soft_cost: 1.5,
+            unknown_cost: 1.0,
+            escape_cost: 20.0,
+            escape_range: 0.3,
+            max_step: 0.01,
+            step_sightings: 3,
+            stray: 0.15,
+            better: 0.8,
+        }
+    }
+}
+
+impl AStarConfig {
+    /// Refuses what cannot be used.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        if let Some(radius) = self.radius {
+            let holds = radius > 0.0 && radius.is_finite();
+            require(holds, "navigation.a_star.radius", "> 0", radius)?;
+        }
+        let not_negative = [
+            ("margin", self.margin),
+            ("soft_range", self.soft_range),
+            ("soft_cost", self.soft_cost),
+            ("unknown_cost", self.unknown_cost),
+            ("escape_cost", self.escape_cost),
+            ("escape_range", self.escape_range),
+            ("max_step", self.max_step),
+            ("stray", self.stray),
+        ];
+        for (key, value) in not_negative {
+            let key = format!("navigation.a_star.{key}");
+            require(value >= 0.0 && value.is_finite(), &key, ">= 0", value)?;
+        }
+        let better = self.better;
+        let holds = better > 0.0 && better <= 1.0;
+        require(holds, "navigation.a_star.better", "> 0 and <= 1", better)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn defaults_are_accepted_and_a_bad_value_is_refused_by_its_key() {
+        AStarConfig::default().check().unwrap();
+        let bad = AStarConfig {
+            margin: -0.1,
+            ..AStarConfig::default()
+        };
+        assert_eq!(
+            bad.check().unwrap_err().to_string(),
+            "navigation.a_star.margin must be >= 0, got -0.1"
+        );
+        let bad = AStarConfig {
+            radius: Some(f64::NAN),
+            ..AStarConfig::default()
+        };
+        assert!(bad.check().unwrap_err().key.ends_with("a_star.radius"));
+        let bad = AStarConfig {
+            better: 0.0,
+            ..AStarConfig::default()
+        };
+        assert!(bad.check().is_err());
+    }
+}

@@ -1,0 +1,131 @@
+//! Exact Euclidean distance transform in two passes (Meijster, Roerdink and Hesselink 2000), in integers.
+
+/// Squared distance, in cells, where no cell is blocked: further than anything in a grid of up to 10,000 cells a side.
+pub const NOTHING_NEAR: u32 = 1 << 29;
+
+/// Squared distances, in cells, from every cell's centre to the centre of the nearest blocked cell. Reused.
+#[derive(Debug, Clone, Default)]
+pub struct DistanceField {
+    squared: Vec<u32>,
+    /// Distance to the nearest blocked cell of the same column.
+    along_column: Vec<u32>,
+    /// Columns of the lower envelope of parabolas, and where each begins to be the lowest.
+    centers: Vec<i64>,
+    begins: Vec<i64>,
+}
+
+impl DistanceField {
+    /// Fills the field for a grid of `cols` columns, row by row. Allocates only when the grid grows.
+    pub fn compute(&mut self, blocked: &[bool], cols: usize) {
+        self.squared.resize(blocked.len(), 0);
+        self.along_column.resize(blocked.len(), 0);
+        if blocked.is_empty() {
+            return;
+        }
+        self.columns(blocked, cols);
+        for row in 0..blocked.len() / cols {
+            self.row(row * cols, cols);
+        }
+    }
+
+    /// Squared distance of a cell by its index, in cells.
+    pub fn squared(&self, index: usize) -> u32 {
+        self.squared[index]
+    }
+
+    /// All squared distances, row by row, in cells.
+    pub fn all_squared(&self) -> &[u32] {
+        &self.squared
+    }
+
+    /// First pass, all columns at once: downwards, then upwards.
+    fn columns(&mut self, blocked: &[bool], cols: usize) {
+        const FAR: u32 = 1 << 16;
+        let step = |previous: u32, blocked: bool| {
+            if blocked { 0 } else { (previous + 1).min(FAR) }
+        };
+        for i in 0..blocked.len() {
+            let above = if i < cols {
+                FAR
+            } else {
+                self.along_column[i - cols]
+            };
+            self.along_column[i] = step(above, blocked[i]);
+        }
+        for i in (0..blocked.len() - cols).rev() {
+            let below = self.along_column[i + cols] + 1;
+            self.along_column[i] = self.along_column[i].min(below);
+        }
+    }
+
+    /// Second pass: the lower envelope of one parabola a column.
+    fn row(&mut self, start: usize, cols: usize) {
+        let heights = &self.along_column[start..start + cols];
+        let square = |column: i64| i64::from(heights[column as usize]).pow(2);
+        let at = |x: i64, column: i64| (x - column).pow(2) + square(column);
+        self.centers.clear();
+        self.begins.clear();
+        for column in 0..cols as i64 {
+            let mut begin = 0;
+            while let (Some(&last), Some(&last_begin)) = (self.centers.last(), self.begins.last()) {
+                if at(last_begin, last) > at(last_begin, column) {
+                    let _ = self.centers.pop();
+                    let _ = self.begins.pop();
+                } else {
+                    // The first x at which `column` is nearer than `last`.
+                    let numerator = column * column - last * last + square(column) - square(last);
+                    begin = numerator.div_euclid(2 * (column - last)) + 1;
+                    break;
+                }
+            }
+            if begin < cols as i64 {
+                self.centers.push(column);
+                self.begins.push(begin);
+            }
+        }
+        let mut end = cols as i64;
+        for (&center, &begin) in self.centers.iter().zip(&self.begins).rev() {
+            for x in begin..end {
+                let squared = at(x, center).min(i64::from(NOTHING_NEAR));
+                self.squared[start + x as usize] = squared as u32;
+            }
+            end = end.min(begin);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn it_equals_brute_force(
+            cols in 1..24_usize, rows in 1..24_usize, seeds in prop::collection::vec((0..24_usize, 0..24_usize), 0..20),
+        ) {
+            let mut blocked = vec![false; cols * rows];
+            for (col, row) in seeds {
+                if col < cols && row < rows { blocked[row * cols + col] = true; }
+            }
+            let mut field = DistanceField::default();
+            field.compute(&blocked, cols);
+            for i in 0..cols * rows {
+                let nearest = (0..cols * rows)
+                    .filter(|&j| blocked[j])
+                    .map(|j| (i % cols).abs_diff(j % cols).pow(2) + (i / cols).abs_diff(j / cols).pow(2))
+                    .min()
+                    .map_or(NOTHING_NEAR, |d| d as u32);
+                prop_assert_eq!(field.squared(i), nearest);
+            }
+        }
+    }
+
+    #[test]
+    fn a_field_can_be_used_again_for_another_size() {
+        let mut field = DistanceField::default();
+        field.compute(&[true; 12], 4);
+        field.compute(&[true, false, false], 3);
+        assert_eq!(field.all_squared(), [0, 1, 4]);
+    }
+}

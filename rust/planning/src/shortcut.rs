@@ -1,0 +1,94 @@
+//! From cells to a path: straight where the straight way costs no more, points close together.
+
+use crate::Path;
+use crate::terrain::Terrain;
+
+/// The straight way may cost this much more than the cells it replaces.
+const TOLERANCE: f64 = 1.002;
+
+/// The path along `cells` from `start_m` to `end_m` (a point of the last cell).
+pub(crate) fn path(terrain: &Terrain, cells: &[u32], start_m: [f64; 2], end_m: [f64; 2]) -> Path {
+    let mut corners: Vec<[f64; 2]> = cells
+        .iter()
+        .map(|&c| terrain.center_m(c as usize))
+        .collect();
+    if let Some(first) = corners.first_mut() {
+        *first = start_m;
+    }
+    if let Some(last) = corners.last_mut().filter(|_| cells.len() > 1) {
+        *last = end_m;
+    } else {
+        corners.push(end_m);
+    }
+    let mut points = vec![start_m];
+    let mut from = 0;
+    while from + 1 < corners.len() {
+        let to = furthest(terrain, &corners, from);
+        lay(
+            &mut points,
+            corners[from],
+            corners[to],
+            terrain.lattice.cell_m,
+        );
+        from = to;
+    }
+    annotate(terrain, points)
+}
+
+/// Clearance, unknown parts and cost of given points under this terrain.
+pub(crate) fn annotate(terrain: &Terrain, points_m: Vec<[f64; 2]>) -> Path {
+    let index = |point: &[f64; 2]| terrain.index_at(*point);
+    let unknown = points_m
+        .iter()
+        .map(|p| index(p).is_none_or(|i| terrain.unknown[i]))
+        .collect();
+    let clearance_m = points_m
+        .iter()
+        .map(|p| index(p).map_or(f64::INFINITY, |i| terrain.clearance_m(i)))
+        .collect();
+    let cost_m = points_m
+        .windows(2)
+        .map(|pair| {
+            terrain
+                .straight_cost_m(pair[0], pair[1])
+                .unwrap_or(f64::INFINITY)
+        })
+        .sum();
+    Path {
+        points_m,
+        unknown,
+        clearance_m,
+        cost_m,
+    }
+}
+
+/// The last of the corners after `from` that is reached straight at no higher cost.
+fn furthest(terrain: &Terrain, corners: &[[f64; 2]], from: usize) -> usize {
+    let mut along = 0.0;
+    let mut best = from + 1;
+    for to in from + 1..corners.len() {
+        let step = terrain.straight_cost_m(corners[to - 1], corners[to]);
+        along += step.unwrap_or(f64::INFINITY);
+        if to == from + 1 {
+            continue;
+        }
+        match terrain.straight_cost_m(corners[from], corners[to]) {
+            Some(straight) if straight <= along * TOLERANCE => best = to,
+            _ => break,
+        }
+    }
+    best
+}
+
+/// Adds points up to `to`, no further apart than a cell.
+fn lay(points: &mut Vec<[f64; 2]>, from: [f64; 2], to: [f64; 2], cell_m: f64) {
+    let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+    let pieces = (length / cell_m).ceil().max(1.0) as usize;
+    for piece in 1..=pieces {
+        let t = piece as f64 / pieces as f64;
+        points.push([
+            from[0] + t * (to[0] - from[0]),
+            from[1] + t * (to[1] - from[1]),
+        ]);
+    }
+}

@@ -1,0 +1,324 @@
+//! What the planner promises: clearance, the goal's disc, replanning, and reasons where there is no way.
+
+use geometry::{Cell, Grid, Lattice, PlanarPose};
+use mapping::{FloorView, Surface};
+use planning::{AStar, AStarConfig, Goal, Path, Plan, PlanError, Planner, Refusal};
+use proptest::prelude::*;
+
+const CELL: f64 = 0.04;
+const RADIUS: f64 = 0.14;
+const START: PlanarPose = PlanarPose::new(0.0, 0.0, 0.0);
+
+/// A window of floor, 4 m a side, around the origin.
+fn floor() -> FloorView {
+    FloorView {
+        lattice: Lattice {
+            origin_m: [-2.0, -2.0],
+            cell_m: CELL,
+        },
+        cells: Grid::filled(100, 100, Surface::Floor(0.0)),
+        sightings: Grid::filled(100, 100, 9),
+    }
+}
+
+/// Sets all cells whose centre lies in the rectangle.
+fn paint(view: &mut FloorView, min: [f64; 2], max: [f64; 2], surface: Surface) {
+    for cell in view.cells.area().cells() {
+        let [x, y] = view.lattice.center_of(cell);
+        let inside = x > min[0] && x < max[0] && y > min[1] && y < max[1];
+        if let Some(slot) = view.cells.get_mut(cell).filter(|_| inside) {
+            *slot = surface;
+        }
+    }
+}
+
+/// A wall across the window at x = 0.8 with a door of some width around y = 0.
+fn wall_with_door(width_m: f64) -> FloorView {
+    let mut view = floor();
+    let wall = Surface::Obstacle(0.5);
+    paint(&mut view, [0.8, -2.0], [0.88, -0.5 * width_m], wall);
+    paint(&mut view, [0.8, 0.5 * width_m], [0.88, 2.0], wall);
+    view
+}
+
+fn goal(x_m: f64, y_m: f64) -> Goal {
+    Goal {
+        x_m,
+        y_m,
+        radius_m: 0.15,
+        height_m: None,
+    }
+}
+
+fn planner() -> AStar {
+    AStar::new(AStarConfig::default(), RADIUS).unwrap()
+}
+
+fn plan(planner: &mut AStar, view: &FloorView, start: PlanarPose, goal: &Goal) -> Plan {
+    planner.plan(view, start, goal).unwrap()
+}
+
+fn way(planner: &mut AStar, view: &FloorView, start: PlanarPose, goal: &Goal) -> Path {
+    plan(planner, view, start, goal).way.unwrap()
+}
+
+fn refused(view: &FloorView, goal: &Goal) -> (Refusal, String) {
+    let no_way = plan(&mut planner(), view, START, goal).way.unwrap_err();
+    (no_way.refusal, no_way.sentence)
+}
+
+fn length_m(path: &Path) -> f64 {
+    let step = |p: &[[f64; 2]]| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]);
+    path.points_m.windows(2).map(step).sum()
+}
+
+/// Distance from a place to the nearest blocked cell's centre, by brute force.
+fn to_obstacle_m(view: &FloorView, at: [f64; 2]) -> f64 {
+    let obstacle = |cell: &Cell| matches!(view.cell(*cell), Surface::Obstacle(_));
+    let away = |cell: Cell| {
+        let [x, y] = view.lattice.center_of(cell);
+        (x - at[0]).hypot(y - at[1])
+    };
+    let cells = view.cells.area().cells().filter(obstacle);
+    cells.map(away).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn over_open_floor_the_path_is_straight_and_ends_in_the_goals_middle() {
+    let path = way(&mut planner(), &floor(), START, &goal(1.5, 0.7));
+    assert!(
+        (length_m(&path) - 1.5_f64.hypot(0.7)).abs() < 1e-3,
+        "{}",
+        length_m(&path)
+    );
+    assert_eq!(
+        (path.points_m[0], *path.points_m.last().unwrap()),
+        ([0.0, 0.0], [1.5, 0.7])
+    );
+    assert!((path.cost_m - length_m(&path)).abs() < 1e-6);
+    assert!(path.unknown.iter().all(|&unknown| !unknown));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+    #[test]
+    fn the_path_keeps_clear_of_obstacles(boxes in prop::collection::vec((-1.8..1.8f64, -1.8..1.8f64, 0.05..0.4f64), 0..14)) {
+        let mut view = floor();
+        for (x, y, size) in boxes {
+            if x.hypot(y) > 0.6 { paint(&mut view, [x, y], [x + size, y + size], Surface::Obstacle(0.3)); }
+        }
+        let mut planner = planner();
+        let Ok(path) = plan(&mut planner, &view, START, &goal(1.6, 1.2)).way else { return Ok(()) };
+        prop_assert_eq!(path.points_m.len(), path.unknown.len());
+        prop_assert_eq!(path.points_m.len(), path.clearance_m.len());
+        for (pair, clearance) in path.points_m.windows(2).zip(&path.clearance_m) {
+            let gap = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
+            prop_assert!(gap <= CELL * 1.4143);
+            // Clearance is that of the cell's centre.
+            prop_assert!(*clearance >= planner.needed_m());
+            prop_assert!(to_obstacle_m(&view, pair[0]) >= planner.needed_m() - 0.7072 * CELL);
+        }
+        let end = path.points_m.last().unwrap();
+        prop_assert!((end[0] - 1.6).hypot(end[1] - 1.2) <= 0.15 + 1e-9);
+    }
+}
+
+#[test]
+fn a_wide_door_is_passed_in_its_middle_and_a_narrow_one_is_refused_with_figures() {
+    let path = way(
+        &mut planner(),
+        &wall_with_door(0.56),
+        START,
+        &goal(1.5, 0.0),
+    );
+    let in_door = path.points_m.iter().filter(|p| p[0] > 0.8 && p[0] < 0.88);
+    assert!(in_door.clone().count() > 0);
+    for point in in_door {
+        assert!(point[1].abs() < 0.06, "{point:?}");
+    }
+    let (refusal, sentence) = refused(&wall_with_door(0.24), &goal(1.5, 0.0));
+    assert_eq!(refusal, Refusal::TooNarrow);
+    assert_eq!(sentence, "the widest gap is 0.24 m, 0.34 m are needed");
+}
+
+#[test]
+fn standing_before_a_narrow_door_does_not_open_it() {
+    let view = wall_with_door(0.24);
+    for x in [0.5, 0.6, 0.7] {
+        let start = PlanarPose::new(x, 0.0, 0.0);
+        let plan = plan(&mut planner(), &view, start, &goal(1.5, 0.0));
+        assert_eq!(
+            plan.way.unwrap_err().refusal,
+            Refusal::TooNarrow,
+            "from {x}"
+        );
+    }
+}
+
+#[test]
+fn boxed_in_is_blocked() {
+    let mut view = floor();
+    let wall = Surface::Obstacle(0.4);
+    paint(&mut view, [-0.7, -0.7], [0.7, 0.7], wall);
+    paint(&mut view, [-0.6, -0.6], [0.6, 0.6], Surface::Floor(0.0));
+    let (refusal, sentence) = refused(&view, &goal(1.5, 0.0));
+    assert_eq!(refusal, Refusal::Blocked);
+    assert!(
+        sentence.contains("nearer to the goal than 0.9"),
+        "{sentence}"
+    );
+    // A crack that the map has by chance is no gap.
+    paint(&mut view, [0.5, 0.0], [0.8, 0.04], Surface::Unknown);
+    assert_eq!(refused(&view, &goal(1.5, 0.0)).0, Refusal::Blocked);
+}
+
+#[test]
+fn a_goal_under_an_obstacle_is_reached_at_the_discs_free_side_or_refused() {
+    let mut view = floor();
+    paint(&mut view, [1.2, -0.1], [1.4, 0.1], Surface::Obstacle(0.3));
+    let disc = Goal {
+        radius_m: 0.4,
+        ..goal(1.3, 0.0)
+    };
+    let path = way(&mut planner(), &view, START, &disc);
+    let end = path.points_m.last().unwrap();
+    assert!((end[0] - 1.3).hypot(end[1]) <= 0.4);
+    let (refusal, sentence) = refused(&view, &goal(1.3, 0.0));
+    assert_eq!(refusal, Refusal::Blocked);
+    assert!(sentence.contains("0.15 m of the goal"), "{sentence}");
+}
+
+#[test]
+fn a_goal_beyond_the_window_is_aimed_for_by_the_border() {
+    let mut planner = planner();
+    let far = goal(5.0, 0.0);
+    let path = way(&mut planner, &floor(), START, &far);
+    let end = path.points_m.last().unwrap();
+    assert!(end[0] > 1.95 && end[1].abs() < 0.1, "{end:?}");
+    // Still far from the border: kept. Near to it: planned anew.
+    assert!(!plan(&mut planner, &floor(), PlanarPose::new(0.3, 0.0, 0.0), &far).replanned);
+    assert!(
+        plan(&mut planner, &floor(), PlanarPose::new(0.6, 0.0, 0.0), &far)
+            .way
+            .is_ok()
+    );
+}
+
+#[test]
+fn it_replans_only_when_the_path_is_broken_or_left_or_the_goal_changed() {
+    let mut planner = planner();
+    let mut view = floor();
+    let to = goal(1.5, 0.0);
+    assert!(plan(&mut planner, &view, START, &to).replanned);
+    let on_path = PlanarPose::new(0.3, 0.02, 0.0);
+    let kept = plan(&mut planner, &view, on_path, &to);
+    assert!(!kept.replanned);
+    let rest = kept.way.unwrap();
+    assert!(
+        (rest.points_m[0][0] - 0.3).abs() < 1e-9,
+        "the passed part is cut off"
+    );
+    assert!((length_m(&rest) - 1.2).abs() < 1e-6);
+    paint(&mut view, [0.5, 0.5], [0.7, 0.7], Surface::Obstacle(0.3));
+    assert!(
+        !plan(&mut planner, &view, on_path, &to).replanned,
+        "it stands beside the way"
+    );
+    paint(&mut view, [0.8, -0.1], [0.9, 0.1], Surface::Obstacle(0.3));
+    let around = plan(&mut planner, &view, on_path, &to);
+    assert!(around.replanned && around.way.is_ok());
+    assert!(!plan(&mut planner, &view, on_path, &to).replanned);
+    assert!(
+        plan(&mut planner, &view, PlanarPose::new(-0.5, -0.8, 0.0), &to).replanned,
+        "strayed"
+    );
+    assert!(
+        plan(
+            &mut planner,
+            &view,
+            PlanarPose::new(-0.5, -0.8, 0.0),
+            &goal(1.0, 1.0)
+        )
+        .replanned
+    );
+}
+
+#[test]
+fn a_way_that_is_much_better_is_taken_once_it_is_seen() {
+    // A wall with an unknown part: the way leads around; then the part turns out to be open.
+    let mut view = floor();
+    paint(&mut view, [0.8, -1.2], [0.88, 2.0], Surface::Obstacle(0.5));
+    paint(&mut view, [-0.4, -2.0], [2.0, -0.4], Surface::Unknown);
+    let mut planner = planner();
+    let first = way(&mut planner, &view, START, &goal(1.5, 0.3));
+    assert!(first.unknown.iter().any(|&unknown| unknown));
+    paint(&mut view, [-0.4, -2.0], [2.0, -0.4], Surface::Floor(0.0));
+    paint(&mut view, [0.7, -0.4], [0.9, 1.0], Surface::Floor(0.0));
+    let second = plan(&mut planner, &view, START, &goal(1.5, 0.3));
+    assert!(second.replanned);
+    assert!(second.way.unwrap().cost_m < 0.8 * first.cost_m);
+}
+
+#[test]
+fn unknown_ground_is_walked_at_a_price_and_said() {
+    let mut view = floor();
+    paint(&mut view, [0.4, -0.4], [0.9, 0.4], Surface::Unknown);
+    let around = way(&mut planner(), &view, START, &goal(1.4, 0.0));
+    assert!(
+        around.unknown.iter().all(|&unknown| !unknown),
+        "a short way round is preferred"
+    );
+    paint(&mut view, [0.4, -2.0], [0.9, 2.0], Surface::Unknown);
+    let across = way(&mut planner(), &view, START, &goal(1.4, 0.0));
+    assert!(across.unknown.iter().any(|&unknown| unknown));
+    assert!((across.cost_m - 1.9).abs() < 0.1, "{}", across.cost_m);
+}
+
+#[test]
+fn the_robot_may_leave_a_place_too_near_to_an_obstacle() {
+    let mut view = floor();
+    paint(&mut view, [0.1, -0.3], [0.3, 0.3], Surface::Obstacle(0.3));
+    let mut planner = planner();
+    let path = way(&mut planner, &view, START, &goal(1.4, 0.0));
+    for (point, &clearance) in path.points_m.iter().zip(&path.clearance_m) {
+        assert!(clearance >= planner.needed_m() || point[0].hypot(point[1]) < 0.33);
+        assert!(clearance > 0.08, "{point:?} {clearance}");
+    }
+}
+
+#[test]
+fn a_step_is_no_way() {
+    let mut view = floor();
+    paint(&mut view, [0.8, -2.0], [2.0, 2.0], Surface::Floor(0.03));
+    let (refusal, _) = refused(&view, &goal(1.5, 0.0));
+    assert_eq!(refusal, Refusal::Blocked);
+    paint(&mut view, [0.8, -2.0], [2.0, 2.0], Surface::Floor(0.008));
+    assert!(
+        plan(&mut planner(), &view, START, &goal(1.5, 0.0))
+            .way
+            .is_ok()
+    );
+    let upstairs = Goal {
+        height_m: Some(0.12),
+        ..goal(1.5, 0.0)
+    };
+    assert!(
+        plan(&mut planner(), &view, START, &upstairs).way.is_err(),
+        "another level"
+    );
+}
+
+#[test]
+fn what_is_no_number_is_refused() {
+    let mut planner = planner();
+    let bad = PlanarPose::new(f64::NAN, 0.0, 0.0);
+    let error = planner.plan(&floor(), bad, &goal(1.0, 0.0)).unwrap_err();
+    assert_eq!(error, PlanError::NotFinite("the start"));
+    let error = planner
+        .plan(&floor(), START, &goal(f64::INFINITY, 0.0))
+        .unwrap_err();
+    assert_eq!(error, PlanError::NotFinite("the goal"));
+    let away = PlanarPose::new(50.0, 0.0, 0.0);
+    let lost = planner.plan(&floor(), away, &goal(1.0, 0.0)).unwrap();
+    assert_eq!(lost.way.unwrap_err().refusal, Refusal::NoPath);
+}
