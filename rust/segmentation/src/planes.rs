@@ -72,7 +72,7 @@ impl Planes {
 }
 
 /// Finds planes in a scan.
-pub trait Segmenter: Send {
+pub trait Segmenter: Send + Sync {
     /// Fills `planes` from `scan`. Finding nothing is an ordinary product: no regions, no ground, not reliable.
     fn segment(&mut self, scan: &Scan, planes: &mut Planes) -> Result<(), SegmentError>;
 }

@@ -53,20 +53,20 @@ impl RegionFit {
         )
     }
 
-    /// The region's own tilt, and whether it is more than noise.
-    pub(super) fn own_tilt(&self) -> (Vector2<f64>, bool) {
+    /// The region's own tilt, and its squared distance from none in its own errors.
+    pub(super) fn own_tilt(&self) -> (Vector2<f64>, f64) {
         let (information, product) = self.tilt_equation();
         // A weak wish for no tilt keeps regions that are a line from giving nonsense.
         let tilt = (information + Matrix2::identity())
             .try_inverse()
             .map_or_else(Vector2::zeros, |inverse| inverse * product);
-        (tilt, tilt.dot(&product) > SIGNIFICANT)
+        (tilt, tilt.dot(&product))
     }
 
     /// Whether the region may be horizontal when the camera's tilt is known to `limit_rad`.
     pub(super) fn is_level(&self, limit_rad: f64) -> bool {
-        let (tilt, significant) = self.own_tilt();
-        !significant || tilt.norm() < limit_rad
+        let (tilt, certainty) = self.own_tilt();
+        certainty < SIGNIFICANT || tilt.norm() < limit_rad
     }
 
     /// `q` when the camera is tilted by `tilt`.
@@ -131,7 +131,10 @@ pub(super) fn shared_tilt(
     let prior = 1.0 / (expected_sigma_rad * expected_sigma_rad);
     let mut information = Matrix2::identity() * prior;
     let mut product = expected * prior;
-    for fit in fits.iter().filter(|fit| fit.own_tilt().0.norm() < level_rad) {
+    for fit in fits
+        .iter()
+        .filter(|fit| fit.own_tilt().0.norm() < level_rad)
+    {
         let (a, b) = fit.tilt_equation();
         information += a;
         product += b;

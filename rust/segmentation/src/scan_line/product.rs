@@ -27,7 +27,7 @@ impl ScanLine {
         self.place_points(levelled, &position, planes);
         self.describe_level_regions(levelled, &position, planes);
         planes.floor_height_m.fill(f32::NAN);
-        for (at, label) in self.labels.iter_mut().enumerate() {
+        for (at, label) in self.surfaces.labels.iter_mut().enumerate() {
             *label = match *label {
                 0 => 0,
                 label => self.product.numbers[usize::from(label) - 1],
@@ -39,13 +39,13 @@ impl ScanLine {
             }
         }
         self.walls.find(
-            &self.disparity_px,
+            &self.surfaces.disparity_px,
             &self.camera,
-            &self.sigma_px,
-            &mut self.labels,
+            &self.surfaces.sigma_px,
+            &mut self.surfaces.labels,
             planes,
         );
-        planes.labels.copy_from_slice(&self.labels);
+        planes.labels.copy_from_slice(&self.surfaces.labels);
     }
 
     /// Every pixel's point: `position + f B / d * ray`.
@@ -56,7 +56,7 @@ impl ScanLine {
         for (row, (points, disparities)) in planes
             .points_in_robot_m
             .chunks_exact_mut(width)
-            .zip(self.disparity_px.chunks_exact(width))
+            .zip(self.surfaces.disparity_px.chunks_exact(width))
             .enumerate()
         {
             let starts = [view.x.at(0, row), view.y.at(0, row), view.g.at(0, row)];
@@ -82,11 +82,8 @@ impl ScanLine {
         planes.regions.clear();
         self.product.numbers.clear();
         let ground = planes.ground;
-        for index in 0..self.regions.len() {
-            let (region, fit) = (self.regions[index], &self.fits[index]);
-            let (own, significant) = fit.own_tilt();
-            let is_level = !significant || own.norm() < self.config.floor_tilt;
-            if !is_level {
+        for index in 0..self.surfaces.regions.len() {
+            if !self.surfaces.is_level(index) {
                 // Slices of walls and of slopes: what is left for generic planes.
                 self.product.numbers.push(0);
                 continue;
@@ -94,7 +91,7 @@ impl ScanLine {
             let height_m = if ground == Some(index) {
                 0.0
             } else {
-                position.z - 1.0 / f64::from(region.q)
+                position.z - 1.0 / f64::from(self.surfaces.regions[index].q)
             };
             if ground == Some(index) {
                 planes.ground = Some(planes.regions.len());
@@ -130,7 +127,7 @@ impl ScanLine {
         let corners = &mut self.product.corners;
         corners.clear();
         let (mut support, mut sum) = (0, [0.0, 0.0]);
-        for (row, labels) in self.labels.chunks_exact(width).enumerate() {
+        for (row, labels) in self.surfaces.labels.chunks_exact(width).enumerate() {
             let mut ends: Option<(Point2<f64>, Point2<f64>)> = None;
             for (col, _) in labels.iter().enumerate().filter(|(_, l)| **l == label) {
                 let nearness = below_m / f64::from(view.g.at(col, row));

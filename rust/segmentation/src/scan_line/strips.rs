@@ -108,8 +108,7 @@ impl LineSums {
         let row_d = self.row_d - before.row_d - row * d / w;
         let row_g = self.row_g - before.row_g - row * g / w;
         let steep = row_d * g < STEEP * row_g * d;
-        (steep && rows > 0.0)
-            .then(|| self.d_d - before.d_d - d * d / w - row_d * row_d / rows)
+        (steep && rows > 0.0).then(|| self.d_d - before.d_d - d * d / w - row_d * row_d / rows)
     }
 }
 

@@ -54,13 +54,28 @@ fn a_camera_error_of_seven_degrees_is_put_right() {
 #[test]
 fn scratch_scenes() {
     use crate::synthetic::Block;
-    let wall = Block { low_m: [0.9, -2.0, 0.0], high_m: [1.0, 2.0, 1.0] };
-    let low_box = Block { low_m: [0.5, -0.1, 0.0], high_m: [0.7, 0.2, 0.06] };
-    let high_box = Block { low_m: [0.6, -0.3, 0.0], high_m: [0.7, 0.0, 0.3] };
+    let wall = Block {
+        low_m: [0.9, -2.0, 0.0],
+        high_m: [1.0, 2.0, 1.0],
+    };
+    let low_box = Block {
+        low_m: [0.5, -0.1, 0.0],
+        high_m: [0.7, 0.2, 0.06],
+    };
+    let high_box = Block {
+        low_m: [0.6, -0.3, 0.0],
+        high_m: [0.7, 0.0, 0.3],
+    };
     let scenes = [
         ("floor", Scene::floor()),
         ("wall", Scene::with(&[wall])),
-        ("wall .5", Scene::with(&[Block { low_m: [0.5, -2.0, 0.0], high_m: [0.6, 2.0, 1.0] }])),
+        (
+            "wall .5",
+            Scene::with(&[Block {
+                low_m: [0.5, -2.0, 0.0],
+                high_m: [0.6, 2.0, 1.0],
+            }]),
+        ),
         ("low box", Scene::with(&[low_box])),
         ("high box", Scene::with(&[high_box])),
         ("stairs .3", Scene::stairs(0.3, 0.03, 0.12, 4)),
@@ -72,18 +87,40 @@ fn scratch_scenes() {
         let (mut segmenter, mut planes) = (segmenter(), planes());
         let truth = camera_pose(0.0, 0.75);
         for frame in 0..5 {
-            let where_ = if frame < 2 { Scene::floor() } else { scene.clone() };
+            let where_ = if frame < 2 {
+                Scene::floor()
+            } else {
+                scene.clone()
+            };
             let scan = where_.scan(&truth, truth, 0.125, &mut noise);
             let t = std::time::Instant::now();
             segmenter.segment(&scan, &mut planes).unwrap();
             let dt = t.elapsed().as_secs_f64() * 1e3;
-            let up = planes.robot_from_camera.inner.rotation * truth.inner.rotation.inverse() * Vector3::z();
-            println!("{name} {frame} {dt:.2} ms tilt {:.2} z {:.1} ground {:?}", up.z.min(1.0).acos().to_degrees(), 1e3 * (planes.robot_from_camera.inner.translation.z - 0.5), planes.ground);
+            let up = planes.robot_from_camera.inner.rotation
+                * truth.inner.rotation.inverse()
+                * Vector3::z();
+            println!(
+                "{name} {frame} {dt:.2} ms tilt {:.2} z {:.1} ground {:?}",
+                up.z.min(1.0).acos().to_degrees(),
+                1e3 * (planes.robot_from_camera.inner.translation.z - 0.5),
+                planes.ground
+            );
             let (_, labels) = where_.exact(&truth);
             for (i, r) in planes.regions.iter().enumerate() {
                 let mut counts = [0; 12];
-                for (l, t) in planes.labels.iter().zip(&labels) { if *l as usize == i + 1 { counts[(*t as usize).min(11)] += 1; } }
-                println!("   {} h {:?} n {:.2?} mean {:.2?} {:?}", r.support, r.floor_height_m.map(|h| (h * 1e4).round() / 10.0), r.plane.normal.as_slice(), r.mean.inner.coords.as_slice(), counts);
+                for (l, t) in planes.labels.iter().zip(&labels) {
+                    if *l as usize == i + 1 {
+                        counts[(*t as usize).min(11)] += 1;
+                    }
+                }
+                println!(
+                    "   {} h {:?} n {:.2?} mean {:.2?} {:?}",
+                    r.support,
+                    r.floor_height_m.map(|h| (h * 1e4).round() / 10.0),
+                    r.plane.normal.as_slice(),
+                    r.mean.inner.coords.as_slice(),
+                    counts
+                );
             }
         }
     }

@@ -1,0 +1,183 @@
+//! The horizontal surfaces of one frame: picture, lines, regions and their fits, with all buffers.
+
+use nalgebra::Vector2;
+use sensing::{Intrinsics, Scan};
+
+use super::ScanLineConfig;
+use super::erosion::Erosion;
+use super::fit::{RegionFit, fit_regions};
+use super::grouping::{Grouping, GrowthRules, MAX_REGIONS, Region};
+use super::median::median;
+use super::noise::NoiseMap;
+use super::strips::{Picture, Segment, StripRules, Strips};
+use super::view::View;
+
+/// Columns and rows to each side that are taken off a region before a fit: half a window of 5 and one more (7x5).
+const EROSION: (usize, usize) = (2, 3);
+/// The same for the check for slices of walls: thin regions, of which 7x5 leaves too little.
+const LIGHT_EROSION: (usize, usize) = (1, 1);
+/// Pixels that must be left for a fit; else all of the region's count.
+const MIN_FIT: u32 = 24;
+/// A region is steep above this tilt, rad: blending at the borders of a tread gives less than half of it.
+const STEEP_RAD: f64 = 0.3;
+/// And when the tilt's squared distance from none, in its own errors, is above this.
+const STEEP_SURE: f64 = 3.5;
+
+/// Finds the horizontal surfaces that a scan shows under a given view. Keeps its buffers.
+#[derive(Debug, Clone)]
+pub(super) struct Surfaces {
+    strip_rules: StripRules,
+    growth_rules: GrowthRules,
+    floor_tilt_rad: f64,
+    width: usize,
+    noise: NoiseMap,
+    /// Disparities after the median, px.
+    pub(super) disparity_px: Vec<f32>,
+    /// Local noise, px.
+    pub(super) sigma_px: Vec<f32>,
+    /// Region of each pixel plus one; 0: none.
+    pub(super) labels: Vec<u16>,
+    /// The regions, with `q` from the last fit.
+    pub(super) regions: Vec<Region>,
+    /// A fit for each region, away from its border.
+    pub(super) fits: Vec<RegionFit>,
+    g: Vec<f32>,
+    eroded: Vec<u16>,
+    segments: Vec<Segment>,
+    checks: Vec<RegionFit>,
+    strips: Strips,
+    grouping: Grouping,
+    erosion: Erosion,
+}
+
+impl Surfaces {
+    /// Buffers for this camera.
+    pub(super) fn new(config: &ScanLineConfig, camera: &Intrinsics) -> Self {
+        let pixels = camera.width * camera.height;
+        Self {
+            strip_rules: StripRules {
+                strip: config.strip,
+                price: config.segment_price as f32,
+                min_segment: config.min_segment,
+                scale: (camera.focal_px * camera.baseline_m) as f32,
+            },
+            growth_rules: GrowthRules {
+                strip: config.strip,
+                join: config.join as f32,
+                accept: config.accept as f32,
+                min_region: config.min_region,
+            },
+            floor_tilt_rad: config.floor_tilt,
+            width: camera.width,
+            noise: NoiseMap::new(
+                camera.width,
+                camera.height,
+                config.noise_floor,
+                config.noise_ceiling,
+            ),
+            disparity_px: vec![f32::NAN; pixels],
+            sigma_px: vec![0.0; pixels],
+            labels: vec![0; pixels],
+            regions: Vec::new(),
+            fits: Vec::new(),
+            g: vec![0.0; pixels],
+            eroded: vec![0; pixels],
+            segments: Vec::new(),
+            checks: Vec::new(),
+            strips: Strips::default(),
+            grouping: Grouping::default(),
+            erosion: Erosion::default(),
+        }
+    }
+
+    /// Takes in a scan: median and local noise.
+    pub(super) fn read(&mut self, scan: &Scan) {
+        median(&scan.disparity_px, self.width, &mut self.disparity_px);
+        self.noise.measure(&self.disparity_px);
+        self.noise.fill(&mut self.sigma_px);
+    }
+
+    /// The picture under a view.
+    pub(super) fn picture(&mut self, view: &View) -> Picture<'_> {
+        view.fill(self.width, &mut self.g);
+        Picture {
+            width: self.width,
+            disparity_px: &self.disparity_px,
+            g: &self.g,
+            sigma_px: &self.sigma_px,
+        }
+    }
+
+    /// Finds the regions in the view; `whole` also lets them take in pixels and join.
+    pub(super) fn grow(&mut self, view: &View, whole: bool) {
+        view.fill(self.width, &mut self.g);
+        let picture = Picture {
+            width: self.width,
+            disparity_px: &self.disparity_px,
+            g: &self.g,
+            sigma_px: &self.sigma_px,
+        };
+        let (rules, regions, labels) = (self.growth_rules, &mut self.regions, &mut self.labels);
+        self.segments.clear();
+        self.strips
+            .cut(picture, self.strip_rules, &mut self.segments);
+        self.grouping
+            .group(picture, &self.segments, rules, regions, labels);
+        if whole {
+            self.grouping.grow(picture, rules, regions, labels);
+            self.grouping.merge(picture, rules, regions, labels);
+        }
+        self.erosion.erode(
+            labels,
+            picture.disparity_px,
+            self.width,
+            EROSION,
+            &mut self.eroded,
+        );
+        let mut left = [0_u32; MAX_REGIONS + 1];
+        for &label in &self.eroded {
+            left[usize::from(label)] += 1;
+        }
+        keep_where(labels, &mut self.eroded, |label| left[label] < MIN_FIT);
+        fit_regions(picture, view, regions, &self.eroded, &mut self.fits);
+    }
+
+    /// Fits the regions anew after a small turn of the view, and checks the thin ones over more of their pixels.
+    pub(super) fn refit(&mut self, view: &View) {
+        view.fill(self.width, &mut self.g);
+        let picture = Picture {
+            width: self.width,
+            disparity_px: &self.disparity_px,
+            g: &self.g,
+            sigma_px: &self.sigma_px,
+        };
+        fit_regions(picture, view, &self.regions, &self.eroded, &mut self.fits);
+        for (region, fit) in self.regions.iter_mut().zip(&self.fits) {
+            region.q = fit.q(&Vector2::zeros()) as f32;
+        }
+        self.erosion.erode(
+            &self.labels,
+            picture.disparity_px,
+            self.width,
+            LIGHT_EROSION,
+            &mut self.eroded,
+        );
+        fit_regions(picture, view, &self.regions, &self.eroded, &mut self.checks);
+    }
+
+    /// Whether a region is horizontal, as far as it tells: no slope, no slice of a wall.
+    pub(super) fn is_level(&self, index: usize) -> bool {
+        let (tilt, certainty) = self.checks[index].own_tilt();
+        let steep = tilt.norm() > STEEP_RAD && certainty > STEEP_SURE;
+        self.fits[index].is_level(self.floor_tilt_rad) && !steep
+    }
+}
+
+/// Gives back to `eroded` the whole of those regions for which `wanted` holds.
+fn keep_where(labels: &[u16], eroded: &mut [u16], wanted: impl Fn(usize) -> bool) {
+    for (eroded, &label) in eroded.iter_mut().zip(labels) {
+        if label > 0 && wanted(usize::from(label)) {
+            *eroded = label;
+        }
+    }
+}
