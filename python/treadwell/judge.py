@@ -25,7 +25,7 @@ GOAL_HEIGHT_TOLERANCE = 0.02
 STUCK_SECONDS = 30.0
 STUCK_RADIUS = 0.1
 """Metres: a robot that has not left a disc of this radius for `STUCK_SECONDS` is stuck."""
-PATH_SPACING = 0.01
+PATH_SPACING = 0.03
 """Metres between the points of which the path's length is made; sways smaller than it vanish."""
 
 

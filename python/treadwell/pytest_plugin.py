@@ -14,13 +14,18 @@ if TYPE_CHECKING:
 _RUNS = "treadwell_runs"
 
 
-class ScenarioFailure(Exception):
+class ScenarioFailedError(Exception):
     """A scenario ran and did not meet its expectations."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Let a folder for the runs of failed scenarios be chosen."""
     parser.addini(_RUNS, "folder for the runs of failed scenarios", default="runs/pytest")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Register the marker that every scenario has."""
+    config.addinivalue_line("markers", "scenario: closed-loop episodes of a scenario file")
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
@@ -61,9 +66,9 @@ class ScenarioItem(pytest.Item):
         """Run it."""
         run_scenario(self.path, runs_folder(self.config))
 
-    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], *_: object) -> str:  # type: ignore[override]
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], *_: object) -> str:
         """Return what was not met and where the run lies, without a traceback of ours."""
-        if isinstance(excinfo.value, ScenarioFailure | TreadwellError):
+        if isinstance(excinfo.value, ScenarioFailedError | TreadwellError):
             return str(excinfo.value)
         return str(super().repr_failure(excinfo))
 
@@ -96,7 +101,7 @@ def run_scenario(scenario: str | Path, runs: Path, **options: Any) -> "Result": 
         options: as for `treadwell.run`.
 
     Raises:
-        ScenarioFailure: it does not meet its expectations; the run's folder is named.
+        ScenarioFailedError: it does not meet its expectations; the run's folder is named.
         TreadwellError: it could not be run.
     """
     import shutil
@@ -107,7 +112,9 @@ def run_scenario(scenario: str | Path, runs: Path, **options: Any) -> "Result": 
     run = treadwell.run(scenario, out=out, **options)
     if not run.passed:
         said = "\n".join(f"  {failure}" for failure in run.result.failures)
-        raise ScenarioFailure(f"{run.result.scenario}: {run.outcome}\n{said}\nrun: {run.folder}")
+        raise ScenarioFailedError(
+            f"{run.result.scenario}: {run.outcome}\n{said}\nrun: {run.folder}"
+        )
     shutil.rmtree(run.folder)
     result: Result = run.result
     return result

@@ -1,0 +1,120 @@
+"""Claims about the score: cells and surfaces against the truth, errors of the estimate."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from episode_builders import BOX, STEP, grid, world
+from treadwell.ground_truth import pose_matrix
+from treadwell.map_memory import FLOOR, OBSTACLE, RememberedMap
+from treadwell.score import PoseErrors, map_counts, surfaces, timing, true_cells
+
+CURTAIN = """
+[[course]]
+kind = "box"
+name = "curtain"
+position = [0.5, 0.0]
+size = [0.2, 0.6, 0.3]
+base = BASE
+"""
+
+
+def perfect(course: str) -> tuple[RememberedMap, object, object]:
+    made = world(course)
+    remembered = grid()
+    truth = true_cells(made.course, remembered, 0.58)
+    remembered.kind[:] = np.where(truth.obstacle, OBSTACLE, FLOOR)
+    remembered.height[:] = truth.height
+    remembered.sightings[:] = 5
+    return remembered, made.course, truth
+
+
+def test_a_perfect_map_is_all_right() -> None:
+    remembered, _, truth = perfect(BOX + STEP)
+    counts = map_counts(remembered, truth)
+    assert counts.floor_cells_right == 1.0
+    assert counts.obstacle_cells_right == 1.0
+    assert counts.floor_called_obstacle == counts.obstacle_called_floor == 0.0
+    assert counts.obstacle_cells == 25
+    assert counts.floor_cells > 3000
+
+
+def test_wrong_cells_are_counted_as_what_they_are_called() -> None:
+    remembered, _, truth = perfect(BOX)
+    row, col = np.argwhere(truth.obstacle)[0]
+    remembered.kind[row, col] = FLOOR
+    remembered.kind[0, 0] = OBSTACLE
+    remembered.height[0, 1] = 0.1
+    counts = map_counts(remembered, truth)
+    assert counts.obstacle_called_floor == pytest.approx(1 / 25)
+    assert counts.floor_called_obstacle == pytest.approx(1 / counts.floor_cells)
+    assert counts.floor_cells_right == pytest.approx(1 - 2 / counts.floor_cells)
+
+
+def test_what_was_seen_twice_only_does_not_count() -> None:
+    remembered, _, truth = perfect(BOX)
+    remembered.sightings[:] = 2
+    assert map_counts(remembered, truth).floor_cells == 0
+
+
+def test_cells_on_an_edge_are_neither_floor_nor_obstacle() -> None:
+    made = world(BOX)
+    truth = true_cells(made.course, grid(), 0.58)
+    assert not (truth.floor & truth.obstacle).any()
+    assert (~truth.floor & ~truth.obstacle).any()
+
+
+@pytest.mark.parametrize(("base", "obstacle"), [(0.3, True), (0.57, True), (0.6, False)])
+def test_what_hangs_is_an_obstacle_where_the_robot_would_hit_it(
+    base: float, obstacle: bool
+) -> None:
+    made = world(CURTAIN.replace("BASE", str(base)))
+    truth = true_cells(made.course, grid(), 0.58)
+    assert bool(truth.obstacle.any()) is obstacle
+
+
+def test_an_element_counts_where_it_is_now() -> None:
+    made = world(BOX)
+    truth = true_cells(made.course, grid(), 0.58, {"box": np.array([0.4, 0.2, 0.0])})
+    centre = grid().centres()[truth.obstacle].mean(axis=0)
+    assert centre == pytest.approx([0.9, 0.2], abs=0.03)
+    assert not true_cells(made.course, grid(), 0.58, {}).obstacle.any()
+
+
+def test_a_surface_has_the_mean_of_its_interior_cells() -> None:
+    remembered, course, _ = perfect(STEP)
+    remembered.height[remembered.height > 0.02] += 0.002
+    (entry,) = surfaces(course, remembered, np.zeros((0, 2)))
+    assert (entry.element, entry.part) == ("step", "top")
+    assert entry.truth == pytest.approx(0.03)
+    assert entry.estimate == pytest.approx(0.032, abs=1e-6)
+    assert 14 * 23 <= entry.cells <= 15 * 25
+
+
+def test_a_top_without_cells_is_listed_only_where_the_robot_passed() -> None:
+    remembered, course, _ = perfect(STEP)
+    blind = replace(remembered, kind=np.zeros_like(remembered.kind))
+    assert surfaces(course, blind, np.array([[0.0, 0.0]])) == []
+    (entry,) = surfaces(course, blind, np.array([[0.0, 0.0], [1.0, 0.1]]))
+    assert entry.estimate is None
+    assert entry.cells == 0
+
+
+def test_pose_errors_are_distances_and_angles() -> None:
+    errors = PoseErrors()
+    assert errors.errors() is None
+    truth = pose_matrix(1.0, 2.0, 0.0, 3.1)
+    errors.add(pose_matrix(1.03, 2.04, 0.0, -3.1), pose_matrix(1.1, 2.0, 0.0, 3.1), truth)
+    errors.add(truth, truth, truth)
+    found = errors.errors()
+    assert found is not None
+    assert found.translation_error.mean == pytest.approx(0.025)
+    assert found.translation_error.max == pytest.approx(0.05)
+    assert found.heading_error.max == pytest.approx(2 * np.pi - 6.2)
+    assert found.odometry_translation_error.max == pytest.approx(0.1)
+
+
+def test_stages_that_did_not_run_have_no_time() -> None:
+    assert timing([]).count == 0
+    table = timing([0.001, float("nan"), 0.003])
+    assert (table.count, table.median, table.max) == (2, pytest.approx(2.0), pytest.approx(3.0))
