@@ -1,1 +1,28 @@
-"""A testbed in which a small humanoid finds its own way over an obstacle course, by its senses alone."""
+"""A testbed in which a small humanoid finds its own way over an obstacle course, by its senses alone.
+
+>>> import treadwell
+>>> result = treadwell.run("slalom", seed=3)            # the same as `treadwell run slalom --seed 3`
+>>> for step in treadwell.Episode("slalom"):            # or frame by frame
+...     step.observation.depth, step.estimate.pose, step.command
+"""
+
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from treadwell.episode import Episode
+    from treadwell.runner import run
+
+__version__ = version("treadwell")
+__all__ = ["Episode", "__version__", "run"]
+
+_HOMES = {"Episode": "treadwell.episode", "run": "treadwell.runner"}
+
+
+def __getattr__(name: str) -> Any:  # noqa: ANN401 - whatever the name means
+    """Import the doors when they are first used: the command line starts faster without MuJoCo."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'treadwell' has no attribute {name!r}")
+    import importlib
+
+    return getattr(importlib.import_module(_HOMES[name]), name)

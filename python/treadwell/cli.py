@@ -158,9 +158,9 @@ def verify(
     as_json: JsonOption = False,
 ) -> int:
     """Check that a run's files are whole, and that plain MuJoCo steps to the same states."""
-    from treadwell import audit
+    from treadwell.verification import verify as verify_runs
 
-    faults = {str(run_dir): audit.verify(run_dir) for run_dir in run_dirs}
+    faults = {str(found.folder): list(found.problems) for found in verify_runs(run_dirs)}
     if as_json:
         write_json({name: {"whole": not found, "faults": found} for name, found in faults.items()})
     else:

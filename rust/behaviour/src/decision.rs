@@ -62,7 +62,7 @@ pub struct Decision {
 }
 
 /// Decides what to do next.
-pub trait Behaviour: Send {
+pub trait Behaviour: Send + Sync {
     /// The decision at a control tick.
     fn next(&mut self, situation: &Situation<'_>) -> Result<Decision, BehaviourError>;
 }

@@ -1,7 +1,7 @@
 //! The pilot: an observation in, joint targets out, every product to look at.
 
 use behaviour::Outcome;
-use numpy::{PyArray1, PyArray2, ToPyArray};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, ToPyArray};
 use pilot::{Components, Pilot, STAGES, Settings};
 use pyo3::prelude::*;
 use sensing::{Frame, Observation};
@@ -133,6 +133,19 @@ impl PyPilot {
     /// (4, 4): the camera in the robot's frame at the last frame, corrected by the ground plane.
     fn robot_from_camera<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         matrix(py, &self.pilot.perception().planes().robot_from_camera)
+    }
+
+    /// (rows, cols) float32 m: distance of each cell of the view to the nearest obstacle; None where it is not known.
+    fn clearance<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray2<f32>>> {
+        let clearance = self.pilot.clearance()?;
+        let shape = [clearance.rows(), clearance.cols()];
+        clearance.values().to_pyarray(py).reshape(shape).ok()
+    }
+
+    /// Via points passed so far.
+    #[getter]
+    fn goals_passed(&self) -> usize {
+        self.pilot.goals_passed()
     }
 
     /// How often a way was planned anew after the first.

@@ -28,7 +28,7 @@ pub struct Estimate {
 }
 
 /// Keeps the robot's pose in the map.
-pub trait Localizer: Send {
+pub trait Localizer: Send + Sync {
     /// Called when a depth frame was segmented, before the map takes it in; `body` is the body state at the exposure.
     fn correct(
         &mut self,

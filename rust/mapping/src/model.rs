@@ -64,7 +64,7 @@ pub struct Insertion {
 }
 
 /// Keeps a model of the world.
-pub trait WorldModel: Send {
+pub trait WorldModel: Send + Sync {
     /// Moves the window to the robot, takes in one frame seen from `map_from_robot`, and says what changed.
     fn insert(
         &mut self,

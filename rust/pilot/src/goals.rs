@@ -36,6 +36,11 @@ impl Goals {
         &self.places[self.next]
     }
 
+    /// How many were passed.
+    pub(crate) const fn passed(&self) -> usize {
+        self.next
+    }
+
     /// Whether it is the last.
     pub(crate) fn is_last(&self) -> bool {
         self.next + 1 == self.places.len()

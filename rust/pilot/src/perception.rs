@@ -5,7 +5,7 @@ use localization::{BodyState, Localizer};
 use mapping::{Insertion, WorldModel};
 use robot::Body;
 use segmentation::{Planes, Segmenter};
-use sensing::{Frame, Intrinsics, Scan};
+use sensing::{Frame, Intrinsics, Scan, SelfFilter};
 
 use crate::PilotError;
 use crate::timing::{Stage, Timing};
@@ -15,6 +15,7 @@ pub struct Perception {
     segmenter: Box<dyn Segmenter>,
     world_model: Box<dyn WorldModel>,
     scan: Scan,
+    self_filter: SelfFilter,
     planes: Planes,
     insertion: Option<Insertion>,
     frames_used: u64,
@@ -25,12 +26,14 @@ impl Perception {
     pub(crate) fn new(
         segmenter: Box<dyn Segmenter>,
         world_model: Box<dyn WorldModel>,
+        self_filter: SelfFilter,
         camera: Intrinsics,
     ) -> Self {
         Self {
             segmenter,
             world_model,
             scan: Scan::new(camera),
+            self_filter,
             planes: Planes::new(camera.width * camera.height),
             insertion: None,
             frames_used: 0,
@@ -47,9 +50,12 @@ impl Perception {
         localizer: &mut dyn Localizer,
         timing: &mut Timing,
     ) -> Result<(), PilotError> {
-        let robot_from_camera: Pose<Robot, Camera> =
-            body_then.robot_from_torso * body.torso_from_camera(&body_then.links);
+        let torso_from_camera = body.torso_from_camera(&body_then.links);
+        let robot_from_camera: Pose<Robot, Camera> = body_then.robot_from_torso * torso_from_camera;
         self.scan.read(frame, robot_from_camera)?;
+        let _own_pixels =
+            self.self_filter
+                .mask(&mut self.scan, &body_then.links, &torso_from_camera);
         timing.measure(Stage::Segment, || {
             self.segmenter.segment(&self.scan, &mut self.planes)
         })?;

@@ -1,11 +1,11 @@
 //! One tick: from an observation to joint targets.
 
 use behaviour::{Behaviour, Decision, Gaze, Situation};
-use geometry::PlanarPose;
+use geometry::{Grid, PlanarPose};
 use localization::{BodyState, BodyStateHistory, Estimate, Localizer, Proprioception};
 use planning::{Plan, Planner};
 use robot::Body;
-use sensing::{Frame, Intrinsics, Observation};
+use sensing::{Frame, Intrinsics, Observation, SelfFilter};
 use walking::{JointTargets, Walker};
 
 use crate::goals::Goals;
@@ -54,13 +54,14 @@ impl Pilot {
         let segmenter = given
             .segmenter
             .map_or_else(|| registry::segmenter(&settings, camera), Ok)?;
+        let self_filter = SelfFilter::new(&body, &registry::table(tables, "self_filter")?)?;
         let world_model = given
             .world_model
             .map_or_else(|| registry::world_model(&settings), Ok)?;
         Ok(Self {
             proprioception: Proprioception::new(&body, registry::table(tables, "proprioception")?)?,
             history: BodyStateHistory::default(),
-            perception: Perception::new(segmenter, world_model, camera),
+            perception: Perception::new(segmenter, world_model, self_filter, camera),
             localizer: given
                 .localizer
                 .map_or_else(|| registry::localizer(&settings), Ok)?,
@@ -155,6 +156,16 @@ impl Pilot {
     /// The way to the current goal, once one was planned.
     pub const fn plan(&self) -> Option<&Plan> {
         self.plan.as_ref()
+    }
+
+    /// Distance of each cell of the view to the nearest obstacle, m, by the planner's last look.
+    pub fn clearance(&self) -> Option<&Grid<f32>> {
+        self.planner.clearance()
+    }
+
+    /// Via points passed so far.
+    pub const fn goals_passed(&self) -> usize {
+        self.goals.passed()
     }
 
     /// How often a way was planned anew after the first.

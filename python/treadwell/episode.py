@@ -1,0 +1,169 @@
+"""One episode: observe, tick, act, advance, judge. What is written of it: `run.py`."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+
+from treadwell._core import Pilot
+from treadwell.core_settings import core_settings, user_components
+from treadwell.course import build_course
+from treadwell.events import Events
+from treadwell.judge import Judge
+from treadwell.motors import JointTargets
+from treadwell.observation import Observation
+from treadwell.protocols import Pose
+from treadwell.random_streams import RandomStreams
+from treadwell.robot import load_robot
+from treadwell.scenario import Scenario
+from treadwell.scenario_loading import load_scenario
+from treadwell.sensors import Sensors
+from treadwell.simulation import TICK_NS, Simulation, Start
+from treadwell.truth_localizer import TruthLocalizer
+from treadwell.verdict import Referee, Verdict
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """What the robot believes.
+
+    Attributes:
+        pose: (x m, y m, z m, yaw rad) of the robot's frame in the map.
+        odometry: the same by leg odometry alone.
+    """
+
+    pose: Pose
+    odometry: Pose
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Step:
+    """What happened at a control tick.
+
+    Attributes:
+        time_ns: nanoseconds since the start.
+        observation: what the robot was told.
+        estimate: what it believes.
+        command: what it told its motors.
+        state: name of the behaviour's state.
+    """
+
+    time_ns: int
+    observation: Observation
+    estimate: Estimate
+    command: JointTargets
+    state: str
+
+
+class Episode:
+    """A robot on a course, ready to go.
+
+    Iterating goes on from one camera frame to the next until the episode is over; `tick` goes on
+    by one control tick of 10 ms.
+
+    Attributes:
+        scenario: as it is run, with overrides and draws applied.
+        robot, course, simulation, sensors, events, judge, referee: the parts of the harness.
+        pilot: the core.
+        ablation: whether anything in the core was given the truth.
+        verdict: how it ended, None while it goes on.
+        seconds: stage -> seconds that it took, one a tick at which it ran.
+    """
+
+    def __init__(
+        self,
+        scenario: str | Path | Scenario,
+        *,
+        robot: str | None = None,
+        seed: int | None = None,
+        overrides: tuple[str, ...] = (),
+        **components: object,
+    ) -> None:
+        """Build everything.
+
+        Args:
+            scenario: a name, a path, or a scenario that is already loaded.
+            robot: instead of the scenario's.
+            seed: instead of the scenario's.
+            overrides: settings `KEY=VALUE`, as `--set` takes them.
+            components: objects of the user's by slot, as in `planner=MyPlanner()`.
+
+        Raises:
+            InputError: anything that the user gave is bad.
+        """
+        if not isinstance(scenario, Scenario):
+            scenario = load_scenario(scenario, robot=robot, seed=seed, overrides=overrides)
+        self.scenario = scenario
+        self.robot = load_robot(scenario.robot)
+        self.course = build_course(scenario, self.robot)
+        place, ideal = self.course.start, scenario.sensors.encoders == "ideal"
+        start = Start(*place.position, yaw=place.yaw, height=place.height)
+        self.simulation = Simulation(self.course.model, self.robot, start, play=not ideal)
+        self.sensors = Sensors(
+            self.course.model,
+            self.robot,
+            scenario.sensors,
+            RandomStreams(scenario.seed),
+            self.course.texture,
+        )
+        self.simulation.motors.encoder_offsets = self.sensors.encoder_offsets
+        self.events = Events(scenario, self.course, self.robot)
+        self.judge = Judge(self.course.model, self.course, scenario, self.robot)
+        self.referee = Referee(self.judge, scenario.time_limit)
+        self.verdict: Verdict | None = None
+        self.seconds: dict[str, list[float]] = {name: [] for name in ("physics", "depth")}
+        self.seconds |= {name: [] for name in Pilot.stages}
+        given = user_components(scenario, dict(components))
+        self.ablation = scenario.navigation.localizer == "truth" and "localizer" not in given
+        if self.ablation:
+            given["localizer"] = TruthLocalizer(self.judge.truth, self.simulation.data)
+        self.pilot = Pilot(core_settings(scenario, self.robot, self.course), **given)
+
+    def tick(self) -> Step:
+        """Go on by one control tick.
+
+        Raises:
+            CoreError: a stage of the core or a component of the user's failed.
+            SimulationError: the physics diverged.
+        """
+        simulation = self.simulation
+        time_ns = simulation.time_ns
+        begin = perf_counter()
+        observation = self.sensors.observe(simulation.data, time_ns, simulation.motors)
+        if observation.depth is not None:
+            self.seconds["depth"].append(perf_counter() - begin)
+        tick = self.pilot.tick(observation)
+        for stage, seconds in zip(Pilot.stages, self.pilot.timing, strict=True):
+            if not math.isnan(seconds):
+                self.seconds[stage].append(seconds)
+        command = JointTargets(tick.positions, tick.velocities, tick.torques)
+        self.events.before_tick(simulation)
+        self._tell_senses(time_ns)
+        begin = perf_counter()
+        simulation.advance(command)
+        self.seconds["physics"].append(perf_counter() - begin)
+        now = 1e-9 * simulation.time_ns
+        self.judge.watch(simulation.data, now)
+        self.verdict = self.referee.decide(simulation.data, now, tick.outcome, tick.reason)
+        return Step(time_ns, observation, Estimate(tick.estimate, tick.odometry), command, tick.state)
+
+    @property
+    def goal(self) -> tuple[float, float]:
+        """The place that is pursued now, (x, y) m."""
+        places = (*self.scenario.goal.via, self.scenario.goal.position)
+        return places[min(self.pilot.goals_passed, len(places) - 1)]
+
+    def _tell_senses(self, time_ns: int) -> None:
+        """Let the senses suffer what events did to them."""
+        if self.events.encoder_offsets:
+            self.sensors.set_encoder_shifts(self.events.encoder_offsets)
+        if self.events.is_blind(1e-9 * time_ns):
+            self.sensors.blind(time_ns + TICK_NS)
+
+    def __iter__(self) -> Iterator[Step]:
+        """Yield the ticks at which a depth frame arrives, until the episode is over."""
+        while self.verdict is None:
+            step = self.tick()
+            if step.observation.depth is not None:
+                yield step

@@ -1,0 +1,52 @@
+"""The folder of a run: where it is, that it is new, and `runs/latest`."""
+
+import os
+import time
+from pathlib import Path
+
+from treadwell.errors import InputError
+
+RUNS = Path("runs")
+
+
+def make_run_folder(out: Path | None, scenario: str, robot: str, seed: int) -> Path:
+    """Return a new, empty folder.
+
+    Args:
+        out: where; None: `runs/<scenario>-<robot>-<seed>-<time>/`, and `runs/latest` leads there.
+        scenario: the scenario's name.
+        robot: the robot's name.
+        seed: the seed.
+
+    Raises:
+        InputError: there is something already, or no folder can be made there.
+    """
+    folder = out
+    if folder is None:
+        stamp = time.strftime("%Y%m%d-%H%M%S")
+        folder = _unused(RUNS / f"{scenario}-{robot}-{seed}-{stamp}")
+    try:
+        if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+            raise InputError(f"--out: {folder} exists already; a run is never overwritten")
+        folder.mkdir(parents=True, exist_ok=True)
+        if out is None:
+            _point_latest(folder)
+    except OSError as error:
+        raise InputError(f"--out: {folder}: {error.strerror}") from None
+    return folder
+
+
+def _unused(folder: Path) -> Path:
+    candidate, number = folder, 1
+    while candidate.exists():
+        number += 1
+        candidate = folder.with_name(f"{folder.name}-{number}")
+    return candidate
+
+
+def _point_latest(folder: Path) -> None:
+    """Let `runs/latest` lead to the folder, in one step."""
+    fresh = RUNS / f".latest-{os.getpid()}"
+    fresh.unlink(missing_ok=True)
+    fresh.symlink_to(folder.name)
+    fresh.replace(RUNS / "latest")

@@ -1,0 +1,200 @@
+"""A whole run: one episode from start to verdict, and everything that is written of it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from treadwell import __version__
+from treadwell.episode import Episode, Step
+from treadwell.errors import CoreError, SimulationError, TreadwellError
+from treadwell.map_memory import MapMemory
+from treadwell.progress import Progress
+from treadwell.result import CollisionEntry, Result, StateEntry
+from treadwell.run_folder import make_run_folder
+from treadwell.score import PoseErrors, map_counts, surfaces, timing, true_cells
+from treadwell.trace import Trace
+from treadwell.tracing import trace_of
+from treadwell.trajectory import Trajectory
+from treadwell.verdict import Verdict
+from treadwell.writers import Writers
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """What came of a run.
+
+    Attributes:
+        result: as in `result.json`.
+        folder: where everything lies.
+    """
+
+    result: Result
+    folder: Path
+
+    @property
+    def outcome(self) -> str:
+        """How it ended."""
+        return self.result.outcome
+
+    @property
+    def passed(self) -> bool:
+        """Whether it met the scenario's expectations."""
+        return self.result.passed
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The result as plain data, as in the file."""
+        return self.result.model_dump(mode="json", by_alias=True)
+
+
+class Scores:
+    """Collects what the result says of an episode, one camera frame after the other."""
+
+    def __init__(self) -> None:
+        """Begin with nothing."""
+        self.poses = PoseErrors()
+        self.estimate, self.truth = Trajectory(), Trajectory()
+        self.memory = MapMemory()
+        self.states: list[StateEntry] = []
+
+    def tick(self, step: Step) -> None:
+        """Take in a control tick."""
+        if not self.states or self.states[-1].state != step.state:
+            self.states.append(StateEntry(time=1e-9 * step.time_ns, state=step.state))
+
+    def frame(self, trace: Trace) -> None:
+        """Take in a camera frame."""
+        self.poses.add(trace.map_from_robot, trace.odometry_from_robot, trace.truth_from_robot)
+        self.estimate.add(trace.time_ns, trace.map_from_robot)
+        self.truth.add(trace.time_ns, trace.truth_from_robot)
+        self.memory.update(
+            trace.view_origin, trace.view_cell, trace.view_kind, trace.view_height, trace.sightings
+        )
+
+
+def run(
+    scenario: str | Path,
+    *,
+    robot: str | None = None,
+    seed: int | None = None,
+    overrides: Sequence[str] = (),
+    out: Path | None = None,
+    record: bool = True,
+    view: bool = False,
+    progress: Progress | None = None,
+    **components: object,
+) -> Run:
+    """Run one episode and write its folder: the same as `treadwell run`.
+
+    Args:
+        scenario: a name or a path.
+        robot: instead of the scenario's.
+        seed: instead of the scenario's.
+        overrides: settings `KEY=VALUE`, as `--set` takes them.
+        out: the folder; it must be new or empty.
+        record: False leaves out the recording and the observations.
+        view: show the physics in a window; needs the extra `view`.
+        progress: is told how the run gets on.
+        components: objects of the user's by slot, as in `planner=MyPlanner()`.
+
+    Raises:
+        InputError: anything that the user gave is bad; nothing was written.
+        RecordingError: the recording cannot be written; what was written stays readable.
+    """
+    episode = Episode(
+        scenario, robot=robot, seed=seed, overrides=tuple(overrides), **components
+    )
+    made = episode.scenario
+    folder = make_run_folder(out, made.name, episode.robot.name, made.seed)
+    writers = Writers(folder, episode, record=record, view=view)
+    scores = Scores()
+    begin = perf_counter()
+    verdict: Verdict | None = None
+    problem: TreadwellError | None = None
+    try:
+        _loop(episode, scores, writers, progress, begin)
+        verdict = episode.verdict
+    except KeyboardInterrupt:
+        verdict = Verdict("interrupted", "interrupted: the run was interrupted")
+    except (CoreError, SimulationError) as error:
+        verdict = Verdict("error", f"error: {error} at {1e-9 * episode.simulation.time_ns:.2f} s")
+    except TreadwellError as error:
+        verdict = Verdict("error", f"error: {error}")
+        problem = error
+    assert verdict is not None
+    result = _result(episode, scores, verdict, perf_counter() - begin)
+    writers.finish(result, scores.estimate, scores.truth, scores.memory.map())
+    if problem is not None:
+        raise problem
+    return Run(result, folder)
+
+
+def _loop(
+    episode: Episode, scores: Scores, writers: Writers, progress: Progress | None, begin: float
+) -> None:
+    """Go on until there is a verdict."""
+    while episode.verdict is None:
+        step = episode.tick()
+        scores.tick(step)
+        if step.observation.depth is not None or step.time_ns == 0 or episode.verdict is not None:
+            trace = trace_of(episode, step)
+            scores.frame(trace)
+            writers.frame(trace)
+            if progress is not None:
+                simulated = 1e-9 * step.time_ns
+                factor = simulated / max(perf_counter() - begin, 1e-9)
+                x, y = np.array(episode.goal) - trace.map_from_robot[:2, 3]
+                progress.update(simulated, step.state, float(np.hypot(x, y)), factor)
+        writers.tick(step)
+
+
+def _result(episode: Episode, scores: Scores, verdict: Verdict, wall_seconds: float) -> Result:
+    judge, course, made = episode.judge, episode.course, episode.scenario
+    simulated = 1e-9 * episode.simulation.time_ns
+    remembered = scores.memory.map()
+    places = {
+        element.name: episode.events.place(element, episode.simulation.data)
+        for element in course.elements
+        if element.name in episode.events.present
+    }
+    passed = scores.truth.positions()[:, :2]
+    headroom = episode.robot.file.body.height
+    seen = remembered.kind.size > 0
+    physics = sum(episode.seconds["physics"])
+    result = Result(
+        scenario=made.name,
+        robot=episode.robot.name,
+        seed=made.seed,
+        version=__version__,
+        configuration=made.configuration(),
+        ablation=episode.ablation,
+        outcome=verdict.outcome,
+        reason=verdict.reason,
+        simulated_seconds=simulated,
+        wall_seconds=wall_seconds,
+        real_time_factor=simulated / max(wall_seconds, 1e-9),
+        physics_real_time_factor=simulated / max(physics, 1e-9),
+        falls=judge.falls,
+        collisions=[
+            CollisionEntry(
+                time=hit.time, robot_part=hit.robot_part, element=hit.element, impulse=hit.impulse
+            )
+            for hit in judge.collisions
+        ],
+        steps_taken=episode.pilot.steps_taken,
+        stairs_climbed=judge.stairs_climbed,
+        stairs_descended=judge.stairs_descended,
+        path_length=judge.path_length,
+        replans=episode.pilot.replans,
+        localization=scores.poses.errors(),
+        surfaces=surfaces(course, remembered, passed, places) if seen else [],
+        behaviour=scores.states,
+        timing_ms={stage: timing(values) for stage, values in episode.seconds.items()},
+    )
+    if seen:
+        result.map = map_counts(remembered, true_cells(course, remembered, headroom, places))
+    return result.judged_by(made.expect)
