@@ -1,5 +1,7 @@
 //! The experiments of 000 on simulated worlds: Fig. 3, Fig. 5, section III.D, and what must never break the map.
 
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
 mod common;
 
 use common::{Block, HEIGHT, WIDTH, camera, look};

@@ -3,6 +3,9 @@
 /// Squared distance, in cells, where no cell is blocked: further than anything in a grid of up to 10,000 cells a side.
 pub const NOTHING_NEAR: u32 = 1 << 29;
 
+/// No blocked cell in the column.
+const FAR: u32 = 1 << 14;
+
 /// Squared distances, in cells, from every cell's centre to the centre of the nearest blocked cell. Reused.
 #[derive(Debug, Clone, Default)]
 pub struct DistanceField {
@@ -10,8 +13,8 @@ pub struct DistanceField {
     /// Distance to the nearest blocked cell of the same column.
     along_column: Vec<u32>,
     /// Columns of the lower envelope of parabolas, and where each begins to be the lowest.
-    centers: Vec<i64>,
-    begins: Vec<i64>,
+    centers: Vec<usize>,
+    begins: Vec<usize>,
 }
 
 impl DistanceField {
@@ -40,20 +43,19 @@ impl DistanceField {
 
     /// First pass, all columns at once: downwards, then upwards.
     fn columns(&mut self, blocked: &[bool], cols: usize) {
-        const FAR: u32 = 1 << 16;
         let step = |previous: u32, blocked: bool| {
             if blocked { 0 } else { (previous + 1).min(FAR) }
         };
-        for i in 0..blocked.len() {
+        for (i, &blocked) in blocked.iter().enumerate() {
             let above = if i < cols {
                 FAR
             } else {
                 self.along_column[i - cols]
             };
-            self.along_column[i] = step(above, blocked[i]);
+            self.along_column[i] = step(above, blocked);
         }
         for i in (0..blocked.len() - cols).rev() {
-            let below = self.along_column[i + cols] + 1;
+            let below = (self.along_column[i + cols] + 1).min(FAR);
             self.along_column[i] = self.along_column[i].min(below);
         }
     }
@@ -61,33 +63,40 @@ impl DistanceField {
     /// Second pass: the lower envelope of one parabola a column.
     fn row(&mut self, start: usize, cols: usize) {
         let heights = &self.along_column[start..start + cols];
-        let square = |column: i64| i64::from(heights[column as usize]).pow(2);
-        let at = |x: i64, column: i64| (x - column).pow(2) + square(column);
+        let at = |x: usize, column: usize| {
+            let height = u64::from(heights[column]);
+            (x.abs_diff(column) as u64).pow(2) + height * height
+        };
+        // `offset`: where a parabola would be if its column were 0.
+        let offset = |column: usize| at(0, column) as i64;
         self.centers.clear();
         self.begins.clear();
-        for column in 0..cols as i64 {
+        for column in (0..cols).filter(|&column| heights[column] < FAR) {
             let mut begin = 0;
             while let (Some(&last), Some(&last_begin)) = (self.centers.last(), self.begins.last()) {
                 if at(last_begin, last) > at(last_begin, column) {
                     let _ = self.centers.pop();
                     let _ = self.begins.pop();
                 } else {
-                    // The first x at which `column` is nearer than `last`.
-                    let numerator = column * column - last * last + square(column) - square(last);
-                    begin = numerator.div_euclid(2 * (column - last)) + 1;
+                    // The first x at which `column` is nearer than `last`; not negative, as `last` wins where it begins.
+                    let difference = (offset(column) - offset(last)) as u64;
+                    begin = (difference / (2 * (column - last)) as u64) as usize + 1;
                     break;
                 }
             }
-            if begin < cols as i64 {
+            if begin < cols {
                 self.centers.push(column);
                 self.begins.push(begin);
             }
         }
-        let mut end = cols as i64;
+        let row = &mut self.squared[start..start + cols];
+        if self.centers.is_empty() {
+            row.fill(NOTHING_NEAR);
+        }
+        let mut end = cols;
         for (&center, &begin) in self.centers.iter().zip(&self.begins).rev() {
-            for x in begin..end {
-                let squared = at(x, center).min(i64::from(NOTHING_NEAR));
-                self.squared[start + x as usize] = squared as u32;
+            for (x, squared) in (begin..end).zip(&mut row[begin..end.max(begin)]) {
+                *squared = at(x, center) as u32;
             }
             end = end.min(begin);
         }

@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use crate::route::Ends;
-use crate::search::neighbours;
+use crate::search::for_each_neighbour;
 use crate::terrain::Terrain;
 use crate::{Goal, NoWay, Refusal};
 
@@ -72,7 +72,7 @@ fn widest_way(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Widest {
                 nearest_cells,
             };
         }
-        for (next, _) in neighbours(&open, terrain.cols, cell) {
+        for_each_neighbour(&open, terrain.cols, cell, |next, _| {
             if !seen[next] {
                 // Where the robot already stands too near it may leave: that does not narrow the way.
                 let leaving = terrain.weights[next].is_finite();
@@ -83,7 +83,7 @@ fn widest_way(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Widest {
                 };
                 queue.push((narrowest.min(here), Reverse(next)));
             }
-        }
+        });
     }
     Widest {
         clearance_m: 0.0,

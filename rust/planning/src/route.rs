@@ -18,17 +18,21 @@ pub(crate) struct Ends<'a> {
     terrain: &'a Terrain,
     view: &'a FloorView,
     goal: Goal,
+    /// Cell that holds the goal's middle.
+    middle: Option<usize>,
     /// Whether the goal's middle lies in the window.
     pub(crate) inside: bool,
 }
 
 impl<'a> Ends<'a> {
     pub(crate) fn new(terrain: &'a Terrain, view: &'a FloorView, goal: &Goal) -> Self {
+        let middle = terrain.index_at([goal.x_m, goal.y_m]);
         Self {
             terrain,
             view,
             goal: *goal,
-            inside: terrain.index_at([goal.x_m, goal.y_m]).is_some(),
+            middle,
+            inside: middle.is_some(),
         }
     }
 
@@ -39,14 +43,15 @@ impl<'a> Ends<'a> {
         }
         let [x, y] = self.terrain.center_m(index);
         let away = (x - self.goal.x_m).hypot(y - self.goal.y_m);
-        let holds_middle = || self.terrain.index_at([self.goal.x_m, self.goal.y_m]) == Some(index);
+        if away > self.goal.radius_m && self.middle != Some(index) {
+            return None;
+        }
         let on_level = match (self.goal.height_m, self.view.cells.values()[index]) {
             (Some(height), Surface::Floor(floor)) => (floor - height as f32).abs() <= LEVEL,
             _ => true,
         };
-        // The robot's path is followed to a centimetre or two: stay off the disc's rim where there is room.
-        let inside = away <= self.goal.radius_m || holds_middle();
-        (inside && on_level).then(|| PULL * away / self.terrain.lattice.cell_m)
+        // A path is followed to a centimetre or two: stay off the disc's rim where there is room.
+        on_level.then(|| PULL * away / self.terrain.lattice.cell_m)
     }
 
     /// Octile distance from a cell to the goal's middle, in cells.

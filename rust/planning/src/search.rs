@@ -1,7 +1,5 @@
 //! A* on a grid with eight neighbours and flat arrays; a diagonal step needs both of its corners free.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 use std::f64::consts::SQRT_2;
 
 /// No cell before this one.
@@ -22,18 +20,28 @@ pub fn octile(dx: f64, dy: f64) -> f64 {
     dx.max(dy) + (SQRT_2 - 1.0) * dx.min(dy)
 }
 
+/// Width of a bucket of the queue, in cells.
+const BUCKET: f64 = 0.5;
+
 /// Arrays of a search. Reused; nothing is cleared between searches.
 #[derive(Debug, Clone, Default)]
 pub struct Search {
-    /// Cost from the start, valid where `stamp` is of this search.
-    cost: Vec<f64>,
-    parent: Vec<u32>,
-    stamp: Vec<u32>,
-    search: u32,
-    /// Cost and heuristic as bits (they are not negative, so that bits order as numbers), and the cell.
-    open: BinaryHeap<Reverse<(u64, u32)>>,
+    nodes: Vec<Node>,
+    round: u32,
+    /// Cells to expand, by the estimated cost through them; within a bucket the last one first. What is expanded too early
+    /// in its bucket is expanded again, so that the result is exact.
+    buckets: Vec<Vec<(f64, u32)>>,
     /// Cells expanded by the last search.
     pub expanded: usize,
+}
+
+/// What a search knows of a cell; valid where `round` is the search's.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    cost: f64,
+    heuristic: f64,
+    parent: u32,
+    round: u32,
 }
 
 impl Search {
@@ -51,17 +59,21 @@ impl Search {
         heuristic: impl Fn(usize) -> f64,
     ) -> Option<Route> {
         self.begin(weights.len());
-        self.reach(start, 0.0, NONE, heuristic(start));
         let mut best: Option<(f64, usize)> = None;
-        while let Some(Reverse((priority, cell))) = self.open.pop() {
-            let priority = f64::from_bits(priority);
-            if best.is_some_and(|(cost, _)| priority >= cost) {
+        self.reach(start, 0.0, NONE, heuristic(start), 0);
+        let mut bucket = 0;
+        while bucket < self.buckets.len() {
+            if best.is_some_and(|(cost, _)| bucket as f64 * BUCKET >= cost) {
                 break;
             }
+            let Some((cost, cell)) = self.buckets[bucket].pop() else {
+                bucket += 1;
+                continue;
+            };
             let here = cell as usize;
-            let cost = self.cost[here];
-            if priority > cost + heuristic(here) {
-                continue; // reached more cheaply since
+            let node = self.nodes[here];
+            if cost > node.cost || best.is_some_and(|(b, _)| cost + node.heuristic >= b) {
+                continue; // reached more cheaply since, or no use
             }
             self.expanded += 1;
             if let Some(end) = ending(here)
@@ -69,18 +81,20 @@ impl Search {
             {
                 best = Some((cost + end, here));
             }
-            let from = weights[here].min(f32::MAX);
-            let from = if from == f32::MAX {
-                1.0
+            let weight = if weights[here].is_finite() {
+                weights[here]
             } else {
-                f64::from(from)
+                1.0
             };
-            for (next, length) in neighbours(weights, cols, here) {
-                let through = cost + length * 0.5 * (from + f64::from(weights[next]));
-                if self.stamp[next] != self.search || through < self.cost[next] {
-                    self.reach(next, through, cell, heuristic(next));
+            for_each_neighbour(weights, cols, here, |next, length| {
+                let through = cost + length * 0.5 * f64::from(weight + weights[next]);
+                let known = self.nodes[next];
+                if known.round != self.round {
+                    self.reach(next, through, cell, heuristic(next), bucket);
+                } else if through < known.cost {
+                    self.reach(next, through, cell, known.heuristic, bucket);
                 }
-            }
+            });
         }
         best.map(|(cost, end)| Route {
             cells: self.back_from(end),
@@ -89,64 +103,89 @@ impl Search {
     }
 
     fn begin(&mut self, cells: usize) {
-        if self.stamp.len() != cells || self.search == u32::MAX {
-            self.cost = vec![0.0; cells];
-            self.parent = vec![NONE; cells];
-            self.stamp = vec![0; cells];
-            self.search = 0;
+        if self.nodes.len() != cells || self.round == u32::MAX {
+            let unreached = Node {
+                cost: 0.0,
+                heuristic: 0.0,
+                parent: NONE,
+                round: 0,
+            };
+            self.nodes = vec![unreached; cells];
+            self.round = 0;
         }
-        self.search += 1;
-        self.open.clear();
+        self.round += 1;
+        for bucket in &mut self.buckets {
+            bucket.clear();
+        }
         self.expanded = 0;
     }
 
-    fn reach(&mut self, cell: usize, cost: f64, parent: u32, heuristic: f64) {
-        self.cost[cell] = cost;
-        self.parent[cell] = parent;
-        self.stamp[cell] = self.search;
-        self.open
-            .push(Reverse(((cost + heuristic).to_bits(), cell as u32)));
+    #[inline]
+    fn reach(&mut self, cell: usize, cost: f64, parent: u32, heuristic: f64, now: usize) {
+        self.nodes[cell] = Node {
+            cost,
+            heuristic,
+            parent,
+            round: self.round,
+        };
+        // Rounding must not put it where the search has passed.
+        let bucket = (((cost + heuristic) / BUCKET) as usize).max(now);
+        if bucket >= self.buckets.len() {
+            self.buckets.resize_with(bucket + 1, Vec::new);
+        }
+        self.buckets[bucket].push((cost, cell as u32));
     }
 
     fn back_from(&self, end: usize) -> Vec<u32> {
         let mut cells = vec![end as u32];
-        let mut parent = self.parent[end];
+        let mut parent = self.nodes[end].parent;
         while parent != NONE {
             cells.push(parent);
-            parent = self.parent[parent as usize];
+            parent = self.nodes[parent as usize].parent;
         }
         cells.reverse();
         cells
     }
 }
 
-/// Free neighbours of a cell with the length of the step.
-pub(crate) fn neighbours(
+/// Calls `visit` with every free neighbour of a cell and the length of the step.
+#[inline]
+pub(crate) fn for_each_neighbour(
     weights: &[f32],
     cols: usize,
     cell: usize,
-) -> impl Iterator<Item = (usize, f64)> {
-    let (col, row) = (cell % cols, cell / cols);
-    let rows = weights.len() / cols;
-    let free = |index: usize| weights[index].is_finite();
+    mut visit: impl FnMut(usize, f64),
+) {
+    let col = cell % cols;
+    let free = |index: usize| weights.get(index).is_some_and(|weight| weight.is_finite());
+    // Row 0 has nothing below it: the index wraps around and is free nowhere.
+    let (below, above) = (cell.wrapping_sub(cols), cell + cols);
     let west = col > 0 && free(cell - 1);
     let east = col + 1 < cols && free(cell + 1);
-    let south = row > 0 && free(cell - cols);
-    let north = row + 1 < rows && free(cell + cols);
-    let of = |holds: bool, index: usize, length: f64| holds.then_some((index, length));
-    let at = |holds: bool, index: usize| of(holds && free(index), index, SQRT_2);
-    [
-        of(west, cell.wrapping_sub(1), 1.0),
-        of(east, cell + 1, 1.0),
-        of(south, cell.wrapping_sub(cols), 1.0),
-        of(north, cell + cols, 1.0),
-        at(west && south, cell.wrapping_sub(cols + 1)),
-        at(east && south, cell.wrapping_sub(cols).wrapping_add(1)),
-        at(west && north, (cell + cols).wrapping_sub(1)),
-        at(east && north, cell + cols + 1),
-    ]
-    .into_iter()
-    .flatten()
+    let south = free(below);
+    let north = free(above);
+    let sides = [
+        (west, cell.wrapping_sub(1)),
+        (east, cell + 1),
+        (south, below),
+        (north, above),
+    ];
+    for (open, next) in sides {
+        if open {
+            visit(next, 1.0);
+        }
+    }
+    let corners = [
+        (west && south, below.wrapping_sub(1)),
+        (east && south, below.wrapping_add(1)),
+        (west && north, above.wrapping_sub(1)),
+        (east && north, above + 1),
+    ];
+    for (open, next) in corners {
+        if open && free(next) {
+            visit(next, SQRT_2);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -181,8 +220,11 @@ mod tests {
                 prop_assert!((found.cost - reference.cost).abs() < 1e-9);
                 prop_assert!(expanded <= search.expanded + COLS);
                 for pair in found.cells.windows(2) {
-                    let mut next = neighbours(&weights, COLS, pair[0] as usize);
-                    prop_assert!(next.any(|(cell, _)| cell == pair[1] as usize));
+                    let mut adjacent = false;
+                    for_each_neighbour(&weights, COLS, pair[0] as usize, |cell, _| {
+                        adjacent |= cell == pair[1] as usize;
+                    });
+                    prop_assert!(adjacent);
                 }
             }
         }

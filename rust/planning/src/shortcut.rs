@@ -20,10 +20,15 @@ pub(crate) fn path(terrain: &Terrain, cells: &[u32], start_m: [f64; 2], end_m: [
     } else {
         corners.push(end_m);
     }
+    let mut along = vec![0.0; corners.len()];
+    for i in 1..corners.len() {
+        let step = terrain.straight_cost_m(corners[i - 1], corners[i]);
+        along[i] = along[i - 1] + step.unwrap_or(f64::MAX / 1e9);
+    }
     let mut points = vec![start_m];
     let mut from = 0;
     while from + 1 < corners.len() {
-        let to = furthest(terrain, &corners, from);
+        let to = furthest(terrain, &corners, &along, from);
         lay(
             &mut points,
             corners[from],
@@ -62,22 +67,34 @@ pub(crate) fn annotate(terrain: &Terrain, points_m: Vec<[f64; 2]>) -> Path {
     }
 }
 
-/// The last of the corners after `from` that is reached straight at no higher cost.
-fn furthest(terrain: &Terrain, corners: &[[f64; 2]], from: usize) -> usize {
-    let mut along = 0.0;
-    let mut best = from + 1;
-    for to in from + 1..corners.len() {
-        let step = terrain.straight_cost_m(corners[to - 1], corners[to]);
-        along += step.unwrap_or(f64::INFINITY);
-        if to == from + 1 {
-            continue;
+/// A corner after `from`, as far as doubling and halving find one, that is reached straight at no higher cost.
+fn furthest(terrain: &Terrain, corners: &[[f64; 2]], along: &[f64], from: usize) -> usize {
+    let reaches = |to: usize| {
+        terrain
+            .straight_cost_m(corners[from], corners[to])
+            .is_some_and(|straight| straight <= (along[to] - along[from]) * TOLERANCE)
+    };
+    let last = corners.len() - 1;
+    let (mut good, mut bad) = (from + 1, last + 1);
+    let mut stride = 2;
+    while good < last && bad > last {
+        let to = (from + stride).min(last);
+        if reaches(to) {
+            good = to;
+        } else {
+            bad = to;
         }
-        match terrain.straight_cost_m(corners[from], corners[to]) {
-            Some(straight) if straight <= along * TOLERANCE => best = to,
-            _ => break,
+        stride *= 2;
+    }
+    while good + 1 < bad {
+        let middle = usize::midpoint(good, bad);
+        if reaches(middle) {
+            good = middle;
+        } else {
+            bad = middle;
         }
     }
-    best
+    good
 }
 
 /// Adds points up to `to`, no further apart than a cell.

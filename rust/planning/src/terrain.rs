@@ -18,6 +18,8 @@ pub(crate) struct Terrain {
     pub(crate) distance: DistanceField,
     /// What a length costs in a cell: 1 on open known floor, infinite where the robot may not be.
     pub(crate) weights: Vec<f32>,
+    /// Weight of a cell by its squared distance to what is blocked, in cells.
+    by_squared: Vec<f32>,
 }
 
 impl Terrain {
@@ -33,6 +35,7 @@ impl Terrain {
             unknown: Vec::new(),
             distance: DistanceField::default(),
             weights: Vec::new(),
+            by_squared: Vec::new(),
         }
     }
 
@@ -79,40 +82,53 @@ impl Terrain {
         }
     }
 
+    /// What a length costs, by clearance, escape and what is unseen.
     fn weigh(&mut self, start_m: [f64; 2], needed_m: f64, config: &AStarConfig) {
-        // Where the robot already stands too near to something it may leave, but come no nearer.
+        // By squared distance in cells, as far as being near costs anything.
+        let reach = ((needed_m + config.soft_range) / self.lattice.cell_m).ceil() as u32;
+        self.by_squared.clear();
+        for squared in 0..=reach * reach {
+            let clearance_m = f64::from(squared).sqrt() * self.lattice.cell_m;
+            let spare = (clearance_m - needed_m) / config.soft_range.max(1e-9);
+            let near = (1.0 - spare).max(0.0);
+            let weight = 1.0 + config.soft_cost * near * near;
+            let allowed = clearance_m >= needed_m;
+            self.by_squared.push(if allowed {
+                weight as f32
+            } else {
+                f32::INFINITY
+            });
+        }
+        let furthest = self.by_squared.len() - 1;
+        self.weights.clear();
+        for (&squared, &unknown) in self.distance.all_squared().iter().zip(&self.unknown) {
+            let unseen = if unknown {
+                config.unknown_cost as f32
+            } else {
+                0.0
+            };
+            self.weights
+                .push(self.by_squared[furthest.min(squared as usize)] + unseen);
+        }
+        self.open_escape(start_m, needed_m, config);
+    }
+
+    /// Where the robot already stands too near to something it may leave, but come no nearer.
+    fn open_escape(&mut self, start_m: [f64; 2], needed_m: f64, config: &AStarConfig) {
         let at_start_m = self
             .index_at(start_m)
             .map_or(needed_m, |i| self.clearance_m(i));
-        let least_m = if at_start_m < needed_m {
-            at_start_m - 0.5 * self.lattice.cell_m
-        } else {
-            needed_m
-        };
-        self.weights.clear();
-        for index in 0..self.blocked.len() {
-            let clearance_m = self.clearance_m(index);
-            let weight = if self.blocked[index] || clearance_m < least_m {
-                f64::INFINITY
-            } else if clearance_m < needed_m {
-                let [x, y] = self.center_m(index);
-                let near = (x - start_m[0]).hypot(y - start_m[1]) <= config.escape_range;
-                if near {
-                    1.0 + config.escape_cost
-                } else {
-                    f64::INFINITY
-                }
-            } else {
-                let spare = (clearance_m - needed_m) / config.soft_range.max(1e-9);
-                let near = (1.0 - spare).max(0.0);
-                let unseen = if self.unknown[index] {
-                    config.unknown_cost
-                } else {
-                    0.0
-                };
-                1.0 + config.soft_cost * near * near + unseen
-            };
-            self.weights.push(weight as f32);
+        if at_start_m >= needed_m {
+            return;
+        }
+        let least_m = at_start_m - 0.5 * self.lattice.cell_m;
+        for index in 0..self.weights.len() {
+            let [x, y] = self.center_m(index);
+            let near = (x - start_m[0]).hypot(y - start_m[1]) <= config.escape_range;
+            let barred = self.weights[index].is_infinite() && !self.blocked[index];
+            if near && barred && self.clearance_m(index) >= least_m {
+                self.weights[index] = 1.0 + config.escape_cost as f32;
+            }
         }
     }
 

@@ -37,7 +37,11 @@ fn every_cost_of_the_game_maps_is_exact() {
         let folder = std::path::Path::new(&data).join("movingai");
         let (weights, cols) = read_map(&std::fs::read_to_string(folder.join(name)).unwrap());
         let scenarios = std::fs::read_to_string(folder.join(format!("{name}.scen"))).unwrap();
-        for line in scenarios.lines().skip(1) {
+        for line in scenarios
+            .lines()
+            .skip(1)
+            .filter(|line| !line.trim().is_empty())
+        {
             let fields: Vec<&str> = line.split_whitespace().collect();
             let number = |i: usize| fields[i].parse::<usize>().unwrap();
             let (start, end) = (number(5) * cols + number(4), number(7) * cols + number(6));

@@ -1,5 +1,7 @@
 //! What the planner promises: clearance, the goal's disc, replanning, and reasons where there is no way.
 
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
 use geometry::{Cell, Grid, Lattice, PlanarPose};
 use mapping::{FloorView, Surface};
 use planning::{AStar, AStarConfig, Goal, Path, Plan, PlanError, Planner, Refusal};
@@ -175,14 +177,14 @@ fn boxed_in_is_blocked() {
 #[test]
 fn a_goal_under_an_obstacle_is_reached_at_the_discs_free_side_or_refused() {
     let mut view = floor();
-    paint(&mut view, [1.2, -0.1], [1.4, 0.1], Surface::Obstacle(0.3));
+    paint(&mut view, [1.1, -0.2], [1.5, 0.2], Surface::Obstacle(0.3));
     let disc = Goal {
-        radius_m: 0.4,
+        radius_m: 0.45,
         ..goal(1.3, 0.0)
     };
     let path = way(&mut planner(), &view, START, &disc);
     let end = path.points_m.last().unwrap();
-    assert!((end[0] - 1.3).hypot(end[1]) <= 0.4);
+    assert!((end[0] - 1.3).hypot(end[1]) <= 0.45);
     let (refusal, sentence) = refused(&view, &goal(1.3, 0.0));
     assert_eq!(refusal, Refusal::Blocked);
     assert!(sentence.contains("0.15 m of the goal"), "{sentence}");
@@ -282,7 +284,7 @@ fn the_robot_may_leave_a_place_too_near_to_an_obstacle() {
     let path = way(&mut planner, &view, START, &goal(1.4, 0.0));
     for (point, &clearance) in path.points_m.iter().zip(&path.clearance_m) {
         assert!(clearance >= planner.needed_m() || point[0].hypot(point[1]) < 0.33);
-        assert!(clearance > 0.08, "{point:?} {clearance}");
+        assert!(clearance > 0.06, "{point:?} {clearance}");
     }
 }
 
