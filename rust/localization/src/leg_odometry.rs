@@ -73,23 +73,41 @@ impl LegOdometry {
         contacts: &Contacts,
         config: &ProprioceptionConfig,
     ) -> Pose<Odometry, Robot> {
+        let level_m = self.place_torso(legs, contacts.weights(config));
         self.renew_anchors(legs, contacts, config);
-        let weights = contacts.weights(config);
+        let middle = self.torso_m + (legs.reach_m(Side::Left) + legs.reach_m(Side::Right)) / 2.0;
+        Pose::from_yaw(middle.x, middle.y, level_m, legs.heading_rad())
+    }
+
+    /// Puts the torso where the anchored feet say, and returns the height of the surface that carries them. A foot that
+    /// takes hold at this tick has no anchor yet: it is anchored beside a torso that has moved on with the others.
+    fn place_torso(&mut self, legs: &Legs, weights: [f64; 2]) -> f64 {
         let (mut torso, mut level_m, mut sum) = (Vector3::zeros(), 0.0, 0.0);
+        let anchored = |side: Side| self.anchors_m[side.index()].is_some();
+        let counted: f64 = Side::BOTH
+            .into_iter()
+            .filter(|&side| anchored(side))
+            .map(|side| weights[side.index()])
+            .sum();
         for side in Side::BOTH {
-            let weight = weights[side.index()];
-            if let Some(anchor) = self.anchors_m[side.index()].filter(|_| weight > 0.0) {
-                torso += (anchor - legs.reach_m(side)) * weight;
-                level_m += anchor.z * weight;
-                sum += weight;
-            }
+            let Some(anchor) = self.anchors_m[side.index()] else {
+                continue;
+            };
+            // Where the load is on a foot without an anchor, the other one has just let go: it still tells the way.
+            let weight = if counted > 0.0 {
+                weights[side.index()]
+            } else {
+                1.0
+            };
+            torso += (anchor - legs.reach_m(side)) * weight;
+            level_m += anchor.z * weight;
+            sum += weight;
         }
         if sum > 0.0 {
             self.torso_m = torso / sum;
             level_m /= sum;
         }
-        let middle = self.torso_m + (legs.reach_m(Side::Left) + legs.reach_m(Side::Right)) / 2.0;
-        Pose::from_yaw(middle.x, middle.y, level_m, legs.heading_rad())
+        level_m
     }
 
     fn renew_anchors(&mut self, legs: &Legs, contacts: &Contacts, config: &ProprioceptionConfig) {

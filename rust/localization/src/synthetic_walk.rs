@@ -252,11 +252,19 @@ impl Walk {
             yaw_rad,
         );
         let level_m = soles[support.index()].1;
+        // The torso is over the foot that carries, and moves on while the load does.
+        let over = |left: f64, right: f64| left + (right - left) * right_share;
         let before = self.torso;
         let turn = UnitQuaternion::from_euler_angles(0.02 * (right_share - 0.5), 0.0, yaw_rad);
         let height_m = HIP_HEIGHT_M - 0.02 + (left_m.min(right_m)).max(-0.1);
-        self.torso =
-            Isometry3::from_parts(Translation3::new(middle.x_m, middle.y_m, height_m), turn);
+        self.torso = Isometry3::from_parts(
+            Translation3::new(
+                over(left.x_m, right.x_m),
+                over(left.y_m, right.y_m),
+                height_m,
+            ),
+            turn,
+        );
         for side in Side::BOTH {
             let (sole, sole_m) = soles[side.index()];
             let odometry_from_sole = Isometry3::from_parts(
