@@ -101,7 +101,8 @@ impl HorizonSearch {
         for [g, x, y, weight] in &self.samples {
             let bin = (g - a * x - b * y - lowest) / BIN_M;
             if bin >= 0.0 && bin < span {
-                let (index, part) = (bin as usize, bin.fract());
+                let index = bin as usize;
+                let part = bin - index as f32;
                 histogram[index] += weight * (1.0 - part);
                 histogram[index + 1] += weight * part;
             }

@@ -7,7 +7,7 @@ use super::ScanLineConfig;
 use super::erosion::Erosion;
 use super::fit::{RegionFit, fit_regions};
 use super::grouping::{Grouping, GrowthRules, MAX_REGIONS, Region};
-use super::median::median;
+use super::median::Median;
 use super::noise::NoiseMap;
 use super::strips::{Picture, Segment, StripRules, Strips};
 use super::view::View;
@@ -30,6 +30,7 @@ pub(super) struct Surfaces {
     growth_rules: GrowthRules,
     floor_tilt_rad: f64,
     width: usize,
+    median: Median,
     noise: NoiseMap,
     /// Disparities after the median, px.
     pub(super) disparity_px: Vec<f32>,
@@ -69,6 +70,7 @@ impl Surfaces {
             },
             floor_tilt_rad: config.floor_tilt,
             width: camera.width,
+            median: Median::default(),
             noise: NoiseMap::new(
                 camera.width,
                 camera.height,
@@ -92,7 +94,8 @@ impl Surfaces {
 
     /// Takes in a scan: median and local noise.
     pub(super) fn read(&mut self, scan: &Scan) {
-        median(&scan.disparity_px, self.width, &mut self.disparity_px);
+        self.median
+            .filter(&scan.disparity_px, self.width, &mut self.disparity_px);
         self.noise.measure(&self.disparity_px);
         self.noise.fill(&mut self.sigma_px);
     }
