@@ -31,32 +31,50 @@ fn slalom() -> FloorView {
     }
 }
 
+/// A wall with a door to one side.
+fn doorway() -> FloorView {
+    let mut view = slalom();
+    for cell in view.cells.area().cells() {
+        let wall = cell.col == 60 && !(20..34).contains(&cell.row);
+        if let Some(slot) = view.cells.get_mut(cell) {
+            *slot = if wall {
+                Surface::Obstacle(0.5)
+            } else {
+                Surface::Floor(0.0)
+            };
+        }
+    }
+    view
+}
+
 fn plan(criterion: &mut Criterion) {
-    let view = slalom();
     let goal = Goal {
         x_m: 1.8,
         y_m: 1.8,
         radius_m: 0.15,
         height_m: None,
     };
-    let start = PlanarPose::new(-1.8, -1.8, 0.0);
     let Ok(fresh) = AStar::new(AStarConfig::default(), 0.14) else {
         return;
     };
-    let _ = criterion.bench_function("a_star 100x100, new", |bencher| {
-        let mut planner = fresh.clone();
-        let mut odd = false;
-        bencher.iter(|| {
-            // Another radius is another goal: nothing is kept.
-            odd = !odd;
-            let radius_m = if odd { 0.15 } else { 0.16 };
-            planner.plan(&view, start, &Goal { radius_m, ..goal })
+    let corner = PlanarPose::new(-1.8, -1.8, 0.0);
+    let middle = PlanarPose::new(0.0, 0.0, 0.0);
+    for (name, view, start) in [("slalom", slalom(), corner), ("doorway", doorway(), middle)] {
+        let _ = criterion.bench_function(&format!("a_star 100x100, {name}, new"), |bencher| {
+            let mut planner = fresh.clone();
+            let mut odd = false;
+            bencher.iter(|| {
+                // Another radius is another goal: nothing is kept.
+                odd = !odd;
+                let radius_m = if odd { 0.15 } else { 0.16 };
+                planner.plan(&view, start, &Goal { radius_m, ..goal })
+            });
         });
-    });
-    let _ = criterion.bench_function("a_star 100x100, kept", |bencher| {
-        let mut planner = fresh.clone();
-        bencher.iter(|| planner.plan(&view, start, &goal));
-    });
+        let _ = criterion.bench_function(&format!("a_star 100x100, {name}, kept"), |bencher| {
+            let mut planner = fresh.clone();
+            bencher.iter(|| planner.plan(&view, start, &goal));
+        });
+    }
 }
 
 criterion_group!(benches, plan);

@@ -29,7 +29,8 @@ pub(crate) fn explain(
         };
     }
     let nearest = widest.nearest_cells * terrain.lattice.cell_m;
-    let sentence = if nearest <= goal.radius_m {
+    let free_end = |index: usize| !terrain.blocked[index] && ends.cost(index).is_some();
+    let sentence = if !(0..terrain.blocked.len()).any(free_end) {
         let radius = goal.radius_m;
         format!("no place within {radius:.2} m of the goal is free to stand on")
     } else {

@@ -42,7 +42,8 @@ impl<'a> Ends<'a> {
             return self.terrain.on_border(index).then(|| self.remaining(index));
         }
         let [x, y] = self.terrain.center_m(index);
-        let away = (x - self.goal.x_m).hypot(y - self.goal.y_m);
+        let (dx, dy) = (x - self.goal.x_m, y - self.goal.y_m);
+        let away = (dx * dx + dy * dy).sqrt();
         if away > self.goal.radius_m && self.middle != Some(index) {
             return None;
         }

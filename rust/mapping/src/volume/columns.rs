@@ -48,28 +48,34 @@ pub(super) fn for_each_column(
     let layer = |fixed: i64| (fixed >> BITS).clamp(z_low, z_high);
 
     let (mut v_in, mut z_in) = (fixed(from[v]), fixed(from[2]));
+    let (mut v0, mut z0) = (i64::from(first[v]), i64::from(first[2]));
     let mut v_out = fixed(from[v] + to_border * dv);
     let mut z_out = fixed(from[2] + to_border * dz);
-    for slab in 0..=slabs {
-        if slab == slabs {
-            (v_out, z_out) = (fixed(to[v]), fixed(to[2]));
-        }
-        let (v0, v1) = (cell(v_in), cell(v_out));
-        let (z0, z1) = (layer(z_in), layer(z_out));
+    let mut slab = |to_end: bool, v_out: i64, z_out: i64| {
+        let (v1, z1) = if to_end {
+            (i64::from(last[v]), i64::from(last[2]))
+        } else {
+            (cell(v_out), layer(z_out))
+        };
+        let here = u_index + v0 * v_stride;
         if v0 == v1 {
-            visit((u_index + v0 * v_stride) as usize, run(z0, z1));
+            visit(here as usize, run(z0, z1));
         } else {
             let v_border = v0.max(v1) << BITS;
             let rise = (i128::from(v_border - v_in) * i128::from(slope)) >> SLOPE_BITS;
             let middle = layer(z_in + rise as i64);
-            visit((u_index + v0 * v_stride) as usize, run(z0, middle));
+            visit(here as usize, run(z0, middle));
             visit((u_index + v1 * v_stride) as usize, run(middle, z1));
         }
         u_index += u_stride;
-        (v_in, z_in) = (v_out, z_out);
+        (v_in, z_in, v0, z0) = (v_out, z_out, v1, z1);
+    };
+    for _ in 0..slabs {
+        slab(false, v_out, z_out);
         v_out += v_step;
         z_out += z_step;
     }
+    slab(true, 0, 0);
 }
 
 const fn fixed(value: f64) -> i64 {
