@@ -115,17 +115,16 @@ impl AttitudeFilter {
         self.odometry_from_imu.renormalize_fast();
     }
 
-    /// Rotation vector, in the unit's frame, that would take the estimated vertical onto the measured one; weaker the
-    /// further the specific force is from gravity's strength.
+    /// Rotation vector, in the unit's frame, that takes the estimated vertical towards the measured one. Linear in the
+    /// specific force, so that the accelerations of a stride, which sum to nothing, tilt nothing; a force that is far
+    /// from gravity's strength is a blow and says nothing.
     fn tilt_error(&self, sample: &ImuSample, config: &ProprioceptionConfig) -> Vector3<f64> {
         let force = sample.specific_force_mps2;
-        let strength = force.norm();
-        let trust = 1.0 - (strength - GRAVITY_MPS2).abs() / config.gravity_gate;
-        if trust <= 0.0 || strength < 1e-6 {
+        if (force.norm() - GRAVITY_MPS2).abs() > config.gravity_gate {
             return Vector3::zeros();
         }
         let up_estimated = self.odometry_from_imu.inverse() * Vector3::z();
-        (force / strength).cross(&up_estimated) * trust
+        (force / GRAVITY_MPS2).cross(&up_estimated)
     }
 
     fn watch_stillness(
@@ -245,7 +244,7 @@ mod tests {
         }
         let blow = ImuSample {
             angular_velocity_radps: Vector3::zeros(),
-            specific_force_mps2: Vector3::new(15.0, 0.0, GRAVITY_MPS2),
+            specific_force_mps2: Vector3::new(16.0, 0.0, GRAVITY_MPS2),
         };
         for _ in 0..10 {
             filter.update(&blow, TICK_S, true, &config);

@@ -11,7 +11,7 @@ pub struct ProprioceptionConfig {
     pub tilt_time: f64,
     /// The same while the robot stands still, s.
     pub tilt_time_still: f64,
-    /// The accelerometer counts for nothing where its strength is this far from gravity's, m/s^2.
+    /// A specific force whose strength is further from gravity's than this is left out, m/s^2.
     pub gravity_gate: f64,
     /// How fast a lasting tilt error becomes gyroscope bias in roll and pitch while walking, 1/s^2.
     pub bias_gain: f64,
@@ -51,7 +51,7 @@ impl Default for ProprioceptionConfig {
         Self {
             tilt_time: 4.0,
             tilt_time_still: 1.5,
-            gravity_gate: 3.0,
+            gravity_gate: 8.0,
             bias_gain: 0.002,
             gyro_bias: 0.0015,
             gyro_bias_drift: 1e-5,

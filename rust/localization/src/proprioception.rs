@@ -15,6 +15,9 @@ const GRAVITY_MPS2: f64 = 9.81;
 /// Speeds of trunk joints below this are the encoders' noise, rad/s.
 const JOINT_SPEED_FLOOR_RADPS: f64 = 0.1;
 
+/// The start is over after this, settled or not, ns.
+const LONGEST_START_NS: u64 = 4_000_000_000;
+
 /// A joint between the root and the inertial measurement unit.
 #[derive(Debug, Clone, Copy)]
 struct ChainJoint {
@@ -35,6 +38,9 @@ pub struct Proprioception {
     odometry: LegOdometry,
     state: BodyState,
     before_ns: Option<u64>,
+    /// Set until the robot has settled on its soles after the first observation.
+    starting_since_ns: Option<u64>,
+    stood: bool,
 }
 
 impl Proprioception {
@@ -60,6 +66,8 @@ impl Proprioception {
                 robot_from_torso: Pose::identity(),
             },
             before_ns: None,
+            starting_since_ns: None,
+            stood: false,
             body: body.clone(),
             config,
         })
@@ -73,7 +81,9 @@ impl Proprioception {
         let passed_s = self.before_ns.map_or(0.0, |before_ns| {
             (observation.time_ns - before_ns) as f64 * 1e-9
         });
-        let first = self.before_ns.is_none();
+        if self.before_ns.is_none() {
+            self.starting_since_ns = Some(observation.time_ns);
+        }
         self.before_ns = Some(observation.time_ns);
         self.contacts
             .update(&observation.foot_forces_n, &self.config);
@@ -104,7 +114,8 @@ impl Proprioception {
                 * torso_from_imu.inverse(),
             torso_from_sole,
         };
-        if first {
+        self.watch_start(observation.time_ns);
+        if self.starting_since_ns.is_some() {
             let heading_rad = legs.heading_rad();
             self.attitude.turn_odometry(-heading_rad);
             legs.odometry_from_torso_rotation =
@@ -131,6 +142,22 @@ impl Proprioception {
     /// Whether the robot has stood still on both feet for a while.
     pub fn is_still(&self) -> bool {
         self.attitude.is_still(&self.config)
+    }
+
+    /// Until the robot stands still for the first time, or lifts a foot, it is where it was put: what moves is the joints'
+    /// play, the ground under the soles settling, a torso that finds its balance.
+    fn watch_start(&mut self, time_ns: u64) {
+        let both_feet = self.contacts.both_hold();
+        let lifted = self.stood && !both_feet;
+        self.stood |= both_feet;
+        let over = self
+            .starting_since_ns
+            .is_some_and(|since_ns| time_ns > since_ns && time_ns - since_ns > LONGEST_START_NS);
+        let levelled = self.attitude.is_still(&self.config)
+            && !self.levelling.is_learning(self.config.level_time);
+        if lifted || over || levelled {
+            self.starting_since_ns = None;
+        }
     }
 
     fn fill(&mut self, time_ns: u64, legs: &Legs) {
