@@ -24,7 +24,7 @@ pub struct ScanLineConfig {
     pub accept: f64,
     /// Smallest region, pixels.
     pub min_region: usize,
-    /// Smallest ground, pixels.
+    /// Smallest ground, pixels; a third of them must be left when its border is taken off.
     pub min_ground: usize,
     /// Smallest ground when it is searched without a track, as a share of the image.
     pub open_floor: f64,

@@ -12,6 +12,8 @@ pub(super) struct Region {
     pub(super) q: f32,
     /// Pixels.
     pub(super) support: usize,
+    /// Pixels that the erosion leaves.
+    pub(super) core: usize,
 }
 
 /// Thresholds of the growth, in noise, and sizes.

@@ -169,6 +169,7 @@ impl ScanLine {
                 let height_m = camera_m - 1.0 / f64::from(region.q);
                 let off_the_joints_m = height_m - self.correction.height_m();
                 region.support >= least
+                    && 3 * region.core >= config.min_ground
                     && height_m.abs() < gate_m
                     && off_the_joints_m.abs() < config.ground_height
                     && surfaces.is_level(i)

@@ -32,6 +32,7 @@ pub(super) struct Surfaces {
     width: usize,
     median: Median,
     noise: NoiseMap,
+    seen_px: Vec<f32>,
     /// Disparities after the median, px.
     pub(super) disparity_px: Vec<f32>,
     /// Local noise, px.
@@ -77,6 +78,7 @@ impl Surfaces {
                 config.noise_floor,
                 config.noise_ceiling,
             ),
+            seen_px: Vec::new(),
             disparity_px: vec![f32::NAN; pixels],
             sigma_px: vec![0.0; pixels],
             labels: vec![0; pixels],
@@ -94,8 +96,16 @@ impl Surfaces {
 
     /// Takes in a scan: median and local noise.
     pub(super) fn read(&mut self, scan: &Scan) {
+        self.seen_px.clear();
+        self.seen_px.extend(scan.disparity_px.iter().map(|&d| {
+            if d > 0.0 && d.is_finite() {
+                d
+            } else {
+                f32::NAN
+            }
+        }));
         self.median
-            .filter(&scan.disparity_px, self.width, &mut self.disparity_px);
+            .filter(&self.seen_px, self.width, &mut self.disparity_px);
         self.noise.measure(&self.disparity_px);
         self.noise.fill(&mut self.sigma_px);
     }
@@ -140,6 +150,9 @@ impl Surfaces {
         let mut left = [0_u32; MAX_REGIONS + 1];
         for &label in &self.eroded {
             left[usize::from(label)] += 1;
+        }
+        for (region, &left) in regions.iter_mut().zip(&left[1..]) {
+            region.core = left as usize;
         }
         keep_where(labels, &mut self.eroded, |label| left[label] < MIN_FIT);
         fit_regions(picture, view, regions, &self.eroded, &mut self.fits);
