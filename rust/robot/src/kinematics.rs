@@ -3,9 +3,7 @@
 use std::collections::BTreeMap;
 
 use geometry::{Camera, Pose, Torso};
-use nalgebra::{
-    Isometry3, Matrix3, Point3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3,
-};
+use nalgebra::{Isometry3, Point3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 
 use crate::{Description, Side};
 
@@ -58,7 +56,6 @@ pub(crate) struct Link {
     pub(crate) hinge: Option<Hinge>,
     pub(crate) mass_kg: f64,
     pub(crate) center_of_mass: Point3<f64>,
-    pub(crate) inertia: Matrix3<f64>,
 }
 
 /// A robot's body, ready to compute with. The frame of all results is [`Torso`]: the root link.
@@ -186,7 +183,11 @@ impl Body {
 
     /// The link that a joint turns, by the joint's index, with what is known of the joint.
     pub fn hinge(&self, joint: usize) -> Option<(usize, &crate::JointDescription)> {
-        let turned = |link: &Link| link.hinge.as_ref().is_some_and(|hinge| hinge.index == joint);
+        let turned = |link: &Link| {
+            link.hinge
+                .as_ref()
+                .is_some_and(|hinge| hinge.index == joint)
+        };
         let link = self.links.iter().position(turned)?;
         Some((link, self.description.links[link].joint.as_ref()?))
     }
@@ -291,14 +292,12 @@ fn build_links(
                 })
             }
         };
-        let [xx, yy, zz, xy, xz, yz] = link.inertia;
         links.push(Link {
             parent: link.parent,
             parent_from_link_at_zero: isometry(link.position, link.orientation),
             hinge,
             mass_kg: link.mass,
             center_of_mass: Point3::from(link.center_of_mass),
-            inertia: Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz),
         });
     }
     if links.is_empty() {

@@ -30,15 +30,16 @@ impl Body {
 
     /// Adds to `torques` (N m, joint order) what the weight of the links beyond each joint does to it, the root being held.
     /// `gravity_mps2` in the torso's frame: (0, 0, -9.81) when it is upright.
-    pub fn add_gravity(
-        &self,
-        poses: &LinkPoses,
-        gravity_mps2: &Vector3<f64>,
-        torques: &mut [f64],
-    ) {
+    pub fn add_gravity(&self, poses: &LinkPoses, gravity_mps2: &Vector3<f64>, torques: &mut [f64]) {
         for (index, link) in self.links.iter().enumerate() {
             let center = poses.torso_from_link[index] * link.center_of_mass;
-            self.add_force(poses, index, &center, &(gravity_mps2 * link.mass_kg), torques);
+            self.add_force(
+                poses,
+                index,
+                &center,
+                &(gravity_mps2 * link.mass_kg),
+                torques,
+            );
         }
     }
 

@@ -74,6 +74,11 @@ impl Balance {
         }
     }
 
+    /// Natural frequency of the pendulum, sqrt(g / height), 1/s.
+    pub const fn omega(&self) -> f64 {
+        self.omega
+    }
+
     /// The divergent component of motion, c + c'/w.
     pub fn dcm(&self) -> Vector2<f64> {
         self.com + self.velocity_mps / self.omega
@@ -109,8 +114,8 @@ impl Balance {
             return;
         }
         let zmp = self.pressure.unwrap_or(*commanded_zmp);
-        let predicted = self.velocity_mps
-            + (self.com - zmp) * (self.omega * self.omega * sensed.passed_s);
+        let predicted =
+            self.velocity_mps + (self.com - zmp) * (self.omega * self.omega * sensed.passed_s);
         self.com = com;
         self.velocity_mps = predicted + (speed - predicted) * self.blend;
     }

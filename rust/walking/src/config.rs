@@ -3,6 +3,8 @@
 use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
 
+use crate::WalkError;
+
 /// The gait's parameters. Lengths in metres, times in seconds, angles in radians.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -101,9 +103,37 @@ impl Default for GaitConfig {
 }
 
 impl GaitConfig {
+    /// Reads `[gait]`; nothing stands for the defaults.
+    pub fn read(table: &serde_json::Value) -> Result<Self, WalkError> {
+        let config: Self = if table.is_null() {
+            Self::default()
+        } else {
+            Self::deserialize(table).map_err(|error| WalkError::Form(error.to_string()))?
+        };
+        config.check()?;
+        Ok(config)
+    }
+
+    /// Time in which one foot carries in a step, s.
+    pub fn single_support(&self) -> f64 {
+        self.step_time - self.double_support
+    }
+
     /// Refuses what no gait can have.
     pub fn check(&self) -> Result<(), ConfigError> {
-        let positive = [
+        for (name, value) in self.positive() {
+            let holds = value.is_finite() && value > 0.0;
+            require(holds, &format!("gait.{name}"), "> 0", value)?;
+        }
+        for (name, value) in self.not_negative() {
+            let holds = value.is_finite() && value >= 0.0;
+            require(holds, &format!("gait.{name}"), ">= 0", value)?;
+        }
+        self.check_bounds()
+    }
+
+    fn positive(&self) -> [(&'static str, f64); 15] {
+        [
             ("step_time", self.step_time),
             ("double_support", self.double_support),
             ("shift_time", self.shift_time),
@@ -116,11 +146,14 @@ impl GaitConfig {
             ("hip_height", self.hip_height),
             ("max_extension", self.max_extension),
             ("landing_load", self.landing_load),
-            ("capture_hurry", self.capture_hurry),
+            ("capture_limit", self.capture_limit),
             ("capture_hold", self.capture_hold),
             ("gaze_speed", self.gaze_speed),
-        ];
-        let not_negative = [
+        ]
+    }
+
+    fn not_negative(&self) -> [(&'static str, f64); 9] {
+        [
             ("foot_gap", self.foot_gap),
             ("sole_margin", self.sole_margin),
             ("reference_pull", self.reference_pull),
@@ -128,60 +161,32 @@ impl GaitConfig {
             ("load_leak", self.load_leak),
             ("load_limit", self.load_limit),
             ("capture_deadband", self.capture_deadband),
-            ("capture_limit", self.capture_limit),
             ("capture_patience", self.capture_patience),
             ("swing_tilt", self.swing_tilt),
-        ];
-        for (name, value) in positive {
-            let holds = value.is_finite() && value > 0.0;
-            require(holds, &format!("gait.{name}"), "> 0", value)?;
-        }
-        for (name, value) in not_negative {
-            let holds = value.is_finite() && value >= 0.0;
-            require(holds, &format!("gait.{name}"), ">= 0", value)?;
-        }
-        let limited = [
-            (
-                self.double_support < self.step_time,
-                "double_support",
-                "below step_time",
-                self.double_support,
-            ),
-            (
-                self.max_extension < 1.0,
-                "max_extension",
-                "below 1",
-                self.max_extension,
-            ),
-            (
-                self.dcm_gain.is_finite() && self.dcm_gain > 1.0,
-                "dcm_gain",
-                "> 1",
-                self.dcm_gain,
-            ),
-            (
-                (0.0..=1.0).contains(&self.velocity_blend),
-                "velocity_blend",
-                "from 0 to 1",
-                self.velocity_blend,
-            ),
-            (
-                self.support_inward.is_finite(),
-                "support_inward",
-                "finite",
-                self.support_inward,
-            ),
-            (
-                self.capture_hurry >= 1.0,
-                "capture_hurry",
-                ">= 1",
-                self.capture_hurry,
-            ),
-            (self.max_turn < 1.0, "max_turn", "below 1", self.max_turn),
-        ];
-        for (holds, name, allowed, value) in limited {
-            require(holds, &format!("gait.{name}"), allowed, value)?;
-        }
-        Ok(())
+        ]
+    }
+
+    fn check_bounds(&self) -> Result<(), ConfigError> {
+        let (double, gain) = (self.double_support, self.dcm_gain);
+        let short = double < self.step_time;
+        require(short, "gait.double_support", "below step_time", double)?;
+        let bent = self.max_extension < 1.0;
+        require(bent, "gait.max_extension", "below 1", self.max_extension)?;
+        let stable = gain.is_finite() && gain > 1.0;
+        require(stable, "gait.dcm_gain", "> 1", gain)?;
+        let share = (0.0..=1.0).contains(&self.velocity_blend);
+        let blend = self.velocity_blend;
+        require(share, "gait.velocity_blend", "from 0 to 1", blend)?;
+        let inward = self.support_inward;
+        require(inward.is_finite(), "gait.support_inward", "finite", inward)?;
+        let hurry = self.capture_hurry;
+        let faster = hurry.is_finite() && hurry >= 1.0;
+        require(faster, "gait.capture_hurry", ">= 1", hurry)?;
+        require(
+            self.max_turn < 1.0,
+            "gait.max_turn",
+            "below 1",
+            self.max_turn,
+        )
     }
 }

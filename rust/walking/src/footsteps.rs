@@ -61,11 +61,7 @@ impl FootstepPlanner {
             0.0,
         ));
         let (sin, cos) = (0.5 * yaw).sin_cos();
-        let advanced = middle.compose(&PlanarPose::new(
-            cos * x - sin * y,
-            sin * x + cos * y,
-            yaw,
-        ));
+        let advanced = middle.compose(&PlanarPose::new(cos * x - sin * y, sin * x + cos * y, yaw));
         let half = PlanarPose::new(0.0, swing.sign() * 0.5 * config.stance_width, 0.0);
         self.keep_apart(stance, &advanced.compose(&half), swing)
     }

@@ -5,14 +5,8 @@ use geometry::PlanarPose;
 use nalgebra::Vector2;
 use robot::Side;
 
-use crate::dcm::{self, Segment};
 use crate::footsteps::FootstepPlanner;
 use crate::{GaitConfig, swing};
-
-/// Steps that are looked ahead: what lies beyond counts less than e^(-8).
-const PREVIEW: usize = 3;
-/// Most segments of a plan: the running phase, two a step, and the last shift.
-const SEGMENTS: usize = 2 * PREVIEW + 3;
 
 /// A level foot on the ground: its sole's centre in the walker's own plan frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -75,7 +69,7 @@ pub struct Reference {
 /// Where feet and weight are in the sequence of steps.
 #[derive(Debug, Clone)]
 pub struct Gait {
-    config: GaitConfig,
+    pub(crate) config: GaitConfig,
     planner: FootstepPlanner,
     /// Where each foot stands, or left.
     pub feet: [FootPose; 2],
@@ -149,7 +143,7 @@ impl Gait {
                     self.listed = 0;
                 }
                 if let Some(next) = self.first_swing(motion) {
-                    self.phase = self.shift(self.middle(), Some(next), self.config.shift_time);
+                    self.phase = Self::shift(self.middle(), Some(next), self.config.shift_time);
                 }
             }
             Phase::Double {
@@ -173,7 +167,7 @@ impl Gait {
                     && let Some(swing) = self.first_swing(motion)
                 {
                     let zmp = self.zmp();
-                    self.phase = self.shift(zmp, Some(swing), self.config.shift_time);
+                    self.phase = Self::shift(zmp, Some(swing), self.config.shift_time);
                 }
             }
             Phase::Single {
@@ -204,10 +198,10 @@ impl Gait {
             Some(_) => self.config.double_support,
             None => self.config.shift_time,
         };
-        self.phase = self.shift(zmp, next, duration);
+        self.phase = Self::shift(zmp, next, duration);
     }
 
-    const fn shift(&self, from: Vector2<f64>, next: Option<Swing>, duration_s: f64) -> Phase {
+    const fn shift(from: Vector2<f64>, next: Option<Swing>, duration_s: f64) -> Phase {
         Phase::Double {
             elapsed_s: 0.0,
             duration_s,
@@ -255,7 +249,7 @@ impl Gait {
     }
 
     /// Landing of the step after `ahead` others; `None` where the feet shall stay.
-    fn landing(
+    pub(crate) fn landing(
         &self,
         stance: &FootPose,
         from: &FootPose,
@@ -312,101 +306,15 @@ impl Gait {
         }
     }
 
-    fn stance_point(&self, side: Side) -> Vector2<f64> {
+    pub(crate) fn stance_point(&self, side: Side) -> Vector2<f64> {
         self.support_point(&self.feet[side.index()], side)
     }
 
-    fn shift_goal(&self, next: Option<&Swing>) -> Vector2<f64> {
+    pub(crate) fn shift_goal(&self, next: Option<&Swing>) -> Vector2<f64> {
         next.map_or_else(
             || self.middle(),
             |swing| self.stance_point(swing.side.other()),
         )
-    }
-
-    /// ZMP and DCM of the plan at the moment.
-    pub fn reference(&self, omega: f64, motion: &Motion) -> Reference {
-        let mut plan = [Segment {
-            from: Vector2::zeros(),
-            to: Vector2::zeros(),
-            duration_s: 0.0,
-        }; SEGMENTS];
-        let count = self.preview(motion, &mut plan);
-        let zmp = self.zmp();
-        let dcm = dcm::start_dcm(&plan[..count], omega).unwrap_or(zmp);
-        Reference { zmp, dcm }
-    }
-
-    /// The plan from now on; returns the number of its segments.
-    fn preview(&self, motion: &Motion, plan: &mut [Segment; SEGMENTS]) -> usize {
-        let (single, double) = (
-            self.config.step_time - self.config.double_support,
-            self.config.double_support,
-        );
-        let mut count = 0;
-        let mut add = |from: Vector2<f64>, to: Vector2<f64>, duration_s: f64| {
-            if count < SEGMENTS {
-                plan[count] = Segment {
-                    from,
-                    to,
-                    duration_s,
-                };
-                count += 1;
-            }
-        };
-        let mut feet = self.feet;
-        let mut ahead = 0;
-        let mut swing = match &self.phase {
-            Phase::Standing => return 0,
-            Phase::Double {
-                elapsed_s,
-                duration_s,
-                next,
-                ..
-            } => {
-                add(
-                    self.zmp(),
-                    self.shift_goal(next.as_ref()),
-                    duration_s - elapsed_s,
-                );
-                let Some(swing) = *next else { return count };
-                let point = self.stance_point(swing.side.other());
-                add(point, point, single);
-                swing
-            }
-            Phase::Single {
-                elapsed_s,
-                duration_s,
-                swing,
-            } => {
-                let point = self.stance_point(swing.side.other());
-                add(point, point, duration_s - elapsed_s);
-                *swing
-            }
-        };
-        let mut stand = self.stance_point(swing.side.other());
-        for _ in 1..PREVIEW {
-            feet[swing.side.index()] = swing.to;
-            ahead += 1;
-            let side = swing.side.other();
-            let (stance, from) = (feet[swing.side.index()], feet[side.index()]);
-            let Some(to) = self.landing(&stance, &from, side, motion, ahead) else {
-                break;
-            };
-            let point = self.support_point(&stance, swing.side);
-            add(stand, point, double);
-            add(point, point, single);
-            stand = point;
-            swing = Swing {
-                side,
-                from,
-                to,
-                planned: to,
-            };
-        }
-        feet[swing.side.index()] = swing.to;
-        let points = Side::BOTH.map(|side| self.support_point(&feet[side.index()], side));
-        add(stand, 0.5 * (points[0] + points[1]), self.config.shift_time);
-        count
     }
 
     /// Where a foot is to be now, without what the stabiliser adds.

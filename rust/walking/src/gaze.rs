@@ -4,11 +4,11 @@ use behaviour::Gaze;
 use nalgebra::Vector3;
 use robot::{Body, LinkPoses};
 
-use crate::WalkError;
+use crate::{JointTargets, WalkError};
 
 /// Moves pan and tilt with limited speed.
 #[derive(Debug, Clone)]
-pub struct Head {
+pub(crate) struct Head {
     joints: [usize; 2],
     ranges_rad: [[f64; 2]; 2],
     signs: [f64; 2],
@@ -19,7 +19,7 @@ pub struct Head {
 
 impl Head {
     /// Learns from the kinematics how the head's joints turn the camera when all other joints are as in the upright stance.
-    pub fn new(body: &Body, speed_radps: f64) -> Result<Self, WalkError> {
+    pub(crate) fn new(body: &Body, speed_radps: f64) -> Result<Self, WalkError> {
         let description = body.description();
         let names = [&description.head.pan, &description.head.tilt];
         let mut joints = [0; 2];
@@ -54,38 +54,29 @@ impl Head {
     }
 
     /// Turns towards `gaze` for `passed_s`; writes angles and speeds of both joints.
-    pub fn turn(
-        &mut self,
-        gaze: &Gaze,
-        passed_s: f64,
-        positions_rad: &mut [f64],
-        velocities_radps: &mut [f64],
-    ) {
+    pub(crate) fn turn(&mut self, gaze: &Gaze, passed_s: f64, targets: &mut JointTargets) {
         let wanted = [
             gaze.pan_rad * self.signs[0],
             (gaze.down_rad - self.down_at_zero_rad) * self.signs[1],
         ];
         let most = self.speed_radps * passed_s;
-        for slot in 0..2 {
+        for (slot, wanted) in wanted.into_iter().enumerate() {
             let [low, high] = self.ranges_rad[slot];
             let before = self.angles_rad[slot];
-            let goal = if wanted[slot].is_finite() {
-                wanted[slot].clamp(low, high)
+            let goal = if wanted.is_finite() {
+                wanted.clamp(low, high)
             } else {
                 before
             };
             self.angles_rad[slot] = before + (goal - before).clamp(-most, most);
-            positions_rad[self.joints[slot]] = self.angles_rad[slot];
-            velocities_radps[self.joints[slot]] = if passed_s > 0.0 {
-                (self.angles_rad[slot] - before) / passed_s
-            } else {
-                0.0
-            };
+            let joint = self.joints[slot];
+            targets.positions_rad[joint] = self.angles_rad[slot];
+            targets.velocities_radps[joint] = (self.angles_rad[slot] - before) / passed_s;
         }
     }
 
     /// Where it was told to look at the last tick.
-    pub fn gaze(&self) -> Gaze {
+    pub(crate) fn gaze(&self) -> Gaze {
         Gaze {
             pan_rad: self.angles_rad[0] * self.signs[0],
             down_rad: self.angles_rad[1] * self.signs[1] + self.down_at_zero_rad,

@@ -1,0 +1,109 @@
+//! What the closed form of the inverse kinematics needs of a leg, read from the body's description and checked.
+
+use nalgebra::{Point3, Vector3};
+use robot::{Body, LinkPoses, Side};
+
+use crate::WalkError;
+
+/// A deviation from the assumed geometry that does not matter, m or sine of an angle.
+const TOLERANCE: f64 = 1e-6;
+/// Axes at zero from the hip down: yaw, roll, pitch, knee, ankle pitch, ankle roll.
+const AXES: [(&str, [f64; 3]); 6] = [
+    ("z", [0.0, 0.0, 1.0]),
+    ("x", [1.0, 0.0, 0.0]),
+    ("y", [0.0, 1.0, 0.0]),
+    ("y", [0.0, 1.0, 0.0]),
+    ("y", [0.0, 1.0, 0.0]),
+    ("x", [1.0, 0.0, 0.0]),
+];
+
+/// A leg at joint angles zero, in the torso's frame.
+#[derive(Debug, Clone)]
+pub(crate) struct LegGeometry {
+    /// +1 where a joint turns about the positive axis, else -1.
+    pub(crate) signs: [f64; 6],
+    /// Smallest and largest angle of each joint, rad.
+    pub(crate) ranges_rad: [[f64; 2]; 6],
+    /// Where yaw, roll and pitch meet, m.
+    pub(crate) hip: Vector3<f64>,
+    /// From hip to knee, m.
+    pub(crate) thigh_m: f64,
+    /// From knee to ankle, m.
+    pub(crate) shank_m: f64,
+    /// Where pitch and roll of the ankle meet, in the sole's frame, m.
+    pub(crate) ankle_in_sole: Vector3<f64>,
+}
+
+impl LegGeometry {
+    /// Reads it; fails where the closed form does not hold.
+    pub(crate) fn read(body: &Body, side: Side) -> Result<Self, WalkError> {
+        let mut poses = LinkPoses::default();
+        body.pose_links(&vec![0.0; body.joint_count()], &mut poses)?;
+        let refuse = |what: String| WalkError::Leg { side, what };
+        let mut anchors = [Vector3::zeros(); 6];
+        let mut signs = [1.0; 6];
+        let mut ranges_rad = [[0.0; 2]; 6];
+        for (slot, &joint) in body.leg_joints(side).iter().enumerate() {
+            let (link, hinge) = body
+                .hinge(joint)
+                .ok_or_else(|| refuse(format!("its joint {} turns no link", slot + 1)))?;
+            let pose = &poses.torso_from_link[link];
+            let axis = pose.rotation * Vector3::from(hinge.axis).normalize();
+            let (letter, wanted) = AXES[slot];
+            let along = axis.dot(&Vector3::from(wanted));
+            if along.abs() < 1.0 - TOLERANCE {
+                return Err(refuse(format!(
+                    "the axis of `{}` must be along {letter} at zero, got [{:.3}, {:.3}, {:.3}]",
+                    hinge.name, axis.x, axis.y, axis.z
+                )));
+            }
+            signs[slot] = along.signum();
+            ranges_rad[slot] = hinge.range;
+            anchors[slot] = (pose * Point3::from(hinge.anchor)).coords;
+        }
+        let [hip, knee, ankle] = meeting_points(&anchors).map_err(refuse)?;
+        let torso_from_sole = body.torso_from_sole(&poses, side);
+        if torso_from_sole.rotation.angle() > TOLERANCE {
+            return Err(refuse("the sole must be level at zero".to_owned()));
+        }
+        Ok(Self {
+            signs,
+            ranges_rad,
+            hip,
+            thigh_m: hip.z - knee.z,
+            shank_m: knee.z - ankle.z,
+            ankle_in_sole: ankle - torso_from_sole.translation.vector,
+        })
+    }
+}
+
+/// Hip, knee and ankle. An anchor may lie anywhere on its own axis: what counts is where the axes meet.
+fn meeting_points(anchors: &[Vector3<f64>; 6]) -> Result<[Vector3<f64>; 3], String> {
+    let [yaw, roll, pitch, knee, ankle_pitch, ankle_roll] = anchors;
+    let hip = Vector3::new(yaw.x, roll.y, roll.z);
+    let knee = Vector3::new(knee.x, hip.y, knee.z);
+    let ankle = Vector3::new(ankle_pitch.x, ankle_roll.y, ankle_pitch.z);
+    let near = |a: f64, b: f64| (a - b).abs() < TOLERANCE;
+    let claims = [
+        (
+            near(yaw.y, hip.y) && near(pitch.x, hip.x) && near(pitch.z, hip.z),
+            "yaw, roll and pitch of the hip must meet in a point",
+        ),
+        (
+            near(knee.x, hip.x) && knee.z < hip.z,
+            "the knee must lie below the hip",
+        ),
+        (
+            near(ankle.x, knee.x) && ankle.z < knee.z,
+            "the ankle must lie below the knee",
+        ),
+        (
+            near(ankle.y, hip.y) && near(ankle_roll.z, ankle.z),
+            "pitch and roll of the ankle must meet in a point below the hip",
+        ),
+    ];
+    match claims.iter().find(|(holds, _)| !holds) {
+        Some((_, claim)) => Err((*claim).to_owned()),
+        None => Ok([hip, knee, ankle]),
+    }
+}

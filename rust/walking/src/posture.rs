@@ -1,0 +1,192 @@
+//! From centre of mass and feet to joint angles, and the torques that hold them.
+
+use geometry::PlanarPose;
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
+use robot::{Body, LinkPoses, Side};
+
+use crate::balance::{Balance, GRAVITY_MPS2};
+use crate::gait::{FootPose, Gait, Phase};
+use crate::leg::Leg;
+use crate::support::Pressure;
+use crate::{GaitConfig, JointTargets, WalkError};
+
+/// How fast the torso turns to the mean heading of the feet, 1/s.
+const TURN_RATE: f64 = 8.0;
+/// How fast the correction of the swing foot for the tilt comes and goes, 1/s.
+const TILT_FADE: f64 = 6.0;
+/// Tilt that is not worth a correction, rad.
+const TILT_DEADBAND_RAD: f64 = 0.02;
+
+/// What a posture is for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moment<'a> {
+    /// The body.
+    pub(crate) body: &'a Body,
+    /// The steps.
+    pub(crate) gait: &'a Gait,
+    /// The measured balance.
+    pub(crate) balance: &'a Balance,
+    /// Time since the last tick, s.
+    pub(crate) passed_s: f64,
+}
+
+/// The legs and what they carry.
+#[derive(Debug, Clone)]
+pub(crate) struct Posture {
+    legs: [Leg; 2],
+    mass_kg: f64,
+    hip_height_m: f64,
+    swing_tilt: f64,
+    yaw_rad: f64,
+    tilt_weight: [f64; 2],
+    poses: LinkPoses,
+}
+
+impl Posture {
+    /// For this body and gait; fails where a leg does not fit the inverse kinematics.
+    pub(crate) fn new(body: &Body, config: &GaitConfig) -> Result<Self, WalkError> {
+        Ok(Self {
+            legs: [
+                Leg::new(body, Side::Left, config.max_extension)?,
+                Leg::new(body, Side::Right, config.max_extension)?,
+            ],
+            mass_kg: body.mass_kg(),
+            hip_height_m: config.hip_height,
+            swing_tilt: config.swing_tilt,
+            yaw_rad: 0.0,
+            tilt_weight: [0.0; 2],
+            poses: LinkPoses::default(),
+        })
+    }
+
+    /// Writes the legs' angles and speeds that put the centre of mass over `com` and the soles at `feet`, torso upright along the
+    /// feet's mean heading. The torso follows from the centre of mass of the last tick's targets.
+    pub(crate) fn pose(
+        &mut self,
+        moment: &Moment<'_>,
+        com: &Vector2<f64>,
+        feet: &[FootPose; 2],
+        targets: &mut JointTargets,
+    ) -> Result<(), WalkError> {
+        let Moment { body, passed_s, .. } = *moment;
+        let goal = Gait::center_of(feet).yaw_rad;
+        let turn = geometry::angle_between(self.yaw_rad, goal);
+        self.yaw_rad = geometry::wrap_angle(self.yaw_rad + turn * (TURN_RATE * passed_s).min(1.0));
+        let rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_rad);
+        body.pose_links(&targets.positions_rad, &mut self.poses)?;
+        let offset = rotation * body.center_of_mass_in_torso(&self.poses).coords;
+        let over = com - offset.xy();
+        let height = self.torso_height_m(feet, moment.gait.ground_m(), &rotation, &over);
+        let place = Translation3::new(over.x, over.y, height);
+        let plan_from_torso = Isometry3::from_parts(place, rotation);
+        let torso_from_plan = plan_from_torso.inverse();
+        for side in Side::BOTH {
+            let lean = self.lean(moment, &plan_from_torso, side);
+            let sole = plan_from_sole(&feet[side.index()]);
+            let leg = &self.legs[side.index()];
+            let solution = leg.solve(&(torso_from_plan * lean * sole));
+            for (&joint, &angle) in leg.joints().iter().zip(&solution.angles_rad) {
+                let before = targets.positions_rad[joint];
+                targets.velocities_radps[joint] = (angle - before) / passed_s;
+                targets.positions_rad[joint] = angle;
+            }
+        }
+        Ok(())
+    }
+
+    /// How the plan appears to a leg whose foot is in the air, as seen from the reference's torso: leaning by the measured tilt,
+    /// so that the foot meets the ground at its time. Fades in after lifting and out after landing.
+    fn lean(
+        &mut self,
+        moment: &Moment<'_>,
+        plan_from_torso: &Isometry3<f64>,
+        side: Side,
+    ) -> Isometry3<f64> {
+        let gait = moment.gait;
+        let goal = match &gait.phase {
+            Phase::Single { swing, .. } if swing.side == side => self.swing_tilt,
+            _ => 0.0,
+        };
+        let most = TILT_FADE * moment.passed_s;
+        let weight = &mut self.tilt_weight[side.index()];
+        *weight += (goal - *weight).clamp(-most, most);
+        if *weight <= 0.0 {
+            return Isometry3::identity();
+        }
+        let measured = moment.balance.plan_from_torso.rotation;
+        let error = (measured * plan_from_torso.rotation.inverse()).scaled_axis();
+        let size = error.norm();
+        let used = (size - TILT_DEADBAND_RAD).max(0.0) / size.max(1e-9) * *weight;
+        let turn = UnitQuaternion::from_scaled_axis(-error * used);
+        let pivot = plan_from_sole(&gait.feet[side.other().index()])
+            .translation
+            .vector;
+        Isometry3::from_parts(Translation3::from(pivot - turn * pivot), turn)
+    }
+
+    /// Height of the torso's origin over `over`: the hips at their height over the ground, lower where a leg would get too long.
+    fn torso_height_m(
+        &self,
+        feet: &[FootPose; 2],
+        ground_m: f64,
+        rotation: &UnitQuaternion<f64>,
+        over: &Vector2<f64>,
+    ) -> f64 {
+        let mut height = f64::INFINITY;
+        for side in Side::BOTH {
+            let (leg, foot) = (&self.legs[side.index()], &feet[side.index()]);
+            let hip = rotation * leg.hip();
+            let across = over + hip.xy() - leg.ankle_in_plan(&foot.planar);
+            let reach = leg.max_length_m();
+            let rise = (reach * reach - across.norm_squared()).max(0.0).sqrt();
+            height = height
+                .min(foot.z_m + leg.ankle_height_m() + rise - hip.z)
+                .min(ground_m + self.hip_height_m - hip.z);
+        }
+        height
+    }
+
+    /// Writes the torques that hold the measured posture against gravity while the feet push as in `pressure`: the weight of
+    /// what each joint carries beyond itself, and J^T f of the force under each sole. The horizontal force is the pendulum's,
+    /// m w^2 (c - p).
+    pub(crate) fn feed_forward(
+        &self,
+        moment: &Moment<'_>,
+        links: &LinkPoses,
+        pressure: &Pressure,
+        torques_nm: &mut [f64],
+    ) {
+        let Moment {
+            body,
+            gait,
+            balance,
+            ..
+        } = *moment;
+        torques_nm.fill(0.0);
+        let torso_from_plan = balance.plan_from_torso.rotation.inverse();
+        let gravity = torso_from_plan * Vector3::new(0.0, 0.0, -GRAVITY_MPS2);
+        body.add_gravity(links, &gravity, torques_nm);
+        let omega2 = balance.omega() * balance.omega();
+        let pull = (balance.com - pressure.zmp) * (self.mass_kg * omega2);
+        let force = torso_from_plan * Vector3::new(pull.x, pull.y, self.mass_kg * GRAVITY_MPS2);
+        for side in Side::BOTH {
+            let index = side.index();
+            let point = pressure.point[index];
+            let (x, y) = gait.feet[index].planar.inverse().apply(point.x, point.y);
+            let at = body.torso_from_sole(links, side) * Point3::new(x, y, 0.0);
+            let push = force * pressure.share[index];
+            body.add_force(links, body.sole_link(side), &at, &push, torques_nm);
+        }
+        for torque in torques_nm.iter_mut() {
+            *torque = -*torque;
+        }
+    }
+}
+
+fn plan_from_sole(foot: &FootPose) -> Isometry3<f64> {
+    let PlanarPose { x_m, y_m, yaw_rad } = foot.planar;
+    Isometry3::from_parts(
+        Translation3::new(x_m, y_m, foot.z_m),
+        UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw_rad),
+    )
+}

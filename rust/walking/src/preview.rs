@@ -1,0 +1,116 @@
+//! The plan of the coming steps, and the reference of weight and motion that follows from it.
+
+use behaviour::Motion;
+use nalgebra::Vector2;
+use robot::Side;
+
+use crate::dcm::{self, Segment};
+use crate::gait::{Gait, Phase, Reference, Swing};
+
+/// Steps that are looked ahead, the running one included: what lies beyond hardly counts.
+const STEPS: usize = 3;
+/// Most segments of a plan: two a step, and the last shift to the middle.
+const SEGMENTS: usize = 2 * STEPS + 1;
+
+/// Segments of the ZMP from now on.
+struct Plan {
+    segments: [Segment; SEGMENTS],
+    count: usize,
+}
+
+impl Plan {
+    fn empty() -> Self {
+        let nothing = Segment {
+            from: Vector2::zeros(),
+            to: Vector2::zeros(),
+            duration_s: 0.0,
+        };
+        Self {
+            segments: [nothing; SEGMENTS],
+            count: 0,
+        }
+    }
+
+    fn add(&mut self, from: Vector2<f64>, to: Vector2<f64>, duration_s: f64) {
+        if let Some(slot) = self.segments.get_mut(self.count) {
+            *slot = Segment {
+                from,
+                to,
+                duration_s,
+            };
+            self.count += 1;
+        }
+    }
+}
+
+impl Gait {
+    /// ZMP and DCM of the plan at the moment. The plan ends in a stand behind the last step that is looked ahead.
+    pub fn reference(&self, omega: f64, motion: &Motion) -> Reference {
+        let zmp = self.zmp();
+        let mut plan = Plan::empty();
+        if let Some(swing) = self.running(&mut plan) {
+            self.coming(swing, motion, &mut plan);
+        }
+        let dcm = dcm::start_dcm(&plan.segments[..plan.count], omega).unwrap_or(zmp);
+        Reference { zmp, dcm }
+    }
+
+    /// Adds what is left of the running step; returns it, or `None` where the robot comes to stand.
+    fn running(&self, plan: &mut Plan) -> Option<Swing> {
+        match &self.phase {
+            Phase::Standing => None,
+            Phase::Double {
+                elapsed_s,
+                duration_s,
+                next,
+                ..
+            } => {
+                let goal = self.shift_goal(next.as_ref());
+                plan.add(self.zmp(), goal, duration_s - elapsed_s);
+                let swing = (*next)?;
+                plan.add(goal, goal, self.config.single_support());
+                Some(swing)
+            }
+            Phase::Single {
+                elapsed_s,
+                duration_s,
+                swing,
+            } => {
+                let point = self.stance_point(swing.side.other());
+                plan.add(point, point, duration_s - elapsed_s);
+                Some(*swing)
+            }
+        }
+    }
+
+    /// Adds the steps behind `swing`, and the shift to the middle behind the last.
+    fn coming(&self, mut swing: Swing, motion: &Motion, plan: &mut Plan) {
+        let mut feet = self.feet;
+        let mut stands = self.stance_point(swing.side.other());
+        for ahead in 1..STEPS {
+            feet[swing.side.index()] = swing.to;
+            let side = swing.side.other();
+            let (stance, from) = (feet[swing.side.index()], feet[side.index()]);
+            let Some(to) = self.landing(&stance, &from, side, motion, ahead) else {
+                break;
+            };
+            let point = self.support_point(&stance, swing.side);
+            plan.add(stands, point, self.config.double_support);
+            plan.add(point, point, self.config.single_support());
+            stands = point;
+            swing = Swing {
+                side,
+                from,
+                to,
+                planned: to,
+            };
+        }
+        feet[swing.side.index()] = swing.to;
+        let points = Side::BOTH.map(|side| self.support_point(&feet[side.index()], side));
+        plan.add(
+            stands,
+            0.5 * (points[0] + points[1]),
+            self.config.shift_time,
+        );
+    }
+}
