@@ -13,8 +13,8 @@ pub struct ProprioceptionConfig {
     pub tilt_time_still: f64,
     /// A specific force whose strength is further from gravity's than this is left out, m/s^2.
     pub gravity_gate: f64,
-    /// How fast a lasting tilt error becomes gyroscope bias in roll and pitch while walking, 1/s^2.
-    pub bias_gain: f64,
+    /// How fast a lasting tilt error becomes a bias of the stride in roll and pitch, 1/s^2.
+    pub stride_bias_gain: f64,
     /// Standard deviation of the gyroscope's bias at the start, rad/s.
     pub gyro_bias: f64,
     /// Its random walk, rad/s per square root of a second.
@@ -49,10 +49,10 @@ pub struct ProprioceptionConfig {
 impl Default for ProprioceptionConfig {
     fn default() -> Self {
         Self {
-            tilt_time: 4.0,
+            tilt_time: 2.0,
             tilt_time_still: 1.5,
             gravity_gate: 8.0,
-            bias_gain: 0.002,
+            stride_bias_gain: 0.02,
             gyro_bias: 0.0015,
             gyro_bias_drift: 1e-5,
             still_noise: 0.005,
@@ -88,7 +88,7 @@ impl ProprioceptionConfig {
             require(value.is_finite() && value > 0.0, &key, "> 0", value)?;
         }
         let not_negative = [
-            ("bias_gain", self.bias_gain),
+            ("stride_bias_gain", self.stride_bias_gain),
             ("gyro_bias_drift", self.gyro_bias_drift),
             ("still_filter_time", self.still_filter_time),
             ("still_time", self.still_time),
