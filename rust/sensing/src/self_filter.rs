@@ -131,11 +131,13 @@ fn mask_capsule(scan: &mut Scan, ends: &[Point3<f64>; 2], radius_m: f64) -> usiz
     let scale = camera.focal_px * camera.baseline_m;
     let along = ends[1] - ends[0];
     let length2 = along.norm_squared();
+    // What is farther than the capsule's far end is none of it.
+    let least_px = (scale / (ends[0].z.max(ends[1].z) + radius_m)) as f32;
     let mut masked = 0;
     for row in top..bottom {
         for col in left..right {
             let disparity = &mut scan.disparity_px[row * camera.width + col];
-            if disparity.is_nan() {
+            if disparity.is_nan() || *disparity < least_px {
                 continue;
             }
             let depth_m = scale / f64::from(*disparity);
