@@ -1,5 +1,6 @@
 """The senses of the robot's own body: encoders, the inertial unit, the foot forces."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -14,6 +15,8 @@ Floats = NDArray[np.float64]
 VELOCITY_SPAN = 0.02
 # After a longer gap (s) the velocity before it says nothing about the acceleration.
 LONGEST_TICK = 0.05
+# Rad: a larger turn within a tick is a kidnap, not a motion.
+LARGEST_TURN = 0.5
 
 
 class MotorSide(Protocol):
@@ -90,8 +93,10 @@ class ImuNoise:
 class Imu:
     """Gyro and accelerometer at a site of the model.
 
-    The accelerometer integrates over the tick, as one with an anti-aliasing filter does: a
-    sample is the mean specific force since the one before, not the peak of an impact.
+    Both integrate over the tick, as units with an anti-aliasing filter do: a sample is the mean
+    angular velocity and the mean specific force since the one before, not the peak of an impact.
+    Samples at an instant would beat with the servos, which jump at every tick, and the integral of
+    the gyro would drift with every step.
     """
 
     def __init__(
@@ -113,8 +118,10 @@ class Imu:
         self._exact = not self._noise.any()
         self._rng = rng
         self._velocity = np.zeros(3)
+        self._world_from_sensor = np.eye(3)
         self._time_ns: int | None = None
         self._motion = np.empty(6)
+        self._before, self._now, self._turn = np.empty(4), np.empty(4), np.empty(3)
 
     def read(self, data: mujoco.MjData, time_ns: int) -> tuple[Floats, Floats]:
         """Return the angular velocity (3,) rad/s and the specific force (3,) m/s².
@@ -125,21 +132,41 @@ class Imu:
         """
         site = mujoco.mjtObj.mjOBJ_SITE
         mujoco.mj_objectVelocity(self._model, data, site, self._site, self._motion, 0)
+        world_from_sensor = data.site_xmat[self._site].reshape(3, 3)
+        angular_velocity = world_from_sensor.T @ self._motion[:3]
+        sensor_from_world = data.site_xmat[self._site].reshape(3, 3).T
         acceleration = -self._model.opt.gravity
+        angular_velocity = sensor_from_world @ self._motion[:3]
+        mujoco.mju_mat2Quat(self._now, data.site_xmat[self._site])
         if self._time_ns is not None:
             passed = (time_ns - self._time_ns) * 1e-9
             if 0.0 < passed <= LONGEST_TICK:
                 acceleration += (self._motion[3:] - self._velocity) / passed
+                mujoco.mju_subQuat(self._turn, self._now, self._before)
+                angular_velocity = self._turn / passed
+        self._before[:] = self._now
+                turn = rotation_vector(self._world_from_sensor.T @ world_from_sensor)
+                if abs(turn).max() < LARGEST_TURN:
+                    angular_velocity = turn / passed
+        self._world_from_sensor[:] = world_from_sensor
         self._velocity[:] = self._motion[3:]
         self._time_ns = time_ns
-        sensor_from_world = data.site_xmat[self._site].reshape(3, 3).T
-        sample = np.concatenate(
-            [sensor_from_world @ self._motion[:3], sensor_from_world @ acceleration]
-        )
+        sample = np.concatenate([angular_velocity, world_from_sensor.T @ acceleration])
         sample += self._bias
         if not self._exact:
             sample += self._noise * self._rng.standard_normal(6)
         return sample[:3], sample[3:]
+
+
+def rotation_vector(rotation: Floats) -> Floats:
+    """Return the axis times the angle (rad) of a rotation (3, 3) by less than half a turn."""
+    r = rotation.tolist()
+    axis = np.array([r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]]) / 2
+    sine = math.sqrt(axis @ axis)
+    if sine < 1e-12:
+        return axis
+    angle = math.atan2(sine, (r[0][0] + r[1][1] + r[2][2] - 1.0) / 2)
+    return axis * (angle / sine)
 
 
 class FootForces:
