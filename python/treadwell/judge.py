@@ -24,7 +24,9 @@ GOAL_HEIGHT_TOLERANCE = 0.02
 """Metres that each sole may be off the goal's height."""
 STUCK_SECONDS = 30.0
 STUCK_RADIUS = 0.1
-"""Metres: a robot that has not left a disc of this radius for `STUCK_SECONDS` is stuck."""
+"""Metres: a robot that has not left a disc of this radius for `STUCK_SECONDS` is stuck, unless it"""
+STUCK_TURN = 0.5
+"""has turned by this, rad: one that looks around is not."""
 PATH_SPACING = 0.03
 """Metres between the points of which the path's length is made; sways smaller than it vanish."""
 
@@ -63,7 +65,7 @@ class Judge:
         self.path_length = 0.0
         self._time = 0.0
         self._still: tuple[float, tuple[Sole, Sole], float] | None = None
-        self._place: tuple[float, float, float] | None = None
+        self._place: tuple[float, GroundFrame] | None = None
         self._path_point: tuple[float, float] | None = None
         self.frame = GroundFrame(0.0, 0.0, 0.0, 0.0)
         self.soles: tuple[Sole, Sole] | None = None
@@ -174,8 +176,8 @@ class Judge:
 
     def _watch_progress(self, time: float, frame: GroundFrame) -> None:
         here = (frame.x, frame.y)
-        if self._place is None or math.dist(here, self._place[1:]) > STUCK_RADIUS:
-            self._place = (time, *here)
+        if self._place is None or _has_moved(self._place[1], frame):
+            self._place = (time, frame)
         if self._path_point is None:
             self._path_point = here
         else:
@@ -183,3 +185,10 @@ class Judge:
             if step >= PATH_SPACING:
                 self.path_length += step
                 self._path_point = here
+
+
+def _has_moved(before: GroundFrame, now: GroundFrame) -> bool:
+    """Say whether the robot has come away from its place, or turned to look around."""
+    distance = math.dist((before.x, before.y), (now.x, now.y))
+    turn = abs(math.remainder(now.yaw - before.yaw, 2 * math.pi))
+    return distance > STUCK_RADIUS or turn > STUCK_TURN

@@ -43,7 +43,7 @@ pub(crate) struct PyTick {
     /// (x m, y m, z m, yaw rad) of the robot in the map, as believed.
     #[pyo3(get)]
     estimate: [f64; 4],
-    /// (x m, y m, z m, yaw rad) of the robot by leg odometry alone.
+    /// The same by leg odometry alone, from the same start.
     #[pyo3(get)]
     odometry: [f64; 4],
 }
@@ -109,7 +109,7 @@ impl PyPilot {
             outcome,
             reason,
             estimate: flat(&tick.estimate.map_from_robot),
-            odometry: flat(&tick.body_state.odometry_from_robot),
+            odometry: flat(&tick.dead_reckoning),
         })
     }
 

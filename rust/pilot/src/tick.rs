@@ -1,8 +1,8 @@
 //! One tick: from an observation to joint targets.
 
 use behaviour::{Behaviour, Decision, Gaze, Situation};
-use geometry::{Grid, PlanarPose};
-use localization::{BodyState, BodyStateHistory, Estimate, Localizer, Proprioception};
+use geometry::{Grid, Map, Odometry, PlanarPose, Pose, Robot};
+use localization::{BodyStateHistory, Estimate, Localizer, Proprioception};
 use planning::{Plan, Planner};
 use robot::Body;
 use sensing::{Frame, Intrinsics, Observation, SelfFilter};
@@ -18,6 +18,7 @@ use crate::{PilotError, Settings};
 pub struct Pilot {
     body: Body,
     camera: Intrinsics,
+    map_from_odometry_at_start: Pose<Map, Odometry>,
     proprioception: Proprioception,
     history: BodyStateHistory,
     perception: Perception,
@@ -41,8 +42,8 @@ pub struct Tick<'a> {
     pub estimate: Estimate,
     /// What it decided.
     pub decision: Decision,
-    /// What the body itself tells.
-    pub body_state: &'a BodyState,
+    /// Where it would believe to be by leg odometry alone.
+    pub dead_reckoning: Pose<Map, Robot>,
 }
 
 impl Pilot {
@@ -59,6 +60,7 @@ impl Pilot {
             .world_model
             .map_or_else(|| registry::world_model(&settings), Ok)?;
         Ok(Self {
+            map_from_odometry_at_start: Pose::wrap(Pose::<Map, Robot>::from(settings.start).inner),
             proprioception: Proprioception::new(&body, registry::table(tables, "proprioception")?)?,
             history: BodyStateHistory::default(),
             perception: Perception::new(segmenter, world_model, self_filter, camera),
@@ -120,11 +122,12 @@ impl Pilot {
         let targets = self.timing.measure(Stage::Walk, || {
             self.walker.step(&decision.command, observation, state)
         })?;
+        let dead_reckoning = self.map_from_odometry_at_start * state.odometry_from_robot;
         Ok(Tick {
             targets,
             estimate,
             decision,
-            body_state: state,
+            dead_reckoning,
         })
     }
 
