@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+
 from treadwell.body_senses import Encoders, FootForces, Imu, ImuNoise
 from treadwell.random_streams import stream
 
@@ -118,6 +119,25 @@ def test_the_gyro_reads_in_the_sites_frame_and_the_lever_is_felt() -> None:
         forces.append(force)
     # It flies freely: what is felt is the centripetal pull toward the axis, 0.03 m away.
     assert np.mean(forces[2:], axis=0)[0] == pytest.approx(-(rate**2) * 0.03, abs=0.02)
+
+
+def test_the_gyro_misses_nothing_between_two_readings() -> None:
+    data = state()
+    data.qpos[2] = 50.0
+    mujoco.mj_forward(MODEL, data)
+    imu, rng = Imu(MODEL, "imu", ImuNoise(), stream(0, "i")), stream(0, "w")
+    imu.read(data, 0)
+    turned = 0.0
+    for i in range(1, 50):
+        for _ in range(5):
+            data.qvel[3:6] = [0.0, 0.0, rng.uniform(-5.0, 8.0)]
+            mujoco.mj_step(MODEL, data)
+        mujoco.mj_forward(MODEL, data)
+        angular_velocity, _ = imu.read(data, i * TICK)
+        turned += angular_velocity[1] * 1e-9 * TICK
+    rotation = data.body("body").xmat.reshape(3, 3)
+    heading = np.arctan2(rotation[1, 0], rotation[0, 0])
+    assert np.remainder(turned - heading + np.pi, 2.0 * np.pi) - np.pi == pytest.approx(0, abs=1e-6)
 
 
 def test_the_accelerometer_does_not_take_a_pause_for_a_jerk() -> None:

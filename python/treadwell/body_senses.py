@@ -121,7 +121,6 @@ class Imu:
         self._world_from_sensor = np.eye(3)
         self._time_ns: int | None = None
         self._motion = np.empty(6)
-        self._before, self._now, self._turn = np.empty(4), np.empty(4), np.empty(3)
 
     def read(self, data: mujoco.MjData, time_ns: int) -> tuple[Floats, Floats]:
         """Return the angular velocity (3,) rad/s and the specific force (3,) m/s².
@@ -134,17 +133,11 @@ class Imu:
         mujoco.mj_objectVelocity(self._model, data, site, self._site, self._motion, 0)
         world_from_sensor = data.site_xmat[self._site].reshape(3, 3)
         angular_velocity = world_from_sensor.T @ self._motion[:3]
-        sensor_from_world = data.site_xmat[self._site].reshape(3, 3).T
         acceleration = -self._model.opt.gravity
-        angular_velocity = sensor_from_world @ self._motion[:3]
-        mujoco.mju_mat2Quat(self._now, data.site_xmat[self._site])
         if self._time_ns is not None:
             passed = (time_ns - self._time_ns) * 1e-9
             if 0.0 < passed <= LONGEST_TICK:
                 acceleration += (self._motion[3:] - self._velocity) / passed
-                mujoco.mju_subQuat(self._turn, self._now, self._before)
-                angular_velocity = self._turn / passed
-        self._before[:] = self._now
                 turn = rotation_vector(self._world_from_sensor.T @ world_from_sensor)
                 if abs(turn).max() < LARGEST_TURN:
                     angular_velocity = turn / passed
