@@ -51,8 +51,8 @@ pub(super) fn for_each_column(
     let (mut v0, mut z0) = (i64::from(first[v]), i64::from(first[2]));
     let mut v_out = fixed(from[v] + to_border * dv);
     let mut z_out = fixed(from[2] + to_border * dz);
-    let mut slab = |to_end: bool, v_out: i64, z_out: i64| {
-        let (v1, z1) = if to_end {
+    for slab in 0..=slabs {
+        let (v1, z1) = if slab == slabs {
             (i64::from(last[v]), i64::from(last[2]))
         } else {
             (cell(v_out), layer(z_out))
@@ -69,13 +69,9 @@ pub(super) fn for_each_column(
         }
         u_index += u_stride;
         (v_in, z_in, v0, z0) = (v_out, z_out, v1, z1);
-    };
-    for _ in 0..slabs {
-        slab(false, v_out, z_out);
         v_out += v_step;
         z_out += z_step;
     }
-    slab(true, 0, 0);
 }
 
 const fn fixed(value: f64) -> i64 {
