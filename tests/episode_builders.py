@@ -8,6 +8,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
+
 from treadwell.course import Course, build_course
 from treadwell.ground_truth import pose_matrix
 from treadwell.map_memory import RememberedMap
@@ -78,7 +79,7 @@ def world(course: str = "", goal: str = "position = [2.0, 0.0]", start: str = ""
     return World(made, built, Simulation(built.model, qrio(), begin))
 
 
-def result(made: Scenario, **changes: Any) -> Result:
+def result(made: Scenario, **changes: object) -> Result:
     facts: dict[str, Any] = {
         "scenario": made.name,
         "robot": "qrio",
@@ -107,7 +108,7 @@ def grid(
     )
 
 
-def trace(built: World, time_ns: int, **changes: Any) -> Trace:
+def trace(built: World, time_ns: int, **changes: object) -> Trace:
     """A camera frame in which something of everything was seen."""
     kind = np.ones((40, 40), dtype=np.uint8)
     kind[10:14, 20:24], kind[30:] = 2, 0

@@ -4,6 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 from episode_builders import BOX, STEP, World, qrio, world
+
 from treadwell.contacts import RISER_IMPULSE, Collision, Contacts
 from treadwell.ground_truth import GroundTruth
 

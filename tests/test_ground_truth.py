@@ -7,6 +7,7 @@ import pytest
 from episode_builders import qrio, world
 from hypothesis import given
 from hypothesis import strategies as st
+
 from treadwell.ground_truth import GroundTruth, Sole, pose_matrix, wrapped
 
 

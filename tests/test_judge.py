@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from episode_builders import STEP, World, qrio, world
+
 from treadwell.judge import STUCK_SECONDS, Judge
 from treadwell.motors import JointTargets
 

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+
 from treadwell.level_changes import LOOKS_A_FOOTPRINT, LevelChanges
 
 Floats = NDArray[np.float64]

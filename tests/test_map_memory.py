@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from treadwell.map_memory import FLOOR, OBSTACLE, UNKNOWN, MapMemory
 
 CELL = 0.04

@@ -6,15 +6,41 @@ from pathlib import Path
 import pytest
 from episode_builders import result, scenario
 from pydantic import ValidationError
+
 from treadwell.errors import InputError
 from treadwell.result import STAGES, CollisionEntry, Result, Spread, SurfaceEntry, read_result
 from treadwell.result import LocalizationErrors as Errors
 from treadwell.scenario import Expect
 
-KEYS = """schema scenario robot seed version configuration ablation outcome reason passed failures
-simulated_seconds wall_seconds real_time_factor physics_real_time_factor falls collisions
-steps_taken stairs_climbed stairs_descended path_length replans localization surfaces map behaviour
-timing_ms""".split()
+KEYS = [
+    "schema",
+    "scenario",
+    "robot",
+    "seed",
+    "version",
+    "configuration",
+    "ablation",
+    "outcome",
+    "reason",
+    "passed",
+    "failures",
+    "simulated_seconds",
+    "wall_seconds",
+    "real_time_factor",
+    "physics_real_time_factor",
+    "falls",
+    "collisions",
+    "steps_taken",
+    "stairs_climbed",
+    "stairs_descended",
+    "path_length",
+    "replans",
+    "localization",
+    "surfaces",
+    "map",
+    "behaviour",
+    "timing_ms",
+]
 NOTHING = Spread(mean=0.0, std=0.0, max=0.0)
 
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from episode_builders import BOX, STEP, grid, world
+
 from treadwell.ground_truth import pose_matrix
 from treadwell.map_memory import FLOOR, OBSTACLE, RememberedMap
 from treadwell.score import PoseErrors, map_counts, surfaces, timing, true_cells

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from treadwell.errors import InputError
 from treadwell.ground_truth import pose_matrix
 from treadwell.trajectory import Trajectory, quaternion, read_trajectory

@@ -1,6 +1,5 @@
 """The recording for people: what the robot saw, believed and did, written as it happens."""
 
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +10,7 @@ import numpy as np
 
 from treadwell.course import Course
 from treadwell.errors import InputError, RecordingError
+from treadwell.recording_file import cut_to_whole_messages, room
 from treadwell.robot import Robot
 from treadwell.scenario import Scenario
 from treadwell.trace import Trace
@@ -21,7 +21,10 @@ if TYPE_CHECKING:
 NAME: Final = "recording.rrd"
 _FRAMES_A_CHECK: Final = 12
 """Camera frames, about a second, after which the file is looked at."""
-_FLUSH_SECONDS: Final = 20.0
+_FLUSH_SECONDS: Final = 10.0
+_SPARE_BYTES: Final = 16_000_000
+"""Room that must be left for what is logged between two looks."""
+_ABANDONED: Final[list[object]] = []
 
 
 class Recorder:
@@ -50,7 +53,7 @@ class Recorder:
         from treadwell.recording_shapes import Shapes, robot_geoms
 
         self._path = path
-        self._frames, self._checked, self._size = 0, 0, 0
+        self._frames, self._broken = 0, False
         top = max((t.height for _, t in course.tops()), default=0.0)
         goal = (*scenario.goal.position, course.goal_height)
         begin = (*course.start.position, course.start.height)
@@ -90,32 +93,46 @@ class Recorder:
             self._check()
 
     def close(self) -> None:
-        """Write what is left and close the file.
+        """Write what is left and close the file. After an error there is nothing left to do.
 
         Raises:
             RecordingError: not all of it could be written.
         """
-        try:
-            self._check()
-        finally:
-            self._stream.disconnect()
+        if self._broken:
+            return
+        self._check()
+        self._stream.disconnect()
 
     def _check(self) -> None:
         """Find out whether what was logged is in the file: `log` itself says nothing."""
         try:
+            # Rerun's writer can hang where a disk is full, so it is stopped before that.
+            if room(self._path) < _SPARE_BYTES:
+                self._broken = True
+                self._stream.disconnect()
+                raise RecordingError(
+                    f"{self._path}: the disk is full (or the file as large as it may be); "
+                    "what was recorded before stays readable"
+                )
             self._stream.flush(timeout_sec=_FLUSH_SECONDS)
-            size = os.stat(self._path).st_size
+            _ = self._path.stat()
         except (OSError, RuntimeError, ValueError) as error:
+            self._abandon()
             raise RecordingError(
                 f"{self._path}: writing failed, what was recorded before stays readable: "
                 f"{_reason(error)}"
             ) from error
-        # The first frame's bytes and those of the blueprint may arrive together.
-        if self._frames > self._checked > 0 and size <= self._size:
-            raise RecordingError(
-                f"{self._path}: the file does not grow any more; is the disk full?"
-            )
-        self._checked, self._size = self._frames, size
+
+    def _abandon(self) -> None:
+        """Touch a stream whose writer has failed no more: to flush or to end it could hang."""
+        import atexit
+
+        import rerun as rr
+
+        self._broken = True
+        _ABANDONED.append(self._stream)
+        atexit.unregister(rr.rerun_shutdown)
+        cut_to_whole_messages(self._path)
 
     def _draw_course(self, model: mujoco.MjModel, course: Course) -> "Shapes":
         """Draw what stands still, and return what may move."""

@@ -14,12 +14,12 @@ from treadwell.map_picture import NAME as PICTURE
 from treadwell.observation_log import NAME as OBSERVATIONS
 from treadwell.observation_log import read_header, read_observations
 from treadwell.recording import NAME as RECORDING
+from treadwell.recording_file import whole_length
 from treadwell.result import Result, read_result
 from treadwell.trajectory import ESTIMATE, TRUTH, read_trajectory
 
 RESULT: Final = "result.json"
 _PNG: Final = b"\x89PNG\r\n\x1a\n"
-_RRD: Final = (b"RRF2", b"RRIO")
 _TICK: Final = 0.01
 
 
@@ -143,9 +143,12 @@ def _recordings(
         if not is_there:
             problems.append(f"{path}: is missing, though the run was recorded")
     if there[1]:
-        with recording.open("rb") as file:
-            if file.read(4) not in _RRD:
-                problems.append(f"{recording}: is no rerun recording")
+        whole = whole_length(recording)
+        if whole < recording.stat().st_size or whole == 0:
+            problems.append(
+                f"{recording}: breaks off amid a message or is no rerun recording "
+                f"({whole} bytes of it are whole)"
+            )
     if there[0]:
         _observations(observations, result, ticks, problems)
 

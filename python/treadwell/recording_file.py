@@ -1,0 +1,60 @@
+"""The file of a recording: how far it is whole, and how much it can still grow."""
+
+import math
+import os
+import resource
+import struct
+from pathlib import Path
+from typing import Final
+
+_MAGIC: Final = b"RRF2"
+_HEADER: Final = 12
+_MESSAGE: Final = struct.Struct("<QQ")
+"""Before each message: its kind and its length in bytes."""
+_FOOTER: Final = 32
+"""Bytes behind the last message of a finished file."""
+_FOOTER_MARK: Final = b"RRF2FOOT"
+
+
+def whole_length(path: Path) -> int:
+    """Return the bytes up to the end of the last whole message; 0 for another kind of file.
+
+    A file that rerun has finished ends with a footer behind its last message, which counts.
+
+    Raises:
+        OSError: the file cannot be read.
+    """
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        if file.read(len(_MAGIC)) != _MAGIC or size < _HEADER:
+            return 0
+        end = _HEADER
+        while end + _MESSAGE.size <= size:
+            file.seek(end)
+            _, length = _MESSAGE.unpack(file.read(_MESSAGE.size))
+            if end + _MESSAGE.size + length > size:
+                break
+            end += _MESSAGE.size + length
+        file.seek(max(0, size - _FOOTER))
+        finished = _FOOTER_MARK in file.read(_FOOTER)
+    return size if finished and size - end == _FOOTER else end
+
+
+def cut_to_whole_messages(path: Path) -> None:
+    """Cut a recording that breaks off amid a message behind the last whole one."""
+    try:
+        os.truncate(path, whole_length(path))
+    except OSError:
+        return  # it stays as it is: readable but for its end
+
+
+def room(path: Path) -> float:
+    """Return how many bytes a file can still grow by.
+
+    Raises:
+        OSError: there is no such file.
+    """
+    disk = os.statvfs(path)
+    limit = resource.getrlimit(resource.RLIMIT_FSIZE)[0]
+    allowed = math.inf if limit == resource.RLIM_INFINITY else limit - path.stat().st_size
+    return min(disk.f_bavail * disk.f_frsize, allowed)

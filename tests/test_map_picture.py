@@ -1,0 +1,68 @@
+"""Claims about map.png: it is a picture of what is known, whatever that is."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from episode_builders import BOX, STEP, grid, result, world
+from matplotlib.image import imread
+
+from treadwell.ground_truth import pose_matrix
+from treadwell.map_memory import FLOOR, OBSTACLE
+from treadwell.map_picture import draw_map
+from treadwell.result import CollisionEntry
+from treadwell.trajectory import Trajectory
+
+LATER = """
+[[event]]
+at = 1.0
+do = "add"
+element = { kind = "box", position = [1.5, 0.5], yaw = 0.0, size = [0.2, 0.2, 0.4] }
+"""
+
+
+def way(offset: float) -> Trajectory:
+    trajectory = Trajectory()
+    for i in range(20):
+        trajectory.add(80_000_000 * i, pose_matrix(0.1 * i, offset, 0.0, 0.0))
+    return trajectory
+
+
+def pixels(path: Path) -> np.ndarray:
+    return imread(path)[..., :3]
+
+
+def has(picture: np.ndarray, colour: tuple[float, float, float]) -> int:
+    return int((np.abs(picture - np.array(colour)).max(axis=-1) < 0.03).sum())
+
+
+def test_obstacles_floors_and_the_unknown_are_to_be_seen(tmp_path: Path) -> None:
+    made = world(BOX + STEP + LATER)
+    remembered = grid()
+    remembered.kind[20:30, 10:60] = FLOOR
+    remembered.height[20:30, 10:60] = np.linspace(0.0, 0.03, 50)
+    remembered.kind[25, 20:25] = OBSTACLE
+    told = result(made.scenario, outcome="refused", reason="too_narrow: a sentence", falls=1)
+    draw_map(tmp_path / "map.png", made.course, told, remembered, way(0.02), way(0.0))
+    picture = pixels(tmp_path / "map.png")
+    assert picture.shape[0] > 400
+    assert picture.shape[1] > 600
+    assert has(picture, (0.09, 0.09, 0.11)) > 100
+    assert has(picture, (0.80, 0.80, 0.82)) > 10_000
+
+
+@pytest.mark.parametrize("outcome", ["error", "interrupted"])
+def test_an_episode_that_ended_at_once_has_a_picture(tmp_path: Path, outcome: str) -> None:
+    made = world()
+    hit = CollisionEntry(time=0.0, robot_part="head", element="box", impulse=1.0)
+    told = result(made.scenario, outcome=outcome, collisions=[hit])
+    empty = grid(rows=0, cols=0)
+    draw_map(tmp_path / "map.png", made.course, told, empty, Trajectory(), Trajectory())
+    assert pixels(tmp_path / "map.png").size > 0
+
+
+def test_the_same_run_gives_the_same_picture(tmp_path: Path) -> None:
+    made = world(STEP)
+    for name in ("a.png", "b.png"):
+        draw_map(tmp_path / name, made.course, result(made.scenario), grid(), way(0.0), way(0.0))
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()

@@ -1,0 +1,63 @@
+"""Claims about the shapes of the recording: they stand where MuJoCo's geoms do."""
+
+import mujoco
+import numpy as np
+import pytest
+from episode_builders import qrio, world
+
+from treadwell.recording_layout import height_colours, plane_colours
+from treadwell.recording_shapes import Shapes, colours, multiplied, robot_geoms, rotated
+
+
+def test_the_robot_is_drawn_by_what_is_to_be_seen() -> None:
+    made = world()
+    geoms = robot_geoms(made.model, qrio().root)
+    assert len(geoms) > 20
+    assert (made.model.geom_group[geoms] < 3).all()
+
+
+def test_poses_are_those_of_the_geoms() -> None:
+    made = world()
+    data = made.simulation.data
+    data.qpos[7:] += 0.1
+    mujoco.mj_kinematics(made.model, data)
+    geoms = robot_geoms(made.model, qrio().root)
+    shapes = Shapes(made.model, geoms, "robot")
+    places, turns = shapes._poses(geoms, data.xpos, data.xquat)
+    assert places == pytest.approx(data.geom_xpos[geoms], abs=1e-12)
+    for turn, expected in zip(turns, data.geom_xmat[geoms], strict=True):
+        matrix = np.empty(9)
+        mujoco.mju_quat2Mat(matrix, turn)
+        assert matrix == pytest.approx(expected, abs=1e-9)
+
+
+def test_quaternions_turn_and_multiply_as_mujocos_do() -> None:
+    random = np.random.default_rng(0)
+    first, second = random.normal(size=(2, 20, 4))
+    first /= np.linalg.norm(first, axis=1, keepdims=True)
+    vectors, expected, product = random.normal(size=(20, 3)), np.empty(3), np.empty(4)
+    for i in range(20):
+        mujoco.mju_rotVecQuat(expected, vectors[i], first[i])
+        assert rotated(first, vectors)[i] == pytest.approx(expected)
+        mujoco.mju_mulQuat(product, first[i], second[i])
+        assert multiplied(first, second)[i] == pytest.approx(product)
+
+
+def test_a_geom_has_the_colour_of_its_material() -> None:
+    made = world()
+    geoms = robot_geoms(made.model, qrio().root)
+    shown = colours(made.model, geoms)
+    assert shown.shape == (len(geoms), 4)
+    assert len({tuple(row) for row in shown.tolist()}) >= 3
+
+
+def test_higher_floors_are_brighter() -> None:
+    shades = height_colours(np.array([0.0, 0.05, 0.1, 9.0], dtype=np.float32), 0.0, 0.1)
+    brightness = shades.astype(int).sum(axis=1)
+    assert brightness[0] < brightness[1] < brightness[2] == brightness[3]
+
+
+def test_points_without_a_plane_are_grey_and_planes_differ() -> None:
+    shades = plane_colours(np.array([0, 1, 2, 3], dtype=np.uint16), ground=2)
+    assert len({tuple(row) for row in shades.tolist()}) == 4
+    assert len(set(shades[0].tolist())) == 1

@@ -1,0 +1,135 @@
+"""Claims about `verify`: a whole run passes, and everything that is wrong is named."""
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from episode_builders import grid, qrio, result, trace, world
+from test_cdr import observation
+
+from treadwell.ground_truth import pose_matrix
+from treadwell.map_picture import draw_map
+from treadwell.observation_log import ObservationLog
+from treadwell.recording import Recorder
+from treadwell.result import Result, read_result
+from treadwell.trajectory import Trajectory
+from treadwell.verification import verify, verify_run
+
+TICKS = 40
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A run of 0.4 seconds in which the robot stands."""
+    folder = tmp_path_factory.mktemp("runs") / "run"
+    folder.mkdir()
+    made = world()
+    recorder = Recorder(folder / "recording.rrd", made.model, made.course, made.scenario, qrio())
+    log = ObservationLog(folder, made.scenario, qrio())
+    trajectory = Trajectory()
+    for tick in range(TICKS):
+        log.write(observation(time_ns=tick * 10_000_000))
+        if tick % 8 == 0:
+            recorder.frame(trace(made, tick * 10_000_000))
+            trajectory.add(tick * 10_000_000, pose_matrix(0.0, 0.0, 0.0, 0.0))
+        made.stand(0.01)
+    log.close()
+    recorder.close()
+    trajectory.write(folder / "trajectory.tum")
+    trajectory.write(folder / "trajectory_truth.tum")
+    made.simulation.save_audit(folder)
+    told = result(made.scenario, simulated_seconds=0.01 * TICKS, version=version())
+    draw_map(folder / "map.png", made.course, told, grid(), trajectory, trajectory)
+    told.write(folder / "result.json")
+    return folder
+
+
+def version() -> str:
+    import treadwell
+
+    return treadwell.__version__
+
+
+@pytest.fixture
+def copy(run: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copytree(run, tmp_path / "copy"))
+
+
+def test_a_whole_run_passes(run: Path) -> None:
+    (found,) = verify([run])
+    assert found.problems == ()
+    assert found.passed
+    assert found.steps == 5 * TICKS
+    assert found.first_difference is None
+
+
+def test_a_run_without_recordings_passes(copy: Path) -> None:
+    (copy / "recording.rrd").unlink()
+    (copy / "observations.mcap").unlink()
+    assert verify_run(copy).passed
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "result.json",
+        "trajectory.tum",
+        "trajectory_truth.tum",
+        "map.png",
+        "model.mjb",
+        "physics.npz",
+        "recording.rrd",
+        "observations.mcap",
+    ],
+)
+@pytest.mark.parametrize("harm", ["missing", "empty", "half", "noise"])
+def test_a_broken_file_is_named(copy: Path, name: str, harm: str) -> None:
+    path = copy / name
+    content = path.read_bytes()
+    if harm == "missing":
+        path.unlink()
+    else:
+        half = content[: len(content) // 2]
+        path.write_bytes({"empty": b"", "half": half, "noise": b"\xff\x00" * 500}[harm])
+    found = verify_run(copy)
+    assert any(name in problem for problem in found.problems)
+
+
+def test_the_first_step_that_differs_is_told(copy: Path) -> None:
+    with np.load(copy / "physics.npz") as file:
+        arrays = dict(file)
+    arrays["qpos"][20, 9] += 1e-12
+    np.savez(copy / "physics.npz", **arrays)
+    found = verify_run(copy)
+    assert found.first_difference == 105
+    assert any("step 105" in problem for problem in found.problems)
+
+
+def changed(folder: Path, **changes: object) -> None:
+    table: Result = read_result(folder / "result.json")
+    table.model_copy(update=changes).write(folder / "result.json")
+
+
+@pytest.mark.parametrize(
+    ("harm", "word"),
+    [
+        (lambda folder: changed(folder, simulated_seconds=7.0), "different runs"),
+        (lambda folder: changed(folder, seed=5), "seed"),
+        (lambda folder: changed(folder, version="9.9.9"), "version"),
+        (lambda folder: (folder / "trajectory.tum").write_text(""), "poses"),
+    ],
+)
+def test_files_of_different_runs_do_not_belong_together(
+    copy: Path, harm: Callable[[Path], object], word: str
+) -> None:
+    harm(copy)
+    found = verify_run(copy)
+    assert any(word in problem for problem in found.problems)
+
+
+def test_a_run_that_is_not_there_is_named(tmp_path: Path) -> None:
+    (found,) = verify([tmp_path / "nowhere"])
+    assert not found.passed
+    assert "nowhere" in found.problems[0]
