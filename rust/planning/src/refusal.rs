@@ -30,11 +30,11 @@ pub(crate) fn explain(
     }
     let nearest = widest.nearest_cells * terrain.lattice.cell_m;
     let free_end = |index: usize| !terrain.blocked[index] && ends.cost(index).is_some();
-    let sentence = if !(0..terrain.blocked.len()).any(free_end) {
+    let sentence = if (0..terrain.blocked.len()).any(free_end) {
+        format!("no way around what stands there leads nearer to the goal than {nearest:.2} m")
+    } else {
         let radius = goal.radius_m;
         format!("no place within {radius:.2} m of the goal is free to stand on")
-    } else {
-        format!("no way around what stands there leads nearer to the goal than {nearest:.2} m")
     };
     NoWay {
         refusal: Refusal::Blocked,
