@@ -69,14 +69,14 @@ def blueprint(centre: tuple[float, float, float], extent: float) -> rrb.Blueprin
         extent: m, size of the course.
     """
     x, y, z = centre
-    away = max(1.6, 0.75 * extent)
+    away = max(1.3, 0.55 * extent)
     world = rrb.Spatial3DView(
         origin="/world",
         name="World",
         background=rrb.Background(color=(236, 239, 243, 255)),
         line_grid=rrb.LineGrid3D(visible=True, spacing=0.2, color=(120, 125, 135, 60)),
         eye_controls=rrb.EyeControls3D(
-            position=(x - 0.6 * away, y - 0.95 * away, z + 0.8 * away),
+            position=(x - 0.75 * away, y - 0.6 * away, z + 0.75 * away),
             look_target=(x, y, z),
             eye_up=(0.0, 0.0, 1.0),
         ),
