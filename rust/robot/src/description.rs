@@ -70,6 +70,9 @@ pub struct Description {
     pub camera: CameraMount,
     /// Size of the whole body for clearances.
     pub body: Extent,
+    /// Lost motion of a gear between the two directions of torque, rad; encoders sit on the motors' side of it.
+    #[serde(default)]
+    pub play: f64,
     /// `[gait]` of robot.toml as it stands there; read by the walker.
     #[serde(default)]
     pub gait: serde_json::Value,

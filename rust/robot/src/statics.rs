@@ -65,3 +65,83 @@ impl Body {
         Vector3::zeros()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// A chain of three links with hinges about z, y and x.
+    fn chain() -> Body {
+        let link = |name: &str, parent: Option<usize>, axis: Option<[f64; 3]>| {
+            serde_json::json!({
+                "name": name, "parent": parent, "position": [0.05, 0.02, 0.1],
+                "orientation": [1.0, 0.0, 0.0, 0.0], "mass": 1.5, "center_of_mass": [0.1, -0.03, 0.02],
+                "inertia": [1e-3, 1e-3, 1e-3, 0.0, 0.0, 0.0],
+                "joint": axis.map(|axis| serde_json::json!({
+                    "name": name, "axis": axis, "anchor": [0.01, 0.0, 0.0], "range": [-3.0, 3.0],
+                    "peak_torque": 1.0, "no_load_speed": 1.0, "kp": 1.0, "kv": 1.0,
+                })),
+            })
+        };
+        let leg = serde_json::json!({
+            "joints": ["a", "b", "c", "a", "b", "c"],
+            "sole": {"link": "c", "position": [0.0, 0.0, 0.0], "length": 0.1, "width": 0.1},
+        });
+        let description = serde_json::json!({
+            "name": "chain", "joints": ["a", "b", "c"], "stand": [0.0, 0.0, 0.0], "torso": "root",
+            "links": [link("root", None, None), link("a", Some(0), Some([0.0, 0.0, 1.0])),
+                      link("b", Some(1), Some([0.0, 1.0, 0.0])), link("c", Some(2), Some([1.0, 0.0, 0.0]))],
+            "legs": {"left": leg, "right": leg},
+            "head": {"pan": "a", "tilt": "b"}, "arms_rest": {},
+            "imu": {"link": "root", "position": [0.0, 0.0, 0.0], "orientation": [1.0, 0.0, 0.0, 0.0]},
+            "camera": {"link": "root", "position": [0.0, 0.0, 0.0], "orientation": [1.0, 0.0, 0.0, 0.0],
+                       "width": 8, "height": 8, "focal": 8.0, "period": 0.1,
+                       "stereo": {"baseline": 0.1, "window": 5, "quantum": 0.1, "min_disparity": 1.0, "max_disparity": 9.0}},
+            "body": {"radius": 0.1, "height": 0.5},
+        });
+        Body::new(serde_json::from_value(description).unwrap()).unwrap()
+    }
+
+    fn poses(body: &Body, angles: &[f64]) -> LinkPoses {
+        let mut poses = LinkPoses::default();
+        body.pose_links(angles, &mut poses).unwrap();
+        poses
+    }
+
+    proptest! {
+        #[test]
+        fn gravity_torques_are_the_slope_of_the_potential_energy(angles in prop::array::uniform3(-1.5..1.5f64)) {
+            let body = chain();
+            let gravity = Vector3::new(0.5, -1.0, -9.81);
+            let energy = |angles: &[f64]| {
+                -body.mass_kg() * gravity.dot(&body.center_of_mass_in_torso(&poses(&body, angles)).coords)
+            };
+            let mut torques = [0.0; 3];
+            body.add_gravity(&poses(&body, &angles), &gravity, &mut torques);
+            for joint in 0..3 {
+                let shifted = |by: f64| {
+                    let mut angles = angles;
+                    angles[joint] += by;
+                    energy(&angles)
+                };
+                let slope = (shifted(1e-6) - shifted(-1e-6)) / 2e-6;
+                prop_assert!((torques[joint] + slope).abs() < 1e-6);
+            }
+        }
+
+        #[test]
+        fn a_force_does_the_work_that_its_point_moves(angles in prop::array::uniform3(-1.5..1.5f64),
+                                                      force in prop::array::uniform3(-5.0..5.0f64)) {
+            let body = chain();
+            let (force, links) = (Vector3::from(force), poses(&body, &angles));
+            let point = links.torso_from_link[3] * Point3::new(0.1, 0.2, 0.3);
+            let mut torques = [0.0; 3];
+            body.add_force(&links, 3, &point, &force, &mut torques);
+            for (joint, torque) in torques.iter().enumerate() {
+                let velocity = body.point_velocity(&links, 3, &point, joint);
+                prop_assert!((torque - velocity.dot(&force)).abs() < 1e-9);
+            }
+        }
+    }
+}

@@ -137,3 +137,81 @@ impl Capture {
 fn turned(stance: &PlanarPose, vector: &Vector2<f64>) -> (f64, f64) {
     PlanarPose::new(0.0, 0.0, -stance.yaw_rad).apply(vector.x, vector.y)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gait::FootPose;
+    use crate::test_biped::biped;
+
+    /// The left foot swings, for this share of its time already.
+    fn swinging(share: f64) -> (Capture, Gait, Soles) {
+        let (config, body) = (GaitConfig::default(), biped());
+        let planner = FootstepPlanner::new(&config, &body);
+        let foot = |y: f64| FootPose {
+            planar: PlanarPose::new(0.0, y, 0.0),
+            z_m: 0.0,
+        };
+        let feet = [foot(0.0425), foot(-0.0425)];
+        let mut gait = Gait::new(&config, planner.clone(), feet);
+        let duration_s = config.single_support();
+        gait.phase = Phase::Single {
+            elapsed_s: share * duration_s,
+            duration_s,
+            swing: Swing {
+                side: Side::Left,
+                from: feet[0],
+                to: feet[0],
+                planned: feet[0],
+            },
+        };
+        let soles = Soles::new(&body, config.sole_margin);
+        (Capture::new(&config, planner), gait, soles)
+    }
+
+    fn landing(gait: &Gait) -> PlanarPose {
+        match &gait.phase {
+            Phase::Single { swing, .. } => swing.to.planar,
+            _ => panic!("the foot swings"),
+        }
+    }
+
+    #[test]
+    fn small_errors_leave_the_step_alone() {
+        let (mut capture, mut gait, soles) = swinging(0.3);
+        let before = landing(&gait);
+        let rate = capture.adjust(&mut gait, &soles, &Vector2::new(0.008, -0.008), 6.0, 0.01);
+        assert_eq!((rate, landing(&gait)), (1.0, before));
+    }
+
+    #[test]
+    fn a_push_to_the_swing_side_moves_the_landing_there() {
+        let (mut capture, mut gait, soles) = swinging(0.3);
+        for _ in 0..10 {
+            let rate = capture.adjust(&mut gait, &soles, &Vector2::new(0.0, 0.05), 6.0, 0.01);
+            assert!(rate >= 1.0);
+        }
+        assert!(landing(&gait).y_m > 0.06, "{:?}", landing(&gait));
+    }
+
+    #[test]
+    fn a_push_to_the_standing_side_holds_the_clock_but_not_for_ever() {
+        let (mut capture, mut gait, soles) = swinging(0.9);
+        let error = Vector2::new(0.0, -0.05);
+        assert_eq!(capture.adjust(&mut gait, &soles, &error, 6.0, 0.01), 0.0);
+        let patience = GaitConfig::default().capture_patience;
+        for _ in 0..(patience / 0.01) as usize + 2 {
+            let _ = capture.adjust(&mut gait, &soles, &error, 6.0, 0.01);
+        }
+        assert_eq!(capture.adjust(&mut gait, &soles, &error, 6.0, 0.01), 1.0);
+    }
+
+    #[test]
+    fn a_landing_is_never_moved_onto_the_standing_foot() {
+        let (mut capture, mut gait, soles) = swinging(0.1);
+        for _ in 0..50 {
+            let _ = capture.adjust(&mut gait, &soles, &Vector2::new(0.03, -0.2), 6.0, 0.01);
+        }
+        assert!(landing(&gait).y_m >= 0.0425 - 0.003, "{:?}", landing(&gait));
+    }
+}

@@ -51,3 +51,76 @@ pub fn start_dcm(plan: &[Segment], omega: f64) -> Option<Vector2<f64>> {
             .fold(last.to, |end, segment| segment.start_dcm(&end, omega)),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const OMEGA: f64 = 6.0;
+
+    fn plan() -> impl Strategy<Value = Vec<Segment>> {
+        let part = ((-1.0..1.0f64, -1.0..1.0f64), 0.05..0.8f64);
+        prop::collection::vec(part, 1..7).prop_map(|parts| {
+            let mut from = Vector2::zeros();
+            parts
+                .into_iter()
+                .map(|((x, y), duration_s)| {
+                    let to = Vector2::new(x, y);
+                    let segment = Segment {
+                        from,
+                        to,
+                        duration_s,
+                    };
+                    from = to;
+                    segment
+                })
+                .collect()
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn following_a_segment_forwards_leads_to_the_beginning_of_the_next(plan in plan()) {
+            for (index, segment) in plan.iter().enumerate() {
+                let mut dcm = start_dcm(&plan[index..], OMEGA).unwrap();
+                let steps = 4000;
+                let passed_s = segment.duration_s / f64::from(steps);
+                for step in 0..steps {
+                    let middle = segment.rest((f64::from(step) + 0.5) * passed_s).from;
+                    dcm = middle + (dcm - middle) * (OMEGA * passed_s).exp();
+                }
+                let next = start_dcm(&plan[index + 1..], OMEGA).unwrap_or(segment.to);
+                prop_assert!((dcm - next).norm() < 1e-5, "{dcm} {next}");
+            }
+        }
+
+        #[test]
+        fn the_dcm_never_leaves_the_box_around_the_zero_moment_points(plan in plan()) {
+            let dcm = start_dcm(&plan, OMEGA).unwrap();
+            for axis in 0..2 {
+                let points = plan.iter().flat_map(|segment| [segment.from[axis], segment.to[axis]]);
+                let (low, high) = points.fold((f64::MAX, f64::MIN), |(low, high), point| {
+                    (low.min(point), high.max(point))
+                });
+                prop_assert!(dcm[axis] >= low - 1e-9 && dcm[axis] <= high + 1e-9);
+            }
+        }
+
+        #[test]
+        fn what_is_far_ahead_does_not_count(plan in plan(), shift in -1.0..1.0f64) {
+            let pause = Segment { from: Vector2::zeros(), to: Vector2::zeros(), duration_s: 3.0 };
+            let before = |plan: &[Segment]| start_dcm(&[&[pause], plan].concat(), OMEGA).unwrap();
+            let moved: Vec<Segment> = plan
+                .iter()
+                .map(|segment| Segment { to: segment.to.add_scalar(shift), ..*segment })
+                .collect();
+            prop_assert!((before(&plan) - before(&moved)).norm() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn an_empty_plan_has_no_dcm() {
+        assert_eq!(start_dcm(&[], OMEGA), None);
+    }
+}

@@ -80,3 +80,47 @@ impl FeetControl {
         foot
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_foot_with_too_much_load_yields_upwards() {
+        let mut control = FeetControl::new(&GaitConfig::default());
+        for _ in 0..10 {
+            control.update(&Phase::Standing, &[0.5, 0.5], &[50.0, 20.0], 70.0, 0.01);
+        }
+        let [left, right] = Side::BOTH.map(|side| control.place(FootPose::default(), side).z_m);
+        assert!(left > 0.0 && right < 0.0);
+        assert!(left - right <= GaitConfig::default().load_limit);
+    }
+
+    #[test]
+    fn a_foot_that_finds_the_ground_early_stays_at_that_height() {
+        let mut control = FeetControl::new(&GaitConfig::default());
+        let swing = crate::gait::Swing {
+            side: Side::Left,
+            from: FootPose::default(),
+            to: FootPose::default(),
+            planned: FootPose::default(),
+        };
+        let mut at = |elapsed_s: f64, height_m: f64, load_n: f64| {
+            let phase = Phase::Single {
+                elapsed_s,
+                duration_s: 0.45,
+                swing,
+            };
+            control.update(&phase, &[0.0, 1.0], &[load_n, 60.0], 70.0, 0.01);
+            let foot = FootPose {
+                z_m: height_m,
+                ..FootPose::default()
+            };
+            control.place(foot, Side::Left).z_m
+        };
+        assert_eq!(at(0.10, 0.02, 20.0), 0.02);
+        assert_eq!(at(0.38, 0.006, 20.0), 0.006);
+        assert!((at(0.39, 0.004, 20.0) - 0.006).abs() < 1e-12);
+        assert!((at(0.40, 0.002, 20.0) - 0.006).abs() < 1e-12);
+    }
+}

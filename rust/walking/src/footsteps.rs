@@ -69,7 +69,14 @@ impl FootstepPlanner {
     /// Moves a landing within reach: not onto the standing foot, not farther than the legs go.
     pub fn keep_apart(&self, stance: &PlanarPose, landing: &PlanarPose, swing: Side) -> PlanarPose {
         let config = &self.config;
+        if !(landing.x_m.is_finite() && landing.y_m.is_finite() && landing.yaw_rad.is_finite()) {
+            return self.beside(stance, swing);
+        }
         let mut local = stance.relative(landing);
+        let extra = config.capture_limit;
+        local.x_m = local
+            .x_m
+            .clamp(-config.max_backward - extra, config.max_forward + extra);
         local.yaw_rad = local.yaw_rad.clamp(-config.max_turn, config.max_turn);
         let (nearest, farthest) = self.lateral_limits_m(local.yaw_rad);
         local.y_m = swing.sign() * (swing.sign() * local.y_m).clamp(nearest, farthest);
@@ -83,5 +90,109 @@ impl FootstepPlanner {
             + self.config.foot_gap;
         let farthest = self.config.stance_width + self.config.max_sideways;
         (nearest, farthest.max(nearest))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::test_biped::biped;
+    use proptest::prelude::*;
+
+    fn any_rate() -> impl Strategy<Value = f64> {
+        prop_oneof![
+            8 => -1.0..1.0f64,
+            1 => Just(f64::NAN),
+            1 => prop_oneof![Just(f64::INFINITY), Just(f64::NEG_INFINITY), Just(1e300)],
+        ]
+    }
+
+    fn velocity() -> impl Strategy<Value = Velocity> {
+        (any_rate(), any_rate(), any_rate()).prop_map(|(x_mps, y_mps, yaw_radps)| Velocity {
+            x_mps,
+            y_mps,
+            yaw_radps,
+        })
+    }
+
+    fn planner() -> FootstepPlanner {
+        FootstepPlanner::new(&GaitConfig::default(), &biped())
+    }
+
+    /// Whether two soles of the biped overlap, by the separating axes of rectangles.
+    fn overlap(a: &PlanarPose, b: &PlanarPose) -> bool {
+        let corners = |foot: &PlanarPose| {
+            [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)]
+                .map(|(x, y)| foot.apply(0.0525 * x, 0.0375 * y))
+        };
+        [a.yaw_rad, b.yaw_rad].iter().all(|yaw| {
+            [(yaw.cos(), yaw.sin()), (-yaw.sin(), yaw.cos())]
+                .iter()
+                .all(|(x, y)| {
+                    let span = |foot: &PlanarPose| {
+                        let on = corners(foot).map(|corner| corner.0 * x + corner.1 * y);
+                        (
+                            on.iter().copied().fold(f64::MAX, f64::min),
+                            on.iter().copied().fold(f64::MIN, f64::max),
+                        )
+                    };
+                    let (a, b) = (span(a), span(b));
+                    a.0 <= b.1 && b.0 <= a.1
+                })
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn soles_never_overlap_whatever_is_asked(
+            rates in prop::collection::vec(velocity(), 1..12),
+            first_left in any::<bool>(),
+        ) {
+            let planner = planner();
+            let mut stance = PlanarPose::default();
+            let mut swing = if first_left { Side::Left } else { Side::Right };
+            for velocity in rates {
+                let landing = planner.next(&stance, swing, &velocity);
+                prop_assert!(landing.x_m.is_finite() && landing.y_m.is_finite() && landing.yaw_rad.is_finite());
+                prop_assert!(!overlap(&stance, &landing), "{stance:?} {landing:?}");
+                (stance, swing) = (landing, swing.other());
+            }
+        }
+
+        #[test]
+        fn no_step_goes_beyond_the_gait(velocity in velocity()) {
+            let config = GaitConfig::default();
+            let landing = planner().next(&PlanarPose::default(), Side::Left, &velocity);
+            let reach = config.max_forward + 2.0 * config.max_turn * config.stance_width;
+            prop_assert!(landing.x_m.abs() <= reach);
+            prop_assert!(landing.yaw_rad.abs() <= config.max_turn + 1e-12);
+            prop_assert!(landing.y_m <= config.stance_width + config.max_sideways + 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_pair_of_steps_goes_as_fast_as_it_was_told() {
+        let (planner, config) = (planner(), GaitConfig::default());
+        let velocity = Velocity {
+            x_mps: 0.05,
+            y_mps: 0.02,
+            yaw_radps: 0.0,
+        };
+        let right = planner.beside(&PlanarPose::default(), Side::Right);
+        let first = planner.next(&right, Side::Left, &velocity);
+        let second = planner.next(&first, Side::Right, &velocity);
+        let time = 2.0 * config.step_time;
+        assert!((second.x_m - right.x_m - 0.05 * time).abs() < 1e-12);
+        assert!((second.y_m - right.y_m - 0.02 * time).abs() < 1e-12);
+    }
+
+    #[test]
+    fn beside_is_side_by_side() {
+        let stance = PlanarPose::new(1.0, 2.0, 0.7);
+        for side in Side::BOTH {
+            let other = planner().beside(&stance, side);
+            assert!(planner().is_beside(&stance, &other, side));
+            assert!(!planner().is_beside(&stance, &stance, side));
+        }
     }
 }

@@ -276,7 +276,11 @@ impl Gait {
                 let wanted = self.list_origin.compose(&step.pose);
                 Some(FootPose {
                     planar: self.planner.keep_apart(&stance.planar, &wanted, side),
-                    z_m: step.height_m,
+                    z_m: if step.height_m.is_finite() {
+                        step.height_m
+                    } else {
+                        stance.z_m
+                    },
                 })
             }
         }

@@ -108,3 +108,93 @@ fn rotation_y(angle_rad: f64) -> Matrix3<f64> {
     let (s, c) = angle_rad.sin_cos();
     Matrix3::new(c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::WalkError;
+    use crate::test_biped::{biped, description};
+    use nalgebra::Translation3;
+    use proptest::prelude::*;
+    use robot::LinkPoses;
+
+    fn sole_at(body: &Body, side: Side, angles: &[f64; 6]) -> Isometry3<f64> {
+        let mut all = vec![0.0; body.joint_count()];
+        for (&joint, &angle) in body.leg_joints(side).iter().zip(angles) {
+            all[joint] = angle;
+        }
+        let mut poses = LinkPoses::default();
+        body.pose_links(&all, &mut poses).unwrap();
+        body.torso_from_sole(&poses, side)
+    }
+
+    fn reachable() -> impl Strategy<Value = [f64; 6]> {
+        (
+            -0.6..0.6f64,
+            -0.5..0.5f64,
+            -1.4..0.6f64,
+            0.1..2.2f64,
+            -1.2..0.8f64,
+            -0.5..0.5f64,
+        )
+            .prop_map(|(a, b, c, d, e, f)| [a, b, c, d, e, f])
+    }
+
+    proptest! {
+        #[test]
+        fn inverse_kinematics_finds_back_the_angles_of_any_reachable_pose(angles in reachable(), left in any::<bool>()) {
+            let side = if left { Side::Left } else { Side::Right };
+            let body = biped();
+            let leg = Leg::new(&body, side, 0.9999).unwrap();
+            let sole = sole_at(&body, side, &angles);
+            let hip_in_sole = sole.inverse_transform_vector(&(leg.hip() - sole.translation.vector));
+            prop_assume!(hip_in_sole.z > 0.06);
+            let found = leg.solve(&sole);
+            prop_assert!(found.reached);
+            for (a, b) in found.angles_rad.iter().zip(&angles) {
+                prop_assert!((a - b).abs() < 1e-6, "{:?} became {:?}", angles, found.angles_rad);
+            }
+        }
+
+        #[test]
+        fn no_pose_gives_anything_but_finite_angles(
+            xyz in prop::array::uniform3(-0.5..0.5f64),
+            turn in prop::array::uniform3(-3.0..3.0f64),
+        ) {
+            let leg = Leg::new(&biped(), Side::Left, 0.985).unwrap();
+            let rotation = nalgebra::UnitQuaternion::from_scaled_axis(Vector3::from(turn));
+            let pose = Isometry3::from_parts(Translation3::from(xyz), rotation);
+            prop_assert!(leg.solve(&pose).angles_rad.iter().all(|angle| angle.is_finite()));
+        }
+    }
+
+    #[test]
+    fn a_pose_out_of_reach_is_said_to_be_so() {
+        let leg = Leg::new(&biped(), Side::Left, 0.985).unwrap();
+        let far = Isometry3::translation(0.0, 0.0425, -0.4);
+        assert!(!leg.solve(&far).reached);
+    }
+
+    #[test]
+    fn a_leg_with_a_slanting_axis_is_refused_by_name() {
+        let mut slanting = description();
+        slanting.links[1].joint.as_mut().unwrap().axis = [0.0, 0.7, -0.7];
+        let error = Leg::new(&Body::new(slanting).unwrap(), Side::Left, 0.985).unwrap_err();
+        assert!(matches!(
+            error,
+            WalkError::Leg {
+                side: Side::Left,
+                ..
+            }
+        ));
+        assert!(error.to_string().contains("left_hip_yaw"), "{error}");
+    }
+
+    #[test]
+    fn a_leg_whose_hip_axes_do_not_meet_is_refused() {
+        let mut apart = description();
+        apart.links[3].position = [0.02, 0.0, 0.0];
+        let error = Leg::new(&Body::new(apart).unwrap(), Side::Left, 0.985).unwrap_err();
+        assert!(error.to_string().contains("must meet"), "{error}");
+    }
+}

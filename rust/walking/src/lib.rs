@@ -20,6 +20,8 @@ mod preview;
 pub mod support;
 pub mod swing;
 mod targets;
+#[cfg(test)]
+mod test_biped;
 mod walker;
 
 pub use config::GaitConfig;

@@ -90,3 +90,56 @@ impl Soles {
 fn center(foot: &FootPose) -> Vector2<f64> {
     Vector2::new(foot.planar.x_m, foot.planar.y_m)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::test_biped::biped;
+    use geometry::PlanarPose;
+    use proptest::prelude::*;
+
+    const MARGIN_M: f64 = 0.006;
+
+    fn feet() -> impl Strategy<Value = [FootPose; 2]> {
+        let at = |y: f64| {
+            (-0.1..0.1f64, y - 0.02..y + 0.02f64, -0.3..0.3f64).prop_map(|(x, y, yaw)| FootPose {
+                planar: PlanarPose::new(x, y, yaw),
+                z_m: 0.0,
+            })
+        };
+        (at(0.07), at(-0.07)).prop_map(|(left, right)| [left, right])
+    }
+
+    proptest! {
+        #[test]
+        fn every_point_lies_on_its_sole_and_the_shares_make_a_whole(
+            feet in feet(), x in -0.5..0.5f64, y in -0.5..0.5f64,
+        ) {
+            let soles = Soles::new(&biped(), MARGIN_M);
+            let wanted = Vector2::new(x, y);
+            let carry = feet.map(|foot| Vector2::new(foot.planar.x_m, foot.planar.y_m));
+            for pressure in [
+                soles.on_both(&feet, &carry, &wanted),
+                soles.on_one(&feet, Side::Left, &wanted),
+                soles.on_one(&feet, Side::Right, &wanted),
+            ] {
+                prop_assert!((pressure.share[0] + pressure.share[1] - 1.0).abs() < 1e-12);
+                let mut zmp = Vector2::zeros();
+                for (foot, (point, share)) in feet.iter().zip(pressure.point.iter().zip(pressure.share)) {
+                    let (x, y) = foot.planar.inverse().apply(point.x, point.y);
+                    prop_assert!(x.abs() < 0.0525 - MARGIN_M + 1e-9 && y.abs() < 0.0375 - MARGIN_M + 1e-9);
+                    zmp += point * share;
+                }
+                prop_assert!((zmp - pressure.zmp).norm() < 1e-9);
+            }
+        }
+
+        #[test]
+        fn a_point_between_the_feet_is_given_exactly(feet in feet(), share in 0.0..1.0f64) {
+            let soles = Soles::new(&biped(), MARGIN_M);
+            let carry = feet.map(|foot| Vector2::new(foot.planar.x_m, foot.planar.y_m));
+            let wanted = carry[0] * share + carry[1] * (1.0 - share);
+            prop_assert!((soles.on_both(&feet, &carry, &wanted).zmp - wanted).norm() < 1e-9);
+        }
+    }
+}

@@ -22,3 +22,34 @@ pub fn height_m(share: f64, from_m: f64, top_m: f64, to_m: f64) -> f64 {
         top_m + (to_m - top_m) * minimum_jerk(2.0 * share - 1.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_foot_starts_and_ends_at_rest_where_it_should(from in -0.1..0.1f64, to in -0.1..0.1f64) {
+            let top = from.max(to) + 0.02;
+            let small = 1e-5;
+            prop_assert_eq!(height_m(0.0, from, top, to), from);
+            prop_assert!((height_m(1.0, from, top, to) - to).abs() < 1e-12);
+            prop_assert!((height_m(small, from, top, to) - from).abs() < small * small);
+            prop_assert!((height_m(1.0 - small, from, top, to) - to).abs() < small * small);
+            prop_assert_eq!((travel(0.0), travel(1.0)), (0.0, 1.0));
+        }
+
+        #[test]
+        fn the_foot_never_goes_below_both_ends(share in 0.0..1.0f64, from in -0.1..0.1f64, to in -0.1..0.1f64) {
+            let top = from.max(to) + 0.02;
+            let height = height_m(share, from, top, to);
+            prop_assert!(height >= from.min(to) - 1e-12 && height <= top + 1e-12);
+        }
+
+        #[test]
+        fn the_foot_only_goes_forward(share in 0.0..1.0f64, more in 0.0..0.5f64) {
+            prop_assert!(travel(share + more) >= travel(share) - 1e-12);
+        }
+    }
+}

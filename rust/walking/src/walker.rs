@@ -225,3 +225,7 @@ fn upright(body: &Body) -> Result<Stance, WalkError> {
     let com = body.center_of_mass_in_torso(&poses).coords - middle;
     Ok(Stance { rest, feet, com })
 }
+
+#[cfg(test)]
+#[path = "walker_tests.rs"]
+mod tests;

@@ -1,0 +1,220 @@
+//! Test support: a small biped with a head, and a world in which its joints follow their targets at once.
+
+use std::collections::BTreeMap;
+
+use behaviour::Command;
+use geometry::Pose;
+use localization::BodyState;
+use nalgebra::{UnitQuaternion, Vector3};
+use robot::{
+    Body, CameraMount, Description, Extent, Head, ImuMount, JointDescription, Leg, Legs,
+    LinkDescription, LinkPoses, Side, Sole, StereoDescription,
+};
+use sensing::Observation;
+
+use crate::{JointTargets, Walker};
+
+const X: [f64; 3] = [1.0, 0.0, 0.0];
+const Y: [f64; 3] = [0.0, 1.0, 0.0];
+const Z: [f64; 3] = [0.0, 0.0, 1.0];
+const LEG: [(&str, [f64; 3]); 6] = [
+    ("hip_yaw", Z),
+    ("hip_roll", X),
+    ("hip_pitch", Y),
+    ("knee", Y),
+    ("ankle_pitch", Y),
+    ("foot", X),
+];
+/// Bend of the hips in the stance, rad; the knees bend twice as much.
+const BEND_RAD: f64 = 0.47;
+
+fn link(
+    name: &str,
+    parent: usize,
+    position: [f64; 3],
+    mass: f64,
+    axis: [f64; 3],
+) -> LinkDescription {
+    LinkDescription {
+        name: name.to_owned(),
+        parent: Some(parent),
+        position,
+        orientation: [1.0, 0.0, 0.0, 0.0],
+        mass,
+        center_of_mass: [0.0; 3],
+        inertia: [1e-4, 1e-4, 1e-4, 0.0, 0.0, 0.0],
+        joint: Some(JointDescription {
+            name: name.to_owned(),
+            axis,
+            anchor: [0.0; 3],
+            range: [-2.5, 2.5],
+            peak_torque: 6.0,
+            no_load_speed: 7.0,
+            kp: 150.0,
+            kv: 3.0,
+        }),
+    }
+}
+
+/// Two legs of 100 + 105 mm, a trunk, a head that nods and carries a camera that looks down by 0.2 rad at zero.
+pub(crate) fn description() -> Description {
+    let mut root = link("pelvis", 0, [0.0; 3], 3.0, Z);
+    (root.parent, root.joint) = (None, None);
+    root.center_of_mass = [-0.005, 0.0, 0.12];
+    let mut links = vec![root];
+    for (side, sign) in [("left", 1.0), ("right", -1.0)] {
+        for (i, (name, axis)) in LEG.into_iter().enumerate() {
+            let position = match i {
+                0 => [0.0, sign * 0.0425, 0.0],
+                3 => [0.0, 0.0, -0.1],
+                4 => [0.0, 0.0, -0.105],
+                _ => [0.0; 3],
+            };
+            let parent = if i == 0 { 0 } else { links.len() - 1 };
+            links.push(link(&format!("{side}_{name}"), parent, position, 0.2, axis));
+        }
+    }
+    links.push(link("pan", 0, [0.0, 0.0, 0.2], 0.1, Z));
+    links.push(link("tilt", 13, [0.0, 0.0, 0.04], 0.4, Y));
+    let names = |side: &str| LEG.map(|(name, _)| format!("{side}_{name}"));
+    let leg = |side: &str| Leg {
+        joints: names(side),
+        sole: Sole {
+            link: format!("{side}_foot"),
+            position: [0.0, 0.0, -0.045],
+            length: 0.105,
+            width: 0.075,
+        },
+    };
+    let joints: Vec<String> = links
+        .iter()
+        .filter_map(|link| link.joint.as_ref().map(|joint| joint.name.clone()))
+        .collect();
+    let bent = [0.0, 0.0, -BEND_RAD, 2.0 * BEND_RAD, -BEND_RAD, 0.0];
+    let stand = [&bent[..], &bent[..], &[0.0, 0.0]].concat();
+    Description {
+        name: "biped".to_owned(),
+        joints,
+        stand,
+        torso: "pelvis".to_owned(),
+        legs: Legs {
+            left: leg("left"),
+            right: leg("right"),
+        },
+        head: Head {
+            pan: "pan".to_owned(),
+            tilt: "tilt".to_owned(),
+        },
+        arms_rest: BTreeMap::new(),
+        imu: imu(),
+        camera: camera(),
+        body: Extent {
+            radius: 0.14,
+            height: 0.5,
+        },
+        play: 0.0,
+        gait: serde_json::Value::Null,
+        links,
+    }
+}
+
+fn imu() -> ImuMount {
+    ImuMount {
+        link: "pelvis".to_owned(),
+        position: [0.0; 3],
+        orientation: [1.0, 0.0, 0.0, 0.0],
+    }
+}
+
+/// Looks down by 0.2 rad at zero.
+fn camera() -> CameraMount {
+    // z forward, x right, y down; then nodding.
+    let optical = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), 0.2)
+        * UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(0.5, -0.5, 0.5, -0.5));
+    CameraMount {
+        link: "tilt".to_owned(),
+        position: [0.03, 0.0, 0.0],
+        orientation: [optical.w, optical.i, optical.j, optical.k],
+        width: 8,
+        height: 8,
+        focal: 8.0,
+        period: 0.08,
+        stereo: stereo(),
+    }
+}
+
+fn stereo() -> StereoDescription {
+    serde_json::from_value(serde_json::json!({
+        "baseline": 0.06, "window": 5, "quantum": 0.125, "min_disparity": 1.5, "max_disparity": 24.0,
+    }))
+    .unwrap()
+}
+
+pub(crate) fn biped() -> Body {
+    Body::new(description()).unwrap()
+}
+
+/// A world without inertia: joints are where their targets are, the torso is level, the feet carry what they shall carry.
+pub(crate) struct Ideal {
+    pub(crate) body: Body,
+    pub(crate) walker: Walker,
+    pub(crate) targets: JointTargets,
+    time_ns: u64,
+}
+
+impl Ideal {
+    pub(crate) fn new() -> Self {
+        let body = biped();
+        let walker = Walker::new(&body).unwrap();
+        let targets = JointTargets {
+            positions_rad: body.description().stand.clone(),
+            ..JointTargets::default()
+        };
+        Self {
+            body,
+            walker,
+            targets,
+            time_ns: 0,
+        }
+    }
+
+    /// One tick.
+    pub(crate) fn tick(&mut self, command: &Command) {
+        let weight = self.body.mass_kg() * 9.81;
+        let loads = self.walker.balance().2.share.map(|share| share * weight);
+        let observation = Observation {
+            time_ns: self.time_ns,
+            joint_positions_rad: self.targets.positions_rad.clone(),
+            joint_velocities_radps: vec![0.0; self.body.joint_count()],
+            angular_velocity_radps: [0.0; 3],
+            specific_force_mps2: [0.0, 0.0, 9.81],
+            foot_forces_n: loads.map(|load| [0.25 * load; 4]),
+            depth: None,
+        };
+        let state = BodyState {
+            time_ns: self.time_ns,
+            odometry_from_torso_rotation: UnitQuaternion::identity(),
+            angular_velocity_radps: Vector3::zeros(),
+            links: self.links(),
+            foot_loads_n: loads,
+            support: Side::Left,
+            odometry_from_robot: Pose::identity(),
+            robot_from_torso: Pose::identity(),
+        };
+        self.time_ns += 10_000_000;
+        self.targets = self
+            .walker
+            .step(command, &observation, &state)
+            .unwrap()
+            .clone();
+    }
+
+    /// Poses of the links at the targets.
+    pub(crate) fn links(&self) -> LinkPoses {
+        let mut links = LinkPoses::default();
+        self.body
+            .pose_links(&self.targets.positions_rad, &mut links)
+            .unwrap();
+        links
+    }
+}
