@@ -76,6 +76,7 @@ def describe(
             },
         },
         "body": {"radius": file.body.radius, "height": file.body.height},
+        "play": file.encoders.play,
         "gait": dict(file.gait),
     }
 

@@ -9,6 +9,7 @@ mod leg_odometry;
 mod levelling;
 mod localizer;
 mod odometry_localizer;
+mod play;
 mod proprioception;
 #[cfg(test)]
 mod synthetic_walk;

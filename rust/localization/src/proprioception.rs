@@ -9,6 +9,7 @@ use crate::attitude::{AttitudeFilter, ImuSample};
 use crate::contact::Contacts;
 use crate::leg_odometry::{LegOdometry, Legs, odometry_from_torso};
 use crate::levelling::Levelling;
+use crate::play::Play;
 use crate::{BodyState, ProprioceptionConfig, ProprioceptionError};
 
 const GRAVITY_MPS2: f64 = 9.81;
@@ -31,6 +32,7 @@ struct ChainJoint {
 pub struct Proprioception {
     body: Body,
     config: ProprioceptionConfig,
+    play: Play,
     imu_chain: Vec<ChainJoint>,
     attitude: AttitudeFilter,
     levelling: Levelling,
@@ -48,6 +50,7 @@ impl Proprioception {
     pub fn new(body: &Body, config: ProprioceptionConfig) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self {
+            play: Play::new(body),
             imu_chain: chain_to_imu(body),
             attitude: AttitudeFilter::new(&config),
             levelling: Levelling::new(),
@@ -76,8 +79,7 @@ impl Proprioception {
     /// The body state at this observation. A refused observation leaves everything as it was.
     pub fn update(&mut self, observation: &Observation) -> Result<&BodyState, ProprioceptionError> {
         self.check(observation)?;
-        self.body
-            .pose_links(&observation.joint_positions_rad, &mut self.state.links)?;
+        self.pose_links(observation)?;
         let passed_s = self.before_ns.map_or(0.0, |before_ns| {
             (observation.time_ns - before_ns) as f64 * 1e-9
         });
@@ -127,6 +129,22 @@ impl Proprioception {
         self.state.angular_velocity_radps = torso_from_imu * rate_in_imu - trunk_rate;
         self.fill(observation.time_ns, &legs);
         Ok(&self.state)
+    }
+
+    /// Poses the links by the joints: the motors' angles without the gears' play.
+    fn pose_links(&mut self, observation: &Observation) -> Result<(), robot::BodyError> {
+        let motor_positions_rad = &observation.joint_positions_rad;
+        self.body
+            .pose_links(motor_positions_rad, &mut self.state.links)?;
+        let joint_positions_rad = self.play.joint_positions_rad(
+            &self.body,
+            &self.state.links,
+            motor_positions_rad,
+            &observation.foot_forces_n,
+            &self.state.odometry_from_torso_rotation,
+        );
+        self.body
+            .pose_links(joint_positions_rad, &mut self.state.links)
     }
 
     /// The state of the last observation; at the origin before the first.

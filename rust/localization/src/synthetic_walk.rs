@@ -128,6 +128,7 @@ fn describe(links: Vec<LinkDescription>, left: Leg, right: Leg) -> Body {
             radius: 0.14,
             height: 0.58,
         },
+        play: 0.0,
         gait: serde_json::Value::Null,
     })
     .unwrap()

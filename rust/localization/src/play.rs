@@ -1,0 +1,165 @@
+//! Lost motion in the gears of the legs, taken out of the encoders' readings.
+//!
+//! An encoder sits at the motor and leads its joint by half of the play in the direction of the torque. On a stride the
+//! torques change sign between landing and lift-off; left in, that shortens every step by a few per cent.
+
+use nalgebra::{Point3, UnitQuaternion, Vector3};
+use robot::{Body, LinkPoses, Side};
+
+const GRAVITY_MPS2: f64 = 9.81;
+/// Share of a motor's peak torque that takes up the play.
+const TAKES_UP: f64 = 0.06;
+/// Share of a tick's new lead in the smoothed one.
+const FOLLOW: f64 = 0.5;
+
+/// A joint of a leg.
+#[derive(Debug, Clone, Copy)]
+struct Gear {
+    joint: usize,
+    takes_up_nm: f64,
+    lead_rad: f64,
+}
+
+/// What the gears hide.
+#[derive(Debug, Clone)]
+pub(crate) struct Play {
+    half_rad: f64,
+    gears: Vec<Gear>,
+    torques_nm: Vec<f64>,
+    joint_positions_rad: Vec<f64>,
+}
+
+impl Play {
+    pub(crate) fn new(body: &Body) -> Self {
+        let description = body.description();
+        let gears = Side::BOTH
+            .iter()
+            .flat_map(|&side| body.leg_joints(side))
+            .map(|&joint| {
+                let name = &description.joints[joint];
+                let hinges = description
+                    .links
+                    .iter()
+                    .filter_map(|link| link.joint.as_ref());
+                let peak_nm = hinges
+                    .filter(|hinge| hinge.name == *name)
+                    .map(|hinge| hinge.peak_torque)
+                    .fold(0.0, f64::max);
+                Gear {
+                    joint,
+                    takes_up_nm: TAKES_UP * peak_nm,
+                    lead_rad: 0.0,
+                }
+            })
+            .collect();
+        Self {
+            half_rad: 0.5 * description.play,
+            gears,
+            torques_nm: vec![0.0; body.joint_count()],
+            joint_positions_rad: vec![0.0; body.joint_count()],
+        }
+    }
+
+    /// Joint angles from the motors' angles, rad, joint order. `links` are posed by the motors' angles.
+    pub(crate) fn joint_positions_rad(
+        &mut self,
+        body: &Body,
+        links: &LinkPoses,
+        motor_positions_rad: &[f64],
+        foot_forces_n: &[[f64; 4]; 2],
+        odometry_from_torso: &UnitQuaternion<f64>,
+    ) -> &[f64] {
+        self.joint_positions_rad
+            .copy_from_slice(motor_positions_rad);
+        if self.half_rad <= 0.0 {
+            return &self.joint_positions_rad;
+        }
+        let up = odometry_from_torso.inverse() * Vector3::z();
+        self.torques_nm.fill(0.0);
+        body.add_gravity(links, &(up * -GRAVITY_MPS2), &mut self.torques_nm);
+        for side in Side::BOTH {
+            let forces_n = &foot_forces_n[side.index()];
+            let load_n: f64 = forces_n.iter().sum();
+            let pressed_at = center_of_pressure(body, links, side, forces_n);
+            let link = body.sole_link(side);
+            body.add_force(
+                links,
+                link,
+                &pressed_at,
+                &(up * load_n),
+                &mut self.torques_nm,
+            );
+        }
+        for gear in &mut self.gears {
+            let holding_nm = -self.torques_nm[gear.joint];
+            let lead_rad =
+                self.half_rad * (holding_nm / gear.takes_up_nm.max(1e-9)).clamp(-1.0, 1.0);
+            gear.lead_rad += (lead_rad - gear.lead_rad) * FOLLOW;
+            self.joint_positions_rad[gear.joint] -= gear.lead_rad;
+        }
+        &self.joint_positions_rad
+    }
+}
+
+/// Where the ground presses on a sole, in the torso's frame, as far as a force for each quarter tells.
+fn center_of_pressure(
+    body: &Body,
+    links: &LinkPoses,
+    side: Side,
+    [front_left, front_right, rear_left, rear_right]: &[f64; 4],
+) -> Point3<f64> {
+    let sole = &body.description().legs.get(side).sole;
+    let load_n = (front_left + front_right + rear_left + rear_right).max(1e-6);
+    let x = sole.length / 4.0 * (front_left + front_right - rear_left - rear_right) / load_n;
+    let y = sole.width / 4.0 * (front_left + rear_left - front_right - rear_right) / load_n;
+    body.torso_from_sole(links, side) * Point3::new(x, y, 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic_walk::{Walk, biped};
+
+    fn corrected(play_rad: f64, forces_n: [[f64; 4]; 2]) -> (Vec<f64>, Vec<f64>) {
+        let mut description = biped().description().clone();
+        description.play = play_rad;
+        let body = Body::new(description).unwrap();
+        let measured = Walk::new().stand(1).observations[0]
+            .joint_positions_rad
+            .clone();
+        let mut links = LinkPoses::default();
+        body.pose_links(&measured, &mut links).unwrap();
+        let mut play = Play::new(&body);
+        for _ in 0..20 {
+            let _ = play.joint_positions_rad(
+                &body,
+                &links,
+                &measured,
+                &forces_n,
+                &UnitQuaternion::identity(),
+            );
+        }
+        (measured, play.joint_positions_rad)
+    }
+
+    #[test]
+    fn gears_without_play_are_believed() {
+        let (measured, joints) = corrected(0.0, [[8.0; 4]; 2]);
+        assert_eq!(measured, joints);
+    }
+
+    #[test]
+    fn a_loaded_bent_knee_is_bent_further_than_its_motor_says() {
+        let (measured, joints) = corrected(0.005, [[16.0; 4], [0.0; 4]]);
+        // The motor pushes the knee straight; the joint lags behind it by half of the play.
+        assert!((joints[3] - measured[3] - 0.0025).abs() < 1e-6);
+        // Nothing leads by more than half of the play, and the trunk is left alone.
+        assert!(
+            joints
+                .iter()
+                .zip(&measured)
+                .all(|(j, m)| (j - m).abs() <= 0.0025 + 1e-12)
+        );
+        assert_eq!(joints[12], measured[12]);
+    }
+}
