@@ -17,8 +17,10 @@ const BINS: usize = 96;
 pub(super) struct SearchArea {
     /// Tilts up to this in both directions, rad.
     pub(super) tilt_rad: f64,
-    /// First step of the search, rad; halved until it is below 0.4 degrees.
+    /// First step of the search, rad; halved until it would be below the last one.
     pub(super) step_rad: f64,
+    /// Smallest step of the search, rad.
+    pub(super) last_step_rad: f64,
     /// Depths below the camera that count, m.
     pub(super) below_m: (f64, f64),
 }
@@ -59,7 +61,7 @@ impl HorizonSearch {
         let steps = (area.tilt_rad / area.step_rad).round() as i32;
         let mut best = self.sharpest(&Vector2::zeros(), area.step_rad, steps, area);
         let mut step = area.step_rad / 2.0;
-        while step > 0.0035 {
+        while step >= area.last_step_rad {
             best = self.sharpest(&best, step, 1, area);
             step /= 2.0;
         }

@@ -39,8 +39,9 @@ const TRACKED_RAD: f64 = 0.02;
 const SEARCHED_RAD: f64 = 0.1;
 /// Roughest ground that is accepted in a search, in noise: a plane laid through several steps is rougher.
 const SMOOTH: f64 = 1.35;
-/// First step of the search for the tilt while tracked, rad.
-const TRACK_STEP_RAD: f64 = 0.014;
+/// Step of the search for the tilt while tracked, and last step of the search from nothing, rad.
+const TRACK_STEP_RAD: f64 = 0.012;
+const LAST_STEP_RAD: f64 = 0.006;
 
 /// The scan-line segmenter.
 #[derive(Debug, Clone)]
@@ -132,12 +133,14 @@ impl ScanLine {
             SearchArea {
                 tilt_rad: self.config.search_tilt,
                 step_rad: self.config.search_tilt / 6.0,
+                last_step_rad: LAST_STEP_RAD,
                 below_m: (height_m - slack, height_m + slack),
             }
         } else {
             SearchArea {
                 tilt_rad: TRACK_STEP_RAD,
                 step_rad: TRACK_STEP_RAD,
+                last_step_rad: TRACK_STEP_RAD,
                 below_m: (0.1, height_m + 0.1),
             }
         };
