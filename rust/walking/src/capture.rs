@@ -142,11 +142,11 @@ fn turned(stance: &PlanarPose, vector: &Vector2<f64>) -> (f64, f64) {
 mod tests {
     use super::*;
     use crate::gait::FootPose;
-    use crate::test_biped::biped;
+    use crate::test_biped::{biped, config};
 
     /// The left foot swings, for this share of its time already.
     fn swinging(share: f64) -> (Capture, Gait, Soles) {
-        let (config, body) = (GaitConfig::default(), biped());
+        let (config, body) = (config(), biped());
         let planner = FootstepPlanner::new(&config, &body);
         let foot = |y: f64| FootPose {
             planar: PlanarPose::new(0.0, y, 0.0),
@@ -199,7 +199,7 @@ mod tests {
         let (mut capture, mut gait, soles) = swinging(0.9);
         let error = Vector2::new(0.0, -0.05);
         assert_eq!(capture.adjust(&mut gait, &soles, &error, 6.0, 0.01), 0.0);
-        let patience = GaitConfig::default().capture_patience;
+        let patience = config().capture_patience;
         for _ in 0..(patience / 0.01) as usize + 2 {
             let _ = capture.adjust(&mut gait, &soles, &error, 6.0, 0.01);
         }

@@ -4,6 +4,7 @@ use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
 
 use crate::WalkError;
+use crate::stance::Stance;
 
 /// The gait's parameters. Lengths in metres, times in seconds, angles in radians.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -25,11 +26,11 @@ pub struct GaitConfig {
     pub max_sideways: f64,
     /// Largest turn of one step, rad.
     pub max_turn: f64,
-    /// Distance between the centres of the soles when they are side by side, m.
+    /// Distance between the centres of the soles when they are side by side, m; without it, that of the upright stance.
     pub stance_width: f64,
     /// Least gap between the soles, m.
     pub foot_gap: f64,
-    /// Height of the hips' centres over the soles, m.
+    /// Height of the hips' centres over the soles, m; without it, that of the upright stance.
     pub hip_height: f64,
     /// The leg never gets longer than this share of its straight length.
     pub max_extension: f64,
@@ -78,9 +79,9 @@ impl Default for GaitConfig {
             max_backward: 0.05,
             max_sideways: 0.06,
             max_turn: 0.3,
-            stance_width: 0.085,
+            stance_width: 0.0,
             foot_gap: 0.008,
-            hip_height: 0.223,
+            hip_height: 0.0,
             max_extension: 0.985,
             support_inward: 0.0,
             sole_margin: 0.006,
@@ -103,13 +104,20 @@ impl Default for GaitConfig {
 }
 
 impl GaitConfig {
-    /// Reads `[gait]`; nothing stands for the defaults.
-    pub fn read(table: &serde_json::Value) -> Result<Self, WalkError> {
-        let config: Self = if table.is_null() {
+    /// Reads `[gait]`; nothing stands for the defaults. Width and height of the stance are those of the body's upright stance
+    /// unless given.
+    pub fn read(table: &serde_json::Value, stance: &Stance) -> Result<Self, WalkError> {
+        let mut config: Self = if table.is_null() {
             Self::default()
         } else {
             Self::deserialize(table).map_err(|error| WalkError::Form(error.to_string()))?
         };
+        if table.get("stance_width").is_none() {
+            config.stance_width = stance.width_m();
+        }
+        if table.get("hip_height").is_none() {
+            config.hip_height = stance.hip_height_m;
+        }
         config.check()?;
         Ok(config)
     }

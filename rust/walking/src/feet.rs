@@ -84,21 +84,22 @@ impl FeetControl {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::test_biped::config;
 
     #[test]
     fn the_foot_with_too_much_load_yields_upwards() {
-        let mut control = FeetControl::new(&GaitConfig::default());
+        let mut control = FeetControl::new(&config());
         for _ in 0..10 {
             control.update(&Phase::Standing, &[0.5, 0.5], &[50.0, 20.0], 70.0, 0.01);
         }
         let [left, right] = Side::BOTH.map(|side| control.place(FootPose::default(), side).z_m);
         assert!(left > 0.0 && right < 0.0);
-        assert!(left - right <= GaitConfig::default().load_limit);
+        assert!(left - right <= config().load_limit);
     }
 
     #[test]
     fn a_foot_that_finds_the_ground_early_stays_at_that_height() {
-        let mut control = FeetControl::new(&GaitConfig::default());
+        let mut control = FeetControl::new(&config());
         let swing = crate::gait::Swing {
             side: Side::Left,
             from: FootPose::default(),

@@ -96,7 +96,7 @@ impl FootstepPlanner {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::test_biped::biped;
+    use crate::test_biped::{biped, config};
     use proptest::prelude::*;
 
     fn any_rate() -> impl Strategy<Value = f64> {
@@ -116,7 +116,7 @@ mod tests {
     }
 
     fn planner() -> FootstepPlanner {
-        FootstepPlanner::new(&GaitConfig::default(), &biped())
+        FootstepPlanner::new(&config(), &biped())
     }
 
     /// Whether two soles of the biped overlap, by the separating axes of rectangles.
@@ -161,7 +161,7 @@ mod tests {
 
         #[test]
         fn no_step_goes_beyond_the_gait(velocity in velocity()) {
-            let config = GaitConfig::default();
+            let config = config();
             let landing = planner().next(&PlanarPose::default(), Side::Left, &velocity);
             let reach = config.max_forward + 2.0 * config.max_turn * config.stance_width;
             prop_assert!(landing.x_m.abs() <= reach);
@@ -172,7 +172,7 @@ mod tests {
 
     #[test]
     fn a_pair_of_steps_goes_as_fast_as_it_was_told() {
-        let (planner, config) = (planner(), GaitConfig::default());
+        let (planner, config) = (planner(), config());
         let velocity = Velocity {
             x_mps: 0.05,
             y_mps: 0.02,

@@ -17,6 +17,7 @@ pub mod leg;
 mod leg_geometry;
 mod posture;
 mod preview;
+pub mod stance;
 pub mod support;
 pub mod swing;
 mod targets;

@@ -12,7 +12,8 @@ use robot::{
 };
 use sensing::Observation;
 
-use crate::{JointTargets, Walker};
+use crate::stance::Stance;
+use crate::{GaitConfig, JointTargets, Walker};
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
@@ -147,6 +148,15 @@ fn stereo() -> StereoDescription {
     serde_json::from_value(serde_json::json!({
         "baseline": 0.06, "window": 5, "quantum": 0.125, "min_disparity": 1.5, "max_disparity": 24.0,
     }))
+    .unwrap()
+}
+
+/// The default gait for the biped.
+pub(crate) fn config() -> GaitConfig {
+    GaitConfig::read(
+        &serde_json::Value::Null,
+        &Stance::upright(&biped()).unwrap(),
+    )
     .unwrap()
 }
 

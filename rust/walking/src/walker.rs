@@ -1,19 +1,19 @@
 //! The walker: a command in, targets for all joints out, at every control tick.
 
 use behaviour::{Command, Gaze};
-use geometry::PlanarPose;
 use localization::BodyState;
-use nalgebra::{Vector2, Vector3};
-use robot::{Body, LinkPoses, Side};
+use nalgebra::Vector2;
+use robot::{Body, Side};
 use sensing::Observation;
 
 use crate::balance::{Balance, GRAVITY_MPS2, Sensed};
 use crate::capture::Capture;
 use crate::feet::FeetControl;
 use crate::footsteps::FootstepPlanner;
-use crate::gait::{FootPose, Gait, Phase, Reference};
+use crate::gait::{Gait, Phase, Reference};
 use crate::gaze::Head;
 use crate::posture::{Moment, Posture};
+use crate::stance::Stance;
 use crate::support::{Pressure, Soles};
 use crate::{GaitConfig, JointTargets, WalkError};
 
@@ -43,8 +43,11 @@ pub struct Walker {
 impl Walker {
     /// A walker for this body, standing as in the body's description; its gait is the description's `[gait]`.
     pub fn new(body: &Body) -> Result<Self, WalkError> {
-        let config = GaitConfig::read(&body.description().gait)?;
-        let Stance { rest, feet, com } = upright(body)?;
+        let stance = Stance::upright(body)?;
+        let config = GaitConfig::read(&body.description().gait, &stance)?;
+        let Stance {
+            rest, feet, com, ..
+        } = stance;
         let omega = (GRAVITY_MPS2 / com.z).sqrt();
         let planner = FootstepPlanner::new(&config, body);
         let gait = Gait::new(&config, planner.clone(), feet);
@@ -196,34 +199,6 @@ impl Walker {
             soles.on_both(&gait.feet, &carry, &wanted)
         };
     }
-}
-
-/// The upright stance.
-struct Stance {
-    /// All joint angles, rad.
-    rest: Vec<f64>,
-    /// The feet, the plan's origin midway between them.
-    feet: [FootPose; 2],
-    /// Centre of mass from there, m.
-    com: Vector3<f64>,
-}
-
-fn upright(body: &Body) -> Result<Stance, WalkError> {
-    let description = body.description();
-    let mut rest = description.stand.clone();
-    for (name, angle) in &description.arms_rest {
-        rest[body.joint("arms.rest", name)?] = *angle;
-    }
-    let mut poses = LinkPoses::default();
-    body.pose_links(&rest, &mut poses)?;
-    let soles = Side::BOTH.map(|side| body.torso_from_sole(&poses, side).translation.vector);
-    let middle = 0.5 * (soles[0] + soles[1]);
-    let feet = soles.map(|sole| FootPose {
-        planar: PlanarPose::new(sole.x - middle.x, sole.y - middle.y, 0.0),
-        z_m: 0.0,
-    });
-    let com = body.center_of_mass_in_torso(&poses).coords - middle;
-    Ok(Stance { rest, feet, com })
 }
 
 #[cfg(test)]

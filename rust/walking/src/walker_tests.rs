@@ -1,11 +1,12 @@
 //! What the walker promises, in a world where joints follow their targets at once.
 
 use behaviour::{Footstep, Motion, Velocity};
+use geometry::PlanarPose;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::test_biped::{Ideal, biped, description};
+use crate::test_biped::{Ideal, biped, config, description};
 
 fn walk(x_mps: f64, y_mps: f64, yaw_radps: f64) -> Command {
     Command {
@@ -92,7 +93,7 @@ proptest! {
         prop_assert!(world.walker.standing());
         let [left, right] = soles(&world);
         let apart = left.translation.vector - right.translation.vector;
-        let width = GaitConfig::default().stance_width;
+        let width = config().stance_width;
         prop_assert!((apart - Vector3::new(0.0, width, 0.0)).norm() < 0.015, "{apart}");
     }
 
@@ -142,7 +143,7 @@ fn walking_forward_takes_steps_of_the_right_length() {
     }
     let steps = world.walker.steps_taken();
     let place = world.walker.gait.center().x_m;
-    let step = 0.1 * GaitConfig::default().step_time;
+    let step = 0.1 * config().step_time;
     assert!(steps > 10);
     assert!(
         (place - step * (steps as f64 - 0.5)).abs() < 1e-6,
@@ -191,7 +192,7 @@ fn the_camera_looks_where_the_command_says() {
     };
     let before = world.walker.gaze();
     world.tick(&command);
-    let most = GaitConfig::default().gaze_speed * 0.01 + 1e-9;
+    let most = config().gaze_speed * 0.01 + 1e-9;
     assert!((world.walker.gaze().pan_rad - before.pan_rad).abs() <= most);
     for _ in 0..100 {
         world.tick(&command);
