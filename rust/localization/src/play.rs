@@ -1,10 +1,12 @@
 //! Lost motion in the gears of the legs, taken out of the encoders' readings.
 //!
 //! An encoder sits at the motor and leads its joint by half of the play in the direction of the torque. On a stride the
-//! torques change sign between landing and lift-off; left in, that shortens every step by a few per cent.
+//! torques change sign between landing and lift-off; left in, that shortens every step by a few per cent. The torque is the
+//! servo's, by what it was commanded and what its encoder reads; before the first command, what holds the load at rest.
 
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use robot::{Body, LinkPoses, Side};
+use sensing::Observation;
 
 const GRAVITY_MPS2: f64 = 9.81;
 /// Share of a motor's peak torque that takes up the play.
@@ -17,6 +19,11 @@ const FOLLOW: f64 = 0.5;
 struct Gear {
     joint: usize,
     takes_up_nm: f64,
+    peak_nm: f64,
+    kp: f64,
+    kv: f64,
+    /// What the servo was asked for: torque fed forward, plus stiffness times angle, plus damping times speed, N m.
+    asked_nm: Option<f64>,
     lead_rad: f64,
 }
 
@@ -35,21 +42,22 @@ impl Play {
         let gears = Side::BOTH
             .iter()
             .flat_map(|&side| body.leg_joints(side))
-            .map(|&joint| {
+            .filter_map(|&joint| {
                 let name = &description.joints[joint];
-                let hinges = description
+                let mut hinges = description
                     .links
                     .iter()
                     .filter_map(|link| link.joint.as_ref());
-                let peak_nm = hinges
-                    .filter(|hinge| hinge.name == *name)
-                    .map(|hinge| hinge.peak_torque)
-                    .fold(0.0, f64::max);
-                Gear {
+                let hinge = hinges.find(|hinge| hinge.name == *name)?;
+                Some(Gear {
                     joint,
-                    takes_up_nm: TAKES_UP * peak_nm,
+                    takes_up_nm: TAKES_UP * hinge.peak_torque,
+                    peak_nm: hinge.peak_torque,
+                    kp: hinge.kp,
+                    kv: hinge.kv,
+                    asked_nm: None,
                     lead_rad: 0.0,
-                }
+                })
             })
             .collect();
         Self {
@@ -60,17 +68,35 @@ impl Play {
         }
     }
 
+    /// Takes note of what the servos are told from now on: angles (rad), speeds (rad/s), torques (N m), joint order.
+    pub(crate) fn note_command(
+        &mut self,
+        positions_rad: &[f64],
+        velocities_radps: &[f64],
+        torques_nm: &[f64],
+    ) {
+        for gear in &mut self.gears {
+            let joint = gear.joint;
+            let asked_nm = torques_nm[joint]
+                + gear.kp * positions_rad[joint]
+                + gear.kv * velocities_radps[joint];
+            gear.asked_nm = Some(asked_nm);
+        }
+    }
+
     /// Joint angles from the motors' angles, rad, joint order. `links` are posed by the motors' angles.
     pub(crate) fn joint_positions_rad(
         &mut self,
         body: &Body,
         links: &LinkPoses,
-        motor_positions_rad: &[f64],
-        foot_forces_n: &[[f64; 4]; 2],
+        observation: &Observation,
         odometry_from_torso: &UnitQuaternion<f64>,
     ) -> &[f64] {
-        self.joint_positions_rad
-            .copy_from_slice(motor_positions_rad);
+        let (angles_rad, speeds_radps) = (
+            &observation.joint_positions_rad,
+            &observation.joint_velocities_radps,
+        );
+        self.joint_positions_rad.copy_from_slice(angles_rad);
         if self.half_rad <= 0.0 {
             return &self.joint_positions_rad;
         }
@@ -78,7 +104,7 @@ impl Play {
         self.torques_nm.fill(0.0);
         body.add_gravity(links, &(up * -GRAVITY_MPS2), &mut self.torques_nm);
         for side in Side::BOTH {
-            let forces_n = &foot_forces_n[side.index()];
+            let forces_n = &observation.foot_forces_n[side.index()];
             let load_n: f64 = forces_n.iter().sum();
             let pressed_at = center_of_pressure(body, links, side, forces_n);
             let link = body.sole_link(side);
@@ -91,9 +117,14 @@ impl Play {
             );
         }
         for gear in &mut self.gears {
-            let holding_nm = -self.torques_nm[gear.joint];
+            let joint = gear.joint;
+            let torque_nm = gear.asked_nm.map_or(-self.torques_nm[joint], |asked_nm| {
+                let servo_nm =
+                    asked_nm - gear.kp * angles_rad[joint] - gear.kv * speeds_radps[joint];
+                servo_nm.clamp(-gear.peak_nm, gear.peak_nm)
+            });
             let lead_rad =
-                self.half_rad * (holding_nm / gear.takes_up_nm.max(1e-9)).clamp(-1.0, 1.0);
+                self.half_rad * (torque_nm / gear.takes_up_nm.max(1e-9)).clamp(-1.0, 1.0);
             gear.lead_rad += (lead_rad - gear.lead_rad) * FOLLOW;
             self.joint_positions_rad[gear.joint] -= gear.lead_rad;
         }
@@ -124,20 +155,15 @@ mod tests {
         let mut description = biped().description().clone();
         description.play = play_rad;
         let body = Body::new(description).unwrap();
-        let measured = Walk::new().stand(1).observations[0]
-            .joint_positions_rad
-            .clone();
+        let mut observation = Walk::new().stand(1).observations[0].clone();
+        observation.foot_forces_n = forces_n;
+        let measured = observation.joint_positions_rad.clone();
         let mut links = LinkPoses::default();
         body.pose_links(&measured, &mut links).unwrap();
         let mut play = Play::new(&body);
         for _ in 0..20 {
-            let _ = play.joint_positions_rad(
-                &body,
-                &links,
-                &measured,
-                &forces_n,
-                &UnitQuaternion::identity(),
-            );
+            let level = UnitQuaternion::identity();
+            let _ = play.joint_positions_rad(&body, &links, &observation, &level);
         }
         (measured, play.joint_positions_rad)
     }
@@ -161,5 +187,29 @@ mod tests {
                 .all(|(j, m)| (j - m).abs() <= 0.0025 + 1e-12)
         );
         assert_eq!(joints[12], measured[12]);
+    }
+
+    #[test]
+    fn a_commanded_torque_says_on_which_side_of_its_play_a_joint_is() {
+        let mut description = biped().description().clone();
+        description.play = 0.005;
+        let body = Body::new(description).unwrap();
+        let observation = Walk::new().stand(1).observations[0].clone();
+        let measured = &observation.joint_positions_rad;
+        let mut links = LinkPoses::default();
+        body.pose_links(measured, &mut links).unwrap();
+        let still = vec![0.0; measured.len()];
+        for push_nm in [2.0, -2.0] {
+            let mut play = Play::new(&body);
+            play.note_command(measured, &still, &vec![push_nm; measured.len()]);
+            let level = UnitQuaternion::identity();
+            for _ in 0..20 {
+                let _ = play.joint_positions_rad(&body, &links, &observation, &level);
+            }
+            for &joint in body.leg_joints(Side::Right) {
+                let lead_rad = measured[joint] - play.joint_positions_rad[joint];
+                assert!((lead_rad - 0.0025_f64.copysign(push_nm)).abs() < 1e-6);
+            }
+        }
     }
 }

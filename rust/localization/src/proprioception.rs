@@ -131,6 +131,21 @@ impl Proprioception {
         Ok(&self.state)
     }
 
+    /// Takes note of what the servos are told from now on (angles rad, speeds rad/s, torques N m; joint order): which way
+    /// they push decides on which side of their gears' play the joints are. May be left out; then loads at rest decide.
+    pub fn note_command(
+        &mut self,
+        positions_rad: &[f64],
+        velocities_radps: &[f64],
+        torques_nm: &[f64],
+    ) {
+        let joints = self.body.joint_count();
+        if [positions_rad, velocities_radps, torques_nm].map(<[f64]>::len) == [joints; 3] {
+            self.play
+                .note_command(positions_rad, velocities_radps, torques_nm);
+        }
+    }
+
     /// Poses the links by the joints: the motors' angles without the gears' play.
     fn pose_links(&mut self, observation: &Observation) -> Result<(), robot::BodyError> {
         let motor_positions_rad = &observation.joint_positions_rad;
@@ -139,8 +154,7 @@ impl Proprioception {
         let joint_positions_rad = self.play.joint_positions_rad(
             &self.body,
             &self.state.links,
-            motor_positions_rad,
-            &observation.foot_forces_n,
+            observation,
             &self.state.odometry_from_torso_rotation,
         );
         self.body
