@@ -13,6 +13,7 @@ mod horizon;
 mod median;
 mod noise;
 mod product;
+mod steep;
 mod strips;
 mod surfaces;
 #[cfg(test)]

@@ -1,6 +1,8 @@
 //! Scan lines: strips of a few columns, cut into the pieces on which `q = d / g` is constant (Jiang and Bunke 1994, with
 //! one parameter a line instead of two, and the best partition instead of a recursive split).
 
+use super::steep::LineSums;
+
 /// Rays that fall less than this (as a share of `f B`) see nothing horizontal worth having.
 const MIN_FALL: f32 = 0.05;
 /// Rows without a measurement that a line may bridge.
@@ -10,10 +12,6 @@ pub(super) const MAX_STRIP: usize = 32;
 
 /// Price of a steep line on a strip, in squared noise.
 const STEEP_PRICE: f64 = 40.0;
-/// A line is steep when its disparity changes by less than this of what a horizontal surface's would from row to row
-/// (0.6 for a slope of 14 degrees as of stairs, -1 for a wall).
-const STEEP: f64 = 0.3;
-
 /// Marks of segments that are horizontal, and of those that are part of something steep.
 const LEVEL: usize = usize::MAX;
 const DROPPED: usize = usize::MAX - 1;
@@ -71,45 +69,6 @@ pub(super) struct Strips {
     lines: Vec<LineSums>,
     // Where the segments of the partition start, as positions among the strip's rows.
     cuts: Vec<usize>,
-}
-
-/// Sums for a straight line through disparities, weighted by the inverse square of the noise.
-#[derive(Debug, Clone, Copy, Default)]
-struct LineSums {
-    w: f64,
-    row: f64,
-    row_row: f64,
-    d: f64,
-    row_d: f64,
-    d_d: f64,
-    g: f64,
-    row_g: f64,
-}
-
-impl LineSums {
-    fn with(&self, row: f64, d: f64, g: f64, w: f64) -> Self {
-        Self {
-            w: self.w + w,
-            row: self.row + w * row,
-            row_row: self.row_row + w * row * row,
-            d: self.d + w * d,
-            row_d: self.row_d + w * row * d,
-            d_d: self.d_d + w * d * d,
-            g: self.g + w * g,
-            row_g: self.row_g + w * row * g,
-        }
-    }
-
-    /// Squared residuals, in noise, of the best line between two sums, where that line is steep.
-    fn steep_cost(&self, before: &Self) -> Option<f64> {
-        let (w, row) = (self.w - before.w, self.row - before.row);
-        let (d, g) = (self.d - before.d, self.g - before.g);
-        let rows = self.row_row - before.row_row - row * row / w;
-        let row_d = self.row_d - before.row_d - row * d / w;
-        let row_g = self.row_g - before.row_g - row * g / w;
-        let steep = row_d * g < STEEP * row_g * d;
-        (steep && rows > 0.0).then(|| self.d_d - before.d_d - d * d / w - row_d * row_d / rows)
-    }
 }
 
 impl Strips {

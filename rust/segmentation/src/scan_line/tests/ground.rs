@@ -1,0 +1,114 @@
+//! The ground: found, kept, lost, and never a step; the camera levelled by it.
+
+use super::*;
+
+#[test]
+fn open_floor_is_one_ground_and_the_camera_is_level_on_it() {
+    let mut noise = Noise::new(1);
+    let (mut tilts, mut heights) = (vec![], vec![]);
+    for _ in 0..20 {
+        let truth = camera_pose(noise.within(0.6), 0.75 + noise.within(0.15));
+        let planes = look(&mut segmenter(), &Scene::floor(), &truth, &mut noise);
+        assert_eq!(planes.ground, Some(0));
+        assert!(planes.reliable);
+        assert_eq!(planes.regions[0].floor_height_m, Some(0.0));
+        let (tilt, height) = pose_error(&planes, &truth);
+        tilts.push(tilt.to_degrees());
+        heights.push(height);
+    }
+    assert!(tilts.iter().all(|&tilt| tilt < 0.8), "{tilts:?}");
+    assert!(median(tilts) < 0.3);
+    let bias = heights.iter().sum::<f64>() / 20.0;
+    assert!(bias.abs() < 0.0012, "{bias}");
+    assert!(
+        heights.iter().all(|height| height.abs() < 0.006),
+        "{heights:?}"
+    );
+}
+
+#[test]
+fn camera_errors_of_seven_degrees_and_ten_millimetres_are_put_right_in_one_frame() {
+    let mut noise = Noise::new(2);
+    let (mut tilts, mut heights) = (vec![], vec![]);
+    for seed in 0..40 {
+        let truth = camera_pose(noise.within(0.3), 0.75);
+        let turn = Vector3::new(noise.within(0.122), 0.0, noise.within(0.122));
+        let mut believed = truth;
+        believed.inner.rotation *= UnitQuaternion::new(turn);
+        believed.inner.translation.vector.z += noise.within(0.01);
+        let scan = Scene::floor().scan(&truth, believed, SIGMA, &mut noise);
+        let mut planes = planes();
+        segmenter().segment(&scan, &mut planes).unwrap();
+        assert!(planes.ground.is_some() && planes.reliable, "{seed}: {turn}");
+        let (tilt, height) = pose_error(&planes, &truth);
+        tilts.push(tilt.to_degrees());
+        heights.push(height.abs());
+    }
+    assert!(tilts.iter().all(|&tilt| tilt < 0.9), "{tilts:?}");
+    assert!(heights.iter().all(|&height| height < 0.006), "{heights:?}");
+    assert!(median(tilts) < 0.3 && median(heights) < 0.002);
+}
+
+#[test]
+fn the_ground_is_kept_while_the_head_turns_with_an_error_of_seven_degrees() {
+    for (pitch, roll) in [(0.12, 0.1), (-0.12, 0.1), (0.1, -0.12), (-0.1, -0.12)] {
+        let mut noise = Noise::new(3);
+        let (mut segmenter, mut planes) = (segmenter(), planes());
+        for frame in 0..50 {
+            let pan = 0.9 * (f64::from(frame) * 0.15).sin();
+            let truth = camera_pose(pan, 0.75 + 0.15 * (f64::from(frame) * 0.1).sin());
+            let mut believed = truth;
+            believed.inner.rotation *= UnitQuaternion::new(Vector3::new(pitch, 0.0, roll));
+            let scan = Scene::floor().scan(&truth, believed, SIGMA, &mut noise);
+            segmenter.segment(&scan, &mut planes).unwrap();
+            assert!(planes.ground.is_some(), "frame {frame}");
+            assert!(pose_error(&planes, &truth).0 < 0.02, "frame {frame}");
+        }
+    }
+}
+
+#[test]
+fn a_step_is_never_taken_for_the_ground() {
+    let mut noise = Noise::new(5);
+    for front_m in [0.1, 0.15, 0.2, 0.3] {
+        for rise_m in [0.025, 0.03, 0.04] {
+            let scene = Scene::stairs(front_m, rise_m, 0.12, 4);
+            let mut segmenter = tracking(&mut noise);
+            for frame in 0..20 {
+                let truth = camera_pose(0.0, 0.6 + 0.02 * f64::from(frame));
+                let planes = look(&mut segmenter, &scene, &truth, &mut noise);
+                let Some(ground) = planes.ground else {
+                    continue;
+                };
+                let (_, labels) = scene.exact(&truth);
+                assert_eq!(
+                    true_label(&planes, &labels, ground),
+                    GROUND,
+                    "{front_m} {rise_m} frame {frame}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_lost_ground_stays_reliable_for_a_while_and_is_found_again() {
+    let mut noise = Noise::new(10);
+    let mut segmenter = tracking(&mut noise);
+    let config = ScanLineConfig::default();
+    let truth = camera_pose(0.0, 0.3);
+    let close = Scene::with(&[wall(0.2)]);
+    for frame in 1..=config.forget_frames + 2 {
+        let planes = look(&mut segmenter, &close, &truth, &mut noise);
+        assert_eq!(planes.ground, None);
+        assert_eq!(planes.reliable, frame <= config.hold_frames);
+    }
+    // Meanwhile the neck slipped by six degrees.
+    let truth = camera_pose(0.0, 0.75);
+    let believed = camera_pose(0.0, 0.65);
+    let scan = Scene::floor().scan(&truth, believed, SIGMA, &mut noise);
+    let mut planes = planes();
+    segmenter.segment(&scan, &mut planes).unwrap();
+    assert!(planes.ground.is_some());
+    assert!(pose_error(&planes, &truth).0 < 0.02);
+}

@@ -1,0 +1,113 @@
+//! Whatever is seen, the product is whole.
+
+use super::*;
+
+#[test]
+fn records_are_whole_planes_have_unit_normals_and_outlines_hold_their_points() {
+    let mut noise = Noise::new(9);
+    let truth = camera_pose(0.2, 0.75);
+    let scene = Scene::stairs(0.3, 0.03, 0.12, 3);
+    let planes = look(&mut tracking(&mut noise), &scene, &truth, &mut noise);
+    let camera = planes.robot_from_camera.inner;
+    assert!(planes.regions.len() > 2);
+    for (i, region) in planes.regions.iter().enumerate() {
+        assert!((region.plane.normal.norm() - 1.0).abs() < 1e-9);
+        assert!(region.plane.signed_distance_m(&region.mean.inner).abs() < 1e-4);
+        let pixels: Vec<_> = (0..planes.labels.len())
+            .filter(|&at| usize::from(planes.labels[at]) == i + 1)
+            .collect();
+        assert_eq!(region.support, pixels.len());
+        let (Some(outline), Some(height_m)) = (&region.boundary, region.floor_height_m) else {
+            continue;
+        };
+        for at in pixels {
+            let ray =
+                camera.rotation * Vector3::from(CAMERA.ray(at % CAMERA.width, at / CAMERA.width));
+            let depth = (height_m - camera.translation.z) / ray.z;
+            let point = camera.translation.vector + ray * depth;
+            let outside = outline
+                .edges()
+                .map(|(a, b)| -(b - a).normalize().perp(&(point.xy() - a.coords)))
+                .fold(f64::MIN, f64::max);
+            assert!(outside < 1e-4, "{outside}");
+            assert_eq!(planes.floor_height_m[at], height_m as f32);
+        }
+    }
+}
+
+#[test]
+fn nothing_seen_is_an_ordinary_product() {
+    for value in [f32::NAN, 0.0, 3.0, 24.0, f32::INFINITY, -5.0] {
+        let mut segmenter = segmenter();
+        let mut planes = planes();
+        let mut scan = Scan::new(CAMERA);
+        scan.robot_from_camera = camera_pose(0.0, 0.75);
+        scan.disparity_px.fill(value);
+        segmenter.segment(&scan, &mut planes).unwrap();
+        assert_eq!(planes.ground, None, "{value}");
+        assert!(!planes.reliable, "{value}");
+        let camera = planes.robot_from_camera.inner;
+        assert!(camera.translation.vector.iter().all(|x| x.is_finite()));
+    }
+}
+
+#[test]
+fn a_scan_of_another_size_is_refused_and_changes_nothing() {
+    let mut scan = Scan::new(CAMERA);
+    let _ = scan.disparity_px.pop();
+    let error = segmenter().segment(&scan, &mut planes()).unwrap_err();
+    let (expected, found) = (88 * 72, 88 * 72 - 1);
+    assert_eq!(error, SegmentError::WrongSize { expected, found });
+}
+
+#[test]
+fn the_same_frames_give_the_same_products() {
+    let run = || {
+        let mut noise = Noise::new(12);
+        let mut segmenter = tracking(&mut noise);
+        let scene = Scene::stairs(0.3, 0.03, 0.12, 4);
+        let truth = camera_pose(0.1, 0.75);
+        let planes = look(&mut segmenter, &scene, &truth, &mut noise);
+        (planes.regions, planes.labels, planes.robot_from_camera)
+    };
+    assert_eq!(run(), run());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+    #[test]
+    fn every_product_is_consistent_whatever_stands_around(
+        blocks in prop::collection::vec(
+            (0.25..1.2f64, -0.6..0.6f64, 0.05..0.4f64, 0.05..0.4f64, 0.01..0.5f64, 0.0..0.3f64), 0..4),
+        pan in -0.6..0.6f64, tilt in 0.2..1.0f64, seed in 0..1000u64,
+    ) {
+        let blocks: Vec<_> = blocks.iter().map(|&(x, y, dx, dy, dz, base)| Block {
+            low_m: [x, y, base],
+            high_m: [x + dx, y + dy, base + dz],
+        }).collect();
+        let mut noise = Noise::new(seed);
+        let truth = camera_pose(pan, tilt);
+        let planes = look(&mut tracking(&mut noise), &Scene::with(&blocks), &truth, &mut noise);
+        let (_, labels) = Scene::with(&blocks).exact(&truth);
+        for (at, &label) in planes.labels.iter().enumerate() {
+            let point = planes.points_in_robot_m[at];
+            prop_assert!(usize::from(label) <= planes.regions.len());
+            if label > 0 {
+                let region = &planes.regions[usize::from(label) - 1];
+                let height = planes.floor_height_m[at];
+                prop_assert_eq!(region.floor_height_m.map(|h| h as f32), (!height.is_nan()).then_some(height));
+                prop_assert!(!point[0].is_nan());
+            } else {
+                prop_assert!(planes.floor_height_m[at].is_nan());
+            }
+            if point[0].is_nan() {
+                prop_assert_eq!(label, 0);
+            }
+        }
+        if let Some(ground) = planes.ground {
+            prop_assert_eq!(planes.regions[ground].floor_height_m, Some(0.0));
+            prop_assert!(true_label(&planes, &labels, ground) != NOTHING);
+            prop_assert!(pose_error(&planes, &truth).1.abs() < 0.02);
+        }
+    }
+}
