@@ -1,6 +1,6 @@
 """Many episodes of some scenarios, random seeds, every noise on: the counts in docs/results.md.
 
-    python benches/episodes.py slalom doorway --seeds 100-119 --workers 2
+python benches/episodes.py slalom doorway --seeds 100-119 --workers 2
 """
 
 import argparse

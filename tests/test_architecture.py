@@ -1,4 +1,4 @@
-"""The house rules that a reader would else have to trust: crate order, file length, a test a module."""
+"""The house rules that one would else have to trust: crate order, file length, tests."""
 
 import re
 import tomllib

@@ -5,6 +5,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+
 from treadwell.audit import replay_audit
 from treadwell.errors import InputError
 from treadwell.motors import JointTargets

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from treadwell.camera_error import CameraErrorBounds, draw_camera_error, rotation_of
 from treadwell.depth import DepthCamera, Pinhole
 from treadwell.random_streams import stream

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+
 import treadwell.data
 from treadwell.data import data_folder
 from treadwell.errors import TreadwellError

@@ -3,6 +3,7 @@
 import mujoco
 import numpy as np
 import pytest
+
 from treadwell.depth import DepthCamera, Pinhole
 from treadwell.depth_sensor import DepthSensor
 from treadwell.observation import Frame

@@ -4,6 +4,7 @@ from dataclasses import FrozenInstanceError, fields
 
 import numpy as np
 import pytest
+
 from treadwell.observation import Frame, Observation
 
 

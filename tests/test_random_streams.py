@@ -2,6 +2,7 @@
 
 from hypothesis import given
 from hypothesis import strategies as st
+
 from treadwell.random_streams import RandomStreams, stream
 
 SEEDS = st.integers(0, 2**63)

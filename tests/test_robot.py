@@ -3,6 +3,7 @@
 import mujoco
 import numpy as np
 import pytest
+
 from treadwell.errors import InputError
 from treadwell.robot import Robot, load_robot, robot_names
 

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+
 from treadwell.data import data_folder
 from treadwell.errors import InputError
 from treadwell.robot import load_robot

@@ -5,6 +5,7 @@ import json
 import mujoco
 import numpy as np
 import pytest
+
 from treadwell.robot import Robot, load_robot, robot_names
 
 

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+
 from treadwell.data import data_folder
 from treadwell.errors import InputError
 from treadwell.robot_file import read_robot_file

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import mujoco
 import numpy as np
 import pytest
+
 from treadwell.motors import JointTargets
 from treadwell.observation import Observation
 from treadwell.random_streams import RandomStreams

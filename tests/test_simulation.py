@@ -5,6 +5,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+
 from treadwell.errors import SimulationError
 from treadwell.motors import JointTargets
 from treadwell.robot import Robot, load_robot

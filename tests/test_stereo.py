@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from numpy.typing import NDArray
+
 from treadwell.depth import Cast, Pinhole
 from treadwell.random_streams import stream
 from treadwell.stereo import (

@@ -1,8 +1,8 @@
-"""A testbed in which a small humanoid finds its own way over an obstacle course, by its senses alone.
+"""A testbed: a small humanoid finds its own way over an obstacle course, by its senses alone.
 
 >>> import treadwell
->>> result = treadwell.run("slalom", seed=3)            # the same as `treadwell run slalom --seed 3`
->>> for step in treadwell.Episode("slalom"):            # or frame by frame
+>>> result = treadwell.run("slalom", seed=3)           # the same as `treadwell run slalom --seed 3`
+>>> for step in treadwell.Episode("slalom"):           # or frame by frame
 ...     step.observation.depth, step.estimate.pose, step.command
 """
 

@@ -24,6 +24,7 @@ __all__ = [
 _Pose = tuple[float, float, float, float]
 
 def version() -> str: ...
+
 @final
 class Tick:
     @property

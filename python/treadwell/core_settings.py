@@ -14,12 +14,10 @@ INJECTED = ("truth",)
 
 
 def core_settings(scenario: Scenario, robot: Robot, course: Course) -> str:
-    """Return the core's settings as JSON: robot, start, goals, navigation. No truth but the start."""
+    """Return robot, start, goals and navigation as JSON. No truth but the start."""
     goal = scenario.goal
     places = [{"position": list(via), "radius": goal.radius} for via in goal.via]
-    places.append(
-        {"position": list(goal.position), "radius": goal.radius, "height": goal.height}
-    )
+    places.append({"position": list(goal.position), "radius": goal.radius, "height": goal.height})
     start = course.start
     settings = {
         "robot": robot.description(),
@@ -43,7 +41,9 @@ def user_components(scenario: Scenario, given: dict[str, object]) -> dict[str, A
     for slot, component in given.items():
         check_component(slot, component)
     loaded = {
-        slot: load_component(slot, name, scenario.navigation.parameters().get(name.partition(":")[2], {}))
+        slot: load_component(
+            slot, name, scenario.navigation.parameters().get(name.partition(":")[2], {})
+        )
         for slot, name in scenario.navigation.slots().items()
         if slot not in given and name not in COMPONENTS[slot]
     }

@@ -227,6 +227,6 @@ class DepthCamera:
         nothing = geom < 0
         np.maximum(depth, NEAR, out=depth)
         depth[nothing] = np.nan
-        normal = normal.reshape(-1, 3)
-        normal[nothing] = 0.0
-        return depth, geom, normal
+        normals = normal.reshape(-1, 3)
+        normals[nothing] = 0.0
+        return depth, geom, normals

@@ -146,7 +146,9 @@ class Episode:
         now = 1e-9 * simulation.time_ns
         self.judge.watch(simulation.data, now)
         self.verdict = self.referee.decide(simulation.data, now, tick.outcome, tick.reason)
-        return Step(time_ns, observation, Estimate(tick.estimate, tick.odometry), command, tick.state)
+        return Step(
+            time_ns, observation, Estimate(tick.estimate, tick.odometry), command, tick.state
+        )
 
     @property
     def goal(self) -> tuple[float, float]:

@@ -24,9 +24,9 @@ GOAL_HEIGHT_TOLERANCE = 0.02
 """Metres that each sole may be off the goal's height."""
 STUCK_SECONDS = 30.0
 STUCK_RADIUS = 0.1
-"""Metres: a robot that has not left a disc of this radius for `STUCK_SECONDS` is stuck, unless it"""
+"""Metres: a robot that has not left a disc of this radius for `STUCK_SECONDS` is stuck, unless"""
 STUCK_TURN = 0.5
-"""has turned by this, rad: one that looks around is not."""
+"""it has turned by this, rad: one that looks around is not."""
 PATH_SPACING = 0.03
 """Metres between the points of which the path's length is made; sways smaller than it vanish."""
 

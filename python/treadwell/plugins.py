@@ -1,4 +1,4 @@
-"""Components of the user's: found by `package.module:Class`, made, and checked for their methods."""
+"""User components: found by `package.module:Class`, made, and checked for their methods."""
 
 import importlib
 from typing import Any

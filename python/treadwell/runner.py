@@ -105,9 +105,7 @@ def run(
         InputError: anything that the user gave is bad; nothing was written.
         RecordingError: the recording cannot be written; what was written stays readable.
     """
-    episode = Episode(
-        scenario, robot=robot, seed=seed, overrides=tuple(overrides), **components
-    )
+    episode = Episode(scenario, robot=robot, seed=seed, overrides=tuple(overrides), **components)
     made = episode.scenario
     folder = make_run_folder(out, made.name, episode.robot.name, made.seed)
     writers = Writers(folder, episode, record=record, view=view)

@@ -1,4 +1,4 @@
-"""What the recorder and the score are given of a camera frame: gathered from the core and the judge."""
+"""What the recorder and the score are given of a camera frame: gathered from core and judge."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -1,4 +1,4 @@
-"""The localizer `truth`, for ablations only: it is handed the simulator's pose, and the result says so."""
+"""The localizer `truth`, for ablations only: it is handed the simulator's pose."""
 
 import mujoco
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import mujoco
 
 from treadwell.judge import Judge
+from treadwell.result import Outcome
 
 STANDING_SECONDS = 5.0
 """Seconds after a declaration within which the robot has to stand still."""
@@ -15,11 +16,11 @@ class Verdict:
     """The end of an episode.
 
     Attributes:
-        outcome: `goal_reached`, `refused`, `fell`, `timed_out`, `stuck`, `interrupted` or `error`.
+        outcome: as in `result.json`.
         reason: `word: sentence`, None where the outcome says it all.
     """
 
-    outcome: str
+    outcome: Outcome
     reason: str | None = None
 
 

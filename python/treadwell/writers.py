@@ -1,9 +1,9 @@
-"""What a run leaves behind: the recording, the observations, the audit, trajectories, the picture."""
+"""What a run leaves behind: recording, observations, audit, trajectories, picture, result."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from treadwell import __version__
 from treadwell.episode import Episode, Step
 from treadwell.errors import InputError, RecordingError
 from treadwell.map_memory import RememberedMap
@@ -35,25 +35,13 @@ class Writers:
         self._observations: ObservationLog | None = None
         self._viewer = _open_viewer(episode) if view else None
         if record:
-            from treadwell.observation_log import NAME as OBSERVATIONS
-            from treadwell.observation_log import LogHeader, ObservationLog, folder_hash
-            from treadwell.recording import NAME, Recorder
+            from treadwell import observation_log, recording
 
             made = episode.scenario
-            self._recorder = Recorder(
-                folder / NAME, episode.course.model, episode.course, made, episode.robot
+            self._recorder = recording.Recorder(
+                folder / recording.NAME, episode.course.model, episode.course, made, episode.robot
             )
-            header = LogHeader(
-                version=__version__,
-                scenario=made.name,
-                seed=made.seed,
-                robot=episode.robot.name,
-                robot_hash=folder_hash(episode.robot.folder),
-                joints=episode.robot.joints,
-                configuration=made.configuration(),
-                description=episode.robot.description(),
-            )
-            self._observations = ObservationLog(folder / OBSERVATIONS, header)
+            self._observations = observation_log.ObservationLog(folder, made, episode.robot)
 
     def tick(self, step: Step) -> None:
         """Take in a control tick.
@@ -84,12 +72,14 @@ class Writers:
             RecordingError: something could not be written; everything else was.
         """
         folder, episode = self._folder, self._episode
-        jobs = [
+        jobs: list[Callable[[], None]] = [
             self._close,
             lambda: estimate.write(folder / ESTIMATE),
             lambda: truth.write(folder / TRUTH),
             lambda: episode.simulation.save_audit(folder),
-            lambda: draw_map(folder / "map.png", episode.course, result, remembered, estimate, truth),
+            lambda: draw_map(
+                folder / "map.png", episode.course, result, remembered, estimate, truth
+            ),
             lambda: result.write(folder / "result.json"),
         ]
         first: Exception | None = None
