@@ -123,6 +123,11 @@ impl Pilot {
             self.walker.step(&decision.command, observation, state)
         })?;
         let dead_reckoning = self.map_from_odometry_at_start * state.odometry_from_robot;
+        self.proprioception.note_command(
+            &targets.positions_rad,
+            &targets.velocities_radps,
+            &targets.torques_nm,
+        );
         Ok(Tick {
             targets,
             estimate,
