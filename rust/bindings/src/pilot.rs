@@ -56,6 +56,10 @@ fn flat<T, S>(pose: &geometry::Pose<T, S>) -> [f64; 4] {
 #[pymethods]
 impl PyPilot {
     #[new]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "one keyword argument of Python's each"
+    )]
     #[pyo3(signature = (settings, *, segmenter=None, world_model=None, localizer=None, planner=None, behaviour=None))]
     fn new(
         py: Python<'_>,
@@ -75,7 +79,7 @@ impl PyPilot {
             planner: planner.map(components::planner),
             behaviour: behaviour.map(components::behaviour),
         };
-        let pilot = Pilot::new(settings, given).map_err(|error| {
+        let pilot = Pilot::new(&settings, given).map_err(|error| {
             if error.is_bad_setting() {
                 bad_setting(py, &error)
             } else {

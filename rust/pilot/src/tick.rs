@@ -48,17 +48,17 @@ pub struct Tick<'a> {
 
 impl Pilot {
     /// Builds the core. A component that is given takes the place of the named one.
-    pub fn new(settings: Settings, given: Components) -> Result<Self, PilotError> {
+    pub fn new(settings: &Settings, given: Components) -> Result<Self, PilotError> {
         let body = Body::new(settings.robot.clone())?;
         let camera = Intrinsics::from(&body.description().camera);
         let tables = &settings.navigation.tables;
         let segmenter = given
             .segmenter
-            .map_or_else(|| registry::segmenter(&settings, camera), Ok)?;
+            .map_or_else(|| registry::segmenter(settings, camera), Ok)?;
         let self_filter = SelfFilter::new(&body, &registry::table(tables, "self_filter")?)?;
         let world_model = given
             .world_model
-            .map_or_else(|| registry::world_model(&settings), Ok)?;
+            .map_or_else(|| registry::world_model(settings), Ok)?;
         Ok(Self {
             map_from_odometry_at_start: Pose::wrap(Pose::<Map, Robot>::from(settings.start).inner),
             proprioception: Proprioception::new(&body, registry::table(tables, "proprioception")?)?,
@@ -66,13 +66,13 @@ impl Pilot {
             perception: Perception::new(segmenter, world_model, self_filter, camera),
             localizer: given
                 .localizer
-                .map_or_else(|| registry::localizer(&settings), Ok)?,
+                .map_or_else(|| registry::localizer(settings), Ok)?,
             planner: given
                 .planner
-                .map_or_else(|| registry::planner(&settings, &body), Ok)?,
+                .map_or_else(|| registry::planner(settings, &body), Ok)?,
             behaviour: given
                 .behaviour
-                .map_or_else(|| registry::behaviour(&settings), Ok)?,
+                .map_or_else(|| registry::behaviour(settings), Ok)?,
             walker: Walker::new(&body)?,
             goals: Goals::new(&settings.goals)?,
             plan: None,
