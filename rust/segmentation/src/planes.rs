@@ -51,7 +51,7 @@ pub struct Planes {
     pub points_in_robot_m: Vec<[f32; 3]>,
     /// `h` of the paper (000, section III.A): height of the horizontal plane that a pixel belongs to, m; NaN is *invalid*.
     pub floor_height_m: Vec<f32>,
-    /// Whether the points' heights may be trusted: the ground was found in this frame, or its correction is tracked.
+    /// Whether the points' heights may be trusted: the ground is tracked, and was found in this frame or not long ago.
     pub reliable: bool,
 }
 

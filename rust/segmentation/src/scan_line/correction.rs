@@ -26,6 +26,11 @@ const WANDER_M: f64 = 0.0005;
 /// How far one frame's attitude is off the filtered one while walking: sigma, rad, and of the height, m.
 const SWAY_RAD: f64 = 0.01;
 const SWAY_M: f64 = 0.003;
+/// Frames with ground after which a track is settled. Before that the ground is searched as widely as at first, for the
+/// attitude settles in these frames, too, and a first find may be a bad one.
+const SETTLED: u32 = 8;
+/// Frames without ground after which a track that has not settled is given up.
+const YOUNG_MISSES: u32 = 3;
 
 /// The filtered correction.
 #[derive(Debug, Clone)]
@@ -36,6 +41,7 @@ pub(super) struct Correction {
     height_m: f64,
     height_variance: f64,
     missed: Option<u32>,
+    found: u32,
 }
 
 impl Correction {
@@ -48,10 +54,16 @@ impl Correction {
             height_m: 0.0,
             height_variance: HEIGHT_M.powi(2),
             missed: None,
+            found: 0,
         }
     }
 
-    /// Frames since the ground was last found; `None` when it is not tracked.
+    /// Whether the ground is tracked, not searched.
+    pub(super) const fn is_settled(&self) -> bool {
+        self.missed.is_some() && self.found >= SETTLED
+    }
+
+    /// Frames since the ground was last found; `None` when nothing is known of it.
     pub(super) const fn missed(&self) -> Option<u32> {
         self.missed
     }
@@ -101,14 +113,21 @@ impl Correction {
         self.height_m += gain * rise_m;
         self.height_variance *= 1.0 - gain;
         self.missed = Some(0);
+        self.found = self.found.saturating_add(1);
     }
 
-    /// Takes in that a frame showed no ground; after `forget_frames` of them it is searched anew, from nothing.
+    /// Takes in that a frame showed no ground; after `forget_frames` of them (a few for a young track) it is searched anew,
+    /// from nothing.
     pub(super) fn missed_one(&mut self, forget_frames: u32) {
         self.covariance += Matrix4::identity() * WANDER_RAD.powi(2);
         self.height_variance += WANDER_M.powi(2);
+        let patience = if self.is_settled() {
+            forget_frames
+        } else {
+            YOUNG_MISSES
+        };
         match self.missed {
-            Some(missed) if missed < forget_frames => self.missed = Some(missed + 1),
+            Some(missed) if missed < patience => self.missed = Some(missed + 1),
             Some(_) => *self = Self::new(),
             None => {}
         }
@@ -186,7 +205,11 @@ mod tests {
     #[test]
     fn it_forgets_after_so_many_frames_without_ground() {
         let mut correction = Correction::new();
-        correction.found(&looking(0.0, 0.7), &Vector2::new(0.05, 0.0), 0.004);
+        for _ in 0..SETTLED {
+            assert!(!correction.is_settled());
+            correction.found(&looking(0.0, 0.7), &Vector2::new(0.05, 0.0), 0.004);
+        }
+        assert!(correction.is_settled());
         for _ in 0..10 {
             correction.missed_one(10);
         }

@@ -103,7 +103,7 @@ impl ScanLine {
 
     /// Whether the ground is searched from nothing, as at the start and after it was lost for long.
     fn searching(&self) -> bool {
-        self.correction.missed().is_none()
+        !self.correction.is_settled()
     }
 
     /// Finds the camera's tilt against the prediction and the regions that are seen with it.
@@ -213,11 +213,9 @@ impl Segmenter for ScanLine {
         }
         planes.exposure_ns = scan.exposure_ns;
         planes.ground = ground;
-        planes.reliable = ground.is_some()
-            || self
-                .correction
-                .missed()
-                .is_some_and(|missed| missed <= self.config.hold_frames);
+        let missed = self.correction.missed();
+        planes.reliable = self.correction.is_settled()
+            && missed.is_some_and(|missed| missed <= self.config.hold_frames);
         self.fill_product(&levelled, rise_m, planes);
         Ok(())
     }

@@ -26,7 +26,7 @@ fn tracking(noise: &mut Noise) -> ScanLine {
     let mut segmenter = segmenter();
     let mut planes = planes();
     let pose = camera_pose(0.0, 0.75);
-    for _ in 0..3 {
+    for _ in 0..8 {
         let scan = Scene::floor().scan(&pose, pose, SIGMA, noise);
         segmenter.segment(&scan, &mut planes).unwrap();
         assert!(planes.ground.is_some());
