@@ -1,7 +1,7 @@
 //! The pilot: an observation in, joint targets out, every product to look at.
 
 use behaviour::Outcome;
-use numpy::{PyArray1, PyArray2, PyArrayMethods, ToPyArray};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, ToPyArray};
 use pilot::{Components, Pilot, STAGES, Settings};
 use pyo3::prelude::*;
 use sensing::{Frame, Observation};
@@ -9,7 +9,7 @@ use sensing::{Frame, Observation};
 use crate::components;
 use crate::error::{bad_setting, failed};
 use crate::observation;
-use crate::products::{PyFloorView, PyPlanes, matrix};
+use crate::products::{FlatPose, PyFloorView, PyPlanes, flat, matrix};
 
 /// The whole core: an observation in, joint targets out.
 #[pyclass(name = "Pilot", module = "treadwell._core")]
@@ -42,15 +42,10 @@ pub(crate) struct PyTick {
     reason: Option<String>,
     /// (x m, y m, z m, yaw rad) of the robot in the map, as believed.
     #[pyo3(get)]
-    estimate: [f64; 4],
+    estimate: FlatPose,
     /// The same by leg odometry alone, from the same start.
     #[pyo3(get)]
-    odometry: [f64; 4],
-}
-
-fn flat<T, S>(pose: &geometry::Pose<T, S>) -> [f64; 4] {
-    let origin = pose.origin().inner;
-    [origin.x, origin.y, origin.z, pose.yaw_rad()]
+    odometry: FlatPose,
 }
 
 #[pymethods]
@@ -141,9 +136,9 @@ impl PyPilot {
 
     /// (rows, cols) float32 m: distance of each cell of the view to the nearest obstacle; None where it is not known.
     fn clearance<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray2<f32>>> {
-        let clearance = self.pilot.clearance()?;
-        let shape = [clearance.rows(), clearance.cols()];
-        clearance.values().to_pyarray(py).reshape(shape).ok()
+        let cells = &self.pilot.perception().view().cells;
+        let field = self.pilot.distance_field_m()?;
+        field.into_pyarray(py).reshape([cells.rows(), cells.cols()]).ok()
     }
 
     /// Via points passed so far.
@@ -172,9 +167,9 @@ impl PyPilot {
 
     /// (pan to the left, down from the horizon) rad: where the head is told to look.
     #[getter]
-    fn gaze(&self) -> [f64; 2] {
+    fn gaze(&self) -> (f64, f64) {
         let gaze = self.pilot.gaze();
-        [gaze.pan_rad, gaze.down_rad]
+        (gaze.pan_rad, gaze.down_rad)
     }
 
     /// Seconds that each stage took at the last tick, in the order of `stages`; NaN where it did not run.

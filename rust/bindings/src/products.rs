@@ -6,6 +6,15 @@ use mapping::Surface;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, ToPyArray};
 use pyo3::prelude::*;
 
+/// (x m, y m, z m, yaw rad): a pose as Python's tuple.
+pub(crate) type FlatPose = (f64, f64, f64, f64);
+
+/// A pose without roll and pitch.
+pub(crate) fn flat<T, S>(pose: &Pose<T, S>) -> FlatPose {
+    let origin = pose.origin().inner;
+    (origin.x, origin.y, origin.z, pose.yaw_rad())
+}
+
 /// A pose as a 4 x 4 matrix.
 pub(crate) fn matrix<'py, T, S>(py: Python<'py>, pose: &Pose<T, S>) -> Bound<'py, PyArray2<f64>> {
     let matrix = pose.inner.to_homogeneous();
@@ -119,8 +128,8 @@ impl PyFloorView {
 impl PyFloorView {
     /// (2,) m: lower-left corner of cell (0, 0) in the map frame.
     #[getter]
-    fn origin(&self) -> [f64; 2] {
-        self.0.lattice.origin_m
+    fn origin(&self) -> (f64, f64) {
+        self.0.lattice.origin_m.into()
     }
 
     /// Side of a cell, m.

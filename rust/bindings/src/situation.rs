@@ -5,7 +5,7 @@ use numpy::{PyArray2, PyArrayMethods, ToPyArray};
 use planning::Goal;
 use pyo3::prelude::*;
 
-use crate::products::{PyFloorView, matrix};
+use crate::products::{FlatPose, PyFloorView, flat, matrix};
 
 /// Where to go: any place inside the disc on which the robot can stand.
 #[pyclass(frozen, name = "Goal", module = "treadwell._core")]
@@ -15,8 +15,8 @@ pub(crate) struct PyGoal(pub(crate) Goal);
 impl PyGoal {
     /// (x, y) m: the disc's centre in the map frame.
     #[getter]
-    fn position(&self) -> [f64; 2] {
-        [self.0.x_m, self.0.y_m]
+    fn position(&self) -> (f64, f64) {
+        (self.0.x_m, self.0.y_m)
     }
 
     /// The disc's radius, m.
@@ -81,10 +81,10 @@ pub(crate) struct PySituation {
     time_ns: u64,
     /// (x m, y m, z m, yaw rad) of the robot in the map, as believed.
     #[pyo3(get)]
-    estimate: [f64; 4],
+    estimate: FlatPose,
     /// (x, y) m of the goal that is pursued now.
     #[pyo3(get)]
-    goal: [f64; 2],
+    goal: (f64, f64),
     /// Its radius, m.
     #[pyo3(get)]
     goal_radius: f64,
@@ -93,7 +93,7 @@ pub(crate) struct PySituation {
     last_goal: bool,
     /// Points of the way, m; None where no way is known.
     #[pyo3(get)]
-    path: Option<Vec<[f64; 2]>>,
+    path: Option<Vec<(f64, f64)>>,
     /// Why there is no way, else None.
     #[pyo3(get)]
     no_way: Option<String>,
@@ -102,7 +102,7 @@ pub(crate) struct PySituation {
     standing: bool,
     /// (pan to the left, down from the horizon) rad: where the head looks.
     #[pyo3(get)]
-    gaze: [f64; 2],
+    gaze: (f64, f64),
     /// Depth frames taken into the map so far.
     #[pyo3(get)]
     frames_used: u64,
@@ -112,22 +112,21 @@ pub(crate) struct PySituation {
 impl PySituation {
     pub(crate) fn new(situation: &Situation<'_>) -> Self {
         let pose = &situation.estimate.map_from_robot;
-        let origin = pose.origin().inner;
         let way = situation.plan.map(|plan| &plan.way);
         Self {
             time_ns: situation.time_ns,
-            estimate: [origin.x, origin.y, origin.z, pose.yaw_rad()],
-            goal: [situation.goal.x_m, situation.goal.y_m],
+            estimate: flat(pose),
+            goal: (situation.goal.x_m, situation.goal.y_m),
             goal_radius: situation.goal.radius_m,
             last_goal: situation.last_goal,
             path: way
                 .and_then(|way| way.as_ref().ok())
-                .map(|path| path.points_m.clone()),
+                .map(|path| path.points_m.iter().map(|&[x, y]| (x, y)).collect()),
             no_way: way
                 .and_then(|way| way.as_ref().err())
                 .map(|no| format!("{}: {}", no.refusal.word(), no.sentence)),
             standing: situation.standing,
-            gaze: [situation.gaze.pan_rad, situation.gaze.down_rad],
+            gaze: (situation.gaze.pan_rad, situation.gaze.down_rad),
             frames_used: situation.frames_used,
             view: situation.view.clone(),
         }

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use segmentation::Planes;
 
 use super::sentence;
-use crate::products::PyPlanes;
+use crate::products::{PyPlanes, flat};
 
 struct PythonWorldModel {
     object: Py<PyAny>,
@@ -36,8 +36,7 @@ impl PythonWorldModel {
         planes: &Planes,
         map_from_robot: &Pose<Map, Robot>,
     ) -> PyResult<bool> {
-        let origin = map_from_robot.origin().inner;
-        let pose = (origin.x, origin.y, origin.z, map_from_robot.yaw_rad());
+        let pose = flat(map_from_robot);
         let object = self.object.bind(py);
         let used = object.call_method1(intern!(py, "insert"), (PyPlanes(planes.clone()), pose))?;
         read_view(&object.call_method0(intern!(py, "view"))?, &mut self.view)?;
