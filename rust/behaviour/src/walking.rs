@@ -19,7 +19,7 @@ use geometry::{ConfigError, PlanarPose};
 use planning::{Goal, Path};
 
 use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Outcome, Situation};
-use ahead::{Followed, Looked};
+use ahead::{Followed, Looked, is_roomy};
 pub use config::WalkingConfig;
 use gaze::{Gazer, Sweep};
 use progress::Progress;
@@ -85,6 +85,10 @@ impl Moment<'_> {
         y.atan2(x)
     }
 
+    fn is_in_the_disc(&self) -> bool {
+        self.goal_distance_m() <= self.situation.goal.radius_m
+    }
+
     fn goal_distance_m(&self) -> f64 {
         let goal = self.situation.goal;
         (goal.x_m - self.pose.x_m).hypot(goal.y_m - self.pose.y_m)
@@ -127,7 +131,8 @@ impl WalkingBehaviour {
         let pose = PlanarPose::new(origin.x, origin.y, yaw_rad);
         let path = situation.plan.and_then(|plan| plan.way.as_ref().ok());
         let track = path.and_then(|path| {
-            Track::new(path, &pose, self.config.lookahead).map(|track| (path, track))
+            let track = Track::new(path, &pose, self.config.lookahead)?;
+            Some((path, self.lengthened(track, &pose, situation)))
         });
         let passed_ns = self
             .time_ns
@@ -138,6 +143,21 @@ impl WalkingBehaviour {
             track,
             passed_s: passed_ns as f64 * 1e-9,
             new_frame: situation.frames_used != self.frames_used,
+        }
+    }
+
+    /// A path may end at the rim of the goal's disc: where there is room, the way goes on to its middle.
+    fn lengthened(&self, track: Track, pose: &PlanarPose, situation: &Situation<'_>) -> Track {
+        let Goal {
+            x_m, y_m, radius_m, ..
+        } = *situation.goal;
+        let away_m = (x_m - pose.x_m).hypot(y_m - pose.y_m);
+        let half_way = [f64::midpoint(x_m, pose.x_m), f64::midpoint(y_m, pose.y_m)];
+        let roomy = |place_m| is_roomy(situation.view, place_m, self.config.slow_clearance);
+        if away_m < radius_m + PATH_END_M && roomy([x_m, y_m]) && roomy(half_way) {
+            track.going_on_to(pose.inverse().apply(x_m, y_m))
+        } else {
+            track
         }
     }
 
@@ -226,24 +246,26 @@ impl WalkingBehaviour {
     /// Deep inside the goal's disc, or as deep as the way leads.
     fn has_arrived(&self, moment: &Moment<'_>) -> bool {
         let distance_m = moment.goal_distance_m();
+        let radius_m = moment.situation.goal.radius_m;
         let way_done = moment
             .track
             .map_or(moment.no_way(), |(_, track)| track.remaining_m < PATH_END_M);
         moment.situation.last_goal
-            && (distance_m <= self.config.arrive_share * moment.situation.goal.radius_m
-                || (way_done && self.is_inside(moment)))
+            && (distance_m <= self.config.arrive_share * radius_m
+                || (way_done && moment.is_in_the_disc()))
     }
 
+    /// Well inside the goal's disc.
     fn is_inside(&self, moment: &Moment<'_>) -> bool {
         let radius_m = moment.situation.goal.radius_m;
-        moment.goal_distance_m() <= radius_m - self.config.arrive_margin.min(0.5 * radius_m)
+        moment.goal_distance_m() <= radius_m - self.config.via_margin.min(0.5 * radius_m)
     }
 
     fn outcome(&self, moment: &Moment<'_>) -> Option<Outcome> {
         match self.state {
             State::Arrive => {
                 let rests = self.standing_s > self.config.arrive_time;
-                (rests && self.is_inside(moment)).then_some(Outcome::GoalReached)
+                (rests && moment.is_in_the_disc()).then_some(Outcome::GoalReached)
             }
             State::Refuse => moment
                 .situation

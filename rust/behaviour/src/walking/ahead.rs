@@ -142,6 +142,11 @@ impl Followed {
     }
 }
 
+/// Whether no obstacle is known within this distance of a place.
+pub(crate) fn is_roomy(view: &FloorView, place_m: [f64; 2], radius_m: f64) -> bool {
+    obstacle_cells(view, place_m, radius_m) == 0
+}
+
 fn obstacle_cells(view: &FloorView, [x, y]: [f64; 2], radius_m: f64) -> usize {
     let (low, high) = (
         view.lattice.cell_at(x - radius_m, y - radius_m),

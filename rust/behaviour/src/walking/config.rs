@@ -47,8 +47,8 @@ pub struct WalkingConfig {
     pub sweep: f64,
     /// Share of the goal's radius within which the robot has arrived.
     pub arrive_share: f64,
-    /// Where the path ends, the robot has also arrived this deep inside the goal's disc, m.
-    pub arrive_margin: f64,
+    /// A via point is passed this deep inside its disc, m.
+    pub via_margin: f64,
     /// The robot declares that it has arrived after standing this long, s.
     pub arrive_time: f64,
     /// Without a frame for longer than this the robot stands and waits, s;
@@ -86,7 +86,7 @@ impl Default for WalkingConfig {
             gaze_speed: 0.9,
             sweep: 1.1,
             arrive_share: 0.35,
-            arrive_margin: 0.03,
+            via_margin: 0.03,
             arrive_time: 0.5,
             blind_after: 1.0,
             blind_limit: 10.0,
@@ -125,7 +125,7 @@ impl WalkingConfig {
             ("look_distance", self.look_distance),
             ("unseen_radius", self.unseen_radius),
             ("sweep", self.sweep),
-            ("arrive_margin", self.arrive_margin),
+            ("via_margin", self.via_margin),
             ("arrive_time", self.arrive_time),
             ("refuse_time", self.refuse_time),
         ];

@@ -18,11 +18,14 @@ const CELL_M: f64 = 0.04;
 const CELLS: usize = 120;
 
 /// The plane with all that stands on it: discs of x, y, radius in metres.
+#[expect(clippy::struct_excessive_bools, reason = "the switches of a test")]
 pub(crate) struct Simulation {
     pub(crate) obstacles: Vec<[f64; 3]>,
     /// Patches that stereo never sees.
     pub(crate) holes: Vec<[f64; 3]>,
     pub(crate) blind: bool,
+    /// Whether the planner's path ends where it meets the goal's disc.
+    pub(crate) ends_at_the_rim: bool,
     /// Whether the planner says that there is no way.
     pub(crate) closed: bool,
     pub(crate) pose: PlanarPose,
@@ -48,6 +51,7 @@ impl Simulation {
             obstacles: Vec::new(),
             holes: Vec::new(),
             blind: false,
+            ends_at_the_rim: false,
             closed: false,
             pose: start,
             goal: Goal {
@@ -260,6 +264,11 @@ impl Simulation {
                 }
             }
         }
+        self.descend(&cost, goal)
+    }
+
+    fn descend(&self, cost: &Grid<f64>, goal: Cell) -> Result<Path, NoWay> {
+        let lattice = self.view.lattice;
         let mut path = Path::default();
         let mut cell = lattice.cell_at(self.pose.x_m, self.pose.y_m);
         while cell != goal {
@@ -282,6 +291,15 @@ impl Simulation {
             }
         }
         path.points_m.push([self.goal.x_m, self.goal.y_m]);
+        if self.ends_at_the_rim {
+            let away_m = |p: &[f64; 2]| (p[0] - self.goal.x_m).hypot(p[1] - self.goal.y_m);
+            let rim = path
+                .points_m
+                .iter()
+                .position(|p| away_m(p) <= self.goal.radius_m);
+            path.points_m
+                .truncate(rim.map_or(usize::MAX, |rim| rim + 1));
+        }
         path.unknown = path
             .points_m
             .iter()

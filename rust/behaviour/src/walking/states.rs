@@ -226,7 +226,7 @@ impl WalkingBehaviour {
 
     fn arrive(&mut self, moment: &Moment<'_>) -> Motion {
         self.gaze_at(moment, 0.0, self.config.gaze_far);
-        if self.standing_s > self.config.arrive_time && !self.is_inside(moment) {
+        if self.standing_s > self.config.arrive_time && !moment.is_in_the_disc() {
             self.watched_m = None;
             self.enter(State::Stop);
         }

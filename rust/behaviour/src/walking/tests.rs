@@ -12,7 +12,7 @@ use super::track::tests::straight;
 use crate::{Behaviour, Gaze, Motion, Outcome, Situation, WalkingBehaviour, WalkingConfig};
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(16))]
+    #![proptest_config(ProptestConfig::with_cases(8))]
     #[test]
     fn every_goal_in_the_open_is_reached(
         x in -1.2..1.2f64, y in -1.2..1.2f64, yaw in -3.1..3.1f64, goal_x in -1.2..1.2f64, goal_y in -1.2..1.2f64,
@@ -39,6 +39,37 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn a_path_that_ends_at_the_rim_of_the_disc_is_followed_to_its_middle() {
+    let mut simulation = Simulation::new(PlanarPose::default(), [1.0, 0.1]);
+    simulation.ends_at_the_rim = true;
+    let (outcome, _) = simulation.run(60.0);
+    assert_eq!(
+        outcome,
+        Some(Outcome::GoalReached),
+        "{:?}",
+        simulation.states
+    );
+    let miss_m = (simulation.pose.x_m - 1.0).hypot(simulation.pose.y_m - 0.1);
+    assert!(miss_m < 0.08, "{miss_m}");
+}
+
+#[test]
+fn beside_an_obstacle_in_the_disc_the_rim_will_do() {
+    let mut simulation = Simulation::new(PlanarPose::default(), [1.0, 0.1]);
+    simulation.ends_at_the_rim = true;
+    simulation.obstacles.push([1.25, 0.1, 0.08]);
+    simulation.goal.radius_m = 0.2;
+    let (outcome, _) = simulation.run(60.0);
+    assert_eq!(
+        outcome,
+        Some(Outcome::GoalReached),
+        "{:?}",
+        simulation.states
+    );
+    assert!(simulation.pose.x_m < 0.92, "{:?}", simulation.pose);
 }
 
 #[test]

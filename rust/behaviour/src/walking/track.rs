@@ -56,6 +56,15 @@ impl Track {
         })
     }
 
+    /// The same way with a last straight piece to this place, in the robot's frame, m.
+    pub(crate) fn going_on_to(self, (x, y): (f64, f64)) -> Self {
+        Self {
+            target_m: [x, y],
+            remaining_m: x.hypot(y),
+            ..self
+        }
+    }
+
     /// Direction of the point steered to, rad to the left of straight ahead; 0 where the robot stands on it.
     pub(crate) fn bearing_rad(&self) -> f64 {
         let [x, y] = self.target_m;
