@@ -121,6 +121,12 @@ def push_sideways(rng: np.random.Generator, job: Job) -> Plan:
     return push(rng, job, rng.choice([-0.5, 0.5]) * math.pi)
 
 
+def push_standing(rng: np.random.Generator, job: Job) -> Plan:
+    direction = rng.uniform(-math.pi, math.pi)
+    impulse = (job.impulse * math.cos(direction), job.impulse * math.sin(direction))
+    return Plan([], 5.0, [(1.5, impulse)])
+
+
 def wander(rng: np.random.Generator, job: Job) -> Plan:
     """Random commands and a push every two to five seconds."""
     end = 60.0 * job.minutes
@@ -156,6 +162,7 @@ TASKS: dict[str, Callable[[np.random.Generator, Job], Plan]] = {
     "push_any": push_any,
     "push_sagittal": push_sagittal,
     "push_sideways": push_sideways,
+    "push_standing": push_standing,
     "wander": wander,
 }
 
@@ -234,7 +241,7 @@ def run(job: Job) -> Trial:
     fell, touched, turned, heading = None, False, 0.0, 0.0
     for index in range(round(plan.end_s / TICK_S)):
         now = index * TICK_S
-        motion = next((motion for at, motion in reversed(plan.motions) if at <= now), None)
+        motion = next((then for at, then in reversed(plan.motions) if at <= now), None)
         force = next(
             ((x / PUSH_S, y / PUSH_S) for at, (x, y) in plan.pushes if at <= now < at + PUSH_S),
             (0.0, 0.0),
