@@ -138,7 +138,10 @@ impl PyPilot {
     fn clearance<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray2<f32>>> {
         let cells = &self.pilot.perception().view().cells;
         let field = self.pilot.distance_field_m()?;
-        field.into_pyarray(py).reshape([cells.rows(), cells.cols()]).ok()
+        field
+            .into_pyarray(py)
+            .reshape([cells.rows(), cells.cols()])
+            .ok()
     }
 
     /// Via points passed so far.

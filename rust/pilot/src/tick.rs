@@ -1,7 +1,7 @@
 //! One tick: from an observation to joint targets.
 
 use behaviour::{Behaviour, Decision, Gaze, Situation};
-use geometry::{Grid, Map, Odometry, PlanarPose, Pose, Robot};
+use geometry::{Map, Odometry, PlanarPose, Pose, Robot};
 use localization::{BodyStateHistory, Estimate, Localizer, Proprioception};
 use planning::{Plan, Planner};
 use robot::Body;
@@ -166,9 +166,9 @@ impl Pilot {
         self.plan.as_ref()
     }
 
-    /// Distance of each cell of the view to the nearest obstacle, m, by the planner's last look.
-    pub fn clearance(&self) -> Option<&Grid<f32>> {
-        self.planner.clearance()
+    /// Distance of each cell of the view to the nearest obstacle, m, row by row, by the planner's last look.
+    pub fn distance_field_m(&self) -> Option<Vec<f32>> {
+        self.planner.distance_field_m()
     }
 
     /// Via points passed so far.

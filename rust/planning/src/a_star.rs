@@ -1,6 +1,6 @@
 //! The planner: a path by A*, kept as long as it holds.
 
-use geometry::{ConfigError, PlanarPose, require};
+use geometry::{ConfigError, PlanarPose, angle_between, require};
 use mapping::FloorView;
 
 use crate::refusal::explain;
@@ -12,6 +12,8 @@ use crate::{AStarConfig, Goal, NoWay, Path, Plan, PlanError, Planner};
 
 /// How far ahead on the path the robot is looked for, m: a path may come back to where it passed.
 const PROGRESS_M: f64 = 0.6;
+/// Where a path leads at first is seen this far from the robot, m.
+const SETTING_OFF_M: f64 = 0.25;
 /// A path that ends at the window's border is planned anew when less than this is left of it, m.
 const HORIZON_M: f64 = 1.0;
 
@@ -62,12 +64,6 @@ impl AStar {
     pub fn clearance_m(&self, x_m: f64, y_m: f64) -> Option<f64> {
         let index = self.terrain.index_at([x_m, y_m])?;
         Some(self.terrain.clearance_m(index))
-    }
-
-    /// Distances of all cells to the nearest obstacle as of the last plan, m, row by row: the distance field.
-    pub fn distance_field_m(&self) -> Vec<f32> {
-        let cells = 0..self.terrain.blocked.len();
-        cells.map(|i| self.terrain.clearance_m(i) as f32).collect()
     }
 
     /// The path before, its passed part cut off, if it still holds; and whether part of it became known.
@@ -157,8 +153,11 @@ impl Planner for AStar {
             return Ok(self.hold(path));
         }
         let found = self.find(view, start_m, goal);
+        let cost_m = |path: &Path| path.cost_m + self.config.turn_cost * turn_rad(path, &start);
         match (kept, found) {
-            (Some((path, _)), Ok(new)) if new.path.cost_m >= self.config.better * path.cost_m => {
+            (Some((path, _)), Ok(new))
+                if cost_m(&new.path) >= self.config.better * cost_m(&path) =>
+            {
                 Ok(self.hold(path))
             }
             (Some((path, _)), Err(_)) => Ok(self.hold(path)),
@@ -179,6 +178,11 @@ impl Planner for AStar {
             }
         }
     }
+
+    fn distance_field_m(&self) -> Option<Vec<f32>> {
+        let cells = 0..self.terrain.blocked.len();
+        Some(cells.map(|i| self.terrain.clearance_m(i) as f32).collect())
+    }
 }
 
 impl AStar {
@@ -192,6 +196,19 @@ impl AStar {
             replanned: false,
         }
     }
+}
+
+/// How far the robot has to turn to set off on a path, rad.
+fn turn_rad(path: &Path, start: &PlanarPose) -> f64 {
+    let away_m = |point: &&[f64; 2]| (point[0] - start.x_m).hypot(point[1] - start.y_m);
+    let ahead = path
+        .points_m
+        .iter()
+        .find(|point| away_m(point) > SETTING_OFF_M);
+    ahead.map_or(0.0, |[x, y]| {
+        let bearing_rad = (y - start.y_m).atan2(x - start.x_m);
+        angle_between(start.yaw_rad, bearing_rad).abs()
+    })
 }
 
 /// The points from where the robot is beside the path onward; `None` where it strayed too far.

@@ -29,6 +29,10 @@ pub struct AStarConfig {
     pub stray: f64,
     /// A path through what became known is given up for one that costs less than this part of it.
     pub better: f64,
+    /// What a turn on the spot towards a path costs where two are compared, m/rad.
+    pub turn_cost: f64,
+    /// Obstacles of at most so many cells, with none beside them, are specks: unsure, priced like the unknown.
+    pub speck_cells: usize,
 }
 
 impl Default for AStarConfig {
@@ -45,6 +49,8 @@ impl Default for AStarConfig {
             step_sightings: 3,
             stray: 0.15,
             better: 0.8,
+            turn_cost: 0.25,
+            speck_cells: 2,
         }
     }
 }
@@ -65,6 +71,7 @@ impl AStarConfig {
             ("escape_range", self.escape_range),
             ("max_step", self.max_step),
             ("stray", self.stray),
+            ("turn_cost", self.turn_cost),
         ];
         for (key, value) in not_negative {
             let key = format!("navigation.a_star.{key}");

@@ -8,6 +8,7 @@ mod refusal;
 mod route;
 pub mod search;
 mod shortcut;
+mod specks;
 mod terrain;
 
 pub use a_star::AStar;

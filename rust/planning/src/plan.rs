@@ -1,6 +1,6 @@
 //! What every planner produces: a path, or the reason why there is none.
 
-use geometry::{Grid, PlanarPose};
+use geometry::PlanarPose;
 use mapping::FloorView;
 
 /// Why planning failed as a program. "There is no way" is no failure: see [`NoWay`].
@@ -89,8 +89,9 @@ pub trait Planner: Send + Sync {
     fn plan(&mut self, view: &FloorView, start: PlanarPose, goal: &Goal)
     -> Result<Plan, PlanError>;
 
-    /// Distance of each cell of the view to the nearest obstacle at the last call, m; `None` where the planner has none.
-    fn clearance(&self) -> Option<&Grid<f32>> {
+    /// Distance of each cell of the view to the nearest obstacle at the last call, m, row by row; `None` where the
+    /// planner has none.
+    fn distance_field_m(&self) -> Option<Vec<f32>> {
         None
     }
 }

@@ -5,6 +5,7 @@ use mapping::{FloorView, Surface};
 
 use crate::AStarConfig;
 use crate::distance::{DistanceField, NOTHING_NEAR};
+use crate::specks::Specks;
 
 /// The floor view as the planner reads it, row by row. Reused.
 #[derive(Debug, Clone)]
@@ -18,6 +19,7 @@ pub(crate) struct Terrain {
     pub(crate) distance: DistanceField,
     /// What a length costs in a cell: 1 on open known floor, infinite where the robot may not be.
     pub(crate) weights: Vec<f32>,
+    specks: Specks,
     /// Weight of a cell by its squared distance to what is blocked, in cells.
     by_squared: Vec<f32>,
 }
@@ -35,6 +37,7 @@ impl Terrain {
             unknown: Vec::new(),
             distance: DistanceField::default(),
             weights: Vec::new(),
+            specks: Specks::default(),
             by_squared: Vec::new(),
         }
     }
@@ -56,6 +59,9 @@ impl Terrain {
             self.blocked.push(matches!(surface, Surface::Obstacle(_)));
             self.unknown.push(matches!(surface, Surface::Unknown));
         }
+        let (blocked, unknown) = (&mut self.blocked, &mut self.unknown);
+        self.specks
+            .clear(blocked, unknown, self.cols, config.speck_cells);
         self.mark_steps(view, config);
         self.distance.compute(&self.blocked, self.cols);
         self.weigh(start_m, needed_m, config);

@@ -104,7 +104,7 @@ fn over_open_floor_the_path_is_straight_and_ends_in_the_goals_middle() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
     #[test]
-    fn the_path_keeps_clear_of_obstacles(boxes in prop::collection::vec((-1.8..1.8f64, -1.8..1.8f64, 0.05..0.4f64), 0..14)) {
+    fn the_path_keeps_clear_of_obstacles(boxes in prop::collection::vec((-1.8..1.8f64, -1.8..1.8f64, 0.09..0.4f64), 0..14)) {
         let mut view = floor();
         for (x, y, size) in boxes {
             if x.hypot(y) > 0.6 { paint(&mut view, [x, y], [x + size, y + size], Surface::Obstacle(0.3)); }
