@@ -36,7 +36,7 @@ use view::{View, levelling};
 use walls::Walls;
 
 /// How far a tilt may be from the predicted one: sigma, rad, while tracked and while searched.
-const TRACKED_RAD: f64 = 0.02;
+const TRACKED_RAD: f64 = 0.008;
 const SEARCHED_RAD: f64 = 0.1;
 /// Roughest ground that is accepted in a search, in noise: a plane laid through several steps is rougher.
 const SMOOTH: f64 = 1.35;
