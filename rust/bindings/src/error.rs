@@ -23,3 +23,8 @@ pub(crate) fn bad_setting(py: Python<'_>, error: &impl std::fmt::Display) -> PyE
 pub(crate) fn failed(py: Python<'_>, error: &impl std::fmt::Display) -> PyErr {
     raise(py, "CoreError", &error.to_string())
 }
+
+/// An observation that cannot be read: `treadwell.errors.CoreError`.
+pub(crate) fn unreadable(py: Python<'_>, error: &PyErr) -> PyErr {
+    failed(py, &format_args!("observation: {}", error.value(py)))
+}

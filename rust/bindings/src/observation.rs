@@ -2,8 +2,9 @@
 
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
-use pyo3::intern;
 use pyo3::prelude::*;
+use pyo3::types::PyString;
+use pyo3::{FromPyObject, intern};
 use sensing::{Frame, Observation};
 
 /// An observation with room for nothing yet.
@@ -19,19 +20,49 @@ pub(crate) fn empty() -> Observation {
     }
 }
 
+fn not_so(name: &Bound<'_, PyString>, must: &str, got: impl std::fmt::Display) -> PyErr {
+    PyValueError::new_err(format!("{name} must {must}, got {got}"))
+}
+
+/// The attribute `name`, as `what` says.
+fn field<'py, T>(object: &Bound<'py, PyAny>, name: &Bound<'py, PyString>, what: &str) -> PyResult<T>
+where
+    T: for<'a> FromPyObject<'a, 'py>,
+{
+    let value = object.getattr(name)?;
+    value.extract().map_err(|_| {
+        let kind = value.get_type();
+        let dtype = value.getattr(intern!(object.py(), "dtype"));
+        let axes = value.getattr(intern!(object.py(), "ndim"));
+        match (dtype, axes) {
+            (Ok(dtype), Ok(axes)) => not_so(name, what, format!("{axes} axes of {dtype}")),
+            _ => not_so(
+                name,
+                what,
+                value
+                    .repr()
+                    .map_or(kind.to_string(), |text| text.to_string()),
+            ),
+        }
+    })
+}
+
+const NANOSECONDS: &str = "be whole nanoseconds, 0 or more";
+const VECTOR: &str = "be an array with 1 axis of float64";
+
 fn read_vector(
     object: &Bound<'_, PyAny>,
-    name: &Bound<'_, pyo3::types::PyString>,
+    name: &Bound<'_, PyString>,
     into: &mut [f64],
 ) -> PyResult<()> {
-    let array: PyReadonlyArray1<'_, f64> = object.getattr(name)?.extract()?;
+    let array: PyReadonlyArray1<'_, f64> = field(object, name, VECTOR)?;
     let view = array.as_array();
     if view.len() != into.len() {
-        return Err(PyValueError::new_err(format!(
-            "{name} must have {} values, got {}",
-            into.len(),
-            view.len()
-        )));
+        return Err(not_so(
+            name,
+            &format!("have {} values", into.len()),
+            view.len(),
+        ));
     }
     for (slot, value) in into.iter_mut().zip(view) {
         *slot = *value;
@@ -41,20 +72,38 @@ fn read_vector(
 
 fn read_joints(
     object: &Bound<'_, PyAny>,
-    name: &Bound<'_, pyo3::types::PyString>,
+    name: &Bound<'_, PyString>,
     into: &mut Vec<f64>,
 ) -> PyResult<()> {
-    let array: PyReadonlyArray1<'_, f64> = object.getattr(name)?.extract()?;
+    let array: PyReadonlyArray1<'_, f64> = field(object, name, VECTOR)?;
     into.clear();
     into.extend(array.as_array().iter());
     Ok(())
 }
 
+fn read_feet(object: &Bound<'_, PyAny>, into: &mut [[f64; 4]; 2]) -> PyResult<()> {
+    let name = intern!(object.py(), "foot_forces");
+    let feet: PyReadonlyArray2<'_, f64> =
+        field(object, name, "be an array with 2 axes of float64")?;
+    let feet = feet.as_array();
+    if feet.dim() != (2, 4) {
+        return Err(not_so(name, "be (2, 4)", format!("{:?}", feet.dim())));
+    }
+    for (slot, value) in into.as_flattened_mut().iter_mut().zip(feet.iter()) {
+        *slot = *value;
+    }
+    Ok(())
+}
+
 fn read_frame(frame: &Bound<'_, PyAny>, into: &mut Frame) -> PyResult<()> {
     let py = frame.py();
-    into.exposure_ns = frame.getattr(intern!(py, "exposure_ns"))?.extract()?;
-    into.arrival_ns = frame.getattr(intern!(py, "arrival_ns"))?.extract()?;
-    let depth: PyReadonlyArray2<'_, f32> = frame.getattr(intern!(py, "depth"))?.extract()?;
+    into.exposure_ns = field(frame, intern!(py, "exposure_ns"), NANOSECONDS)?;
+    into.arrival_ns = field(frame, intern!(py, "arrival_ns"), NANOSECONDS)?;
+    let depth: PyReadonlyArray2<'_, f32> = field(
+        frame,
+        intern!(py, "depth"),
+        "be an array with 2 axes of float32",
+    )?;
     let view = depth.as_array();
     (into.height, into.width) = view.dim();
     into.depth_m.clear();
@@ -69,7 +118,7 @@ pub(crate) fn read(
     spare: &mut Option<Frame>,
 ) -> PyResult<()> {
     let py = object.py();
-    into.time_ns = object.getattr(intern!(py, "time_ns"))?.extract()?;
+    into.time_ns = field(object, intern!(py, "time_ns"), NANOSECONDS)?;
     read_joints(
         object,
         intern!(py, "joint_positions"),
@@ -90,22 +139,7 @@ pub(crate) fn read(
         intern!(py, "specific_force"),
         &mut into.specific_force_mps2,
     )?;
-    let feet: PyReadonlyArray2<'_, f64> = object.getattr(intern!(py, "foot_forces"))?.extract()?;
-    let feet = feet.as_array();
-    if feet.dim() != (2, 4) {
-        return Err(PyValueError::new_err(format!(
-            "foot_forces must be (2, 4), got {:?}",
-            feet.dim()
-        )));
-    }
-    for (slot, value) in into
-        .foot_forces_n
-        .as_flattened_mut()
-        .iter_mut()
-        .zip(feet.iter())
-    {
-        *slot = *value;
-    }
+    read_feet(object, &mut into.foot_forces_n)?;
     if let Some(frame) = into.depth.take() {
         *spare = Some(frame);
     }

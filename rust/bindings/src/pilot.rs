@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use sensing::{Frame, Observation};
 
 use crate::components;
-use crate::error::{bad_setting, failed};
+use crate::error::{bad_setting, failed, unreadable};
 use crate::observation;
 use crate::products::{FlatPose, PyFloorView, PyPlanes, flat, matrix};
 
@@ -90,7 +90,8 @@ impl PyPilot {
 
     /// Takes in an observation and says what the motors shall do.
     fn tick(&mut self, py: Python<'_>, observation: &Bound<'_, PyAny>) -> PyResult<PyTick> {
-        observation::read(observation, &mut self.observation, &mut self.spare)?;
+        observation::read(observation, &mut self.observation, &mut self.spare)
+            .map_err(|error| unreadable(py, &error))?;
         let (pilot, observation) = (&mut self.pilot, &self.observation);
         let tick = py
             .detach(|| pilot.tick(observation))

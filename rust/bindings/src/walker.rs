@@ -8,7 +8,7 @@ use robot::{Body, Description};
 use sensing::{Frame, Observation};
 use walking::Walker;
 
-use crate::error::{bad_setting, failed};
+use crate::error::{bad_setting, failed, unreadable};
 use crate::observation;
 
 type Targets<'py> = (
@@ -55,7 +55,8 @@ impl PyWalker {
         pan: f64,
         down: f64,
     ) -> PyResult<Targets<'py>> {
-        observation::read(observation, &mut self.observation, &mut self.spare)?;
+        observation::read(observation, &mut self.observation, &mut self.spare)
+            .map_err(|error| unreadable(py, &error))?;
         let state = self
             .proprioception
             .update(&self.observation)
@@ -75,6 +76,11 @@ impl PyWalker {
             .walker
             .step(&self.command, &self.observation, state)
             .map_err(|error| failed(py, &error))?;
+        self.proprioception.note_command(
+            &targets.positions_rad,
+            &targets.velocities_radps,
+            &targets.torques_nm,
+        );
         Ok((
             targets.positions_rad.to_pyarray(py),
             targets.velocities_radps.to_pyarray(py),

@@ -1,0 +1,252 @@
+"""A part of the user's own takes a slot, by object or by name; a broken one is named."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from user_parts import PARTS, AllGround, Legs, Meadow, Still, Straight
+
+import treadwell
+from treadwell import protocols
+from treadwell.components import COMPONENTS
+from treadwell.errors import CoreError, InputError
+from treadwell.plugins import METHODS
+from treadwell.protocols import Decision, Plan, Segmentation
+
+SECONDS = ("time_limit=1.2",)
+
+
+def run(**parts: Any) -> treadwell.Episode:  # noqa: ANN401 - any part
+    episode = treadwell.Episode("slalom", seed=2, overrides=SECONDS, **parts)
+    for _ in episode:
+        pass
+    return episode
+
+
+def test_every_slot_has_a_protocol_with_the_methods_that_are_asked_for() -> None:
+    assert set(METHODS) == set(COMPONENTS) == set(PARTS)
+    for slot, methods in METHODS.items():
+        protocol = getattr(protocols, "".join(word.title() for word in slot.split("_")))
+        own = {name for name in vars(protocol) if not name.startswith("_")}
+        assert own == set(methods)
+
+
+def test_a_planner_is_given_map_pose_and_goal_and_its_path_is_taken() -> None:
+    part = Straight(points=7)
+    episode = run(planner=part)
+    view, start, goal = part.seen[-1]
+    assert view.kind.shape == (100, 100)
+    assert np.hypot(*start[:2]) < 0.2
+    assert goal.position == pytest.approx((2.8, 0.0))
+    assert goal.radius == pytest.approx(0.15)
+    assert goal.height is None
+    path = episode.pilot.path()
+    assert path is not None
+    assert path.shape == (7, 2)
+    assert episode.pilot.replans == 0
+
+
+def test_a_behaviour_is_given_the_situation_and_its_word_is_done() -> None:
+    part = Still()
+    episode = treadwell.Episode("slalom", seed=2, overrides=SECONDS, behaviour=part)
+    assert {step.state for step in episode} == {"idle"}
+    last = part.seen[-1]
+    assert last.goal == pytest.approx((2.8, 0.0))
+    assert last.goal_radius == pytest.approx(0.15)
+    assert last.last_goal
+    assert last.standing
+    assert last.no_way is None or ":" in last.no_way
+    assert last.time_ns == 1_190_000_000
+    assert last.frames_used == episode.pilot.frames_used > 0
+    assert last.view().kind.shape == (100, 100)
+    assert episode.pilot.gaze == pytest.approx((0.3, 0.5), abs=0.05)
+    assert episode.pilot.steps_taken == 0
+
+
+def test_a_localizer_is_asked_at_every_tick_and_told_of_every_frame() -> None:
+    part = Legs()
+    episode = run(localizer=part)
+    assert not episode.ablation
+    assert len({body.time_ns for body in part.seen}) == 120
+    assert part.corrections > 5
+    assert part.seen[-1].foot_loads.sum() == pytest.approx(7.0 * 9.81, rel=0.3)
+
+
+def test_a_segmenter_is_given_a_scan_and_its_planes_are_taken() -> None:
+    part = AllGround()
+    episode = run(segmenter=part)
+    scan = part.seen[-1]
+    assert (scan.disparity.shape, scan.disparity.dtype) == ((72, 88), np.float32)
+    depth = scan.focal * scan.baseline / scan.disparity[np.isfinite(scan.disparity)]
+    assert 0.2 < np.median(depth) < 2.0
+    planes = episode.pilot.planes()
+    assert planes.ground == 0
+    assert len(planes.regions) == 1
+    assert planes.exposure_ns == scan.exposure_ns
+    assert planes.regions[0][0] == np.count_nonzero(planes.labels)
+    lonely = planes.labels == 0
+    assert np.isnan(planes.floor_height[lonely]).all()
+    assert (planes.floor_height[~lonely] == 0.0).all()
+
+
+def test_a_world_model_is_given_planes_and_its_view_is_planned_on() -> None:
+    part = Meadow()
+    episode = run(world_model=part)
+    planes, pose = part.seen[-1]
+    assert len(pose) == 4
+    assert planes.labels.shape == (6336,)
+    view = episode.pilot.view()
+    assert (view.kind == 1).all()
+    assert view.origin == (-2.0, -1.5)
+    assert view.cell == 0.05
+    assert episode.pilot.frames_used == len(part.seen)
+
+
+@pytest.mark.parametrize("slot", PARTS)
+def test_a_part_is_found_by_its_name(slot: str) -> None:
+    name = f"user_parts:{PARTS[slot].__name__}"
+    episode = treadwell.Episode("slalom", overrides=("time_limit=0.2", f"navigation.{slot}={name}"))
+    assert episode.scenario.configuration()["navigation"][slot] == name
+    assert len([*episode]) > 0
+
+
+def test_a_named_parts_table_goes_to_its_constructor() -> None:
+    named = ("navigation.planner=user_parts:Straight", "navigation.Straight.points=5")
+    episode = treadwell.Episode("slalom", overrides=(*SECONDS, *named))
+    for _ in episode:
+        pass
+    path = episode.pilot.path()
+    assert path is not None
+    assert len(path) == 5
+
+
+@pytest.mark.parametrize(
+    ("setting", "message"),
+    [
+        ("navigation.planner=no_such_package:Thing", "cannot import no_such_package"),
+        ("navigation.planner=user_parts:Thing", "user_parts has no class Thing"),
+        ("navigation.planner=user_parts:Still", "Still has no method plan"),
+        ("navigation.Straight.points=1", r"cannot make user_parts:Straight.*2 or more"),
+        ("navigation.Straight.pints=3", "cannot make user_parts:Straight.*pints"),
+    ],
+)
+def test_a_part_that_cannot_be_had_is_bad_input(setting: str, message: str) -> None:
+    named = ("navigation.planner=user_parts:Straight", setting)
+    with pytest.raises(InputError, match=message):
+        treadwell.Episode("slalom", overrides=named)
+
+
+def test_an_object_that_does_not_fit_its_slot_is_bad_input() -> None:
+    with pytest.raises(InputError, match="planner: Still has no method plan"):
+        treadwell.Episode("slalom", planner=Still())
+    with pytest.raises(InputError, match="navigator: no such component; there are world_model"):
+        treadwell.Episode("slalom", navigator=Still())
+
+
+class Broken:
+    """Any part: fails at the third call of anything."""
+
+    def __init__(self) -> None:
+        self.calls = 0
+
+    def fail(self, *_: object) -> Any:  # noqa: ANN401 - it never returns anything good
+        self.calls += 1
+        raise RuntimeError("a wheel came off")
+
+    segment = insert = view = correct = estimate = plan = next = fail
+
+
+@pytest.mark.parametrize("slot", PARTS)
+def test_an_exception_ends_the_run_with_error_and_the_parts_name(slot: str, tmp_path: Path) -> None:
+    parts: dict[str, Any] = {slot: Broken()}
+    out = tmp_path / "run"
+    done = treadwell.run("slalom", overrides=SECONDS, out=out, record=False, **parts)
+    assert done.outcome == "error"
+    assert not done.passed
+    assert done.result.reason is not None
+    assert done.result.reason.startswith(f"error: {slot}: ")
+    assert "a wheel came off" in done.result.reason
+    assert " at " in done.result.reason
+    assert {"result.json", "trajectory.tum", "physics.npz", "model.mjb", "map.png"} <= {
+        path.name for path in out.iterdir()
+    }
+
+
+def segmentation(**changes: object) -> Segmentation:
+    facts: dict[str, Any] = {
+        "labels": np.zeros(6336, np.uint16),
+        "floor_heights": [],
+        "robot_from_camera": np.eye(4),
+        "ground": None,
+        "reliable": True,
+    }
+    return Segmentation(**facts | changes)
+
+
+class BadView:
+    origin = (0.0, 0.0)
+    cell = 0.04
+    kind = np.zeros((4, 4), np.uint8)
+    height = np.zeros((4, 5), np.float32)
+
+
+@pytest.mark.parametrize(
+    ("slot", "answer", "message"),
+    [
+        ("planner", None, "planner: .*replanned"),
+        ("planner", Plan(np.zeros((3, 3))), r"planner: .*path must be \(n, 2\)"),
+        ("planner", Plan(np.zeros((0, 2))), "planner: .*n > 0"),
+        ("planner", Plan(np.full((2, 2), np.nan)), "planner: .*path must be finite"),
+        ("behaviour", None, "behaviour: "),
+        ("behaviour", Decision("x", velocity=(np.nan, 0.0, 0.0)), "behaviour: .*finite"),
+        ("behaviour", Decision("x", gaze=(np.inf, 0.0)), "behaviour: .*finite"),
+        ("localizer", (0.0, 0.0, 0.0), "localizer: "),
+        ("localizer", (0.0, 0.0, np.nan, 0.0), "localizer: estimate must be finite"),
+        ("segmenter", segmentation(labels=np.zeros(5, np.uint16)), "6336 values, got 5"),
+        ("segmenter", segmentation(labels=np.ones(6336, np.uint16)), "at most 0, got 1"),
+        ("segmenter", segmentation(robot_from_camera=np.eye(3)), "segmenter: .*finite"),
+        ("world_model", BadView, r"world_model: .*one shape"),
+        ("world_model", "no view", "world_model: "),
+    ],
+)
+def test_an_answer_that_makes_no_sense_is_an_error_with_the_parts_name(
+    slot: str, answer: object, message: str
+) -> None:
+    class Odd(Broken):
+        def fail(self, *_: object) -> Any:  # noqa: ANN401 - whatever it is
+            return answer
+
+        segment = insert = view = correct = estimate = plan = next = fail
+
+    parts: dict[str, Any] = {slot: Odd()}
+    with pytest.raises(CoreError, match=message):
+        run(**parts)
+
+
+def test_a_planner_that_finds_no_way_says_why() -> None:
+    class Lazy:
+        def plan(self, *_: object) -> Plan:
+            return Plan(None, "it is too far")
+
+    still = Still()
+    run(planner=Lazy(), behaviour=still)
+    assert still.seen[-1].no_way == "no_path: it is too far"
+    assert still.seen[-1].path is None
+
+
+@pytest.mark.parametrize("outcome", ["goal_reached", "blocked: a user said so"])
+def test_a_behaviours_outcome_ends_the_episode(outcome: str) -> None:
+    class Ready:
+        def next(self, *_: object) -> Decision:
+            return Decision("done", outcome=outcome)
+
+    episode = treadwell.Episode("slalom", behaviour=Ready())
+    for _ in episode:
+        pass
+    assert episode.verdict is not None
+    if outcome == "goal_reached":  # which is not so: the judge sees it
+        assert episode.verdict.outcome == "stuck"
+    else:
+        assert episode.verdict.outcome == "refused"
+        assert episode.verdict.reason == outcome
