@@ -14,9 +14,10 @@ use crate::{Gaze, Motion, Velocity};
 const HOLD_S: f64 = 0.3;
 /// A way must hold this long to end a look around before its end, s.
 const SURE_S: f64 = 0.5;
-/// Looks in that many directions, this far apart (rad), see all around.
-const LOOKS: u32 = 3;
-const LOOK_APART_RAD: f64 = 2.1;
+/// Looks in that many directions, this far apart (rad), see all around: each sweep covers 3 rad with the camera's width,
+/// and the head looks on while the robot turns.
+const LOOKS: u32 = 2;
+const LOOK_APART_RAD: f64 = 3.1;
 /// A turn ends after this, wherever it points, s.
 const LONGEST_TURN_S: f64 = 15.0;
 /// A look around ends after this, whatever the frames do, s.

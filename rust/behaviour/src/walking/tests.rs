@@ -139,7 +139,7 @@ fn no_way_is_refused_with_the_planners_reason_after_looking_all_around() {
         .iter()
         .filter(|(name, _)| *name == "turn")
         .count();
-    assert_eq!(turns, 2, "{:?}", simulation.states);
+    assert_eq!(turns, 1, "{:?}", simulation.states);
     assert!(simulation.pose.x_m.hypot(simulation.pose.y_m) < 1e-9);
 }
 
