@@ -24,7 +24,7 @@ COMPONENTS: Final[dict[str, dict[str, str]]] = {
 """Slot of `[navigation]` -> name -> description."""
 
 STAGES: Final[tuple[str, ...]] = ("proprioception", "self_filter")
-"""Stages of the core that have parameters (`[navigation.self_filter]`) but are not chosen by name."""
+"""Stages of the core with parameters (`[navigation.self_filter]`) that are not chosen by name."""
 
 CLASS_NAME: Final = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*", re.ASCII)
 """A user's own component: `package.module:Class`."""

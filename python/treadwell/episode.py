@@ -157,11 +157,11 @@ class Episode:
         return places[min(self.pilot.goals_passed, len(places) - 1)]
 
     def _tell_senses(self, time_ns: int) -> None:
-        """Let the senses suffer what events did to them."""
+        """Let the senses suffer, from the next tick on, what events did to them."""
         if self.events.encoder_offsets:
             self.sensors.set_encoder_shifts(self.events.encoder_offsets)
-        if self.events.is_blind(1e-9 * time_ns):
-            self.sensors.blind(time_ns + TICK_NS)
+        if self.events.is_blind(1e-9 * (time_ns + TICK_NS)):
+            self.sensors.blind(time_ns + TICK_NS + 1)
 
     def __iter__(self) -> Iterator[Step]:
         """Yield the ticks at which a depth frame arrives, until the episode is over."""

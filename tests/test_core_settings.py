@@ -1,0 +1,59 @@
+"""What the core is told before the first tick: robot, start, goals, navigation."""
+
+import json
+from typing import Any
+
+import pytest
+from core_builders import settings_text
+from user_parts import Straight
+
+from treadwell.core_settings import core_settings, user_components
+from treadwell.course import build_course
+from treadwell.robot import load_robot
+from treadwell.scenario_loading import load_scenario
+
+
+def told(*overrides: str, seed: int | None = None) -> dict[str, Any]:
+    robot = load_robot("qrio")
+    made = load_scenario("slalom", seed=seed, overrides=overrides)
+    document: dict[str, Any] = json.loads(core_settings(made, robot, build_course(made, robot)))
+    return document
+
+
+def test_nothing_of_course_events_physics_or_noise_is_told() -> None:
+    document = told()
+    assert set(document) == {"robot", "start", "goals", "navigation"}
+    text = settings_text()
+    for word in ("second", "cylinder", "friction", "noisy", "mass_scale", "seed"):
+        assert f'"{word}"' not in text
+
+
+def test_the_start_is_the_true_one() -> None:
+    made = load_scenario("slalom", seed=5)
+    start = told(seed=5)["start"]
+    assert start["position"] == pytest.approx(made.start.position)
+    assert start["yaw"] == pytest.approx(made.start.yaw)
+    assert start["height"] == pytest.approx(0.0)
+    assert start != told(seed=6)["start"]
+
+
+def test_goals_come_in_order_the_via_points_first() -> None:
+    document = told("goal.via=[[0.4, 0.5], [1.0, 0.6]]", "goal.radius=0.2", "goal.height=0.0")
+    assert [goal["position"] for goal in document["goals"]] == [[0.4, 0.5], [1.0, 0.6], [2.8, 0.0]]
+    assert {goal["radius"] for goal in document["goals"]} == {0.2}
+    assert document["goals"][-1]["height"] == 0.0
+
+
+def test_a_table_of_parameters_goes_through_untouched() -> None:
+    document = told("navigation.fog.cell=0.05", "navigation.self_filter.margin=0.02")
+    assert document["navigation"]["fog"] == {"cell": 0.05}
+    assert document["navigation"]["self_filter"] == {"margin": 0.02}
+    assert document["navigation"]["planner"] == "a_star"
+
+
+def test_components_of_the_users_are_loaded_and_given_ones_beat_the_files() -> None:
+    named = load_scenario("slalom", overrides=("navigation.planner=user_parts:Straight",))
+    assert type(user_components(named, {})["planner"]).__name__ == "Straight"
+    mine = Straight()
+    assert user_components(named, {"planner": mine}) == {"planner": mine}
+    assert user_components(load_scenario("slalom"), {}) == {}

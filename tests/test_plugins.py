@@ -1,0 +1,44 @@
+"""Finding a user's class by `package.module:Class`."""
+
+from pathlib import Path
+
+import pytest
+from user_parts import PARTS, Straight
+
+from treadwell.errors import InputError
+from treadwell.plugins import METHODS, check_component, load_component
+
+
+@pytest.mark.parametrize("slot", METHODS)
+def test_a_class_is_found_and_made(slot: str) -> None:
+    kind = PARTS[slot]
+    assert type(load_component(slot, f"user_parts:{kind.__name__}", {})).__name__ == kind.__name__
+
+
+def test_parameters_are_keyword_arguments() -> None:
+    made = load_component("planner", "user_parts:Straight", {"points": 9})
+    assert getattr(made, "points", None) == 9
+
+
+def test_a_module_that_fails_on_import_is_bad_input_with_its_error(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "halfway.py").write_text("import nothing_of_that_name\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(InputError, match=r"navigation\.planner: cannot import halfway: .*nothing_"):
+        load_component("planner", "halfway:Planner", {})
+
+
+def test_an_attribute_that_is_no_class_is_bad_input(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "number.py").write_text("Planner = 3\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(InputError, match="cannot make number:Planner"):
+        load_component("planner", "number:Planner", {})
+
+
+def test_a_missing_method_is_named() -> None:
+    check_component("planner", Straight())
+    with pytest.raises(InputError, match="localizer: Straight has no method correct, estimate"):
+        check_component("localizer", Straight())

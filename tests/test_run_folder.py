@@ -1,0 +1,57 @@
+"""A run's folder is new, and `runs/latest` leads to the last."""
+
+from pathlib import Path
+
+import pytest
+
+from treadwell.errors import InputError
+from treadwell.run_folder import make_run_folder
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_runs_of_one_second_have_folders_of_their_own_and_latest_is_the_last(here: Path) -> None:
+    made = [make_run_folder(None, "slalom", "qrio", 3) for _ in range(4)]
+    assert len(set(made)) == 4
+    for folder in made:
+        assert folder.is_dir()
+        assert folder.parent == Path("runs")
+        assert folder.name.startswith("slalom-qrio-3-2")
+    assert (here / "runs" / "latest").resolve() == made[-1].resolve()
+
+
+def test_a_folder_of_the_users_may_be_deep_or_empty(here: Path) -> None:
+    assert make_run_folder(here / "a" / "b", "x", "y", 0).is_dir()
+    (here / "empty").mkdir()
+    make_run_folder(here / "empty", "x", "y", 0)
+    assert not (here / "runs").exists()
+
+
+def test_a_run_is_never_overwritten(here: Path) -> None:
+    full = here / "full"
+    full.mkdir()
+    (full / "result.json").write_text("{}")
+    file = here / "file"
+    file.write_text("")
+    for taken in (full, file):
+        with pytest.raises(InputError, match="exists already; a run is never overwritten"):
+            make_run_folder(taken, "x", "y", 0)
+    assert (full / "result.json").read_text() == "{}"
+
+
+def test_a_folder_that_cannot_be_made_is_bad_input(here: Path) -> None:
+    (here / "file").write_text("")
+    with pytest.raises(InputError, match="--out: file/run: "):
+        make_run_folder(Path("file/run"), "x", "y", 0)
+    with pytest.raises(InputError, match="File name too long"):
+        make_run_folder(Path("x" * 300), "x", "y", 0)
+
+
+def test_a_file_called_runs_is_bad_input(here: Path) -> None:
+    (here / "runs").write_text("")
+    with pytest.raises(InputError, match="--out: runs/slalom-qrio-0"):
+        make_run_folder(None, "slalom", "qrio", 0)
