@@ -6,6 +6,7 @@ python benches/episodes.py slalom doorway --seeds 100-119 --workers 2
 import argparse
 import json
 import sys
+import tempfile
 import time
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
@@ -14,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from treadwell.audit import replay_audit
 from treadwell.episode import Episode
 from treadwell.errors import TreadwellError
 
@@ -27,31 +29,29 @@ class Run:
     outcome: str
     reason: str | None
     falls: int
-    collisions: int
+    collisions: list[str]
     simulated_s: float
     wall_s: float
     odometry_error_m: float
     odometry_error_rad: float
     stage_ms: dict[str, float]
+    core_share: float
+    audit: str
 
     def passed(self) -> bool:
         """Whether it did what the scenario expects, without a fall or a collision."""
         expected = "refused" if self.scenario == "boxed_in" else "goal_reached"
-        return self.outcome == expected and self.falls == 0 and self.collisions == 0
+        return self.outcome == expected and self.falls == 0 and not self.collisions
 
 
-def run(job: tuple[str, int, tuple[str, ...]]) -> Run:
+def run(job: tuple[str, int, tuple[str, ...], bool]) -> Run:
     """Run one episode without recording it."""
-    scenario, seed, overrides = job
+    scenario, seed, overrides, audited = job
     episode = Episode(scenario, seed=seed, overrides=overrides)
-    timings: dict[str, list[float]] = {stage: [] for stage in episode.pilot.stages}
     start, step, problem = time.perf_counter(), None, None
     try:
         while episode.verdict is None:
             step = episode.tick()
-            for stage, seconds in zip(episode.pilot.stages, episode.pilot.timing, strict=True):
-                if not np.isnan(seconds):
-                    timings[stage].append(1e3 * seconds)
     except TreadwellError as error:
         problem = str(error)
     wall = time.perf_counter() - start
@@ -66,19 +66,58 @@ def run(job: tuple[str, int, tuple[str, ...]]) -> Run:
         verdict.outcome if verdict else "error",
         verdict.reason if verdict else problem,
         judge.falls,
-        len(judge.collisions),
+        [f"{hit.robot_part} on {hit.element} at {hit.time:.1f} s" for hit in judge.collisions],
         1e-9 * episode.simulation.time_ns,
         wall,
         float(np.hypot(x - true.x, y - true.y)),
         float(abs(np.arctan2(np.sin(turn), np.cos(turn)))),
-        {stage: float(np.median(values)) for stage, values in timings.items() if values},
+        {
+            name: float(1e3 * np.median(values))
+            for name, values in episode.seconds.items()
+            if values
+        },
+        sum(sum(episode.seconds[stage]) for stage in episode.pilot.stages) / wall,
+        replayed(episode) if audited else "not asked for",
     )
+
+
+def replayed(episode: Episode) -> str:
+    """Let plain MuJoCo step the run again: `same`, or where it first differs."""
+    with tempfile.TemporaryDirectory() as folder:
+        episode.simulation.save_audit(Path(folder))
+        row = replay_audit(Path(folder))
+    return "same" if row is None else f"differs from row {row}"
 
 
 def seeds(text: str) -> list[int]:
     """Read `100-119` or `3`."""
     first, _, last = text.partition("-")
     return list(range(int(first), int(last or first) + 1))
+
+
+def summary(scenario: str, runs: list[Run]) -> str:
+    """Return the row of a scenario."""
+    outcomes = dict(Counter(one.outcome for one in runs))
+    audits = Counter(one.audit for one in runs)
+    return (
+        f"{scenario:<12} {sum(one.passed() for one in runs)} of {len(runs)} passed, {outcomes}, "
+        f"falls {sum(one.falls for one in runs)}, "
+        f"collisions {sum(len(one.collisions) for one in runs)}, "
+        f"odometry {100 * np.median([one.odometry_error_m for one in runs]):.1f} cm, "
+        f"{np.degrees(np.median([one.odometry_error_rad for one in runs])):.2f} degrees, "
+        f"median {np.median([one.simulated_s for one in runs]):.1f} s, "
+        f"audits {dict(audits)}\n"
+    )
+
+
+def timing(runs: list[Run]) -> str:
+    """Return medians over the runs: real-time factor, the core's share, each stage."""
+    factor = np.median([one.simulated_s / one.wall_s for one in runs])
+    share = np.median([one.core_share for one in runs])
+    names = sorted({name for one in runs for name in one.stage_ms})
+    stages = {n: np.median([one.stage_ms[n] for one in runs if n in one.stage_ms]) for n in names}
+    listed = ", ".join(f"{name} {value:.3f}" for name, value in stages.items())
+    return f"real-time factor {factor:.1f}, core {100 * share:.0f} % of the wall; ms: {listed}\n"
 
 
 def main() -> None:
@@ -88,10 +127,11 @@ def main() -> None:
     parser.add_argument("--seeds", type=seeds, default=list(range(20)))
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--set", action="append", default=[], dest="overrides")
+    parser.add_argument("--audit", action="store_true", help="step every run again in plain MuJoCo")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
     jobs = [
-        (scenario, seed, tuple(options.overrides))
+        (scenario, seed, tuple(options.overrides), options.audit)
         for scenario in options.scenarios
         for seed in options.seeds
     ]
@@ -103,21 +143,13 @@ def main() -> None:
             sys.stdout.write(
                 f"{mark} {done.scenario:<12} seed {done.seed:<5} {done.outcome:<13}"
                 f"{done.simulated_s:6.1f} s {done.simulated_s / done.wall_s:5.1f}x "
-                f"falls {done.falls} collisions {done.collisions} {done.reason or ''}\n"
+                f"falls {done.falls} collisions {len(done.collisions)} "
+                f"{done.reason or ''} {', '.join(done.collisions)}\n"
             )
             sys.stdout.flush()
     for scenario in options.scenarios:
-        mine = [one for one in runs if one.scenario == scenario]
-        passed = sum(one.passed() for one in mine)
-        outcomes = dict(Counter(one.outcome for one in mine))
-        error = np.median([one.odometry_error_m for one in mine])
-        sys.stdout.write(
-            f"{scenario:<12} {passed} of {len(mine)} passed, {outcomes}, "
-            f"falls {sum(one.falls for one in mine)}, "
-            f"collisions {sum(one.collisions for one in mine)}, odometry {100 * error:.1f} cm, "
-            f"median {np.median([one.simulated_s for one in mine]):.1f} s, "
-            f"real-time factor {np.median([one.simulated_s / one.wall_s for one in mine]):.1f}\n"
-        )
+        sys.stdout.write(summary(scenario, [one for one in runs if one.scenario == scenario]))
+    sys.stdout.write(timing(runs))
     if options.json:
         options.json.write_text(json.dumps([asdict(one) for one in runs], indent=1))
 
