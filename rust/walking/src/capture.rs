@@ -54,7 +54,8 @@ impl Capture {
             } => {
                 let stance = &feet[swing.side.other().index()].planar;
                 let (_, across) = turned(stance, error);
-                let late = (across.abs() - self.config.capture_deadband).max(0.0);
+                let lag = across * swing.side.sign();
+                let late = (lag - self.config.capture_deadband).max(0.0);
                 (
                     1.0 - (late / self.config.capture_hold).min(1.0),
                     Some((swing.side, false)),
