@@ -11,6 +11,7 @@ import numpy as np
 from treadwell import __version__
 from treadwell.episode import Episode, Step
 from treadwell.errors import CoreError, SimulationError, TreadwellError
+from treadwell.interruption import Interruption
 from treadwell.map_memory import MapMemory
 from treadwell.progress import Progress
 from treadwell.result import CollisionEntry, Result, StateEntry
@@ -114,7 +115,8 @@ def run(
     verdict: Verdict | None = None
     problem: TreadwellError | None = None
     try:
-        _loop(episode, scores, writers, progress, begin)
+        with Interruption() as interruption:
+            _loop(episode, scores, writers, progress, begin, interruption)
         verdict = episode.verdict
     except KeyboardInterrupt:
         verdict = Verdict("interrupted", "interrupted: the run was interrupted")
@@ -132,10 +134,16 @@ def run(
 
 
 def _loop(
-    episode: Episode, scores: Scores, writers: Writers, progress: Progress | None, begin: float
+    episode: Episode,
+    scores: Scores,
+    writers: Writers,
+    progress: Progress | None,
+    begin: float,
+    interruption: Interruption,
 ) -> None:
     """Go on until there is a verdict."""
     while episode.verdict is None:
+        interruption.check()
         step = episode.tick()
         scores.tick(step)
         if step.observation.depth is not None or step.time_ns == 0 or episode.verdict is not None:

@@ -1,0 +1,149 @@
+"""A run that is cut short: Ctrl-C, a full disk, a kill. What there is stays readable."""
+
+import itertools
+import json
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import time
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from treadwell.interruption import Interruption
+from treadwell.observation_log import read_observations
+from treadwell.verification import verify_run
+
+LONG = ("run", "slalom", "--seed", "1", "--set", "time_limit=60")
+
+
+def start(folder: Path, *options: str, limit: int | None = None) -> subprocess.Popen[str]:
+    """Start a run in a process of its own, `limit` bytes being the most that a file may have."""
+
+    def tighten() -> None:
+        if limit is not None:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    arguments: Sequence[str] = (*LONG, "--out", str(folder), *options)
+    return subprocess.Popen(
+        [sys.executable, "-m", "treadwell.cli", *arguments],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=tighten,
+    )
+
+
+def wait_for(process: subprocess.Popen[str], path: Path, size: int) -> None:
+    """Wait until a file has grown so far."""
+    end = time.monotonic() + 60.0
+    while not (path.is_file() and path.stat().st_size > size):
+        assert process.poll() is None, process.communicate()
+        assert time.monotonic() < end, f"{path} did not grow"
+        time.sleep(0.02)
+
+
+def recorded(folder: Path) -> set[str]:
+    from rerun.chunk import RrdReader
+
+    with warnings.catch_warnings():
+        # A file whose writer was stopped has no table of contents; reading it takes longer.
+        warnings.simplefilter("ignore")
+        chunks = RrdReader(folder / "recording.rrd").stream().to_chunks()
+        return {str(chunk.entity_path) for chunk in chunks}
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_run_closes_its_files_says_so_and_leaves_with_130(
+    tmp_path: Path, number: signal.Signals
+) -> None:
+    folder = tmp_path / "run"
+    process = start(folder, "--json")
+    wait_for(process, folder / "recording.rrd", 1_500_000)
+    process.send_signal(number)
+    output, messages = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "Traceback" not in messages
+    told = json.loads(output)
+    assert told == json.loads((folder / "result.json").read_text())
+    assert told["outcome"] == "interrupted"
+    assert not told["passed"]
+    assert 0.5 < told["simulated_seconds"] < 59.0
+    assert verify_run(folder).problems == ()
+    assert "/camera/depth" in recorded(folder)
+    count = sum(1 for _ in read_observations(folder / "observations.mcap"))
+    assert count == round(100 * told["simulated_seconds"])
+
+
+def test_a_disk_that_fills_up_ends_the_run_with_one_message_and_its_result(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    process = start(folder, limit=22_000_000)
+    output, messages = process.communicate(timeout=120)
+    assert process.returncode == 3, messages
+    (error,) = [line for line in messages.splitlines() if line.startswith("error: ")]
+    assert "recording.rrd" in error
+    assert "disk is full" in error
+    assert "Traceback" not in messages + output
+    result = json.loads((folder / "result.json").read_text())
+    assert result["outcome"] == "error"
+    assert "disk is full" in result["reason"]
+    assert "/camera/depth" in recorded(folder)
+    assert (folder / "map.png").stat().st_size > 10_000
+    assert sum(1 for _ in read_observations(folder / "observations.mcap")) > 100
+
+
+def test_a_disk_that_is_full_from_the_start_is_one_message(tmp_path: Path) -> None:
+    process = start(tmp_path / "run", limit=1_000)
+    output, messages = process.communicate(timeout=60)
+    assert process.returncode == 3
+    assert messages.count("error: ") == 1
+    assert "Traceback" not in messages + output
+
+
+def test_a_killed_run_leaves_what_it_recorded(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    process = start(folder)
+    wait_for(process, folder / "observations.mcap", 300_000)
+    process.kill()
+    process.communicate(timeout=60)
+    assert "/camera/depth" in recorded(folder)
+    found = read_observations(folder / "observations.mcap")
+    assert sum(1 for _ in itertools.islice(found, 50)) == 50
+    assert not (folder / "result.json").exists()
+    assert any("result.json" in problem for problem in verify_run(folder).problems)
+
+
+def test_a_signal_waits_for_the_end_of_the_tick_and_handlers_come_back() -> None:
+    before = signal.getsignal(signal.SIGINT)
+    with Interruption() as interruption:
+        interruption.check()
+        signal.raise_signal(signal.SIGINT)
+        with pytest.raises(KeyboardInterrupt):
+            interruption.check()
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_a_second_signal_does_not_wait() -> None:
+    with Interruption():
+        signal.raise_signal(signal.SIGINT)
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+
+
+def test_in_another_thread_nothing_changes() -> None:
+    before = signal.getsignal(signal.SIGINT)
+    seen = []
+
+    def work() -> None:
+        with Interruption() as interruption:
+            interruption.check()
+            seen.append(signal.getsignal(signal.SIGINT))
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert seen == [before]

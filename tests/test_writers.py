@@ -1,0 +1,73 @@
+"""What is written into a run's folder: in order, each though another fails, the result last."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import treadwell
+from treadwell import writers
+from treadwell.errors import InputError, RecordingError
+from treadwell.runner import run
+
+
+@pytest.fixture
+def episode() -> treadwell.Episode:
+    return treadwell.Episode("slalom", seed=1, overrides=("time_limit=0.2",))
+
+
+def test_nothing_is_opened_without_recording(tmp_path: Path, episode: treadwell.Episode) -> None:
+    made = writers.Writers(tmp_path, episode, record=False, view=False)
+    made.tick(episode.tick())
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_vanished_is_an_error_of_the_recording(
+    tmp_path: Path, episode: treadwell.Episode
+) -> None:
+    with pytest.raises(RecordingError, match=r"recording\.rrd"):
+        writers.Writers(tmp_path / "gone", episode, record=True, view=False)
+
+
+def test_the_result_is_written_last(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    there: list[set[str]] = []
+    write = writers.Result.write
+
+    def spy(self: writers.Result, path: Path) -> None:
+        there.append({each.name for each in path.parent.iterdir()})
+        write(self, path)
+
+    monkeypatch.setattr(writers.Result, "write", spy)
+    run("slalom", overrides=("time_limit=0.2",), out=tmp_path / "run")
+    assert {"recording.rrd", "observations.mcap", "physics.npz", "map.png"} <= there[0]
+    assert len(there) == 1
+
+
+def test_a_recording_that_breaks_ends_the_run_and_leaves_its_result(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from treadwell.observation_log import ObservationLog
+
+    write, count = ObservationLog.write, [0]
+
+    def full(self: ObservationLog, observation: Any) -> None:  # noqa: ANN401 - handed on
+        count[0] += 1
+        if count[0] > 10:
+            raise RecordingError("observations.mcap: No space left on device")
+        write(self, observation)
+
+    monkeypatch.setattr(ObservationLog, "write", full)
+    out = tmp_path / "run"
+    with pytest.raises(RecordingError, match=r"observations\.mcap: No space left"):
+        run("slalom", overrides=("time_limit=1",), out=out)
+    assert (out / "result.json").is_file()
+    assert '"outcome": "error"' in (out / "result.json").read_text()
+
+
+def test_a_window_that_cannot_be_opened_is_bad_input(
+    tmp_path: Path, episode: treadwell.Episode, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    with pytest.raises(InputError, match="--view: no window can be opened"):
+        writers.Writers(tmp_path, episode, record=False, view=True)
