@@ -14,7 +14,14 @@ pub struct FeetControl {
     config: GaitConfig,
     tilt_m: f64,
     landed: [f64; 2],
-    held: Option<(Side, f64)>,
+    held: Option<Held>,
+}
+
+/// A foot that landed before its time; its height is taken over when it is placed next.
+#[derive(Debug, Clone, Copy)]
+struct Held {
+    side: Side,
+    height_m: Option<f64>,
 }
 
 impl FeetControl {
@@ -53,13 +60,14 @@ impl FeetControl {
             let landed = loads_n[swing.side.index()] > config.landing_load
                 && elapsed_s / duration_s > LANDING_SHARE;
             if landed && self.held.is_none() {
-                self.held = Some((swing.side, f64::NAN));
+                self.held = Some(Held {
+                    side: swing.side,
+                    height_m: None,
+                });
             }
             return;
         }
-        if let Some((_, height)) = self.held.take() {
-            debug_assert!(height.is_finite());
-        }
+        self.held = None;
         let error = 0.5 * ((loads_n[0] - loads_n[1]) - (share[0] - share[1]) * weight_n);
         self.tilt_m = (self.tilt_m + config.load_gain * error * passed_s)
             .clamp(-config.load_limit, config.load_limit);
@@ -68,13 +76,9 @@ impl FeetControl {
     /// The foot's place with the corrections.
     pub fn place(&mut self, mut foot: FootPose, side: Side) -> FootPose {
         let index = side.index();
-        if let Some((held, height)) = &mut self.held
-            && *held == side
-        {
-            if height.is_nan() {
-                *height = foot.z_m;
-            }
-            self.landed[index] = *height - foot.z_m;
+        if let Some(held) = self.held.as_mut().filter(|held| held.side == side) {
+            let height_m = *held.height_m.get_or_insert(foot.z_m);
+            self.landed[index] = height_m - foot.z_m;
         }
         foot.z_m += side.sign() * 0.5 * self.tilt_m + self.landed[index].max(0.0);
         foot
