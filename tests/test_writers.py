@@ -17,7 +17,7 @@ def episode() -> treadwell.Episode:
 
 
 def test_nothing_is_opened_without_recording(tmp_path: Path, episode: treadwell.Episode) -> None:
-    made = writers.Writers(tmp_path, episode, record=False, view=False)
+    made = writers.Writers(tmp_path, episode, record=False)
     made.tick(episode.tick())
     assert list(tmp_path.iterdir()) == []
 
@@ -26,7 +26,7 @@ def test_a_folder_that_vanished_is_an_error_of_the_recording(
     tmp_path: Path, episode: treadwell.Episode
 ) -> None:
     with pytest.raises(RecordingError, match=r"recording\.rrd"):
-        writers.Writers(tmp_path / "gone", episode, record=True, view=False)
+        writers.Writers(tmp_path / "gone", episode, record=True)
 
 
 def test_the_result_is_written_last(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -70,4 +70,4 @@ def test_a_window_that_cannot_be_opened_is_bad_input(
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     with pytest.raises(InputError, match="--view: no window can be opened"):
-        writers.Writers(tmp_path, episode, record=False, view=True)
+        writers.open_viewer(episode)

@@ -158,8 +158,12 @@ def verify(
     as_json: JsonOption = False,
 ) -> int:
     """Check that a run's files are whole, and that plain MuJoCo steps to the same states."""
+    from treadwell.errors import InputError
     from treadwell.verification import verify as verify_runs
 
+    for run_dir in run_dirs:
+        if not run_dir.is_dir():
+            raise InputError(f"{run_dir}: there is no such run")
     faults = {str(found.folder): list(found.problems) for found in verify_runs(run_dirs)}
     if as_json:
         write_json({name: {"whole": not found, "faults": found} for name, found in faults.items()})

@@ -1,16 +1,17 @@
 """What the core is told before the first tick, and the components that take a named one's place."""
 
 import json
+import re
 from typing import Any
 
+from treadwell._core import Pilot
 from treadwell.components import COMPONENTS
 from treadwell.course import Course
+from treadwell.errors import InputError
 from treadwell.plugins import check_component, load_component
 from treadwell.robot import Robot
 from treadwell.scenario import Scenario
-
-INJECTED = ("truth",)
-"""Components that the harness makes itself, since they know what the core must not."""
+from treadwell.scenario_errors import nearest
 
 
 def core_settings(scenario: Scenario, robot: Robot, course: Course) -> str:
@@ -48,3 +49,23 @@ def user_components(scenario: Scenario, given: dict[str, object]) -> dict[str, A
         if slot not in given and name not in COMPONENTS[slot]
     }
     return {**loaded, **given}
+
+
+def build_core(scenario: Scenario, settings: str, components: dict[str, Any]) -> Pilot:
+    """Return the core.
+
+    Args:
+        scenario: for the file's name in an error.
+        settings: what `core_settings` returned.
+        components: what `user_components` returned.
+
+    Raises:
+        InputError: a parameter is unknown or cannot be; the message names file, key and spelling.
+    """
+    try:
+        return Pilot(settings, **components)
+    except InputError as error:
+        words = re.findall(r"`(\w+)`", str(error))
+        unknown = "unknown field" in str(error) and len(words) > 1
+        hint = nearest(words[0], words[1:]) if unknown else ""
+        raise InputError(f"{scenario.path or scenario.name}: {error}{hint}") from None

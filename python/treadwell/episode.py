@@ -7,7 +7,7 @@ from pathlib import Path
 from time import perf_counter
 
 from treadwell._core import Pilot
-from treadwell.core_settings import core_settings, user_components
+from treadwell.core_settings import build_core, core_settings, user_components
 from treadwell.course import build_course
 from treadwell.events import Events
 from treadwell.judge import Judge
@@ -118,7 +118,8 @@ class Episode:
         self.ablation = scenario.navigation.localizer == "truth" and "localizer" not in given
         if self.ablation:
             given["localizer"] = TruthLocalizer(self.judge.truth, self.simulation.data)
-        self.pilot = Pilot(core_settings(scenario, self.robot, self.course), **given)
+        settings = core_settings(scenario, self.robot, self.course)
+        self.pilot = build_core(scenario, settings, given)
 
     def tick(self) -> Step:
         """Go on by one control tick.

@@ -21,7 +21,7 @@ from treadwell.trace import Trace
 from treadwell.tracing import trace_of
 from treadwell.trajectory import Trajectory
 from treadwell.verdict import Verdict
-from treadwell.writers import Writers
+from treadwell.writers import Writers, open_viewer
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,8 +108,9 @@ def run(
     """
     episode = Episode(scenario, robot=robot, seed=seed, overrides=tuple(overrides), **components)
     made = episode.scenario
+    viewer = open_viewer(episode) if view else None
     folder = make_run_folder(out, made.name, episode.robot.name, made.seed)
-    writers = Writers(folder, episode, record=record, view=view)
+    writers = Writers(folder, episode, record=record, viewer=viewer)
     scores = Scores()
     begin = perf_counter()
     verdict: Verdict | None = None

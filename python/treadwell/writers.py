@@ -20,20 +20,27 @@ if TYPE_CHECKING:
 class Writers:
     """Everything that writes into a run's folder."""
 
-    def __init__(self, folder: Path, episode: Episode, *, record: bool, view: bool) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        episode: Episode,
+        *,
+        record: bool,
+        viewer: Any = None,  # noqa: ANN401
+    ) -> None:
         """Open what is written as it happens.
 
         Args:
             folder: new and empty.
             episode: before its first tick.
             record: whether to keep recording and observations.
-            view: whether to show the physics in a window.
+            viewer: a window on the physics, from `open_viewer`.
         """
         self._folder = folder
         self._episode = episode
         self._recorder: Recorder | None = None
         self._observations: ObservationLog | None = None
-        self._viewer = _open_viewer(episode) if view else None
+        self._viewer = viewer
         if record:
             from treadwell import observation_log, recording
 
@@ -102,7 +109,7 @@ class Writers:
                 self._recorder.close()
 
 
-def _open_viewer(episode: Episode) -> Any:  # noqa: ANN401 - MuJoCo's viewer has no types
+def open_viewer(episode: Episode) -> Any:  # noqa: ANN401 - MuJoCo's viewer has no types
     """Return a window on the physics.
 
     Raises:

@@ -20,7 +20,7 @@ pub enum PilotError {
     #[error("robot: {0}")]
     Body(#[from] BodyError),
     /// Settings that are not what they should be.
-    #[error("settings: {0}")]
+    #[error("{0}")]
     Settings(String),
     /// An observation that is refused; nothing changed.
     #[error("observation: {0}")]
