@@ -65,7 +65,7 @@ def test_a_recording_that_breaks_ends_the_run_and_leaves_its_result(
 
 
 def test_a_window_that_cannot_be_opened_is_bad_input(
-    tmp_path: Path, episode: treadwell.Episode, monkeypatch: pytest.MonkeyPatch
+    episode: treadwell.Episode, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
