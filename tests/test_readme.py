@@ -1,0 +1,68 @@
+"""What the pages tell a reader to type exists, and what they lead to is there."""
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+import treadwell
+from treadwell.cli import execute
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGES = [ROOT / "README.md", ROOT / "ARCHITECTURE.md", *sorted((ROOT / "docs").glob("*.md"))]
+README = (ROOT / "README.md").read_text()
+
+
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"```{language}\n(.*?)```", README, re.DOTALL)
+
+
+def commands(program: str) -> list[list[str]]:
+    lines = [line for block in blocks("sh") for line in block.splitlines()]
+    words = [shlex.split(line, comments=True) for line in lines]
+    return [found[1:] for found in words if found and found[0] == program]
+
+
+def test_the_readme_shows_the_commands_a_newcomer_needs() -> None:
+    assert ["demo"] in commands("make")
+    assert ["test"] in commands("make")
+    assert {"run", "list", "check", "verify", "inspect"} <= {
+        words[0] for words in commands("treadwell")
+    }
+
+
+@pytest.mark.parametrize("target", [words[0] for words in commands("make")])
+def test_a_make_target_exists(target: str) -> None:
+    assert re.search(rf"^{target}:", (ROOT / "Makefile").read_text(), re.MULTILINE)
+
+
+@pytest.mark.parametrize("words", commands("treadwell"), ids=" ".join)
+def test_a_command_is_understood(words: list[str], tmp_path: Path) -> None:
+    """Runs are only checked, and what needs a run or a file of the reader's is asked for help."""
+    own = [word for word in words[1:] if word.startswith("runs/") or word == "my_course.toml"]
+    if own:
+        assert execute([*words, "--help"]) == 0
+    elif words[0] == "run":
+        assert execute(["check", *words[1:]]) == 0
+    else:
+        assert execute(words) == 0
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_a_link_leads_somewhere(page: Path) -> None:
+    links = re.findall(r"\]\(([^)#]+)[^)]*\)", page.read_text())
+    missing = [link for link in links if "://" not in link and not (page.parent / link).exists()]
+    assert not missing
+
+
+def test_the_names_in_the_python_example_exist() -> None:
+    (example,) = blocks("python")
+    names = set(re.findall(r"treadwell\.([a-zA-Z_]+)\(", example))
+    assert names == {"run", "Episode"}
+    assert all(hasattr(treadwell, name) for name in names)
+    for part in re.findall(r"step\.(\w+)", example):
+        from treadwell.episode import Step
+
+        assert part in Step.__annotations__

@@ -1,0 +1,86 @@
+"""The shipped scenarios, closed loop with all noise on: each does what it expects."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import treadwell
+from treadwell.runner import Run
+from treadwell.scenario_loading import scenario_names
+from treadwell.verification import verify_run
+
+pytestmark = pytest.mark.scenario
+
+EXPECTED = {
+    "open_floor": "goal_reached",
+    "slalom": "goal_reached",
+    "doorway": "goal_reached",
+    "curtain": "goal_reached",
+    "visitor": "goal_reached",
+    "push": "goal_reached",
+    "boxed_in": "refused",
+}
+SEEDS = (0, 1)
+
+Runner = Callable[[str, int], Run]
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Runner:
+    """Runs each scenario and seed once."""
+    done: dict[tuple[str, int], Run] = {}
+    folder = tmp_path_factory.mktemp("runs")
+
+    def once(name: str, seed: int) -> Run:
+        if (name, seed) not in done:
+            out = folder / f"{name}-{seed}"
+            done[name, seed] = treadwell.run(name, seed=seed, out=out, record=False)
+        return done[name, seed]
+
+    return once
+
+
+def test_every_shipped_scenario_is_run_here() -> None:
+    assert set(scenario_names()) == set(EXPECTED)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("name", EXPECTED)
+def test_a_scenario_ends_as_it_expects_without_a_fall_or_a_collision(
+    run: Runner, name: str, seed: int
+) -> None:
+    result = run(name, seed).result
+    assert (result.outcome, result.reason, result.failures) == (
+        EXPECTED[name],
+        result.reason if EXPECTED[name] == "refused" else None,
+        [],
+    )
+    assert result.passed
+    assert result.falls == 0
+    assert result.collisions == []
+    assert result.localization is not None
+    assert result.localization.translation_error.max < 0.15
+    assert not result.ablation
+
+
+@pytest.mark.parametrize("name", EXPECTED)
+def test_plain_physics_steps_to_the_same_states(run: Runner, name: str) -> None:
+    done = run(name, SEEDS[0])
+    assert verify_run(Path(done.folder)).problems == ()
+
+
+def test_a_refusal_says_in_a_word_and_a_sentence_what_is_in_the_way(run: Runner) -> None:
+    result = run("boxed_in", SEEDS[0]).result
+    assert result.reason is not None
+    word, _, sentence = result.reason.partition(": ")
+    assert word in {"blocked", "too_narrow", "no_path"}
+    assert len(sentence) > 10
+    assert result.simulated_seconds < 110.0
+
+
+def test_the_map_of_a_course_is_right_nearly_everywhere(run: Runner) -> None:
+    counted = run("slalom", SEEDS[0]).result.map
+    assert counted.floor_cells > 300
+    assert counted.floor_cells_right > 0.9
+    assert counted.obstacle_cells_right > 0.75
