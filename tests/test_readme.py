@@ -66,3 +66,10 @@ def test_the_names_in_the_python_example_exist() -> None:
         from treadwell.episode import Step
 
         assert part in Step.__annotations__
+
+
+def test_the_scenario_of_the_readme_is_one(tmp_path: Path) -> None:
+    (example,) = blocks("toml")
+    path = tmp_path / "two_boxes.toml"
+    path.write_text(example)
+    assert execute(["check", str(path), "--seed", "3"]) == 0
