@@ -9,7 +9,8 @@ import sys
 import threading
 import time
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -21,7 +22,8 @@ from treadwell.verification import verify_run
 LONG = ("run", "slalom", "--seed", "1", "--set", "time_limit=60")
 
 
-def start(folder: Path, *options: str, limit: int | None = None) -> subprocess.Popen[str]:
+@contextmanager
+def start(folder: Path, *options: str, limit: int | None = None) -> Iterator[subprocess.Popen[str]]:
     """Start a run in a process of its own, `limit` bytes being the most that a file may have."""
 
     def tighten() -> None:
@@ -29,13 +31,18 @@ def start(folder: Path, *options: str, limit: int | None = None) -> subprocess.P
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
     arguments: Sequence[str] = (*LONG, "--out", str(folder), *options)
-    return subprocess.Popen(
+    process = subprocess.Popen(
         [sys.executable, "-m", "treadwell.cli", *arguments],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
         preexec_fn=tighten,
     )
+    with process:
+        try:
+            yield process
+        finally:
+            process.kill()
 
 
 def wait_for(process: subprocess.Popen[str], path: Path, size: int) -> None:
@@ -62,10 +69,10 @@ def test_an_interrupted_run_closes_its_files_says_so_and_leaves_with_130(
     tmp_path: Path, number: signal.Signals
 ) -> None:
     folder = tmp_path / "run"
-    process = start(folder, "--json")
-    wait_for(process, folder / "recording.rrd", 1_500_000)
-    process.send_signal(number)
-    output, messages = process.communicate(timeout=60)
+    with start(folder, "--json") as process:
+        wait_for(process, folder / "recording.rrd", 1_500_000)
+        process.send_signal(number)
+        output, messages = process.communicate(timeout=60)
     assert process.returncode == 130
     assert "Traceback" not in messages
     told = json.loads(output)
@@ -81,8 +88,8 @@ def test_an_interrupted_run_closes_its_files_says_so_and_leaves_with_130(
 
 def test_a_disk_that_fills_up_ends_the_run_with_one_message_and_its_result(tmp_path: Path) -> None:
     folder = tmp_path / "run"
-    process = start(folder, limit=22_000_000)
-    output, messages = process.communicate(timeout=120)
+    with start(folder, limit=22_000_000) as process:
+        output, messages = process.communicate(timeout=120)
     assert process.returncode == 3, messages
     (error,) = [line for line in messages.splitlines() if line.startswith("error: ")]
     assert "recording.rrd" in error
@@ -97,8 +104,8 @@ def test_a_disk_that_fills_up_ends_the_run_with_one_message_and_its_result(tmp_p
 
 
 def test_a_disk_that_is_full_from_the_start_is_one_message(tmp_path: Path) -> None:
-    process = start(tmp_path / "run", limit=1_000)
-    output, messages = process.communicate(timeout=60)
+    with start(tmp_path / "run", limit=1_000) as process:
+        output, messages = process.communicate(timeout=60)
     assert process.returncode == 3
     assert messages.count("error: ") == 1
     assert "Traceback" not in messages + output
@@ -106,10 +113,10 @@ def test_a_disk_that_is_full_from_the_start_is_one_message(tmp_path: Path) -> No
 
 def test_a_killed_run_leaves_what_it_recorded(tmp_path: Path) -> None:
     folder = tmp_path / "run"
-    process = start(folder)
-    wait_for(process, folder / "observations.mcap", 300_000)
-    process.kill()
-    process.communicate(timeout=60)
+    with start(folder) as process:
+        wait_for(process, folder / "observations.mcap", 300_000)
+        process.kill()
+        process.communicate(timeout=60)
     assert "/camera/depth" in recorded(folder)
     found = read_observations(folder / "observations.mcap")
     assert sum(1 for _ in itertools.islice(found, 50)) == 50

@@ -59,13 +59,15 @@ class Recorder:
         begin = (*course.start.position, course.start.height)
         centre = tuple((a + b) / 2 for a, b in zip(begin, goal, strict=True))
         extent = float(np.hypot(goal[0] - begin[0], goal[1] - begin[1])) + 1.0
-        self._stream = rr.RecordingStream(
-            "treadwell",
-            recording_id=f"{scenario.name}-{robot.name}-{scenario.seed}",
-            send_properties=False,
-        )
         try:
             path.touch()
+            if room(path) < _SPARE_BYTES:
+                raise self._full()
+            self._stream = rr.RecordingStream(
+                "treadwell",
+                recording_id=f"{scenario.name}-{robot.name}-{scenario.seed}",
+                send_properties=False,
+            )
             self._stream.save(path, blueprint((centre[0], centre[1], centre[2] + 0.15), extent))
         except (OSError, RuntimeError) as error:
             raise RecordingError(f"{path}: cannot be written: {_reason(error)}") from error
@@ -110,10 +112,7 @@ class Recorder:
             if room(self._path) < _SPARE_BYTES:
                 self._broken = True
                 self._stream.disconnect()
-                raise RecordingError(
-                    f"{self._path}: the disk is full (or the file as large as it may be); "
-                    "what was recorded before stays readable"
-                )
+                raise self._full()
             self._stream.flush(timeout_sec=_FLUSH_SECONDS)
             _ = self._path.stat()
         except (OSError, RuntimeError, ValueError) as error:
@@ -122,6 +121,12 @@ class Recorder:
                 f"{self._path}: writing failed, what was recorded before stays readable: "
                 f"{_reason(error)}"
             ) from error
+
+    def _full(self) -> RecordingError:
+        return RecordingError(
+            f"{self._path}: the disk is full (or the file as large as it may be); "
+            "what was recorded before stays readable"
+        )
 
     def _abandon(self) -> None:
         """Touch a stream whose writer has failed no more: to flush or to end it could hang."""
