@@ -40,7 +40,7 @@ class Rows:
 
 
 class Audit:
-    """Collects the audit of one run: contract.md, *audit*.
+    """Collects the audit of one run: what plain MuJoCo needs to step to the same states.
 
     `physics.npz` holds `state0`, `ctrl`, `qpos`, and with events `event_step` (n,): row i of every
     further array was set before physics step `event_step[i]`. The arrays have the names of

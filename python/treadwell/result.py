@@ -100,7 +100,7 @@ class Timing(Table):
 
 
 class Result(Table):
-    """Schema `treadwell.result/1`; the keys are those of contract.md."""
+    """Schema `treadwell.result/1`; the keys of `result.json`."""
 
     schema_: Annotated[Literal["treadwell.result/1"], Field(alias="schema")] = SCHEMA
     scenario: str
