@@ -145,7 +145,7 @@ impl WalkingBehaviour {
         if done {
             self.enter(State::Walk);
         }
-        self.gaze_at(moment, error_rad, self.config.gaze_near);
+        self.gaze_at(moment, error_rad, self.config.gaze_far);
         Motion::Walk(Velocity {
             yaw_radps: self.turn_velocity(error_rad),
             ..Velocity::default()
