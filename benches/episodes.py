@@ -15,9 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
-from treadwell.audit import replay_audit
 from treadwell.episode import Episode
 from treadwell.errors import TreadwellError
+from treadwell.physics.audit import replay_audit
 
 
 @dataclass(frozen=True)

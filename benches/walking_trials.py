@@ -22,13 +22,13 @@ import mujoco
 import numpy as np
 
 from treadwell._core import Walker
-from treadwell.course import build_course
-from treadwell.motors import JointTargets
+from treadwell.course.build import build_course
+from treadwell.physics.motors import JointTargets
+from treadwell.physics.simulation import Simulation
 from treadwell.random_streams import RandomStreams
-from treadwell.robot import load_robot
-from treadwell.scenario import Scenario
-from treadwell.sensors import Sensors
-from treadwell.simulation import Simulation
+from treadwell.robot.load import load_robot
+from treadwell.scenario.model import Scenario
+from treadwell.senses.sensors import Sensors
 
 TICK_S = 0.01
 PUSH_S = 0.1

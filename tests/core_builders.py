@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from treadwell._core import Pilot
 from treadwell.core_settings import core_settings
-from treadwell.course import build_course
+from treadwell.course.build import build_course
 from treadwell.episode import Episode
 from treadwell.observation import Frame, Observation
-from treadwell.robot import load_robot
-from treadwell.scenario_loading import load_scenario
+from treadwell.robot.load import load_robot
+from treadwell.scenario.loading import load_scenario
 
 
 @cache

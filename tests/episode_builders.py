@@ -9,16 +9,16 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from treadwell.course import Course, build_course
-from treadwell.ground_truth import pose_matrix
-from treadwell.map_memory import RememberedMap
-from treadwell.motors import JointTargets
-from treadwell.result import Result
-from treadwell.robot import Robot, load_robot
-from treadwell.scenario import Scenario
-from treadwell.scenario_loading import load_scenario
-from treadwell.simulation import Simulation, Start
-from treadwell.trace import Trace
+from treadwell.course.build import Course, build_course
+from treadwell.judging.ground_truth import pose_matrix
+from treadwell.judging.map_memory import RememberedMap
+from treadwell.judging.result import Result
+from treadwell.physics.motors import JointTargets
+from treadwell.physics.simulation import Simulation, Start
+from treadwell.recording.trace import Trace
+from treadwell.robot.load import Robot, load_robot
+from treadwell.scenario.loading import load_scenario
+from treadwell.scenario.model import Scenario
 
 STEP = """
 [[course]]

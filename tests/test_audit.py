@@ -6,11 +6,11 @@ import mujoco
 import numpy as np
 import pytest
 
-from treadwell.audit import replay_audit
 from treadwell.errors import InputError
-from treadwell.motors import JointTargets
-from treadwell.robot import Robot, load_robot
-from treadwell.simulation import Simulation, Start
+from treadwell.physics.audit import replay_audit
+from treadwell.physics.motors import JointTargets
+from treadwell.physics.simulation import Simulation, Start
+from treadwell.robot.load import Robot, load_robot
 
 
 @pytest.fixture(scope="module")

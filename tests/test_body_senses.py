@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from treadwell.body_senses import Encoders, FootForces, Imu, ImuNoise
 from treadwell.random_streams import stream
+from treadwell.senses.body import Encoders, FootForces, Imu, ImuNoise
 
 QUANTUM = np.radians(0.088)
 TICK = 10_000_000

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from treadwell.camera_error import CameraErrorBounds, draw_camera_error, rotation_of
-from treadwell.depth import DepthCamera, Pinhole
 from treadwell.random_streams import stream
+from treadwell.senses.camera_error import CameraErrorBounds, draw_camera_error, rotation_of
+from treadwell.senses.depth import DepthCamera, Pinhole
 
 MODEL = mujoco.MjModel.from_xml_string("""
 <mujoco><worldbody><body name="pelvis" pos="0 0 0.3" euler="0 0 40"><freejoint/><geom size="0.05"/>

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from treadwell import cdr
 from treadwell.observation import Frame, Observation
+from treadwell.recording import cdr
 
 
 def observation(joints: int = 26, seed: int = 0, time_ns: int = 10_000_000) -> Observation:

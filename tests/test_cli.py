@@ -10,15 +10,15 @@ from typing import Any
 
 import pytest
 
-from treadwell import cli_run
-from treadwell.cli import execute
-from treadwell.cli_check import checked
-from treadwell.cli_list import listed
-from treadwell.cli_output import guarded
+from treadwell.cli import run as cli_run
+from treadwell.cli.app import execute
+from treadwell.cli.check import checked
+from treadwell.cli.list import listed
+from treadwell.cli.output import guarded
+from treadwell.cli.progress import Progress, line
 from treadwell.components import COMPONENTS
 from treadwell.errors import InputError, TreadwellError
-from treadwell.progress import Progress, line
-from treadwell.scenario_loading import scenario_names
+from treadwell.scenario.loading import scenario_names
 
 HEAD = 'schema = 1\nname = "x"\n[start]\n[goal]\n'
 
@@ -131,7 +131,7 @@ def test_no_traceback_reaches_the_user_of_the_program(tmp_path: Path) -> None:
     path = tmp_path / "x.toml"
     path.write_text(HEAD + "[physics]\nfriction = 'a'\n")
     done = subprocess.run(
-        [sys.executable, "-m", "treadwell.cli", "check", str(path)],
+        [sys.executable, "-m", "treadwell.cli.app", "check", str(path)],
         capture_output=True,
         text=True,
         check=False,
@@ -143,7 +143,7 @@ def test_no_traceback_reaches_the_user_of_the_program(tmp_path: Path) -> None:
 
 
 def test_the_command_line_starts_without_loading_the_physics() -> None:
-    program = "import sys, treadwell.cli; sys.exit('mujoco' in sys.modules)"
+    program = "import sys, treadwell.cli.app; sys.exit('mujoco' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
 
 

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from episode_builders import BOX, STEP, World, qrio, world
 
-from treadwell.contacts import RISER_IMPULSE, Collision, Contacts
-from treadwell.ground_truth import GroundTruth
+from treadwell.judging.contacts import RISER_IMPULSE, Collision, Contacts
+from treadwell.judging.ground_truth import GroundTruth
 
 HANGING = """
 [[course]]

@@ -8,9 +8,9 @@ from core_builders import settings_text
 from user_parts import Straight
 
 from treadwell.core_settings import core_settings, user_components
-from treadwell.course import build_course
-from treadwell.robot import load_robot
-from treadwell.scenario_loading import load_scenario
+from treadwell.course.build import build_course
+from treadwell.robot.load import load_robot
+from treadwell.scenario.loading import load_scenario
 
 
 def told(*overrides: str, seed: int | None = None) -> dict[str, Any]:

@@ -11,19 +11,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from treadwell.course import Course, build_course
-from treadwell.course_assets import read_mjcf
-from treadwell.course_model import COLOURS, GROUND, PARKED
-from treadwell.course_outlines import clipped, convex_outline, rectangle, signed_distance
-from treadwell.course_plan import all_elements
-from treadwell.course_scatter import LOWEST, Ground
-from treadwell.course_stairs import stairs_pieces, treads_of
-from treadwell.course_xml import check_xml
+from treadwell.course.assets import read_mjcf
+from treadwell.course.build import Course, build_course
+from treadwell.course.geometry import COLOURS, GROUND, PARKED
+from treadwell.course.outlines import clipped, convex_outline, rectangle, signed_distance
+from treadwell.course.plan import all_elements
+from treadwell.course.scatter import LOWEST, Ground
+from treadwell.course.stairs import stairs_pieces, treads_of
+from treadwell.course.xml import check_xml
 from treadwell.errors import InputError
-from treadwell.robot import load_robot
-from treadwell.scenario import Scenario
-from treadwell.scenario_elements import ELEMENTS, Stairs
-from treadwell.scenario_loading import load_scenario, scenario_names
+from treadwell.robot.load import load_robot
+from treadwell.scenario.elements import ELEMENTS, Stairs
+from treadwell.scenario.loading import load_scenario, scenario_names
+from treadwell.scenario.model import Scenario
 
 ROBOT = load_robot("qrio")
 

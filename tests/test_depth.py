@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from treadwell.depth import DepthCamera, Mount, Pinhole
+from treadwell.senses.depth import DepthCamera, Mount, Pinhole
 
 WORLD = """
 <mujoco><worldbody>

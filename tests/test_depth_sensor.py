@@ -4,9 +4,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from treadwell.depth import DepthCamera, Pinhole
-from treadwell.depth_sensor import DepthSensor
 from treadwell.observation import Frame
+from treadwell.senses.depth import DepthCamera, Pinhole
+from treadwell.senses.depth_sensor import DepthSensor
 
 TICK = 10_000_000
 PERIOD = 80_000_000

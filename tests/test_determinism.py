@@ -51,7 +51,7 @@ def test_the_same_in_another_process_with_other_threads_and_hashes(
     numbers = {"RAYON_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "PYTHONHASHSEED"}
     done = subprocess.run(
         [
-            sys.executable, "-m", "treadwell.cli", "run", SCENARIO, "--seed", str(SEED),
+            sys.executable, "-m", "treadwell.cli.app", "run", SCENARIO, "--seed", str(SEED),
             "--set", LIMIT, "--out", str(tmp_path / "run"), "--record",
         ],
         env=os.environ | dict.fromkeys(numbers, threads),

@@ -6,7 +6,7 @@ import pytest
 import treadwell
 from treadwell._core import Pilot
 from treadwell.errors import InputError
-from treadwell.scenario_loading import load_scenario
+from treadwell.scenario.loading import load_scenario
 
 
 def short(seconds: float = 1.0, *overrides: str, seed: int = 1) -> treadwell.Episode:

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
-from treadwell.audit import replay_audit
-from treadwell.course import Course, build_course
-from treadwell.course_model import PARKED
-from treadwell.events import PUSH_SECONDS, Events
-from treadwell.motors import JointTargets
-from treadwell.robot import load_robot
-from treadwell.scenario import Scenario
-from treadwell.scenario_events import EVENTS
-from treadwell.simulation import Simulation, Start
+from treadwell.course.build import Course, build_course
+from treadwell.course.events import PUSH_SECONDS, Events
+from treadwell.course.geometry import PARKED
+from treadwell.physics.audit import replay_audit
+from treadwell.physics.motors import JointTargets
+from treadwell.physics.simulation import Simulation, Start
+from treadwell.robot.load import load_robot
+from treadwell.scenario.events import EVENTS
+from treadwell.scenario.model import Scenario
 
 ROBOT = load_robot("qrio")
 TICK_STEPS = 5

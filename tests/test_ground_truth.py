@@ -8,7 +8,7 @@ from episode_builders import qrio, world
 from hypothesis import given
 from hypothesis import strategies as st
 
-from treadwell.ground_truth import GroundTruth, Sole, pose_matrix, wrapped
+from treadwell.judging.ground_truth import GroundTruth, Sole, pose_matrix, wrapped
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.7, -2.5, math.pi])

@@ -16,8 +16,8 @@ from pathlib import Path
 import pytest
 
 from treadwell.interruption import Interruption
-from treadwell.observation_log import read_observations
-from treadwell.verification import verify_run
+from treadwell.recording.observation_log import read_observations
+from treadwell.recording.verification import verify_run
 
 LONG = ("run", "slalom", "--seed", "1", "--set", "time_limit=60")
 
@@ -32,7 +32,7 @@ def start(folder: Path, *options: str, limit: int | None = None) -> Iterator[sub
 
     arguments: Sequence[str] = (*LONG, "--out", str(folder), *options)
     process = subprocess.Popen(
-        [sys.executable, "-m", "treadwell.cli", *arguments],
+        [sys.executable, "-m", "treadwell.cli.app", *arguments],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from episode_builders import STEP, World, qrio, world
 
-from treadwell.judge import STUCK_SECONDS, Judge
-from treadwell.motors import JointTargets
+from treadwell.judging.judge import STUCK_SECONDS, Judge
+from treadwell.physics.motors import JointTargets
 
 
 def judge_of(made: World) -> Judge:

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from treadwell.level_changes import LOOKS_A_FOOTPRINT, LevelChanges
+from treadwell.judging.level_changes import LOOKS_A_FOOTPRINT, LevelChanges
 
 Floats = NDArray[np.float64]
 LEFT, RIGHT = 0, 1

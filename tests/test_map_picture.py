@@ -7,11 +7,11 @@ import pytest
 from episode_builders import BOX, STEP, grid, result, world
 from matplotlib.image import imread
 
-from treadwell.ground_truth import pose_matrix
-from treadwell.map_memory import FLOOR, OBSTACLE
-from treadwell.map_picture import draw_map
-from treadwell.result import CollisionEntry
-from treadwell.trajectory import Trajectory
+from treadwell.judging.ground_truth import pose_matrix
+from treadwell.judging.map_memory import FLOOR, OBSTACLE
+from treadwell.judging.result import CollisionEntry
+from treadwell.recording.map_picture import draw_map
+from treadwell.recording.trajectory import Trajectory
 
 LATER = """
 [[event]]

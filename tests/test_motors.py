@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from treadwell.motors import JointTargets, MotorLimits, Motors
+from treadwell.physics.motors import JointTargets, MotorLimits, Motors
 
 STEP = 0.002
 PLAY = np.radians(0.3)

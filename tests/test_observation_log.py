@@ -12,7 +12,7 @@ from test_cdr import observation
 
 from treadwell.errors import InputError, RecordingError
 from treadwell.observation import Frame, Observation
-from treadwell.observation_log import (
+from treadwell.recording.observation_log import (
     NAME,
     ObservationLog,
     folder_hash,

@@ -8,7 +8,7 @@ from episode_builders import result, scenario
 import treadwell
 from treadwell.pytest_plugin import ScenarioFailedError, free_folder, is_scenario, run_scenario
 from treadwell.runner import Run
-from treadwell.scenario import Expect
+from treadwell.scenario.model import Expect
 
 pytest_plugins = ["pytester"]
 SCENARIO = 'schema = 1\nname = "small"\n[start]\n[goal]\nposition = [1.0, 0.0]\n'

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import treadwell
-from treadwell.cli import execute
+from treadwell.cli.app import execute
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = [ROOT / "README.md", ROOT / "ARCHITECTURE.md", *sorted((ROOT / "docs").glob("*.md"))]

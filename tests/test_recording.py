@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from episode_builders import BOX, STEP, World, qrio, trace, world
 
-from treadwell import recording
 from treadwell.errors import InputError, RecordingError
-from treadwell.recording import NAME, Recorder
-from treadwell.recording_file import cut_to_whole_messages, whole_length
-from treadwell.trace import Trace
+from treadwell.recording import recorder as recording
+from treadwell.recording.file import cut_to_whole_messages, whole_length
+from treadwell.recording.recorder import NAME, Recorder
+from treadwell.recording.trace import Trace
 
 FRAME = 80_000_000
 

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from episode_builders import qrio, world
 
-from treadwell.recording_layout import height_colours, plane_colours
-from treadwell.recording_shapes import Shapes, colours, multiplied, robot_geoms, rotated
+from treadwell.recording.layout import height_colours, plane_colours
+from treadwell.recording.shapes import Shapes, colours, multiplied, robot_geoms, rotated
 
 
 def test_the_robot_is_drawn_by_what_is_to_be_seen() -> None:

@@ -8,9 +8,16 @@ from episode_builders import result, scenario
 from pydantic import ValidationError
 
 from treadwell.errors import InputError
-from treadwell.result import STAGES, CollisionEntry, Result, Spread, SurfaceEntry, read_result
-from treadwell.result import LocalizationErrors as Errors
-from treadwell.scenario import Expect
+from treadwell.judging.result import (
+    STAGES,
+    CollisionEntry,
+    Result,
+    Spread,
+    SurfaceEntry,
+    read_result,
+)
+from treadwell.judging.result import LocalizationErrors as Errors
+from treadwell.scenario.model import Expect
 
 KEYS = [
     "schema",
@@ -49,7 +56,7 @@ def test_the_file_has_the_contracts_keys_in_its_order(tmp_path: Path) -> None:
     result(scenario()).write(path)
     table = json.loads(path.read_text())
     assert list(table) == KEYS
-    assert table["schema"] == "treadwell.result/1"
+    assert table["schema"] == "treadwell.judging.result/1"
     assert set(table["map"]) == {
         "floor_cells",
         "floor_cells_right",

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from treadwell.errors import InputError
-from treadwell.robot import Robot, load_robot, robot_names
+from treadwell.robot.load import Robot, load_robot, robot_names
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ import pytest
 
 from treadwell.data import data_folder
 from treadwell.errors import InputError
-from treadwell.robot import load_robot
+from treadwell.robot.load import load_robot
 
 Edit = Callable[[str, str, str], Path]
 

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from treadwell.robot import Robot, load_robot, robot_names
+from treadwell.robot.load import Robot, load_robot, robot_names
 
 
 @pytest.fixture(scope="module")

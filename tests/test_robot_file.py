@@ -6,7 +6,7 @@ import pytest
 
 from treadwell.data import data_folder
 from treadwell.errors import InputError
-from treadwell.robot_file import read_robot_file
+from treadwell.robot.file import read_robot_file
 
 QRIO = data_folder("models") / "qrio" / "robot.toml"
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from treadwell.errors import InputError
-from treadwell.run_folder import make_run_folder
+from treadwell.recording.run_folder import make_run_folder
 
 
 @pytest.fixture(autouse=True)

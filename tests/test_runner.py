@@ -9,12 +9,12 @@ import pytest
 import treadwell
 from treadwell._core import Pilot
 from treadwell.errors import InputError, RecordingError
-from treadwell.observation_log import read_observations
-from treadwell.result import read_result
+from treadwell.judging.result import read_result
+from treadwell.physics.simulation import Simulation
+from treadwell.recording.observation_log import read_observations
+from treadwell.recording.trajectory import read_trajectory
+from treadwell.recording.verification import verify_run
 from treadwell.runner import Run
-from treadwell.simulation import Simulation
-from treadwell.trajectory import read_trajectory
-from treadwell.verification import verify_run
 
 ALWAYS = {
     "result.json", "trajectory.tum", "trajectory_truth.tum", "map.png", "model.mjb", "physics.npz",
@@ -58,7 +58,7 @@ def test_the_result_says_what_was_run_and_how_it_ended(recorded: Run) -> None:
     document = json.loads((recorded.folder / "result.json").read_text())
     assert document == recorded.document
     assert read_result(recorded.folder / "result.json") == recorded.result
-    assert document["schema"] == "treadwell.result/1"
+    assert document["schema"] == "treadwell.judging.result/1"
     assert (document["scenario"], document["robot"], document["seed"]) == ("slalom", "qrio", 4)
     assert document["version"] == treadwell.__version__
     assert document["configuration"]["time_limit"] == 2.0
@@ -148,7 +148,7 @@ def test_a_file_that_cannot_be_written_does_not_keep_the_others_from_it(
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("treadwell.writers.draw_map", full)
+    monkeypatch.setattr("treadwell.recording.writers.draw_map", full)
     out = tmp_path / "run"
     with pytest.raises(RecordingError, match=r"not everything could be written: .*No space left"):
         treadwell.run("slalom", overrides=("time_limit=0.2",), out=out, record=False)

@@ -11,18 +11,18 @@ from hypothesis import strategies as st
 
 from treadwell.components import COMPONENTS, is_component, parameter_tables
 from treadwell.errors import InputError
-from treadwell.scenario import Scenario
-from treadwell.scenario_elements import ELEMENTS
-from treadwell.scenario_events import EVENTS
-from treadwell.scenario_loading import (
+from treadwell.scenario.elements import ELEMENTS
+from treadwell.scenario.events import EVENTS
+from treadwell.scenario.loading import (
     LARGEST_FILE,
     find_scenario,
     load_scenario,
     read_toml,
     scenario_names,
 )
-from treadwell.scenario_overrides import Draw, parse_setting, split_key
-from treadwell.scenario_values import element_names
+from treadwell.scenario.model import Scenario
+from treadwell.scenario.overrides import Draw, parse_setting, split_key
+from treadwell.scenario.values import element_names
 
 HEAD = 'schema = 1\nname = "x"\n[start]\n[goal]\n'
 
@@ -320,7 +320,7 @@ TOP = st.sampled_from([*Scenario.model_fields, "schema", "vary"])
 def test_any_structure_is_a_scenario_or_bad_input(tables: dict[str, Any], whole: bool) -> None:
     base: dict[str, Any] = {"schema": 1, "name": "x", "start": {}, "goal": {}} if whole else {}
     with pytest.MonkeyPatch.context() as patch, contextlib.suppress(InputError):
-        patch.setattr("treadwell.scenario_loading.read_toml", lambda _path: {**base, **tables})
+        patch.setattr("treadwell.scenario.loading.read_toml", lambda _path: {**base, **tables})
         assert load_scenario("slalom").configuration()
 
 

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 import treadwell
+from treadwell.recording.verification import verify_run
 from treadwell.runner import Run
-from treadwell.scenario_loading import scenario_names
-from treadwell.verification import verify_run
+from treadwell.scenario.loading import scenario_names
 
 pytestmark = pytest.mark.scenario
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from episode_builders import BOX, STEP, grid, world
 
-from treadwell.ground_truth import pose_matrix
-from treadwell.map_memory import FLOOR, OBSTACLE, RememberedMap
-from treadwell.score import PoseErrors, map_counts, surfaces, timing, true_cells
+from treadwell.judging.ground_truth import pose_matrix
+from treadwell.judging.map_memory import FLOOR, OBSTACLE, RememberedMap
+from treadwell.judging.score import PoseErrors, map_counts, surfaces, timing, true_cells
 
 CURTAIN = """
 [[course]]

@@ -7,12 +7,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from treadwell.motors import JointTargets
 from treadwell.observation import Observation
+from treadwell.physics.motors import JointTargets
+from treadwell.physics.simulation import TICK_NS, Simulation
 from treadwell.random_streams import RandomStreams
-from treadwell.robot import load_robot
-from treadwell.sensors import Sensors
-from treadwell.simulation import TICK_NS, Simulation
+from treadwell.robot.load import load_robot
+from treadwell.senses.sensors import Sensors
 
 ROBOT = load_robot("qrio")
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from treadwell.errors import SimulationError
-from treadwell.motors import JointTargets
-from treadwell.robot import Robot, load_robot
-from treadwell.simulation import Simulation, Start
+from treadwell.physics.motors import JointTargets
+from treadwell.physics.simulation import Simulation, Start
+from treadwell.robot.load import Robot, load_robot
 
 
 @pytest.fixture(scope="module")

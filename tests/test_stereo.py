@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from numpy.typing import NDArray
 
-from treadwell.depth import Cast, Pinhole
 from treadwell.random_streams import stream
-from treadwell.stereo import (
+from treadwell.senses.depth import Cast, Pinhole
+from treadwell.senses.stereo import (
     StereoConfig,
     StereoModel,
     blend_creases,

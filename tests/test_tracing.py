@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import treadwell
-from treadwell.ground_truth import pose_matrix
-from treadwell.trace import Trace
-from treadwell.tracing import trace_of, transformed
+from treadwell.judging.ground_truth import pose_matrix
+from treadwell.recording.trace import Trace
+from treadwell.recording.tracing import trace_of, transformed
 
 
 @pytest.fixture(scope="module")

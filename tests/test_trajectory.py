@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from treadwell.errors import InputError
-from treadwell.ground_truth import pose_matrix
-from treadwell.trajectory import Trajectory, quaternion, read_trajectory
+from treadwell.judging.ground_truth import pose_matrix
+from treadwell.recording.trajectory import Trajectory, quaternion, read_trajectory
 
 
 def test_a_line_is_time_position_and_quaternion(tmp_path: Path) -> None:

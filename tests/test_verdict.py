@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from treadwell.verdict import STANDING_SECONDS, Referee, Verdict
+from treadwell.judging.verdict import STANDING_SECONDS, Referee, Verdict
 
 
 @dataclass

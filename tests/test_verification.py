@@ -9,13 +9,13 @@ import pytest
 from episode_builders import grid, qrio, result, trace, world
 from test_cdr import observation
 
-from treadwell.ground_truth import pose_matrix
-from treadwell.map_picture import draw_map
-from treadwell.observation_log import ObservationLog
-from treadwell.recording import Recorder
-from treadwell.result import Result, read_result
-from treadwell.trajectory import Trajectory
-from treadwell.verification import verify, verify_run
+from treadwell.judging.ground_truth import pose_matrix
+from treadwell.judging.result import Result, read_result
+from treadwell.recording.map_picture import draw_map
+from treadwell.recording.observation_log import ObservationLog
+from treadwell.recording.recorder import Recorder
+from treadwell.recording.trajectory import Trajectory
+from treadwell.recording.verification import verify, verify_run
 
 TICKS = 40
 

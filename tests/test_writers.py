@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 
 import treadwell
-from treadwell import writers
 from treadwell.errors import InputError, RecordingError
+from treadwell.recording import writers
 from treadwell.runner import run
 
 
@@ -46,7 +46,7 @@ def test_the_result_is_written_last(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 def test_a_recording_that_breaks_ends_the_run_and_leaves_its_result(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from treadwell.observation_log import ObservationLog
+    from treadwell.recording.observation_log import ObservationLog
 
     write, count = ObservationLog.write, [0]
 

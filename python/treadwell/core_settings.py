@@ -6,12 +6,12 @@ from typing import Any
 
 from treadwell._core import Pilot
 from treadwell.components import COMPONENTS
-from treadwell.course import Course
+from treadwell.course.build import Course
 from treadwell.errors import InputError
 from treadwell.plugins import check_component, load_component
-from treadwell.robot import Robot
-from treadwell.scenario import Scenario
-from treadwell.scenario_errors import nearest
+from treadwell.robot.load import Robot
+from treadwell.scenario.messages import nearest
+from treadwell.scenario.model import Scenario
 
 
 def core_settings(scenario: Scenario, robot: Robot, course: Course) -> str:

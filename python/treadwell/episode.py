@@ -8,20 +8,20 @@ from time import perf_counter
 
 from treadwell._core import Pilot
 from treadwell.core_settings import build_core, core_settings, user_components
-from treadwell.course import build_course
-from treadwell.events import Events
-from treadwell.judge import Judge
-from treadwell.motors import JointTargets
+from treadwell.course.build import build_course
+from treadwell.course.events import Events
+from treadwell.judging.judge import Judge
+from treadwell.judging.truth_localizer import TruthLocalizer
+from treadwell.judging.verdict import Referee, Verdict
 from treadwell.observation import Observation
+from treadwell.physics.motors import JointTargets
+from treadwell.physics.simulation import TICK_NS, Simulation, Start
 from treadwell.protocols import Pose
 from treadwell.random_streams import RandomStreams
-from treadwell.robot import load_robot
-from treadwell.scenario import Scenario
-from treadwell.scenario_loading import load_scenario
-from treadwell.sensors import Sensors
-from treadwell.simulation import TICK_NS, Simulation, Start
-from treadwell.truth_localizer import TruthLocalizer
-from treadwell.verdict import Referee, Verdict
+from treadwell.robot.load import load_robot
+from treadwell.scenario.loading import load_scenario
+from treadwell.scenario.model import Scenario
+from treadwell.senses.sensors import Sensors
 
 
 @dataclass(frozen=True, slots=True)

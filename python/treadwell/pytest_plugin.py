@@ -9,7 +9,7 @@ import pytest
 from treadwell.errors import TreadwellError
 
 if TYPE_CHECKING:
-    from treadwell.result import Result
+    from treadwell.judging.result import Result
 
 _RUNS = "treadwell_runs"
 

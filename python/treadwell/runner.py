@@ -9,19 +9,19 @@ from typing import Any
 import numpy as np
 
 from treadwell import __version__
+from treadwell.cli.progress import Progress
 from treadwell.episode import Episode, Step
 from treadwell.errors import CoreError, SimulationError, TreadwellError
 from treadwell.interruption import Interruption
-from treadwell.map_memory import MapMemory
-from treadwell.progress import Progress
-from treadwell.result import CollisionEntry, Result, StateEntry
-from treadwell.run_folder import make_run_folder
-from treadwell.score import PoseErrors, map_counts, surfaces, timing, true_cells
-from treadwell.trace import Trace
-from treadwell.tracing import trace_of
-from treadwell.trajectory import Trajectory
-from treadwell.verdict import Verdict
-from treadwell.writers import Writers, open_viewer
+from treadwell.judging.map_memory import MapMemory
+from treadwell.judging.result import CollisionEntry, Result, StateEntry
+from treadwell.judging.score import PoseErrors, map_counts, surfaces, timing, true_cells
+from treadwell.judging.verdict import Verdict
+from treadwell.recording.run_folder import make_run_folder
+from treadwell.recording.trace import Trace
+from treadwell.recording.tracing import trace_of
+from treadwell.recording.trajectory import Trajectory
+from treadwell.recording.writers import Writers, open_viewer
 
 
 @dataclass(frozen=True, slots=True)

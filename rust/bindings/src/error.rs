@@ -28,3 +28,15 @@ pub(crate) fn failed(py: Python<'_>, error: &impl std::fmt::Display) -> PyErr {
 pub(crate) fn unreadable(py: Python<'_>, error: &PyErr) -> PyErr {
     failed(py, &format_args!("observation: {}", error.value(py)))
 }
+
+/// Runs `work`; a panic, which is a bug, comes back as its sentence and ends the episode, not the program.
+pub(crate) fn unpanicked<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+    std::panic::catch_unwind(std::panic::AssertUnwindSafe(work)).map_err(|panic| {
+        let text = panic
+            .downcast_ref::<String>()
+            .map(String::as_str)
+            .or_else(|| panic.downcast_ref::<&str>().copied())
+            .unwrap_or("no reason given");
+        format!("a bug in the core: {text}")
+    })
+}

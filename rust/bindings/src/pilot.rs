@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use sensing::{Frame, Observation};
 
 use crate::components;
-use crate::error::{bad_setting, failed, unreadable};
+use crate::error::{bad_setting, failed, unpanicked, unreadable};
 use crate::observation;
 use crate::products::{FlatPose, PyFloorView, PyPlanes, flat, matrix};
 
@@ -94,7 +94,8 @@ impl PyPilot {
             .map_err(|error| unreadable(py, &error))?;
         let (pilot, observation) = (&mut self.pilot, &self.observation);
         let tick = py
-            .detach(|| pilot.tick(observation))
+            .detach(|| unpanicked(|| pilot.tick(observation)))
+            .map_err(|error| failed(py, &error))?
             .map_err(|error| failed(py, &error))?;
         let (outcome, reason) = match &tick.decision.outcome {
             None => (None, None),

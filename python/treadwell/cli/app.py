@@ -1,0 +1,208 @@
+"""The command line `treadwell`: its verbs, their options, and the exit status of each."""
+
+import signal
+import sys
+from collections.abc import Sequence
+from enum import StrEnum
+from pathlib import Path
+from types import FrameType
+from typing import Annotated
+
+import typer
+
+from treadwell.cli.output import ERROR, FAILED, INTERRUPTED, PASSED, guarded, write_json
+
+app = typer.Typer(
+    name="treadwell",
+    help="A small humanoid finds its own way over an obstacle course, by its senses alone.",
+    epilog="Exit status: 0 it met its expectations, 1 it did not, 2 the input is bad, "
+    "3 anything else, 130 interrupted.",
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    no_args_is_help=True,
+    rich_markup_mode="rich",
+)
+
+ScenarioArgument = Annotated[
+    str,
+    typer.Argument(
+        metavar="SCENARIO", help="A file, or the name of one that `treadwell list` shows."
+    ),
+]
+RobotOption = Annotated[
+    str | None,
+    typer.Option("--robot", metavar="NAME", help="A robot's name or folder, not the file's."),
+]
+SeedOption = Annotated[
+    int | None, typer.Option("--seed", metavar="N", min=0, help="Seed of all that is random.")
+]
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set", metavar="KEY=VALUE", help="Change a key: course.stairs.rise=0.04. Repeatable."
+    ),
+]
+JsonOption = Annotated[
+    bool, typer.Option("--json", help="Write JSON to standard output, and nothing else there.")
+]
+
+
+class What(StrEnum):
+    """What `list` can show."""
+
+    SCENARIOS = "scenarios"
+    ROBOTS = "robots"
+    COMPONENTS = "components"
+
+
+@app.callback(invoke_without_command=True)
+def _options(
+    *, version: Annotated[bool, typer.Option("--version", help="Show the version.")] = False
+) -> None:
+    if version:
+        from treadwell import __version__
+
+        typer.echo(f"treadwell {__version__}")
+        raise typer.Exit
+
+
+@app.command(epilog="Example: treadwell run slalom --seed 3 --set physics.friction=0.6")
+def run(
+    scenario: ScenarioArgument,
+    *,
+    robot: RobotOption = None,
+    seed: SeedOption = None,
+    settings: SetOption = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", help="The run's folder; default: a new one in runs/."),
+    ] = None,
+    record: Annotated[
+        bool, typer.Option("--record/--no-record", help="Keep the recording and observations.")
+    ] = True,
+    view: Annotated[bool, typer.Option("--view", help="Watch the physics in a window.")] = False,
+    as_json: JsonOption = False,
+) -> int:
+    """Run one closed-loop episode, and say how it went."""
+    from treadwell.cli import run as cli_run
+
+    return cli_run.run(
+        scenario,
+        robot=robot,
+        seed=seed,
+        settings=settings or [],
+        out=out,
+        record=record,
+        view=view,
+        as_json=as_json,
+    )
+
+
+@app.command(epilog="Example: treadwell check scenarios/slalom.toml --set goal.radius=0.1")
+def check(
+    scenario: ScenarioArgument,
+    *,
+    robot: RobotOption = None,
+    seed: SeedOption = None,
+    settings: SetOption = None,
+    as_json: JsonOption = False,
+) -> int:
+    """Check a scenario file and say what it would build; nothing is run."""
+    from treadwell.cli import check as cli_check
+
+    document = cli_check.checked(scenario, robot=robot, seed=seed, settings=settings or [])
+    if as_json:
+        write_json(document)
+    else:
+        cli_check.show(document)
+    return PASSED
+
+
+@app.command("list", epilog="Example: treadwell list components")
+def list_(
+    what: Annotated[What | None, typer.Argument(help="One of the three; all without it.")] = None,
+    *,
+    as_json: JsonOption = False,
+) -> int:
+    """Show the scenarios, robots and components there are to choose from."""
+    from treadwell.cli import list as cli_list
+
+    document = cli_list.listed([what.value] if what else [kind.value for kind in What])
+    if as_json:
+        write_json(document)
+    else:
+        cli_list.show(document)
+    return PASSED
+
+
+@app.command(epilog="Example: treadwell inspect runs/latest")
+def inspect(
+    run_dir: Annotated[Path, typer.Argument(metavar="RUN_DIR", help="A run's folder.")],
+    *,
+    web: Annotated[bool, typer.Option("--web", help="Show it in a browser.")] = False,
+    as_json: JsonOption = False,
+) -> int:
+    """Open a run's recording in the rerun viewer."""
+    from treadwell.recording import recorder as recording
+
+    recording.inspect(run_dir, web=web)
+    if as_json:
+        write_json({"run": str(run_dir)})
+    return PASSED
+
+
+@app.command(epilog="Example: treadwell verify runs/*")
+def verify(
+    run_dirs: Annotated[list[Path], typer.Argument(metavar="RUN_DIR...", help="Runs' folders.")],
+    *,
+    as_json: JsonOption = False,
+) -> int:
+    """Check that a run's files are whole, and that plain MuJoCo steps to the same states."""
+    from treadwell.errors import InputError
+    from treadwell.recording.verification import verify as verify_runs
+
+    for run_dir in run_dirs:
+        if not run_dir.is_dir():
+            raise InputError(f"{run_dir}: there is no such run")
+    faults = {str(found.folder): list(found.problems) for found in verify_runs(run_dirs)}
+    if as_json:
+        write_json({name: {"whole": not found, "faults": found} for name, found in faults.items()})
+    else:
+        for name, found in faults.items():
+            typer.echo(f"{name}: {'; '.join(found) if found else 'whole, the same states'}")
+    return FAILED if any(faults.values()) else PASSED
+
+
+def execute(arguments: Sequence[str]) -> int:
+    """Run the command line and return its exit status.
+
+    Args:
+        arguments: what follows `treadwell`.
+    """
+
+    def command() -> int:
+        status = app(list(arguments), prog_name="treadwell", standalone_mode=False)
+        return status if isinstance(status, int) else PASSED
+
+    return guarded(command, as_json="--json" in arguments)
+
+
+def main() -> None:
+    """Run the command line and leave with its exit status."""
+
+    def stop(_number: int, _frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
+    # A run that is told to end closes its files as after Ctrl-C.
+    signal.signal(signal.SIGTERM, stop)
+    try:
+        status = execute(sys.argv[1:])
+    except KeyboardInterrupt:
+        status = INTERRUPTED
+    except SystemExit as error:
+        status = error.code if isinstance(error.code, int) else ERROR
+    sys.exit(status)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,96 @@
+"""The verb `run`: one episode with its progress line, and its result as a table."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Final
+
+from treadwell.cli.output import (
+    ERROR,
+    FAILED,
+    INTERRUPTED,
+    PASSED,
+    write_json,
+    write_message,
+    write_table,
+)
+from treadwell.cli.progress import Progress
+
+STATUS: Final = {"interrupted": INTERRUPTED, "error": ERROR}
+"""Outcomes that are not the robot's doing -> exit status."""
+
+
+def run(
+    scenario: str,
+    *,
+    robot: str | None,
+    seed: int | None,
+    settings: Sequence[str],
+    out: Path | None,
+    record: bool,
+    view: bool,
+    as_json: bool,
+) -> int:
+    """Run an episode, write its result, and return the exit status.
+
+    Args:
+        scenario: a file or a name.
+        robot: instead of the file's.
+        seed: instead of the file's.
+        settings: `KEY=VALUE` each.
+        out: the run's folder.
+        record: keep the recording and the observations.
+        view: show the physics in a window.
+        as_json: write `result.json` to standard output instead of a table.
+    """
+    from treadwell.runner import run as run_episode
+
+    with Progress(Path(scenario).stem) as progress:
+        result = run_episode(
+            scenario,
+            robot=robot,
+            seed=seed,
+            overrides=settings,
+            out=out,
+            record=record,
+            view=view,
+            progress=progress,
+        )
+    document = result.document
+    if as_json:
+        write_json(document)
+    else:
+        show(document)
+    write_message(f"run folder: {result.folder}")
+    return exit_status(document)
+
+
+def exit_status(document: Mapping[str, Any]) -> int:
+    """Return the exit status that a `result.json` means."""
+    return STATUS.get(document["outcome"], PASSED if document["passed"] else FAILED)
+
+
+def show(document: Mapping[str, Any]) -> None:
+    """Write the result as a table."""
+    localization = document.get("localization") or {}
+    error = (localization.get("translation_error") or {}).get("mean")
+    rows: list[tuple[str, object]] = [
+        ("outcome", document["outcome"]),
+        ("reason", document.get("reason")),
+        ("passed", "yes" if document["passed"] else "no"),
+        ("failures", "; ".join(map(str, document.get("failures", [])))),
+        ("simulated time", _number(document.get("simulated_seconds"), "s", 1)),
+        ("real-time factor", _number(document.get("real_time_factor"), "", 1)),
+        ("falls", document.get("falls")),
+        ("collisions", len(document.get("collisions", []))),
+        ("steps taken", document.get("steps_taken")),
+        ("path length", _number(document.get("path_length"), "m", 2)),
+        ("replans", document.get("replans")),
+        ("localization error, mean", _number(error, "m", 3)),
+        ("ablation", "yes: the core was given the truth" if document.get("ablation") else None),
+    ]
+    title = f"{document['scenario']} with {document['robot']}, seed {document['seed']}"
+    write_table(title, ("", ""), [row for row in rows if row[1] not in (None, "")])
+
+
+def _number(value: float | None, unit: str, digits: int) -> str | None:
+    return None if value is None else f"{value:.{digits}f} {unit}".rstrip()

@@ -1,0 +1,1 @@
+"""A scenario's elements as MuJoCo geometry, and what happens on the way."""

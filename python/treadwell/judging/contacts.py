@@ -1,0 +1,159 @@
+"""What the robot truly touches: soles on floors, falls, and collisions as the contract has them."""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from treadwell.course.build import Course
+from treadwell.robot.load import Robot
+
+SAME_CONTACT_SECONDS = 0.5
+"""Contacts of one pair that are no further apart in time are one collision."""
+RISER_IMPULSE = 1.0
+"""N·s from which on a sole's touch of a riser counts."""
+SOLE_ON_TOP = 0.7
+"""Least z of the normal (from the floor up) with which a sole stands on a walkable top."""
+LIES_ON_TOP = 0.9
+"""The same for any other part: leaning on an edge is a collision, lying on a top is a fall."""
+_GROUND, _NOTHING = -1, -2
+
+
+@dataclass(slots=True)
+class Collision:
+    """Touches of one pair of robot part and element, none later than 0.5 s after the one before.
+
+    Attributes:
+        time: s, of the first touch.
+        robot_part: name of the robot's link.
+        element: name of the course element.
+        impulse: N·s, integral of the normal force.
+        last: s, of the last touch.
+        riser_only: a sole on a riser; counts from `RISER_IMPULSE` on.
+    """
+
+    time: float
+    robot_part: str
+    element: str
+    impulse: float
+    last: float
+    riser_only: bool
+
+    @property
+    def counts(self) -> bool:
+        """Whether the contract calls it a collision."""
+        return not self.riser_only or self.impulse > RISER_IMPULSE
+
+
+@dataclass(frozen=True, slots=True)
+class Touch:
+    """What a look at the contacts found.
+
+    Attributes:
+        left: whether the left sole stands on a floor.
+        right: whether the right sole does.
+        fallen_part: a link other than a sole that lies on a floor, or None.
+    """
+
+    left: bool
+    right: bool
+    fallen_part: str | None
+
+
+class Contacts:
+    """Sorts MuJoCo's contacts, as often as it is asked to look."""
+
+    def __init__(
+        self, model: mujoco.MjModel, course: Course, robot: Robot, sole_bodies: tuple[int, ...]
+    ) -> None:
+        """Sort the geoms once.
+
+        Args:
+            model: the compiled course with the robot in it.
+            course: what stands on it.
+            robot: the robot.
+            sole_bodies: ids of the left and the right link that carry a sole.
+        """
+        self._model = model
+        self._scratch = mujoco.MjData(model)
+        body_of = np.asarray(model.geom_bodyid)
+        self._is_robot = np.asarray(model.body_rootid)[body_of] == model.body(robot.root).id
+        self._foot = np.full(model.ngeom, -1)
+        for side, body in enumerate(sole_bodies):
+            self._foot[body_of == body] = side
+        names = [model.body(int(body)).name for body in body_of]
+        self._part = [str(name) for name in names]
+        # For each geom: index of its element, -1 for the ground, -2 for the robot.
+        self._element = np.where(self._is_robot, _NOTHING, np.asarray(course.geom_element))
+        self._names = [element.name for element in course.elements]
+        self._walkable = np.array([*(element.walkable for element in course.elements), True])
+        self._open: dict[tuple[str, str], Collision] = {}
+        self._closed: list[Collision] = []
+
+    def look(self, data: mujoco.MjData, time: float, interval: float) -> Touch:
+        """Sort the contacts there are now.
+
+        Args:
+            data: after a tick; contacts are those of the present positions.
+            time: s, now.
+            interval: s since the last look: for how long the forces are taken to have acted.
+        """
+        contact = data.contact
+        pairs: NDArray[np.int32] = contact.geom
+        if not len(pairs):
+            return Touch(False, False, None)
+        robot = self._is_robot[pairs]
+        mixed = robot[:, 0] != robot[:, 1]
+        second = robot[:, 1]
+        ours = np.where(second, pairs[:, 1], pairs[:, 0])
+        theirs = np.where(second, pairs[:, 0], pairs[:, 1])
+        # MuJoCo's normal points from the first geom to the second; this one points to the robot.
+        up = np.where(second, contact.frame[:, 2], -contact.frame[:, 2])
+        foot, element = self._foot[ours], self._element[theirs]
+        floor = mixed & self._walkable[element] & (up > SOLE_ON_TOP)
+        standing = floor & (foot >= 0)
+        left, right = bool((standing & (foot == 0)).any()), bool((standing & (foot == 1)).any())
+        if bool((standing | ~mixed).all()):
+            return Touch(left, right, None)
+        lying = floor & (foot < 0) & ((element == _GROUND) | (up > LIES_ON_TOP))
+        part = self._part[int(ours[np.argmax(lying)])] if lying.any() else None
+        hits = mixed & ~standing & (element >= 0)
+        if hits.any():
+            self._add(data, np.flatnonzero(hits), ours, theirs, time, interval)
+        return Touch(left, right, part)
+
+    def collisions(self) -> list[Collision]:
+        """Return the collisions so far that count, in the order of time."""
+        every = [*self._closed, *self._open.values()]
+        counted = [collision for collision in every if collision.counts]
+        return sorted(counted, key=lambda hit: (hit.time, hit.robot_part, hit.element))
+
+    def _add(
+        self,
+        data: mujoco.MjData,
+        hits: NDArray[np.intp],
+        ours: NDArray[np.int32],
+        theirs: NDArray[np.int32],
+        time: float,
+        interval: float,
+    ) -> None:
+        # After a tick the contacts are there but not yet their forces: they are found on a copy.
+        scratch, force = self._scratch, np.zeros(6)
+        mujoco.mj_copyData(scratch, self._model, data)
+        mujoco.mj_forward(self._model, scratch)
+        for index in hits:
+            mine, other = int(ours[index]), int(theirs[index])
+            element = int(self._element[other])
+            riser = bool(self._foot[mine] >= 0 and self._walkable[element])
+            mujoco.mj_contactForce(self._model, scratch, int(index), force)
+            pair = (self._part[mine], self._names[element])
+            known = self._open.get(pair)
+            if known is not None and time - known.last > SAME_CONTACT_SECONDS + 1e-9:
+                self._closed.append(known)
+                known = None
+            if known is None:
+                known = self._open[pair] = Collision(time, *pair, 0.0, time, riser)
+            known.impulse += float(force[0]) * interval
+            known.last = time
+            known.riser_only = known.riser_only and riser

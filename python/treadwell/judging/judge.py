@@ -1,0 +1,194 @@
+"""The judge: watches the truth at every tick for falls, collisions, arrival, and being stuck."""
+
+import math
+
+import mujoco
+
+from treadwell.course.build import Course
+from treadwell.judging.contacts import Collision, Contacts, Touch
+from treadwell.judging.ground_truth import GroundFrame, GroundTruth, Sole
+from treadwell.judging.level_changes import LevelChanges
+from treadwell.robot.load import Robot
+from treadwell.scenario.model import Scenario
+
+FALLEN_TILT = 0.8
+"""Rad by which the torso may lean."""
+UPRIGHT_SECONDS = 1.0
+"""For so long nothing of a fall must be seen before another one can count."""
+STILL_SECONDS = 1.0
+STILL_DRIFT = 0.01
+"""Metres by which a sole may drift while the robot stands still."""
+STILL_TURN = 0.05
+"""Rad by which it may turn meanwhile."""
+GOAL_HEIGHT_TOLERANCE = 0.02
+"""Metres that each sole may be off the goal's height."""
+STUCK_SECONDS = 30.0
+STUCK_RADIUS = 0.1
+"""Metres: a robot that has not left a disc of this radius for `STUCK_SECONDS` is stuck, unless"""
+STUCK_TURN = 0.5
+"""it has turned by this, rad: one that looks around is not."""
+PATH_SPACING = 0.03
+"""Metres between the points of which the path's length is made; sways smaller than it vanish."""
+
+
+class Judge:
+    """Keeps what the truth says of an episode. Nothing of it may enter the core.
+
+    Attributes:
+        truth: reads poses from MuJoCo's data.
+        falls: how often the robot fell.
+        fall: what the last fall was, one sentence, or None.
+        frame: the true robot frame at the last look.
+        soles: the true soles at the last look.
+        touch: which soles stood on a floor at the last look.
+        path_length: m, of the true robot frame's way seen from above.
+    """
+
+    def __init__(
+        self, model: mujoco.MjModel, course: Course, scenario: Scenario, robot: Robot
+    ) -> None:
+        """Look names up once.
+
+        Args:
+            model: the compiled course with the robot in it.
+            course: what stands where.
+            scenario: for its goal.
+            robot: the robot.
+        """
+        self.truth = GroundTruth(model, robot)
+        self._contacts = Contacts(model, course, robot, self.truth.sole_bodies)
+        self._goal = scenario.goal
+        self._levels = LevelChanges(course.height_at)
+        self.falls = 0
+        self.fall: str | None = None
+        self._last_fallen = -math.inf
+        self.path_length = 0.0
+        self._time = 0.0
+        self._still: tuple[float, tuple[Sole, Sole], float] | None = None
+        self._place: tuple[float, GroundFrame] | None = None
+        self._path_point: tuple[float, float] | None = None
+        self.frame = GroundFrame(0.0, 0.0, 0.0, 0.0)
+        self.soles: tuple[Sole, Sole] | None = None
+        self.touch = Touch(False, False, None)
+
+    def watch(self, data: mujoco.MjData, time_s: float) -> None:
+        """Look at the state after a tick.
+
+        Args:
+            data: positions, link poses and contacts up to date.
+            time_s: simulated time, s.
+        """
+        interval, self._time = max(0.0, time_s - self._time), time_s
+        touch = self.touch = self._contacts.look(data, time_s, interval)
+        soles = self.soles = self.truth.soles(data)
+        frame = self.frame = self.truth.frame(soles, (touch.left, touch.right))
+        self._watch_fall(data, time_s, touch)
+        self._watch_stillness(time_s, touch, soles, frame)
+        self._watch_progress(time_s, frame)
+        for foot, sole, touching in zip(
+            self._levels.feet, soles, (touch.left, touch.right), strict=True
+        ):
+            foot.look(sole.x, sole.y, sole.z, touching=touching)
+
+    @property
+    def fallen(self) -> bool:
+        """Whether the robot lies or topples now."""
+        return self._last_fallen == self._time
+
+    @property
+    def collisions(self) -> list[Collision]:
+        """The collisions so far."""
+        return self._contacts.collisions()
+
+    @property
+    def stairs_climbed(self) -> int:
+        """Changes of level upwards that both feet have made or passed."""
+        return self._levels.climbed
+
+    @property
+    def stairs_descended(self) -> int:
+        """Changes of level downwards that both feet have made or passed."""
+        return self._levels.descended
+
+    @property
+    def still_seconds(self) -> float:
+        """For how long the robot has been standing still on both soles, s."""
+        return 0.0 if self._still is None else self._time - self._still[0]
+
+    @property
+    def standing_still(self) -> bool:
+        """Whether the robot has stood still on both soles for a second."""
+        return self.still_seconds >= STILL_SECONDS - 1e-9
+
+    @property
+    def stuck(self) -> bool:
+        """Whether the robot has not come away from its place for a long time."""
+        return self._place is not None and self._time - self._place[0] > STUCK_SECONDS
+
+    @property
+    def distance_to_goal(self) -> float:
+        """Distance of the true robot frame from the goal's centre, m."""
+        return math.dist((self.frame.x, self.frame.y), self._goal.position)
+
+    def goal_reached(self, data: mujoco.MjData) -> bool:
+        """Say whether the robot, which declares to have arrived, has, and stands still there.
+
+        Args:
+            data: the same that was watched last.
+        """
+        soles = self.truth.soles(data)
+        height = self._goal.height
+        level = height is None or all(
+            abs(sole.z - height) <= GOAL_HEIGHT_TOLERANCE for sole in soles
+        )
+        inside = self.distance_to_goal <= self._goal.radius
+        return inside and level and self.standing_still and not self.fallen
+
+    def _watch_fall(self, data: mujoco.MjData, time: float, touch: Touch) -> None:
+        tilt = self.truth.tilt(data)
+        if tilt <= FALLEN_TILT and touch.fallen_part is None:
+            return
+        if time - self._last_fallen > UPRIGHT_SECONDS:
+            self.falls += 1
+            self.fall = (
+                f"the torso leaned by {tilt:.2f} rad at {time:.2f} s"
+                if touch.fallen_part is None
+                else f"{touch.fallen_part} touched the floor at {time:.2f} s"
+            )
+        self._last_fallen = time
+
+    def _watch_stillness(
+        self, time: float, touch: Touch, soles: tuple[Sole, Sole], frame: GroundFrame
+    ) -> None:
+        if not (touch.left and touch.right):
+            self._still = None
+            return
+        if self._still is not None:
+            _, before, yaw = self._still
+            drift = max(
+                math.dist((a.x, a.y, a.z), (b.x, b.y, b.z))
+                for a, b in zip(before, soles, strict=True)
+            )
+            turn = abs(math.remainder(frame.yaw - yaw, 2 * math.pi))
+            if drift <= STILL_DRIFT and turn <= STILL_TURN:
+                return
+        self._still = (time, soles, frame.yaw)
+
+    def _watch_progress(self, time: float, frame: GroundFrame) -> None:
+        here = (frame.x, frame.y)
+        if self._place is None or _has_moved(self._place[1], frame):
+            self._place = (time, frame)
+        if self._path_point is None:
+            self._path_point = here
+        else:
+            step = math.dist(here, self._path_point)
+            if step >= PATH_SPACING:
+                self.path_length += step
+                self._path_point = here
+
+
+def _has_moved(before: GroundFrame, now: GroundFrame) -> bool:
+    """Say whether the robot has come away from its place, or turned to look around."""
+    distance = math.dist((before.x, before.y), (now.x, now.y))
+    turn = abs(math.remainder(now.yaw - before.yaw, 2 * math.pi))
+    return distance > STUCK_RADIUS or turn > STUCK_TURN

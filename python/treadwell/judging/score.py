@@ -1,0 +1,211 @@
+"""The score: errors of localization and map against the truth."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from treadwell.course.build import Course, CourseElement
+from treadwell.course.outlines import signed_distance
+from treadwell.judging.map_memory import FLOOR, OBSTACLE, RememberedMap
+from treadwell.judging.result import LocalizationErrors, MapCounts, Spread, SurfaceEntry, Timing
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+LEAST_SIGHTINGS = 3
+"""Frames that must have seen a cell as floor for it to count as one."""
+HEIGHT_TOLERANCE = 0.015
+"""Metres by which a floor cell may be off and still be right: less than another level would be."""
+
+
+class PoseErrors:
+    """Collects the poses of one camera frame after another."""
+
+    def __init__(self) -> None:
+        """Begin with none."""
+        self._rows: list[tuple[float, float, float]] = []
+
+    def add(self, estimate: Floats, odometry: Floats, truth: Floats) -> None:
+        """Take in what was believed and what was so; (4, 4) each.
+
+        Args:
+            estimate: map_from_robot.
+            odometry: the same by leg odometry alone, from the same start.
+            truth: world_from_robot.
+        """
+        turn = truth[:3, :3].T @ estimate[:3, :3]
+        self._rows.append(
+            (
+                float(np.linalg.norm(estimate[:3, 3] - truth[:3, 3])),
+                abs(float(np.arctan2(turn[1, 0], turn[0, 0]))),
+                float(np.linalg.norm(odometry[:3, 3] - truth[:3, 3])),
+            )
+        )
+
+    def errors(self) -> LocalizationErrors | None:
+        """Return the errors so far, None without a pose."""
+        if not self._rows:
+            return None
+        translation, heading, odometry = (spread(column) for column in np.array(self._rows).T)
+        return LocalizationErrors(
+            translation_error=translation,
+            heading_error=heading,
+            odometry_translation_error=odometry,
+        )
+
+
+def spread(values: Floats) -> Spread:
+    """Return mean, standard deviation and maximum of values (n,), n > 0."""
+    return Spread(mean=float(values.mean()), std=float(values.std()), max=float(values.max()))
+
+
+def timing(seconds: Sequence[float]) -> Timing:
+    """Return the table of a stage's times, given in seconds; NaN where it did not run."""
+    values = 1e3 * np.asarray(seconds, dtype=np.float64)
+    values = values[np.isfinite(values)]
+    if not values.size:
+        return Timing()
+    return Timing(
+        median=float(np.median(values)),
+        p99=float(np.percentile(values, 99)),
+        max=float(values.max()),
+        count=int(values.size),
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TrueCells:
+    """What truly is in each cell of a remembered map; arrays (rows, cols).
+
+    Attributes:
+        floor: the whole cell lies on one walkable surface, clear of everything else.
+        height: m, of that surface.
+        obstacle: the cell's centre lies in an obstacle that the robot could run into.
+    """
+
+    floor: Bools
+    height: Floats
+    obstacle: Bools
+
+
+def true_cells(
+    course: Course,
+    remembered: RememberedMap,
+    headroom: float,
+    places: Mapping[str, Floats] | None = None,
+) -> TrueCells:
+    """Sort the cells of a map by the truth.
+
+    Args:
+        course: what stands where.
+        remembered: the map, in the world frame.
+        headroom: m, height of the robot: what hangs higher above the floor is no obstacle.
+        places: name -> (3,) m by which an element stands away from where the course has it, for
+            the elements that are there now; None: as at the beginning.
+    """
+    centres = remembered.centres().reshape(-1, 2)
+    half_diagonal = remembered.cell * np.sqrt(0.5)
+    height, clear = np.zeros(len(centres)), np.ones(len(centres), dtype=bool)
+    elements = _present(course, places)
+    for element, offset in elements:
+        for top in element.tops:
+            points = centres - offset[:2]
+            distance = signed_distance(top.polygon[:, :2], points)
+            clear &= np.abs(distance) >= half_diagonal
+            level = top.height_at(points) + offset[2]
+            height = np.where((distance <= 0.0) & (level > height), level, height)
+    obstacle = np.zeros(len(centres), dtype=bool)
+    for element, offset in elements:
+        if element.walkable:
+            continue
+        for piece in element.pieces:
+            bottom = float(piece.vertices[:, 2].min() + offset[2])
+            top_z = float(piece.vertices[:, 2].max() + offset[2])
+            distance = signed_distance(piece.outline, centres - offset[:2])
+            matters = (bottom < height + headroom) & (top_z > height + 1e-6)
+            obstacle |= matters & (distance <= 0.0)
+            clear &= ~matters | (distance >= half_diagonal)
+    shape = remembered.kind.shape
+    floor = clear & ~obstacle
+    return TrueCells(floor.reshape(shape), height.reshape(shape), obstacle.reshape(shape))
+
+
+def map_counts(remembered: RememberedMap, truth: TrueCells) -> MapCounts:
+    """Return how much of the map is right.
+
+    The cells that count are true floor seen as floor three times or more, and true floor or
+    obstacle that the map now calls an obstacle, or an obstacle that it calls floor.
+    """
+    kind, seen = remembered.kind, remembered.sightings >= LEAST_SIGHTINGS
+    floor = truth.floor & (seen | (kind == OBSTACLE))
+    obstacle = truth.obstacle & ((kind == OBSTACLE) | ((kind == FLOOR) & seen))
+    off = np.abs(np.nan_to_num(remembered.height, nan=np.inf) - truth.height)
+    right = floor & (kind == FLOOR) & (off <= HEIGHT_TOLERANCE)
+    return MapCounts(
+        floor_cells=int(floor.sum()),
+        floor_cells_right=_share(right, floor),
+        obstacle_cells=int(obstacle.sum()),
+        obstacle_cells_right=_share(obstacle & (kind == OBSTACLE), obstacle),
+        floor_called_obstacle=_share(floor & (kind == OBSTACLE), floor),
+        obstacle_called_floor=_share(obstacle & (kind == FLOOR), obstacle),
+    )
+
+
+def surfaces(
+    course: Course,
+    remembered: RememberedMap,
+    passed: Floats,
+    places: Mapping[str, Floats] | None = None,
+) -> list[SurfaceEntry]:
+    """Return every walkable top with the mean height of its interior cells.
+
+    A top without a cell is listed only when the robot has passed over it.
+
+    Args:
+        course: what stands where.
+        remembered: the map, in the world frame.
+        passed: (n, 2) m, where the robot has truly been.
+        places: as for `true_cells`.
+    """
+    centres = remembered.centres().reshape(-1, 2)
+    half_diagonal = remembered.cell * np.sqrt(0.5)
+    usable = (remembered.kind == FLOOR) & (remembered.sightings >= LEAST_SIGHTINGS)
+    entries = []
+    for element, offset in _present(course, places):
+        for top in element.tops:
+            inside = signed_distance(top.polygon[:, :2], centres - offset[:2]) <= -half_diagonal
+            cells = inside & usable.ravel()
+            if not cells.any():
+                on_it = len(passed) > 0 and bool(top.contains(passed - offset[:2]).any())
+                if not on_it:
+                    continue
+            truth = top.height + offset[2]
+            if cells.any():
+                # On a slope the truth is that of the same cells.
+                truth = float(top.height_at(centres[cells] - offset[:2]).mean() + offset[2])
+            heights = remembered.height.ravel()[cells].astype(np.float64)
+            entries.append(
+                SurfaceEntry(
+                    element=element.name,
+                    part=top.part,
+                    truth=round(float(truth), 9),
+                    estimate=float(heights.mean()) if cells.any() else None,
+                    cells=int(cells.sum()),
+                )
+            )
+    return entries
+
+
+def _present(
+    course: Course, places: Mapping[str, Floats] | None
+) -> list[tuple[CourseElement, Floats]]:
+    if places is None:
+        return [(element, np.zeros(3)) for element in course.elements if element.present]
+    return [(e, places[e.name]) for e in course.elements if e.name in places]
+
+
+def _share(part: Bools, whole: Bools) -> float:
+    count = int(whole.sum())
+    return float(part.sum()) / count if count else 0.0

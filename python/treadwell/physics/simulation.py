@@ -1,0 +1,198 @@
+"""The physics of one episode: the robot at its start, stepped by its motors alone, and audited."""
+
+import logging
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from treadwell.errors import SimulationError
+from treadwell.physics.audit import DATA_FIELDS, STEPS_PER_TICK, Audit
+from treadwell.physics.motors import JointTargets, Motors
+from treadwell.robot.load import Robot
+
+TICK_NS = 10_000_000
+"""The control tick, nanoseconds."""
+
+# By default MuJoCo appends its warnings to a file in the current folder.
+mujoco.set_mju_user_warning(logging.getLogger(__name__).warning)
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """Where the robot frame (on the ground, between the soles, x forward) is at the start.
+
+    Attributes:
+        x: m, world.
+        y: m, world.
+        yaw: rad.
+        height: m, of the ground there.
+    """
+
+    x: float = 0.0
+    y: float = 0.0
+    yaw: float = 0.0
+    height: float = 0.0
+
+
+class Simulation:
+    """MuJoCo's model and data of one episode.
+
+    After the constructor, `advance` and `set`, all that follows from positions and velocities
+    (link and camera poses, contacts, the gyro) is up to date in `data`; forces and accelerations
+    (contact forces, touch sensors, the accelerometer) are those of the last physics step. Readers
+    must call nothing that writes to `data`; `mj_forward` would break the audit.
+
+    Attributes:
+        model: the compiled robot and course.
+        data: MuJoCo's state.
+        robot: the robot in it.
+        motors: the servos; the encoders' view of the joints is `motors.measured_angle`.
+        audit: what a replay needs.
+        steps: physics steps so far.
+    """
+
+    def __init__(
+        self, model: mujoco.MjModel, robot: Robot, start: Start | None = None, *, play: bool = True
+    ) -> None:
+        """Put the robot at its start, standing as in its keyframe, at rest.
+
+        Args:
+            model: compiled from `robot.spec()` and whatever was added to it.
+            robot: the robot.
+            start: where it stands; the world's origin without.
+            play: False for gears without play, as with ideal encoders.
+        """
+        self.model = model
+        self.data = mujoco.MjData(model)
+        self.robot = robot
+        joints = [model.joint(name) for name in robot.joints]
+        self._positions = _slice([int(joint.qposadr[0]) for joint in joints])
+        self._velocities = _slice([int(joint.dofadr[0]) for joint in joints])
+        self._actuators = np.array([model.actuator(name).id for name in robot.actuators])
+        self.motors = Motors(
+            robot.limits,
+            play=robot.file.encoders.play if play else 0.0,
+            timestep=float(model.opt.timestep),
+        )
+        self.place(start or Start())
+        self.steps = 0
+        mujoco.mj_step1(model, self.data)
+        self.audit = Audit(model, self.data)
+
+    @property
+    def time_ns(self) -> int:
+        """Nanoseconds since the start."""
+        return self.steps * TICK_NS // STEPS_PER_TICK
+
+    @property
+    def joint_positions(self) -> NDArray[np.float64]:
+        """(n,) rad, the true joint angles in joint order; a view."""
+        view: NDArray[np.float64] = self.data.qpos[self._positions]
+        return view
+
+    @property
+    def joint_velocities(self) -> NDArray[np.float64]:
+        """(n,) rad/s, the true joint velocities in joint order; a view."""
+        view: NDArray[np.float64] = self.data.qvel[self._velocities]
+        return view
+
+    def advance(self, targets: JointTargets) -> None:
+        """Advance by one control tick: five physics steps, with the servos at each.
+
+        Raises:
+            SimulationError: the targets or the state are not finite.
+        """
+        model, data, audit = self.model, self.data, self.audit
+        self._check_targets(targets)
+        self.motors.command(targets)
+        positions, velocities, ctrl = self.joint_positions, self.joint_velocities, data.ctrl
+        for _ in range(STEPS_PER_TICK):
+            ctrl[self._actuators] = self.motors.torques(positions, velocities)
+            audit.ctrl.append(ctrl)
+            mujoco.mj_step2(model, data)
+            mujoco.mj_step1(model, data)
+        self.steps += STEPS_PER_TICK
+        audit.qpos.append(data.qpos)
+        self._check_state()
+
+    def set(self, field: str, value: ArrayLike) -> None:
+        """Do what an event does: set a whole field before the next step, and audit it.
+
+        Args:
+            field: `xfrc_applied`, `qpos`, `qvel`, `mocap_pos`, `mocap_quat`, or a field of the
+                model that MuJoCo lets change between steps, such as `geom_friction`.
+            value: the whole field.
+        """
+        owner = self.data if field in DATA_FIELDS else self.model
+        array: NDArray[Any] = getattr(owner, field)
+        before = array.copy()
+        array[:] = value
+        self.audit.event(self.steps, field, before, array)
+        mujoco.mj_step1(self.model, self.data)
+
+    def standing_qpos(self, start: Start) -> NDArray[np.float64]:
+        """Return (nq,): all positions as they are, but the robot standing as in its keyframe."""
+        nominal, robot = self.robot.nominal, self.robot
+        data = mujoco.MjData(nominal)
+        data.qpos[:] = robot.stand_qpos
+        mujoco.mj_kinematics(nominal, data)
+        centres, forward = np.zeros(3), np.zeros(3)
+        for leg in (robot.file.legs.left, robot.file.legs.right):
+            link = nominal.body(leg.sole.link).id
+            rotation = data.xmat[link].reshape(3, 3)
+            centres += 0.5 * (data.xpos[link] + rotation @ np.array(leg.sole.position))
+            forward += rotation[:, 0]
+        turn = start.yaw - np.arctan2(forward[1], forward[0])
+        quat, rotation, root = np.empty(4), np.empty(9), robot.stand_qpos
+        mujoco.mju_axisAngle2Quat(quat, np.array([0.0, 0.0, 1.0]), turn)
+        mujoco.mju_quat2Mat(rotation, quat)
+        qpos: NDArray[np.float64] = self.data.qpos.copy()
+        base = int(self.model.joint(robot.base).qposadr[0])
+        qpos[base : base + 3] = rotation.reshape(3, 3) @ (root[:3] - centres)
+        qpos[base : base + 3] += (start.x, start.y, start.height)
+        turned = np.empty(4)
+        mujoco.mju_mulQuat(turned, quat, root[3:7])
+        qpos[base + 3 : base + 7] = turned
+        qpos[self._positions] = robot.stand
+        return qpos
+
+    def place(self, start: Start) -> None:
+        """Write the start pose. For the start only: an event that moves the robot uses `set`."""
+        self.data.qpos[:] = self.standing_qpos(start)
+
+    def save_audit(self, folder: Path) -> None:
+        """Write `model.mjb` and `physics.npz` into a folder that exists."""
+        self.audit.save(folder)
+
+    def _check_targets(self, targets: JointTargets) -> None:
+        n = len(self.robot.joints)
+        for name in ("position", "velocity", "torque"):
+            array = getattr(targets, name)
+            if array.shape != (n,) or not np.isfinite(array).all():
+                raise SimulationError(
+                    f"joint targets: {name} must be {n} finite numbers, got {array!r} "
+                    f"at {1e-9 * self.time_ns:.2f} s"
+                )
+
+    def _check_state(self) -> None:
+        numbers = self.data.warning.number
+        if numbers.any() or not np.isfinite(self.data.qpos).all():
+            names = [
+                mujoco.mjtWarning(kind).name.removeprefix("mjWARN_")
+                for kind in np.flatnonzero(numbers)
+            ]
+            raise SimulationError(
+                f"the physics diverged at {1e-9 * self.time_ns:.2f} s "
+                f"(MuJoCo: {', '.join(names) or 'not finite'})"
+            )
+
+
+def _slice(addresses: list[int]) -> slice:
+    """Return the addresses as a slice; joints of one tree are numbered without gaps."""
+    first = addresses[0]
+    assert addresses == list(range(first, first + len(addresses)))
+    return slice(first, first + len(addresses))

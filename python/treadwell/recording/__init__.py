@@ -1,0 +1,1 @@
+"""What a run leaves behind: recording, observations, trajectories, pictures, and their check."""

@@ -1,0 +1,220 @@
+"""`map.png`: the remembered map from above, with the true course and the ways over it."""
+
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Patch, Polygon
+
+from treadwell.course.build import Course
+from treadwell.judging.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
+from treadwell.judging.result import Result
+from treadwell.recording.trajectory import Trajectory
+
+NAME: Final = "map.png"
+_UNKNOWN: Final = (0.80, 0.80, 0.82)
+_OBSTACLE: Final = (0.09, 0.09, 0.11)
+_BELIEVED, _TRUE, _OUTLINE, _GOAL = "#ff5fa2", "#ffffff", "#e4572e", "#b8f53d"
+_LEAST_SPAN: Final = 0.02
+"""Metres that the colours span at least, to either side of the middle."""
+_MARGIN: Final = 0.25
+_NARROW: Final = 3.0
+
+
+def draw_map(
+    path: Path,
+    course: Course,
+    result: Result,
+    remembered: RememberedMap,
+    estimate: Trajectory,
+    truth: Trajectory,
+) -> None:
+    """Draw the picture.
+
+    Args:
+        path: of the PNG file.
+        course: what truly stands where, and start and goal.
+        result: for title and goal.
+        remembered: what the map last said of every cell.
+        estimate: the believed way.
+        truth: the true one.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
+    west, east, south, north = _bounds(course, result, remembered, truth)
+    width, height = east - west, north - south
+    scale = 9.0 / max(width, height / 0.7)
+    figure = Figure(
+        figsize=(max(6.5, width * scale + 2.0), max(3.6, height * scale + 1.5)), dpi=150
+    )
+    FigureCanvasAgg(figure)
+    axes = figure.add_subplot()
+    axes.set_facecolor(_UNKNOWN)
+    colours = _draw_cells(axes, remembered)
+    _draw_course(axes, course)
+    _draw_ways(axes, estimate, truth)
+    _draw_ends(axes, course, result)
+    axes.set_xlim(west, east)
+    axes.set_ylim(south, north)
+    axes.set_aspect("equal")
+    axes.set_xlabel("x (m)")
+    axes.set_ylabel("y (m)")
+    axes.tick_params(labelsize=8)
+    for spine in axes.spines.values():
+        spine.set_visible(False)
+    bar = figure.colorbar(colours, ax=axes, shrink=0.85, pad=0.02, aspect=24)
+    bar.set_label("floor height (mm)")
+    bar.outline.set_visible(False)
+    axes.set_title(_title(result), fontsize=11, loc="left", pad=10)
+    axes.legend(
+        handles=[
+            *axes.get_legend_handles_labels()[0],
+            Patch(color=_OBSTACLE, label="obstacle"),
+            Patch(facecolor=_UNKNOWN, edgecolor="#8a8d94", label="never seen"),
+        ],
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.14 if height < _NARROW else -0.09),
+        ncols=6,
+        frameon=True,
+        facecolor="#b9bcc4",
+        edgecolor="none",
+        fontsize=8,
+    )
+    figure.savefig(path, bbox_inches="tight", facecolor="white", metadata={"Software": None})
+
+
+def _title(result: Result) -> str:
+    """Return what was run and what came of it, two lines."""
+    outcome = result.outcome.replace("_", " ")
+    if result.reason:
+        outcome += f" · {result.reason.split(':')[0].replace('_', ' ')}"
+    facts = f"{outcome} after {result.simulated_seconds:.1f} s, {result.path_length:.2f} m"
+    if result.falls:
+        facts += f", {result.falls} fall{'s' if result.falls > 1 else ''}"
+    hits = len(result.collisions)
+    facts += f", {hits} collision{'' if hits == 1 else 's'}"
+    return f"{result.scenario} · {result.robot} · seed {result.seed}\n{facts}"
+
+
+def _bounds(
+    course: Course, result: Result, remembered: RememberedMap, truth: Trajectory
+) -> tuple[float, float, float, float]:
+    """Return west, east, south and north of what is worth seeing, m."""
+    row, col = np.nonzero(remembered.kind != UNKNOWN)
+    seen = (np.column_stack([col, row]) + 0.5) * remembered.cell + np.array(remembered.origin)
+    points = [np.array([course.start.position, result.configuration["goal"]["position"]])]
+    points += [truth.positions()[:, :2], seen]
+    points += [piece.outline for e in course.elements if e.present for piece in e.pieces]
+    every = np.vstack([p for p in points if len(p)])
+    low, high = every.min(axis=0) - _MARGIN, every.max(axis=0) + _MARGIN
+    return float(low[0]), float(high[0]), float(low[1]), float(high[1])
+
+
+def _draw_cells(axes: Axes, remembered: RememberedMap) -> ScalarMappable:
+    """Draw floors by height, obstacles and the unknown; return what the colour bar shows."""
+    floor = remembered.kind == FLOOR
+    heights = 1e3 * remembered.height[floor]
+    low, high = (0.0, 0.0) if not heights.size else np.percentile(heights, [0.5, 99.5])
+    middle = (low + high) / 2
+    half = max((high - low) / 2, 1e3 * _LEAST_SPAN)
+    colours = ScalarMappable(Normalize(middle - half, middle + half), cmap="viridis")
+    rows, cols = remembered.kind.shape
+    if not rows:
+        return colours
+    picture = np.full((rows, cols, 3), _UNKNOWN)
+    picture[floor] = colours.to_rgba(heights)[:, :3]
+    picture[remembered.kind == OBSTACLE] = _OBSTACLE
+    x, y = remembered.origin
+    axes.imshow(
+        picture,
+        origin="lower",
+        interpolation="nearest",
+        extent=(x, x + cols * remembered.cell, y, y + rows * remembered.cell),
+        zorder=1,
+    )
+    return colours
+
+
+def _draw_course(axes: Axes, course: Course) -> None:
+    """Draw the outlines of everything that is there from the beginning; dashed what comes later."""
+    label: str | None = "true course"
+    for element in course.elements:
+        for piece in element.pieces:
+            style = "-" if element.present else "--"
+            axes.add_patch(
+                Polygon(
+                    piece.outline,
+                    closed=True,
+                    fill=False,
+                    edgecolor=_OUTLINE,
+                    linewidth=1.3,
+                    linestyle=style,
+                    zorder=3,
+                    label=label,
+                )
+            )
+            label = None
+
+
+def _draw_ways(axes: Axes, estimate: Trajectory, truth: Trajectory) -> None:
+    true, believed = truth.positions(), estimate.positions()
+    axes.plot(
+        true[:, 0],
+        true[:, 1],
+        color="black",
+        linewidth=3.4,
+        alpha=0.35,
+        solid_capstyle="round",
+        zorder=4,
+    )
+    axes.plot(true[:, 0], true[:, 1], color=_TRUE, linewidth=2.0, zorder=5, label="true way")
+    axes.plot(
+        believed[:, 0], believed[:, 1], color=_BELIEVED, linewidth=1.4, zorder=6, label="believed"
+    )
+
+
+def _draw_ends(axes: Axes, course: Course, result: Result) -> None:
+    goal = result.configuration["goal"]
+    for position in goal["via"]:
+        axes.add_patch(
+            Circle(position, goal["radius"], fill=False, edgecolor=_GOAL, linestyle=":", zorder=6)
+        )
+    axes.add_patch(
+        Circle(goal["position"], goal["radius"], facecolor=_GOAL, alpha=0.35, zorder=3.5)
+    )
+    axes.add_patch(
+        Circle(
+            goal["position"],
+            goal["radius"],
+            fill=False,
+            edgecolor=_GOAL,
+            linewidth=1.8,
+            zorder=6,
+            label="goal",
+        )
+    )
+    start, yaw = course.start.position, course.start.yaw
+    axes.plot(*start, "o", color="white", markeredgecolor="black", markersize=8, zorder=7)
+    tip = np.array(start) + 0.12 * np.array([np.cos(yaw), np.sin(yaw)])
+    axes.annotate(
+        "",
+        xy=(float(tip[0]), float(tip[1])),
+        xytext=start,
+        arrowprops={"arrowstyle": "-|>", "color": "black", "linewidth": 1.2},
+        zorder=8,
+    )
+    axes.annotate(
+        "start",
+        start,
+        xytext=(0, -14),
+        textcoords="offset points",
+        ha="center",
+        fontsize=8,
+        zorder=8,
+    )

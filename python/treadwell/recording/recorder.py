@@ -1,0 +1,208 @@
+"""The recording for people: what the robot saw, believed and did, written as it happens."""
+
+import subprocess
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+import mujoco
+import numpy as np
+
+from treadwell.course.build import Course
+from treadwell.errors import InputError, RecordingError
+from treadwell.recording.file import cut_to_whole_messages, room
+from treadwell.recording.trace import Trace
+from treadwell.robot.load import Robot
+from treadwell.scenario.model import Scenario
+
+if TYPE_CHECKING:
+    from treadwell.recording.shapes import Shapes
+
+NAME: Final = "recording.rrd"
+_FRAMES_A_CHECK: Final = 12
+"""Camera frames, about a second, after which the file is looked at."""
+_FLUSH_SECONDS: Final = 10.0
+_SPARE_BYTES: Final = 16_000_000
+"""Room that must be left for what is logged between two looks."""
+_ABANDONED: Final[list[object]] = []
+
+
+class Recorder:
+    """Writes `recording.rrd`. What was written stays readable whatever happens later."""
+
+    def __init__(
+        self, path: Path, model: mujoco.MjModel, course: Course, scenario: Scenario, robot: Robot
+    ) -> None:
+        """Open the file and draw what never moves.
+
+        Args:
+            path: of the file, in a folder that exists.
+            model: the compiled course with the robot in it.
+            course: what stands where.
+            scenario: for goal and name.
+            robot: for its root link.
+
+        Raises:
+            RecordingError: the file cannot be opened.
+        """
+        # Late, because rerun takes a second to import.
+        import rerun as rr
+
+        from treadwell.recording.layout import blueprint
+        from treadwell.recording.products import Products
+        from treadwell.recording.shapes import Shapes, robot_geoms
+
+        self._path = path
+        self._frames, self._broken = 0, False
+        top = max((t.height for _, t in course.tops()), default=0.0)
+        goal = (*scenario.goal.position, course.goal_height)
+        begin = (*course.start.position, course.start.height)
+        centre = tuple((a + b) / 2 for a, b in zip(begin, goal, strict=True))
+        extent = float(np.hypot(goal[0] - begin[0], goal[1] - begin[1])) + 1.0
+        try:
+            path.touch()
+            if room(path) < _SPARE_BYTES:
+                raise self._full()
+            self._stream = rr.RecordingStream(
+                "treadwell",
+                recording_id=f"{scenario.name}-{robot.name}-{scenario.seed}",
+                send_properties=False,
+            )
+            self._stream.save(path, blueprint((centre[0], centre[1], centre[2] + 0.15), extent))
+        except (OSError, RuntimeError) as error:
+            raise RecordingError(f"{path}: cannot be written: {_reason(error)}") from error
+        self._stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
+        self._robot = Shapes(model, robot_geoms(model, robot.root), "world/robot")
+        self._robot.draw(self._stream)
+        self._movable = self._draw_course(model, course)
+        self._draw_goal(scenario, course)
+        self._products = Products(self._stream, low=-0.05, high=max(0.05, top + 0.01))
+        self._check()
+
+    def frame(self, trace: Trace) -> None:
+        """Write one camera frame.
+
+        Raises:
+            RecordingError: the file does not take it any more.
+        """
+        stream = self._stream
+        stream.set_time("time", duration=1e-9 * trace.time_ns)
+        for shapes in (self._robot, self._movable):
+            shapes.pose(stream, trace.body_positions, trace.body_orientations)
+        self._products.log(trace)
+        self._frames += 1
+        if self._frames % _FRAMES_A_CHECK == 0:
+            self._check()
+
+    def close(self) -> None:
+        """Write what is left and close the file. After an error there is nothing left to do.
+
+        Raises:
+            RecordingError: not all of it could be written.
+        """
+        if self._broken:
+            return
+        self._check()
+        self._stream.disconnect()
+
+    def _check(self) -> None:
+        """Find out whether what was logged is in the file: `log` itself says nothing."""
+        try:
+            # Rerun's writer can hang where a disk is full, so it is stopped before that.
+            if room(self._path) < _SPARE_BYTES:
+                self._broken = True
+                self._stream.disconnect()
+                raise self._full()
+            self._stream.flush(timeout_sec=_FLUSH_SECONDS)
+            _ = self._path.stat()
+        except (OSError, RuntimeError, ValueError) as error:
+            self._abandon()
+            raise RecordingError(
+                f"{self._path}: writing failed, what was recorded before stays readable: "
+                f"{_reason(error)}"
+            ) from error
+
+    def _full(self) -> RecordingError:
+        return RecordingError(
+            f"{self._path}: the disk is full (or the file as large as it may be); "
+            "what was recorded before stays readable"
+        )
+
+    def _abandon(self) -> None:
+        """Touch a stream whose writer has failed no more: to flush or to end it could hang."""
+        import atexit
+
+        import rerun as rr
+
+        self._broken = True
+        _ABANDONED.append(self._stream)
+        atexit.unregister(rr.rerun_shutdown)
+        cut_to_whole_messages(self._path)
+
+    def _draw_course(self, model: mujoco.MjModel, course: Course) -> "Shapes":
+        """Draw what stands still, and return what may move."""
+        from treadwell.recording.shapes import Shapes
+
+        data = mujoco.MjData(model)
+        mujoco.mj_kinematics(model, data)
+        fixed = [g for e in course.elements if e.mocap_id is None for g in e.geom_ids]
+        moving = [g for e in course.elements if e.mocap_id is not None for g in e.geom_ids]
+        shapes = Shapes(model, np.array(fixed, dtype=np.intp), "world/course")
+        shapes.draw(self._stream)
+        shapes.pose(self._stream, data.xpos, data.xquat, static=True)
+        movable = Shapes(model, np.array(moving, dtype=np.intp), "world/movable")
+        movable.draw(self._stream)
+        return movable
+
+    def _draw_goal(self, scenario: Scenario, course: Course) -> None:
+        import rerun as rr
+
+        from treadwell.recording.layout import GOAL
+
+        radius = scenario.goal.radius
+        discs = [*scenario.goal.via, scenario.goal.position]
+        heights = [*course.height_at(np.array(discs))[:-1], course.goal_height]
+        self._stream.log(
+            "world/goal",
+            rr.Cylinders3D(
+                lengths=[0.004] * len(discs),
+                radii=[radius] * len(discs),
+                centers=[(x, y, z + 0.004) for (x, y), z in zip(discs, heights, strict=True)],
+                colors=[GOAL] * len(discs),
+                fill_mode=rr.components.FillMode.Solid,
+            ),
+            static=True,
+        )
+
+
+def inspect(run_dir: Path, *, web: bool = False) -> None:
+    """Open a run's recording in rerun's viewer, which listens on this machine only.
+
+    Args:
+        run_dir: a run's folder.
+        web: in a browser instead of a window; returns when the viewer is ended.
+
+    Raises:
+        InputError: the run has no recording.
+        RecordingError: the viewer cannot be started.
+    """
+    path = run_dir / NAME
+    if not run_dir.is_dir():
+        raise InputError(f"{run_dir}: there is no such run")
+    if not path.is_file() or path.stat().st_size == 0:
+        raise InputError(f"{path}: the run has no recording (was it run with --no-record?)")
+    command = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1", str(path)]
+    if web:
+        command.insert(-1, "--web-viewer")
+    try:
+        status = subprocess.run(command, check=False).returncode
+    except OSError as error:
+        raise RecordingError(f"the viewer cannot be started: {_reason(error)}") from error
+    if status:
+        raise RecordingError(
+            f"the viewer ended with status {status}; where there is no display, use --web"
+        )
+
+
+def _reason(error: Exception) -> str:
+    return " ".join(str(getattr(error, "strerror", None) or error).split())

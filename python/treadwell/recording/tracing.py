@@ -1,0 +1,57 @@
+"""What the recorder and the score are given of a camera frame: gathered from core and judge."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from treadwell.episode import Episode, Step
+from treadwell.judging.ground_truth import pose_matrix
+from treadwell.recording.trace import Trace
+
+
+def trace_of(episode: Episode, step: Step) -> Trace:
+    """Return one camera frame's trace.
+
+    Args:
+        episode: right after `step`.
+        step: a tick, with or without a depth frame.
+    """
+    pilot, data = episode.pilot, episode.simulation.data
+    map_from_robot = pose_matrix(*step.estimate.pose)
+    view = pilot.view()
+    frame = step.observation.depth
+    planes = pilot.planes()
+    path = pilot.path()
+    return Trace(
+        time_ns=step.time_ns,
+        map_from_robot=map_from_robot,
+        odometry_from_robot=pose_matrix(*step.estimate.odometry),
+        truth_from_robot=episode.judge.frame.matrix(),
+        map_from_camera=map_from_robot @ planes.robot_from_camera,
+        depth=None if frame is None else frame.depth,
+        points=transformed(map_from_robot, planes.points_in_robot),
+        labels=planes.labels,
+        ground=0 if planes.ground is None else planes.ground + 1,
+        view_origin=(view.origin[0], view.origin[1]),
+        view_cell=view.cell,
+        view_kind=view.kind,
+        view_height=view.height,
+        sightings=view.sightings,
+        clearance=pilot.clearance(),
+        path=np.empty((0, 2)) if path is None else path,
+        state=step.state,
+        goal=episode.goal,
+        gaze=(pilot.gaze[0], pilot.gaze[1]),
+        body_positions=data.xpos,
+        body_orientations=data.xquat,
+        timing=dict(zip(pilot.stages, pilot.timing, strict=True)),
+    )
+
+
+def transformed(
+    target_from_source: NDArray[np.float64], points: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """Return points (n, 3) float32 in the target frame."""
+    rotation = target_from_source[:3, :3].astype(np.float32)
+    moved: NDArray[np.float32] = points @ rotation.T
+    moved += target_from_source[:3, 3].astype(np.float32)
+    return moved

@@ -1,0 +1,95 @@
+"""Trajectories in the format of the TUM RGB-D benchmark: time, position, quaternion xyzw."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from treadwell.errors import InputError
+from treadwell.judging.result import write_whole
+
+ESTIMATE, TRUTH = "trajectory.tum", "trajectory_truth.tum"
+"""Names of the two files in a run's folder."""
+
+
+@dataclass
+class Trajectory:
+    """Poses of the robot frame in the map, one a camera frame.
+
+    Attributes:
+        rows: time s, x, y, z m, quaternion x, y, z, w.
+    """
+
+    rows: list[tuple[float, ...]] = field(default_factory=list)
+
+    def add(self, time_ns: int, pose: NDArray[np.float64]) -> None:
+        """Append a pose.
+
+        Args:
+            time_ns: nanoseconds since the start.
+            pose: map_from_robot, (4, 4).
+        """
+        self.rows.append((1e-9 * time_ns, *pose[:3, 3].tolist(), *quaternion(pose[:3, :3])))
+
+    def positions(self) -> NDArray[np.float64]:
+        """Return the positions, (n, 3) m."""
+        return np.array([row[1:4] for row in self.rows]).reshape(-1, 3)
+
+    def write(self, path: Path) -> None:
+        """Write the file whole or not at all.
+
+        Raises:
+            OSError: the file cannot be written.
+        """
+        lines = ["# timestamp tx ty tz qx qy qz qw"]
+        lines += [
+            f"{row[0]:.9f} " + " ".join(f"{value:.9f}" for value in row[1:]) for row in self.rows
+        ]
+        write_whole(path, "\n".join(lines) + "\n")
+
+
+def read_trajectory(path: Path) -> NDArray[np.float64]:
+    """Read a file, (n, 8): time s, position m, quaternion xyzw.
+
+    Raises:
+        InputError: it is missing, or a line is not of eight finite numbers, or time goes back.
+    """
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{path}: not UTF-8") from None
+    rows: list[list[float]] = []
+    for number, line in enumerate(lines, start=1):
+        if not line.strip() or line.startswith("#"):
+            continue
+        try:
+            row = [float(word) for word in line.split()]
+        except ValueError:
+            row = []
+        if len(row) != 8 or not np.isfinite(row).all():
+            raise InputError(f"{path}: line {number}: must be eight finite numbers")
+        if rows and row[0] <= rows[-1][0]:
+            raise InputError(f"{path}: line {number}: time goes back")
+        rows.append(row)
+    return np.array(rows, dtype=np.float64).reshape(-1, 8)
+
+
+def quaternion(rotation: NDArray[np.float64]) -> tuple[float, float, float, float]:
+    """Return x, y, z, w of a rotation (3, 3), w not negative (Shepperd's method)."""
+    m = rotation.tolist()
+    trace = m[0][0] + m[1][1] + m[2][2]
+    squares = [m[0][0], m[1][1], m[2][2], trace]
+    best = squares.index(max(squares))
+    if best == 3:
+        q = [m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1], 1.0 + trace]
+    else:
+        i, j, k = best, (best + 1) % 3, (best + 2) % 3
+        q = [0.0, 0.0, 0.0, m[k][j] - m[j][k]]
+        q[i] = 1.0 + m[i][i] - m[j][j] - m[k][k]
+        q[j], q[k] = m[j][i] + m[i][j], m[k][i] + m[i][k]
+    length = float(np.linalg.norm(q)) * (1.0 if q[3] >= 0.0 else -1.0)
+    x, y, z, w = (value / length for value in q)
+    return x, y, z, w

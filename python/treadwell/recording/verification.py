@@ -1,0 +1,180 @@
+"""`treadwell verify`: a run's files are whole, belong together, and plain MuJoCo agrees."""
+
+import zipfile
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from treadwell.errors import InputError
+from treadwell.judging.result import Result, read_result
+from treadwell.physics.audit import STEPS_PER_TICK, replay_audit
+from treadwell.recording.file import whole_length
+from treadwell.recording.map_picture import NAME as PICTURE
+from treadwell.recording.observation_log import NAME as OBSERVATIONS
+from treadwell.recording.observation_log import read_header, read_observations
+from treadwell.recording.recorder import NAME as RECORDING
+from treadwell.recording.trajectory import ESTIMATE, TRUTH, read_trajectory
+
+RESULT: Final = "result.json"
+_PNG: Final = b"\x89PNG\r\n\x1a\n"
+_TICK: Final = 0.01
+
+
+@dataclass(frozen=True, slots=True)
+class Verification:
+    """What was found in a run's folder.
+
+    Attributes:
+        folder: the run's.
+        problems: a sentence for each thing that is wrong, with the file's name.
+        steps: physics steps that plain MuJoCo repeated bit for bit.
+        first_difference: the first physics step after which the states differ, None if none does.
+    """
+
+    folder: Path
+    problems: tuple[str, ...]
+    steps: int
+    first_difference: int | None
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing is wrong."""
+        return not self.problems
+
+
+def verify(run_dirs: Iterable[Path]) -> list[Verification]:
+    """Verify the folders of runs, one after the other. Nothing in them can make it fail."""
+    return [verify_run(Path(folder)) for folder in run_dirs]
+
+
+def verify_run(folder: Path) -> Verification:
+    """Verify the folder of one run."""
+    if not folder.is_dir():
+        return Verification(folder, (f"{folder}: there is no such run",), 0, None)
+    problems: list[str] = []
+    result = _result(folder, problems)
+    rows = _trajectories(folder, problems)
+    ticks, difference = _audit(folder, problems)
+    if result is not None and ticks is not None:
+        simulated = round(result.simulated_seconds / _TICK)
+        if simulated != ticks:
+            problems.append(
+                f"physics.npz: {ticks} control ticks, but result.json has {simulated}: "
+                "they are of different runs"
+            )
+    if rows and result is not None and rows[-1] > result.simulated_seconds + 1e-6:
+        problems.append(f"{ESTIMATE}: goes on after the end of the run")
+    _picture(folder, problems)
+    _recordings(folder, result, ticks, problems)
+    steps = (ticks or 0) * STEPS_PER_TICK if difference is None else difference
+    return Verification(folder, tuple(problems), steps, difference)
+
+
+def _result(folder: Path, problems: list[str]) -> Result | None:
+    try:
+        result = read_result(folder / RESULT)
+    except InputError as error:
+        problems.append(str(error))
+        return None
+    named = {key: result.configuration.get(key) for key in ("name", "seed")}
+    if named != {"name": result.scenario, "seed": result.seed}:
+        problems.append(f"{RESULT}: scenario and seed are not those of its configuration")
+    return result
+
+
+def _trajectories(folder: Path, problems: list[str]) -> list[float]:
+    """Return the times of the believed trajectory, s."""
+    times: dict[str, list[float]] = {}
+    for name in (ESTIMATE, TRUTH):
+        try:
+            times[name] = read_trajectory(folder / name)[:, 0].tolist()
+        except InputError as error:
+            problems.append(str(error))
+    if len(times) == 2 and times[ESTIMATE] != times[TRUTH]:
+        found = ", ".join(f"{len(rows)} poses in {name}" for name, rows in times.items())
+        problems.append(f"{TRUTH}: its times are not those of {ESTIMATE} ({found})")
+    return times.get(ESTIMATE, [])
+
+
+def _audit(folder: Path, problems: list[str]) -> tuple[int | None, int | None]:
+    """Return the control ticks in the audit, and the first step that differs."""
+    try:
+        row = replay_audit(folder)
+        with np.load(folder / "physics.npz", allow_pickle=False) as file:
+            ticks = len(file["qpos"])
+    except InputError as error:
+        problems.append(str(error))
+        return None, None
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        problems.append(f"{folder / 'physics.npz'}: is broken: {_one_line(error)}")
+        return None, None
+    if row is None:
+        return ticks, None
+    step = (row + 1) * STEPS_PER_TICK
+    problems.append(
+        f"physics.npz: plain MuJoCo comes to another state; the first that differs is after "
+        f"step {step} ({step / STEPS_PER_TICK * _TICK:.2f} s)"
+    )
+    return ticks, step
+
+
+def _picture(folder: Path, problems: list[str]) -> None:
+    try:
+        content = (folder / PICTURE).read_bytes()
+    except OSError as error:
+        problems.append(f"{folder / PICTURE}: cannot be read: {error.strerror}")
+        return
+    if not content.startswith(_PNG) or b"IEND" not in content[-12:]:
+        problems.append(f"{folder / PICTURE}: is no whole PNG file")
+
+
+def _recordings(
+    folder: Path, result: Result | None, ticks: int | None, problems: list[str]
+) -> None:
+    """Look at what `--no-record` leaves out: both files or none."""
+    observations, recording = folder / OBSERVATIONS, folder / RECORDING
+    there = [path.is_file() for path in (observations, recording)]
+    if not any(there):
+        return
+    for path, is_there in zip((observations, recording), there, strict=True):
+        if not is_there:
+            problems.append(f"{path}: is missing, though the run was recorded")
+    if there[1]:
+        whole = whole_length(recording)
+        if whole < recording.stat().st_size or whole == 0:
+            problems.append(
+                f"{recording}: breaks off amid a message or is no rerun recording "
+                f"({whole} bytes of it are whole)"
+            )
+    if there[0]:
+        _observations(observations, result, ticks, problems)
+
+
+def _observations(
+    path: Path, result: Result | None, ticks: int | None, problems: list[str]
+) -> None:
+    try:
+        header = read_header(path)
+        count = sum(1 for _ in read_observations(path))
+    except InputError as error:
+        problems.append(str(error))
+        return
+    if result is not None:
+        of_result: dict[str, Any] = {
+            "scenario": result.scenario,
+            "robot": result.robot,
+            "seed": str(result.seed),
+            "version": result.version,
+        }
+        wrong = [key for key, value in of_result.items() if header.get(key) != value]
+        if wrong:
+            problems.append(f"{path}: {', '.join(wrong)} not as in {RESULT}")
+    if ticks is not None and count != ticks:
+        problems.append(f"{path}: {count} observations, but {ticks} control ticks")
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split())

@@ -1,0 +1,127 @@
+"""What a run leaves behind: recording, observations, audit, trajectories, picture, result."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from treadwell.episode import Episode, Step
+from treadwell.errors import InputError, RecordingError
+from treadwell.judging.map_memory import RememberedMap
+from treadwell.judging.result import Result
+from treadwell.recording.map_picture import draw_map
+from treadwell.recording.trace import Trace
+from treadwell.recording.trajectory import ESTIMATE, TRUTH, Trajectory
+
+if TYPE_CHECKING:
+    from treadwell.recording.observation_log import ObservationLog
+    from treadwell.recording.recorder import Recorder
+
+
+class Writers:
+    """Everything that writes into a run's folder."""
+
+    def __init__(
+        self,
+        folder: Path,
+        episode: Episode,
+        *,
+        record: bool,
+        viewer: Any = None,  # noqa: ANN401
+    ) -> None:
+        """Open what is written as it happens.
+
+        Args:
+            folder: new and empty.
+            episode: before its first tick.
+            record: whether to keep recording and observations.
+            viewer: a window on the physics, from `open_viewer`.
+        """
+        self._folder = folder
+        self._episode = episode
+        self._recorder: Recorder | None = None
+        self._observations: ObservationLog | None = None
+        self._viewer = viewer
+        if record:
+            from treadwell.recording import observation_log
+            from treadwell.recording import recorder as recording
+
+            made = episode.scenario
+            self._recorder = recording.Recorder(
+                folder / recording.NAME, episode.course.model, episode.course, made, episode.robot
+            )
+            self._observations = observation_log.ObservationLog(folder, made, episode.robot)
+
+    def tick(self, step: Step) -> None:
+        """Take in a control tick.
+
+        Raises:
+            RecordingError: a file does not take it any more.
+        """
+        if self._observations is not None:
+            self._observations.write(step.observation)
+        if self._viewer is not None and step.observation.depth is not None:
+            self._viewer.sync()
+
+    def frame(self, trace: Trace) -> None:
+        """Take in a camera frame.
+
+        Raises:
+            RecordingError: the file does not take it any more.
+        """
+        if self._recorder is not None:
+            self._recorder.frame(trace)
+
+    def finish(
+        self, result: Result, estimate: Trajectory, truth: Trajectory, remembered: RememberedMap
+    ) -> None:
+        """Close what is open and write the rest, `result.json` last.
+
+        Raises:
+            RecordingError: something could not be written; everything else was.
+        """
+        folder, episode = self._folder, self._episode
+        jobs: list[Callable[[], None]] = [
+            self._close,
+            lambda: estimate.write(folder / ESTIMATE),
+            lambda: truth.write(folder / TRUTH),
+            lambda: episode.simulation.save_audit(folder),
+            lambda: draw_map(
+                folder / "map.png", episode.course, result, remembered, estimate, truth
+            ),
+            lambda: result.write(folder / "result.json"),
+        ]
+        first: Exception | None = None
+        for job in jobs:
+            try:
+                job()
+            except (OSError, RecordingError) as error:
+                first = first or error
+        if first is not None:
+            raise RecordingError(f"{folder}: not everything could be written: {first}") from first
+
+    def _close(self) -> None:
+        if self._viewer is not None:
+            self._viewer.close()
+        try:
+            if self._observations is not None:
+                self._observations.close()
+        finally:
+            if self._recorder is not None:
+                self._recorder.close()
+
+
+def open_viewer(episode: Episode) -> Any:  # noqa: ANN401 - MuJoCo's viewer has no types
+    """Return a window on the physics.
+
+    Raises:
+        InputError: the viewer is not installed, or there is no display.
+    """
+    try:
+        from mujoco import viewer
+
+        return viewer.launch_passive(episode.course.model, episode.simulation.data)
+    except Exception as error:
+        raise InputError(
+            f"--view: no window can be opened ({error}); it needs a display and "
+            "the extra `view`: pip install 'treadwell[view]'"
+        ) from error

@@ -1,0 +1,240 @@
+"""Whether a `robot.toml` fits its MJCF: names that exist, a body that can be driven."""
+
+import math
+from collections.abc import Iterable
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from treadwell.errors import InputError
+from treadwell.robot.file import LegTable, RobotFile
+
+PHYSICS_STEP = 0.002
+"""The physics step that the harness is built on, s."""
+SQUARE_PIXELS = 0.02
+"""How far the focal lengths of the two fields of view may differ, as a share."""
+FLAT = 1e-3
+"""How far the soles may be from the ground in the keyframe, m, and from level, rad."""
+
+
+def check_robot(toml: Path, mjcf: Path, model: mujoco.MjModel, file: RobotFile) -> None:
+    """Check that both files describe one robot.
+
+    Args:
+        toml: path of the `robot.toml`, for messages.
+        mjcf: path of the MJCF, for messages.
+        model: the compiled MJCF.
+        file: the parsed `robot.toml`.
+
+    Raises:
+        InputError: they do not; names the file, the key, what was found and what is allowed.
+    """
+    _check_links(mjcf, model)
+    _check_joints(mjcf, model)
+    _Checker(toml, mjcf, model, file).check()
+
+
+def _check_links(mjcf: Path, model: mujoco.MjModel) -> None:
+    """Refuse what is not one free root with named links, one joint at most for each."""
+    for field in ("body_mass", "body_pos", "body_ipos", "body_inertia", "jnt_range", "jnt_axis"):
+        if not np.isfinite(getattr(model, field)).all():
+            raise InputError(f"{mjcf}: a number is not finite ({field})")
+    if model.njnt < 2 or model.jnt_type[0] != mujoco.mjtJoint.mjJNT_FREE:
+        raise InputError(f"{mjcf}: the root body needs a free joint, and joints must follow it")
+    for body in range(1, model.nbody):
+        joints, name = int(model.body_jntnum[body]), model.body(body).name
+        if not name:
+            raise InputError(f"{mjcf}: body {body} has no name")
+        if model.body_parentid[body] == 0 and body > 1:
+            raise InputError(f"{mjcf}: there must be one root body, {name!r} is another")
+        if joints > 1:
+            raise InputError(f"{mjcf}: body {name!r} has {joints} joints, 1 is the limit")
+
+
+def _check_joints(mjcf: Path, model: mujoco.MjModel) -> None:
+    """Refuse what is not a named hinge with a range, and a physics step that is not ours."""
+    if model.opt.timestep != PHYSICS_STEP:
+        raise InputError(
+            f"{mjcf}: option.timestep must be {PHYSICS_STEP}, got {model.opt.timestep:g}"
+        )
+    for joint in range(1, model.njnt):
+        name = model.joint(joint).name
+        if not name:
+            raise InputError(f"{mjcf}: joint {joint} has no name")
+        if model.jnt_type[joint] != mujoco.mjtJoint.mjJNT_HINGE:
+            raise InputError(f"{mjcf}: joint {name!r} must be a hinge")
+        low, high = model.jnt_range[joint]
+        if not model.jnt_limited[joint] or low >= high:
+            raise InputError(f"{mjcf}: joint {name!r} needs a range, got {low:g} to {high:g}")
+
+
+class _Checker:
+    """Looks up what `robot.toml` names."""
+
+    def __init__(self, toml: Path, mjcf: Path, model: mujoco.MjModel, file: RobotFile) -> None:
+        self.toml, self.mjcf, self.model, self.file = toml, mjcf, model, file
+        self.joints = {model.joint(i).name: i for i in range(1, model.njnt)}
+        self.links = {model.body(i).name: i for i in range(1, model.nbody)}
+        self.sites = {model.site(i).name: i for i in range(model.nsite)}
+        self.sensors = {model.sensor(i).name: i for i in range(model.nsensor)}
+        self.cameras = {model.camera(i).name: i for i in range(model.ncam)}
+
+    def check(self) -> None:
+        file = self.file
+        self._find("body.torso", file.body.torso, self.links, "link")
+        for joint in file.trunk.joints:
+            self._find("trunk.joints", joint, self.joints, "joint")
+        self._check_motors()
+        self._check_stand()
+        for side, leg in (("left", file.legs.left), ("right", file.legs.right)):
+            self._check_leg(f"legs.{side}", leg)
+        for joint, angle in file.arms.rest.items():
+            number = self._find("arms.rest", joint, self.joints, "joint")
+            low, high = self.model.jnt_range[number]
+            if not low <= angle <= high:
+                self._fail(f"arms.rest.{joint}", f"must be within {low:g} to {high:g}, got {angle}")
+        self._check_imu()
+        self._check_camera()
+
+    def _fail(self, key: str, message: str) -> None:
+        raise InputError(f"{self.toml}: {key}: {message}")
+
+    def _find(self, key: str, name: str, known: dict[str, int], kind: str) -> int:
+        if name not in known:
+            self._fail(
+                key,
+                f"there is no {kind} {name!r} in {self.mjcf.name}; it has {_list(known)}",
+            )
+        return known[name]
+
+    def _check_motors(self) -> None:
+        model = self.model
+        actuators: dict[int, int] = {}
+        for i in range(model.nu):
+            name, joint = model.actuator(i).name, int(model.actuator_trnid[i, 0])
+            on_joint = model.actuator_trntype[i] == mujoco.mjtTrn.mjTRN_JOINT
+            torque = (
+                model.actuator_gaintype[i] == mujoco.mjtGain.mjGAIN_FIXED
+                and model.actuator_biastype[i] == mujoco.mjtBias.mjBIAS_NONE
+                and model.actuator_dyntype[i] == mujoco.mjtDyn.mjDYN_NONE
+                and model.actuator_gainprm[i, 0] == 1.0
+                and model.actuator_gear[i, 0] == 1.0
+            )
+            if not on_joint or not torque or joint in actuators:
+                raise InputError(
+                    f"{self.mjcf}: actuator {name!r} must be a <motor> of gear 1 on its own joint"
+                )
+            actuators[joint] = i
+        groups: dict[str, str] = {}
+        for group, motors in self.file.motors.items():
+            for joint_name in motors.joints:
+                key = f"motors.{group}.joints"
+                joint = self._find(key, joint_name, self.joints, "joint")
+                if joint_name in groups:
+                    self._fail(key, f"joint {joint_name!r} is in motors.{groups[joint_name]} too")
+                groups[joint_name] = group
+                if joint not in actuators:
+                    raise InputError(f"{self.mjcf}: joint {joint_name!r} has no <motor>")
+                low, high = model.actuator_ctrlrange[actuators[joint]]
+                peak = motors.peak_torque
+                limited = model.actuator_ctrllimited[actuators[joint]]
+                if not limited or not (math.isclose(high, peak) and math.isclose(low, -peak)):
+                    self._fail(
+                        f"motors.{group}.peak_torque",
+                        f"is {peak:g}, but the motor of {joint_name!r} in {self.mjcf.name} "
+                        f"has a ctrlrange of {low:g} to {high:g}",
+                    )
+        missing = [joint for joint in self.joints if joint not in groups]
+        if missing:
+            self._fail("motors", f"no group has the joints {_list(missing)}")
+
+    def _check_leg(self, key: str, leg: LegTable) -> None:
+        model = self.model
+        bodies = []
+        for name in leg.joints:
+            joint = self._find(f"{key}.joints", name, self.joints, "joint")
+            bodies.append(int(model.jnt_bodyid[joint]))
+        for above, below, name in zip(bodies, bodies[1:], leg.joints[1:], strict=False):
+            if model.body_parentid[below] != above:
+                self._fail(
+                    f"{key}.joints",
+                    f"must be a chain of six from the hip down, but {name!r} "
+                    f"does not follow the one before it in {self.mjcf.name}",
+                )
+        link = self._find(f"{key}.sole.link", leg.sole.link, self.links, "link")
+        if link != bodies[-1]:
+            end = model.body(bodies[-1]).name
+            self._fail(
+                f"{key}.sole.link", f"must be the leg's last, {end!r}, got {leg.sole.link!r}"
+            )
+        for name in leg.touch:
+            self._check_sensor(f"{key}.touch", name, mujoco.mjtSensor.mjSENS_TOUCH, "touch", None)
+        data = mujoco.MjData(model)
+        mujoco.mj_resetDataKeyframe(model, data, model.key("stand").id)
+        mujoco.mj_kinematics(model, data)
+        rotation = data.xmat[link].reshape(3, 3)
+        height = float(data.xpos[link][2] + rotation[2] @ np.array(leg.sole.position))
+        if abs(height) > FLAT or math.hypot(rotation[2, 0], rotation[2, 1]) > FLAT:
+            self._fail(
+                f"{key}.sole",
+                f"must lie flat on the ground in the keyframe 'stand' of {self.mjcf.name}, "
+                f"its centre is {1e3 * height:.1f} mm above it",
+            )
+
+    def _check_stand(self) -> None:
+        model = self.model
+        if "stand" not in [model.key(i).name for i in range(model.nkey)]:
+            raise InputError(f"{self.mjcf}: has no keyframe 'stand'")
+        angles = model.key("stand").qpos[7:]
+        for name, joint in self.joints.items():
+            low, high = model.jnt_range[joint]
+            angle = angles[joint - 1]
+            if not low <= angle <= high:
+                raise InputError(
+                    f"{self.mjcf}: keyframe 'stand': joint {name!r} must be within "
+                    f"{low:g} to {high:g}, got {angle:g}"
+                )
+
+    def _check_imu(self) -> None:
+        imu = self.file.imu
+        site = self._find("imu.site", imu.site, self.sites, "site")
+        self._check_sensor("imu.gyro", imu.gyro, mujoco.mjtSensor.mjSENS_GYRO, "gyro", site)
+        kind = mujoco.mjtSensor.mjSENS_ACCELEROMETER
+        self._check_sensor("imu.accelerometer", imu.accelerometer, kind, "accelerometer", site)
+
+    def _check_sensor(
+        self, key: str, name: str, kind: mujoco.mjtSensor, word: str, site: int | None
+    ) -> None:
+        sensor = self._find(key, name, self.sensors, "sensor")
+        if self.model.sensor_type[sensor] != kind:
+            self._fail(key, f"sensor {name!r} of {self.mjcf.name} must be a <{word}>")
+        if site is not None and self.model.sensor_objid[sensor] != site:
+            self._fail(key, f"sensor {name!r} of {self.mjcf.name} must sit on the site imu.site")
+
+    def _check_camera(self) -> None:
+        file, model = self.file, self.model
+        camera = self._find("camera.name", file.camera.name, self.cameras, "camera")
+        link = int(model.cam_bodyid[camera])
+        if link == 0:
+            self._fail("camera.name", f"camera {file.camera.name!r} must be on a link of the robot")
+        above = set()
+        while link > 0:
+            above.add(link)
+            link = int(model.body_parentid[link])
+        for key, name in (("head.pan", file.head.pan), ("head.tilt", file.head.tilt)):
+            joint = self._find(key, name, self.joints, "joint")
+            if int(model.jnt_bodyid[joint]) not in above:
+                self._fail(key, f"joint {name!r} does not move the camera")
+        horizontal = 0.5 * file.camera.width / math.tan(0.5 * file.camera.horizontal_fov)
+        vertical = 0.5 * file.camera.height / math.tan(0.5 * file.camera.vertical_fov)
+        if abs(horizontal / vertical - 1.0) > SQUARE_PIXELS:
+            self._fail(
+                "camera",
+                "pixels must be square, but the fields of view give focal lengths of "
+                f"{horizontal:.1f} pixels across and {vertical:.1f} down",
+            )
+
+
+def _list(names: Iterable[str]) -> str:
+    return ", ".join(names) or "none"

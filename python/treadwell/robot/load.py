@@ -1,0 +1,159 @@
+"""A robot's folder, loaded and checked: its MJCF, its `robot.toml`, and what follows from both."""
+
+import difflib
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from treadwell.data import data_folder
+from treadwell.errors import InputError
+from treadwell.physics.motors import MotorLimits
+from treadwell.robot.check import check_robot
+from treadwell.robot.description import describe
+from treadwell.robot.file import MotorsTable, RobotFile, read_robot_file
+
+STAND = "stand"
+"""Name of the keyframe of the MJCF in which the robot stands upright."""
+
+
+@dataclass(frozen=True, eq=False)
+class Robot:
+    """A robot that fits its own files.
+
+    Arrays over joints are in joint order: that of the tree, depth first, as MuJoCo numbers them.
+
+    Attributes:
+        name: the folder's name.
+        folder: where its files are.
+        file: the parsed `robot.toml`.
+        nominal: the compiled MJCF, alone in an empty world. Not to be changed.
+    """
+
+    name: str
+    folder: Path
+    file: RobotFile
+    nominal: mujoco.MjModel
+
+    def spec(self) -> mujoco.MjSpec:
+        """Return a fresh specification of the robot, to which a course can be added.
+
+        Its keyframes are left out: they would not fit a model with more joints.
+        """
+        spec = _read_spec(self.folder / self.file.robot.model)
+        for key in list(spec.keys):
+            spec.delete(key)
+        return spec
+
+    @cached_property
+    def joints(self) -> tuple[str, ...]:
+        """Names of the joints in joint order."""
+        return tuple(self.nominal.joint(i).name for i in range(1, self.nominal.njnt))
+
+    @cached_property
+    def base(self) -> str:
+        """Name of the free joint."""
+        return str(self.nominal.joint(0).name)
+
+    @cached_property
+    def root(self) -> str:
+        """Name of the root link, the one that the free joint moves."""
+        return str(self.nominal.body(1).name)
+
+    @cached_property
+    def actuators(self) -> tuple[str, ...]:
+        """Names of the motors' actuators in joint order."""
+        of_joint = {int(self.nominal.actuator_trnid[i, 0]): i for i in range(self.nominal.nu)}
+        return tuple(self.nominal.actuator(of_joint[j]).name for j in range(1, self.nominal.njnt))
+
+    @cached_property
+    def stand_qpos(self) -> NDArray[np.float64]:
+        """(7 + n,) m, wxyz and rad: the robot's generalised positions in the keyframe."""
+        return np.array(self.nominal.key(STAND).qpos)
+
+    @cached_property
+    def stand(self) -> NDArray[np.float64]:
+        """(n,) rad: the joint angles of the keyframe, in joint order."""
+        return self.stand_qpos[7:].copy()
+
+    @cached_property
+    def limits(self) -> MotorLimits:
+        """What the motors can do, in joint order."""
+        groups = [self._group(joint) for joint in self.joints]
+        return MotorLimits(
+            kp=np.array([group.kp for group in groups]),
+            kv=np.array([group.kv for group in groups]),
+            peak_torque=np.array([group.peak_torque for group in groups]),
+            stall_torque=np.array([group.stall_torque or group.peak_torque for group in groups]),
+            no_load_speed=np.array([group.no_load_speed for group in groups]),
+        )
+
+    def description(self) -> dict[str, Any]:
+        """Return what the core is told of the robot: plain data that JSON can hold.
+
+        Links, masses and mounts are read from the compiled MJCF, so that each number exists once.
+        """
+        return describe(self.name, self.nominal, self.file, self.stand, self.limits)
+
+    def _group(self, joint: str) -> MotorsTable:
+        return next(group for group in self.file.motors.values() if joint in group.joints)
+
+
+def load_robot(name_or_path: str | Path) -> Robot:
+    """Load and check a robot.
+
+    Args:
+        name_or_path: the name of a folder of `models`, or a path to a robot's folder.
+
+    Raises:
+        InputError: there is no such robot, or its files are broken or do not fit each other.
+    """
+    folder = _find(name_or_path)
+    path = folder / "robot.toml"
+    file = read_robot_file(path)
+    model_path = folder / file.robot.model
+    try:
+        nominal = _read_spec(model_path).compile()
+    except ValueError as error:
+        raise InputError(f"{model_path}: MuJoCo cannot compile it: {_one_line(error)}") from error
+    check_robot(path, model_path, nominal, file)
+    return Robot(name=folder.resolve().name, folder=folder, file=file, nominal=nominal)
+
+
+def robot_names() -> list[str]:
+    """Return the names of the robots that ship with the package."""
+    return sorted(path.parent.name for path in data_folder("models").glob("*/robot.toml"))
+
+
+def _find(name_or_path: str | Path) -> Path:
+    shipped = data_folder("models")
+    text = str(name_or_path)
+    names = robot_names()
+    if text in names:
+        return shipped / text
+    folder = Path(text)
+    if text and folder.is_dir():
+        return folder
+    near = difflib.get_close_matches(text, names, n=1)
+    hint = f"; did you mean {near[0]!r}?" if near else ""
+    raise InputError(
+        f"robot: there is no robot {text!r}: allowed are {', '.join(names)}, "
+        f"or the path of a folder with a robot.toml{hint}"
+    )
+
+
+def _read_spec(path: Path) -> mujoco.MjSpec:
+    if not path.is_file():
+        raise InputError(f"{path}: the robot's model is missing (robot.model in robot.toml)")
+    try:
+        return mujoco.MjSpec.from_file(str(path))
+    except ValueError as error:
+        raise InputError(f"{path}: MuJoCo cannot read it: {_one_line(error)}") from error
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split())

@@ -1,0 +1,126 @@
+"""What can happen on the way, as it stands in a scenario file: one model per `do`."""
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from treadwell.scenario.elements import MovableElement
+from treadwell.scenario.types import (
+    Angle,
+    ElementName,
+    Friction,
+    Height,
+    Length,
+    Point2,
+    Seconds,
+    Table,
+)
+
+Impulse = Annotated[float, Field(ge=-100.0, le=100.0)]
+"""One component of a push, N·s."""
+
+
+class EventTable(Table):
+    """When it happens: `at` a time, or when the robot comes `near` a point."""
+
+    at: Seconds | None = None
+    """Simulated seconds."""
+    near: Point2 | None = None
+    """World x, y; the event happens once, when the robot is `within` this distance."""
+    within: Length | None = None
+
+    @model_validator(mode="after")
+    def _has_one_trigger(self) -> Self:
+        if (self.at is None) == (self.near is None):
+            raise PydanticCustomError(
+                "trigger", "must have either 'at' or 'near' with 'within'", {"key": None}
+            )
+        if (self.near is None) != (self.within is None):
+            raise PydanticCustomError(
+                "trigger", "'near' and 'within' belong together", {"key": "within"}
+            )
+        return self
+
+
+class Add(EventTable):
+    """An element appears."""
+
+    do: Literal["add"]
+    element: MovableElement
+
+
+class Remove(EventTable):
+    """An element vanishes; nothing happens when it is not there."""
+
+    do: Literal["remove"]
+    name: ElementName
+
+
+class Move(EventTable):
+    """An element moves in a straight line; nothing happens when it is not there."""
+
+    do: Literal["move"]
+    name: ElementName
+    to: Point2
+    speed: Annotated[float, Field(gt=0.0, le=10.0)] = 0.2
+    """Metres a second."""
+
+
+class Push(EventTable):
+    """A constant force on the torso for 0.1 s."""
+
+    do: Literal["push"]
+    impulse: Annotated[tuple[Impulse, Impulse, Impulse], Field(strict=False)]
+    """World x, y, z in N·s."""
+
+
+class Kidnap(EventTable):
+    """The robot is put somewhere else as it stands."""
+
+    do: Literal["kidnap"]
+    position: Point2
+    yaw: Angle = 0.0
+    height: Height | None = None
+    """The level; the highest surface there when left out."""
+
+
+class Blind(EventTable):
+    """The depth camera sees nothing for a while."""
+
+    do: Literal["blind"]
+    duration: Seconds
+
+
+class ChangeFriction(EventTable):
+    """The friction of the soles on everything changes."""
+
+    do: Literal["friction"]
+    value: Friction
+
+
+class EncoderOffset(EventTable):
+    """A joint's encoder reads wrong by this from now on."""
+
+    do: Literal["encoder_offset"]
+    joint: Annotated[str, Field(min_length=1, max_length=64)]
+    value: Angle
+
+
+Event = Annotated[
+    Add | Remove | Move | Push | Kidnap | Blind | ChangeFriction | EncoderOffset,
+    Field(discriminator="do"),
+]
+"""Any entry of `[[event]]`."""
+
+EVENTS: dict[str, type[EventTable]] = {
+    "add": Add,
+    "remove": Remove,
+    "move": Move,
+    "push": Push,
+    "kidnap": Kidnap,
+    "blind": Blind,
+    "friction": ChangeFriction,
+    "encoder_offset": EncoderOffset,
+}
+"""`do` -> model."""

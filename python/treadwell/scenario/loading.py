@@ -1,0 +1,198 @@
+"""Reading a scenario: find the file, read it, apply flags, settings and draws, check everything."""
+
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Final
+
+from pydantic import ValidationError
+
+from treadwell.data import data_folder
+from treadwell.errors import InputError
+from treadwell.scenario.elements import Mesh, Mjcf
+from treadwell.scenario.events import Add
+from treadwell.scenario.messages import describe, dotted, nearest, report, shortened, shown
+from treadwell.scenario.model import Scenario
+from treadwell.scenario.overrides import apply_draws, assign, parse_setting, split_key
+
+LARGEST_FILE: Final = 1_000_000
+"""Bytes of a scenario file."""
+LARGEST_ASSET: Final = 50_000_000
+"""Bytes of a mesh or an MJCF file."""
+SUFFIXES: Final = {"mesh": (".stl", ".obj"), "mjcf": (".xml", ".mjcf")}
+
+
+def load_scenario(
+    name_or_path: str | Path,
+    *,
+    robot: str | None = None,
+    seed: int | None = None,
+    overrides: Sequence[str] = (),
+) -> Scenario:
+    """Return a scenario, ready to run.
+
+    An explicit `robot` or `seed` beats `overrides`, which beat the file and its `[vary]`.
+
+    Args:
+        name_or_path: a path, or the name of a file that ships with the package.
+        robot: a robot's name or folder, instead of the file's.
+        seed: instead of the file's; the draws of `[vary]` depend on it.
+        overrides: settings `KEY=VALUE`, as `--set` takes them.
+
+    Raises:
+        InputError: with one message that names everything that is wrong.
+    """
+    path = find_scenario(name_or_path)
+    raw = read_toml(path)
+    lines = _apply(raw, robot=robot, seed=seed, overrides=overrides)
+    scenario = None
+    try:
+        scenario = Scenario.model_validate(raw)
+    except ValidationError as error:
+        details = error.errors(include_url=False)
+        lines += list(dict.fromkeys(describe(detail, raw) for detail in details))
+    except RecursionError:
+        lines.append("nested too deep")
+    if scenario is not None:
+        scenario._path = path
+        lines += _check_files(scenario, raw)
+    if scenario is None or lines:
+        raise InputError(report(str(path), lines))
+    return scenario
+
+
+def find_scenario(name_or_path: str | Path) -> Path:
+    """Return the file: a path is tried first, then the folder that ships with the package.
+
+    Raises:
+        InputError: neither has it.
+    """
+    text = str(name_or_path)
+    try:
+        path = Path(text)
+        if path.is_file():
+            return path
+        exists = path.exists()
+    except (OSError, ValueError):
+        raise InputError(f"{shortened(text)}: not a file's name") from None
+    names = scenario_names()
+    stem = text.removesuffix(".toml")
+    if stem in names:
+        return data_folder("scenarios") / f"{stem}.toml"
+    if exists:
+        raise InputError(
+            f"{shortened(text)}: found something that is not a file; "
+            "must be a scenario file or a scenario's name"
+        )
+    raise InputError(
+        f"{shortened(text)}: no such file or scenario; scenarios: {', '.join(names)}"
+        f"{nearest(stem, names)}"
+    )
+
+
+def scenario_names() -> list[str]:
+    """Return the names of the scenarios that ship with the package, sorted."""
+    return sorted(path.stem for path in data_folder("scenarios").glob("*.toml"))
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Return a file's tables.
+
+    Raises:
+        InputError: too large, unreadable, not UTF-8 or not TOML; with the line.
+    """
+    try:
+        with path.open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    if len(content) > LARGEST_FILE:
+        raise InputError(f"{path}: larger than {LARGEST_FILE} bytes, which is the limit")
+    try:
+        return tomllib.loads(content.decode())
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise InputError(f"{path}: line {line}: not UTF-8, which TOML must be") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{path}: not TOML: {shortened(str(error), 300)}") from None
+    except ValueError as error:
+        raise InputError(f"{path}: a value out of range: {shortened(str(error), 300)}") from None
+    except RecursionError:
+        raise InputError(f"{path}: nested too deep") from None
+
+
+def _apply(
+    raw: dict[str, Any], *, robot: str | None, seed: int | None, overrides: Sequence[str]
+) -> list[str]:
+    """Apply settings, draws and flags in place, in the order of their rank."""
+    settings = [parse_setting(setting) for setting in overrides]
+    early = {i for i, (key, _) in enumerate(settings) if _first_word(key) in {"seed", "vary"}}
+    lines: list[str] = []
+
+    def assign_all(indices: Sequence[int]) -> None:
+        for i in indices:
+            try:
+                assign(raw, *settings[i])
+            except InputError as error:
+                lines.append(f"--set {error}")
+
+    assign_all(sorted(early))
+    if seed is not None:
+        raw["seed"] = seed
+    drawn_from = raw.get("seed", 0)
+    usable = isinstance(drawn_from, int) and not isinstance(drawn_from, bool) and drawn_from >= 0
+    lines += apply_draws(raw, drawn_from if usable else 0)
+    assign_all([i for i in range(len(settings)) if i not in early])
+    if robot is not None:
+        raw["robot"] = robot
+    return lines
+
+
+def _first_word(key: str) -> str:
+    try:
+        return split_key(key)[0]
+    except InputError as error:
+        raise InputError(f"--set {error}") from None
+
+
+def _check_files(scenario: Scenario, raw: dict[str, Any]) -> list[str]:
+    """Return a line for each file that an element names and that cannot be used."""
+    elements = [(("course", i), element) for i, element in enumerate(scenario.course)]
+    lines = []
+    added = [
+        (("event", i, "element"), event.element)
+        for i, event in enumerate(scenario.event)
+        if isinstance(event, Add)
+    ]
+    for path, element in [*elements, *added]:
+        if isinstance(element, Mesh | Mjcf):
+            fault = asset_fault(scenario.folder, element.file, SUFFIXES[element.kind])
+            if fault:
+                key = dotted((*path, "file"), raw)
+                lines.append(f"{key}: found {shown(element.file)}; {fault}")
+    return lines
+
+
+def asset_fault(folder: Path, file: str, suffixes: Sequence[str]) -> str:
+    """Return what is wrong with a file that a scenario names, nothing when it can be used.
+
+    Args:
+        folder: the scenario file's folder; the file must lie in it, links followed.
+        file: as the scenario has it.
+        suffixes: what its name may end in.
+    """
+    try:
+        resolved = (folder / file).resolve()
+        if not resolved.is_relative_to(folder.resolve()):
+            return "must lie in the scenario file's folder"
+        if resolved.suffix.lower() not in suffixes:
+            return f"must end in {' or '.join(suffixes)}"
+        if not resolved.is_file():
+            return f"there is no such file in {folder}"
+        if resolved.stat().st_size > LARGEST_ASSET:
+            return f"must be at most {LARGEST_ASSET} bytes"
+        with resolved.open("rb") as opened:
+            opened.read(1)
+    except (OSError, RuntimeError, ValueError) as error:
+        return f"cannot be read: {shortened(str(error))}"
+    return ""

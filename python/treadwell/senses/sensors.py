@@ -1,0 +1,229 @@
+"""The senses of the harness: from the simulator's state to the Observation that the core gets."""
+
+from collections.abc import Callable, Mapping
+from typing import Protocol
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from treadwell.observation import Observation
+from treadwell.robot.description import focal_length
+from treadwell.robot.file import RobotFile
+from treadwell.senses.body import Encoders, FootForces, Imu, ImuNoise, MotorSide
+from treadwell.senses.camera_error import CameraError, CameraErrorBounds, draw_camera_error
+from treadwell.senses.depth import DepthCamera, Mount, Pinhole
+from treadwell.senses.depth_sensor import DepthSensor
+from treadwell.senses.stereo import StereoConfig, StereoModel
+
+Floats = NDArray[np.float64]
+Streams = Callable[[str], np.random.Generator]
+
+# A trunk joint takes this much of the camera's error against a neck joint with the same axis.
+TRUNK_WEIGHT = 0.25
+
+
+class SensorSettings(Protocol):
+    """`[sensors]` of a scenario: each sense is "noisy" or "ideal"; latency in seconds."""
+
+    @property
+    def depth(self) -> str:
+        """The depth camera."""
+
+    @property
+    def encoders(self) -> str:
+        """The joints' encoders, neck and trunk included."""
+
+    @property
+    def imu(self) -> str:
+        """Gyro and accelerometer."""
+
+    @property
+    def feet(self) -> str:
+        """The force sensors."""
+
+    @property
+    def latency(self) -> float:
+        """Seconds from a depth image's exposure to its arrival."""
+
+
+class SensedRobot(Protocol):
+    """What the senses need to know of a robot."""
+
+    @property
+    def file(self) -> RobotFile:
+        """Its `robot.toml`."""
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The names of its joints, in joint order."""
+
+    @property
+    def nominal(self) -> mujoco.MjModel:
+        """Its model, alone in an empty world."""
+
+
+class Sensors:
+    """All senses of one robot in one episode.
+
+    Constant errors (offsets, biases, the camera's mount) are drawn at construction. Every sense
+    draws from a stream of its own, so that switching one to ideal leaves the others' numbers.
+    """
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        robot: SensedRobot,
+        settings: SensorSettings,
+        streams: Streams,
+        texture: Floats | None = None,
+    ) -> None:
+        """Build the senses.
+
+        Args:
+            model: the compiled world with the robot.
+            robot: its file, joint order and model.
+            settings: which senses are noisy, and the latency.
+            streams: the episode's random numbers, by a component's name.
+            texture: for each geom id, how well stereo sees it, 0 (blank) to 1; default: all 1.
+        """
+        file = robot.file
+        error = _camera_error(robot.nominal, file, streams("sensors.camera"))
+        self._joint_order = {name: i for i, name in enumerate(robot.joints)}
+        self._encoders = self._build_encoders(model, robot, settings, streams, error)
+        self._drawn_offsets = self._encoders.offsets.copy()
+        self._imu = _imu(model, file, settings, streams)
+        self._feet = _feet(model, file, settings, streams)
+        self._depth = _depth(model, file, settings, streams, error.mount, texture)
+
+    @property
+    def encoder_offsets(self) -> Floats:
+        """(n,) rad: what the encoders read too much; for `Motors.encoder_offsets`, as it is.
+
+        Always the same array; what is in it changes when an encoder shifts.
+        """
+        return self._encoders.offsets
+
+    def observe(
+        self, data: mujoco.MjData, time_ns: int, motors: MotorSide | None = None
+    ) -> Observation:
+        """Return what the senses say now; call it at every control tick.
+
+        Args:
+            data: the state; poses and velocities up to date, forces those of the last step.
+                Nothing in it is changed.
+            time_ns: now, nanoseconds since the start.
+            motors: whose angles the encoders read; None: the joints' own.
+        """
+        positions, velocities = self._encoders.read(data, motors)
+        angular_velocity, specific_force = self._imu.read(data, time_ns)
+        foot_forces = self._feet.read(data)
+        return Observation(
+            time_ns,
+            positions,
+            velocities,
+            angular_velocity,
+            specific_force,
+            foot_forces,
+            self._depth.observe(data, time_ns),
+        )
+
+    def blind(self, until_ns: int) -> None:
+        """Let the camera expose nothing before this time."""
+        self._depth.blind(until_ns)
+
+    def set_encoder_shifts(self, shifts: Mapping[str, float]) -> None:
+        """Let encoders read more than they did at the start; those not named as at the start.
+
+        Args:
+            shifts: rad, by the joint's name.
+        """
+        offsets = self._encoders.offsets
+        offsets[:] = self._drawn_offsets
+        for joint, shift in shifts.items():
+            offsets[self._joint_order[joint]] += shift
+
+    def _build_encoders(
+        self,
+        model: mujoco.MjModel,
+        robot: SensedRobot,
+        settings: SensorSettings,
+        streams: Streams,
+        error: CameraError,
+    ) -> Encoders:
+        rng = streams("sensors.encoders")
+        table = robot.file.encoders
+        offsets = np.zeros(len(robot.joints))
+        if settings.encoders == "ideal":
+            return Encoders(model, robot.joints, 0.0, offsets, rng)
+        for leg in (robot.file.legs.left, robot.file.legs.right):
+            at = [self._joint_order[joint] for joint in leg.joints]
+            offsets[at] = rng.uniform(-table.leg_offset, table.leg_offset, len(at))
+        for joint, offset in zip(_camera_joints(robot.file), error.offsets, strict=True):
+            offsets[self._joint_order[joint]] = offset
+        return Encoders(model, robot.joints, table.quantum, offsets, rng)
+
+
+def _camera_joints(file: RobotFile) -> tuple[str, ...]:
+    """Return the joints whose encoders make the camera's pose wrong: trunk, then neck."""
+    return (*file.trunk.joints, file.head.pan, file.head.tilt)
+
+
+def _camera_error(model: mujoco.MjModel, file: RobotFile, rng: np.random.Generator) -> CameraError:
+    weights = [TRUNK_WEIGHT] * len(file.trunk.joints) + [1.0, 1.0]
+    table = file.encoders
+    bounds = CameraErrorBounds(
+        table.camera_roll_pitch_error, table.camera_yaw_error, table.camera_position_error
+    )
+    joints = _camera_joints(file)
+    return draw_camera_error(model, file.camera.name, joints, weights, bounds, rng)
+
+
+def _imu(model: mujoco.MjModel, file: RobotFile, settings: SensorSettings, streams: Streams) -> Imu:
+    noise = ImuNoise()
+    if settings.imu != "ideal":
+        noise = ImuNoise(
+            file.imu.gyro_noise,
+            file.imu.gyro_bias,
+            file.imu.accelerometer_noise,
+            file.imu.accelerometer_bias,
+        )
+    return Imu(model, file.imu.site, noise, streams("sensors.imu"))
+
+
+def _feet(
+    model: mujoco.MjModel, file: RobotFile, settings: SensorSettings, streams: Streams
+) -> FootForces:
+    share, absolute = 0.0, 0.0
+    if settings.feet != "ideal":
+        share, absolute = file.feet.force_noise, file.feet.force_noise_absolute
+    names = (file.legs.left.touch, file.legs.right.touch)
+    return FootForces(model, names, share, absolute, streams("sensors.feet"))
+
+
+def _depth(
+    model: mujoco.MjModel,
+    file: RobotFile,
+    settings: SensorSettings,
+    streams: Streams,
+    mount: Mount,
+    texture: Floats | None,
+) -> DepthSensor:
+    table = file.camera
+    pinhole = Pinhole(table.width, table.height, focal_length(file))
+    stereo = None
+    if settings.depth == "ideal":
+        mount = Mount()
+    else:
+        values = table.stereo.model_dump()
+        values["valid_textured"] = 1.0 - values.pop("dropout_rate")
+        pattern, noise = streams("sensors.depth.pattern"), streams("sensors.depth.noise")
+        stereo = StereoModel(StereoConfig(**values), pinhole, pattern, noise)
+    return DepthSensor(
+        model,
+        DepthCamera(model, table.name, pinhole, mount, every_pixel=stereo is None),
+        stereo,
+        np.ones(model.ngeom) if texture is None else texture,
+        round(table.period * 1e9),
+        round(settings.latency * 1e9),
+    )
