@@ -179,7 +179,7 @@ def test_run_hands_its_options_on_and_returns_the_outcomes_status(
 
     def run(scenario: str, **options: object) -> SimpleNamespace:
         seen.update(options, scenario=scenario)
-        return SimpleNamespace(document=result(**changes), folder=tmp_path)
+        return SimpleNamespace(document=result(**changes), folder=tmp_path, least_clearance=0.1)
 
     monkeypatch.setitem(sys.modules, "treadwell.runner", SimpleNamespace(run=run))
     arguments = ["run", "x", "--seed", "4", "--set", "a=1", "--set", "b=2", "--no-record"]

@@ -18,11 +18,15 @@ __all__ = [
     "Situation",
     "Tick",
     "Walker",
+    "swept_clearance",
     "version",
 ]
 
 _Pose = tuple[float, float, float, float]
 
+def swept_clearance(
+    path: NDArray[np.float64], outline: NDArray[np.float64], radius: float
+) -> float: ...
 def version() -> str: ...
 
 @final

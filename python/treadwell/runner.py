@@ -13,6 +13,7 @@ from treadwell.cli.progress import Progress
 from treadwell.episode import Episode, Step
 from treadwell.errors import CoreError, SimulationError, TreadwellError
 from treadwell.interruption import Interruption
+from treadwell.judging.clearance import least_clearance
 from treadwell.judging.map_memory import MapMemory
 from treadwell.judging.result import CollisionEntry, Result, StateEntry
 from treadwell.judging.score import PoseErrors, map_counts, surfaces, timing, true_cells
@@ -31,10 +32,13 @@ class Run:
     Attributes:
         result: as in `result.json`.
         folder: where everything lies.
+        least_clearance: m, room between the robot's cylinder and what stood on its way; None
+            where nothing did.
     """
 
     result: Result
     folder: Path
+    least_clearance: float | None = None
 
     @property
     def outcome(self) -> str:
@@ -131,7 +135,8 @@ def run(
     writers.finish(result, scores.estimate, scores.truth, scores.memory.map())
     if problem is not None:
         raise problem
-    return Run(result, folder)
+    way = scores.truth.positions()[:, :2]
+    return Run(result, folder, least_clearance(episode.course, episode.robot, way))
 
 
 def _loop(

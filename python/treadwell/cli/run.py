@@ -60,7 +60,11 @@ def run(
         write_json(document)
     else:
         show(document)
-    write_message(f"run folder: {result.folder}")
+    if result.least_clearance is not None:
+        write_message(f"clearance: {100 * result.least_clearance:.1f} cm at the narrowest place")
+    write_message(f"map:       {result.folder / 'map.png'}")
+    if record:
+        write_message(f"recording: treadwell inspect {result.folder}")
     return exit_status(document)
 
 

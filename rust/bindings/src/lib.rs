@@ -1,5 +1,6 @@
 //! The Python module `treadwell._core`: converts and forwards, decides nothing. One file a class.
 
+mod clearance;
 mod components;
 mod error;
 mod observation;
@@ -14,6 +15,8 @@ use pyo3::prelude::*;
 mod _core {
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use super::clearance::swept_clearance;
     #[pymodule_export]
     use super::pilot::{PyPilot, PyTick};
     #[pymodule_export]

@@ -1,6 +1,9 @@
 //! Convex outlines on the ground: hulls, areas, containment, overlap. The one place that calls parry in the plane.
 
 use nalgebra::Point2;
+use parry2d_f64::math::{Pose, Vector};
+use parry2d_f64::query::distance;
+use parry2d_f64::shape::{ConvexPolygon, Segment};
 use parry2d_f64::transformation::convex_hull;
 
 /// Why no outline could be made.
@@ -23,10 +26,7 @@ impl Outline {
         if points.len() < 3 {
             return Err(OutlineError::Degenerate);
         }
-        let input: Vec<_> = points
-            .iter()
-            .map(|p| parry2d_f64::math::Vector::new(p.x, p.y))
-            .collect();
+        let input: Vec<_> = points.iter().map(|p| Vector::new(p.x, p.y)).collect();
         let corners: Vec<_> = convex_hull(&input)
             .iter()
             .map(|p| Point2::new(p.x, p.y))
@@ -57,6 +57,24 @@ impl Outline {
             / 2.0
     }
 
+    /// Room that a disc of `radius_m` has to the outline on its way along straight pieces between `places_m`, m: by how
+    /// much it passes clear of it, negative where it touches. Infinite without a place.
+    pub fn swept_clearance_m(&self, places_m: &[[f64; 2]], radius_m: f64) -> f64 {
+        let corners = self.corners.iter().map(|p| Vector::new(p.x, p.y)).collect();
+        let Some(polygon) = ConvexPolygon::from_convex_polyline(corners) else {
+            return f64::INFINITY;
+        };
+        let still = Pose::IDENTITY;
+        let distance_m = |from: [f64; 2], to: [f64; 2]| {
+            let way = Segment::new(Vector::new(from[0], from[1]), Vector::new(to[0], to[1]));
+            // Two convex shapes always have a distance.
+            distance(&still, &way, &still, &polygon).map_or(f64::INFINITY, |found| found.distance)
+        };
+        let last = places_m.last().map(|&place| distance_m(place, place));
+        let pieces = places_m.windows(2).map(|pair| distance_m(pair[0], pair[1]));
+        pieces.chain(last).fold(f64::INFINITY, f64::min) - radius_m
+    }
+
     /// Whether the point lies inside or on the outline.
     pub fn contains(&self, point: &Point2<f64>) -> bool {
         self.edges().all(|(a, b)| (b - a).perp(&(point - a)) >= 0.0)
@@ -81,6 +99,37 @@ mod tests {
                 }
             }
         }
+    }
+
+    fn square() -> Outline {
+        let corners = [(1.0, -0.5), (2.0, -0.5), (2.0, 0.5), (1.0, 0.5)];
+        Outline::hull(&corners.map(|(x, y)| Point2::new(x, y))).unwrap()
+    }
+
+    proptest! {
+        #[test]
+        fn a_sweep_has_the_least_room_of_all_places_on_it(
+            ax in -2.0..0.8f64, ay in -2.0..2.0f64, bx in -2.0..0.8f64, by in -2.0..2.0f64,
+        ) {
+            let square = square();
+            let swept = square.swept_clearance_m(&[[ax, ay], [bx, by]], 0.14);
+            let place = |i: i32| {
+                let t = f64::from(i) / 200.0;
+                let [x, y] = [ax + t * (bx - ax), ay + t * (by - ay)];
+                (1.0 - x).hypot(y.abs().max(0.5) - 0.5) - 0.14
+            };
+            let least = (0..=200).map(place).fold(f64::INFINITY, f64::min);
+            prop_assert!(swept <= least + 1e-6 && swept > least - 0.02);
+        }
+    }
+
+    #[test]
+    fn a_sweep_through_the_outline_touches_it_though_no_end_does() {
+        let through = square().swept_clearance_m(&[[0.0, 0.0], [3.0, 0.0]], 0.1);
+        assert!(through <= -0.1);
+        let beside = square().swept_clearance_m(&[[0.0, 0.8], [3.0, 0.8]], 0.1);
+        assert!((beside - 0.2).abs() < 1e-9);
+        assert_eq!(square().swept_clearance_m(&[], 0.1), f64::INFINITY);
     }
 
     #[test]
