@@ -9,6 +9,7 @@ from user_parts import Straight
 
 from treadwell.core_settings import core_settings, user_components
 from treadwell.course.build import build_course
+from treadwell.errors import InputError
 from treadwell.robot.load import load_robot
 from treadwell.scenario.loading import load_scenario
 
@@ -35,6 +36,14 @@ def test_the_start_is_the_true_one() -> None:
     assert start["yaw"] == pytest.approx(made.start.yaw)
     assert start["height"] == pytest.approx(0.0)
     assert start != told(seed=6)["start"]
+
+
+def test_a_start_that_is_not_known_is_not_told_and_odometry_cannot_do_without() -> None:
+    document = told("start.known=false", seed=5)
+    assert document["start"] == {"position": [0.0, 0.0], "height": 0.0, "yaw": 0.0}
+    made = load_scenario("slalom", overrides=("start.known=false",))
+    with pytest.raises(InputError, match=r"start\.known: found false; the localizer odometry"):
+        user_components(made, {})
 
 
 def test_goals_come_in_order_the_via_points_first() -> None:

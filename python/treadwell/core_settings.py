@@ -13,16 +13,25 @@ from treadwell.robot.load import Robot
 from treadwell.scenario.messages import nearest
 from treadwell.scenario.model import Scenario
 
+TOLD = ("odometry",)
+"""Localizers that cannot find where the robot is, but have to be told where it starts."""
+
 
 def core_settings(scenario: Scenario, robot: Robot, course: Course) -> str:
-    """Return robot, start, goals and navigation as JSON. No truth but the start."""
+    """Return robot, start, goals and navigation as JSON. No truth but the start, where it is known.
+
+    A start that is not known is the map's origin to the core.
+    """
     goal = scenario.goal
     places = [{"position": list(via), "radius": goal.radius} for via in goal.via]
     places.append({"position": list(goal.position), "radius": goal.radius, "height": goal.height})
-    start = course.start
+    place = course.start
+    start = {"position": list(place.position), "height": place.height, "yaw": place.yaw}
+    if not scenario.start.known:
+        start = {"position": [0.0, 0.0], "height": 0.0, "yaw": 0.0}
     settings = {
         "robot": robot.description(),
-        "start": {"position": list(start.position), "height": start.height, "yaw": start.yaw},
+        "start": start,
         "goals": places,
         "navigation": {**scenario.navigation.slots(), **scenario.navigation.parameters()},
     }
@@ -37,10 +46,19 @@ def user_components(scenario: Scenario, given: dict[str, object]) -> dict[str, A
         given: objects that the caller brings; they beat the scenario's.
 
     Raises:
-        InputError: one cannot be loaded, or lacks a method.
+        InputError: one cannot be loaded, lacks a method, or cannot do without a known start.
     """
     for slot, component in given.items():
         check_component(slot, component)
+    if (
+        not scenario.start.known
+        and scenario.navigation.localizer in TOLD
+        and "localizer" not in given
+    ):
+        raise InputError(
+            f"{scenario.path or scenario.name}: start.known: found false; the localizer "
+            f"{scenario.navigation.localizer} has to be told where it starts"
+        )
     loaded = {
         slot: load_component(
             slot, name, scenario.navigation.parameters().get(name.partition(":")[2], {})
