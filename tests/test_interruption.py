@@ -22,11 +22,21 @@ from treadwell.recording.verification import verify_run
 LONG = ("run", "slalom", "--seed", "1", "--set", "time_limit=60")
 
 
+@pytest.fixture(autouse=True)
+def interruptible() -> Iterator[None]:
+    """Ctrl-C counts, also where these tests run in the background of a shell that ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @contextmanager
 def start(folder: Path, *options: str, limit: int | None = None) -> Iterator[subprocess.Popen[str]]:
     """Start a run in a process of its own, `limit` bytes being the most that a file may have."""
 
     def tighten() -> None:
+        # Ctrl-C counts, also where these tests run in the background of a shell that ignores it.
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
         if limit is not None:
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
