@@ -22,6 +22,8 @@ const LOOK_APART_RAD: f64 = 3.1;
 const LONGEST_TURN_S: f64 = 15.0;
 /// A look around ends after this, whatever the frames do, s.
 const LONGEST_LOOK_S: f64 = 20.0;
+/// A turn with less than this left looks at the ground near by, rad.
+const LOOK_NEAR_RAD: f64 = 1.0;
 /// Above this a turn keeps its direction, rad.
 const KEEP_DIRECTION_RAD: f64 = 2.4;
 
@@ -145,7 +147,14 @@ impl WalkingBehaviour {
         if done {
             self.enter(State::Walk);
         }
-        self.gaze_at(moment, error_rad, self.config.gaze_far);
+        // Far while there is much to turn, to see walls; near at its end, to see the ground that is stepped on next.
+        let far = error_rad.abs() > LOOK_NEAR_RAD;
+        let down_rad = if far {
+            self.config.gaze_far
+        } else {
+            self.config.gaze_near
+        };
+        self.gaze_at(moment, error_rad, down_rad);
         Motion::Walk(Velocity {
             yaw_radps: self.turn_velocity(error_rad),
             ..Velocity::default()
