@@ -56,7 +56,7 @@ def test_the_file_has_the_contracts_keys_in_its_order(tmp_path: Path) -> None:
     result(scenario()).write(path)
     table = json.loads(path.read_text())
     assert list(table) == KEYS
-    assert table["schema"] == "treadwell.judging.result/1"
+    assert table["schema"] == "treadwell.result/1"
     assert set(table["map"]) == {
         "floor_cells",
         "floor_cells_right",

@@ -58,7 +58,7 @@ def test_the_result_says_what_was_run_and_how_it_ended(recorded: Run) -> None:
     document = json.loads((recorded.folder / "result.json").read_text())
     assert document == recorded.document
     assert read_result(recorded.folder / "result.json") == recorded.result
-    assert document["schema"] == "treadwell.judging.result/1"
+    assert document["schema"] == "treadwell.result/1"
     assert (document["scenario"], document["robot"], document["seed"]) == ("slalom", "qrio", 4)
     assert document["version"] == treadwell.__version__
     assert document["configuration"]["time_limit"] == 2.0

@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 from treadwell.errors import InputError
 from treadwell.scenario.model import Expect
 
-SCHEMA: Final = "treadwell.judging.result/1"
+SCHEMA: Final = "treadwell.result/1"
 STAGES: Final = (
     "physics",
     "depth",
@@ -100,9 +100,9 @@ class Timing(Table):
 
 
 class Result(Table):
-    """Schema `treadwell.judging.result/1`; the keys of `result.json`."""
+    """Schema `treadwell.result/1`; the keys of `result.json`."""
 
-    schema_: Annotated[Literal["treadwell.judging.result/1"], Field(alias="schema")] = SCHEMA
+    schema_: Annotated[Literal["treadwell.result/1"], Field(alias="schema")] = SCHEMA
     scenario: str
     robot: str
     seed: int
