@@ -354,6 +354,17 @@ def test_a_hostile_mjcf_file_is_bad_input(tmp_path: Path, body: str) -> None:
         read_mjcf(tmp_path, "room.xml", "room")
 
 
+def test_a_broken_mjcf_world_is_named_with_its_scenario_file(tmp_path: Path) -> None:
+    (tmp_path / "room.xml").write_text("<mujoco><world")
+    path = tmp_path / "own.toml"
+    path.write_text(
+        'schema = 1\nname = "own"\n[start]\nposition = [0.0, 0.0]\n[goal]\nposition = [2.0, 0.0]\n'
+        '[[course]]\nkind = "mjcf"\nfile = "room.xml"\n'
+    )
+    with pytest.raises(InputError, match=r"own\.toml: course\.mjcf\.file: room\.xml: unclosed"):
+        build_course(load_scenario(path), ROBOT)
+
+
 def test_entities_are_refused_before_they_grow(tmp_path: Path) -> None:
     path = tmp_path / "room.xml"
     path.write_text('<!DOCTYPE a [<!ENTITY b "c">]><mujoco>&b;</mujoco>')

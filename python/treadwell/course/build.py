@@ -166,7 +166,8 @@ def _add(
 ) -> list[str] | None:
     """Add one element and return its geoms' names; None for an MJCF world, which has its own."""
     if plan.mjcf is not None:
-        child = read_mjcf(scenario.folder, plan.mjcf, f"course.{plan.name}.file")
+        what = f"{scenario.path or scenario.name}: course.{plan.name}.file: {plan.mjcf}"
+        child = read_mjcf(scenario.folder, plan.mjcf, what)
         spec.attach(child, frame=spec.worldbody.add_frame(), prefix=f"{PREFIX}{plan.name}/")
         return None
     body, origin = spec.worldbody, np.zeros(3)
