@@ -1,6 +1,7 @@
 """What the robot's senses tell it at one control tick: all that the core is given. No pose."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,26 @@ class Frame:
     exposure_ns: int
     arrival_ns: int
     depth: NDArray[np.float32]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Rows and columns of the image."""
+        return self.depth.shape
+
+    @property
+    def dtype(self) -> np.dtype[np.float32]:
+        """Type of the image's numbers."""
+        return self.depth.dtype
+
+    def __array__(
+        self, dtype: np.dtype[Any] | None = None, copy: bool | None = None
+    ) -> NDArray[Any]:
+        """Return the image: a frame can stand wherever numpy takes an array."""
+        return np.array(self.depth, dtype=dtype, copy=copy)
+
+    def __getitem__(self, index: Any) -> Any:  # noqa: ANN401
+        """Return pixels of the image, as numpy indexes them."""
+        return self.depth[index]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
