@@ -36,7 +36,8 @@ def test_an_observation_cannot_be_changed() -> None:
 def test_a_frame_is_read_as_its_image() -> None:
     image = np.array([[1.0, np.nan, 2.0], [3.0, 4.0, 5.0]], np.float32)
     frame = Frame(0, 10, image)
-    assert (frame.shape, frame.dtype) == ((2, 3), np.float32)
+    assert frame.shape == (2, 3)
+    assert frame.dtype == np.dtype(np.float32)
     assert np.nanmax(frame) == 5.0
     assert frame[1, 0] == 3.0
     np.testing.assert_array_equal(np.asarray(frame), image)
