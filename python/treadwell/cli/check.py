@@ -5,7 +5,6 @@ from typing import Any
 
 from treadwell.cli.output import write_table
 from treadwell.course.build import Course, build_course
-from treadwell.errors import InputError
 from treadwell.robot.load import load_robot
 from treadwell.scenario.events import EventTable
 from treadwell.scenario.loading import load_scenario
@@ -107,14 +106,11 @@ def _check_components(scenario: Scenario) -> None:
     """Let the core read the components' parameters: what they may be, only it knows.
 
     Raises:
-        InputError: with the key that the core refuses.
+        InputError: with the file and the key that the core refuses.
     """
     from treadwell.episode import Episode
 
-    try:
-        Episode(scenario)
-    except InputError as error:
-        raise InputError(f"{scenario.path}: {error}") from None
+    Episode(scenario)
 
 
 def _elements(course: Course) -> list[dict[str, Any]]:
