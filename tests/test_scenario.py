@@ -99,7 +99,7 @@ def test_every_kind_of_element_has_defaults(tmp_path: Path, kind: str) -> None:
         ('[physics]\nfriction = "0.8"', 'physics.friction: found "0.8"'),
         ('[sensors]\ndepth = "idel"', "did you mean 'ideal'?"),
         ('[navigation]\nplanner = "a_sta"', "did you mean 'a_star'?"),
-        ('[navigation]\nbehaviour = "stair_climbing"', "navigation.behaviour"),
+        ('[navigation]\nbehaviour = "stair_climbin"', "navigation.behaviour"),
         ("[navigation.fogg]\ncell = 1", "did you mean 'fog'?"),
         ("[navigation.fog]\ncell = nan", "navigation.fog.cell: found nan"),
         ("[navigation]\nfog = 3", "navigation.fog: found 3"),

@@ -26,9 +26,9 @@ class Straight:
         if points < 2:
             raise ValueError("points must be 2 or more")
         self.points = points
-        self.seen: list[tuple[FloorView, tuple[float, float, float], Goal]] = []
+        self.seen: list[tuple[FloorView, Pose, Goal]] = []
 
-    def plan(self, view: FloorView, start: tuple[float, float, float], goal: Goal) -> Plan:
+    def plan(self, view: FloorView, start: Pose, goal: Goal) -> Plan:
         self.seen.append((view, start, goal))
         return Plan(np.linspace(start[:2], goal.position, self.points), replanned=False)
 

@@ -18,12 +18,14 @@ COMPONENTS: Final[dict[str, dict[str, str]]] = {
         "a_star": "A* on the grid by clearance, unknown cells at a price",
     },
     "behaviour": {
+        "stair_climbing": "walks where it can, climbs where stairs lead on, both feet on each step",
+        "continuous": "the same, one foot a step without stopping where the treads allow it",
         "walking": "walks the path, looks around, stops for what appears, refuses where no way is",
     },
 }
 """Slot of `[navigation]` -> name -> description."""
 
-STAGES: Final[tuple[str, ...]] = ("proprioception", "self_filter")
+STAGES: Final[tuple[str, ...]] = ("proprioception", "self_filter", "stairs", "climbing")
 """Stages of the core with parameters (`[navigation.self_filter]`) that are not chosen by name."""
 
 CLASS_NAME: Final = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*", re.ASCII)

@@ -102,8 +102,8 @@ class Plan:
 class Planner(Protocol):
     """Finds a way over the floor that the world model shows."""
 
-    def plan(self, view: FloorView, start: tuple[float, float, float], goal: Goal, /) -> Plan:
-        """Return a way from `start` (x, y, yaw) to the goal's disc."""
+    def plan(self, view: FloorView, start: Pose, goal: Goal, /) -> Plan:
+        """Return a way for the robot at `start` to the goal's disc."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -85,8 +85,7 @@ class Navigation(Table):
     segmenter: str = "scan_line"
     localizer: str = "odometry"
     planner: str = "a_star"
-    # Stair climbing will be the default as soon as there is that behaviour; now walking is the one.
-    behaviour: str = "walking"
+    behaviour: str = "stair_climbing"
 
     @field_validator("world_model", "segmenter", "localizer", "planner", "behaviour")
     @classmethod

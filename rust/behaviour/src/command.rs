@@ -23,7 +23,7 @@ pub struct Gaze {
     pub down_rad: f64,
 }
 
-/// One step of a list of footsteps, in the odometry frame's plane.
+/// One careful step of a list: straight up, over and straight down onto a surface that may be higher or lower.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Footstep {
     /// Foot that moves.
@@ -32,6 +32,38 @@ pub struct Footstep {
     pub pose: PlanarPose,
     /// Height of the surface there above the robot's ground then, m.
     pub height_m: f64,
+    /// Part of the sole that will bear load, from and to, from its middle forward, m: a sole may overhang an edge.
+    pub bearing_m: [f64; 2],
+}
+
+/// Why a listed step was taken back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Misstep {
+    /// The foot found nothing to stand on where it was told to land.
+    NoGround,
+    /// The foot met something on its way.
+    Obstructed,
+}
+
+/// How the list of footsteps goes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Stepping {
+    /// Steps of the present or the last list that landed.
+    pub landed: usize,
+    /// How much higher than told the last one landed, m, by joints and foot force.
+    pub height_error_m: f64,
+    /// Set when a step was taken back and the list was given up; until the next list.
+    pub misstep: Option<Misstep>,
+}
+
+/// What the arms do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Arms {
+    /// As they hang while the legs walk.
+    #[default]
+    AtRest,
+    /// Lifted: the robot is glad (003, section V.D).
+    Raised,
 }
 
 /// What the feet do.
@@ -53,4 +85,6 @@ pub struct Command {
     pub motion: Motion,
     /// Where the head looks.
     pub gaze: Gaze,
+    /// What the arms do.
+    pub arms: Arms,
 }

@@ -3,8 +3,9 @@
 use localization::Estimate;
 use mapping::FloorView;
 use planning::{Goal, Plan};
+use stairs::Staircase;
 
-use crate::Command;
+use crate::{Command, Stepping};
 
 /// Why a behaviour failed as a program.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -23,6 +24,8 @@ pub struct Situation<'a> {
     pub estimate: &'a Estimate,
     /// What it knows of the floor.
     pub view: &'a FloorView,
+    /// The stairs that it sees or remembers.
+    pub stairs: &'a Staircase,
     /// The way to the goal, once one was planned.
     pub plan: Option<&'a Plan>,
     /// The goal that is pursued now.
@@ -31,6 +34,8 @@ pub struct Situation<'a> {
     pub last_goal: bool,
     /// Whether the walker stands still on both soles.
     pub standing: bool,
+    /// How the listed footsteps go.
+    pub stepping: Stepping,
     /// Where the head looks now.
     pub gaze: crate::Gaze,
     /// Depth frames taken into the map so far.

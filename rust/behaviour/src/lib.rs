@@ -1,9 +1,11 @@
 //! What to do next: follow the path, look around, stop, arrive, refuse.
 
+mod climbing;
 mod command;
 mod decision;
 mod walking;
 
-pub use command::{Command, Footstep, Gaze, Motion, Velocity};
+pub use climbing::{Pace, StairClimbing, StairClimbingConfig};
+pub use command::{Arms, Command, Footstep, Gaze, Misstep, Motion, Stepping, Velocity};
 pub use decision::{Behaviour, BehaviourError, Decision, Outcome, Situation};
 pub use walking::{WalkingBehaviour, WalkingConfig};

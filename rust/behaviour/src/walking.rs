@@ -287,6 +287,7 @@ impl Behaviour for WalkingBehaviour {
             command: Command {
                 motion: self.motion.clone(),
                 gaze: self.gazer.at(),
+                ..Command::default()
             },
             state: self.state.name(),
             goal_passed: !situation.last_goal && moving && self.is_inside(&moment),

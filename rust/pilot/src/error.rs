@@ -8,6 +8,7 @@ use planning::PlanError;
 use robot::BodyError;
 use segmentation::SegmentError;
 use sensing::{ObservationError, ScanError};
+use stairs::StairsError;
 use walking::WalkError;
 
 /// Why the core could not be built, or could not take an observation.
@@ -37,6 +38,9 @@ pub enum PilotError {
     /// The world model failed.
     #[error("world_model: {0}")]
     WorldModel(#[from] MapError),
+    /// Recognition of stairs failed.
+    #[error("stairs: {0}")]
+    Stairs(#[from] StairsError),
     /// The localizer failed.
     #[error("localizer: {0}")]
     Localizer(#[from] LocalizerError),

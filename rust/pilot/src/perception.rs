@@ -6,14 +6,16 @@ use mapping::{Insertion, WorldModel};
 use robot::Body;
 use segmentation::{Planes, Segmenter};
 use sensing::{Frame, Intrinsics, Scan, SelfFilter};
+use stairs::{Recognizer, Staircase};
 
 use crate::PilotError;
 use crate::timing::{Stage, Timing};
 
-/// The stages from the depth image to the map, with their products.
+/// The stages from the depth image to map and stairs, with their products.
 pub struct Perception {
     segmenter: Box<dyn Segmenter>,
     world_model: Box<dyn WorldModel>,
+    recognizer: Recognizer,
     scan: Scan,
     self_filter: SelfFilter,
     planes: Planes,
@@ -22,16 +24,29 @@ pub struct Perception {
     last_frame_ns: Option<u64>,
 }
 
+/// Who took a frame.
+#[derive(Clone, Copy)]
+pub(crate) struct TakenBy<'a> {
+    /// The body.
+    pub(crate) body: &'a Body,
+    /// Its state at the exposure.
+    pub(crate) state: &'a BodyState,
+    /// The steps it had taken.
+    pub(crate) steps_taken: u64,
+}
+
 impl Perception {
     pub(crate) fn new(
         segmenter: Box<dyn Segmenter>,
         world_model: Box<dyn WorldModel>,
+        recognizer: Recognizer,
         self_filter: SelfFilter,
         camera: Intrinsics,
     ) -> Self {
         Self {
             segmenter,
             world_model,
+            recognizer,
             scan: Scan::new(camera),
             self_filter,
             planes: Planes::new(camera.width * camera.height),
@@ -41,15 +56,19 @@ impl Perception {
         }
     }
 
-    /// Takes in a frame; `body_then` is the body state at its exposure.
+    /// Takes in a frame that a body took.
     pub(crate) fn see(
         &mut self,
         frame: &Frame,
-        body: &Body,
-        body_then: &BodyState,
+        taken_by: &TakenBy<'_>,
         localizer: &mut dyn Localizer,
         timing: &mut Timing,
     ) -> Result<(), PilotError> {
+        let TakenBy {
+            body,
+            state: body_then,
+            steps_taken,
+        } = *taken_by;
         let torso_from_camera = body.torso_from_camera(&body_then.links);
         let robot_from_camera: Pose<Robot, Camera> = body_then.robot_from_torso * torso_from_camera;
         self.scan.read(frame, robot_from_camera)?;
@@ -67,6 +86,11 @@ impl Perception {
             self.world_model
                 .insert(&self.planes, &estimate.map_from_robot)
         })?;
+        let _staircase = timing.measure(Stage::Stairs, || {
+            let map_from_robot = &estimate.map_from_robot;
+            self.recognizer
+                .update(&self.scan, &self.planes, map_from_robot, steps_taken)
+        })?;
         if insertion.used {
             self.frames_used += 1;
             self.last_frame_ns = Some(frame.arrival_ns);
@@ -83,6 +107,11 @@ impl Perception {
     /// The map's view.
     pub fn view(&self) -> &mapping::FloorView {
         self.world_model.view()
+    }
+
+    /// The stairs that are seen or remembered.
+    pub const fn staircase(&self) -> &Staircase {
+        self.recognizer.staircase()
     }
 
     /// What the last frame did to the map.

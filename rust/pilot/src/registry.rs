@@ -2,15 +2,17 @@
 
 use std::collections::BTreeMap;
 
-use behaviour::{Behaviour, WalkingBehaviour};
+use behaviour::{Behaviour, Pace, StairClimbing, WalkingBehaviour};
 use geometry::ConfigError;
 use localization::{Localizer, OdometryLocalizer};
 use mapping::{Fog, WorldModel};
 use planning::{AStar, Planner};
-use robot::Body;
+use robot::{Body, Side};
 use segmentation::{ScanLine, Segmenter};
 use sensing::Intrinsics;
 use serde::de::DeserializeOwned;
+use stairs::{Feet, Recognizer};
+use walking::Walker;
 
 use crate::{PilotError, Settings};
 
@@ -74,6 +76,13 @@ pub(crate) fn world_model(settings: &Settings) -> Result<Box<dyn WorldModel>, Pi
     }
 }
 
+pub(crate) fn recognizer(settings: &Settings) -> Result<Recognizer, PilotError> {
+    Ok(Recognizer::new(table(
+        &settings.navigation.tables,
+        "stairs",
+    )?)?)
+}
+
 pub(crate) fn localizer(settings: &Settings) -> Result<Box<dyn Localizer>, PilotError> {
     let tables = &settings.navigation.tables;
     match settings.navigation.localizer.as_str() {
@@ -85,21 +94,55 @@ pub(crate) fn localizer(settings: &Settings) -> Result<Box<dyn Localizer>, Pilot
     }
 }
 
-pub(crate) fn planner(settings: &Settings, body: &Body) -> Result<Box<dyn Planner>, PilotError> {
+pub(crate) fn planner(
+    settings: &Settings,
+    body: &Body,
+    feet: Feet,
+) -> Result<Box<dyn Planner>, PilotError> {
     let tables = &settings.navigation.tables;
     match settings.navigation.planner.as_str() {
         "a_star" => Ok(Box::new(AStar::new(
             table(tables, "a_star")?,
+            table(tables, "climbing")?,
+            feet,
             body.description().body.radius,
         )?)),
         other => Err(unknown("planner", other, "a_star")),
     }
 }
 
-pub(crate) fn behaviour(settings: &Settings) -> Result<Box<dyn Behaviour>, PilotError> {
+/// The body's feet, side by side as the walker stands on them.
+pub(crate) fn feet(body: &Body, walker: &Walker) -> Feet {
+    let legs = &body.description().legs;
+    let [left, right] = Side::BOTH.map(|side| &legs.get(side).sole);
+    let stance_m = walker.stance_width_m();
+    Feet {
+        length_m: left.length.min(right.length),
+        pair_width_m: stance_m + 0.5 * (left.width + right.width),
+        stance_m,
+    }
+}
+
+pub(crate) fn behaviour(settings: &Settings, feet: Feet) -> Result<Box<dyn Behaviour>, PilotError> {
     let tables = &settings.navigation.tables;
+    let climbing = |pace| {
+        StairClimbing::new(
+            table(tables, "stair_climbing")?,
+            WalkingBehaviour::new(table(tables, "walking")?)?,
+            table(tables, "climbing")?,
+            feet,
+            pace,
+        )
+        .map_err(PilotError::from)
+    };
     match settings.navigation.behaviour.as_str() {
+        "stair_climbing" => Ok(Box::new(climbing(Pace::StepByStep)?)),
+        "continuous" => Ok(Box::new(climbing(Pace::Continuous)?)),
         "walking" => Ok(Box::new(WalkingBehaviour::new(table(tables, "walking")?)?)),
-        other => Err(unknown("behaviour", other, "walking")),
+        other => Err(unknown(
+            "behaviour",
+            other,
+            "stair_climbing, continuous, walking",
+        )),
     }
 }

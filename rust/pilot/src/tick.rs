@@ -1,7 +1,7 @@
 //! One tick: from an observation to joint targets.
 
 use behaviour::{Behaviour, Decision, Gaze, Situation};
-use geometry::{Map, Odometry, PlanarPose, Pose, Robot};
+use geometry::{Map, Odometry, Pose, Robot};
 use localization::{BodyStateHistory, Estimate, Localizer, Proprioception};
 use planning::{Plan, Planner};
 use robot::Body;
@@ -9,7 +9,7 @@ use sensing::{Frame, Intrinsics, Observation, SelfFilter};
 use walking::{JointTargets, Walker};
 
 use crate::goals::Goals;
-use crate::perception::Perception;
+use crate::perception::{Perception, TakenBy};
 use crate::registry::{self, Components};
 use crate::timing::{Stage, Timing};
 use crate::{PilotError, Settings};
@@ -50,6 +50,8 @@ impl Pilot {
     /// Builds the core. A component that is given takes the place of the named one.
     pub fn new(settings: &Settings, given: Components) -> Result<Self, PilotError> {
         let body = Body::new(settings.robot.clone())?;
+        let walker = Walker::new(&body)?;
+        let feet = registry::feet(&body, &walker);
         let camera = Intrinsics::from(&body.description().camera);
         let tables = &settings.navigation.tables;
         let segmenter = given
@@ -63,17 +65,23 @@ impl Pilot {
             map_from_odometry_at_start: Pose::wrap(Pose::<Map, Robot>::from(settings.start).inner),
             proprioception: Proprioception::new(&body, registry::table(tables, "proprioception")?)?,
             history: BodyStateHistory::default(),
-            perception: Perception::new(segmenter, world_model, self_filter, camera),
+            perception: Perception::new(
+                segmenter,
+                world_model,
+                registry::recognizer(settings)?,
+                self_filter,
+                camera,
+            ),
             localizer: given
                 .localizer
                 .map_or_else(|| registry::localizer(settings), Ok)?,
             planner: given
                 .planner
-                .map_or_else(|| registry::planner(settings, &body), Ok)?,
+                .map_or_else(|| registry::planner(settings, &body, feet), Ok)?,
             behaviour: given
                 .behaviour
-                .map_or_else(|| registry::behaviour(settings), Ok)?,
-            walker: Walker::new(&body)?,
+                .map_or_else(|| registry::behaviour(settings, feet), Ok)?,
+            walker,
             goals: Goals::new(&settings.goals)?,
             plan: None,
             replans: 0,
@@ -104,10 +112,12 @@ impl Pilot {
             time_ns: observation.time_ns,
             estimate: &estimate,
             view: self.perception.view(),
+            stairs: self.perception.staircase(),
             plan: self.plan.as_ref(),
             goal: self.goals.current(),
             last_goal: self.goals.is_last(),
             standing: self.walker.standing(),
+            stepping: self.walker.stepping(),
             gaze: self.walker.gaze(),
             frames_used: self.perception.frames_used(),
             last_frame_ns: self.perception.last_frame_ns(),
@@ -141,15 +151,20 @@ impl Pilot {
             return Ok(());
         };
         let (localizer, timing) = (self.localizer.as_mut(), &mut self.timing);
-        self.perception
-            .see(frame, &self.body, body_then, localizer, timing)?;
+        let taken_by = TakenBy {
+            body: &self.body,
+            state: body_then,
+            steps_taken: self.walker.steps_taken(),
+        };
+        self.perception.see(frame, &taken_by, localizer, timing)?;
         let estimate = self.localizer.estimate(self.proprioception.state())?;
-        let map_from_robot = estimate.map_from_robot;
-        let origin = map_from_robot.origin().inner;
-        let start = PlanarPose::new(origin.x, origin.y, map_from_robot.yaw_rad());
         let plan = self.timing.measure(Stage::Plan, || {
-            self.planner
-                .plan(self.perception.view(), start, self.goals.current())
+            self.planner.plan(
+                self.perception.view(),
+                self.perception.staircase(),
+                &estimate.map_from_robot,
+                self.goals.current(),
+            )
         })?;
         self.replans += u64::from(plan.replanned && self.plan.is_some());
         self.plan = Some(plan);

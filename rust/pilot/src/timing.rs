@@ -27,6 +27,7 @@ impl Default for Timing {
 pub(crate) enum Stage {
     Segment = 0,
     Map = 1,
+    Stairs = 2,
     Localize = 3,
     Plan = 4,
     Behave = 5,

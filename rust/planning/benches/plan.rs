@@ -1,9 +1,10 @@
 //! Time to plan on the map's 100x100 window: a new path, and one that is kept.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use geometry::{Grid, Lattice, PlanarPose};
+use geometry::{Grid, Lattice, Pose};
 use mapping::{FloorView, Surface};
 use planning::{AStar, AStarConfig, Goal, Planner};
+use stairs::{ClimbingConfig, Feet, Staircase};
 
 /// A slalom of walls from one corner to the other.
 fn slalom() -> FloorView {
@@ -54,11 +55,21 @@ fn plan(criterion: &mut Criterion) {
         radius_m: 0.15,
         height_m: None,
     };
-    let Ok(fresh) = AStar::new(AStarConfig::default(), 0.14) else {
+    let feet = Feet {
+        length_m: 0.105,
+        pair_width_m: 0.16,
+        stance_m: 0.085,
+    };
+    let Ok(fresh) = AStar::new(
+        AStarConfig::default(),
+        ClimbingConfig::default(),
+        feet,
+        0.14,
+    ) else {
         return;
     };
-    let corner = PlanarPose::new(-1.8, -1.8, 0.0);
-    let middle = PlanarPose::new(0.0, 0.0, 0.0);
+    let corner = Pose::from_yaw(-1.8, -1.8, 0.0, 0.0);
+    let middle = Pose::identity();
     for (name, view, start) in [("slalom", slalom(), corner), ("doorway", doorway(), middle)] {
         let _ = criterion.bench_function(&format!("a_star 100x100, {name}, new"), |bencher| {
             let mut planner = fresh.clone();
@@ -67,12 +78,17 @@ fn plan(criterion: &mut Criterion) {
                 // Another radius is another goal: nothing is kept.
                 odd = !odd;
                 let radius_m = if odd { 0.15 } else { 0.16 };
-                planner.plan(&view, start, &Goal { radius_m, ..goal })
+                planner.plan(
+                    &view,
+                    &Staircase::default(),
+                    &start,
+                    &Goal { radius_m, ..goal },
+                )
             });
         });
         let _ = criterion.bench_function(&format!("a_star 100x100, {name}, kept"), |bencher| {
             let mut planner = fresh.clone();
-            bencher.iter(|| planner.plan(&view, start, &goal));
+            bencher.iter(|| planner.plan(&view, &Staircase::default(), &start, &goal));
         });
     }
 }

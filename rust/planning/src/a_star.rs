@@ -1,7 +1,8 @@
 //! The planner: a path by A*, kept as long as it holds.
 
-use geometry::{ConfigError, PlanarPose, angle_between, require};
+use geometry::{ConfigError, Map, PlanarPose, Pose, Robot, angle_between, require};
 use mapping::FloorView;
+use stairs::{ClimbingConfig, Feet, Staircase};
 
 use crate::refusal::explain;
 use crate::route::Ends;
@@ -40,9 +41,16 @@ impl AStar {
     /// The name by which it is chosen.
     pub const NAME: &'static str = "a_star";
 
-    /// A planner for a robot of this radius, unless the configuration has another.
-    pub fn new(config: AStarConfig, robot_radius_m: f64) -> Result<Self, ConfigError> {
+    /// A planner for a robot of this radius, unless the configuration has another, that climbs with these feet.
+    pub fn new(
+        config: AStarConfig,
+        climbing: ClimbingConfig,
+        feet: Feet,
+        robot_radius_m: f64,
+    ) -> Result<Self, ConfigError> {
         config.check()?;
+        climbing.check()?;
+        let _ = feet;
         let radius_m = config.radius.unwrap_or(robot_radius_m);
         let holds = radius_m > 0.0 && radius_m.is_finite();
         require(holds, "navigation.a_star.radius", "> 0", radius_m)?;
@@ -135,9 +143,12 @@ impl Planner for AStar {
     fn plan(
         &mut self,
         view: &FloorView,
-        start: PlanarPose,
+        _stairs: &Staircase,
+        start: &Pose<Map, Robot>,
         goal: &Goal,
     ) -> Result<Plan, PlanError> {
+        let origin = start.origin().inner;
+        let start = PlanarPose::new(origin.x, origin.y, start.yaw_rad());
         if !(start.x_m.is_finite() && start.y_m.is_finite()) {
             return Err(PlanError::NotFinite("the start"));
         }

@@ -13,4 +13,4 @@ mod terrain;
 
 pub use a_star::AStar;
 pub use config::AStarConfig;
-pub use plan::{Goal, NoWay, Path, Plan, PlanError, Planner, Refusal};
+pub use plan::{Climb, Goal, NoWay, Path, Plan, PlanError, Planner, Refusal, Step};

@@ -1,7 +1,8 @@
 //! What every planner produces: a path, or the reason why there is none.
 
-use geometry::PlanarPose;
+use geometry::{Map, Pose, Robot};
 use mapping::FloorView;
+use stairs::{Stair, Staircase};
 
 /// Why planning failed as a program. "There is no way" is no failure: see [`NoWay`].
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -27,7 +28,29 @@ pub struct Goal {
     pub height_m: Option<f64>,
 }
 
-/// A path on the ground.
+/// One step up or down on the way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// The stair that is stepped on.
+    pub stair: Stair<Map>,
+    /// Change of height onto it, m.
+    pub rise_m: f64,
+    /// Where the way crosses its front edge, m.
+    pub crossing_m: [f64; 2],
+}
+
+/// A leg of a path that is climbed: steps one behind the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Climb {
+    /// Index of the path's point from which the first step is taken.
+    pub from_point: usize,
+    /// Index of the path's point at which the last one ends.
+    pub to_point: usize,
+    /// The steps in their order.
+    pub steps: Vec<Step>,
+}
+
+/// A path on the ground: legs that are walked, and between them legs that are climbed.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Path {
     /// Points in the map frame from the robot to the goal, m, no further apart than a cell's diagonal.
@@ -36,6 +59,8 @@ pub struct Path {
     pub unknown: Vec<bool>,
     /// For each point, distance to the nearest obstacle, m.
     pub clearance_m: Vec<f64>,
+    /// The legs that are climbed, in their order; all else is walked.
+    pub climbs: Vec<Climb>,
     /// What it costs, in metres of open known floor.
     pub cost_m: f64,
 }
@@ -47,6 +72,14 @@ pub enum Refusal {
     Blocked,
     /// There are gaps, but none is as wide as the robot.
     TooNarrow,
+    /// Steps lead there, but one is too high.
+    StepTooHigh,
+    /// Steps lead there, but one is too low to be a step and too high to be floor.
+    StepTooLow,
+    /// Steps lead there, but one is too short for a sole.
+    TreadTooShort,
+    /// The ground between a way down and a way up is too short for a sole.
+    GapTooShort,
     /// A drop.
     Drop,
     /// No other word holds.
@@ -59,6 +92,10 @@ impl Refusal {
         match self {
             Self::Blocked => "blocked",
             Self::TooNarrow => "too_narrow",
+            Self::StepTooHigh => "step_too_high",
+            Self::StepTooLow => "step_too_low",
+            Self::TreadTooShort => "tread_too_short",
+            Self::GapTooShort => "gap_too_short",
             Self::Drop => "drop",
             Self::NoPath => "no_path",
         }
@@ -85,9 +122,14 @@ pub struct Plan {
 
 /// Finds a way over the floor that the world model shows.
 pub trait Planner: Send + Sync {
-    /// A way from `start` to `goal`. Plans anew only when the path before no longer holds.
-    fn plan(&mut self, view: &FloorView, start: PlanarPose, goal: &Goal)
-    -> Result<Plan, PlanError>;
+    /// A way for the robot at `start` to `goal`, over floor and stairs. Plans anew only when the path before no longer holds.
+    fn plan(
+        &mut self,
+        view: &FloorView,
+        stairs: &Staircase,
+        start: &Pose<Map, Robot>,
+        goal: &Goal,
+    ) -> Result<Plan, PlanError>;
 
     /// Distance of each cell of the view to the nearest obstacle at the last call, m, row by row; `None` where the
     /// planner has none.

@@ -63,6 +63,7 @@ pub(crate) fn annotate(terrain: &Terrain, points_m: Vec<[f64; 2]>) -> Path {
         points_m,
         unknown,
         clearance_m,
+        climbs: Vec::new(),
         cost_m,
     }
 }

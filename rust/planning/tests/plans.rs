@@ -2,13 +2,19 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
-use geometry::{Cell, Grid, Lattice, PlanarPose};
+use geometry::{Cell, Grid, Lattice, Map, PlanarPose, Pose, Robot};
 use mapping::{FloorView, Surface};
 use planning::{AStar, AStarConfig, Goal, Path, Plan, PlanError, Planner, Refusal};
 use proptest::prelude::*;
+use stairs::{ClimbingConfig, Feet, Staircase};
 
 const CELL: f64 = 0.04;
 const RADIUS: f64 = 0.14;
+const FEET: Feet = Feet {
+    length_m: 0.105,
+    pair_width_m: 0.16,
+    stance_m: 0.085,
+};
 const START: PlanarPose = PlanarPose::new(0.0, 0.0, 0.0);
 
 /// A window of floor, 4 m a side, around the origin.
@@ -53,11 +59,20 @@ fn goal(x_m: f64, y_m: f64) -> Goal {
 }
 
 fn planner() -> AStar {
-    AStar::new(AStarConfig::default(), RADIUS).unwrap()
+    AStar::new(
+        AStarConfig::default(),
+        ClimbingConfig::default(),
+        FEET,
+        RADIUS,
+    )
+    .unwrap()
 }
 
 fn plan(planner: &mut AStar, view: &FloorView, start: PlanarPose, goal: &Goal) -> Plan {
-    planner.plan(view, start, goal).unwrap()
+    let start = Pose::from_yaw(start.x_m, start.y_m, 0.0, start.yaw_rad);
+    planner
+        .plan(view, &Staircase::default(), &start, goal)
+        .unwrap()
 }
 
 fn way(planner: &mut AStar, view: &FloorView, start: PlanarPose, goal: &Goal) -> Path {
@@ -317,14 +332,23 @@ fn a_step_is_no_way() {
 #[test]
 fn what_is_no_number_is_refused() {
     let mut planner = planner();
-    let bad = PlanarPose::new(f64::NAN, 0.0, 0.0);
-    let error = planner.plan(&floor(), bad, &goal(1.0, 0.0)).unwrap_err();
+    let bad = Pose::<Map, Robot>::from_yaw(f64::NAN, 0.0, 0.0, 0.0);
+    let error = planner
+        .plan(&floor(), &Staircase::default(), &bad, &goal(1.0, 0.0))
+        .unwrap_err();
     assert_eq!(error, PlanError::NotFinite("the start"));
     let error = planner
-        .plan(&floor(), START, &goal(f64::INFINITY, 0.0))
+        .plan(
+            &floor(),
+            &Staircase::default(),
+            &Pose::identity(),
+            &goal(f64::INFINITY, 0.0),
+        )
         .unwrap_err();
     assert_eq!(error, PlanError::NotFinite("the goal"));
-    let away = PlanarPose::new(50.0, 0.0, 0.0);
-    let lost = planner.plan(&floor(), away, &goal(1.0, 0.0)).unwrap();
+    let away = Pose::from_yaw(50.0, 0.0, 0.0, 0.0);
+    let lost = planner
+        .plan(&floor(), &Staircase::default(), &away, &goal(1.0, 0.0))
+        .unwrap();
     assert_eq!(lost.way.unwrap_err().refusal, Refusal::NoPath);
 }

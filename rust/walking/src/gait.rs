@@ -111,6 +111,11 @@ impl Gait {
         0.5 * (points[0] + points[1])
     }
 
+    /// Steps of the list that landed.
+    pub const fn listed(&self) -> usize {
+        self.listed
+    }
+
     /// Frame between the places where the feet stand.
     pub fn center(&self) -> PlanarPose {
         Self::center_of(&self.feet)

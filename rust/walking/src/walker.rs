@@ -1,6 +1,6 @@
 //! The walker: a command in, targets for all joints out, at every control tick.
 
-use behaviour::{Command, Gaze};
+use behaviour::{Command, Gaze, Stepping};
 use localization::BodyState;
 use nalgebra::Vector2;
 use robot::{Body, Side};
@@ -129,9 +129,22 @@ impl Walker {
         self.gait.phase == Phase::Standing
     }
 
+    /// Distance between the soles' centres when it stands, m.
+    pub const fn stance_width_m(&self) -> f64 {
+        self.config.stance_width
+    }
+
     /// Landings so far.
     pub const fn steps_taken(&self) -> u64 {
         self.gait.steps_taken
+    }
+
+    /// How the listed footsteps go.
+    pub fn stepping(&self) -> Stepping {
+        Stepping {
+            landed: self.gait.listed(),
+            ..Stepping::default()
+        }
     }
 
     /// The foot that stands while the other moves; `None` while both carry.

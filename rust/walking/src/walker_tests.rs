@@ -15,7 +15,7 @@ fn walk(x_mps: f64, y_mps: f64, yaw_radps: f64) -> Command {
             y_mps,
             yaw_radps,
         }),
-        gaze: Gaze::default(),
+        ..Command::default()
     }
 }
 
@@ -38,6 +38,7 @@ fn any_command() -> impl Strategy<Value = Command> {
             side: if left { Side::Left } else { Side::Right },
             pose: PlanarPose::new(x_m, y_m, yaw_rad),
             height_m: 0.0,
+            bearing_m: [-0.0525, 0.0525],
         },
     );
     let motion = prop_oneof![
@@ -54,6 +55,7 @@ fn any_command() -> impl Strategy<Value = Command> {
     (motion, any_number(), any_number()).prop_map(|(motion, pan_rad, down_rad)| Command {
         motion,
         gaze: Gaze { pan_rad, down_rad },
+        ..Command::default()
     })
 }
 
@@ -158,16 +160,18 @@ fn listed_footsteps_are_taken_and_then_it_stands() {
             side: Side::Left,
             pose: PlanarPose::new(0.05, 0.045, 0.0),
             height_m: 0.0,
+            bearing_m: [-0.0525, 0.0525],
         },
         Footstep {
             side: Side::Right,
             pose: PlanarPose::new(0.05, -0.045, 0.0),
             height_m: 0.0,
+            bearing_m: [-0.0525, 0.0525],
         },
     ];
     let command = Command {
         motion: Motion::Footsteps(steps.clone()),
-        gaze: Gaze::default(),
+        ..Command::default()
     };
     let mut world = Ideal::new();
     for _ in 0..400 {
@@ -189,6 +193,7 @@ fn the_camera_looks_where_the_command_says() {
             pan_rad: 0.4,
             down_rad: 0.6,
         },
+        ..Command::default()
     };
     let before = world.walker.gaze();
     world.tick(&command);

@@ -100,6 +100,8 @@ impl Simulation {
                 time_ns: self.time_ns,
                 estimate: &estimate,
                 view: &self.view,
+                stairs: &stairs::Staircase::default(),
+                stepping: crate::Stepping::default(),
                 plan: self.plan.as_ref(),
                 goal: &self.goal,
                 last_goal: self.last_goal,

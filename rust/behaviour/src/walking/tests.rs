@@ -300,6 +300,8 @@ fn decide(
             time_ns: tick * TICK_NS * 30,
             estimate: &estimate,
             view: &simulation.view,
+            stairs: &stairs::Staircase::default(),
+            stepping: crate::Stepping::default(),
             plan: plan.as_ref(),
             goal: &goal,
             last_goal: true,

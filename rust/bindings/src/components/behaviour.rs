@@ -72,6 +72,7 @@ impl PythonBehaviour {
             command: Command {
                 motion,
                 gaze: Gaze { pan_rad, down_rad },
+                ..Command::default()
             },
             state: self.state(answer.getattr(intern!(py, "state"))?.extract()?)?,
             goal_passed: answer.getattr(intern!(py, "goal_passed"))?.extract()?,

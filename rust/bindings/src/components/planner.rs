@@ -1,15 +1,16 @@
 //! A planner of the user's.
 
-use geometry::PlanarPose;
+use geometry::{Map, Pose, Robot};
 use mapping::{FloorView, Surface};
 use numpy::PyReadonlyArray2;
 use planning::{Goal, NoWay, Path, Plan, PlanError, Planner, Refusal};
 use pyo3::exceptions::PyValueError;
 use pyo3::intern;
 use pyo3::prelude::*;
+use stairs::Staircase;
 
 use super::sentence;
-use crate::products::PyFloorView;
+use crate::products::{PyFloorView, flat};
 use crate::situation::PyGoal;
 
 struct PythonPlanner(Py<PyAny>);
@@ -24,14 +25,10 @@ impl PythonPlanner {
         &self,
         py: Python<'_>,
         view: &FloorView,
-        start: PlanarPose,
+        start: &Pose<Map, Robot>,
         goal: &Goal,
     ) -> PyResult<Plan> {
-        let arguments = (
-            PyFloorView(view.clone()),
-            (start.x_m, start.y_m, start.yaw_rad),
-            PyGoal(*goal),
-        );
+        let arguments = (PyFloorView(view.clone()), flat(start), PyGoal(*goal));
         let plan = self
             .0
             .bind(py)
@@ -84,6 +81,7 @@ fn describe(points_m: Vec<[f64; 2]>, view: &FloorView) -> Path {
         points_m,
         unknown,
         clearance_m,
+        climbs: Vec::new(),
         cost_m,
     }
 }
@@ -92,7 +90,8 @@ impl Planner for PythonPlanner {
     fn plan(
         &mut self,
         view: &FloorView,
-        start: PlanarPose,
+        _stairs: &Staircase,
+        start: &Pose<Map, Robot>,
         goal: &Goal,
     ) -> Result<Plan, PlanError> {
         Python::attach(|py| self.ask(py, view, start, goal))

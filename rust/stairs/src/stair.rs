@@ -1,0 +1,118 @@
+//! What a stair is (003, section IV.A, Fig. 5), and the product of the recognizer.
+
+use geometry::{Map, Point, Pose};
+
+/// A straight edge of a level surface. Its ends are left and right for one who goes over it from front to back.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Edge<Frame> {
+    /// Left end, at the height of the surface that the edge bounds.
+    pub left: Point<Frame>,
+    /// Right end, at the same height.
+    pub right: Point<Frame>,
+}
+
+/// How surely an edge was found by fitting a step to the disparities.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EdgeFit {
+    /// Frames whose fits were joined.
+    pub frames: u32,
+    /// Standard deviation of the edge's place across itself, m.
+    pub place_sigma_m: f64,
+    /// Standard deviation of its heading, rad.
+    pub heading_sigma_rad: f64,
+}
+
+/// One surface to step on: a step of a staircase, a sill, a landing, or the lower ground at the foot of a staircase.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stair<Frame> {
+    /// Edge that is crossed onto it.
+    pub front: Edge<Frame>,
+    /// Edge that is crossed off it, where the view ended if `back_fit` is `None`.
+    pub back: Edge<Frame>,
+    /// Mean of the supporting points; its z is the stair's height.
+    pub reference: Point<Frame>,
+    /// Room beyond the edges' left ends, m.
+    pub left_margin_m: f64,
+    /// Room beyond the edges' right ends, m.
+    pub right_margin_m: f64,
+    /// Supporting points, of all frames merged.
+    pub support: usize,
+    /// How surely the front edge was found; `None` when it is only the hull's.
+    pub front_fit: Option<EdgeFit>,
+    /// How surely the back edge was found; `None` when it is only the hull's.
+    pub back_fit: Option<EdgeFit>,
+    /// Steps taken since it was last seen.
+    pub steps_ago: u32,
+}
+
+/// The product: the stairs that are seen or remembered, nearest first, in the map.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Staircase {
+    /// The stairs; no two overlap.
+    pub stairs: Vec<Stair<Map>>,
+    /// Frames merged since the robot last stepped.
+    pub frames: u32,
+}
+
+impl<F> Edge<F> {
+    /// Its middle.
+    pub fn middle(&self) -> Point<F> {
+        Point::wrap(nalgebra::center(&self.left.inner, &self.right.inner))
+    }
+
+    /// Its length in the plane, m.
+    pub fn length_m(&self) -> f64 {
+        (self.left.inner - self.right.inner).xy().norm()
+    }
+
+    /// Heading square to it, from front to back, rad.
+    pub fn heading_rad(&self) -> f64 {
+        let along = self.left.inner - self.right.inner;
+        (-along.x).atan2(along.y)
+    }
+
+    /// How far a place lies beyond the edge, m; negative in front of it.
+    pub fn beyond_m(&self, [x_m, y_m]: [f64; 2]) -> f64 {
+        let (sin, cos) = self.heading_rad().sin_cos();
+        let middle = self.middle().inner;
+        (x_m - middle.x) * cos + (y_m - middle.y) * sin
+    }
+
+    /// The same edge in another frame.
+    #[must_use]
+    pub fn transformed<T>(&self, target_from_frame: &Pose<T, F>) -> Edge<T> {
+        Edge {
+            left: *target_from_frame * self.left,
+            right: *target_from_frame * self.right,
+        }
+    }
+}
+
+impl<F> Stair<F> {
+    /// Height in its frame, m.
+    pub fn height_m(&self) -> f64 {
+        self.reference.inner.z
+    }
+
+    /// Depth from front to back through the reference point, m (003: `width`).
+    pub fn depth_m(&self) -> f64 {
+        let at = [self.reference.inner.x, self.reference.inner.y];
+        self.front.beyond_m(at).abs() + self.back.beyond_m(at).abs()
+    }
+
+    /// The same stair in another frame.
+    #[must_use]
+    pub fn transformed<T>(&self, target_from_frame: &Pose<T, F>) -> Stair<T> {
+        Stair {
+            front: self.front.transformed(target_from_frame),
+            back: self.back.transformed(target_from_frame),
+            reference: *target_from_frame * self.reference,
+            left_margin_m: self.left_margin_m,
+            right_margin_m: self.right_margin_m,
+            support: self.support,
+            front_fit: self.front_fit,
+            back_fit: self.back_fit,
+            steps_ago: self.steps_ago,
+        }
+    }
+}
