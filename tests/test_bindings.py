@@ -54,7 +54,10 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
         ({"world_model": "haze"}, r"navigation\.world_model must be one of fog, got haze"),
         ({"segmenter": "x"}, r"navigation\.segmenter must be one of scan_line, got x"),
         ({"localizer": "truth"}, r"navigation\.localizer must be one of odometry, got truth"),
-        ({"behaviour": "x"}, r"navigation\.behaviour must be one of stair_climbing, continuous, walking, got x"),
+        (
+            {"behaviour": "x"},
+            r"navigation\.behaviour must be one of stair_climbing, continuous, walking, got x",
+        ),
     ],
 )
 def test_a_bad_setting_is_refused_by_its_key(navigation: dict[str, Any], message: str) -> None:
