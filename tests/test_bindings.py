@@ -245,6 +245,19 @@ def test_products_have_the_shapes_and_kinds_that_are_documented() -> None:
     assert core.frames_used > 3
 
 
+def test_stairs_climbs_and_stepping_are_there_to_look_at() -> None:
+    core = pilot()
+    assert core.climbs() is None
+    for observation in observations():
+        core.tick(observation)
+    staircase, stepping = core.staircase(), core.stepping
+    assert (type(staircase.frames), staircase.stairs) == (int, [])
+    assert core.climbs() == []
+    assert (stepping.landed, stepping.height_error, stepping.misstep) == (0, 0.0, None)
+    with pytest.raises(AttributeError):
+        stepping.landed = 1  # type: ignore[misc]
+
+
 def test_products_are_copies_that_the_next_tick_leaves_alone() -> None:
     core = pilot()
     seen = observations()

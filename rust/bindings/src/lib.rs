@@ -7,6 +7,7 @@ mod observation;
 mod pilot;
 mod products;
 mod situation;
+mod stairs;
 mod walker;
 
 use pyo3::prelude::*;
@@ -23,6 +24,8 @@ mod _core {
     use super::products::{PyBodyState, PyFloorView, PyPlanes};
     #[pymodule_export]
     use super::situation::{PyGoal, PyScan, PySituation};
+    #[pymodule_export]
+    use super::stairs::{PyClimb, PyStair, PyStaircase, PyStep, PyStepping};
     #[pymodule_export]
     use super::walker::PyWalker;
 

@@ -10,6 +10,7 @@ use crate::components;
 use crate::error::{bad_setting, failed, unpanicked, unreadable};
 use crate::observation;
 use crate::products::{FlatPose, PyFloorView, PyPlanes, flat, matrix};
+use crate::stairs::{PyClimb, PyStaircase, PyStepping};
 
 /// The whole core: an observation in, joint targets out.
 #[pyclass(name = "Pilot", module = "treadwell._core")]
@@ -124,6 +125,17 @@ impl PyPilot {
         PyFloorView(self.pilot.perception().view().clone())
     }
 
+    /// The stairs that are seen or remembered; a copy.
+    fn staircase(&self) -> PyStaircase {
+        PyStaircase(self.pilot.perception().staircase().clone())
+    }
+
+    /// The path's legs that are climbed, in their order; None where there is no path.
+    fn climbs(&self) -> Option<Vec<PyClimb>> {
+        let path = self.pilot.plan()?.way.as_ref().ok()?;
+        Some(path.climbs.iter().cloned().map(PyClimb).collect())
+    }
+
     /// (n, 2) m: the path in the map frame; None where there is none.
     fn path<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray2<f64>>> {
         let path = self.pilot.plan()?.way.as_ref().ok()?;
@@ -162,6 +174,12 @@ impl PyPilot {
     #[getter]
     fn steps_taken(&self) -> u64 {
         self.pilot.steps_taken()
+    }
+
+    /// How the listed footsteps go.
+    #[getter]
+    fn stepping(&self) -> PyStepping {
+        PyStepping(self.pilot.stepping())
     }
 
     /// Frames taken into the map so far.

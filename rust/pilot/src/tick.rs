@@ -1,6 +1,6 @@
 //! One tick: from an observation to joint targets.
 
-use behaviour::{Behaviour, Decision, Gaze, Situation};
+use behaviour::{Behaviour, Decision, Gaze, Situation, Stepping};
 use geometry::{Map, Odometry, Pose, Robot};
 use localization::{BodyStateHistory, Estimate, Localizer, Proprioception};
 use planning::{Plan, Planner};
@@ -199,6 +199,11 @@ impl Pilot {
     /// Steps taken so far.
     pub fn steps_taken(&self) -> u64 {
         self.walker.steps_taken()
+    }
+
+    /// How the listed footsteps go.
+    pub fn stepping(&self) -> Stepping {
+        self.walker.stepping()
     }
 
     /// Where the head is told to look.
