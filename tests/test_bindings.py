@@ -42,14 +42,28 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
     [
         ({"fog": {"cell": 0}}, r"navigation\.fog\.cell must be > 0, got 0"),
         ({"fog": {"cell": -0.04}}, r"navigation\.fog\.cell must be > 0, got -0\.04"),
-        ({"fog": {"sell": 0.04}}, r"navigation\.fog: unknown field `sell`"),
-        ({"fog": {"cell": "wide"}}, r"navigation\.fog: .*wide"),
-        ({"scan_line": {"no": 1}}, r"navigation\.scan_line: unknown field `no`"),
-        ({"a_star": {"no": 1}}, r"navigation\.a_star: unknown field `no`"),
-        ({"walking": {"no": 1}}, r"navigation\.walking: unknown field `no`"),
-        ({"odometry": {"no": 1}}, r"navigation\.odometry: unknown field `no`"),
-        ({"proprioception": {"no": 1}}, r"navigation\.proprioception: unknown field `no`"),
-        ({"self_filter": {"no": 1}}, r"navigation\.self_filter: unknown field `no`"),
+        ({"fog": {"sell": 0.04}}, r"navigation\.fog\.sell: unknown field `sell`"),
+        ({"fog": {"cell": "wide"}}, r"navigation\.fog\.cell: .*wide"),
+        ({"scan_line": {"no": 1}}, r"navigation\.scan_line\.no: unknown field `no`"),
+        ({"a_star": {"no": 1}}, r"navigation\.a_star\.no: unknown field `no`"),
+        ({"walking": {"no": 1}}, r"navigation\.walking\.no: unknown field `no`"),
+        ({"odometry": {"no": 1}}, r"navigation\.odometry\.no: unknown field `no`"),
+        ({"proprioception": {"no": 1}}, r"navigation\.proprioception\.no: unknown field `no`"),
+        ({"self_filter": {"no": 1}}, r"navigation\.self_filter\.no: unknown field `no`"),
+        ({"stairs": {"min_edge": 0}}, r"navigation\.stairs\.min_edge must be > 0, got 0"),
+        ({"stairs": {"no": 1}}, r"navigation\.stairs\.no: unknown field `no`"),
+        ({"stair_climbing": {"no": 1}}, r"navigation\.stair_climbing\.no: unknown field `no`"),
+        ({"climbing": {"no": 1}}, r"navigation\.climbing\.no: unknown field `no`"),
+        ({"climbing": {"side_room": -1}}, r"navigation\.climbing\.side_room must be >= 0, got -1"),
+        (
+            {"climbing": {"ascend": {"no": 1}}},
+            r"navigation\.climbing\.ascend\.no: unknown .*approach_x",
+        ),
+        ({"climbing": {"ascend": {"step_min_z": 0}}}, r"climbing\.ascend\.step_min_z must be > 0"),
+        (
+            {"climbing": {"descend": {"step_max_z": 0}}},
+            r"climbing\.descend\.step_max_z must be < 0",
+        ),
         ({"planner": "b_star"}, r"navigation\.planner must be one of a_star, got b_star"),
         ({"world_model": "haze"}, r"navigation\.world_model must be one of fog, got haze"),
         ({"segmenter": "x"}, r"navigation\.segmenter must be one of scan_line, got x"),
@@ -63,6 +77,11 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
 def test_a_bad_setting_is_refused_by_its_key(navigation: dict[str, Any], message: str) -> None:
     with pytest.raises(InputError, match=message):
         pilot(**navigation)
+
+
+def test_a_table_of_climbing_may_say_one_thing_only() -> None:
+    pilot(climbing={"ascend": {"approach_x": -0.02}})
+    pilot(climbing={"descend": {"step_min_z": -0.04}}, stairs={"min_depth": 0.08})
 
 
 @pytest.mark.parametrize("key", ["robot", "start", "goals", "navigation"])

@@ -5,6 +5,7 @@ mod goals;
 mod perception;
 mod registry;
 mod settings;
+mod tables;
 mod tick;
 mod timing;
 

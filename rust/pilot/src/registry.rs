@@ -1,7 +1,5 @@
 //! Which component a name stands for: the one place where a new one is added.
 
-use std::collections::BTreeMap;
-
 use behaviour::{Behaviour, Pace, StairClimbing, WalkingBehaviour};
 use geometry::ConfigError;
 use localization::{Localizer, OdometryLocalizer};
@@ -10,10 +8,10 @@ use planning::{AStar, Planner};
 use robot::{Body, Side};
 use segmentation::{ScanLine, Segmenter};
 use sensing::Intrinsics;
-use serde::de::DeserializeOwned;
 use stairs::{Feet, Recognizer};
 use walking::Walker;
 
+use crate::tables::table;
 use crate::{PilotError, Settings};
 
 /// The five components. One that is `None` is built by its name in the settings.
@@ -38,20 +36,6 @@ fn unknown(slot: &str, name: &str, known: &str) -> PilotError {
         found: name.to_owned(),
     }
     .into()
-}
-
-/// Reads `[navigation.<name>]`; the defaults where it is not there.
-pub(crate) fn table<T: DeserializeOwned + Default>(
-    tables: &BTreeMap<String, serde_json::Value>,
-    name: &str,
-) -> Result<T, PilotError> {
-    tables.get(name).map_or_else(
-        || Ok(T::default()),
-        |value| {
-            T::deserialize(value)
-                .map_err(|error| PilotError::Settings(format!("navigation.{name}: {error}")))
-        },
-    )
 }
 
 pub(crate) fn segmenter(
@@ -125,9 +109,9 @@ pub(crate) fn feet(body: &Body, walker: &Walker) -> Feet {
 
 pub(crate) fn behaviour(settings: &Settings, feet: Feet) -> Result<Box<dyn Behaviour>, PilotError> {
     let tables = &settings.navigation.tables;
-    let climbing = |pace| {
+    let climbing = |name, pace| {
         StairClimbing::new(
-            table(tables, "stair_climbing")?,
+            table(tables, name)?,
             WalkingBehaviour::new(table(tables, "walking")?)?,
             table(tables, "climbing")?,
             feet,
@@ -136,8 +120,8 @@ pub(crate) fn behaviour(settings: &Settings, feet: Feet) -> Result<Box<dyn Behav
         .map_err(PilotError::from)
     };
     match settings.navigation.behaviour.as_str() {
-        "stair_climbing" => Ok(Box::new(climbing(Pace::StepByStep)?)),
-        "continuous" => Ok(Box::new(climbing(Pace::Continuous)?)),
+        name @ "stair_climbing" => Ok(Box::new(climbing(name, Pace::StepByStep)?)),
+        name @ "continuous" => Ok(Box::new(climbing(name, Pace::Continuous)?)),
         "walking" => Ok(Box::new(WalkingBehaviour::new(table(tables, "walking")?)?)),
         other => Err(unknown(
             "behaviour",

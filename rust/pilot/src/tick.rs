@@ -11,6 +11,7 @@ use walking::{JointTargets, Walker};
 use crate::goals::Goals;
 use crate::perception::{Perception, TakenBy};
 use crate::registry::{self, Components};
+use crate::tables::table;
 use crate::timing::{Stage, Timing};
 use crate::{PilotError, Settings};
 
@@ -57,13 +58,13 @@ impl Pilot {
         let segmenter = given
             .segmenter
             .map_or_else(|| registry::segmenter(settings, camera), Ok)?;
-        let self_filter = SelfFilter::new(&body, &registry::table(tables, "self_filter")?)?;
+        let self_filter = SelfFilter::new(&body, &table(tables, "self_filter")?)?;
         let world_model = given
             .world_model
             .map_or_else(|| registry::world_model(settings), Ok)?;
         Ok(Self {
             map_from_odometry_at_start: Pose::wrap(Pose::<Map, Robot>::from(settings.start).inner),
-            proprioception: Proprioception::new(&body, registry::table(tables, "proprioception")?)?,
+            proprioception: Proprioception::new(&body, table(tables, "proprioception")?)?,
             history: BodyStateHistory::default(),
             perception: Perception::new(
                 segmenter,
