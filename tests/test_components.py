@@ -9,10 +9,11 @@ from user_parts import PARTS, AllGround, Legs, Meadow, Still, Straight
 
 import treadwell
 from treadwell import protocols
+from treadwell._core import Situation, Staircase
 from treadwell.components import COMPONENTS
 from treadwell.errors import CoreError, InputError
 from treadwell.plugins import METHODS
-from treadwell.protocols import Decision, Plan, Segmentation
+from treadwell.protocols import Decision, Footstep, Plan, Segmentation
 
 SECONDS = ("time_limit=1.2",)
 
@@ -32,11 +33,12 @@ def test_every_slot_has_a_protocol_with_the_methods_that_are_asked_for() -> None
         assert own == set(methods)
 
 
-def test_a_planner_is_given_map_pose_and_goal_and_its_path_is_taken() -> None:
+def test_a_planner_is_given_map_stairs_pose_and_goal_and_its_path_is_taken() -> None:
     part = Straight(points=7)
     episode = run(planner=part)
-    view, start, goal = part.seen[-1]
+    view, stairs, start, goal = part.seen[-1]
     assert view.kind.shape == (100, 100)
+    assert isinstance(stairs, Staircase)
     assert np.hypot(*start[:2]) < 0.2
     assert goal.position == pytest.approx((2.8, 0.0))
     assert goal.radius == pytest.approx(0.15)
@@ -60,8 +62,38 @@ def test_a_behaviour_is_given_the_situation_and_its_word_is_done() -> None:
     assert last.time_ns == 1_190_000_000
     assert last.frames_used == episode.pilot.frames_used > 0
     assert last.view().kind.shape == (100, 100)
+    assert isinstance(last.stairs, Staircase)
+    assert last.climbs == []
+    assert (last.stepping.landed, last.stepping.misstep) == (0, None)
     assert episode.pilot.gaze == pytest.approx((0.3, 0.5), abs=0.05)
     assert episode.pilot.steps_taken == 0
+
+
+def test_footsteps_of_a_behaviour_are_taken_one_by_one() -> None:
+    listed = (
+        Footstep("left", 0.04, 0.042, 0.0, 0.0, -0.05, 0.05),
+        Footstep("right", 0.04, -0.042, 0.0, 0.0, -0.05, 0.05),
+    )
+
+    class Marching:
+        def __init__(self) -> None:
+            self.begun, self.done = False, False
+
+        def next(self, situation: Situation) -> Decision:
+            self.begun |= not situation.standing
+            self.done |= self.begun and situation.standing
+            waits = self.done or situation.time_ns < 500_000_000
+            return Decision("march", footsteps=() if waits else listed)
+
+    part = Marching()
+    episode = treadwell.Episode("slalom", seed=2, overrides=("time_limit=6",), behaviour=part)
+    for step in episode:
+        pose = step.estimate.pose
+        if part.done:
+            break
+    assert part.done
+    assert episode.pilot.steps_taken == 2
+    assert pose[0] == pytest.approx(0.04, abs=0.015)
 
 
 def test_a_localizer_is_asked_at_every_tick_and_told_of_every_frame() -> None:
@@ -184,6 +216,11 @@ def segmentation(**changes: object) -> Segmentation:
     return Segmentation(**facts | changes)
 
 
+def marching(velocity: tuple[float, float, float] | None = None, **changes: Any) -> Decision:  # noqa: ANN401 - whatever a footstep may be wrong in
+    step = Footstep("left", 0.04, 0.042, 0.0, 0.0, -0.05, 0.05)._replace(**changes)
+    return Decision("march", velocity=velocity, footsteps=(step,))
+
+
 class BadView:
     origin = (0.0, 0.0)
     cell = 0.04
@@ -201,6 +238,11 @@ class BadView:
         ("behaviour", None, "behaviour: "),
         ("behaviour", Decision("x", velocity=(np.nan, 0.0, 0.0)), "behaviour: .*finite"),
         ("behaviour", Decision("x", gaze=(np.inf, 0.0)), "behaviour: .*finite"),
+        ("behaviour", marching(side="middle"), "behaviour: .*left or right, got middle"),
+        ("behaviour", marching(x=np.nan), "behaviour: .*footsteps must be finite"),
+        ("behaviour", marching(bearing_to=-0.06), "behaviour: .*bearing_from must be below"),
+        ("behaviour", marching((0.1, 0.0, 0.0)), "behaviour: .*velocity must be None"),
+        ("behaviour", Decision("x", footsteps=((1, 2),)), "behaviour: "),  # type: ignore[arg-type]
         ("localizer", (0.0, 0.0, 0.0), "localizer: "),
         ("localizer", (0.0, 0.0, np.nan, 0.0), "localizer: estimate must be finite"),
         ("segmenter", segmentation(labels=np.zeros(5, np.uint16)), "6336 values, got 5"),

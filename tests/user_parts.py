@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from treadwell._core import BodyState, FloorView, Goal, Planes, Scan, Situation
+from treadwell._core import BodyState, FloorView, Goal, Planes, Scan, Situation, Staircase
 from treadwell.protocols import (
     Behaviour,
     Decision,
@@ -26,10 +26,10 @@ class Straight:
         if points < 2:
             raise ValueError("points must be 2 or more")
         self.points = points
-        self.seen: list[tuple[FloorView, Pose, Goal]] = []
+        self.seen: list[tuple[FloorView, Staircase, Pose, Goal]] = []
 
-    def plan(self, view: FloorView, start: Pose, goal: Goal) -> Plan:
-        self.seen.append((view, start, goal))
+    def plan(self, view: FloorView, stairs: Staircase, start: Pose, goal: Goal) -> Plan:
+        self.seen.append((view, stairs, start, goal))
         return Plan(np.linspace(start[:2], goal.position, self.points), replanned=False)
 
 

@@ -7,12 +7,12 @@ A component is chosen by name, by `package.module:Class` in a scenario, or given
 """
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell._core import BodyState, FloorView, Goal, Planes, Scan, Situation
+from treadwell._core import BodyState, FloorView, Goal, Planes, Scan, Situation, Staircase
 
 Pose = tuple[float, float, float, float]
 
@@ -100,10 +100,36 @@ class Plan:
 
 
 class Planner(Protocol):
-    """Finds a way over the floor that the world model shows."""
+    """Finds a way over the floor that the world model shows.
 
-    def plan(self, view: FloorView, start: Pose, goal: Goal, /) -> Plan:
+    The stairs are there to be kept away from, or to be chosen from by a behaviour of the user's:
+    every leg of the path that is returned is walked.
+    """
+
+    def plan(self, view: FloorView, stairs: Staircase, start: Pose, goal: Goal, /) -> Plan:
         """Return a way for the robot at `start` to the goal's disc."""
+
+
+class Footstep(NamedTuple):
+    """One careful step: straight up, over, and straight down onto what may be higher or lower.
+
+    Attributes:
+        side: foot that moves.
+        x: m, centre of its sole, forward in the robot's frame when the list was given first.
+        y: m, the same to the left.
+        yaw: rad, heading of the sole in that frame.
+        height: m, of the surface there above the robot's ground then.
+        bearing_from: m forward of the sole's centre: where the part that bears load begins.
+        bearing_to: m forward of the sole's centre: where it ends; the rest overhangs an edge.
+    """
+
+    side: Literal["left", "right"]
+    x: float
+    y: float
+    yaw: float
+    height: float
+    bearing_from: float
+    bearing_to: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +139,8 @@ class Decision:
     Attributes:
         state: name of the state, for the recording's lane.
         velocity: (forward m/s, left m/s, counter-clockwise rad/s), None to stand.
+        footsteps: steps to take one after the other instead, given anew at every tick until
+            `Situation.standing`; how they go is in `Situation.stepping`.
         gaze: (pan to the left, down from the horizon), rad.
         goal_passed: go for the next goal.
         outcome: `goal_reached`, or `word: sentence` to refuse; None to go on.
@@ -120,6 +148,7 @@ class Decision:
 
     state: str
     velocity: tuple[float, float, float] | None = None
+    footsteps: tuple[Footstep, ...] = ()
     gaze: tuple[float, float] = (0.0, 0.6)
     goal_passed: bool = False
     outcome: str | None = None

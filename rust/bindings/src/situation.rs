@@ -1,11 +1,13 @@
 //! What a user's planner and behaviour are told: the goal, the scan, the situation.
 
-use behaviour::Situation;
+use behaviour::{Situation, Stepping};
 use numpy::{PyArray2, PyArrayMethods, ToPyArray};
-use planning::Goal;
+use planning::{Climb, Goal};
 use pyo3::prelude::*;
+use stairs::Staircase;
 
 use crate::products::{FlatPose, PyFloorView, flat, matrix};
+use crate::stairs::{PyClimb, PyStaircase, PyStepping};
 
 /// Where to go: any place inside the disc on which the robot can stand.
 #[pyclass(frozen, name = "Goal", module = "treadwell._core")]
@@ -107,6 +109,9 @@ pub(crate) struct PySituation {
     #[pyo3(get)]
     frames_used: u64,
     view: mapping::FloorView,
+    stairs: Staircase,
+    climbs: Vec<Climb>,
+    stepping: Stepping,
 }
 
 impl PySituation {
@@ -129,6 +134,11 @@ impl PySituation {
             gaze: (situation.gaze.pan_rad, situation.gaze.down_rad),
             frames_used: situation.frames_used,
             view: situation.view.clone(),
+            stairs: situation.stairs.clone(),
+            climbs: way
+                .and_then(|way| way.as_ref().ok())
+                .map_or_else(Vec::new, |path| path.climbs.clone()),
+            stepping: situation.stepping,
         }
     }
 }
@@ -138,5 +148,23 @@ impl PySituation {
     /// The map's view; a copy.
     fn view(&self) -> PyFloorView {
         PyFloorView(self.view.clone())
+    }
+
+    /// The stairs that are seen or remembered.
+    #[getter]
+    fn stairs(&self) -> PyStaircase {
+        PyStaircase(self.stairs.clone())
+    }
+
+    /// The way's legs that are climbed, in their order; empty where no way is known.
+    #[getter]
+    fn climbs(&self) -> Vec<PyClimb> {
+        self.climbs.iter().cloned().map(PyClimb).collect()
+    }
+
+    /// How the listed footsteps go.
+    #[getter]
+    fn stepping(&self) -> PyStepping {
+        PyStepping(self.stepping)
     }
 }

@@ -1,11 +1,14 @@
 //! A behaviour of the user's.
 
 use behaviour::{
-    Behaviour, BehaviourError, Command, Decision, Gaze, Motion, Outcome, Situation, Velocity,
+    Behaviour, BehaviourError, Command, Decision, Footstep, Gaze, Motion, Outcome, Situation,
+    Velocity,
 };
+use geometry::PlanarPose;
 use pyo3::exceptions::PyValueError;
 use pyo3::intern;
 use pyo3::prelude::*;
+use robot::Side;
 
 use super::sentence;
 use crate::situation::PySituation;
@@ -47,22 +50,11 @@ impl PythonBehaviour {
             .object
             .bind(py)
             .call_method1(intern!(py, "next"), argument)?;
-        let velocity: Option<[f64; 3]> = answer.getattr(intern!(py, "velocity"))?.extract()?;
         let [pan_rad, down_rad]: [f64; 2] = answer.getattr(intern!(py, "gaze"))?.extract()?;
-        let numbers = velocity
-            .unwrap_or_default()
-            .into_iter()
-            .chain([pan_rad, down_rad]);
-        if numbers.into_iter().any(|value| !value.is_finite()) {
-            return Err(PyValueError::new_err("velocity and gaze must be finite"));
+        if ![pan_rad, down_rad].iter().all(|value| value.is_finite()) {
+            return Err(PyValueError::new_err("gaze must be finite"));
         }
-        let motion = velocity.map_or(Motion::Stand, |[x_mps, y_mps, yaw_radps]| {
-            Motion::Walk(Velocity {
-                x_mps,
-                y_mps,
-                yaw_radps,
-            })
-        });
+        let motion = read_motion(&answer)?;
         let outcome: Option<String> = answer.getattr(intern!(py, "outcome"))?.extract()?;
         let outcome = outcome.map(|text| match text.as_str() {
             "goal_reached" => Outcome::GoalReached,
@@ -79,6 +71,71 @@ impl PythonBehaviour {
             outcome,
         })
     }
+}
+
+/// What the feet shall do: walk with a velocity, take listed steps, or stand.
+fn read_motion(answer: &Bound<'_, PyAny>) -> PyResult<Motion> {
+    let py = answer.py();
+    let velocity: Option<[f64; 3]> = answer.getattr(intern!(py, "velocity"))?.extract()?;
+    let listed: Vec<FlatFootstep> = answer.getattr(intern!(py, "footsteps"))?.extract()?;
+    if !listed.is_empty() {
+        return match velocity {
+            None => listed
+                .into_iter()
+                .map(footstep)
+                .collect::<PyResult<_>>()
+                .map(Motion::Footsteps),
+            Some(_) => Err(PyValueError::new_err(
+                "velocity must be None beside footsteps",
+            )),
+        };
+    }
+    let Some([x_mps, y_mps, yaw_radps]) = velocity else {
+        return Ok(Motion::Stand);
+    };
+    if ![x_mps, y_mps, yaw_radps]
+        .iter()
+        .all(|value| value.is_finite())
+    {
+        return Err(PyValueError::new_err("velocity must be finite"));
+    }
+    Ok(Motion::Walk(Velocity {
+        x_mps,
+        y_mps,
+        yaw_radps,
+    }))
+}
+
+/// (side, x m, y m, yaw rad, height m, bearing from m, bearing to m): `treadwell.protocols.Footstep`.
+type FlatFootstep = (String, f64, f64, f64, f64, f64, f64);
+
+fn footstep((side, x_m, y_m, yaw_rad, height_m, from_m, to_m): FlatFootstep) -> PyResult<Footstep> {
+    let side = match side.as_str() {
+        "left" => Side::Left,
+        "right" => Side::Right,
+        other => {
+            return Err(PyValueError::new_err(format!(
+                "a footstep's side must be left or right, got {other}"
+            )));
+        }
+    };
+    if ![x_m, y_m, yaw_rad, height_m, from_m, to_m]
+        .iter()
+        .all(|value| value.is_finite())
+    {
+        return Err(PyValueError::new_err("footsteps must be finite"));
+    }
+    if from_m >= to_m {
+        return Err(PyValueError::new_err(format!(
+            "a footstep's bearing_from must be below its bearing_to, got {from_m} and {to_m}"
+        )));
+    }
+    Ok(Footstep {
+        side,
+        pose: PlanarPose { x_m, y_m, yaw_rad },
+        height_m,
+        bearing_m: [from_m, to_m],
+    })
 }
 
 impl Behaviour for PythonBehaviour {

@@ -12,6 +12,7 @@ use stairs::Staircase;
 use super::sentence;
 use crate::products::{PyFloorView, flat};
 use crate::situation::PyGoal;
+use crate::stairs::PyStaircase;
 
 struct PythonPlanner(Py<PyAny>);
 
@@ -25,10 +26,16 @@ impl PythonPlanner {
         &self,
         py: Python<'_>,
         view: &FloorView,
+        stairs: &Staircase,
         start: &Pose<Map, Robot>,
         goal: &Goal,
     ) -> PyResult<Plan> {
-        let arguments = (PyFloorView(view.clone()), flat(start), PyGoal(*goal));
+        let arguments = (
+            PyFloorView(view.clone()),
+            PyStaircase(stairs.clone()),
+            flat(start),
+            PyGoal(*goal),
+        );
         let plan = self
             .0
             .bind(py)
@@ -90,11 +97,11 @@ impl Planner for PythonPlanner {
     fn plan(
         &mut self,
         view: &FloorView,
-        _stairs: &Staircase,
+        stairs: &Staircase,
         start: &Pose<Map, Robot>,
         goal: &Goal,
     ) -> Result<Plan, PlanError> {
-        Python::attach(|py| self.ask(py, view, start, goal))
+        Python::attach(|py| self.ask(py, view, stairs, start, goal))
             .map_err(|error| PlanError::Failed(sentence(&error)))
     }
 }
