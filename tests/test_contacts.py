@@ -117,6 +117,48 @@ def test_a_sole_that_brushes_a_riser_counts_from_its_impulse_on() -> None:
     assert [hit.counts for hit in (light, hard, shin)] == [False, True, True]
 
 
+STAIRS = """
+[[course]]
+kind = "stairs"
+name = "stairs"
+position = [0.6, 0.0]
+"""
+
+
+@pytest.mark.parametrize("step", [1, 2, 3])
+@pytest.mark.parametrize("ahead", [-0.02, 0.0, 0.006])
+def test_soles_stand_on_every_tread_with_their_toes_near_the_next_riser(
+    step: int, ahead: float
+) -> None:
+    made = world(STAIRS)
+    contacts = contacts_of(made)
+    middle = 0.6 + 0.12 * step - 0.06
+    touch = contacts.look(put(made, middle + ahead, 0.03 * step - 0.001), 0.0, 0.01)
+    assert (touch.left, touch.right, touch.fallen_part) == (True, True, None)
+    assert contacts._open == {}
+
+
+def test_soles_whose_heels_hang_over_the_edge_stand_on_a_top() -> None:
+    made = world(STAIRS)
+    contacts = contacts_of(made)
+    touch = contacts.look(put(made, 0.61, 0.029), 0.0, 0.01)
+    assert (touch.left, touch.right, touch.fallen_part) == (True, True, None)
+    assert contacts._open == {}
+
+
+def test_toes_in_a_riser_touch_it_and_count_from_the_impulse_on() -> None:
+    made = world(STAIRS)
+    contacts = contacts_of(made)
+    data = put(made, 0.6 + 0.12 - 0.0525 + 0.0005, 0.029)
+    contacts.look(data, 0.0, 1e-4)
+    hits = list(contacts._open.values())
+    assert {hit.robot_part for hit in hits} == {"left_foot", "right_foot"}
+    assert all(hit.riser_only for hit in hits)
+    assert contacts.collisions() == []
+    contacts.look(data, 0.1, 100.0)
+    assert {hit.robot_part for hit in contacts.collisions()} == {"left_foot", "right_foot"}
+
+
 def test_a_sole_against_a_riser_is_not_on_a_floor() -> None:
     made = world(STEP.replace("0.03]", "0.3]"))
     contacts = contacts_of(made)

@@ -2,6 +2,7 @@
 
 import math
 
+import mujoco
 import numpy as np
 import pytest
 from episode_builders import STEP, World, qrio, world
@@ -81,6 +82,56 @@ def test_a_goal_at_another_level_is_not_reached_from_this_one() -> None:
     assert judge.distance_to_goal < 0.2
     assert judge.standing_still
     assert not judge.goal_reached(made.simulation.data)
+
+
+STAIRS = """
+[[course]]
+kind = "stairs"
+name = "stairs"
+position = [0.6, 0.0]
+"""
+
+
+@pytest.mark.parametrize(("height", "reached"), [(0.105, True), (0.135, True), (0.09, False)])
+def test_the_soles_may_be_twenty_millimetres_off_the_goals_height(
+    height: float, reached: bool
+) -> None:
+    made = world(STAIRS, "position = [1.125, 0.0]", "position = [1.125, 0.0]")
+    goal = made.scenario.goal.model_copy(update={"height": height})
+    made.scenario = made.scenario.model_copy(update={"goal": goal})
+    judge = judge_of(made)
+    watch(made, judge, 1.5)
+    assert judge.frame.z == pytest.approx(0.12, abs=2e-3)
+    assert judge.goal_reached(made.simulation.data) is reached
+
+
+@pytest.mark.parametrize("step", [1, 2, 3, 4])
+def test_a_robot_carried_up_a_staircase_has_climbed_each_step_and_touched_no_riser(
+    step: int,
+) -> None:
+    made = world(STAIRS)
+    judge, data = judge_of(made), made.simulation.data
+    time = 0.0
+    for place in [*range(step + 1), *reversed(range(step))]:
+        x = 0.5 if place == 0 else 0.6 + 0.12 * place - 0.06
+        for lift in (0.02, *8 * (-0.0005,)):
+            data.qpos[:] = made.course.qpos
+            data.qpos[0] += x
+            data.qpos[2] += 0.03 * place + lift
+            mujoco.mj_forward(made.model, data)
+            time += 0.01
+            judge.watch(data, time)
+    assert (judge.stairs_climbed, judge.stairs_descended) == (step, step)
+    assert judge.falls == 0
+    assert judge.collisions == []
+
+
+def test_a_robot_that_steps_off_a_landing_falls() -> None:
+    made = world(STAIRS, start="position = [1.23, 0.0]\nyaw = 0.0")
+    judge = judge_of(made)
+    made.simulation.data.qvel[0] = 1.2
+    watch(made, judge, 2.0)
+    assert judge.falls == 1
 
 
 def test_who_stays_in_one_place_for_long_is_stuck() -> None:

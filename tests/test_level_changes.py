@@ -65,6 +65,34 @@ def test_a_foot_put_up_and_taken_back_has_climbed_nothing() -> None:
     assert (levels.climbed, levels.descended) == (0, 0)
 
 
+def test_a_foot_put_up_and_taken_back_before_the_climb_counts_once() -> None:
+    course = steps((0.5, 0.03))
+    probes = [(LEFT, 0.4), (RIGHT, 0.4), (LEFT, 0.56), (LEFT, 0.4), (RIGHT, 0.56), (RIGHT, 0.4)]
+    levels = tread(course, [*probes, (LEFT, 0.6), (RIGHT, 0.6)])
+    assert (levels.climbed, levels.descended) == (1, 0)
+
+
+def test_both_feet_up_and_both_back_is_a_climb_and_a_descent() -> None:
+    course = steps((0.5, 0.03))
+    levels = tread(course, [(s, x) for x in (0.4, 0.6, 0.4) for s in (LEFT, RIGHT)])
+    assert (levels.climbed, levels.descended) == (1, 1)
+
+
+def test_a_step_taken_back_on_the_second_of_two_steps_leaves_the_first() -> None:
+    course = steps((0.5, 0.03), (0.62, 0.06))
+    prints = [(LEFT, 0.4), (RIGHT, 0.4), (LEFT, 0.56), (RIGHT, 0.56), (LEFT, 0.68), (LEFT, 0.56)]
+    levels = tread(course, prints)
+    assert (levels.climbed, levels.descended) == (1, 0)
+    both = tread(course, [*prints, (LEFT, 0.68), (RIGHT, 0.68)])
+    assert (both.climbed, both.descended) == (2, 0)
+
+
+def test_a_basin_is_descended_and_climbed() -> None:
+    course = steps((0.0, 0.03), (0.5, 0.0), (0.65, 0.03))
+    levels = tread(course, [(s, x) for x in (0.4, 0.575, 0.75) for s in (LEFT, RIGHT)])
+    assert (levels.climbed, levels.descended) == (1, 1)
+
+
 def test_a_slope_has_no_steps() -> None:
     def slope(points: Floats) -> Floats:
         return np.clip(0.075 * points[:, 0], 0.0, None)

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import treadwell
@@ -110,3 +111,14 @@ def test_the_map_of_a_course_is_right_nearly_everywhere(run: Runner) -> None:
     assert counted.floor_cells > 300
     assert counted.floor_cells_right > 0.9
     assert counted.obstacle_cells_right > 0.75
+
+
+def test_stereo_sees_nothing_of_a_staircase_without_texture() -> None:
+    seen = {}
+    for name in ("stairs_up", "stairs_blank"):
+        settings = ("start.position=[0.15, 0.0]", "start.yaw=0.0")
+        episode = treadwell.Episode(name, overrides=settings)
+        frames = [step.observation.depth for step, _ in zip(episode, range(12), strict=False)]
+        seen[name] = max(int(np.isfinite(np.asarray(frame)).sum()) for frame in frames)
+    # The staircase fills more than a third of the 88 x 72 pixels as the robot looks down on it.
+    assert seen["stairs_up"] - seen["stairs_blank"] > 88 * 72 / 3

@@ -101,6 +101,55 @@ def test_a_top_without_cells_is_listed_only_where_the_robot_passed() -> None:
     assert entry.cells == 0
 
 
+STAIRS = """
+[[course]]
+kind = "stairs"
+name = "stairs"
+position = [0.61, 0.0]
+descent = true
+"""
+SILL = """
+[[course]]
+kind = "sill"
+name = "sill"
+position = [0.61, 0.0]
+"""
+SLAB = """
+[[course]]
+kind = "platform"
+name = "slab"
+position = [0.79, 0.0]
+size = [0.12, 0.33, 0.068]
+"""
+
+
+def test_every_step_of_a_staircase_is_listed_with_its_height() -> None:
+    remembered, course, _ = perfect(STAIRS)
+    entries = surfaces(course, remembered, np.zeros((0, 2)))
+    heights = [0.03, 0.06, 0.09, 0.12, 0.09, 0.06, 0.03]
+    assert [entry.truth for entry in entries] == pytest.approx(heights)
+    # Cells that reach over an edge would show the mean of two steps.
+    assert [entry.estimate for entry in entries] == pytest.approx(heights, abs=1e-6)
+    assert all(entry.cells >= 2 * 7 for entry in entries)
+
+
+@pytest.mark.parametrize("x", np.arange(0.6, 0.64, 0.005))
+def test_a_sill_less_deep_than_a_sole_has_cells_wherever_it_lies(x: float) -> None:
+    remembered, course, _ = perfect(SILL.replace("0.61", f"{x:.3f}"))
+    (entry,) = surfaces(course, remembered, np.zeros((0, 2)))
+    assert entry.cells >= 20
+    assert entry.estimate == pytest.approx(0.038, abs=1e-6)
+
+
+def test_a_step_under_a_slab_counts_no_more_but_the_slab_does() -> None:
+    remembered, course, _ = perfect(STAIRS + SLAB)
+    entries = surfaces(course, remembered, np.array([[0.79, 0.0]]))
+    assert len(entries) == 7
+    assert ("stairs", "step 2") not in {(entry.element, entry.part) for entry in entries}
+    assert entries[-1].element == "slab"
+    assert entries[-1].estimate == pytest.approx(0.068, abs=1e-6)
+
+
 def test_pose_errors_are_distances_and_angles() -> None:
     errors = PoseErrors()
     assert errors.errors() is None

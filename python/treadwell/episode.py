@@ -117,7 +117,7 @@ class Episode:
         given = user_components(scenario, dict(components))
         self.ablation = scenario.navigation.localizer == "truth" and "localizer" not in given
         if self.ablation:
-            given["localizer"] = TruthLocalizer(self.judge.truth, self.simulation.data)
+            given["localizer"] = TruthLocalizer(self.judge, self.simulation.data)
         settings = core_settings(scenario, self.robot, self.course)
         self.pilot = build_core(scenario, settings, given)
 

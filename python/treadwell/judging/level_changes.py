@@ -7,6 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+Footprint = tuple[float, float, float]
+"""World x, y, z of a sole's centre, m."""
 
 LEAST_CHANGE = 0.015
 """Metres between two levels that count as two."""
@@ -18,7 +20,13 @@ _CLEAR_OF_ENDS = 0.05
 
 
 class FootTrack:
-    """The levels that one foot has trodden on or swung over, in order."""
+    """The levels that one foot has trodden on or swung over, in order.
+
+    Attributes:
+        rises: changes of level upwards.
+        falls: changes of level downwards.
+        other: the other foot's track, None for a foot alone.
+    """
 
     def __init__(self, height_at: Callable[[Floats], Floats]) -> None:
         """Begin with no footprint.
@@ -27,31 +35,51 @@ class FootTrack:
             height_at: height of the highest surface at points (n, 2), m.
         """
         self._height_at = height_at
-        self._print: tuple[float, float, float] | None = None
+        self._prints: list[Footprint] = []
+        self._last = (0, 0)  # rises and falls of the last step
         self._looks = 0
         self.rises = 0
         self.falls = 0
+        self.other: FootTrack | None = None
 
     def look(self, x: float, y: float, z: float, *, touching: bool) -> None:
         """Take in where the sole's centre is, m, and whether it touches a floor."""
         self._looks = self._looks + 1 if touching else 0
         if self._looks == LOOKS_A_FOOTPRINT:
-            self._step_to(x, y, z)
+            self._step_to((x, y, z))
 
-    def _step_to(self, x: float, y: float, z: float) -> None:
-        before, self._print = self._print, (x, y, z)
-        if before is None:
+    def _step_to(self, end: Footprint) -> None:
+        if self._takes_back(end):
+            self.rises -= self._last[0]
+            self.falls -= self._last[1]
+            self._prints, self._last = [end], (0, 0)
             return
-        level = before[2]
-        for height in [*self._between(before, (x, y, z)), z]:
+        self._prints = [*self._prints[-1:], end]
+        if len(self._prints) == 1:
+            return
+        rises = falls = 0
+        level = self._prints[0][2]
+        for height in [*self._between(*self._prints), end[2]]:
             # Slopes change the level bit by bit: only a sudden change is a step.
-            self.rises += height - level >= LEAST_CHANGE
-            self.falls += level - height >= LEAST_CHANGE
+            rises += height - level >= LEAST_CHANGE
+            falls += level - height >= LEAST_CHANGE
             level = height
+        self.rises += rises
+        self.falls += falls
+        self._last = rises, falls
 
-    def _between(
-        self, begin: tuple[float, float, float], end: tuple[float, float, float]
-    ) -> list[float]:
+    def _takes_back(self, end: Footprint) -> bool:
+        """Say whether the foot returns to where it came from before the other foot followed it."""
+        if self.other is None or self._last == (0, 0):
+            return False
+        before, last = self._prints
+        back = math.dist(end[:2], before[:2]) < math.dist(end[:2], last[:2])
+        level = abs(end[2] - before[2]) < LEAST_CHANGE
+        rises, falls = self.rises - self._last[0], self.falls - self._last[1]
+        alone = rises >= self.other.rises and falls >= self.other.falls
+        return back and level and alone
+
+    def _between(self, begin: Footprint, end: Footprint) -> list[float]:
         """Return the heights that the foot has swung over, away from its two footprints."""
         length = math.dist(begin[:2], end[:2])
         if length <= 2 * _CLEAR_OF_ENDS:
@@ -72,6 +100,7 @@ class LevelChanges:
             height_at: height of the highest surface at points (n, 2), m.
         """
         self.feet = (FootTrack(height_at), FootTrack(height_at))
+        self.feet[0].other, self.feet[1].other = self.feet[1], self.feet[0]
 
     @property
     def climbed(self) -> int:

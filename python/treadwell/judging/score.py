@@ -8,11 +8,14 @@ from numpy.typing import NDArray
 
 from treadwell.course.build import Course, CourseElement
 from treadwell.course.outlines import signed_distance
+from treadwell.course.pieces import Top
 from treadwell.judging.map_memory import FLOOR, OBSTACLE, RememberedMap
 from treadwell.judging.result import LocalizationErrors, MapCounts, Spread, SurfaceEntry, Timing
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
+PlacedTop = tuple[CourseElement, Top, Floats]
+"""An element, one of its tops, and how far it stands from where the course has it, (3,) m."""
 
 LEAST_SIGHTINGS = 3
 """Frames that must have seen a cell as floor for it to count as one."""
@@ -170,32 +173,60 @@ def surfaces(
         places: as for `true_cells`.
     """
     centres = remembered.centres().reshape(-1, 2)
-    half_diagonal = remembered.cell * np.sqrt(0.5)
-    usable = (remembered.kind == FLOOR) & (remembered.sightings >= LEAST_SIGHTINGS)
+    usable = ((remembered.kind == FLOOR) & (remembered.sightings >= LEAST_SIGHTINGS)).ravel()
+    heights = remembered.height.ravel()
+    tops = [(e, top, offset) for e, offset in _present(course, places) for top in e.tops]
     entries = []
-    for element, offset in _present(course, places):
-        for top in element.tops:
-            inside = signed_distance(top.polygon[:, :2], centres - offset[:2]) <= -half_diagonal
-            cells = inside & usable.ravel()
-            if not cells.any():
-                on_it = len(passed) > 0 and bool(top.contains(passed - offset[:2]).any())
-                if not on_it:
-                    continue
-            truth = top.height + offset[2]
-            if cells.any():
-                # On a slope the truth is that of the same cells.
-                truth = float(top.height_at(centres[cells] - offset[:2]).mean() + offset[2])
-            heights = remembered.height.ravel()[cells].astype(np.float64)
-            entries.append(
-                SurfaceEntry(
-                    element=element.name,
-                    part=top.part,
-                    truth=round(float(truth), 9),
-                    estimate=float(heights.mean()) if cells.any() else None,
-                    cells=int(cells.sum()),
-                )
+    for element, top, offset in tops:
+        # What another top covers is not walked on.
+        free = ~_covered(centres, top, offset, tops)
+        cells = usable & free & _whole_cells(top, centres - offset[:2], remembered.cell)
+        if not cells.any() and not _is_passed(passed, top, offset, tops):
+            continue
+        truth = top.height + offset[2]
+        if cells.any():
+            # On a slope the truth is that of the same cells.
+            truth = float(top.height_at(centres[cells] - offset[:2]).mean() + offset[2])
+        entries.append(
+            SurfaceEntry(
+                element=element.name,
+                part=top.part,
+                truth=round(float(truth), 9),
+                estimate=float(heights[cells].astype(np.float64).mean()) if cells.any() else None,
+                cells=int(cells.sum()),
             )
+        )
     return entries
+
+
+def _whole_cells(top: Top, centres: Floats, cell: float) -> Bools:
+    """Say for each square cell, by its centre (n, 2), whether all of it lies on the top."""
+    polygon = top.polygon[:, :2]
+    edges = np.roll(polygon, -1, axis=0) - polygon
+    inward = np.column_stack([-edges[:, 1], edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
+    # A square reaches so far from its centre towards each edge.
+    reach = cell / 2 * np.abs(inward).sum(axis=1)
+    depth = ((centres[:, None, :] - polygon[None]) * inward[None]).sum(axis=-1)
+    whole: Bools = (depth >= reach - 1e-9).all(axis=1)
+    return whole
+
+
+def _covered(points: Floats, top: Top, offset: Floats, tops: Sequence[PlacedTop]) -> Bools:
+    """Say for each point (n, 2) whether another top lies above this one there."""
+    height = top.height_at(points - offset[:2]) + offset[2]
+    covered = np.zeros(len(points), dtype=bool)
+    for _, other, shift in tops:
+        there = points - shift[:2]
+        covered |= other.contains(there) & (other.height_at(there) + shift[2] > height + 1e-6)
+    return covered
+
+
+def _is_passed(passed: Floats, top: Top, offset: Floats, tops: Sequence[PlacedTop]) -> bool:
+    """Say whether one of the points (n, 2) lies on a top, uncovered."""
+    if not len(passed):
+        return False
+    on_it = top.contains(passed - offset[:2]) & ~_covered(passed, top, offset, tops)
+    return bool(on_it.any())
 
 
 def _present(

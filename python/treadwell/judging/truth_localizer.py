@@ -3,16 +3,16 @@
 import mujoco
 
 from treadwell._core import BodyState, FloorView, Planes
-from treadwell.judging.ground_truth import GroundTruth
+from treadwell.judging.judge import Judge
 from treadwell.protocols import Pose
 
 
 class TruthLocalizer:
     """Knows the true pose of the robot's frame."""
 
-    def __init__(self, truth: GroundTruth, data: mujoco.MjData) -> None:
+    def __init__(self, judge: Judge, data: mujoco.MjData) -> None:
         """Keep what tells the truth."""
-        self._truth = truth
+        self._judge = judge
         self._data = data
 
     def correct(self, body: BodyState, planes: Planes, view: FloorView) -> None:
@@ -20,5 +20,7 @@ class TruthLocalizer:
 
     def estimate(self, body: BodyState) -> Pose:  # noqa: ARG002 - the truth needs no body state
         """Return the true pose (x, y, z, yaw), m and rad."""
-        frame = self._truth.frame(self._truth.soles(self._data), (True, True))
+        truth, touch = self._judge.truth, self._judge.touch
+        # While a foot swings, the height is that of the sole that carries the robot.
+        frame = truth.frame(truth.soles(self._data), (touch.left, touch.right))
         return frame.x, frame.y, frame.z, frame.yaw
