@@ -15,7 +15,7 @@ from treadwell.judging.map_memory import RememberedMap
 from treadwell.judging.result import Result
 from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import Simulation, Start
-from treadwell.recording.trace import Trace
+from treadwell.recording.trace import StairTrace, Trace
 from treadwell.robot.load import Robot, load_robot
 from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
@@ -142,3 +142,17 @@ def trace(built: World, time_ns: int, **changes: object) -> Trace:
         "timing": {"map": 0.001},
     }
     return Trace(**facts | changes)
+
+
+def flight(steps: int = 4, **changes: object) -> tuple[StairTrace, ...]:
+    """A flight of stairs ahead, 30 mm a step, the nearest with fitted edges."""
+    facts: dict[str, Any] = {"front_fitted": False, "back_fitted": False, "steps_ago": 0}
+    stairs = []
+    for i in range(steps):
+        front, back, z = 0.6 + 0.12 * i, 0.72 + 0.12 * i, 0.03 * (i + 1)
+        edges = {
+            "front": np.array([[front, 0.16, z], [front, -0.16, z]]),
+            "back": np.array([[back, 0.16, z], [back, -0.16, z]]),
+        }
+        stairs.append(StairTrace(**facts | {"front_fitted": i == 0} | edges | changes))
+    return tuple(stairs)

@@ -4,13 +4,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from episode_builders import BOX, STEP, grid, result, world
+from episode_builders import BOX, STEP, flight, grid, result, trace, world
+from matplotlib.colors import to_rgb
 from matplotlib.image import imread
 
 from treadwell.judging.ground_truth import pose_matrix
 from treadwell.judging.map_memory import FLOOR, OBSTACLE
 from treadwell.judging.result import CollisionEntry
+from treadwell.protocols import Footstep
 from treadwell.recording.map_picture import draw_map
+from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.trajectory import Trajectory
 
 LATER = """
@@ -28,6 +31,16 @@ def way(offset: float) -> Trajectory:
     return trajectory
 
 
+def climbs() -> StairMemory:
+    """Stairs ahead, of which the robot is on the way up in the second half of `way`."""
+    memory = StairMemory()
+    made = world()
+    step = Footstep("left", 0.1, 0.04, 0.0, 0.03, -0.05, 0.05)
+    for i in range(20):
+        memory.update(trace(made, i, stairs=flight(), footsteps=(step,) if i > 9 else ()))
+    return memory
+
+
 def pixels(path: Path) -> np.ndarray:
     return imread(path)[..., :3]
 
@@ -43,12 +56,14 @@ def test_obstacles_floors_and_the_unknown_are_to_be_seen(tmp_path: Path) -> None
     remembered.height[20:30, 10:60] = np.linspace(0.0, 0.03, 50)
     remembered.kind[25, 20:25] = OBSTACLE
     told = result(made.scenario, outcome="refused", reason="too_narrow: a sentence", falls=1)
-    draw_map(tmp_path / "map.png", made.course, told, remembered, way(0.02), way(0.0))
+    draw_map(tmp_path / "map.png", made.course, told, remembered, way(0.02), way(0.0), climbs())
     picture = pixels(tmp_path / "map.png")
     assert picture.shape[0] > 400
     assert picture.shape[1] > 600
     assert has(picture, (0.09, 0.09, 0.11)) > 100
     assert has(picture, (0.80, 0.80, 0.82)) > 10_000
+    for colour in ("#7ff0ff", "#ffbe00", "#00b7ff", "#7d3cd7"):  # stairs, edges, climbed
+        assert has(picture, to_rgb(colour)) > 50, colour
 
 
 @pytest.mark.parametrize("outcome", ["error", "interrupted"])
@@ -57,12 +72,22 @@ def test_an_episode_that_ended_at_once_has_a_picture(tmp_path: Path, outcome: st
     hit = CollisionEntry(time=0.0, robot_part="head", element="box", impulse=1.0)
     told = result(made.scenario, outcome=outcome, collisions=[hit])
     empty = grid(rows=0, cols=0)
-    draw_map(tmp_path / "map.png", made.course, told, empty, Trajectory(), Trajectory())
+    draw_map(
+        tmp_path / "map.png", made.course, told, empty, Trajectory(), Trajectory(), StairMemory()
+    )
     assert pixels(tmp_path / "map.png").size > 0
 
 
 def test_the_same_run_gives_the_same_picture(tmp_path: Path) -> None:
     made = world(STEP)
     for name in ("a.png", "b.png"):
-        draw_map(tmp_path / name, made.course, result(made.scenario), grid(), way(0.0), way(0.0))
+        draw_map(
+            tmp_path / name,
+            made.course,
+            result(made.scenario),
+            grid(),
+            way(0.0),
+            way(0.0),
+            climbs(),
+        )
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()

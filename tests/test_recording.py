@@ -9,11 +9,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from episode_builders import BOX, STEP, World, qrio, trace, world
+from episode_builders import BOX, STEP, World, flight, qrio, trace, world
 
 from treadwell.errors import InputError, RecordingError
+from treadwell.judging.ground_truth import Sole
+from treadwell.protocols import Footstep
+from treadwell.recording import products
 from treadwell.recording import recorder as recording
 from treadwell.recording.file import cut_to_whole_messages, whole_length
+from treadwell.recording.layout import CLIMB, PATH
 from treadwell.recording.recorder import NAME, Recorder
 from treadwell.recording.trace import Trace
 
@@ -60,6 +64,60 @@ def test_a_recording_holds_world_map_camera_states_and_plots(tmp_path: Path, mad
         "/error",
         "/timing",
     } <= found
+
+
+def test_stairs_climbs_landings_and_missteps_are_in_the_recording(
+    tmp_path: Path, made: World
+) -> None:
+    writer = recorder(tmp_path, made)
+    step = Footstep("left", 0.1, 0.04, 0.0, 0.03, -0.05, 0.05)
+    for i in range(12):
+        climbing: dict[str, object] = {
+            "stairs": flight(steps_ago=int(i > 6)) if i < 10 else (),
+            "climbs": ((1, 2),),
+            "soles": (Sole(0.0, 0.04, 0.03, (1.0, 0.0)), Sole(0.0, -0.04, 0.0, (1.0, 0.0))),
+            "touch": (i > 4, True),
+            "footsteps": (step,) if i > 2 else (),
+            "misstep": "no_ground" if i > 8 else None,
+        }
+        writer.frame(trace(made, i * FRAME, state="climb", **climbing))
+    writer.close()
+    assert {
+        "/world/stairs",
+        "/world/stairs/front",
+        "/world/stairs/back",
+        "/world/soles/planned",
+        "/world/soles/landed",
+        "/behaviour/misstep",
+    } <= entities(tmp_path / NAME)
+
+
+def test_a_course_without_stairs_has_none_in_the_recording(tmp_path: Path, made: World) -> None:
+    writer = recorder(tmp_path, made)
+    writer.frame(trace(made, 0))
+    writer.close()
+    found = entities(tmp_path / NAME)
+    assert not {name for name in found if "stairs" in name or "soles" in name}
+
+
+def test_a_path_changes_its_colour_and_its_height_where_it_climbs(made: World) -> None:
+    height = np.zeros((40, 40), dtype=np.float32)
+    height[:, 30:] = 0.03
+    seen = trace(
+        made,
+        0,
+        view_kind=np.ones((40, 40), dtype=np.uint8),
+        view_height=height,
+        path=np.array([[-0.6, 0.0], [0.3, 0.0], [0.5, 0.0], [0.7, 0.0], [5.0, 0.0]]),
+        climbs=((1, 2),),
+    )
+    assert products.legs(seen) == [
+        (slice(0, 2), PATH),
+        (slice(1, 3), CLIMB),
+        (slice(2, 5), PATH),
+    ]
+    heights = products.floor_heights(seen)
+    assert heights == pytest.approx([0.0, 0.0, 0.03, 0.03, 0.03])
 
 
 def test_a_frame_in_which_nothing_was_seen_can_be_recorded(tmp_path: Path, made: World) -> None:

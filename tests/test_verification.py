@@ -14,6 +14,7 @@ from treadwell.judging.result import Result, read_result
 from treadwell.recording.map_picture import draw_map
 from treadwell.recording.observation_log import ObservationLog
 from treadwell.recording.recorder import Recorder
+from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.trajectory import Trajectory
 from treadwell.recording.verification import verify, verify_run
 
@@ -41,7 +42,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     trajectory.write(folder / "trajectory_truth.tum")
     made.simulation.save_audit(folder)
     told = result(made.scenario, simulated_seconds=0.01 * TICKS, version=version())
-    draw_map(folder / "map.png", made.course, told, grid(), trajectory, trajectory)
+    draw_map(folder / "map.png", made.course, told, grid(), trajectory, trajectory, StairMemory())
     told.write(folder / "result.json")
     return folder
 

@@ -31,6 +31,7 @@ _Pose = tuple[float, float, float, float]
 _Point = tuple[float, float, float]
 _Edge = tuple[_Point, _Point]
 _Fit = tuple[int, float, float]
+_Footstep = tuple[str, float, float, float, float, float, float]
 
 def swept_clearance(
     path: NDArray[np.float64], outline: NDArray[np.float64], radius: float
@@ -51,6 +52,8 @@ class Tick:
     def outcome(self) -> str | None: ...
     @property
     def reason(self) -> str | None: ...
+    @property
+    def footsteps(self) -> list[_Footstep]: ...
     @property
     def estimate(self) -> _Pose: ...
     @property

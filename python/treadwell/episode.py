@@ -16,7 +16,7 @@ from treadwell.judging.verdict import Referee, Verdict
 from treadwell.observation import Observation
 from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import TICK_NS, Simulation, Start
-from treadwell.protocols import Pose
+from treadwell.protocols import Footstep, Pose
 from treadwell.random_streams import RandomStreams
 from treadwell.robot.load import load_robot
 from treadwell.scenario.loading import load_scenario
@@ -47,6 +47,8 @@ class Step:
         estimate: what it believes.
         command: what it told its motors.
         state: name of the behaviour's state.
+        footsteps: careful steps that its feet are told to take, in the robot's frame as it was
+            when they were listed first; empty while it walks or stands.
     """
 
     time_ns: int
@@ -54,6 +56,7 @@ class Step:
     estimate: Estimate
     command: JointTargets
     state: str
+    footsteps: tuple[Footstep, ...] = ()
 
 
 class Episode:
@@ -148,7 +151,12 @@ class Episode:
         self.judge.watch(simulation.data, now)
         self.verdict = self.referee.decide(simulation.data, now, tick.outcome, tick.reason)
         return Step(
-            time_ns, observation, Estimate(tick.estimate, tick.odometry), command, tick.state
+            time_ns,
+            observation,
+            Estimate(tick.estimate, tick.odometry),
+            command,
+            tick.state,
+            tuple(Footstep(*listed) for listed in tick.footsteps),
         )
 
     @property

@@ -7,7 +7,7 @@ A component is chosen by name, by `package.module:Class` in a scenario, or given
 """
 
 from dataclasses import dataclass
-from typing import Literal, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -114,7 +114,7 @@ class Footstep(NamedTuple):
     """One careful step: straight up, over, and straight down onto what may be higher or lower.
 
     Attributes:
-        side: foot that moves.
+        side: foot that moves, `left` or `right`.
         x: m, centre of its sole, forward in the robot's frame when the list was given first.
         y: m, the same to the left.
         yaw: rad, heading of the sole in that frame.
@@ -123,7 +123,7 @@ class Footstep(NamedTuple):
         bearing_to: m forward of the sole's centre: where it ends; the rest overhangs an edge.
     """
 
-    side: Literal["left", "right"]
+    side: str
     x: float
     y: float
     yaw: float

@@ -19,6 +19,7 @@ from treadwell.judging.result import CollisionEntry, Result, StateEntry
 from treadwell.judging.score import PoseErrors, map_counts, surfaces, timing, true_cells
 from treadwell.judging.verdict import Verdict
 from treadwell.recording.run_folder import make_run_folder
+from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.trace import Trace
 from treadwell.recording.tracing import trace_of
 from treadwell.recording.trajectory import Trajectory
@@ -64,6 +65,7 @@ class Scores:
         self.poses = PoseErrors()
         self.estimate, self.truth = Trajectory(), Trajectory()
         self.memory = MapMemory()
+        self.stairs = StairMemory()
         self.states: list[StateEntry] = []
 
     def tick(self, step: Step) -> None:
@@ -76,6 +78,7 @@ class Scores:
         self.poses.add(trace.map_from_robot, trace.odometry_from_robot, trace.truth_from_robot)
         self.estimate.add(trace.time_ns, trace.map_from_robot)
         self.truth.add(trace.time_ns, trace.truth_from_robot)
+        self.stairs.update(trace)
         self.memory.update(
             trace.view_origin, trace.view_cell, trace.view_kind, trace.view_height, trace.sightings
         )
@@ -132,7 +135,7 @@ def run(
         problem = error
     assert verdict is not None
     result = _result(episode, scores, verdict, perf_counter() - begin)
-    writers.finish(result, scores.estimate, scores.truth, scores.memory.map())
+    writers.finish(result, scores.estimate, scores.truth, scores.memory.map(), scores.stairs)
     if problem is not None:
         raise problem
     way = scores.truth.positions()[:, :2]

@@ -13,6 +13,14 @@ TRUTH: Final = (40, 160, 90)
 ESTIMATE: Final = (70, 130, 240)
 ODOMETRY: Final = (240, 150, 40)
 PATH: Final = (255, 70, 160)
+CLIMB: Final = (125, 60, 215)
+"""Legs of the path that are climbed."""
+STAIR: Final = (20, 110, 120)
+FRONT_EDGE: Final = (255, 190, 0)
+FITTED_EDGE: Final = (230, 50, 40)
+PLANNED_SOLE: Final = (70, 130, 240)
+LANDED_SOLES: Final = ((250, 250, 250), (165, 170, 180))
+"""Where the left and the right foot came down."""
 GOAL: Final = (60, 200, 90, 110)
 GROUND_PLANE: Final = (95, 185, 120)
 STATE_COLOURS: Final = (
@@ -24,6 +32,10 @@ STATE_COLOURS: Final = (
     0x1ABC9CFF,
     0xF1C40FFF,
     0x95A5A6FF,
+    0xE67E22FF,
+    0x34495EFF,
+    0xFF5FA2FF,
+    0x7F8C1FFF,
 )
 
 _VIRIDIS: Final = np.array(

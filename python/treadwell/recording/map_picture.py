@@ -1,5 +1,6 @@
 """`map.png`: the remembered map from above, with the true course and the ways over it."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
@@ -10,16 +11,20 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Patch, Polygon
+from numpy.typing import NDArray
 
 from treadwell.course.build import Course
 from treadwell.judging.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
 from treadwell.judging.result import Result
+from treadwell.recording.stair_memory import StairMemory, outline
+from treadwell.recording.trace import StairTrace
 from treadwell.recording.trajectory import Trajectory
 
 NAME: Final = "map.png"
 _UNKNOWN: Final = (0.80, 0.80, 0.82)
 _OBSTACLE: Final = (0.09, 0.09, 0.11)
-_BELIEVED, _TRUE, _OUTLINE, _GOAL = "#ff5fa2", "#ffffff", "#e4572e", "#b8f53d"
+_BELIEVED, _CLIMBED, _TRUE, _OUTLINE, _GOAL = "#ff5fa2", "#7d3cd7", "#ffffff", "#e4572e", "#b8f53d"
+_STAIR, _FRONT, _FITTED = "#7ff0ff", "#ffbe00", "#00b7ff"
 _LEAST_SPAN: Final = 0.02
 """Metres that the colours span at least, to either side of the middle."""
 _MARGIN: Final = 0.25
@@ -33,6 +38,7 @@ def draw_map(
     remembered: RememberedMap,
     estimate: Trajectory,
     truth: Trajectory,
+    stairs: StairMemory,
 ) -> None:
     """Draw the picture.
 
@@ -43,6 +49,7 @@ def draw_map(
         remembered: what the map last said of every cell.
         estimate: the believed way.
         truth: the true one.
+        stairs: what was known of stairs, and when the robot climbed.
 
     Raises:
         OSError: the file cannot be written.
@@ -58,7 +65,8 @@ def draw_map(
     axes.set_facecolor(_UNKNOWN)
     colours = _draw_cells(axes, remembered)
     _draw_course(axes, course)
-    _draw_ways(axes, estimate, truth)
+    _draw_stairs(axes, stairs.stairs)
+    _draw_ways(axes, estimate, truth, np.array(stairs.climbing, dtype=bool))
     _draw_ends(axes, course, result)
     axes.set_xlim(west, east)
     axes.set_ylim(south, north)
@@ -162,7 +170,44 @@ def _draw_course(axes: Axes, course: Course) -> None:
             label = None
 
 
-def _draw_ways(axes: Axes, estimate: Trajectory, truth: Trajectory) -> None:
+def _draw_stairs(axes: Axes, stairs: Sequence[StairTrace]) -> None:
+    """Draw the stairs as they were seen last, with their heights."""
+    labels = {"stair": "stair", "front": "its front edge", "fitted": "the same, fitted"}
+    for stair in stairs:
+        axes.add_patch(
+            Polygon(
+                outline(stair),
+                closed=True,
+                fill=False,
+                edgecolor=_STAIR,
+                linewidth=1.0,
+                zorder=3.2,
+                label=labels.pop("stair", None),
+            )
+        )
+        kind = "fitted" if stair.front_fitted else "front"
+        axes.plot(
+            stair.front[:, 0],
+            stair.front[:, 1],
+            color=_FITTED if stair.front_fitted else _FRONT,
+            linewidth=2.2,
+            zorder=3.4,
+            label=labels.pop(kind, None),
+        )
+        axes.annotate(
+            f"{1e3 * stair.front[:, 2].mean():.0f}",
+            tuple(stair.front[0, :2]),
+            xytext=(-2, 2),
+            textcoords="offset points",
+            fontsize=6,
+            color=_STAIR,
+            zorder=3.4,
+        )
+
+
+def _draw_ways(
+    axes: Axes, estimate: Trajectory, truth: Trajectory, climbing: NDArray[np.bool_]
+) -> None:
     true, believed = truth.positions(), estimate.positions()
     axes.plot(
         true[:, 0],
@@ -177,6 +222,11 @@ def _draw_ways(axes: Axes, estimate: Trajectory, truth: Trajectory) -> None:
     axes.plot(
         believed[:, 0], believed[:, 1], color=_BELIEVED, linewidth=1.4, zorder=6, label="believed"
     )
+    if climbing.any():
+        climbed = np.where(climbing[:, None], believed[:, :2], np.nan)
+        axes.plot(
+            climbed[:, 0], climbed[:, 1], color=_CLIMBED, linewidth=2.0, zorder=6.5, label="climbed"
+        )
 
 
 def _draw_ends(axes: Axes, course: Course, result: Result) -> None:

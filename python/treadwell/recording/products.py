@@ -6,8 +6,10 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
+from treadwell.judging.map_memory import FLOOR
 from treadwell.judging.result import STAGES
 from treadwell.recording.layout import (
+    CLIMB,
     ESTIMATE,
     OBSTACLE,
     ODOMETRY,
@@ -18,12 +20,15 @@ from treadwell.recording.layout import (
     height_colours,
     plane_colours,
 )
+from treadwell.recording.stair_shapes import StairShapes
 from treadwell.recording.trace import Trace
 
 _TRACK_SPACING = 0.03
 """Metres between the points of a drawn trajectory."""
 _LEAST_COLUMN = 0.02
 """Metres: least height of an obstacle's column."""
+_PATH_ABOVE = 0.012
+"""Metres by which the path is drawn above the floor."""
 _POINT_STRIDE = 3
 """Of so many points one is recorded."""
 _MAP_STRIDE = 2
@@ -33,15 +38,19 @@ _MAP_STRIDE = 2
 class Products:
     """Writes the products of each camera frame into a recording."""
 
-    def __init__(self, stream: rr.RecordingStream, *, low: float, high: float) -> None:
+    def __init__(
+        self, stream: rr.RecordingStream, *, low: float, high: float, sole: tuple[float, float]
+    ) -> None:
         """Log the style of everything once.
 
         Args:
             stream: the recording.
             low: m, floor height with the darkest colour.
             high: m, floor height with the brightest.
+            sole: m, length and width of a sole.
         """
         self._stream, self._range = stream, (low, high)
+        self._stair_shapes = StairShapes(stream, sole)
         self._tracks: dict[str, list[NDArray[np.float64]]] = {}
         self._state, self._frames = "", 0
         self._states: list[str] = []
@@ -56,6 +65,7 @@ class Products:
         if self._frames % _MAP_STRIDE == 0:
             self._log_map(trace)
         self._frames += 1
+        self._stair_shapes.log(trace)
         self._log_poses(trace)
         self._log_state(trace)
         self._log_plots(trace)
@@ -132,11 +142,15 @@ class Products:
     def _log_route(self, trace: Trace) -> None:
         """Draw path and robot, in the world and over the picture of the map."""
         stream = self._stream
-        path, z = trace.path, float(trace.map_from_robot[2, 3]) + 0.012
-        strips = [] if len(path) < 2 else [np.column_stack([path, np.full(len(path), z)])]
-        stream.log("world/path", rr.LineStrips3D(strips, colors=[PATH], radii=[0.006]))
-        flat = [] if len(path) < 2 else [self._pixels(trace, path)]
-        stream.log("map/floor/path", rr.LineStrips2D(flat, colors=[PATH], radii=[0.4]))
+        parts = legs(trace) if len(trace.path) > 1 else []
+        raised = [
+            np.column_stack([trace.path, floor_heights(trace) + _PATH_ABOVE])[leg]
+            for leg, _ in parts
+        ]
+        colours = [colour for _, colour in parts]
+        stream.log("world/path", rr.LineStrips3D(raised, colors=colours, radii=[0.006]))
+        flat = [self._pixels(trace, trace.path[leg]) for leg, _ in parts]
+        stream.log("map/floor/path", rr.LineStrips2D(flat, colors=colours, radii=[0.4]))
         here, heading = trace.map_from_robot[:2, 3], trace.map_from_robot[:2, 0]
         arrow = self._pixels(trace, np.array([here, here + 0.25 * heading]))
         stream.log(
@@ -207,3 +221,25 @@ class Products:
         if trace.timing:
             times = [1e3 * trace.timing.get(stage, float("nan")) for stage in STAGES]
             stream.log("timing", rr.Scalars(times))
+
+
+def legs(trace: Trace) -> list[tuple[slice, tuple[int, int, int]]]:
+    """Return the path's legs in their order: which points, and the colour of walk or climb."""
+    parts, at = [], 0
+    for first, last in trace.climbs:
+        parts += [(slice(at, first + 1), PATH), (slice(first, last + 1), CLIMB)]
+        at = last
+    parts.append((slice(at, len(trace.path)), PATH))
+    return [(leg, colour) for leg, colour in parts if leg.stop - leg.start > 1]
+
+
+def floor_heights(trace: Trace) -> NDArray[np.float64]:
+    """Return the floor's height under each point of the path, m; where unknown, that before it."""
+    at = np.floor((trace.path - trace.view_origin) / trace.view_cell).astype(np.intp)
+    rows, cols = trace.view_kind.shape
+    height, heights = float(trace.map_from_robot[2, 3]), []
+    for col, row in at:
+        if 0 <= row < rows and 0 <= col < cols and trace.view_kind[row, col] == FLOOR:
+            height = float(trace.view_height[row, col])
+        heights.append(height)
+    return np.array(heights)

@@ -76,7 +76,13 @@ class Recorder:
         self._robot.draw(self._stream)
         self._movable = self._draw_course(model, course)
         self._draw_goal(scenario, course)
-        self._products = Products(self._stream, low=-0.05, high=max(0.05, top + 0.01))
+        sole = robot.file.legs.left.sole
+        self._products = Products(
+            self._stream,
+            low=-0.05,
+            high=max(0.05, top + 0.01),
+            sole=(sole.length, sole.width),
+        )
         self._check()
 
     def frame(self, trace: Trace) -> None:

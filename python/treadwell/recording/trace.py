@@ -6,7 +6,29 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell.judging.ground_truth import Sole
+from treadwell.protocols import Footstep
+
 Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StairTrace:
+    """A stair that the core sees or remembers, in the map frame.
+
+    Attributes:
+        front: (2, 3) left and right end of the edge that is crossed onto it, m.
+        back: (2, 3) the same of the edge that is crossed off it, m.
+        front_fitted: whether the front edge was fitted to the disparities.
+        back_fitted: whether the back edge was.
+        steps_ago: steps taken since it was last seen.
+    """
+
+    front: Floats
+    back: Floats
+    front_fitted: bool
+    back_fitted: bool
+    steps_ago: int
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -30,6 +52,13 @@ class Trace:
         sightings: (rows, cols) uint16, frames that saw the cell as floor.
         clearance: (rows, cols) float32, distance to the nearest obstacle; None without one.
         path: (n, 2) the path in the map frame; empty without one.
+        climbs: for each leg of the path that is climbed the indices of its first and last point.
+        stairs: the stairs that are seen or remembered.
+        soles: the true soles, left and right.
+        touch: whether the left and the right sole truly stand on something.
+        footsteps: steps that the feet are told to take, in the robot's frame of when they were
+            listed first; empty while they walk or stand.
+        misstep: why the last listed step was taken back; None where it was not.
         state: name of the behaviour's state.
         goal: (x, y) of the goal that is pursued now.
         gaze: (pan to the left, down from the horizon) rad.
@@ -54,6 +83,12 @@ class Trace:
     sightings: NDArray[np.uint16]
     clearance: NDArray[np.float32] | None = None
     path: Floats
+    climbs: tuple[tuple[int, int], ...] = ()
+    stairs: tuple[StairTrace, ...] = ()
+    soles: tuple[Sole, Sole] | None = None
+    touch: tuple[bool, bool] = (False, False)
+    footsteps: tuple[Footstep, ...] = ()
+    misstep: str | None = None
     state: str
     goal: tuple[float, float]
     gaze: tuple[float, float]

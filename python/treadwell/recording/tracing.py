@@ -3,9 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell._core import Stair
 from treadwell.episode import Episode, Step
 from treadwell.judging.ground_truth import pose_matrix
-from treadwell.recording.trace import Trace
+from treadwell.recording.trace import StairTrace, Trace
 
 
 def trace_of(episode: Episode, step: Step) -> Trace:
@@ -38,12 +39,28 @@ def trace_of(episode: Episode, step: Step) -> Trace:
         sightings=view.sightings,
         clearance=pilot.clearance(),
         path=np.empty((0, 2)) if path is None else path,
+        climbs=tuple(climb.span for climb in pilot.climbs() or ()),
+        stairs=tuple(_stair(stair) for stair in pilot.staircase().stairs),
+        soles=episode.judge.soles,
+        touch=(episode.judge.touch.left, episode.judge.touch.right),
+        footsteps=step.footsteps,
+        misstep=pilot.stepping.misstep,
         state=step.state,
         goal=episode.goal,
         gaze=(pilot.gaze[0], pilot.gaze[1]),
         body_positions=data.xpos,
         body_orientations=data.xquat,
         timing=dict(zip(pilot.stages, pilot.timing, strict=True)),
+    )
+
+
+def _stair(stair: Stair) -> StairTrace:
+    return StairTrace(
+        front=np.array(stair.front),
+        back=np.array(stair.back),
+        front_fitted=stair.front_fit is not None,
+        back_fitted=stair.back_fit is not None,
+        steps_ago=stair.steps_ago,
     )
 
 

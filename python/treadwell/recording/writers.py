@@ -9,6 +9,7 @@ from treadwell.errors import InputError, RecordingError
 from treadwell.judging.map_memory import RememberedMap
 from treadwell.judging.result import Result
 from treadwell.recording.map_picture import draw_map
+from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.trace import Trace
 from treadwell.recording.trajectory import ESTIMATE, TRUTH, Trajectory
 
@@ -72,7 +73,12 @@ class Writers:
             self._recorder.frame(trace)
 
     def finish(
-        self, result: Result, estimate: Trajectory, truth: Trajectory, remembered: RememberedMap
+        self,
+        result: Result,
+        estimate: Trajectory,
+        truth: Trajectory,
+        remembered: RememberedMap,
+        stairs: StairMemory,
     ) -> None:
         """Close what is open and write the rest, `result.json` last.
 
@@ -86,7 +92,7 @@ class Writers:
             lambda: truth.write(folder / TRUTH),
             lambda: episode.simulation.save_audit(folder),
             lambda: draw_map(
-                folder / "map.png", episode.course, result, remembered, estimate, truth
+                folder / "map.png", episode.course, result, remembered, estimate, truth, stairs
             ),
             lambda: result.write(folder / "result.json"),
         ]

@@ -10,7 +10,7 @@ use crate::components;
 use crate::error::{bad_setting, failed, unpanicked, unreadable};
 use crate::observation;
 use crate::products::{FlatPose, PyFloorView, PyPlanes, flat, matrix};
-use crate::stairs::{PyClimb, PyStaircase, PyStepping};
+use crate::stairs::{FlatFootstep, PyClimb, PyStaircase, PyStepping, flat_footsteps};
 
 /// The whole core: an observation in, joint targets out.
 #[pyclass(name = "Pilot", module = "treadwell._core")]
@@ -41,6 +41,9 @@ pub(crate) struct PyTick {
     /// `word: sentence` of a refusal, else None.
     #[pyo3(get)]
     reason: Option<String>,
+    /// The steps that the feet are told to take: rows of `treadwell.protocols.Footstep`; empty where they walk or stand.
+    #[pyo3(get)]
+    footsteps: Vec<FlatFootstep>,
     /// (x m, y m, z m, yaw rad) of the robot in the map, as believed.
     #[pyo3(get)]
     estimate: FlatPose,
@@ -110,6 +113,7 @@ impl PyPilot {
             state: tick.decision.state,
             outcome,
             reason,
+            footsteps: flat_footsteps(&tick.decision.command.motion),
             estimate: flat(&tick.estimate.map_from_robot),
             odometry: flat(&tick.dead_reckoning),
         })

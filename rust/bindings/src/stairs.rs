@@ -1,9 +1,10 @@
 //! Stairs, climbs and footsteps as Python sees them: frozen, map frame, metres and radians.
 
-use behaviour::{Misstep, Stepping};
+use behaviour::{Footstep, Misstep, Motion, Stepping};
 use geometry::{Map, Point};
 use planning::{Climb, Step};
 use pyo3::prelude::*;
+use robot::Side;
 use stairs::{Edge, EdgeFit, Stair, Staircase};
 
 type FlatPoint = (f64, f64, f64);
@@ -20,6 +21,35 @@ fn flat_edge(edge: &Edge<Map>) -> FlatEdge {
 
 fn flat_fit(fit: &EdgeFit) -> FlatFit {
     (fit.frames, fit.place_sigma_m, fit.heading_sigma_rad)
+}
+
+/// (side, x m, y m, yaw rad, height m, bearing from m, bearing to m): `treadwell.protocols.Footstep`.
+pub(crate) type FlatFootstep = (String, f64, f64, f64, f64, f64, f64);
+
+/// The steps that the feet are told to take; empty where they are told something else.
+pub(crate) fn flat_footsteps(motion: &Motion) -> Vec<FlatFootstep> {
+    match motion {
+        Motion::Footsteps(listed) => listed.iter().map(flat_footstep).collect(),
+        Motion::Stand | Motion::Walk(_) => Vec::new(),
+    }
+}
+
+fn flat_footstep(step: &Footstep) -> FlatFootstep {
+    let side = match step.side {
+        Side::Left => "left",
+        Side::Right => "right",
+    };
+    let (pose, [from_m, to_m]) = (step.pose, step.bearing_m);
+    let side = side.to_owned();
+    (
+        side,
+        pose.x_m,
+        pose.y_m,
+        pose.yaw_rad,
+        step.height_m,
+        from_m,
+        to_m,
+    )
 }
 
 /// The stairs that are seen or remembered.

@@ -12,6 +12,7 @@ use robot::Side;
 
 use super::sentence;
 use crate::situation::PySituation;
+use crate::stairs::FlatFootstep;
 
 struct PythonBehaviour {
     object: Py<PyAny>,
@@ -105,9 +106,6 @@ fn read_motion(answer: &Bound<'_, PyAny>) -> PyResult<Motion> {
         yaw_radps,
     }))
 }
-
-/// (side, x m, y m, yaw rad, height m, bearing from m, bearing to m): `treadwell.protocols.Footstep`.
-type FlatFootstep = (String, f64, f64, f64, f64, f64, f64);
 
 fn footstep((side, x_m, y_m, yaw_rad, height_m, from_m, to_m): FlatFootstep) -> PyResult<Footstep> {
     let side = match side.as_str() {

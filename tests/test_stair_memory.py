@@ -1,0 +1,42 @@
+"""Claims about what a run knew of stairs in the end."""
+
+import numpy as np
+from episode_builders import flight, trace, world
+
+from treadwell.recording.stair_memory import StairMemory, outline
+from treadwell.recording.trace import StairTrace
+
+
+def remembered(*frames: tuple[StairTrace, ...]) -> list[StairTrace]:
+    memory, made = StairMemory(), world()
+    for i, stairs in enumerate(frames):
+        memory.update(trace(made, i, stairs=stairs))
+    return memory.stairs
+
+
+def test_a_stair_that_is_seen_again_takes_its_own_place_and_no_other() -> None:
+    first, second = flight(4), flight(2)
+    stairs = remembered(first, second)
+    assert len(stairs) == 4
+    assert sum(any(stair is new for new in second) for stair in stairs) == 2
+
+
+def test_what_is_no_longer_seen_stays_and_what_is_only_remembered_is_not_taken_in() -> None:
+    assert len(remembered(flight(3), ())) == 3
+    assert len(remembered(flight(3, steps_ago=1))) == 0
+
+
+def test_a_stair_above_another_is_one_more() -> None:
+    (low,) = flight(1)
+    up = np.array([0.0, 0.0, 0.03])
+    high = StairTrace(
+        low.front + up, low.back + up, front_fitted=False, back_fitted=False, steps_ago=0
+    )
+    assert len(remembered((low,), (high,))) == 2
+
+
+def test_an_outline_goes_round() -> None:
+    (stair,) = flight(1)
+    corners = outline(stair)
+    sides = np.linalg.norm(np.roll(corners, -1, axis=0) - corners, axis=1)
+    assert np.allclose(sides, [0.32, 0.12, 0.32, 0.12])
