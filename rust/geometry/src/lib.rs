@@ -31,7 +31,7 @@ pub use angle::{angle_between, wrap_angle};
 pub use config::{ConfigError, require};
 pub use frames::{Camera, LeftSole, Map, Odometry, RightSole, Robot, Torso, World};
 pub use lattice::{Cell, CellArea, Grid, Lattice};
-pub use outline::{Outline, OutlineError};
+pub use outline::{Cut, Outline, OutlineError};
 pub use planar::PlanarPose;
 pub use plane::Plane;
 pub use pose::{Point, Pose, Vector};

@@ -1,6 +1,6 @@
 //! Convex outlines on the ground: hulls, areas, containment, overlap. The one place that calls parry in the plane.
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector2};
 use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::query::distance;
 use parry2d_f64::shape::{ConvexPolygon, Segment};
@@ -18,6 +18,15 @@ pub enum OutlineError {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
     corners: Vec<Point2<f64>>,
+}
+
+/// Where a line cuts the outline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cut {
+    /// The edge from this corner to the next is cut.
+    pub edge: usize,
+    /// The place, m.
+    pub at: Point2<f64>,
 }
 
 impl Outline {
@@ -55,6 +64,49 @@ impl Outline {
             .map(|(a, b)| a.x * b.y - b.x * a.y)
             .sum::<f64>()
             / 2.0
+    }
+
+    /// Area that two outlines have in common, square metres: one is cut off along each edge of the other. (parry's own
+    /// intersection is wrong for outlines that share a corner.)
+    pub fn shared_area_m2(&self, other: &Self) -> f64 {
+        let (mut shared, mut cut) = (self.corners.clone(), Vec::new());
+        for (a, b) in other.edges() {
+            let side = |p: &Point2<f64>| (b - a).perp(&(p - a));
+            cut.clear();
+            for (i, p) in shared.iter().enumerate() {
+                let next = &shared[(i + 1) % shared.len()];
+                let (here, there) = (side(p), side(next));
+                if here >= 0.0 {
+                    cut.push(*p);
+                }
+                if (here >= 0.0) != (there >= 0.0) {
+                    cut.push(p + (next - p) * (here / (here - there)));
+                }
+            }
+            std::mem::swap(&mut shared, &mut cut);
+        }
+        Self { corners: shared }.area_m2().max(0.0)
+    }
+
+    /// Where the line through `point` in this direction enters and leaves the outline; `None` when it misses it.
+    pub fn cuts(&self, point: &Point2<f64>, direction: &Vector2<f64>) -> Option<[Cut; 2]> {
+        let side = |corner: &Point2<f64>| direction.perp(&(corner - point));
+        let (mut enters, mut leaves) = (None, None);
+        for (edge, (a, b)) in self.edges().enumerate() {
+            let (from, to) = (side(&a), side(&b));
+            if (from > 0.0) == (to > 0.0) {
+                continue;
+            }
+            let at = a + (b - a) * (from / (from - to));
+            let cut = Some(Cut { edge, at });
+            // Counter-clockwise: the line enters over an edge that goes from its left to its right.
+            if from > 0.0 {
+                enters = cut;
+            } else {
+                leaves = cut;
+            }
+        }
+        Some([enters?, leaves?])
     }
 
     /// Room that a disc of `radius_m` has to the outline on its way along straight pieces between `places_m`, m: by how
@@ -121,6 +173,52 @@ mod tests {
             let least = (0..=200).map(place).fold(f64::INFINITY, f64::min);
             prop_assert!(swept <= least + 1e-6 && swept > least - 0.02);
         }
+    }
+
+    fn points() -> impl Strategy<Value = Vec<Point2<f64>>> {
+        let point = (-2.0..2.0f64, -2.0..2.0f64).prop_map(|(x, y)| Point2::new(x, y));
+        prop::collection::vec(point, 3..20)
+    }
+
+    proptest! {
+        #[test]
+        fn two_outlines_share_no_more_than_either_has_and_as_much_either_way(a in points(), b in points()) {
+            let (Ok(a), Ok(b)) = (Outline::hull(&a), Outline::hull(&b)) else { return Ok(()) };
+            let shared = a.shared_area_m2(&b);
+            prop_assert!((0.0..=a.area_m2().min(b.area_m2()) + 1e-6).contains(&shared));
+            prop_assert!((shared - b.shared_area_m2(&a)).abs() < 1e-6);
+            prop_assert!((a.shared_area_m2(&a) - a.area_m2()).abs() < 1e-6);
+            let inside = (0..40_000).filter(|i| {
+                let at = Point2::new(f64::from(i % 200) / 50.0 - 1.99, f64::from(i / 200) / 50.0 - 1.99);
+                a.contains(&at) && b.contains(&at)
+            });
+            prop_assert!((shared - inside.count() as f64 / 2500.0).abs() < 0.1);
+        }
+
+        #[test]
+        fn a_line_through_the_inside_enters_before_it_leaves(points in points(), weights in prop::collection::vec(0.1..1.0f64, 20), heading in 0.0..6.3f64) {
+            let Ok(hull) = Outline::hull(&points) else { return Ok(()) };
+            let total: f64 = weights.iter().take(points.len()).sum();
+            let inside = points.iter().zip(&weights).map(|(p, w)| p.coords * *w / total).sum::<Vector2<f64>>();
+            let direction = Vector2::new(heading.cos(), heading.sin());
+            let [enters, leaves] = hull.cuts(&inside.into(), &direction).unwrap();
+            for cut in [enters, leaves] {
+                prop_assert!(direction.perp(&(cut.at.coords - inside)).abs() < 1e-9);
+                let (a, b) = hull.edges().nth(cut.edge).unwrap();
+                prop_assert!((nalgebra::distance(&a, &cut.at) + nalgebra::distance(&cut.at, &b) - nalgebra::distance(&a, &b)).abs() < 1e-9);
+            }
+            prop_assert!(direction.dot(&(leaves.at - enters.at)) > 0.0);
+        }
+    }
+
+    #[test]
+    fn a_line_beside_the_outline_cuts_nothing() {
+        assert_eq!(square().cuts(&Point2::new(0.0, 0.6), &Vector2::x()), None);
+        let cut = square().cuts(&Point2::origin(), &Vector2::x()).unwrap();
+        assert_eq!(
+            cut.map(|cut| cut.at),
+            [Point2::new(1.0, 0.0), Point2::new(2.0, 0.0)]
+        );
     }
 
     #[test]

@@ -60,11 +60,12 @@ pub(crate) fn world_model(settings: &Settings) -> Result<Box<dyn WorldModel>, Pi
     }
 }
 
-pub(crate) fn recognizer(settings: &Settings) -> Result<Recognizer, PilotError> {
-    Ok(Recognizer::new(table(
-        &settings.navigation.tables,
-        "stairs",
-    )?)?)
+pub(crate) fn recognizer(
+    settings: &Settings,
+    camera: Intrinsics,
+) -> Result<Recognizer, PilotError> {
+    let config = table(&settings.navigation.tables, "stairs")?;
+    Ok(Recognizer::new(config, camera)?)
 }
 
 pub(crate) fn localizer(settings: &Settings) -> Result<Box<dyn Localizer>, PilotError> {

@@ -69,7 +69,7 @@ impl Pilot {
             perception: Perception::new(
                 segmenter,
                 world_model,
-                registry::recognizer(settings)?,
+                registry::recognizer(settings, camera)?,
                 self_filter,
                 camera,
             ),

@@ -11,6 +11,18 @@ pub struct StairsConfig {
     pub min_edge: f64,
     /// A stair that is less deep is discarded, m (003, section IV.B).
     pub min_depth: f64,
+    /// Surfaces within this of the robot's height are the ground that it stands on, unless something lies between, m.
+    pub own_height: f64,
+    /// Stairs that overlap are one when their heights differ by no more than this, m.
+    pub similar_height: f64,
+    /// Frames in which a stair must be seen before it is believed.
+    pub min_frames: u32,
+    /// Frames in a row in which something lower is seen in a stair's place before it is dropped.
+    pub contradicted_frames: u32,
+    /// Steps after which a stair that was not seen again is forgotten.
+    pub forget_steps: u32,
+    /// Distance beyond which stairs are forgotten, m.
+    pub forget_distance: f64,
 }
 
 impl Default for StairsConfig {
@@ -18,6 +30,12 @@ impl Default for StairsConfig {
         Self {
             min_edge: 0.15,
             min_depth: 0.07,
+            own_height: 0.01,
+            similar_height: 0.009,
+            min_frames: 2,
+            contradicted_frames: 4,
+            forget_steps: 80,
+            forget_distance: 3.0,
         }
     }
 }
@@ -25,9 +43,21 @@ impl Default for StairsConfig {
 impl StairsConfig {
     /// Refuses what cannot be used.
     pub fn check(&self) -> Result<(), ConfigError> {
-        for (name, value) in [("min_edge", self.min_edge), ("min_depth", self.min_depth)] {
-            let key = format!("navigation.stairs.{name}");
-            require(value.is_finite() && value > 0.0, &key, "> 0", value)?;
+        let key = |name: &str| format!("navigation.stairs.{name}");
+        for (name, value) in [
+            ("min_edge", self.min_edge),
+            ("min_depth", self.min_depth),
+            ("own_height", self.own_height),
+            ("similar_height", self.similar_height),
+            ("forget_distance", self.forget_distance),
+        ] {
+            require(value.is_finite() && value > 0.0, &key(name), "> 0", value)?;
+        }
+        for (name, value) in [
+            ("min_frames", self.min_frames),
+            ("contradicted_frames", self.contradicted_frames),
+        ] {
+            require(value > 0, &key(name), "> 0", value)?;
         }
         Ok(())
     }

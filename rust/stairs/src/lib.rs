@@ -1,14 +1,32 @@
 //! Stairs (003): extracted from horizontal planes, their edges fitted to the disparities, merged while the robot stands,
 //! remembered while it steps, and where feet fit on them.
 
+mod border;
+mod boundary;
 mod config;
 mod edge_model;
+mod extract;
 mod footing;
+mod line;
+mod memory;
+mod merge;
 mod recognizer;
 mod stair;
+mod tread;
+mod view;
+
+#[cfg(test)]
+#[path = "../../segmentation/src/synthetic.rs"]
+#[expect(
+    dead_code,
+    reason = "shared with the segmenter's tests, which use more of it"
+)]
+mod synthetic;
+#[cfg(test)]
+mod tests;
 
 pub use config::{ClimbingConfig, ParameterSet, StairsConfig};
 pub use edge_model::{EdgeModel, FittedEdge, Untrusted};
 pub use footing::{Feet, Footing, Onward, Unfit};
 pub use recognizer::{Recognizer, StairsError};
-pub use stair::{Edge, EdgeFit, Stair, Staircase};
+pub use stair::{Edge, EdgeFit, Sides, Stair, Staircase};

@@ -2,9 +2,12 @@
 
 use geometry::{ConfigError, Map, Pose, Robot};
 use segmentation::Planes;
-use sensing::Scan;
+use sensing::{Intrinsics, Scan};
 
-use crate::{Staircase, StairsConfig};
+use crate::extract::{Sighting, extract};
+use crate::memory::Memory;
+use crate::view::View;
+use crate::{Stair, Staircase, StairsConfig};
 
 /// Why a frame was not searched for stairs. The stairs are unchanged.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -12,38 +15,77 @@ pub enum StairsError {
     /// A pose with a component that is no number.
     #[error("the robot's pose must be finite")]
     PoseNotFinite,
+    /// The planes are those of another camera.
+    #[error("planes must have {expected} pixels, got {found}")]
+    WrongSize {
+        /// Pixels of the camera.
+        expected: usize,
+        /// Pixels found.
+        found: usize,
+    },
 }
 
 /// Finds, merges and remembers stairs.
 #[derive(Debug, Clone)]
 pub struct Recognizer {
     config: StairsConfig,
+    camera: Intrinsics,
+    sightings: Vec<Sighting>,
+    memory: Memory,
+    steps_taken: u64,
     staircase: Staircase,
 }
 
 impl Recognizer {
     /// Knows no stair yet.
-    pub fn new(config: StairsConfig) -> Result<Self, ConfigError> {
+    pub fn new(config: StairsConfig, camera: Intrinsics) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self {
             config,
+            camera,
+            sightings: Vec::new(),
+            memory: Memory::default(),
+            steps_taken: 0,
             staircase: Staircase::default(),
         })
     }
 
-    /// Takes in a frame seen from `map_from_robot` after `steps_taken` steps in all.
+    /// Takes in a frame seen from `map_from_robot` after `steps_taken` steps in all. Frames whose planes are not reliable
+    /// teach nothing.
     pub fn update(
         &mut self,
         _scan: &Scan,
-        _planes: &Planes,
+        planes: &Planes,
         map_from_robot: &Pose<Map, Robot>,
-        _steps_taken: u64,
+        steps_taken: u64,
     ) -> Result<&Staircase, StairsError> {
-        let _ = &self.config;
-        let origin = map_from_robot.inner.translation.vector;
-        if !origin.iter().all(|value| value.is_finite()) {
+        let isometry = &map_from_robot.inner;
+        let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
+        if !finite(isometry.translation.vector.as_slice())
+            || !finite(isometry.rotation.coords.as_slice())
+        {
             return Err(StairsError::PoseNotFinite);
         }
+        let expected = self.camera.width * self.camera.height;
+        for found in [planes.points_in_robot_m.len(), planes.floor_height_m.len()] {
+            if found != expected {
+                return Err(StairsError::WrongSize { expected, found });
+            }
+        }
+        let stepped = steps_taken.saturating_sub(self.steps_taken);
+        if stepped > 0 {
+            self.memory.step(stepped, &self.config);
+            self.steps_taken = steps_taken;
+        }
+        if planes.reliable {
+            extract(planes, self.camera, &self.config, &mut self.sightings);
+            let view = View::new(planes, self.camera);
+            self.memory
+                .see(&self.sightings, &view, map_from_robot, &self.config);
+        }
+        self.staircase.frames = self.memory.frames;
+        self.memory.stairs(&self.config, &mut self.staircase.stairs);
+        sort_by_nearness(&mut self.staircase.stairs, map_from_robot);
         Ok(&self.staircase)
     }
 
@@ -51,4 +93,15 @@ impl Recognizer {
     pub const fn staircase(&self) -> &Staircase {
         &self.staircase
     }
+}
+
+/// Those ahead before those behind, each the nearest first along the walking direction.
+fn sort_by_nearness(stairs: &mut [Stair<Map>], map_from_robot: &Pose<Map, Robot>) {
+    let robot_from_map = map_from_robot.inverse();
+    let ahead_m = |stair: &Stair<Map>| (robot_from_map * stair.reference).inner.x;
+    stairs.sort_by(|a, b| {
+        let (a_m, b_m) = (ahead_m(a), ahead_m(b));
+        let behind = (a_m < 0.0).cmp(&(b_m < 0.0));
+        behind.then(a_m.abs().total_cmp(&b_m.abs()))
+    });
 }

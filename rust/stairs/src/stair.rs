@@ -22,21 +22,37 @@ pub struct EdgeFit {
     pub heading_sigma_rad: f64,
 }
 
+/// How much of the support saw a side of a stair end there, in points. 0: the side is only where the view ended, or where
+/// something stood before it; the stair may go on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Sides {
+    /// Front edge.
+    pub front: usize,
+    /// Back edge.
+    pub back: usize,
+    /// Left ends of the edges.
+    pub left: usize,
+    /// Right ends of the edges.
+    pub right: usize,
+}
+
 /// One surface to step on: a step of a staircase, a sill, a landing, or the lower ground at the foot of a staircase.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stair<Frame> {
-    /// Edge that is crossed onto it.
+    /// Edge that is crossed onto it: the one on the robot's side.
     pub front: Edge<Frame>,
-    /// Edge that is crossed off it, where the view ended if `back_fit` is `None`.
+    /// Edge that is crossed off it; only the end of the view where `seen_ends.back` is 0 and `back_fit` is `None`.
     pub back: Edge<Frame>,
     /// Mean of the supporting points; its z is the stair's height.
     pub reference: Point<Frame>,
-    /// Room beyond the edges' left ends, m.
+    /// Room to the left of both edges, m.
     pub left_margin_m: f64,
-    /// Room beyond the edges' right ends, m.
+    /// Room to the right of both edges, m.
     pub right_margin_m: f64,
-    /// Supporting points, of all frames merged.
+    /// Supporting points, of all frames that still count.
     pub support: usize,
+    /// Which sides were seen to be its own ends.
+    pub seen_ends: Sides,
     /// How surely the front edge was found; `None` when it is only the hull's.
     pub front_fit: Option<EdgeFit>,
     /// How surely the back edge was found; `None` when it is only the hull's.
@@ -100,6 +116,16 @@ impl<F> Stair<F> {
         self.front.beyond_m(at).abs() + self.back.beyond_m(at).abs()
     }
 
+    /// Five by five places inside, away from the edges.
+    pub(crate) fn places(&self) -> impl Iterator<Item = Point<F>> + '_ {
+        let share = |i: usize| 0.1 + 0.2 * i as f64;
+        (0..25).map(move |i| {
+            let (across, along) = (share(i / 5), share(i % 5));
+            let on = |edge: &Edge<F>| edge.right.inner.lerp(&edge.left.inner, along);
+            Point::wrap(on(&self.front).lerp(&on(&self.back), across))
+        })
+    }
+
     /// The same stair in another frame.
     #[must_use]
     pub fn transformed<T>(&self, target_from_frame: &Pose<T, F>) -> Stair<T> {
@@ -110,6 +136,7 @@ impl<F> Stair<F> {
             left_margin_m: self.left_margin_m,
             right_margin_m: self.right_margin_m,
             support: self.support,
+            seen_ends: self.seen_ends,
             front_fit: self.front_fit,
             back_fit: self.back_fit,
             steps_ago: self.steps_ago,

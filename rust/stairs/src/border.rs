@@ -1,0 +1,153 @@
+//! The front or the back of a tread: all sightings of one edge, summed.
+
+use geometry::Outline;
+use nalgebra::{Point2, Vector2};
+
+use crate::line::{Line, LineSum};
+
+/// Share of the sightings that must have seen where a side ends for it to end there, against those that saw it go on.
+const BELIEVED: f64 = 0.2;
+/// Sightings that go on for less than this beyond the end agree with it, m.
+const AGREES_M: f64 = 0.02;
+
+/// One end of an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct End {
+    // Of the ends that were seen: weight and weighted sum of the places.
+    weight: f64,
+    places: Vector2<f64>,
+    // The outermost place that any sighting reached.
+    reached: Option<Point2<f64>>,
+}
+
+impl End {
+    fn add(&mut self, place: &Point2<f64>, weight: f64, outward: &Vector2<f64>) {
+        self.weight += weight;
+        self.places += place.coords * weight;
+        self.reach(place, outward);
+    }
+
+    fn reach(&mut self, place: &Point2<f64>, outward: &Vector2<f64>) {
+        let farther = |old: &Point2<f64>| outward.dot(&(place - old)) > 0.0;
+        if self.reached.as_ref().is_none_or(farther) {
+            self.reached = Some(*place);
+        }
+    }
+
+    fn add_end(&mut self, other: &Self, outward: &Vector2<f64>) {
+        self.weight += other.weight;
+        self.places += other.places;
+        if let Some(place) = &other.reached {
+            self.reach(place, outward);
+        }
+    }
+
+    /// Where it is, of sightings of this weight in all.
+    fn place(&self, all: f64) -> Option<Point2<f64>> {
+        let reached = self.reached?;
+        if self.weight <= 0.0 {
+            return Some(reached);
+        }
+        let seen = Point2::from(self.places / self.weight);
+        let agrees = nalgebra::distance(&seen, &reached) < AGREES_M;
+        Some(if agrees || self.weight > BELIEVED * all {
+            seen
+        } else {
+            reached
+        })
+    }
+}
+
+/// How a side of a sighting counts.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Weights {
+    /// Supporting points of the sighting.
+    pub(crate) all: f64,
+    /// The same where the edge was seen to end the surface, else 0.
+    pub(crate) edge: f64,
+    /// The same for its left end.
+    pub(crate) left: f64,
+    /// The same for its right end.
+    pub(crate) right: f64,
+}
+
+/// An edge, from its right to its left end for one who goes from front to back.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Border {
+    seen: LineSum,
+    unseen: LineSum,
+    left: End,
+    right: End,
+}
+
+impl Border {
+    pub(crate) fn new([right, left]: [&Point2<f64>; 2], weights: Weights) -> Self {
+        let mut border = Self::default();
+        if weights.edge > 0.0 {
+            border.seen.add([right, left], weights.edge);
+        } else {
+            border.unseen.add([right, left], weights.all);
+        }
+        let to_left = left - right;
+        border.left.add(left, weights.left, &to_left);
+        border.right.add(right, weights.right, &-to_left);
+        border
+    }
+
+    /// Adds another sum of sightings of the same edge.
+    pub(crate) fn add_border(&mut self, other: &Self) {
+        let to_left = self.along();
+        self.seen.add_sum(&other.seen);
+        self.unseen.add_sum(&other.unseen);
+        self.left.add_end(&other.left, &to_left);
+        self.right.add_end(&other.right, &-to_left);
+    }
+
+    /// Makes all weights smaller by a factor.
+    pub(crate) fn scale(&mut self, factor: f64) {
+        for sum in [&mut self.seen, &mut self.unseen] {
+            sum.scale(factor);
+        }
+        for end in [&mut self.left, &mut self.right] {
+            end.weight *= factor;
+            end.places *= factor;
+        }
+    }
+
+    /// Left becomes right.
+    pub(crate) fn reverse(&mut self) {
+        self.seen.reverse();
+        self.unseen.reverse();
+        std::mem::swap(&mut self.left, &mut self.right);
+    }
+
+    /// Weight of the sightings in which the edge, its left and its right end were seen to end the surface.
+    pub(crate) const fn seen_weights(&self) -> [f64; 3] {
+        [self.seen.weight(), self.left.weight, self.right.weight]
+    }
+
+    /// Direction from right to left; nothing where nothing is known.
+    pub(crate) fn along(&self) -> Vector2<f64> {
+        let line = self.seen.line().or_else(|| self.unseen.line());
+        line.map_or_else(Vector2::zeros, |line| line.along)
+    }
+
+    /// The edge, right end first. Where it was never seen it is drawn outside of all of the hull, on the side that
+    /// `outward` says: 1 for the back, -1 for the front.
+    pub(crate) fn ends(&self, hull: &Outline, outward: f64) -> Option<[Point2<f64>; 2]> {
+        let all = self.seen.weight() + self.unseen.weight();
+        let believed = self.seen.weight() > BELIEVED * all;
+        let seen = self.seen.line().filter(|_| believed);
+        let line = seen.or_else(|| {
+            let mut line: Line = self.unseen.line()?;
+            let out = |p: &Point2<f64>| outward * line.offset_m(p);
+            let outermost = hull.corners().iter().map(out).fold(f64::MIN, f64::max);
+            line.at += line.across() * outward * outermost;
+            Some(line)
+        })?;
+        Some([
+            line.nearest(&self.right.place(all)?),
+            line.nearest(&self.left.place(all)?),
+        ])
+    }
+}

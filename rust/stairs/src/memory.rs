@@ -1,0 +1,139 @@
+//! What is known of the stairs around: merged while the robot stands (003, section IV.C), remembered while it steps.
+
+use geometry::{Map, Pose, Robot};
+use nalgebra::Point2;
+
+use crate::extract::Sighting;
+use crate::merge::{merge_all, overlap, shared};
+use crate::tread::Tread;
+use crate::view::{Shows, View};
+use crate::{Stair, StairsConfig};
+
+/// Share of two treads of different heights in one place from which on they contradict each other.
+const CONTRADICT: f64 = 0.5;
+/// Places of a tread that must be seen to tell that it is not there.
+const LOOKED_AT: usize = 6;
+/// Share of them that must show something lower.
+const SEEN_THROUGH: f64 = 0.6;
+
+/// The treads around the robot, seen or remembered.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Memory {
+    treads: Vec<Tread>,
+    /// Frames merged since the last step.
+    pub(crate) frames: u32,
+}
+
+impl Memory {
+    /// The robot stepped this often: what was seen is now remembered.
+    pub(crate) fn step(&mut self, times: u64, config: &StairsConfig) {
+        self.frames = 0;
+        self.treads
+            .retain(|tread| tread.sightings >= config.min_frames);
+        for tread in &mut self.treads {
+            for _ in 0..times.min(u64::from(config.forget_steps)) {
+                tread.step();
+            }
+        }
+    }
+
+    /// Takes in what a frame showed.
+    pub(crate) fn see(
+        &mut self,
+        sightings: &[Sighting],
+        view: &View<'_>,
+        map_from_robot: &Pose<Map, Robot>,
+        config: &StairsConfig,
+    ) {
+        let robot = map_from_robot.origin().inner.xy();
+        self.look_for_gone(view, map_from_robot);
+        let known = self.treads.len();
+        for sighting in sightings {
+            let Some(tread) = Tread::new(sighting, map_from_robot) else {
+                continue;
+            };
+            let same = |old: &Tread| overlap(old, &tread, config.similar_height);
+            let counts = if sighting.own_level {
+                self.treads[..known]
+                    .iter()
+                    .any(|old| same(old) && carries(old, &robot))
+            } else {
+                sighting.large_enough || self.treads[..known].iter().any(same)
+            };
+            if counts {
+                self.treads.push(tread);
+            }
+        }
+        merge_all(&mut self.treads, config.similar_height);
+        self.drop_contradicted(config);
+        let far =
+            |tread: &Tread| nalgebra::distance(&tread.middle(), &robot) > config.forget_distance;
+        self.treads
+            .retain(|tread| !far(tread) && tread.steps_ago <= config.forget_steps);
+        for tread in &mut self.treads {
+            tread.face(&robot);
+        }
+        self.frames = self.frames.saturating_add(1);
+    }
+
+    /// Counts the frames in which something lower shows where a tread should be.
+    fn look_for_gone(&mut self, view: &View<'_>, map_from_robot: &Pose<Map, Robot>) {
+        let robot_from_map = map_from_robot.inverse();
+        for tread in &mut self.treads {
+            let Some(stair) = tread.stair() else {
+                continue;
+            };
+            let (mut there, mut gone) = (0_usize, 0_usize);
+            for place in stair.transformed(&robot_from_map).places() {
+                match view.shows_at(&place.inner) {
+                    Some(Shows::Surface) => there += 1,
+                    Some(Shows::Lower) => gone += 1,
+                    Some(Shows::Higher) | None => {}
+                }
+            }
+            let looked_at = there + gone;
+            if looked_at >= LOOKED_AT {
+                let through = gone as f64 >= SEEN_THROUGH * looked_at as f64;
+                tread.contradicted = if through { tread.contradicted + 1 } else { 0 };
+            }
+        }
+    }
+
+    /// Drops treads that were looked through for some frames, and remembered ones in whose place something of another
+    /// height is seen that is known better.
+    fn drop_contradicted(&mut self, config: &StairsConfig) {
+        self.treads
+            .retain(|tread| tread.contradicted < config.contradicted_frames);
+        self.treads.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
+        let mut index = 0;
+        while index < self.treads.len() {
+            let tread = &self.treads[index];
+            let better = |other: &Tread| shared(other, tread) > CONTRADICT;
+            if tread.steps_ago > 0 && self.treads[..index].iter().any(better) {
+                let _ = self.treads.remove(index);
+            } else {
+                index += 1;
+            }
+        }
+    }
+
+    /// The stairs that are sure enough, no two in one place.
+    pub(crate) fn stairs(&self, config: &StairsConfig, stairs: &mut Vec<Stair<Map>>) {
+        stairs.clear();
+        for (index, tread) in self.treads.iter().enumerate() {
+            let known = |tread: &Tread| tread.sightings >= config.min_frames;
+            let better = |other: &Tread| known(other) && shared(other, tread) > CONTRADICT;
+            if known(tread) && !self.treads[..index].iter().any(better) {
+                stairs.extend(tread.stair());
+            }
+        }
+    }
+}
+
+/// Whether a tread lies under the robot.
+fn carries(tread: &Tread, robot: &Point2<f64>) -> bool {
+    tread.stair().is_some_and(|stair| {
+        let at = [robot.x, robot.y];
+        stair.front.beyond_m(at) > 0.0 && stair.back.beyond_m(at) < 0.0
+    })
+}

@@ -1,0 +1,199 @@
+//! A stair under construction: sums of all that was seen of it, in the map.
+
+use geometry::{Map, Outline, Point, Pose, Robot};
+use nalgebra::{Point2, Vector2, Vector3};
+
+use crate::border::{Border, Weights};
+use crate::extract::Sighting;
+use crate::{Edge, Sides, Stair};
+
+/// Sightings that a tread is worth after a step: those that follow soon weigh more.
+const REMEMBERED_SIGHTINGS: f64 = 2.0;
+/// Fronts that point further apart than this are different sides, cosine.
+const SAME_SIDE: f64 = 0.82;
+/// How far beyond its back the robot must be for the back to become the front, m.
+const TURN_ROUND_M: f64 = 0.05;
+
+/// Sums over the sightings of one tread. Sums commute: the order of sightings does not matter.
+#[derive(Debug, Clone)]
+pub(crate) struct Tread {
+    hull: Outline,
+    front: Border,
+    back: Border,
+    weight: f64,
+    reference: Vector3<f64>,
+    // Sightings, with those before a step worth less.
+    worth: f64,
+    /// Sightings in all.
+    pub(crate) sightings: u32,
+    /// Steps since the last of them.
+    pub(crate) steps_ago: u32,
+    /// Frames in a row in which something lower was seen through it.
+    pub(crate) contradicted: u32,
+}
+
+impl Tread {
+    pub(crate) fn new(sighting: &Sighting, map_from_robot: &Pose<Map, Robot>) -> Option<Self> {
+        let stair = sighting.stair.transformed(map_from_robot);
+        let corners: Vec<_> = sighting
+            .hull
+            .corners()
+            .iter()
+            .map(|p| in_map(p, map_from_robot))
+            .collect();
+        let weight = stair.support as f64;
+        let seen = &stair.seen_ends;
+        let border = |edge: &Edge<Map>, seen_edge: usize| {
+            let [right, left] = [&edge.right, &edge.left].map(|p| p.inner.xy());
+            let weights = Weights {
+                all: weight,
+                edge: seen_edge as f64,
+                left: seen.left as f64,
+                right: seen.right as f64,
+            };
+            Border::new([&right, &left], weights)
+        };
+        Some(Self {
+            hull: Outline::hull(&corners).ok()?,
+            front: border(&stair.front, seen.front),
+            back: border(&stair.back, seen.back),
+            weight,
+            reference: stair.reference.inner.coords * weight,
+            worth: 1.0,
+            sightings: 1,
+            steps_ago: 0,
+            contradicted: 0,
+        })
+    }
+
+    /// Adds another tread that is the same one.
+    pub(crate) fn add(&mut self, other: &Self) {
+        let mut other = other.clone();
+        let agreement = self.front.along().dot(&other.front.along());
+        if agreement < -SAME_SIDE {
+            other.turn_round();
+        }
+        if agreement.abs() > SAME_SIDE {
+            self.front.add_border(&other.front);
+            self.back.add_border(&other.back);
+        } else if other.weight > self.weight {
+            // Seen from another side: the sides of the one that is known better.
+            (self.front, self.back) = (other.front, other.back);
+        }
+        let corners: Vec<_> = [&self.hull, &other.hull]
+            .iter()
+            .flat_map(|hull| hull.corners())
+            .copied()
+            .collect();
+        if let Ok(hull) = Outline::hull(&corners) {
+            self.hull = hull;
+        }
+        self.weight += other.weight;
+        self.reference += other.reference;
+        self.worth += other.worth;
+        self.sightings = self.sightings.saturating_add(other.sightings);
+        self.steps_ago = self.steps_ago.min(other.steps_ago);
+        self.contradicted = 0;
+    }
+
+    /// The robot stepped: what is known is remembered, and counts less against what will be seen.
+    pub(crate) fn step(&mut self) {
+        self.steps_ago = self.steps_ago.saturating_add(1);
+        let factor = REMEMBERED_SIGHTINGS / self.worth;
+        if factor < 1.0 {
+            self.front.scale(factor);
+            self.back.scale(factor);
+            self.weight *= factor;
+            self.reference *= factor;
+            self.worth = REMEMBERED_SIGHTINGS;
+        }
+    }
+
+    fn turn_round(&mut self) {
+        self.front.reverse();
+        self.back.reverse();
+        std::mem::swap(&mut self.front, &mut self.back);
+    }
+
+    /// Makes the side on which the robot is the front.
+    pub(crate) fn face(&mut self, robot: &Point2<f64>) {
+        let beyond = |stair: Stair<Map>| stair.back.beyond_m([robot.x, robot.y]) > TURN_ROUND_M;
+        if self.stair().is_some_and(beyond) {
+            self.turn_round();
+        }
+    }
+
+    /// Sightings that it is worth.
+    pub(crate) const fn worth(&self) -> f64 {
+        self.worth
+    }
+
+    /// Mean of all supporting points, m.
+    pub(crate) fn middle(&self) -> Point2<f64> {
+        (self.reference / self.weight).xy().into()
+    }
+
+    pub(crate) fn height_m(&self) -> f64 {
+        self.reference.z / self.weight
+    }
+
+    /// The smallest quadrangle with the directions of the edges around all sightings, but no larger than the ends that
+    /// were seen, with the margins that the hull has beyond it.
+    pub(crate) fn stair(&self) -> Option<Stair<Map>> {
+        let reference = self.reference / self.weight;
+        let [front, back] = [
+            self.front.ends(&self.hull, -1.0)?,
+            self.back.ends(&self.hull, 1.0)?,
+        ];
+        let along = self.front.along();
+        let span = |p: &Point2<f64>| along.dot(&p.coords);
+        let corners = self.hull.corners().iter().map(span);
+        let (least, most) = corners.fold((f64::MAX, f64::MIN), |(a, b), s| (a.min(s), b.max(s)));
+        let left_margin_m = (most - span(&front[1]).max(span(&back[1]))).max(0.0);
+        let right_margin_m = (span(&front[0]).min(span(&back[0])) - least).max(0.0);
+        let at = |p: &Point2<f64>| Point::new(p.x, p.y, reference.z);
+        let edge = |[right, left]: [Point2<f64>; 2]| Edge {
+            left: at(&left),
+            right: at(&right),
+        };
+        let ([front_seen, ..], [back_seen, left_seen, right_seen]) =
+            (self.front.seen_weights(), self.back.seen_weights());
+        let [_, left_too, right_too] = self.front.seen_weights();
+        Some(Stair {
+            front: edge(front),
+            back: edge(back),
+            reference: Point::wrap(reference.into()),
+            left_margin_m,
+            right_margin_m,
+            support: self.weight.round() as usize,
+            seen_ends: Sides {
+                front: front_seen.ceil() as usize,
+                back: back_seen.ceil() as usize,
+                left: left_seen.max(left_too).ceil() as usize,
+                right: right_seen.max(right_too).ceil() as usize,
+            },
+            front_fit: None,
+            back_fit: None,
+            steps_ago: self.steps_ago,
+        })
+    }
+}
+
+fn in_map(place: &Point2<f64>, map_from_robot: &Pose<Map, Robot>) -> Point2<f64> {
+    (*map_from_robot * Point::<Robot>::new(place.x, place.y, 0.0))
+        .inner
+        .xy()
+}
+
+/// The outline of a stair between its edges' ends.
+pub(crate) fn quadrangle<F>(stair: &Stair<F>) -> Option<Outline> {
+    let corners =
+        [&stair.front, &stair.back].map(|edge| [edge.left.inner.xy(), edge.right.inner.xy()]);
+    Outline::hull(corners.as_flattened()).ok()
+}
+
+/// Direction from front to back of an edge.
+pub(crate) fn across<F>(edge: &Edge<F>) -> Vector2<f64> {
+    let (sin, cos) = edge.heading_rad().sin_cos();
+    Vector2::new(cos, sin)
+}

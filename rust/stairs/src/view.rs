@@ -1,0 +1,143 @@
+//! What the camera saw where a surface lies or ends.
+
+use geometry::{Camera, Robot};
+use nalgebra::{Isometry3, Point3, Vector2};
+use segmentation::Planes;
+use sensing::Intrinsics;
+
+/// How far beyond a side the picture is asked whether the surface goes on, px: half a matching window and one more, and
+/// farther where a riser lies between.
+const BEYOND_PX: [f64; 3] = [3.5, 6.0, 8.5];
+/// A point belongs to a surface when their heights differ by less than this, m, and by less than [`HEIGHT_NOISE`] says.
+const SAME_HEIGHT_M: f64 = 0.008;
+/// Noise of a single point's height at 1 m, m; it grows with the squared distance.
+const HEIGHT_NOISE: f64 = 0.025;
+/// Places along a side at which the picture is asked.
+const PLACES: usize = 7;
+
+/// The planes of a frame, seen through its camera.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct View<'a> {
+    planes: &'a Planes,
+    camera: Intrinsics,
+    camera_from_robot: Isometry3<f64>,
+}
+
+/// What a pixel shows against a level surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Shows {
+    /// The surface.
+    Surface,
+    /// Something above it.
+    Higher,
+    /// Something below it: the surface is not there.
+    Lower,
+}
+
+impl<'a> View<'a> {
+    pub(crate) fn new(planes: &'a Planes, camera: Intrinsics) -> Self {
+        let robot_from_camera: geometry::Pose<Robot, Camera> = planes.robot_from_camera;
+        Self {
+            planes,
+            camera,
+            camera_from_robot: robot_from_camera.inner.inverse(),
+        }
+    }
+
+    /// Height of the camera above the ground, m.
+    pub(crate) fn height_m(&self) -> f64 {
+        self.planes.robot_from_camera.inner.translation.z
+    }
+
+    /// Depth that one row of pixels covers on a surface `below_m` below the camera and `away_m` away, m.
+    pub(crate) fn row_depth_m(&self, below_m: f64, away_m: f64) -> f64 {
+        (below_m.powi(2) + away_m.powi(2)) / (self.camera.focal_px * below_m)
+    }
+
+    /// Column and row at which a point would be seen, px; `None` behind the camera.
+    fn pixel(&self, point: &Point3<f64>) -> Option<Vector2<f64>> {
+        let seen = self.camera_from_robot * point;
+        let (cx, cy) = self.camera.principal_point_px();
+        (seen.z > 0.05).then(|| {
+            Vector2::new(
+                cx + self.camera.focal_px * seen.x / seen.z,
+                cy + self.camera.focal_px * seen.y / seen.z,
+            )
+        })
+    }
+
+    /// Index of the pixel at a place of the image; `None` outside.
+    fn index(&self, pixel: &Vector2<f64>) -> Option<usize> {
+        let (col, row) = (pixel.x.round(), pixel.y.round());
+        let inside = col >= 0.0
+            && row >= 0.0
+            && col < self.camera.width as f64
+            && row < self.camera.height as f64;
+        inside.then(|| row as usize * self.camera.width + col as usize)
+    }
+
+    /// What the pixel shows against a surface at this height; `None` where nothing was seen.
+    fn shows(&self, pixel: &Vector2<f64>, height_m: f64) -> Option<Shows> {
+        let at = self.index(pixel)?;
+        let point = self.planes.points_in_robot_m[at].map(f64::from);
+        if point[2].is_nan() {
+            return None;
+        }
+        let level_m = f64::from(self.planes.floor_height_m[at]);
+        let (above_m, slack_m) = if level_m.is_nan() {
+            let eye = self.planes.robot_from_camera.inner.translation.vector;
+            let away = (Point3::from(point).coords - eye).norm_squared();
+            (point[2] - height_m, SAME_HEIGHT_M + HEIGHT_NOISE * away)
+        } else {
+            (level_m - height_m, SAME_HEIGHT_M)
+        };
+        Some(if above_m > slack_m {
+            Shows::Higher
+        } else if above_m < -slack_m {
+            Shows::Lower
+        } else {
+            Shows::Surface
+        })
+    }
+
+    /// What is seen at a place of a surface at the place's height; `None` out of view or where nothing was seen.
+    pub(crate) fn shows_at(&self, place: &Point3<f64>) -> Option<Shows> {
+        self.shows(&self.pixel(place)?, place.z)
+    }
+
+    /// Shares of the places just beyond a side, from `a` to `b`, that show something lower and something higher than it.
+    /// What is out of view shows nothing.
+    pub(crate) fn beyond(&self, [a, b]: [&Point3<f64>; 2], outward: &Vector2<f64>) -> Beyond {
+        let mut found = Beyond::default();
+        for i in 0..PLACES {
+            let share = (i as f64 + 1.0) / (PLACES as f64 + 1.0);
+            let on = a + (b - a) * share;
+            let out = on + outward.push(0.0) * 0.01;
+            let (Some(from), Some(to)) = (self.pixel(&on), self.pixel(&out)) else {
+                continue;
+            };
+            let length = (to - from).norm();
+            if length < 1e-6 {
+                continue;
+            }
+            let outwards = (to - from) / length;
+            let shows = BEYOND_PX.map(|px| self.shows(&(from + outwards * px), on.z));
+            let other = |shows: &Option<Shows>| !matches!(shows, None | Some(Shows::Surface));
+            match shows.into_iter().find(other).flatten() {
+                Some(Shows::Lower) => found.lower += 1.0 / PLACES as f64,
+                Some(Shows::Higher) => found.higher += 1.0 / PLACES as f64,
+                Some(Shows::Surface) | None => {}
+            }
+        }
+        found
+    }
+}
+
+/// Shares of the places just beyond a side of a surface.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Beyond {
+    /// That show something lower.
+    pub(crate) lower: f64,
+    /// That show something higher.
+    pub(crate) higher: f64,
+}
