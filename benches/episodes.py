@@ -14,6 +14,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
+from climbs import ClimbWatch, StepError, step_summary
 
 from treadwell.episode import Episode
 from treadwell.errors import TreadwellError
@@ -37,11 +38,17 @@ class Run:
     stage_ms: dict[str, float]
     core_share: float
     audit: str
+    expected: str
+    climbed: int
+    descended: int
+    planned_steps: int
+    states_s: dict[str, float]
+    steps: list[StepError]
+    depths: list[tuple[float, float, float, float]]
 
     def passed(self) -> bool:
         """Whether it did what the scenario expects, without a fall or a collision."""
-        expected = "refused" if self.scenario == "boxed_in" else "goal_reached"
-        return self.outcome == expected and self.falls == 0 and not self.collisions
+        return self.outcome == self.expected and self.falls == 0 and not self.collisions
 
 
 def run(job: tuple[str, int, tuple[str, ...], bool]) -> Run:
@@ -49,9 +56,12 @@ def run(job: tuple[str, int, tuple[str, ...], bool]) -> Run:
     scenario, seed, overrides, audited = job
     episode = Episode(scenario, seed=seed, overrides=overrides)
     start, step, problem = time.perf_counter(), None, None
+    watch, states = ClimbWatch(episode), Counter[str]()
     try:
         while episode.verdict is None:
             step = episode.tick()
+            watch.tick(step)
+            states[step.state] += 1
     except TreadwellError as error:
         problem = str(error)
     wall = time.perf_counter() - start
@@ -78,6 +88,13 @@ def run(job: tuple[str, int, tuple[str, ...], bool]) -> Run:
         },
         sum(sum(episode.seconds[stage]) for stage in episode.pilot.stages) / wall,
         replayed(episode) if audited else "not asked for",
+        episode.scenario.expect.outcome,
+        judge.stairs_climbed,
+        judge.stairs_descended,
+        watch.planned,
+        {state: 0.01 * ticks for state, ticks in states.items()},
+        watch.steps,
+        watch.depths,
     )
 
 
@@ -97,7 +114,11 @@ def seeds(text: str) -> list[int]:
 
 def summary(scenario: str, runs: list[Run]) -> str:
     """Return the row of a scenario."""
-    outcomes = dict(Counter(one.outcome for one in runs))
+    outcomes = dict(Counter(word(one) for one in runs))
+    states = sorted({state for one in runs for state in one.states_s})
+    spent = {s: np.median([one.states_s.get(s, 0.0) for one in runs]) for s in states}
+    climbed = Counter(f"{one.climbed} up {one.descended} down" for one in runs)
+    steps = [step for one in runs for step in one.steps]
     audits = Counter(one.audit for one in runs)
     return (
         f"{scenario:<12} {sum(one.passed() for one in runs)} of {len(runs)} passed, {outcomes}, "
@@ -107,7 +128,15 @@ def summary(scenario: str, runs: list[Run]) -> str:
         f"{np.degrees(np.median([one.odometry_error_rad for one in runs])):.2f} degrees, "
         f"median {np.median([one.simulated_s for one in runs]):.1f} s, "
         f"audits {dict(audits)}\n"
+        f"{'':<12} {dict(climbed)}; {step_summary(steps)}\n"
+        f"{'':<12} median seconds {', '.join(f'{s} {spent[s]:.1f}' for s in states)}\n"
     )
+
+
+def word(one: Run) -> str:
+    """Return how a run ended: the outcome, or the word of the reason behind it."""
+    reason = (one.reason or "").partition(":")[0]
+    return f"{one.outcome} {reason}".strip()
 
 
 def timing(runs: list[Run]) -> str:
@@ -144,6 +173,7 @@ def main() -> None:
                 f"{mark} {done.scenario:<12} seed {done.seed:<5} {done.outcome:<13}"
                 f"{done.simulated_s:6.1f} s {done.simulated_s / done.wall_s:5.1f}x "
                 f"falls {done.falls} collisions {len(done.collisions)} "
+                f"up {done.climbed} down {done.descended} planned {done.planned_steps} "
                 f"{done.reason or ''} {', '.join(done.collisions)}\n"
             )
             sys.stdout.flush()

@@ -1,0 +1,182 @@
+"""What the robot knew of each step before it climbed it, against the truth; and of a basin's width.
+
+Used by `episodes.py` and `random_stairs.py`. The truth is read here alone, never by the core.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from treadwell._core import Stair
+from treadwell.course.build import Course
+from treadwell.episode import Episode, Step
+from treadwell.judging.ground_truth import Sole
+from treadwell.judging.level_changes import LEAST_CHANGE, LOOKS_A_FOOTPRINT
+
+Floats = NDArray[np.float64]
+
+HEIGHT_M, EDGE_M, HEADING_RAD = 0.003, 0.010, math.radians(3.0)
+"""What is asked of a step's height, of its front edge and of its heading."""
+_SAME_STEP_M = 0.06
+"""A stair that is believed to begin further from the true edge is another one."""
+
+
+@dataclass(frozen=True)
+class StepError:
+    """A step as it was believed to be before a foot left for it, minus what it was.
+
+    Attributes:
+        time: s.
+        rise: m, true.
+        height: m, of the surface against that which the robot stood on; NaN: not believed in.
+        edge: m, where its front edge lies ahead of the robot, on the foot's line.
+        heading: rad, of that edge.
+    """
+
+    time: float
+    rise: float
+    height: float
+    edge: float
+    heading: float
+
+    def found(self) -> bool:
+        """Whether the robot believed in it at all."""
+        return math.isfinite(self.height)
+
+    def within(self) -> bool:
+        """Whether height, edge and heading are as near as is asked for."""
+        edge = abs(self.edge) <= EDGE_M and abs(self.heading) <= HEADING_RAD
+        return abs(self.height) <= HEIGHT_M and edge
+
+
+@dataclass(frozen=True)
+class Belief:
+    """What was known while both soles stood: the stairs, and the robot's pose believed and true."""
+
+    stairs: Sequence[Stair]
+    believed: tuple[float, float, float, float]
+    true: tuple[float, float, float, float]
+
+
+class ClimbWatch:
+    """Watches an episode.
+
+    Attributes:
+        steps: an entry for each step made.
+        planned: most steps that a plan had.
+        depths: m, (x, y, z, depth) of the surfaces believed in at the last frame before the end.
+    """
+
+    def __init__(self, episode: Episode) -> None:
+        """Watch this episode."""
+        self._episode = episode
+        self._belief: Belief | None = None
+        self._looks = [0, 0]
+        self._prints: list[Sole | None] = [None, None]
+        self.steps: list[StepError] = []
+        self.planned = 0
+        self.depths: list[tuple[float, float, float, float]] = []
+
+    def tick(self, step: Step) -> None:
+        """Take in a control tick, after the judge has."""
+        judge, pilot = self._episode.judge, self._episode.pilot
+        touching = (judge.touch.left, judge.touch.right)
+        if step.observation.depth is not None:
+            climbs = pilot.climbs() or []
+            self.planned = max(self.planned, sum(len(climb.steps) for climb in climbs))
+            stairs = pilot.staircase().stairs
+            if all(touching):
+                true = judge.frame
+                pose = (true.x, true.y, true.z, true.yaw)
+                self._belief = Belief(stairs, step.estimate.pose, pose)
+            if stairs:
+                self.depths = [(*stair.reference, stair.depth) for stair in stairs]
+        if judge.soles is None:
+            return
+        for side, (sole, touches) in enumerate(zip(judge.soles, touching, strict=True)):
+            self._looks[side] = self._looks[side] + 1 if touches else 0
+            if self._looks[side] == LOOKS_A_FOOTPRINT:
+                self._footprint(side, sole, 1e-9 * step.time_ns)
+
+    def _footprint(self, side: int, sole: Sole, time: float) -> None:
+        before, other = self._prints[side], self._prints[1 - side]
+        self._prints[side] = sole
+        if before is None or other is None or self._belief is None:
+            return
+        rise = sole.z - before.z
+        first = abs(sole.z - other.z) >= LEAST_CHANGE
+        if abs(rise) < LEAST_CHANGE or not first:
+            return
+        edge = true_edge(self._episode.course, before, sole)
+        if edge is not None:
+            self.steps.append(_error(self._belief, edge, sole.z, rise, time))
+
+
+def true_edge(course: Course, before: Sole, after: Sole) -> tuple[Floats, float] | None:
+    """Return where a foot crossed an edge, (2,) world m, and the heading square to it, rad."""
+    start, way = np.array([before.x, before.y]), np.array([after.x - before.x, after.y - before.y])
+    points = start + np.linspace(0.0, 1.0, 400)[:, None] * way
+    jumps = np.abs(np.diff(course.height_at(points)))
+    if not len(jumps) or jumps.max() < LEAST_CHANGE / 2:
+        return None
+    crossing = points[int(np.argmax(jumps))]
+    best, heading = math.inf, 0.0
+    for _, top in course.tops():
+        corners = top.polygon[:, :2]
+        for begin, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+            along = (end - begin) / np.linalg.norm(end - begin)
+            normal = np.array([-along[1], along[0]])
+            share = float((crossing - begin) @ along) / float(np.linalg.norm(end - begin))
+            off = abs(float((crossing - begin) @ normal))
+            if off < best and -0.05 < share < 1.05 and abs(normal @ way) > 0.5 * np.hypot(*way):
+                best = off
+                normal = normal if normal @ way > 0.0 else -normal
+                heading = math.atan2(normal[1], normal[0])
+    return (crossing, heading) if best < 0.005 else None
+
+
+def _error(
+    belief: Belief, edge: tuple[Floats, float], level: float, rise: float, time: float
+) -> StepError:
+    x, y = _seen_from(belief.true, edge[0])
+    heading = edge[1] - belief.true[3]
+    best = StepError(time, rise, math.nan, math.nan, math.nan)
+    nearest = _SAME_STEP_M
+    for stair in belief.stairs:
+        left, right = (_seen_from(belief.believed, np.array(end[:2])) for end in stair.front)
+        believed = math.atan2(-(left[0] - right[0]), left[1] - right[1])
+        turn = math.remainder(believed - heading, 2 * math.pi)
+        normal = np.array([math.cos(believed), math.sin(believed)])
+        off = float(((left + right) / 2 - (x, y)) @ normal)
+        height = stair.height - belief.believed[2] - (level - belief.true[2])
+        if abs(off) < nearest and abs(height) < LEAST_CHANGE and abs(turn) < math.pi / 4:
+            nearest = abs(off)
+            best = StepError(time, rise, height, off, turn)
+    return best
+
+
+def _seen_from(pose: tuple[float, float, float, float], point: Floats) -> Floats:
+    """Return a point (2,) of the world or map in the frame of a robot at a pose (x, y, z, yaw)."""
+    c, s = math.cos(pose[3]), math.sin(pose[3])
+    dx, dy = point[0] - pose[0], point[1] - pose[1]
+    return np.array([c * dx + s * dy, -s * dx + c * dy])
+
+
+def step_summary(steps: Sequence[StepError]) -> str:
+    """Return one line on what was known of the steps before they were climbed."""
+    found = [step for step in steps if step.found()]
+    if not found:
+        return f"steps {len(steps)}, none known before it was climbed"
+    height = 1e3 * np.array([step.height for step in found])
+    edge = 1e3 * np.array([step.edge for step in found])
+    heading = np.degrees([step.heading for step in found])
+    edges = sum(abs(s.edge) <= EDGE_M and abs(s.heading) <= HEADING_RAD for s in found)
+    return (
+        f"steps {len(steps)}, known {len(found)}; height {np.mean(height):+.1f} sd "
+        f"{np.std(height):.1f} mm, within 3 mm {sum(abs(height) <= 3.0)}; edge "
+        f"{np.mean(edge):+.1f} sd {np.std(edge):.1f} mm, heading sd {np.std(heading):.1f} degrees, "
+        f"within 10 mm and 3 degrees {edges}; both {sum(step.within() for step in found)}"
+    )
