@@ -1,10 +1,10 @@
 //! What a depth frame sets off: scan, planes, pose, map.
 
-use geometry::{Camera, Pose, Robot};
+use geometry::{Camera, Map, Pose, Robot};
 use localization::{BodyState, Localizer};
-use mapping::{Insertion, WorldModel};
+use mapping::{FloorView, Insertion, Surface, WorldModel};
 use robot::Body;
-use segmentation::{Planes, Segmenter};
+use segmentation::{KnownFloor, Planes, Segmenter};
 use sensing::{Frame, Intrinsics, Scan, SelfFilter};
 use stairs::{Recognizer, Staircase};
 
@@ -22,6 +22,45 @@ pub struct Perception {
     insertion: Option<Insertion>,
     frames_used: u64,
     last_frame_ns: Option<u64>,
+}
+
+/// Frames that must have seen a cell's floor before its height counts as known.
+const SEEN_OFTEN: u16 = 4;
+
+/// The floor in the map as the robot remembers it from where it stands.
+struct Remembered<'a> {
+    view: &'a FloorView,
+    /// The robot's frame in the map: origin, m, and sine and cosine of its heading.
+    origin_m: [f64; 3],
+    heading: (f64, f64),
+}
+
+impl<'a> Remembered<'a> {
+    fn new(view: &'a FloorView, map_from_robot: &Pose<Map, Robot>) -> Self {
+        let origin = map_from_robot.origin().inner;
+        Self {
+            view,
+            origin_m: [origin.x, origin.y, origin.z],
+            heading: map_from_robot.yaw_rad().sin_cos(),
+        }
+    }
+}
+
+impl KnownFloor for Remembered<'_> {
+    fn height_m(&self, x_m: f64, y_m: f64) -> Option<f64> {
+        let (sin, cos) = self.heading;
+        let [origin_x_m, origin_y_m, origin_z_m] = self.origin_m;
+        let cell = self.view.lattice.cell_at(
+            origin_x_m + cos * x_m - sin * y_m,
+            origin_y_m + sin * x_m + cos * y_m,
+        );
+        match self.view.cell(cell) {
+            Surface::Floor(height_m) if *self.view.sightings.get(cell)? >= SEEN_OFTEN => {
+                Some(f64::from(height_m) - origin_z_m)
+            }
+            _ => None,
+        }
+    }
 }
 
 /// Who took a frame.
@@ -75,8 +114,11 @@ impl Perception {
         let _own_pixels =
             self.self_filter
                 .mask(&mut self.scan, &body_then.links, &torso_from_camera);
+        let predicted = timing.measure(Stage::Localize, || localizer.estimate(body_then))?;
         timing.measure(Stage::Segment, || {
-            self.segmenter.segment(&self.scan, &mut self.planes)
+            let remembered = Remembered::new(self.world_model.view(), &predicted.map_from_robot);
+            self.segmenter
+                .segment_known(&self.scan, &remembered, &mut self.planes)
         })?;
         let estimate = timing.measure(Stage::Localize, || {
             localizer.correct(body_then, &self.planes, self.world_model.view())?;

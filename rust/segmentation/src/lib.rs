@@ -5,5 +5,5 @@ mod scan_line;
 #[cfg(test)]
 mod synthetic;
 
-pub use planes::{PlaneRegion, Planes, SegmentError, Segmenter};
+pub use planes::{KnownFloor, NothingKnown, PlaneRegion, Planes, SegmentError, Segmenter};
 pub use scan_line::{ScanLine, ScanLineConfig};

@@ -71,8 +71,35 @@ impl Planes {
     }
 }
 
+/// Floor whose height is known from before. A robot on stairs does not see the ground that it stands on, but other treads
+/// that it knows: they tell the camera's height as well as the ground would.
+pub trait KnownFloor {
+    /// Height of the floor at a place of the robot's frame, above the robot's ground, m; none where it is not known.
+    fn height_m(&self, x_m: f64, y_m: f64) -> Option<f64>;
+}
+
+/// Nothing is known of the floor.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NothingKnown;
+
+impl KnownFloor for NothingKnown {
+    fn height_m(&self, _x_m: f64, _y_m: f64) -> Option<f64> {
+        None
+    }
+}
+
 /// Finds planes in a scan.
 pub trait Segmenter: Send + Sync {
     /// Fills `planes` from `scan`. Finding nothing is an ordinary product: no regions, no ground, not reliable.
     fn segment(&mut self, scan: &Scan, planes: &mut Planes) -> Result<(), SegmentError>;
+
+    /// The same where some of the floor is known; a segmenter that makes no use of that leaves it out.
+    fn segment_known(
+        &mut self,
+        scan: &Scan,
+        _known: &dyn KnownFloor,
+        planes: &mut Planes,
+    ) -> Result<(), SegmentError> {
+        self.segment(scan, planes)
+    }
 }

@@ -36,9 +36,13 @@ pub struct ScanLineConfig {
     pub ground_height: f64,
     /// Largest distance of the ground from where it is tracked, m.
     pub track_height: f64,
-    /// Frames without ground for which the correction is still trusted.
+    /// Largest distance of a level surface from where it is known to lie, m: less than half of the lowest step.
+    pub known_height: f64,
+    /// Frames without any level surface for which the correction is still trusted.
     pub hold_frames: u32,
-    /// Frames without ground after which it is searched anew, as at the start.
+    /// Frames for which it is trusted when level surfaces are seen, but neither the ground nor one of known height.
+    pub hold_level_frames: u32,
+    /// Frames without any level surface after which it is searched anew, as at the start.
     pub forget_frames: u32,
     /// A surface tilted by more than this against the ground is no floor, rad.
     pub floor_tilt: f64,
@@ -61,7 +65,9 @@ impl Default for ScanLineConfig {
             track_tilt: 0.044,
             ground_height: 0.02,
             track_height: 0.012,
+            known_height: 0.007,
             hold_frames: 40,
+            hold_level_frames: 400,
             forget_frames: 75,
             floor_tilt: 0.07,
         }
@@ -79,6 +85,7 @@ impl ScanLineConfig {
             ("accept", self.accept),
             ("ground_height", self.ground_height),
             ("track_height", self.track_height),
+            ("known_height", self.known_height),
         ] {
             require(
                 value.is_finite() && value > 0.0,

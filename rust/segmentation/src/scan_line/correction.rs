@@ -40,7 +40,9 @@ pub(super) struct Correction {
     covariance: Matrix4<f64>,
     height_m: f64,
     height_variance: f64,
+    // Frames without any evidence, and frames without evidence of the height.
     missed: Option<u32>,
+    missed_height: u32,
     found: u32,
 }
 
@@ -54,6 +56,7 @@ impl Correction {
             height_m: 0.0,
             height_variance: HEIGHT_M.powi(2),
             missed: None,
+            missed_height: 0,
             found: 0,
         }
     }
@@ -63,9 +66,11 @@ impl Correction {
         self.missed.is_some() && self.found >= SETTLED
     }
 
-    /// Frames since the ground was last found; `None` when nothing is known of it.
-    pub(super) const fn missed(&self) -> Option<u32> {
-        self.missed
+    /// Whether it may be trusted: settled, and confirmed not longer ago than these frames, in any way and in height.
+    pub(super) fn holds(&self, frames: u32, height_frames: u32) -> bool {
+        self.is_settled()
+            && self.missed.is_some_and(|missed| missed <= frames)
+            && self.missed_height <= height_frames
     }
 
     /// The height correction, m.
@@ -96,6 +101,25 @@ impl Correction {
         turn_rad: &Vector2<f64>,
         rise_m: f64,
     ) {
+        self.turned(predicted, turn_rad);
+        self.height_variance += WANDER_M.powi(2);
+        let gain = self.height_variance / (self.height_variance + SWAY_M.powi(2));
+        self.height_m += gain * rise_m;
+        self.height_variance *= 1.0 - gain;
+        self.missed = Some(0);
+        self.missed_height = 0;
+        self.found = self.found.saturating_add(1);
+    }
+
+    /// Takes in that surfaces were level as predicted, but of unknown height. Their tilt is not learned: low steps that
+    /// are taken for one surface would turn the track into the slope of the stairs little by little.
+    pub(super) fn confirmed(&mut self) {
+        self.height_variance += WANDER_M.powi(2);
+        self.missed = Some(0);
+        self.missed_height = self.missed_height.saturating_add(1);
+    }
+
+    fn turned(&mut self, predicted: &Pose<Robot, Camera>, turn_rad: &Vector2<f64>) {
         let axes = predicted.inner.rotation.to_rotation_matrix();
         let (pitch, roll) = (axes * Vector3::x(), axes * Vector3::z());
         let measures = Matrix2x4::new(1.0, 0.0, pitch.x, roll.x, 0.0, 1.0, pitch.y, roll.y);
@@ -108,19 +132,14 @@ impl Correction {
             self.covariance -= gain * measures * self.covariance;
             self.covariance = (self.covariance + self.covariance.transpose()) / 2.0;
         }
-        self.height_variance += WANDER_M.powi(2);
-        let gain = self.height_variance / (self.height_variance + SWAY_M.powi(2));
-        self.height_m += gain * rise_m;
-        self.height_variance *= 1.0 - gain;
-        self.missed = Some(0);
-        self.found = self.found.saturating_add(1);
     }
 
-    /// Takes in that a frame showed no ground; after `forget_frames` of them (a few for a young track) it is searched anew,
+    /// Takes in that a frame showed nothing level; after `forget_frames` of them (a few for a young track) it is searched anew,
     /// from nothing.
     pub(super) fn missed_one(&mut self, forget_frames: u32) {
         self.covariance += Matrix4::identity() * WANDER_RAD.powi(2);
         self.height_variance += WANDER_M.powi(2);
+        self.missed_height = self.missed_height.saturating_add(1);
         let patience = if self.is_settled() {
             forget_frames
         } else {
@@ -213,9 +232,9 @@ mod tests {
         for _ in 0..10 {
             correction.missed_one(10);
         }
-        assert_eq!(correction.missed(), Some(10));
+        assert!(correction.is_settled() && !correction.holds(9, 20));
         correction.missed_one(10);
-        assert_eq!(correction.missed(), None);
+        assert!(!correction.is_settled());
         assert_eq!(correction.height_m(), 0.0);
     }
 }

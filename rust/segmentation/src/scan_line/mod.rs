@@ -10,9 +10,11 @@ mod erosion;
 mod fit;
 mod grouping;
 mod horizon;
+mod known;
 mod median;
 mod noise;
 mod product;
+mod reference;
 mod steep;
 mod strips;
 mod surfaces;
@@ -25,12 +27,14 @@ use geometry::{Camera, ConfigError, Pose, Robot};
 use nalgebra::{Rotation3, Vector2, Vector3};
 use sensing::{Intrinsics, Scan};
 
-use crate::{Planes, SegmentError, Segmenter};
+use crate::{KnownFloor, NothingKnown, Planes, SegmentError, Segmenter};
 pub use config::ScanLineConfig;
 use correction::Correction;
 use fit::shared_tilt;
 use horizon::{HorizonSearch, SearchArea};
+use known::KnownLevels;
 use product::ProductBuffers;
+use reference::Reference;
 use surfaces::Surfaces;
 use view::{View, levelling};
 use walls::Walls;
@@ -38,8 +42,6 @@ use walls::Walls;
 /// How far a tilt may be from the predicted one: sigma, rad, while tracked and while searched.
 const TRACKED_RAD: f64 = 0.008;
 const SEARCHED_RAD: f64 = 0.1;
-/// Roughest ground that is accepted in a search, in noise: a plane laid through several steps is rougher.
-const SMOOTH: f64 = 1.35;
 /// Step of the search for the tilt while tracked, and last step of the search from nothing, rad.
 const TRACK_STEP_RAD: f64 = 0.012;
 const LAST_STEP_RAD: f64 = 0.006;
@@ -52,6 +54,7 @@ pub struct ScanLine {
     correction: Correction,
     surfaces: Surfaces,
     search: HorizonSearch,
+    known: KnownLevels,
     walls: Walls,
     product: ProductBuffers,
 }
@@ -94,6 +97,7 @@ impl ScanLine {
             surfaces: Surfaces::new(&config, &camera),
             correction: Correction::new(),
             search: HorizonSearch::default(),
+            known: KnownLevels::default(),
             walls: Walls::default(),
             product: ProductBuffers::default(),
             config,
@@ -142,49 +146,25 @@ impl ScanLine {
                 tilt_rad: TRACK_STEP_RAD,
                 step_rad: TRACK_STEP_RAD,
                 last_step_rad: TRACK_STEP_RAD,
-                below_m: (0.1, height_m + 0.1),
+                below_m: (0.15, height_m + 0.2),
             }
         };
         let picture = self.surfaces.picture(&level.view);
         self.search.search(picture, &level.view, area)
     }
-
-    /// The ground among the regions: the largest level one close to where the ground is expected.
-    fn find_ground(&self, levelled: &Levelled) -> Option<usize> {
-        let config = &self.config;
-        let surfaces = &self.surfaces;
-        let pixels = surfaces.labels.len() as f64;
-        let tilt = &levelled.tilt;
-        let (gate_m, least, straight) = if self.searching() {
-            let least = (config.open_floor * pixels) as usize;
-            let straight = tilt.amax() < config.search_tilt;
-            (config.ground_height, least.max(config.min_ground), straight)
-        } else {
-            let straight = tilt.norm() < config.track_tilt;
-            (config.track_height, config.min_ground, straight)
-        };
-        if !straight {
-            return None;
-        }
-        let camera_m = levelled.predicted.inner.translation.z;
-        (0..surfaces.regions.len())
-            .filter(|&i| {
-                let region = &surfaces.regions[i];
-                let height_m = camera_m - 1.0 / f64::from(region.q);
-                let off_the_joints_m = height_m - self.correction.height_m();
-                region.support >= least
-                    && 3 * region.core >= config.min_ground
-                    && height_m.abs() < gate_m
-                    && off_the_joints_m.abs() < config.ground_height
-                    && surfaces.is_level(i)
-                    && (!self.searching() || surfaces.fits[i].roughness() < SMOOTH)
-            })
-            .max_by_key(|&i| (surfaces.regions[i].support, std::cmp::Reverse(i)))
-    }
 }
 
 impl Segmenter for ScanLine {
     fn segment(&mut self, scan: &Scan, planes: &mut Planes) -> Result<(), SegmentError> {
+        self.segment_known(scan, &NothingKnown, planes)
+    }
+
+    fn segment_known(
+        &mut self,
+        scan: &Scan,
+        known: &dyn KnownFloor,
+        planes: &mut Planes,
+    ) -> Result<(), SegmentError> {
         let expected = self.surfaces.labels.len();
         for found in [scan.disparity_px.len(), planes.labels.len()] {
             if found != expected {
@@ -194,28 +174,37 @@ impl Segmenter for ScanLine {
         self.surfaces.read(scan);
         let predicted = self.correction.predict(&scan.robot_from_camera);
         let mut levelled = self.level(predicted);
-        let ground = self.find_ground(&levelled);
-        let mut rise_m = 0.0;
-        if let Some(ground) = ground {
-            rise_m =
-                1.0 / f64::from(self.surfaces.regions[ground].q) - predicted.inner.translation.z;
-            let turn = levelled.turn().scaled_axis();
-            self.correction
-                .found(&predicted, &Vector2::new(turn.x, turn.y), rise_m);
-        } else {
-            if self.searching() || levelled.tilt.norm() >= self.config.track_tilt {
-                // Nothing to hold on to: what is seen is shown where the joints have it.
-                levelled = Levelled::new(&self.camera, predicted, Vector2::zeros());
-                self.surfaces.grow(&levelled.view, true);
-                self.surfaces.refit(&levelled.view);
+        let reference = self.find_reference(&levelled, known);
+        let turn = levelled.turn().scaled_axis().xy();
+        let (mut ground, mut rise_m) = (None, 0.0);
+        match reference {
+            Reference::Ground {
+                region,
+                rise_m: rise,
+            } => {
+                (ground, rise_m) = (Some(region), rise);
+                self.correction.found(&predicted, &turn, rise_m);
             }
-            self.correction.missed_one(self.config.forget_frames);
+            Reference::Known { rise_m: rise } => {
+                rise_m = rise;
+                self.correction.found(&predicted, &turn, rise_m);
+            }
+            Reference::Level => self.correction.confirmed(),
+            Reference::None => {
+                if self.searching() || !self.is_straight(&levelled) {
+                    // Nothing to hold on to: what is seen is shown where the joints have it.
+                    levelled = Levelled::new(&self.camera, predicted, Vector2::zeros());
+                    self.surfaces.grow(&levelled.view, true);
+                    self.surfaces.refit(&levelled.view);
+                }
+                self.correction.missed_one(self.config.forget_frames);
+            }
         }
         planes.exposure_ns = scan.exposure_ns;
         planes.ground = ground;
-        let missed = self.correction.missed();
-        planes.reliable = self.correction.is_settled()
-            && missed.is_some_and(|missed| missed <= self.config.hold_frames);
+        planes.reliable = self
+            .correction
+            .holds(self.config.hold_frames, self.config.hold_level_frames);
         self.fill_product(&levelled, rise_m, planes);
         Ok(())
     }

@@ -181,6 +181,21 @@ impl Surfaces {
         fit_regions(picture, view, &self.regions, &self.eroded, &mut self.checks);
     }
 
+    /// Row, column and label of pixels away from the regions' borders, every `stride`-th each way; after `refit`.
+    pub(super) fn inner_pixels(&self, stride: usize) -> impl Iterator<Item = (usize, usize, u16)> {
+        self.eroded
+            .chunks_exact(self.width)
+            .enumerate()
+            .step_by(stride)
+            .flat_map(move |(row, line)| {
+                line.iter()
+                    .enumerate()
+                    .step_by(stride)
+                    .filter(|(_, label)| **label > 0)
+                    .map(move |(col, &label)| (row, col, label))
+            })
+    }
+
     /// Whether a region is horizontal, as far as it tells: no slope, no slice of a wall.
     pub(super) fn is_level(&self, index: usize) -> bool {
         let (tilt, certainty) = self.checks[index].own_tilt();

@@ -3,6 +3,7 @@
 mod ground;
 mod products;
 mod surfaces;
+mod treads;
 
 use nalgebra::{UnitQuaternion, Vector3};
 use proptest::prelude::*;

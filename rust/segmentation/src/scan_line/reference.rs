@@ -1,0 +1,118 @@
+//! What a frame is levelled and lifted by: the ground, or on stairs the other treads that are known.
+
+use super::{Levelled, ScanLine};
+use crate::KnownFloor;
+
+/// Roughest ground that is accepted in a search, in noise: a plane laid through several steps is rougher.
+const SMOOTH: f64 = 1.35;
+
+/// What a frame's level surfaces tell of the camera.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Reference {
+    /// The ground is seen: tilt and height.
+    Ground {
+        /// Which region it is.
+        region: usize,
+        /// What brings it to height 0, m.
+        rise_m: f64,
+    },
+    /// Other surfaces of known height are seen: tilt and height.
+    Known {
+        /// What brings them to where they are known to lie, m.
+        rise_m: f64,
+    },
+    /// Level surfaces are seen of which no height is known: the track holds.
+    Level,
+    /// Nothing.
+    None,
+}
+
+impl ScanLine {
+    /// The ground among the regions: the largest level one close to where the ground is expected, but none where another
+    /// level is known to lie.
+    fn find_ground(&self, levelled: &Levelled) -> Option<usize> {
+        let config = &self.config;
+        let surfaces = &self.surfaces;
+        let pixels = surfaces.labels.len() as f64;
+        let (gate_m, least) = if self.searching() {
+            let least = (config.open_floor * pixels) as usize;
+            (config.ground_height, least.max(config.min_ground))
+        } else {
+            (config.track_height, config.min_ground)
+        };
+        let camera_m = levelled.predicted.inner.translation.z;
+        (0..surfaces.regions.len())
+            .filter(|&i| {
+                let region = &surfaces.regions[i];
+                let height_m = camera_m - 1.0 / f64::from(region.q);
+                let off_the_joints_m = height_m - self.correction.height_m();
+                region.support >= least
+                    && 3 * region.core >= config.min_ground
+                    && height_m.abs() < gate_m
+                    && (height_m.abs() < config.known_height || !self.has_level_beside(i))
+                    && off_the_joints_m.abs() < config.ground_height
+                    && surfaces.is_level(i)
+                    && !self.known.is_elsewhere(i, height_m, config.known_height)
+                    && (!self.searching() || surfaces.fits[i].roughness() < SMOOTH)
+            })
+            .max_by_key(|&i| (surfaces.regions[i].support, std::cmp::Reverse(i)))
+    }
+
+    /// Whether another level surface lies so little above or below a region that one could be taken for the other.
+    fn has_level_beside(&self, index: usize) -> bool {
+        let surfaces = &self.surfaces;
+        let below_m = |i: usize| 1.0 / f64::from(surfaces.regions[i].q);
+        (0..surfaces.regions.len()).any(|i| {
+            let apart_m = (below_m(i) - below_m(index)).abs();
+            3 * surfaces.regions[i].core >= self.config.min_ground
+                && apart_m > self.config.known_height
+                && apart_m < 2.0 * self.config.track_height
+                && surfaces.is_level(i)
+        })
+    }
+
+    /// Whether the tilt found lies within what the camera's error may be.
+    pub(super) fn is_straight(&self, levelled: &Levelled) -> bool {
+        if self.searching() {
+            levelled.tilt.amax() < self.config.search_tilt
+        } else {
+            levelled.tilt.norm() < self.config.track_tilt
+        }
+    }
+
+    /// What the frame says of the camera's height, and which region is the ground.
+    pub(super) fn find_reference(
+        &mut self,
+        levelled: &Levelled,
+        known: &dyn KnownFloor,
+    ) -> Reference {
+        if !self.is_straight(levelled) {
+            return Reference::None;
+        }
+        let camera_m = levelled.predicted.inner.translation.vector;
+        self.known
+            .compare(&self.surfaces, &levelled.view, &camera_m, known);
+        if let Some(region) = self.find_ground(levelled) {
+            let rise_m = 1.0 / f64::from(self.surfaces.regions[region].q) - camera_m.z;
+            return Reference::Ground { region, rise_m };
+        }
+        let config = &self.config;
+        if self.searching() {
+            return Reference::None;
+        }
+        if let Some(rise_m) = self.known.rise_m(config.known_height, config.min_ground) {
+            return Reference::Known { rise_m };
+        }
+        let surfaces = &self.surfaces;
+        let levels = (0..surfaces.regions.len()).filter(|&i| {
+            surfaces.regions[i].core >= config.min_ground
+                && surfaces.is_level(i)
+                && surfaces.fits[i].roughness() < SMOOTH
+        });
+        if levels.count() > 0 {
+            Reference::Level
+        } else {
+            Reference::None
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! On a tread the ground is out of view: its place is taken by treads of known height, or by what was tracked before.
+
+use super::*;
+
+/// The steps of a staircase seen by a robot that stands on one of them.
+#[derive(Debug, Clone, Copy)]
+struct Steps {
+    rise_m: f64,
+    tread_m: f64,
+}
+
+impl Steps {
+    /// Height of the tread at a place: the robot's own reaches to 7 cm before it.
+    fn height_m(&self, x_m: f64) -> f64 {
+        ((x_m - 0.07) / self.tread_m).floor().clamp(-1.0, 5.0) * self.rise_m + self.rise_m
+    }
+
+    fn scene(&self) -> Scene {
+        let block = |i: i32| {
+            let back = 0.07 + f64::from(i) * self.tread_m;
+            let far = if i == 6 { 1.5 } else { back };
+            Block {
+                low_m: [back - self.tread_m, -0.6, -0.5],
+                high_m: [far, 0.6, f64::from(i) * self.rise_m],
+            }
+        };
+        Scene {
+            ground: false,
+            blocks: (-2..=6).map(block).collect(),
+        }
+    }
+}
+
+/// What the map knows: the steps, raised by an error.
+struct Told {
+    steps: Steps,
+    off_m: f64,
+}
+
+impl KnownFloor for Told {
+    fn height_m(&self, x_m: f64, _y_m: f64) -> Option<f64> {
+        Some(self.steps.height_m(x_m) + self.off_m)
+    }
+}
+
+fn see(
+    segmenter: &mut ScanLine,
+    steps: Steps,
+    low_m: f64,
+    known: &dyn KnownFloor,
+    noise: &mut Noise,
+) -> (Planes, Pose<Robot, Camera>) {
+    let truth = camera_pose(noise.within(0.3), 0.85 + noise.within(0.1));
+    let mut believed = truth;
+    believed.inner.translation.vector.z -= low_m;
+    let scan = steps.scene().scan(&truth, believed, SIGMA, noise);
+    let mut planes = planes();
+    segmenter.segment_known(&scan, known, &mut planes).unwrap();
+    (planes, truth)
+}
+
+const STAIRS: [Steps; 4] = [
+    Steps {
+        rise_m: 0.03,
+        tread_m: 0.12,
+    },
+    Steps {
+        rise_m: -0.03,
+        tread_m: 0.12,
+    },
+    Steps {
+        rise_m: 0.045,
+        tread_m: 0.15,
+    },
+    Steps {
+        rise_m: 0.024,
+        tread_m: 0.2,
+    },
+];
+
+#[test]
+fn treads_of_known_height_put_the_camera_right() {
+    for steps in STAIRS {
+        let mut noise = Noise::new(21);
+        let mut errors = vec![];
+        for low_m in [-0.005, -0.002, 0.002, 0.005] {
+            let mut segmenter = tracking(&mut noise);
+            for _ in 0..6 {
+                let told = Told { steps, off_m: 0.0 };
+                let (planes, truth) = see(&mut segmenter, steps, low_m, &told, &mut noise);
+                assert!(planes.reliable && planes.ground.is_none());
+                let (tilt, height) = pose_error(&planes, &truth);
+                assert!(tilt < 0.02, "{steps:?}: {tilt}");
+                errors.push(height.abs());
+            }
+        }
+        errors.sort_by(f64::total_cmp);
+        assert!(errors[12] < 0.0015, "{steps:?}: {errors:?}");
+        assert!(errors[23] < 0.005, "{steps:?}: {errors:?}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn a_level_is_never_taken_for_another_one(
+        which in 0..4usize, off_m in 0.014..0.03f64, up in any::<bool>(), seed in 0..1000u64,
+    ) {
+        let steps = STAIRS[which];
+        let mut noise = Noise::new(seed);
+        let mut segmenter = tracking(&mut noise);
+        let held_m = segmenter.correction.height_m();
+        let told = Told { steps, off_m: if up { off_m } else { -off_m } };
+        for _ in 0..3 {
+            let (planes, _) = see(&mut segmenter, steps, 0.0, &told, &mut noise);
+            prop_assert!(planes.reliable && planes.ground.is_none());
+        }
+        prop_assert_eq!(segmenter.correction.height_m(), held_m);
+    }
+
+    #[test]
+    fn a_level_close_to_where_it_is_known_is_taken(
+        which in 0..4usize, off_m in -0.004..0.004f64, seed in 0..1000u64,
+    ) {
+        let steps = STAIRS[which];
+        let mut noise = Noise::new(seed);
+        let mut segmenter = tracking(&mut noise);
+        let told = Told { steps, off_m };
+        let (planes, _) = see(&mut segmenter, steps, 0.0, &told, &mut noise);
+        let near = planes.points_in_robot_m.iter().zip(&planes.floor_height_m);
+        let misses: Vec<_> = near
+            .filter(|(point, height_m)| point[0] < 0.6 && !height_m.is_nan())
+            .map(|(point, &height_m)| f64::from(height_m) - steps.height_m(f64::from(point[0])) - off_m)
+            .collect();
+        prop_assert!(median(misses).abs() < 0.004);
+    }
+}
+
+#[test]
+fn on_unknown_treads_the_tracked_correction_is_held_and_the_ground_is_not_searched_anew() {
+    for steps in &STAIRS[..2] {
+        let mut noise = Noise::new(22);
+        let mut segmenter = tracking(&mut noise);
+        let held_m = segmenter.correction.height_m();
+        let config = ScanLineConfig::default();
+        for frame in 0..config.forget_frames + 10 {
+            let (planes, truth) = see(&mut segmenter, *steps, 0.0, &NothingKnown, &mut noise);
+            let (tilt, _) = pose_error(&planes, &truth);
+            assert!(
+                planes.reliable && planes.ground.is_none(),
+                "{steps:?} frame {frame}"
+            );
+            assert!(tilt < 0.03, "{steps:?} frame {frame}: {tilt}");
+        }
+        assert_eq!(segmenter.correction.height_m(), held_m);
+    }
+}
