@@ -17,6 +17,7 @@ from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import Simulation, Start
 from treadwell.robot.load import load_robot
 from treadwell.scenario.events import EVENTS
+from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
 
 ROBOT = load_robot("qrio")
@@ -232,3 +233,52 @@ def test_plain_mujoco_repeats_a_run_with_every_event_that_touches_the_physics(
     assert len(events.fired) == 6
     simulation.save_audit(tmp_path)
     assert replay_audit(tmp_path) is None
+
+
+def on_the_first_step(name: str) -> tuple[Events, Simulation, Course]:
+    """A shipped scenario with the robot put on its first step; its events are not yet asked."""
+    scenario = load_scenario(name, overrides=("start.position=[0.2, 0.0]", "start.yaw=0.0"))
+    built = build_course(scenario, ROBOT)
+    simulation = Simulation(built.model, ROBOT, Start(0.66, 0.0, height=0.03))
+    return Events(scenario, built, ROBOT), simulation, built
+
+
+def surface_by_ray(physics: Simulation, x: float) -> float:
+    """Height of what a ray from above meets first beside the robot, (x, 0.15), by MuJoCo."""
+    mujoco.mj_kinematics(physics.model, physics.data)
+    down, geom = np.array([0.0, 0.0, -1.0]), np.zeros(1, dtype=np.int32)
+    start = np.array([x, 0.15, 2.0])
+    return 2.0 - float(mujoco.mj_ray(physics.model, physics.data, start, down, None, 1, -1, geom))
+
+
+@pytest.mark.parametrize(
+    ("name", "x", "before", "after"),
+    [("stair_removed", 0.9, 0.09, 0.0), ("stair_lifted", 0.78, 0.06, 0.068)],
+)
+def test_a_step_changes_under_a_robot_that_climbs_the_first_and_leaves_that_as_it_is(
+    name: str, x: float, before: float, after: float
+) -> None:
+    events, simulation, _ = on_the_first_step(name)
+    assert surface_by_ray(simulation, x) == pytest.approx(before)
+    n = len(ROBOT.joints)
+    for _ in range(50):
+        events.before_tick(simulation)
+        simulation.advance(JointTargets(ROBOT.stand, np.zeros(n), np.zeros(n)))
+    assert len(events.fired) == 1
+    assert surface_by_ray(simulation, x) == pytest.approx(after)
+    assert simulation.data.qpos[2] == pytest.approx(ROBOT.stand_qpos[2] + 0.03, abs=3e-3)
+
+
+@pytest.mark.parametrize("name", ["stair_removed", "stair_lifted", "stair_blind"])
+def test_nothing_happens_to_the_stairs_while_the_robot_is_still_in_front_of_them(
+    name: str,
+) -> None:
+    for seed in range(5):
+        scenario = load_scenario(name, seed=seed)
+        built = build_course(scenario, ROBOT)
+        events = Events(scenario, built, ROBOT)
+        place = built.start
+        for x in (place.position[0], 0.6 - 0.0525):
+            start = Start(x, place.position[1], yaw=place.yaw, height=place.height)
+            events.before_tick(Simulation(built.model, ROBOT, start))
+        assert events.fired == []
