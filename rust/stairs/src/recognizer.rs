@@ -4,7 +4,7 @@ use geometry::{ConfigError, Map, Pose, Robot};
 use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
 
-use crate::extract::{Sighting, extract};
+use crate::extract::Extraction;
 use crate::memory::Memory;
 use crate::view::View;
 use crate::{Stair, Staircase, StairsConfig};
@@ -30,7 +30,7 @@ pub enum StairsError {
 pub struct Recognizer {
     config: StairsConfig,
     camera: Intrinsics,
-    sightings: Vec<Sighting>,
+    extraction: Extraction,
     memory: Memory,
     steps_taken: u64,
     staircase: Staircase,
@@ -43,7 +43,7 @@ impl Recognizer {
         Ok(Self {
             config,
             camera,
-            sightings: Vec::new(),
+            extraction: Extraction::default(),
             memory: Memory::default(),
             steps_taken: 0,
             staircase: Staircase::default(),
@@ -78,10 +78,10 @@ impl Recognizer {
             self.steps_taken = steps_taken;
         }
         if planes.reliable {
-            extract(planes, self.camera, &self.config, &mut self.sightings);
+            self.extraction.read(planes, self.camera, &self.config);
             let view = View::new(planes, self.camera);
             self.memory
-                .see(&self.sightings, &view, map_from_robot, &self.config);
+                .see(&self.extraction.found, &view, map_from_robot, &self.config);
         }
         self.staircase.frames = self.memory.frames;
         self.memory.stairs(&self.config, &mut self.staircase.stairs);

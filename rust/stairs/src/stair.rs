@@ -1,6 +1,7 @@
 //! What a stair is (003, section IV.A, Fig. 5), and the product of the recognizer.
 
 use geometry::{Map, Point, Pose};
+use nalgebra::Vector2;
 
 /// A straight edge of a level surface. Its ends are left and right for one who goes over it from front to back.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,6 +93,21 @@ impl<F> Edge<F> {
         let (sin, cos) = self.heading_rad().sin_cos();
         let middle = self.middle().inner;
         (x_m - middle.x) * cos + (y_m - middle.y) * sin
+    }
+
+    /// Direction square to it, from front to back, length 1.
+    pub(crate) fn across(&self) -> Vector2<f64> {
+        let (sin, cos) = self.heading_rad().sin_cos();
+        Vector2::new(cos, sin)
+    }
+
+    /// The same edge, farther back, m.
+    pub(crate) fn shifted(&self, back_m: f64) -> Self {
+        let shift = (self.across() * back_m).push(0.0);
+        Self {
+            left: Point::wrap(self.left.inner + shift),
+            right: Point::wrap(self.right.inner + shift),
+        }
     }
 
     /// The same edge in another frame.

@@ -1,7 +1,7 @@
 //! A stair under construction: sums of all that was seen of it, in the map.
 
 use geometry::{Map, Outline, Point, Pose, Robot};
-use nalgebra::{Point2, Vector2, Vector3};
+use nalgebra::{Point2, Vector3};
 
 use crate::border::{Border, Weights};
 use crate::extract::Sighting;
@@ -190,10 +190,4 @@ pub(crate) fn quadrangle<F>(stair: &Stair<F>) -> Option<Outline> {
     let corners =
         [&stair.front, &stair.back].map(|edge| [edge.left.inner.xy(), edge.right.inner.xy()]);
     Outline::hull(corners.as_flattened()).ok()
-}
-
-/// Direction from front to back of an edge.
-pub(crate) fn across<F>(edge: &Edge<F>) -> Vector2<f64> {
-    let (sin, cos) = edge.heading_rad().sin_cos();
-    Vector2::new(cos, sin)
 }

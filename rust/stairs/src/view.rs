@@ -1,8 +1,8 @@
 //! What the camera saw where a surface lies or ends.
 
 use geometry::{Camera, Robot};
-use nalgebra::{Isometry3, Point3, Vector2};
-use segmentation::Planes;
+use nalgebra::{Isometry3, Point2, Point3, Vector2, Vector3};
+use segmentation::{PlaneRegion, Planes};
 use sensing::Intrinsics;
 
 /// How far beyond a side the picture is asked whether the surface goes on, px: half a matching window and one more, and
@@ -44,6 +44,11 @@ impl<'a> View<'a> {
         }
     }
 
+    /// A region of the frame.
+    pub(crate) fn region(&self, index: usize) -> &'a PlaneRegion {
+        &self.planes.regions[index]
+    }
+
     /// Height of the camera above the ground, m.
     pub(crate) fn height_m(&self) -> f64 {
         self.planes.robot_from_camera.inner.translation.z
@@ -52,6 +57,15 @@ impl<'a> View<'a> {
     /// Depth that one row of pixels covers on a surface `below_m` below the camera and `away_m` away, m.
     pub(crate) fn row_depth_m(&self, below_m: f64, away_m: f64) -> f64 {
         (below_m.powi(2) + away_m.powi(2)) / (self.camera.focal_px * below_m)
+    }
+
+    /// Where the ray of a pixel meets the level at this height; `None` where it does not.
+    pub(crate) fn on_level(&self, col: usize, row: usize, height_m: f64) -> Option<Point2<f64>> {
+        let eye = &self.planes.robot_from_camera.inner;
+        let ray = eye.rotation * Vector3::from(self.camera.ray(col, row));
+        let from = eye.translation.vector;
+        let along = (height_m - from.z) / ray.z;
+        (along > 0.0).then(|| (from + ray * along).xy().into())
     }
 
     /// Column and row at which a point would be seen, px; `None` behind the camera.

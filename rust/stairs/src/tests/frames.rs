@@ -16,8 +16,8 @@ fn a_head_swing_over_four_steps_finds_four_with_their_heights() {
         for (i, stair) in stairs.iter().enumerate() {
             let (rise_m, front_m) = (0.03 * (i + 1) as f64, 0.4 + 0.12 * i as f64);
             assert!((stair.height_m() - rise_m).abs() < 0.003, "{stair:?}");
-            assert!((stair.front.middle().inner.x - front_m).abs() < 0.05);
-            assert!(stair.front.heading_rad().abs() < 0.05);
+            assert!((stair.front.middle().inner.x - front_m).abs() < 0.005);
+            assert!(stair.front.heading_rad().abs() < 0.02);
         }
     }
 }
