@@ -1,15 +1,41 @@
 //! The behaviours `stair_climbing` and `continuous`: walk where one can walk, climb where stairs lead on (003, section V).
+//!
+//! On the plan's legs that are walked the behaviour `walking` decides. Before a leg that is climbed 003's states take over:
+//! align, approach, climb, finish. Decides from the [`Situation`] alone; whatever it waits for, it waits in bounded time.
 
-use geometry::ConfigError;
-use serde::{Deserialize, Serialize};
+mod ascent;
+mod config;
+mod finish;
+mod flight;
+mod footsteps;
+mod head;
+mod leg;
+mod placement;
+mod state;
+mod states;
+mod stepper;
+
+#[cfg(test)]
+mod simulation;
+#[cfg(test)]
+mod tests;
+
+use geometry::{ConfigError, PlanarPose};
+use planning::{Plan, Step};
 use stairs::{ClimbingConfig, Feet};
 
-use crate::{Behaviour, BehaviourError, Decision, Situation, WalkingBehaviour};
-
-/// Settings of [`StairClimbing`]: `[navigation.stair_climbing]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
-#[serde(deny_unknown_fields, default)]
-pub struct StairClimbingConfig {}
+use crate::{
+    Arms, Behaviour, BehaviourError, Command, Decision, Motion, Outcome, Situation,
+    WalkingBehaviour,
+};
+pub use config::StairClimbingConfig;
+use flight::Flight;
+use footsteps::Stance;
+use head::Head;
+use leg::Leg;
+use placement::Before;
+use state::State;
+use stepper::Stepper;
 
 /// How stairs are climbed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,28 +46,220 @@ pub enum Pace {
     Continuous,
 }
 
+/// What a state is at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    /// Stands and looks.
+    Look,
+    /// Moves its feet.
+    Step,
+    /// Waits for something to go away.
+    Wait,
+}
+
+/// How often something was tried without success.
+#[derive(Debug, Clone, Copy, Default)]
+struct Tries {
+    /// Looks at the same step.
+    looks: u32,
+    /// Moves to the place from which a step is taken.
+    moves: u32,
+    /// Steps that were taken back.
+    missteps: u32,
+    /// Searches for stairs without a climb after them.
+    searches: u32,
+}
+
 /// Walks to the goal, and over stairs.
 #[derive(Debug, Clone)]
 pub struct StairClimbing {
+    config: StairClimbingConfig,
+    climbing: ClimbingConfig,
+    feet: Feet,
+    pace: Pace,
     walking: WalkingBehaviour,
+    state: State,
+    phase: Phase,
+    state_s: f64,
+    phase_s: f64,
+    /// Time since a step was taken or the last walk ended, s.
+    idle_s: f64,
+    time_ns: Option<u64>,
+    frames_used: u64,
+    head: Head,
+    flight: Flight,
+    stepper: Stepper,
+    /// The stair that the robot stands on, once it has climbed one.
+    on: Option<Step>,
+    /// Where it stood before the last step.
+    came_from: Option<Stance>,
+    tries: Tries,
+    refusal: String,
+    /// The plan for `walking`: cut off before the next climb.
+    walk_plan: Option<Plan>,
+    climb_ahead_s: f64,
+}
+
+/// What the states read at a tick.
+#[derive(Clone, Copy)]
+struct Here<'a> {
+    situation: &'a Situation<'a>,
+    pose: PlanarPose,
+    ground_m: f64,
+    passed_s: f64,
+    new_frame: bool,
+}
+
+impl Here<'_> {
+    /// A place of the map in the robot's frame, m.
+    fn in_robot(&self, [x_m, y_m]: [f64; 2]) -> [f64; 2] {
+        let (x_m, y_m) = self.pose.inverse().apply(x_m, y_m);
+        [x_m, y_m]
+    }
+
+    /// Why the planner finds no way, in its words.
+    fn no_way(&self) -> Option<String> {
+        let no_way = self.situation.plan?.way.as_ref().err()?;
+        Some(format!("{}: {}", no_way.refusal.word(), no_way.sentence))
+    }
+
+    /// Seconds since a frame was last taken into the map.
+    fn unseen_s(&self) -> f64 {
+        let now_ns = self.situation.time_ns;
+        self.situation
+            .last_frame_ns
+            .map_or(0.0, |last_ns| now_ns.saturating_sub(last_ns) as f64 * 1e-9)
+    }
 }
 
 impl StairClimbing {
     /// Refuses settings that cannot be used.
     pub fn new(
-        _config: StairClimbingConfig,
+        config: StairClimbingConfig,
         walking: WalkingBehaviour,
         climbing: ClimbingConfig,
-        _feet: Feet,
-        _pace: Pace,
+        feet: Feet,
+        pace: Pace,
     ) -> Result<Self, ConfigError> {
+        config.check()?;
         climbing.check()?;
-        Ok(Self { walking })
+        Ok(Self {
+            head: Head::new(config.gaze_speed, config.gaze_steep),
+            config,
+            climbing,
+            feet,
+            pace,
+            walking,
+            state: State::Walk,
+            phase: Phase::Look,
+            state_s: 0.0,
+            phase_s: 0.0,
+            idle_s: 0.0,
+            time_ns: None,
+            frames_used: 0,
+            flight: Flight::default(),
+            stepper: Stepper::default(),
+            on: None,
+            came_from: None,
+            tries: Tries::default(),
+            refusal: String::new(),
+            walk_plan: None,
+            climb_ahead_s: 0.0,
+        })
+    }
+
+    fn here<'a>(&self, situation: &'a Situation<'a>) -> Here<'a> {
+        let origin = situation.estimate.map_from_robot.origin().inner;
+        let yaw_rad = situation.estimate.map_from_robot.yaw_rad();
+        let passed_ns = self
+            .time_ns
+            .map_or(0, |before_ns| situation.time_ns.saturating_sub(before_ns));
+        Here {
+            situation,
+            pose: PlanarPose::new(origin.x, origin.y, yaw_rad),
+            ground_m: origin.z,
+            passed_s: passed_ns as f64 * 1e-9,
+            new_frame: situation.frames_used != self.frames_used || self.time_ns.is_none(),
+        }
+    }
+
+    fn keep_time(&mut self, here: &Here<'_>) {
+        self.time_ns = Some(here.situation.time_ns);
+        self.frames_used = here.situation.frames_used;
+        self.state_s += here.passed_s;
+        self.phase_s += here.passed_s;
+        self.idle_s += here.passed_s;
+        self.flight.lost_s += here.passed_s;
+        if here.new_frame && self.state != State::Walk {
+            let Situation { plan, stairs, .. } = *here.situation;
+            self.flight.refresh(plan, stairs, &self.climbing);
+        }
+    }
+
+    fn enter(&mut self, next: State) {
+        debug_assert!(self.state == next || self.state.may_become(next));
+        if self.state.may_become(next) {
+            self.state = next;
+            self.state_s = 0.0;
+            self.phase(Phase::Look);
+        }
+    }
+
+    const fn phase(&mut self, next: Phase) {
+        self.phase = next;
+        self.phase_s = 0.0;
+    }
+
+    fn refuse(&mut self, reason: String) {
+        if self.state != State::Refuse {
+            self.refusal = reason;
+            self.enter(State::Refuse);
+        }
+    }
+
+    fn before<'a>(&'a self, here: &Here<'_>) -> Before<'a> {
+        Before {
+            config: &self.config,
+            climbing: &self.climbing,
+            feet: &self.feet,
+            pose: here.pose,
+            ground_m: here.ground_m,
+        }
+    }
+
+    /// The decision of a state of the climb.
+    fn decision(&self, here: &Here<'_>, motion: Motion) -> Decision {
+        let refused = self.state == State::Refuse && here.situation.standing;
+        let cheers = self.state == State::Finish && self.phase == Phase::Wait;
+        Decision {
+            command: Command {
+                motion,
+                gaze: self.head.gazer.at(),
+                arms: if cheers { Arms::Raised } else { Arms::AtRest },
+            },
+            state: self.state_name(),
+            goal_passed: false,
+            outcome: refused.then(|| Outcome::Refused(self.refusal.clone())),
+        }
+    }
+
+    const fn state_name(&self) -> &'static str {
+        match (self.state, self.phase) {
+            (State::Climb, Phase::Wait) => "stop",
+            (state, _) => state.name(),
+        }
     }
 }
 
 impl Behaviour for StairClimbing {
     fn next(&mut self, situation: &Situation<'_>) -> Result<Decision, BehaviourError> {
-        self.walking.next(situation)
+        let here = self.here(situation);
+        self.keep_time(&here);
+        if self.state == State::Walk {
+            return self.walk(&here);
+        }
+        self.interrupt(&here);
+        let motion = self.act(&here);
+        Ok(self.decision(&here, motion))
     }
 }

@@ -4,7 +4,8 @@
 
 mod ahead;
 mod config;
-mod gaze;
+pub(crate) mod gaze;
+mod legs;
 mod progress;
 mod state;
 mod states;

@@ -48,7 +48,8 @@ pub(crate) struct Sweep {
 const FRAMES_AT_THE_END: u64 = 2;
 
 impl Sweep {
-    fn new(places: &[(f64, f64)]) -> Self {
+    /// Places as pan and down, rad; no more than six.
+    pub(crate) fn through(places: &[(f64, f64)]) -> Self {
         let mut sweep = Self {
             places: [Gaze::default(); LONGEST_SWEEP],
             count: places.len().min(LONGEST_SWEEP),
@@ -64,7 +65,7 @@ impl Sweep {
     /// All that can be seen from here: near from left to right, then far from right to left.
     pub(crate) fn around(config: &WalkingConfig) -> Self {
         let (side, near, far) = (config.sweep, config.gaze_near, config.gaze_far);
-        Self::new(&[
+        Self::through(&[
             (0.0, config.gaze_steep),
             (side, near),
             (-side, near),
@@ -79,7 +80,7 @@ impl Sweep {
         let bearing_rad = bearing_rad.clamp(-config.sweep, config.sweep);
         let (left, right) = (bearing_rad + 0.3, bearing_rad - 0.3);
         let (steep, near) = (config.gaze_steep, config.gaze_near);
-        Self::new(&[
+        Self::through(&[
             (left, steep),
             (right, steep),
             (right, near),

@@ -1,0 +1,356 @@
+//! The climb: look, check the conditions, step; wait, correct, take back, give up (003, section V.C).
+
+use mapping::Surface;
+use planning::Step;
+use robot::Side;
+use stairs::Unfit;
+
+use super::{Here, Pace, Phase, StairClimbing, State};
+use crate::climbing::flight::{is_same, nearest};
+use crate::climbing::footsteps::{Foothold, Stance, alternating, leading_side, level};
+use crate::climbing::placement::{Behind, Verdict};
+use crate::climbing::stepper::Stepped;
+use crate::{Misstep, Motion};
+
+/// A robot on a stair deeper than this has room to turn and to walk, m.
+const ROOMY_M: f64 = 0.22;
+/// What is higher above a step than this stands on it, m.
+const STANDS_ON_M: f32 = 0.04;
+
+impl StairClimbing {
+    /// The first step is within reach of a step.
+    pub(super) fn begin_climb(&mut self, here: &Here<'_>) {
+        self.enter(State::Climb);
+        self.begin_look(here);
+    }
+
+    /// Looks at what comes after the next step.
+    pub(super) fn begin_look(&mut self, here: &Here<'_>) {
+        const AHEAD_M: f64 = 0.2;
+        let place_m = self
+            .flight
+            .second()
+            .or(self.flight.first())
+            .map_or([AHEAD_M, 0.0], |step| here.in_robot(step.crossing_m));
+        self.head.look_at([place_m[0].max(0.15), place_m[1]]);
+        self.phase(Phase::Look);
+    }
+
+    /// One tick.
+    pub(super) fn climb(&mut self, here: &Here<'_>) -> Motion {
+        match self.phase {
+            Phase::Look | Phase::Wait => {
+                let seen = here.situation.standing
+                    && self.head.advance(here.situation.frames_used, here.passed_s);
+                if seen {
+                    self.decide(here);
+                }
+            }
+            Phase::Step => {
+                let place_m = self
+                    .flight
+                    .second()
+                    .map_or([0.3, 0.0], |step| here.in_robot(step.crossing_m));
+                self.head.turn_to(place_m, here.passed_s);
+                let stepped = self.stepper.advance(here.situation, here.passed_s);
+                self.after_steps(here, stepped);
+            }
+        }
+        self.stepper.motion()
+    }
+
+    /// After a look: what to do about the next step.
+    fn decide(&mut self, here: &Here<'_>) {
+        let Some(first) = self.next_step(here) else {
+            self.end_climb(here);
+            return;
+        };
+        let verdict = self.before(here).check(&first, &self.behind(here, &first));
+        match verdict {
+            Verdict::Go(stance) => {
+                if self.tries.missteps > 0 && !is_seen_now(here, &first) {
+                    self.look_again(here, || {
+                        "blocked: the next step is not where it was seen".to_owned()
+                    });
+                } else if self.is_occupied(here, &stance) {
+                    self.wait(here);
+                } else {
+                    self.step(here, &stance);
+                }
+            }
+            Verdict::Move(stance) => {
+                self.tries.moves += 1;
+                if self.tries.moves > self.config.tries {
+                    self.refuse(
+                        "lost: the robot could not get in place for the next step".to_owned(),
+                    );
+                    return;
+                }
+                let holds = level(&here.pose, &stance, self.feet.stance_m, &self.config);
+                self.stepper.start(holds, &here.pose, here.ground_m);
+                self.phase(Phase::Step);
+            }
+            Verdict::Look(depth_m) => self.look_again(here, || {
+                format!(
+                    "blocked: only {:.0} mm of the next step were seen",
+                    1e3 * depth_m
+                )
+            }),
+            Verdict::Refuse(unfit) => self.look_again(here, || reason(&unfit)),
+        }
+    }
+
+    /// The step to take now: the memorised one, else what is seen ahead.
+    fn next_step(&mut self, here: &Here<'_>) -> Option<Step> {
+        if self.flight.first().is_none() {
+            let reach_m = 0.5 * self.feet.length_m + 0.06;
+            let stairs = here.situation.stairs;
+            let (pose, ground_m) = (&here.pose, here.ground_m);
+            if here.no_way().is_none()
+                && let Some(path) = here.situation.plan.and_then(|plan| plan.way.as_ref().ok())
+                && let Some(climb) = path.climbs.first()
+                && let Some(first) = climb.steps.first()
+                && first.stair.front.beyond_m([pose.x_m, pose.y_m]) > -2.0 * reach_m
+            {
+                self.flight.adopt(&climb.steps);
+            } else if here.situation.plan.is_none()
+                && let Some(step) = nearest(stairs, pose, ground_m, reach_m, &self.climbing)
+            {
+                self.flight.adopt(&[step]);
+            }
+        }
+        self.flight.first().copied()
+    }
+
+    /// What is behind the next step, as far as it was measured.
+    fn behind(&self, here: &Here<'_>, first: &Step) -> Behind<'_> {
+        match self.flight.second() {
+            Some(second) if self.is_measured(second) || self.tries.looks >= self.config.tries => {
+                Behind::Step(second)
+            }
+            Some(second) => Behind::Unseen(super::placement::depth_m(first, second)),
+            None => self.before(here).without_next(first),
+        }
+    }
+
+    /// Looks once more; gives up for this reason when that was done too often.
+    fn look_again(&mut self, here: &Here<'_>, reason: impl FnOnce() -> String) {
+        self.tries.looks += 1;
+        if self.tries.looks > self.config.tries {
+            self.refuse(reason());
+        } else {
+            self.begin_look(here);
+        }
+    }
+
+    /// Whether something stands where the feet shall go.
+    fn is_occupied(&self, here: &Here<'_>, stance: &Stance) -> bool {
+        const RASTER: i32 = 4;
+        let view = here.situation.view;
+        let half = [0.5 * self.feet.length_m, 0.5 * self.feet.pair_width_m];
+        let top_m = stance.height_m as f32 + STANDS_ON_M;
+        let mut cells = Vec::new();
+        for (i, j) in (-RASTER..=RASTER).flat_map(|i| (-RASTER..=RASTER).map(move |j| (i, j))) {
+            let share = |k: i32| f64::from(k) / f64::from(RASTER);
+            let (x_m, y_m) = stance.pose.apply(share(i) * half[0], share(j) * half[1]);
+            let stands =
+                matches!(view.at(x_m, y_m), Surface::Obstacle(height_m) if height_m > top_m);
+            let cell = view.lattice.cell_at(x_m, y_m);
+            if stands && !cells.contains(&cell) {
+                cells.push(cell);
+            }
+        }
+        cells.len() >= 2
+    }
+
+    /// Waits for what stands on the next step to go away.
+    fn wait(&mut self, here: &Here<'_>) {
+        if self.phase != Phase::Wait {
+            self.begin_look(here);
+            self.phase(Phase::Wait);
+        } else if self.phase_s > self.config.wait {
+            self.refuse(format!(
+                "blocked: something has stood on the next step for {:.0} s",
+                self.config.wait
+            ));
+        } else {
+            let waited_s = self.phase_s;
+            self.begin_look(here);
+            self.phase = Phase::Wait;
+            self.phase_s = waited_s;
+        }
+    }
+
+    fn step(&mut self, here: &Here<'_>, stance: &Stance) {
+        let first = leading_side(&here.pose, &stance.pose);
+        let stances = self.run(here, stance);
+        let holds = if stances.len() > 1 {
+            alternating(first, &stances, self.feet.stance_m)
+        } else {
+            stance.both(first, self.feet.stance_m).to_vec()
+        };
+        let half_m = 0.5 * self.feet.length_m;
+        self.came_from = Some(Stance {
+            pose: here.pose,
+            height_m: here.ground_m,
+            bearing_m: [-half_m, half_m],
+        });
+        self.stepper.start(holds, &here.pose, here.ground_m);
+        self.phase(Phase::Step);
+    }
+
+    /// The stances that can be taken without a stop, this one first.
+    fn run(&self, here: &Here<'_>, stance: &Stance) -> Vec<Stance> {
+        let mut stances = vec![*stance];
+        if self.pace == Pace::StepByStep {
+            return stances;
+        }
+        let steps = self.flight.steps();
+        for (index, step) in steps.iter().enumerate().skip(1) {
+            let from = stances[index - 1];
+            let mut before = self.before(here);
+            before.pose = from.pose;
+            before.ground_m = from.height_m;
+            let behind = match steps.get(index + 1) {
+                Some(after) if self.is_measured(after) => Behind::Step(after),
+                Some(_) => break,
+                None => before.without_next(step),
+            };
+            match before.check(step, &behind) {
+                Verdict::Go(next) if !self.is_occupied(here, &next) => stances.push(next),
+                _ => break,
+            }
+        }
+        stances
+    }
+
+    fn after_steps(&mut self, here: &Here<'_>, stepped: Stepped) {
+        match stepped {
+            Stepped::Running => {}
+            Stepped::Missed(misstep, landed) => self.after_misstep(here, misstep, landed),
+            Stepped::Idle | Stepped::Done | Stepped::Stuck => {
+                self.count_steps(here);
+                self.begin_look(here);
+            }
+        }
+    }
+
+    /// The steps whose front edge lies behind the robot have been taken.
+    fn count_steps(&mut self, here: &Here<'_>) {
+        let at = [here.pose.x_m, here.pose.y_m];
+        while self
+            .flight
+            .first()
+            .is_some_and(|step| step.stair.front.beyond_m(at) > 0.0)
+        {
+            self.on = self.flight.taken();
+            self.idle_s = 0.0;
+            self.tries = super::Tries::default();
+        }
+    }
+
+    fn after_misstep(&mut self, here: &Here<'_>, misstep: Misstep, landed: usize) {
+        self.tries.missteps += 1;
+        let what = match misstep {
+            Misstep::NoGround => "the next step is not where it was seen",
+            Misstep::Obstructed => "something is in the way of the foot",
+        };
+        let holds = self.stepper.holds().to_vec();
+        let missed = holds.get(landed).copied();
+        if landed == 0 {
+            if self.tries.missteps > 1 {
+                self.refuse(format!("blocked: {what}"));
+            } else {
+                self.begin_look(here);
+            }
+        } else if self.tries.missteps == 1 && missed.is_some() {
+            // The feet stand on two levels: the other one tries once more.
+            self.stepper
+                .start(holds[landed..].to_vec(), &here.pose, here.ground_m);
+            self.phase(Phase::Step);
+        } else {
+            self.take_back(here, &holds[..landed.min(holds.len())]);
+            self.refusal = format!("blocked: {what}");
+        }
+    }
+
+    /// Back to where the robot stood before the last list.
+    fn take_back(&mut self, here: &Here<'_>, landed: &[Foothold]) {
+        let Some(from) = self.came_from else {
+            self.refuse("blocked: a step could not be finished".to_owned());
+            return;
+        };
+        let sides = Side::BOTH
+            .into_iter()
+            .filter(|side| landed.iter().any(|hold| hold.side == *side));
+        let holds = sides
+            .map(|side| from.foothold(side, self.feet.stance_m))
+            .collect();
+        self.enter(State::StepBack);
+        self.stepper.start(holds, &here.pose, here.ground_m);
+        self.phase(Phase::Step);
+    }
+
+    /// One tick of moving back: on the level to look again, from a step that failed to give up.
+    pub(super) fn step_back(&mut self, here: &Here<'_>) -> Motion {
+        match self.stepper.advance(here.situation, here.passed_s) {
+            Stepped::Running => {}
+            _ if self.on.is_some() || self.tries.missteps > 1 => {
+                let reason = std::mem::take(&mut self.refusal);
+                self.refuse(reason);
+            }
+            _ => self.begin_search(here),
+        }
+        self.stepper.motion()
+    }
+
+    /// No step is left.
+    fn end_climb(&mut self, here: &Here<'_>) {
+        let roomy = self.on.is_none_or(|step| step.stair.depth_m() >= ROOMY_M);
+        if roomy {
+            self.enter(State::Finish);
+            return;
+        }
+        let reason = here.no_way().unwrap_or_else(|| {
+            "blocked: the last step is too short to stand and to turn on".to_owned()
+        });
+        self.look_again(here, || reason);
+    }
+}
+
+/// Whether a step is in the present view.
+fn is_seen_now(here: &Here<'_>, step: &Step) -> bool {
+    here.situation
+        .stairs
+        .stairs
+        .iter()
+        .any(|stair| is_same(step, stair) && stair.steps_ago == 0)
+}
+
+/// The refusal of a step, with figures.
+fn reason(unfit: &Unfit) -> String {
+    let mm = |value_m: f64| 1e3 * value_m;
+    match *unfit {
+        Unfit::TooLow(rise_m) => {
+            format!("step_too_low: the next step is {:.0} mm high", mm(rise_m))
+        }
+        Unfit::TooHigh(rise_m) => {
+            format!("step_too_high: the next step is {:.0} mm high", mm(rise_m))
+        }
+        Unfit::TreadTooShort(depth_m, needed_m) => format!(
+            "tread_too_short: the next step is {:.0} mm deep, {:.0} mm are needed",
+            mm(depth_m),
+            mm(needed_m)
+        ),
+        Unfit::GapTooShort(depth_m, needed_m) => format!(
+            "gap_too_short: the ground below is {:.0} mm deep, {:.0} mm are needed",
+            mm(depth_m),
+            mm(needed_m)
+        ),
+        Unfit::TooNarrow(width_m, needed_m) => format!(
+            "too_narrow: the next step is {:.0} mm wide, {:.0} mm are needed",
+            mm(width_m),
+            mm(needed_m)
+        ),
+    }
+}

@@ -1,0 +1,174 @@
+//! The steps ahead that the robot knows: the memorised one and those behind it (003, section V.C).
+
+use geometry::{Map, PlanarPose, angle_between};
+use planning::{Plan, Step};
+use stairs::{ClimbingConfig, Stair, Staircase};
+
+/// Two sights of one stair differ by less than this in height, m,
+const SAME_HEIGHT_M: f64 = 0.012;
+/// in the place of the front edge, m,
+const SAME_PLACE_M: f64 = 0.05;
+/// and in its heading, rad.
+const SAME_HEADING_RAD: f64 = 0.4;
+/// A step follows another when its front edge is no further than this behind the other's back edge, m.
+const JOINT_M: f64 = 0.06;
+
+/// The steps ahead, in their order. In the map, so that the robot's own motion moves none of them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Flight {
+    steps: Vec<Step>,
+    /// How long the plan has not shown the first of them, s.
+    pub(crate) lost_s: f64,
+}
+
+impl Flight {
+    /// The memorised step, *step₁* of 003.
+    pub(crate) fn first(&self) -> Option<&Step> {
+        self.steps.first()
+    }
+
+    /// The one behind it, *step₂* of 003.
+    pub(crate) fn second(&self) -> Option<&Step> {
+        self.steps.get(1)
+    }
+
+    /// All of them.
+    pub(crate) fn steps(&self) -> &[Step] {
+        &self.steps
+    }
+
+    /// Takes over the steps of a plan's leg.
+    pub(crate) fn adopt(&mut self, steps: &[Step]) {
+        self.steps.clear();
+        self.steps.extend_from_slice(steps);
+        self.lost_s = 0.0;
+    }
+
+    /// The first step was taken.
+    pub(crate) fn taken(&mut self) -> Option<Step> {
+        (!self.steps.is_empty()).then(|| self.steps.remove(0))
+    }
+
+    /// Forgets all.
+    pub(crate) fn clear(&mut self) {
+        self.steps.clear();
+        self.lost_s = 0.0;
+    }
+
+    /// Takes in what is known now: the plan's steps where it shows the memorised one, else the stairs themselves.
+    pub(crate) fn refresh(
+        &mut self,
+        plan: Option<&Plan>,
+        stairs: &Staircase,
+        config: &ClimbingConfig,
+    ) {
+        let Some(first) = self.steps.first().copied() else {
+            return;
+        };
+        if let Some(steps) = plan.and_then(|plan| steps_from(plan, &first)) {
+            self.adopt(steps);
+            return;
+        }
+        for step in &mut self.steps {
+            if let Some(stair) = stairs.stairs.iter().find(|stair| is_same(step, stair)) {
+                step.stair = *stair;
+            }
+        }
+        while let Some(next) = self
+            .steps
+            .last()
+            .and_then(|last| following(last, stairs, config))
+        {
+            self.steps.push(next);
+        }
+    }
+}
+
+/// The plan's steps from this one on.
+fn steps_from<'a>(plan: &'a Plan, first: &Step) -> Option<&'a [Step]> {
+    let path = plan.way.as_ref().ok()?;
+    path.climbs.iter().find_map(|climb| {
+        let at = climb
+            .steps
+            .iter()
+            .position(|step| is_same(first, &step.stair))?;
+        Some(&climb.steps[at..])
+    })
+}
+
+/// Whether a stair is the one of a step.
+pub(crate) fn is_same(step: &Step, stair: &Stair<Map>) -> bool {
+    let turned_rad = angle_between(step.stair.front.heading_rad(), stair.front.heading_rad());
+    (step.stair.height_m() - stair.height_m()).abs() < SAME_HEIGHT_M
+        && stair.front.beyond_m(step.crossing_m).abs() < SAME_PLACE_M
+        && turned_rad.abs() < SAME_HEADING_RAD
+}
+
+/// The step behind another by the stairs alone: the nearest whose change of height a parameter set takes.
+fn following(last: &Step, stairs: &Staircase, config: &ClimbingConfig) -> Option<Step> {
+    let heading_rad = last.stair.front.heading_rad();
+    let middle = last.stair.back.middle().inner;
+    let end_m = last.stair.front.beyond_m([middle.x, middle.y]) + JOINT_M;
+    stairs
+        .stairs
+        .iter()
+        .filter_map(|stair| {
+            let rise_m = stair.height_m() - last.stair.height_m();
+            let (depth_m, crossing_m) = ahead(stair, last.crossing_m, heading_rad)?;
+            let near = depth_m > JOINT_M && depth_m < end_m;
+            (near && is_step(rise_m, config)).then_some((depth_m, *stair, rise_m, crossing_m))
+        })
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, stair, rise_m, crossing_m)| Step {
+            stair,
+            rise_m,
+            crossing_m,
+        })
+}
+
+/// The nearest stair ahead of a robot that a parameter set takes (003, section V), no further than `reach_m`.
+pub(crate) fn nearest(
+    stairs: &Staircase,
+    pose: &PlanarPose,
+    ground_m: f64,
+    reach_m: f64,
+    config: &ClimbingConfig,
+) -> Option<Step> {
+    stairs
+        .stairs
+        .iter()
+        .filter_map(|stair| {
+            let rise_m = stair.height_m() - ground_m;
+            let (away_m, crossing_m) = ahead(stair, [pose.x_m, pose.y_m], pose.yaw_rad)?;
+            let near = away_m > 0.0 && away_m < reach_m;
+            (near && is_step(rise_m, config)).then_some((away_m, *stair, rise_m, crossing_m))
+        })
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, stair, rise_m, crossing_m)| Step {
+            stair,
+            rise_m,
+            crossing_m,
+        })
+}
+
+/// Whether a change of height falls between the thresholds of a parameter set.
+pub(crate) fn is_step(rise_m: f64, config: &ClimbingConfig) -> bool {
+    let set = config.set_for(rise_m);
+    let tolerance_m = config.tolerance;
+    rise_m > set.step_min_z - tolerance_m && rise_m < set.step_max_z + tolerance_m
+}
+
+/// How far ahead of a place in this direction the stair's front edge is crossed, and where; `None` where it is not.
+fn ahead(stair: &Stair<Map>, [x_m, y_m]: [f64; 2], heading_rad: f64) -> Option<(f64, [f64; 2])> {
+    let edge = &stair.front;
+    let towards = angle_between(heading_rad, edge.heading_rad()).cos();
+    if towards < 0.5 {
+        return None;
+    }
+    let away_m = -edge.beyond_m([x_m, y_m]) / towards;
+    let (sin, cos) = heading_rad.sin_cos();
+    let crossing_m = [x_m + cos * away_m, y_m + sin * away_m];
+    let middle = edge.middle().inner;
+    let aside_m = (crossing_m[0] - middle.x).hypot(crossing_m[1] - middle.y);
+    (aside_m < 0.5 * edge.length_m()).then_some((away_m, crossing_m))
+}

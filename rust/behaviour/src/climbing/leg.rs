@@ -1,0 +1,103 @@
+//! The legs of a plan: the way to the next climb, cut off where the climb's own states take over.
+
+use geometry::PlanarPose;
+use planning::{Path, Plan, Step};
+use stairs::{ClimbingConfig, Feet};
+
+use crate::climbing::StairClimbingConfig;
+
+/// The plan's first climb as seen from the walk before it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Leg<'a> {
+    /// Its steps.
+    pub(crate) steps: &'a [Step],
+    /// Its first step.
+    pub(crate) first: &'a Step,
+    /// Where the robot aligns.
+    pub(crate) align: PlanarPose,
+    from_point: usize,
+}
+
+/// A walk ends this near to the place where the robot aligns, m.
+const NEAR_M: f64 = 0.14;
+/// A robot that is no further to the side than this walks straight on to the edge, m.
+const ASIDE_M: f64 = 0.12;
+
+impl<'a> Leg<'a> {
+    /// The first climb of a plan, if it has one.
+    pub(crate) fn next(
+        plan: Option<&'a Plan>,
+        config: &StairClimbingConfig,
+        climbing: &ClimbingConfig,
+        feet: &Feet,
+    ) -> Option<Self> {
+        let path = plan?.way.as_ref().ok()?;
+        let climb = path.climbs.first()?;
+        let first = climb.steps.first()?;
+        Some(Self {
+            steps: &climb.steps,
+            first,
+            align: align_pose(first, config, climbing, feet),
+            from_point: climb.from_point,
+        })
+    }
+
+    /// Whether a robot here may go on by the climb's own states.
+    pub(crate) fn is_reached(&self, pose: &PlanarPose) -> bool {
+        let way = self.align.relative(pose);
+        self.align.distance_m(pose) < NEAR_M || (way.x_m > -NEAR_M && way.y_m.abs() < ASIDE_M)
+    }
+
+    /// The same plan for one who walks: its path ends where the robot aligns.
+    pub(crate) fn walk(&self, plan: &Plan) -> Option<Plan> {
+        let path = plan.way.as_ref().ok()?;
+        let end = self.from_point.min(path.points_m.len().checked_sub(1)?);
+        let beyond = |place_m: &[f64; 2]| self.first.stair.front.beyond_m(*place_m);
+        let limit_m = beyond(&[self.align.x_m, self.align.y_m]);
+        let near = |place_m: &[f64; 2]| {
+            let [x_m, y_m] = *place_m;
+            beyond(place_m) > limit_m
+                && (x_m - self.align.x_m).hypot(y_m - self.align.y_m) < 2.0 * NEAR_M
+        };
+        let kept = path.points_m[..=end]
+            .iter()
+            .rposition(|place_m| !near(place_m))
+            .map_or(1, |last| last + 1);
+        let mut cut = Path {
+            points_m: path.points_m[..kept].to_vec(),
+            unknown: path.unknown.iter().take(kept).copied().collect(),
+            clearance_m: path.clearance_m.iter().take(kept).copied().collect(),
+            climbs: Vec::new(),
+            cost_m: path.cost_m,
+        };
+        cut.points_m.push([self.align.x_m, self.align.y_m]);
+        cut.unknown.push(false);
+        let clearance_m = cut.clearance_m.last().copied().unwrap_or(f64::INFINITY);
+        cut.clearance_m.push(clearance_m);
+        Some(Plan {
+            way: Ok(cut),
+            replanned: plan.replanned,
+        })
+    }
+}
+
+/// The place square before a step from which it is measured: its toes `align_distance` before the edge, or as much further
+/// back as the camera needs.
+pub(crate) fn align_pose(
+    first: &Step,
+    config: &StairClimbingConfig,
+    climbing: &ClimbingConfig,
+    feet: &Feet,
+) -> PlanarPose {
+    let set = climbing.set_for(first.rise_m);
+    let away_m = (set.align_distance + 0.5 * feet.length_m).max(config.look_distance);
+    let heading_rad = first.stair.front.heading_rad();
+    let (sin, cos) = heading_rad.sin_cos();
+    let on_edge_m = first.stair.front.beyond_m(first.crossing_m);
+    let back_m = away_m + on_edge_m;
+    PlanarPose::new(
+        first.crossing_m[0] - cos * back_m,
+        first.crossing_m[1] - sin * back_m,
+        heading_rad,
+    )
+}

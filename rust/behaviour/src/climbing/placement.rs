@@ -1,0 +1,223 @@
+//! Whether the next stair may be stepped on from here, and where the feet go: the conditions of 003, section V.C, Fig. 9.
+
+use geometry::{PlanarPose, angle_between};
+use planning::Step;
+use stairs::{ClimbingConfig, Feet, Footing, Onward, Unfit};
+
+use crate::climbing::StairClimbingConfig;
+use crate::climbing::footsteps::Stance;
+
+/// What is behind the tread that is stepped on next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Behind<'a> {
+    /// Another step that was measured.
+    Step(&'a Step),
+    /// The surface goes on, further than a sole needs.
+    Level,
+    /// The surface ends this far behind its front edge and nothing is known behind it, m.
+    End(f64),
+    /// Too little of it was seen: this much from its front edge, m.
+    Unseen(f64),
+}
+
+/// The robot before a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Before<'a> {
+    /// Settings.
+    pub(crate) config: &'a StairClimbingConfig,
+    /// Table I.
+    pub(crate) climbing: &'a ClimbingConfig,
+    /// Its feet.
+    pub(crate) feet: &'a Feet,
+    /// Where it stands in the map.
+    pub(crate) pose: PlanarPose,
+    /// Height of the ground there, m.
+    pub(crate) ground_m: f64,
+}
+
+/// What the conditions say.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Verdict {
+    /// All hold: both feet go here.
+    Go(Stance),
+    /// They would hold if the robot first moved here on the ground that it stands on.
+    Move(Stance),
+    /// More must be seen of the tread first; so much of it is known, m.
+    Look(f64),
+    /// They cannot hold.
+    Refuse(Unfit),
+}
+
+/// Ground that must be known behind where the toes will be, when no edge is, m.
+const KNOWN_AHEAD_M: f64 = 0.02;
+
+impl Before<'_> {
+    /// Checks the conditions of the step `next` with what is behind it.
+    pub(crate) fn check(&self, next: &Step, behind: &Behind<'_>) -> Verdict {
+        let onward = match *behind {
+            Behind::Step(after) => Onward::Edge {
+                depth_m: depth_m(next, after),
+                rise_m: after.rise_m,
+            },
+            Behind::Level => Onward::Level,
+            Behind::End(depth_m) => Onward::Edge {
+                depth_m,
+                // The toes stay on the surface, as before a step up.
+                rise_m: self.climbing.ascend.step_min_z,
+            },
+            Behind::Unseen(depth_m) => return Verdict::Look(depth_m),
+        };
+        let footing =
+            match Footing::on_stair(self.climbing, self.feet, next.rise_m, width_m(next), onward) {
+                Ok(footing) => footing,
+                Err(unfit) => return Verdict::Refuse(unfit),
+            };
+        if !self.is_placed(next) {
+            return Verdict::Move(self.start_stance(next));
+        }
+        match self.stance_on(next, behind, &footing, onward) {
+            Ok(stance) => Verdict::Go(stance),
+            Err(unfit) => Verdict::Refuse(unfit),
+        }
+    }
+
+    /// How far the toes are past the front edge of the step, m, and how far the robot is turned against it, rad.
+    fn toes(&self, next: &Step) -> (f64, f64) {
+        let edge = &next.stair.front;
+        let turned_rad = angle_between(edge.heading_rad(), self.pose.yaw_rad);
+        let middle_m = edge.beyond_m([self.pose.x_m, self.pose.y_m]);
+        (
+            middle_m + 0.5 * self.feet.length_m * turned_rad.cos(),
+            turned_rad,
+        )
+    }
+
+    /// Near enough and aligned, with room left and right.
+    fn is_placed(&self, next: &Step) -> bool {
+        let (toes_m, turned_rad) = self.toes(next);
+        let off_m = toes_m - self.climbing.set_for(next.rise_m).approach_x;
+        let aside_m = self.aside_m(next, [self.pose.x_m, self.pose.y_m]);
+        off_m.abs() <= self.config.near_tolerance
+            && turned_rad.abs() <= self.config.aligned
+            && aside_m.abs() <= self.config.step_side
+    }
+
+    /// Where to stand before the step is taken.
+    pub(crate) fn start_stance(&self, next: &Step) -> Stance {
+        let toes_m = self.climbing.set_for(next.rise_m).approach_x;
+        let heading_rad = next.stair.front.heading_rad();
+        let half_m = 0.5 * self.feet.length_m;
+        Stance {
+            pose: self.beyond(next, heading_rad, toes_m - half_m),
+            height_m: self.ground_m,
+            bearing_m: [-half_m, half_m.min(half_m - toes_m)],
+        }
+    }
+
+    /// The pose with this heading whose middle is this far beyond the front edge, beside where the robot is now as far as
+    /// there is room.
+    fn beyond(&self, next: &Step, heading_rad: f64, middle_m: f64) -> PlanarPose {
+        let edge = &next.stair.front;
+        let here = [self.pose.x_m, self.pose.y_m];
+        let square_rad = edge.heading_rad();
+        let (sin, cos) = square_rad.sin_cos();
+        let forward_m = middle_m - edge.beyond_m(here);
+        let aside_m = self.aside_m(next, here);
+        PlanarPose::new(
+            here[0] + cos * forward_m - sin * aside_m,
+            here[1] + sin * forward_m + cos * aside_m,
+            heading_rad,
+        )
+    }
+
+    /// How far to the left a place must move to have room on both sides of the step and not to be far from where the way
+    /// crosses its edge, m.
+    fn aside_m(&self, next: &Step, [x_m, y_m]: [f64; 2]) -> f64 {
+        const OFF_THE_WAY_M: f64 = 0.04;
+        let edge = &next.stair.front;
+        let (sin, cos) = edge.heading_rad().sin_cos();
+        let left_m = |[px, py]: [f64; 2]| (py - y_m) * cos - (px - x_m) * sin;
+        let of = |point: &geometry::Point<geometry::Map>| left_m([point.inner.x, point.inner.y]);
+        let room_m = 0.5 * self.feet.pair_width_m + self.climbing.side_room;
+        let most_m = of(&edge.left) + next.stair.left_margin_m - room_m;
+        let least_m = of(&edge.right) - next.stair.right_margin_m + room_m;
+        let crossing_m = left_m(next.crossing_m);
+        let wanted_m = 0.0_f64.clamp(crossing_m - OFF_THE_WAY_M, crossing_m + OFF_THE_WAY_M);
+        if least_m < most_m {
+            wanted_m.clamp(least_m, most_m)
+        } else {
+            f64::midpoint(least_m, most_m)
+        }
+    }
+
+    fn stance_on(
+        &self,
+        next: &Step,
+        behind: &Behind<'_>,
+        footing: &Footing,
+        onward: Onward,
+    ) -> Result<Stance, Unfit> {
+        let edge_rad = next.stair.front.heading_rad();
+        let half_m = 0.5 * self.feet.length_m;
+        let half_pair_m = 0.5 * self.feet.pair_width_m;
+        // Between two edges that are turned against each other the feet stand half way (a spiral).
+        let turn_rad = match behind {
+            Behind::Step(after) => {
+                0.5 * angle_between(edge_rad, after.stair.front.heading_rad()).clamp(-0.3, 0.3)
+            }
+            _ => 0.0,
+        };
+        let slack_m = half_pair_m * turn_rad.sin().abs();
+        let least_m = self.climbing.set_for(next.rise_m).front_x_limit + slack_m;
+        let here_m = next.stair.front.beyond_m([self.pose.x_m, self.pose.y_m]);
+        let stride_m = self.config.longest_stride + here_m - half_m;
+        let mut heel_m = footing.heel_m.min(stride_m).max(least_m);
+        if let Onward::Edge { depth_m, rise_m } = onward {
+            let limit_m = self.climbing.set_for(rise_m).back_x_limit - slack_m;
+            let most_m = depth_m + limit_m - self.feet.length_m;
+            if most_m < least_m {
+                let needed_m = depth_m + least_m - most_m;
+                return Err(Unfit::TreadTooShort(depth_m, needed_m));
+            }
+            heel_m = heel_m.min(most_m);
+        }
+        let front_m = match onward {
+            Onward::Level => half_m,
+            Onward::Edge { depth_m, .. } => half_m.min(depth_m - heel_m - half_m),
+        };
+        Ok(Stance {
+            pose: self.beyond(next, edge_rad + turn_rad, heel_m + half_m),
+            height_m: self.ground_m + next.rise_m,
+            bearing_m: [(-heel_m).max(0.0) - half_m, front_m],
+        })
+    }
+
+    /// What is behind a step of which no following one was measured.
+    pub(crate) fn without_next(&self, next: &Step) -> Behind<'static> {
+        let depth_m = next.stair.front.beyond_m(middle_of(&next.stair.back));
+        let set = self.climbing.set_for(next.rise_m);
+        let needed_m = set.front_x_limit.max(0.015) + self.feet.length_m + KNOWN_AHEAD_M;
+        if depth_m >= needed_m {
+            Behind::Level
+        } else if next.stair.back_fit.is_some() || next.stair.seen_ends.back > 0 {
+            Behind::End(depth_m)
+        } else {
+            Behind::Unseen(depth_m)
+        }
+    }
+}
+
+fn middle_of(edge: &stairs::Edge<geometry::Map>) -> [f64; 2] {
+    let middle = edge.middle().inner;
+    [middle.x, middle.y]
+}
+
+/// From the front edge of a step to that of the next one, along the way, m.
+pub(crate) fn depth_m(next: &Step, after: &Step) -> f64 {
+    next.stair.front.beyond_m(after.crossing_m)
+}
+
+fn width_m(next: &Step) -> f64 {
+    let stair = &next.stair;
+    stair.front.length_m() + stair.left_margin_m + stair.right_margin_m
+}

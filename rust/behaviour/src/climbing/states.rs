@@ -1,0 +1,283 @@
+//! The states up to the first step: walk, search, align, approach; and what may end any state.
+
+use geometry::angle_between;
+
+use super::{Here, Leg, Phase, StairClimbing, State};
+use crate::climbing::footsteps::{Stance, level};
+use crate::climbing::stepper::Stepped;
+use crate::{Behaviour, BehaviourError, Decision, Motion, Outcome, Situation, Velocity};
+
+/// The first look around may end after this when stairs lie on the way, s: by then all near ground was looked at.
+const FIRST_LOOK_S: f64 = 3.8;
+/// A climb must be on the plan this long to be counted on, s.
+const SURE_S: f64 = 0.4;
+/// A climb that the plan has not shown for this long is lost, s.
+const LOST_S: f64 = 1.5;
+/// Seeing nothing for this long is being blind, s;
+const BLIND_AFTER_S: f64 = 2.0;
+/// for this long, it is hopeless, s.
+const BLIND_LIMIT_S: f64 = 12.0;
+/// Without a step or a walk for this long the robot gives up, s.
+const LONGEST_IDLE_S: f64 = 60.0;
+/// Aligning ends after this, however well, s.
+const LONGEST_ALIGN_S: f64 = 10.0;
+
+impl StairClimbing {
+    /// A tick of `walking` on the way to the next climb or to the goal.
+    pub(super) fn walk(&mut self, here: &Here<'_>) -> Result<Decision, BehaviourError> {
+        let situation = here.situation;
+        let leg = Leg::next(situation.plan, &self.config, &self.climbing, &self.feet);
+        let ahead_s = self.climb_ahead_s + here.passed_s;
+        self.climb_ahead_s = if leg.is_some() { ahead_s } else { 0.0 };
+        self.idle_s = 0.0;
+        let Some(leg) = leg else {
+            self.walk_plan = None;
+            let decision = self.walking.next(situation)?;
+            return Ok(self.unless_stairs_may_help(here, decision));
+        };
+        let looking = self.walking.is_looking_around();
+        if self.climb_ahead_s > SURE_S && leg.is_reached(&here.pose) && !looking {
+            self.flight.adopt(leg.steps);
+            self.head.gazer.start(situation.gaze);
+            self.enter(State::Align);
+            return Ok(self.decision(here, Motion::Stand));
+        }
+        if here.new_frame || self.walk_plan.is_none() {
+            self.walk_plan = situation.plan.and_then(|plan| leg.walk(plan));
+        }
+        if looking && self.climb_ahead_s > SURE_S && self.state_s > FIRST_LOOK_S {
+            self.walking.end_look();
+        }
+        let mut decision = self.walking.next(&Situation {
+            plan: self.walk_plan.as_ref(),
+            last_goal: false,
+            ..*situation
+        })?;
+        decision.goal_passed = false;
+        if looking {
+            decision.state = State::Search.name();
+        }
+        Ok(decision)
+    }
+
+    /// Before a refusal that stairs could prevent, the robot searches for stairs.
+    fn unless_stairs_may_help(&mut self, here: &Here<'_>, decision: Decision) -> Decision {
+        let situation = here.situation;
+        let refuses = matches!(decision.outcome, Some(Outcome::Refused(_)));
+        let other_level = situation
+            .goal
+            .height_m
+            .is_some_and(|height_m| (height_m - here.ground_m).abs() > self.climbing.floor_max);
+        let stairs_help = other_level || !situation.stairs.stairs.is_empty();
+        if refuses && stairs_help && here.no_way().is_some() && self.tries.searches == 0 {
+            self.head.gazer.start(situation.gaze);
+            self.flight.clear();
+            self.begin_search(here);
+            return self.decision(here, Motion::Stand);
+        }
+        decision
+    }
+
+    /// What may end any state of the climb while no foot is on its way.
+    pub(super) fn interrupt(&mut self, here: &Here<'_>) {
+        if self.stepper.is_running() || matches!(self.state, State::Refuse | State::Blind) {
+            return;
+        }
+        if here.situation.estimate.lost || here.unseen_s() > BLIND_AFTER_S {
+            self.enter(State::Blind);
+        } else if self.idle_s > LONGEST_IDLE_S {
+            let reason = here.no_way().unwrap_or_else(|| {
+                format!("lost: no step could be taken for {LONGEST_IDLE_S:.0} s")
+            });
+            self.refuse(reason);
+        }
+    }
+
+    /// One tick of a state of the climb.
+    pub(super) fn act(&mut self, here: &Here<'_>) -> Motion {
+        match self.state {
+            State::Walk | State::Refuse => Motion::Stand,
+            State::Search => self.search(here),
+            State::Align => self.align(here),
+            State::Approach => self.approach(here),
+            State::Climb => self.climb(here),
+            State::StepBack => self.step_back(here),
+            State::Finish => self.finish(here),
+            State::Blind => self.wait_for_sight(here),
+        }
+    }
+
+    pub(super) fn begin_search(&mut self, here: &Here<'_>) {
+        self.tries.searches += 1;
+        let goal = here.situation.goal;
+        let place_m = self
+            .flight
+            .first()
+            .map_or([goal.x_m, goal.y_m], |step| step.crossing_m);
+        let [x_m, y_m] = here.in_robot(place_m);
+        self.head.search(y_m.atan2(x_m));
+        self.enter(State::Search);
+    }
+
+    fn search(&mut self, here: &Here<'_>) -> Motion {
+        let leg = Leg::next(
+            here.situation.plan,
+            &self.config,
+            &self.climbing,
+            &self.feet,
+        );
+        self.climb_ahead_s = if leg.is_some() {
+            self.climb_ahead_s + here.passed_s
+        } else {
+            0.0
+        };
+        let found = self.climb_ahead_s > SURE_S;
+        let seen = self.head.advance(here.situation.frames_used, here.passed_s);
+        if !found && !seen {
+            return Motion::Stand;
+        }
+        if self.tries.searches > self.config.tries {
+            let reason = here.no_way().unwrap_or_else(|| {
+                "lost: the stairs were seen and could not be found again".to_owned()
+            });
+            self.refuse(reason);
+        } else if found || here.no_way().is_none() {
+            self.flight.clear();
+            self.walking.resume(here.situation);
+            self.enter(State::Walk);
+        } else {
+            self.begin_search(here);
+        }
+        Motion::Stand
+    }
+
+    /// To the place before the first edge from which it is measured, and square to it.
+    fn align(&mut self, here: &Here<'_>) -> Motion {
+        let Some(first) = self.flight.first().copied() else {
+            self.begin_search(here);
+            return Motion::Stand;
+        };
+        self.head
+            .turn_to(here.in_robot(first.crossing_m), here.passed_s);
+        if self.flight.lost_s > LOST_S {
+            self.begin_search(here);
+            return Motion::Stand;
+        }
+        let goal = super::leg::align_pose(&first, &self.config, &self.climbing, &self.feet);
+        let way = here.pose.relative(&goal);
+        let turned_rad = angle_between(here.pose.yaw_rad, goal.yaw_rad);
+        let there = way.x_m.abs() < 0.05 && way.y_m.abs() < 0.03 && turned_rad.abs() < 0.08;
+        if there || self.state_s > LONGEST_ALIGN_S {
+            self.enter(State::Approach);
+            self.head.look_at(here.in_robot(first.crossing_m));
+            return Motion::Stand;
+        }
+        Motion::Walk(Velocity {
+            x_mps: (1.2 * way.x_m).clamp(-0.05, 0.1),
+            y_mps: (1.2 * way.y_m).clamp(-0.04, 0.04),
+            yaw_radps: (1.5 * turned_rad).clamp(-0.4, 0.4),
+        })
+    }
+
+    /// Measures the first edge, then moves up to it.
+    fn approach(&mut self, here: &Here<'_>) -> Motion {
+        let Some(first) = self.flight.first().copied() else {
+            self.begin_search(here);
+            return Motion::Stand;
+        };
+        if self.phase == Phase::Look {
+            let seen = here.situation.standing
+                && self.head.advance(here.situation.frames_used, here.passed_s);
+            if seen {
+                self.judge_edge(here, &first);
+            }
+            return self.stepper.motion();
+        }
+        self.head
+            .turn_to(here.in_robot(first.crossing_m), here.passed_s);
+        match self.stepper.advance(here.situation, here.passed_s) {
+            Stepped::Running => {}
+            Stepped::Missed(..) => {
+                self.tries.missteps += 1;
+                self.retreat(here);
+            }
+            Stepped::Idle | Stepped::Done | Stepped::Stuck => self.begin_climb(here),
+        }
+        self.stepper.motion()
+    }
+
+    /// After a look at the first edge: go up to it if it is known well enough.
+    fn judge_edge(&mut self, here: &Here<'_>, first: &planning::Step) {
+        if self.flight.lost_s > LOST_S {
+            self.begin_search(here);
+            return;
+        }
+        if !self.is_measured(first) {
+            self.tries.looks += 1;
+            self.head.look_at(here.in_robot(first.crossing_m));
+            if self.tries.looks > self.config.tries {
+                self.retreat(here);
+            }
+            return;
+        }
+        self.tries.looks = 0;
+        let stance = self.before(here).start_stance(first);
+        let holds = level(&here.pose, &stance, self.feet.stance_m, &self.config);
+        self.stepper.start(holds, &here.pose, here.ground_m);
+        self.phase(Phase::Step);
+    }
+
+    /// Whether the front edge of a step is known well enough to step by it.
+    pub(super) fn is_measured(&self, step: &planning::Step) -> bool {
+        step.stair.front_fit.is_some_and(|fit| {
+            fit.frames >= self.config.edge_frames
+                && fit.place_sigma_m <= self.config.edge_sigma
+                && fit.heading_sigma_rad <= self.config.heading_sigma
+        })
+    }
+
+    /// Back on the level to look again; gives up when that was done too often.
+    pub(super) fn retreat(&mut self, here: &Here<'_>) {
+        self.tries.looks = 0;
+        self.tries.searches += 1;
+        if self.tries.searches.max(self.tries.missteps) > self.config.tries {
+            self.refuse("lost: the edge of the step could not be measured".to_owned());
+            return;
+        }
+        self.enter(State::StepBack);
+        let back = self.flight.first().map_or(here.pose, |first| {
+            super::leg::align_pose(first, &self.config, &self.climbing, &self.feet)
+        });
+        let stance = Stance {
+            pose: back,
+            height_m: here.ground_m,
+            bearing_m: [-0.5 * self.feet.length_m, 0.5 * self.feet.length_m],
+        };
+        let holds = level(&here.pose, &stance, self.feet.stance_m, &self.config);
+        self.stepper.start(holds, &here.pose, here.ground_m);
+        self.phase(Phase::Step);
+    }
+
+    fn wait_for_sight(&mut self, here: &Here<'_>) -> Motion {
+        let lost = here.situation.estimate.lost;
+        if !lost && here.unseen_s() < BLIND_AFTER_S {
+            if self.on.is_some() {
+                self.begin_look(here);
+                self.enter(State::Climb);
+            } else {
+                self.begin_search(here);
+            }
+        } else if self.state_s > BLIND_LIMIT_S {
+            let unseen_s = here.unseen_s();
+            self.refuse(if lost {
+                format!(
+                    "lost: the robot has not known where it is for {:.0} s, before or on stairs",
+                    self.state_s
+                )
+            } else {
+                format!("lost: nothing has been seen for {unseen_s:.0} s, before or on stairs")
+            });
+        }
+        Motion::Stand
+    }
+}

@@ -1,0 +1,109 @@
+//! Gives a list of footsteps to the walker until it stands again.
+
+use geometry::PlanarPose;
+
+use crate::climbing::footsteps::Foothold;
+use crate::{Footstep, Misstep, Motion, Situation};
+
+/// A list that has not ended after this long and as much again for each step is given up, s.
+const PATIENCE_S: f64 = 3.0;
+
+/// How the list goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Stepped {
+    /// There is no list.
+    Idle,
+    /// On it.
+    Running,
+    /// All of it landed, and the robot stands.
+    Done,
+    /// The list was given up, and the robot stands: so many had landed.
+    Missed(Misstep, usize),
+    /// The walker did not end it in time.
+    Stuck,
+}
+
+/// One list at a time.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Stepper {
+    holds: Vec<Foothold>,
+    footsteps: Vec<Footstep>,
+    list_from_map: PlanarPose,
+    ground_m: f64,
+    announced: bool,
+    set_off: bool,
+    elapsed_s: f64,
+}
+
+impl Stepper {
+    /// Whether a list is on its way.
+    pub(crate) const fn is_running(&self) -> bool {
+        !self.footsteps.is_empty()
+    }
+
+    /// The places of the list.
+    pub(crate) fn holds(&self) -> &[Foothold] {
+        &self.holds
+    }
+
+    /// Begins a list; the robot stands at `pose` on ground of this height.
+    pub(crate) fn start(&mut self, holds: Vec<Foothold>, pose: &PlanarPose, ground_m: f64) {
+        self.list_from_map = pose.inverse();
+        self.ground_m = ground_m;
+        self.announced = false;
+        self.set_off = false;
+        self.elapsed_s = 0.0;
+        self.replace(holds);
+    }
+
+    /// Changes places of the list that no foot is on its way to.
+    pub(crate) fn replace(&mut self, holds: Vec<Foothold>) {
+        self.footsteps.clear();
+        self.footsteps.extend(holds.iter().map(|hold| Footstep {
+            side: hold.side,
+            pose: self.list_from_map.compose(&hold.pose),
+            height_m: hold.height_m - self.ground_m,
+            bearing_m: hold.bearing_m,
+        }));
+        self.holds = holds;
+    }
+
+    /// One tick. Anything but `Running` ends the list.
+    pub(crate) fn advance(&mut self, situation: &Situation<'_>, passed_s: f64) -> Stepped {
+        if !self.is_running() {
+            return Stepped::Idle;
+        }
+        self.elapsed_s += passed_s;
+        self.set_off |= !situation.standing;
+        let ended = self.ended(situation);
+        if ended != Stepped::Running {
+            self.footsteps.clear();
+        }
+        ended
+    }
+
+    fn ended(&self, situation: &Situation<'_>) -> Stepped {
+        let stepping = &situation.stepping;
+        let limit_s = PATIENCE_S * (1.0 + self.footsteps.len() as f64);
+        if self.set_off && situation.standing {
+            return match stepping.misstep {
+                Some(misstep) => Stepped::Missed(misstep, stepping.landed),
+                None => Stepped::Done,
+            };
+        }
+        if self.elapsed_s > limit_s {
+            Stepped::Stuck
+        } else {
+            Stepped::Running
+        }
+    }
+
+    /// What the walker is told: a list begins with a tick of standing, which ends the list before.
+    pub(crate) fn motion(&mut self) -> Motion {
+        if self.is_running() && std::mem::replace(&mut self.announced, true) {
+            Motion::Footsteps(self.footsteps.clone())
+        } else {
+            Motion::Stand
+        }
+    }
+}
