@@ -100,6 +100,13 @@ def test_a_course_without_stairs_has_none_in_the_recording(tmp_path: Path, made:
     assert not {name for name in found if "stairs" in name or "soles" in name}
 
 
+def test_walls_are_seen_through(tmp_path: Path) -> None:
+    fence = '[[course]]\nkind = "wall"\nfrom = [0.0, 1.0]\nto = [2.0, 1.0]\nheight = 0.6\n'
+    writer = recorder(tmp_path, world(fence + STEP))
+    writer.close()
+    assert {"/world/walls/boxes", "/world/course/boxes"} <= entities(tmp_path / NAME)
+
+
 def test_a_path_changes_its_colour_and_its_height_where_it_climbs(made: World) -> None:
     height = np.zeros((40, 40), dtype=np.float32)
     height[:, 30:] = 0.03

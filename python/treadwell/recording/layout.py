@@ -23,6 +23,7 @@ LANDED_SOLES: Final = ((250, 250, 250), (165, 170, 180))
 """Where the left and the right foot came down."""
 GOAL: Final = (60, 200, 90, 110)
 GROUND_PLANE: Final = (95, 185, 120)
+_NOT_AT_THE_FEET: Final = ("points", "trajectory", "walls", "obstacles", "believed", "path")
 STATE_COLOURS: Final = (
     0x4C8BF5FF,
     0xF5A623FF,
@@ -73,12 +74,17 @@ def plane_colours(labels: NDArray[np.uint16], ground: int) -> NDArray[np.uint8]:
     return table[labels]
 
 
-def blueprint(centre: tuple[float, float, float], extent: float) -> rrb.Blueprint:
+def blueprint(
+    centre: tuple[float, float, float],
+    extent: float,
+    feet: tuple[float, float, float] | None = None,
+) -> rrb.Blueprint:
     """Return the views: the world large, map and camera beside it, states and plots below.
 
     Args:
         centre: m, world: what the first view looks at.
         extent: m, size of the course.
+        feet: m, world: where the robot starts, for a view that goes with its feet; None for none.
     """
     x, y, z = centre
     away = max(1.3, 0.55 * extent)
@@ -104,7 +110,9 @@ def blueprint(centre: tuple[float, float, float], extent: float) -> rrb.Blueprin
     )
     return rrb.Blueprint(
         rrb.Vertical(
-            rrb.Horizontal(world, pictures, column_shares=[3, 1]),
+            rrb.Horizontal(world, pictures, column_shares=[3, 1])
+            if feet is None
+            else rrb.Horizontal(world, _feet(feet), pictures, column_shares=[5, 4, 2]),
             rrb.StateTimelineView(origin="/behaviour", name="Behaviour"),
             plots,
             row_shares=[6, 1, 2],
@@ -112,4 +120,21 @@ def blueprint(centre: tuple[float, float, float], extent: float) -> rrb.Blueprin
         rrb.TimePanel(state="collapsed", timeline="time"),
         rrb.SelectionPanel(state="collapsed"),
         rrb.BlueprintPanel(state="collapsed"),
+    )
+
+
+def _feet(start: tuple[float, float, float]) -> rrb.Spatial3DView:
+    """Return the view of feet and edges from the side, which goes with the robot."""
+    x, y, z = start
+    return rrb.Spatial3DView(
+        origin="/world",
+        contents=["+ $origin/**", *(f"- $origin/{name}/**" for name in _NOT_AT_THE_FEET)],
+        name="Feet and edges",
+        background=rrb.Background(color=(236, 239, 243, 255)),
+        eye_controls=rrb.EyeControls3D(
+            position=(x, y - 0.75, z + 0.35),
+            look_target=(x, y, z),
+            eye_up=(0.0, 0.0, 1.0),
+            tracking_entity="/world/ahead",
+        ),
     )

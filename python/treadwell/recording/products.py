@@ -29,6 +29,8 @@ _LEAST_COLUMN = 0.02
 """Metres: least height of an obstacle's column."""
 _PATH_ABOVE = 0.012
 """Metres by which the path is drawn above the floor."""
+_AHEAD = 0.15
+"""Metres before the robot that the view of the feet looks at."""
 _POINT_STRIDE = 3
 """Of so many points one is recorded."""
 _MAP_STRIDE = 2
@@ -195,6 +197,8 @@ class Products:
                 radii=[0.01],
             ),
         )
+        ahead = believed[:3, 3] + _AHEAD * believed[:3, 0]
+        stream.log("world/ahead", rr.Points3D([ahead], radii=[0.001], colors=[ESTIMATE]))
 
     def _log_state(self, trace: Trace) -> None:
         if trace.state == self._state:

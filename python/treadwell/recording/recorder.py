@@ -24,6 +24,8 @@ _FRAMES_A_CHECK: Final = 12
 _FLUSH_SECONDS: Final = 10.0
 _SPARE_BYTES: Final = 16_000_000
 """Room that must be left for what is logged between two looks."""
+_WALLS: Final = 0.35
+"""Opacity of walls: what happens behind them is to be seen."""
 _ABANDONED: Final[list[object]] = []
 
 
@@ -68,7 +70,8 @@ class Recorder:
                 recording_id=f"{scenario.name}-{robot.name}-{scenario.seed}",
                 send_properties=False,
             )
-            self._stream.save(path, blueprint((centre[0], centre[1], centre[2] + 0.15), extent))
+            above = (centre[0], centre[1], centre[2] + 0.15)
+            self._stream.save(path, blueprint(above, extent, feet=begin if top > 0.0 else None))
         except (OSError, RuntimeError) as error:
             raise RecordingError(f"{path}: cannot be written: {_reason(error)}") from error
         self._stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
@@ -151,11 +154,15 @@ class Recorder:
 
         data = mujoco.MjData(model)
         mujoco.mj_kinematics(model, data)
-        fixed = [g for e in course.elements if e.mocap_id is None for g in e.geom_ids]
+        fixed = [e for e in course.elements if e.mocap_id is None]
+        walls = [g for e in fixed if e.kind == "wall" for g in e.geom_ids]
+        others = [g for e in fixed if e.kind != "wall" for g in e.geom_ids]
         moving = [g for e in course.elements if e.mocap_id is not None for g in e.geom_ids]
-        shapes = Shapes(model, np.array(fixed, dtype=np.intp), "world/course")
-        shapes.draw(self._stream)
-        shapes.pose(self._stream, data.xpos, data.xquat, static=True)
+        for entity, geoms, opacity in (("course", others, 1.0), ("walls", walls, _WALLS)):
+            ids = np.array(geoms, dtype=np.intp)
+            shapes = Shapes(model, ids, f"world/{entity}", opacity=opacity)
+            shapes.draw(self._stream)
+            shapes.pose(self._stream, data.xpos, data.xquat, static=True)
         movable = Shapes(model, np.array(moving, dtype=np.intp), "world/movable")
         movable.draw(self._stream)
         return movable

@@ -41,13 +41,16 @@ class Batch:
 class Shapes:
     """Some geoms of a model, to be drawn under one entity."""
 
-    def __init__(self, model: mujoco.MjModel, geoms: NDArray[np.intp], entity: str) -> None:
+    def __init__(
+        self, model: mujoco.MjModel, geoms: NDArray[np.intp], entity: str, *, opacity: float = 1.0
+    ) -> None:
         """Sort the geoms.
 
         Args:
             model: the compiled course.
             geoms: ids of those to draw; planes are left out.
             entity: path of the entity.
+            opacity: 0 to 1, of all but meshes.
         """
         self.entity = entity
         self._body = np.asarray(model.geom_bodyid)
@@ -60,7 +63,9 @@ class Shapes:
                 sizes = np.array(model.geom_size)[ids]
                 spheres = np.asarray(model.geom_type)[ids] == mujoco.mjtGeom.mjGEOM_SPHERE
                 sizes[spheres] = sizes[spheres, :1]
-                self._batches.append(Batch(kind, ids, sizes, colours(model, ids)))
+                shades = colours(model, ids)
+                shades[:, 3] = np.round(shades[:, 3] * opacity)
+                self._batches.append(Batch(kind, ids, sizes, shades))
         self._meshes = [int(g) for g in geoms[types == mujoco.mjtGeom.mjGEOM_MESH]]
         self._model = model
 

@@ -19,7 +19,7 @@ from treadwell.recording.trace import StairTrace, Trace
 
 _Colour = tuple[int, int, int, int]
 
-_MARKS: Final = 24
+_MARKS: Final = 12
 """Landings that stay to be seen."""
 _FAINT: Final = 90
 """Opacity of what is remembered; 255 is seen now."""
