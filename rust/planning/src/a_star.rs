@@ -4,37 +4,29 @@ use geometry::{ConfigError, Map, PlanarPose, Pose, Robot, angle_between, require
 use mapping::FloorView;
 use stairs::{ClimbingConfig, Feet, Staircase};
 
-use crate::refusal::explain;
+use crate::keep::{End, Kept};
+use crate::legs::{Draft, link_between};
+use crate::levels::Stand;
+use crate::portals::{Portals, Scene};
+use crate::refusal::{explain, first_limit};
 use crate::route::Ends;
-use crate::search::Search;
-use crate::shortcut::{annotate, path};
-use crate::terrain::Terrain;
+use crate::search::{Graph, Route, Search};
+use crate::terrain::{Needs, Terrain};
 use crate::{AStarConfig, Goal, NoWay, Path, Plan, PlanError, Planner};
 
-/// How far ahead on the path the robot is looked for, m: a path may come back to where it passed.
-const PROGRESS_M: f64 = 0.6;
 /// Where a path leads at first is seen this far from the robot, m.
 const SETTING_OFF_M: f64 = 0.25;
-/// A path that ends at the window's border is planned anew when less than this is left of it, m.
-const HORIZON_M: f64 = 1.0;
 
-/// Plans by A* on the floor and obstacle grid.
+/// Plans by A* on the floor and obstacle grid, and over the stairs that join its levels.
 #[derive(Debug, Clone)]
 pub struct AStar {
     config: AStarConfig,
-    radius_m: f64,
+    climbing: ClimbingConfig,
+    feet: Feet,
     terrain: Terrain,
+    portals: Portals,
     search: Search,
     kept: Option<Kept>,
-}
-
-/// The path that is being followed.
-#[derive(Debug, Clone)]
-struct Kept {
-    path: Path,
-    goal: Goal,
-    /// Whether it leads to the goal, or only to the border of the window.
-    complete: bool,
 }
 
 impl AStar {
@@ -50,14 +42,19 @@ impl AStar {
     ) -> Result<Self, ConfigError> {
         config.check()?;
         climbing.check()?;
-        let _ = feet;
         let radius_m = config.radius.unwrap_or(robot_radius_m);
         let holds = radius_m > 0.0 && radius_m.is_finite();
         require(holds, "navigation.a_star.radius", "> 0", radius_m)?;
+        let needs = Needs {
+            body_m: radius_m + config.margin,
+            feet_m: 0.5 * feet.pair_width_m + config.foot_margin,
+        };
         Ok(Self {
             config,
-            radius_m,
-            terrain: Terrain::new(),
+            climbing,
+            feet,
+            terrain: Terrain::new(needs),
+            portals: Portals::default(),
             search: Search::default(),
             kept: None,
         })
@@ -65,7 +62,7 @@ impl AStar {
 
     /// Room that the robot needs around its middle, m.
     pub fn needed_m(&self) -> f64 {
-        self.radius_m + self.config.margin
+        self.terrain.needs.body_m
     }
 
     /// Distance from a place to the nearest obstacle as of the last plan, m; `None` outside the window.
@@ -74,67 +71,47 @@ impl AStar {
         Some(self.terrain.clearance_m(index))
     }
 
-    /// The path before, its passed part cut off, if it still holds; and whether part of it became known.
-    fn keep(&self, start_m: [f64; 2], goal: &Goal) -> Option<(Path, bool)> {
-        let kept = self.kept.as_ref().filter(|kept| kept.goal == *goal)?;
-        let points = rest_of(&kept.path.points_m, start_m, self.config.stray)?;
-        if !kept.complete {
-            let inside = self.terrain.index_at([goal.x_m, goal.y_m]).is_some();
-            let left = points.len() as f64 * self.terrain.lattice.cell_m;
-            if inside || left < HORIZON_M {
-                return None;
-            }
-        }
-        let path = annotate(&self.terrain, points);
-        // An obstacle may seem half a cell nearer without a new plan.
-        let least_m = (self.needed_m() - 0.5 * self.terrain.lattice.cell_m).max(self.radius_m);
-        let holds = path
-            .points_m
-            .iter()
-            .zip(&path.clearance_m)
-            .all(|(point, &clearance_m)| {
-                let Some(index) = self.terrain.index_at(*point) else {
-                    return false;
-                };
-                clearance_m >= least_m || self.terrain.weights[index].is_finite()
-            });
-        let unseen = |path: &Path| path.unknown.iter().filter(|&&u| u).count();
-        let revealed = unseen(&path) < unseen(&kept.path);
-        holds.then_some((path, revealed))
-    }
-
     /// A new path over the terrain.
-    fn find(&mut self, view: &FloorView, start_m: [f64; 2], goal: &Goal) -> Result<Kept, NoWay> {
+    fn find(&mut self, stand: &Stand, goal: &Goal) -> Result<Kept, NoWay> {
         let terrain = &self.terrain;
         let outside = || NoWay {
             refusal: crate::Refusal::NoPath,
             sentence: "the robot stands outside of its map".into(),
         };
-        let start = terrain.index_at(start_m).ok_or_else(outside)?;
-        let ends = Ends::new(terrain, view, goal);
-        let route = self.search.run(
-            &terrain.weights,
-            terrain.cols,
-            start,
-            |cell| ends.cost(cell),
-            |cell| ends.remaining(cell),
-        );
+        let start = terrain.index_at(stand.at_m).ok_or_else(outside)?;
+        let ends = Ends::new(terrain, goal, stand.height_m, self.config.climb_cost);
+        let (search, portals) = (&mut self.search, &self.portals);
+        let route = run(search, terrain, portals, &ends, start, false);
+        let hoped = |route: &Route| {
+            route
+                .cells
+                .last()
+                .is_some_and(|&c| ends.is_blind(c as usize))
+        };
+        if route.as_ref().is_none_or(hoped)
+            && let Some(lifted) = run(search, terrain, portals, &ends, start, true)
+            && route.as_ref().is_none_or(|route| lifted.cost < route.cost)
+            && let Some(no_way) = first_limit(terrain, portals, &self.climbing, &lifted)
+        {
+            return Err(no_way);
+        }
         let Some(route) = route else {
-            let needed_m = self.radius_m + self.config.margin;
-            return Err(explain(terrain, &ends, start, needed_m, goal));
+            return Err(explain(terrain, &ends, start, goal));
         };
-        let last = route.cells.last().map_or(start, |&cell| cell as usize);
-        let middle = [goal.x_m, goal.y_m];
-        let holds_middle = terrain.index_at(middle) == Some(last);
-        let end = if holds_middle {
-            middle
-        } else {
-            terrain.center_m(last)
+        let end_m = |last: usize| {
+            let middle = [goal.x_m, goal.y_m];
+            if terrain.index_at(middle) == Some(last) {
+                middle
+            } else {
+                terrain.center_m(last)
+            }
         };
+        let end = end_of(&route, terrain, portals, &ends);
         Ok(Kept {
-            path: path(terrain, &route.cells, start_m, end),
+            draft: Draft::of(terrain, portals, &route, stand.at_m, end_m),
             goal: *goal,
-            complete: ends.inside,
+            end,
+            unknown: 0,
         })
     }
 }
@@ -143,42 +120,54 @@ impl Planner for AStar {
     fn plan(
         &mut self,
         view: &FloorView,
-        _stairs: &Staircase,
+        stairs: &Staircase,
         start: &Pose<Map, Robot>,
         goal: &Goal,
     ) -> Result<Plan, PlanError> {
         let origin = start.origin().inner;
         let start = PlanarPose::new(origin.x, origin.y, start.yaw_rad());
-        if !(start.x_m.is_finite() && start.y_m.is_finite()) {
+        if !(start.x_m + start.y_m + start.yaw_rad + origin.z).is_finite() {
             return Err(PlanError::NotFinite("the start"));
         }
         let height = goal.height_m.unwrap_or(0.0);
         if !(goal.x_m + goal.y_m + goal.radius_m + height).is_finite() {
             return Err(PlanError::NotFinite("the goal"));
         }
-        let start_m = [start.x_m, start.y_m];
-        let needed_m = self.needed_m();
-        self.terrain.read(view, start_m, needed_m, &self.config);
-        let kept = self.keep(start_m, goal);
-        if let Some((path, false)) = kept {
-            return Ok(self.hold(path));
+        let stand = Stand {
+            at_m: [start.x_m, start.y_m],
+            height_m: origin.z,
+            heading_rad: start.yaw_rad,
+        };
+        self.look(view, stairs, stand, goal);
+        let kept = self.kept.as_ref().filter(|kept| kept.goal == *goal);
+        let kept = kept.and_then(|kept| {
+            let rest = kept.rest(&self.terrain, &self.portals, stand.at_m, &self.config)?;
+            let path = rest.annotate(&self.terrain, self.config.climb_cost);
+            // What became known, or a stair, may open a better way.
+            let settled = unknown_in(&path) >= kept.unknown && stairs.stairs.is_empty();
+            Some((rest, path, settled && kept.end != End::Search, kept.end))
+        });
+        if let Some((rest, path, true, end)) = kept {
+            return Ok(self.hold(rest, path, end));
         }
-        let found = self.find(view, start_m, goal);
+        let found = self.find(&stand, goal);
         let cost_m = |path: &Path| path.cost_m + self.config.turn_cost * turn_rad(path, &start);
         match (kept, found) {
-            (Some((path, _)), Ok(new))
-                if cost_m(&new.path) >= self.config.better * cost_m(&path) =>
-            {
-                Ok(self.hold(path))
+            (Some((rest, path, _, end)), Ok(new)) => {
+                let new_path = new.draft.annotate(&self.terrain, self.config.climb_cost);
+                let worse = cost_m(&new_path) >= self.config.better * cost_m(&path);
+                let same_end =
+                    end == new.end && (end != End::Search || new.draft.steps() == rest.steps());
+                if worse && same_end {
+                    Ok(self.hold(rest, path, end))
+                } else {
+                    Ok(self.follow(new, new_path))
+                }
             }
-            (Some((path, _)), Err(_)) => Ok(self.hold(path)),
-            (_, Ok(new)) => {
-                let path = new.path.clone();
-                self.kept = Some(new);
-                Ok(Plan {
-                    way: Ok(path),
-                    replanned: true,
-                })
+            (Some((rest, path, _, end)), Err(_)) => Ok(self.hold(rest, path, end)),
+            (None, Ok(new)) => {
+                let path = new.draft.annotate(&self.terrain, self.config.climb_cost);
+                Ok(self.follow(new, path))
             }
             (None, Err(no_way)) => {
                 self.kept = None;
@@ -197,16 +186,94 @@ impl Planner for AStar {
 }
 
 impl AStar {
+    /// Reads the view and the stairs.
+    fn look(&mut self, view: &FloorView, stairs: &Staircase, stand: Stand, goal: &Goal) {
+        self.terrain
+            .read(view, stairs, &stand, goal.height_m, &self.config);
+        let scene = Scene {
+            terrain: &self.terrain,
+            view,
+            climbing: &self.climbing,
+            feet: &self.feet,
+            config: &self.config,
+            stand,
+            goal: *goal,
+        };
+        self.portals.read(&scene, stairs);
+    }
+
     /// Goes on with the path before.
-    fn hold(&mut self, path: Path) -> Plan {
+    fn hold(&mut self, draft: Draft, path: Path, end: End) -> Plan {
         if let Some(kept) = &mut self.kept {
-            kept.path.clone_from(&path);
+            kept.draft = draft;
+            kept.end = end;
+            kept.unknown = unknown_in(&path);
         }
         Plan {
             way: Ok(path),
             replanned: false,
         }
     }
+
+    /// Takes a new path.
+    fn follow(&mut self, new: Kept, path: Path) -> Plan {
+        self.kept = Some(Kept {
+            unknown: unknown_in(&path),
+            ..new
+        });
+        Plan {
+            way: Ok(path),
+            replanned: true,
+        }
+    }
+}
+
+/// The cheapest route; `lifted`: as if there were no limits to what is climbed.
+fn run(
+    search: &mut Search,
+    terrain: &Terrain,
+    portals: &Portals,
+    ends: &Ends<'_>,
+    start: usize,
+    lifted: bool,
+) -> Option<Route> {
+    let graph = Graph {
+        weights: &terrain.weights,
+        cols: terrain.cols,
+        links: Some(&portals.links),
+    };
+    search.run_linked(
+        graph,
+        |link| lifted || portals.way(link).fits,
+        start,
+        |cell| ends.cost(cell),
+        |cell| ends.remaining(cell),
+    )
+}
+
+/// Where a route ends.
+fn end_of(route: &Route, terrain: &Terrain, portals: &Portals, ends: &Ends<'_>) -> End {
+    let last_way = match route.cells[..] {
+        [.., from, to] => link_between(terrain, portals, from, to, false),
+        _ => None,
+    };
+    let climbed = last_way.filter(|way| way.leave_m.is_none());
+    let blind = route
+        .cells
+        .last()
+        .is_some_and(|&cell| ends.is_blind(cell as usize));
+    match climbed {
+        Some(way) if way.at_goal => End::Goal,
+        Some(_) => End::Search,
+        None if blind => End::Search,
+        None if ends.inside => End::Goal,
+        None => End::Border,
+    }
+}
+
+/// How many of a path's points were not seen.
+fn unknown_in(path: &Path) -> usize {
+    path.unknown.iter().filter(|&&unknown| unknown).count()
 }
 
 /// How far the robot has to turn to set off on a path, rad.
@@ -219,36 +286,5 @@ fn turn_rad(path: &Path, start: &PlanarPose) -> f64 {
     ahead.map_or(0.0, |[x, y]| {
         let bearing_rad = (y - start.y_m).atan2(x - start.x_m);
         angle_between(start.yaw_rad, bearing_rad).abs()
-    })
-}
-
-/// The points from where the robot is beside the path onward; `None` where it strayed too far.
-fn rest_of(points: &[[f64; 2]], at: [f64; 2], stray_m: f64) -> Option<Vec<[f64; 2]>> {
-    let mut best: Option<(f64, usize, [f64; 2])> = None;
-    let mut along = 0.0;
-    for (i, pair) in points.windows(2).enumerate() {
-        let d = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
-        let length = d[0].hypot(d[1]);
-        let dot = (at[0] - pair[0][0]) * d[0] + (at[1] - pair[0][1]) * d[1];
-        let t = if length > 0.0 {
-            (dot / (length * length)).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        let foot = [pair[0][0] + t * d[0], pair[0][1] + t * d[1]];
-        let away = (at[0] - foot[0]).hypot(at[1] - foot[1]);
-        if best.is_none_or(|(least, ..)| away < least) {
-            best = Some((away, i, foot));
-        }
-        along += length;
-        if along > PROGRESS_M {
-            break;
-        }
-    }
-    let (away, i, foot) = best?;
-    (away <= stray_m).then(|| {
-        std::iter::once(foot)
-            .chain(points[i + 1..].iter().copied())
-            .collect()
     })
 }

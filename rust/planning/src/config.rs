@@ -33,6 +33,16 @@ pub struct AStarConfig {
     pub turn_cost: f64,
     /// Obstacles of at most so many cells, with none beside them, are specks: unsure, priced like the unknown.
     pub speck_cells: usize,
+    /// Distance kept between feet and the edge of a level beyond half the feet's width, m: only feet come near to edges.
+    pub foot_margin: f64,
+    /// Around itself the robot sees no ground: so far unseen ground is of its own level, m.
+    pub blind: f64,
+    /// What a step up or down costs, m of walking.
+    pub climb_cost: f64,
+    /// A tread deeper than this is not crossed in one stride, but stepped onto and walked on, m.
+    pub stride: f64,
+    /// Distance between the places where the crossing of a wide edge is considered, m.
+    pub lane: f64,
 }
 
 impl Default for AStarConfig {
@@ -51,6 +61,11 @@ impl Default for AStarConfig {
             better: 0.8,
             turn_cost: 0.25,
             speck_cells: 2,
+            foot_margin: 0.02,
+            blind: 0.2,
+            climb_cost: 0.4,
+            stride: 0.15,
+            lane: 0.08,
         }
     }
 }
@@ -72,11 +87,18 @@ impl AStarConfig {
             ("max_step", self.max_step),
             ("stray", self.stray),
             ("turn_cost", self.turn_cost),
+            ("foot_margin", self.foot_margin),
+            ("blind", self.blind),
+            ("climb_cost", self.climb_cost),
+            ("stride", self.stride),
         ];
         for (key, value) in not_negative {
             let key = format!("navigation.a_star.{key}");
             require(value >= 0.0 && value.is_finite(), &key, ">= 0", value)?;
         }
+        let lane = self.lane;
+        let holds = lane > 0.0 && lane.is_finite();
+        require(holds, "navigation.a_star.lane", "> 0", lane)?;
         let better = self.better;
         let holds = better > 0.0 && better <= 1.0;
         require(holds, "navigation.a_star.better", "> 0 and <= 1", better)

@@ -1,15 +1,25 @@
-//! The way: distance transform, clearance by the robot's radius, A*.
+//! The way: distance transform, clearance by the robot's radius, levels and the climbs that join them, A*.
 
 mod a_star;
+mod chains;
 mod config;
 pub mod distance;
+mod faces;
+mod keep;
+mod legs;
+mod levels;
+mod line;
+pub mod links;
 mod plan;
+mod portals;
 mod refusal;
+mod room;
 mod route;
 pub mod search;
 mod shortcut;
 mod specks;
 mod terrain;
+mod treads;
 
 pub use a_star::AStar;
 pub use config::AStarConfig;

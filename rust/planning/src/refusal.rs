@@ -3,22 +3,100 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use stairs::{ClimbingConfig, Unfit};
+
+use crate::legs::link_between;
+use crate::portals::Portals;
 use crate::route::Ends;
-use crate::search::for_each_neighbour;
+use crate::search::{Route, for_each_neighbour};
 use crate::terrain::Terrain;
 use crate::{Goal, NoWay, Refusal};
 
 /// Gaps narrower than this are cracks between obstacles as the map has them, no ways, m.
 const CRACK_M: f64 = 0.1;
 
-/// Explains why the robot, which needs `needed_m` around its middle, finds no way from `start`.
-pub(crate) fn explain(
+/// A way down of more than this is a drop, no step, m.
+const DROP_M: f64 = 0.1;
+
+/// The first limit that a route breaks which was found as if there were none.
+pub(crate) fn first_limit(
     terrain: &Terrain,
-    ends: &Ends<'_>,
-    start: usize,
-    needed_m: f64,
-    goal: &Goal,
-) -> NoWay {
+    portals: &Portals,
+    climbing: &ClimbingConfig,
+    route: &Route,
+) -> Option<NoWay> {
+    let pairs = route.cells.windows(2);
+    let ways = pairs.filter_map(|pair| link_between(terrain, portals, pair[0], pair[1], true));
+    let mut strides = ways.flat_map(|way| portals.strides(way));
+    let limit = strides.find_map(|stride| stride.limit)?;
+    Some(unfit(climbing, limit))
+}
+
+/// The word and sentence for a step that is not taken.
+fn unfit(climbing: &ClimbingConfig, limit: Unfit) -> NoWay {
+    let mm = |length_m: f64| (1e3 * length_m.abs()).round();
+    let (refusal, sentence) = match limit {
+        Unfit::TooHigh(rise_m) if rise_m < -DROP_M => (
+            Refusal::Drop,
+            format!(
+                "it goes down {} mm, {} mm is the limit",
+                mm(rise_m),
+                mm(climbing.descend.step_min_z)
+            ),
+        ),
+        Unfit::TooHigh(rise_m) => {
+            let up = rise_m > 0.0;
+            let limit_m = if up {
+                climbing.ascend.step_max_z
+            } else {
+                climbing.descend.step_min_z
+            };
+            let way = if up { "" } else { " down" };
+            let sentence = format!(
+                "the step{way} is {} mm high, {} mm is the limit",
+                mm(rise_m),
+                mm(limit_m)
+            );
+            (Refusal::StepTooHigh, sentence)
+        }
+        Unfit::TooLow(rise_m) => (
+            Refusal::StepTooLow,
+            format!(
+                "the step is {} mm high, too much for floor and too little for a step",
+                mm(rise_m)
+            ),
+        ),
+        Unfit::TreadTooShort(depth_m, needed_m) => (
+            Refusal::TreadTooShort,
+            format!(
+                "the tread is {} mm deep, {} mm is needed",
+                mm(depth_m),
+                mm(needed_m)
+            ),
+        ),
+        Unfit::GapTooShort(depth_m, needed_m) => (
+            Refusal::GapTooShort,
+            format!(
+                "the basin is {} mm deep, {} mm is needed",
+                mm(depth_m),
+                mm(needed_m)
+            ),
+        ),
+        Unfit::TooNarrow(width_m, needed_m) => (
+            Refusal::TooNarrow,
+            format!(
+                "the stair is {} mm wide, {} mm is needed",
+                mm(width_m),
+                mm(needed_m)
+            ),
+        ),
+    };
+    NoWay { refusal, sentence }
+}
+
+/// Explains why the robot finds no way from `start`.
+pub(crate) fn explain(terrain: &Terrain, ends: &Ends<'_>, start: usize, goal: &Goal) -> NoWay {
+    let needed_m = terrain.needs.body_m;
     let widest = widest_way(terrain, ends, start);
     let gap_m = 2.0 * widest.clearance_m;
     if gap_m >= CRACK_M {
@@ -51,10 +129,9 @@ struct Widest {
 
 /// The way whose narrowest place is the widest, for a point that only obstacles stop.
 fn widest_way(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Widest {
-    let open: Vec<f32> = terrain
-        .blocked
-        .iter()
-        .map(|&blocked| if blocked { f32::INFINITY } else { 1.0 })
+    let stops = terrain.blocked.iter().zip(&terrain.levels.edge);
+    let open: Vec<f32> = stops
+        .map(|(&blocked, &edge)| if blocked || edge { f32::INFINITY } else { 1.0 })
         .collect();
     let mut seen = vec![false; open.len()];
     let mut queue = BinaryHeap::from([(u32::MAX, Reverse(start))]);

@@ -1,6 +1,8 @@
-//! A* on a grid with eight neighbours and flat arrays; a diagonal step needs both of its corners free.
+//! A* on a grid with eight neighbours, links between cells, and flat arrays; a diagonal step needs both of its corners free.
 
 use std::f64::consts::SQRT_2;
+
+use crate::links::Links;
 
 /// No cell before this one.
 const NONE: u32 = u32::MAX;
@@ -8,7 +10,7 @@ const NONE: u32 = u32::MAX;
 /// The cheapest way that was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Route {
-    /// Indices of its cells, from the start to the end.
+    /// Indices of its cells, from the start to the end; beyond the cells, a node at which a link ends.
     pub cells: Vec<u32>,
     /// Its cost in cells, what ending there costs included.
     pub cost: f64,
@@ -18,6 +20,17 @@ pub struct Route {
 pub fn octile(dx: f64, dy: f64) -> f64 {
     let (dx, dy) = (dx.abs(), dy.abs());
     dx.max(dy) + (SQRT_2 - 1.0) * dx.min(dy)
+}
+
+/// What is searched.
+#[derive(Debug, Clone, Copy)]
+pub struct Graph<'a> {
+    /// Row by row, what a cell's length costs there: 1 or more, infinite where it may not be entered (the start always may).
+    pub weights: &'a [f32],
+    /// Cells a row.
+    pub cols: usize,
+    /// Ways between cells that are no neighbours, and to nodes that are no cells.
+    pub links: Option<&'a Links>,
 }
 
 /// Width of a bucket of the queue, in cells.
@@ -45,11 +58,7 @@ struct Node {
 }
 
 impl Search {
-    /// The cheapest way from `start` to a cell where `ending` gives a cost of ending there.
-    ///
-    /// `weights` says, row by row, what a cell's length costs there: 1 or more, infinite where it may not be entered (the
-    /// start always may). A step costs its length times the mean weight of its two cells. `heuristic` never exceeds the
-    /// remaining cost, ending included, and falls by no more than a step costs.
+    /// The cheapest way over cells alone: [`Self::run_linked`] without links.
     pub fn run(
         &mut self,
         weights: &[f32],
@@ -58,7 +67,33 @@ impl Search {
         ending: impl Fn(usize) -> Option<f64>,
         heuristic: impl Fn(usize) -> f64,
     ) -> Option<Route> {
-        self.begin(weights.len());
+        let graph = Graph {
+            weights,
+            cols,
+            links: None,
+        };
+        self.run_linked(graph, |_| true, start, ending, heuristic)
+    }
+
+    /// The cheapest way from `start` to a node where `ending` gives a cost of ending there.
+    ///
+    /// A step costs its length times the mean weight of its two cells. Of the links those are used that `open` says, by
+    /// index. `heuristic` never exceeds the remaining cost, ending included, and falls by no more than a step or link costs.
+    pub fn run_linked(
+        &mut self,
+        graph: Graph<'_>,
+        open: impl Fn(usize) -> bool,
+        start: usize,
+        ending: impl Fn(usize) -> Option<f64>,
+        heuristic: impl Fn(usize) -> f64,
+    ) -> Option<Route> {
+        let Graph {
+            weights,
+            cols,
+            links,
+        } = graph;
+        let ends = links.map_or(0, |links| links.all().len());
+        self.begin(weights.len() + ends);
         let mut best: Option<(f64, usize)> = None;
         self.reach(start, 0.0, NONE, heuristic(start), 0);
         let mut bucket = 0;
@@ -81,6 +116,9 @@ impl Search {
             {
                 best = Some((cost + end, here));
             }
+            if here >= weights.len() {
+                continue; // no cell: nothing leads on
+            }
             let weight = if weights[here].is_finite() {
                 weights[here]
             } else {
@@ -95,6 +133,13 @@ impl Search {
                     self.reach(next, through, cell, known.heuristic, bucket);
                 }
             });
+            for (index, link) in links.into_iter().flat_map(|links| links.from(here)) {
+                let (next, through) = (link.to as usize, cost + link.cost);
+                let known = self.nodes[next];
+                if open(index) && (known.round != self.round || through < known.cost) {
+                    self.reach(next, through, cell, heuristic(next), bucket);
+                }
+            }
         }
         best.map(|(cost, end)| Route {
             cells: self.back_from(end),
@@ -102,15 +147,15 @@ impl Search {
         })
     }
 
-    fn begin(&mut self, cells: usize) {
-        if self.nodes.len() != cells || self.round == u32::MAX {
+    fn begin(&mut self, nodes: usize) {
+        if self.nodes.len() < nodes || self.round == u32::MAX {
             let unreached = Node {
                 cost: 0.0,
                 heuristic: 0.0,
                 parent: NONE,
                 round: 0,
             };
-            self.nodes = vec![unreached; cells];
+            self.nodes = vec![unreached; nodes];
             self.round = 0;
         }
         self.round += 1;

@@ -1,13 +1,15 @@
 //! From cells to a path: straight where the straight way costs no more, points close together.
 
-use crate::Path;
 use crate::terrain::Terrain;
 
 /// The straight way may cost this much more than the cells it replaces.
 const TOLERANCE: f64 = 1.002;
 
-/// The path along `cells` from `start_m` to `end_m` (a point of the last cell).
-pub(crate) fn path(terrain: &Terrain, cells: &[u32], start_m: [f64; 2], end_m: [f64; 2]) -> Path {
+/// Adds the points of the way along `cells` from the last point of `points` to `end_m` (a point of the last cell).
+pub(crate) fn walk(points: &mut Vec<[f64; 2]>, terrain: &Terrain, cells: &[u32], end_m: [f64; 2]) {
+    let Some(&start_m) = points.last() else {
+        return;
+    };
     let mut corners: Vec<[f64; 2]> = cells
         .iter()
         .map(|&c| terrain.center_m(c as usize))
@@ -25,46 +27,11 @@ pub(crate) fn path(terrain: &Terrain, cells: &[u32], start_m: [f64; 2], end_m: [
         let step = terrain.straight_cost_m(corners[i - 1], corners[i]);
         along[i] = along[i - 1] + step.unwrap_or(f64::MAX / 1e9);
     }
-    let mut points = vec![start_m];
     let mut from = 0;
     while from + 1 < corners.len() {
         let to = furthest(terrain, &corners, &along, from);
-        lay(
-            &mut points,
-            corners[from],
-            corners[to],
-            terrain.lattice.cell_m,
-        );
+        lay(points, corners[to], terrain.lattice.cell_m);
         from = to;
-    }
-    annotate(terrain, points)
-}
-
-/// Clearance, unknown parts and cost of given points under this terrain.
-pub(crate) fn annotate(terrain: &Terrain, points_m: Vec<[f64; 2]>) -> Path {
-    let index = |point: &[f64; 2]| terrain.index_at(*point);
-    let unknown = points_m
-        .iter()
-        .map(|p| index(p).is_none_or(|i| terrain.unknown[i]))
-        .collect();
-    let clearance_m = points_m
-        .iter()
-        .map(|p| index(p).map_or(f64::INFINITY, |i| terrain.clearance_m(i)))
-        .collect();
-    let cost_m = points_m
-        .windows(2)
-        .map(|pair| {
-            terrain
-                .straight_cost_m(pair[0], pair[1])
-                .unwrap_or(f64::INFINITY)
-        })
-        .sum();
-    Path {
-        points_m,
-        unknown,
-        clearance_m,
-        climbs: Vec::new(),
-        cost_m,
     }
 }
 
@@ -98,8 +65,11 @@ fn furthest(terrain: &Terrain, corners: &[[f64; 2]], along: &[f64], from: usize)
     good
 }
 
-/// Adds points up to `to`, no further apart than a cell.
-fn lay(points: &mut Vec<[f64; 2]>, from: [f64; 2], to: [f64; 2], cell_m: f64) {
+/// Adds points from the last one straight to `to`, no further apart than a cell.
+pub(crate) fn lay(points: &mut Vec<[f64; 2]>, to: [f64; 2], cell_m: f64) {
+    let Some(&from) = points.last() else {
+        return;
+    };
     let length = (to[0] - from[0]).hypot(to[1] - from[1]);
     let pieces = (length / cell_m).ceil().max(1.0) as usize;
     for piece in 1..=pieces {

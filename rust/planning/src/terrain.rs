@@ -1,11 +1,23 @@
 //! What a cell costs: obstacles, steps, clearance, the unknown.
 
 use geometry::{Cell, Lattice};
-use mapping::{FloorView, Surface};
+use mapping::FloorView;
+use stairs::Staircase;
 
 use crate::AStarConfig;
 use crate::distance::{DistanceField, NOTHING_NEAR};
+use crate::levels::{Levels, Stand};
 use crate::specks::Specks;
+use crate::treads::Treads;
+
+/// Room that the robot needs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Needs {
+    /// Around its middle, to obstacles, m.
+    pub(crate) body_m: f64,
+    /// Around the middle between its feet, to edges of the level, m.
+    pub(crate) feet_m: f64,
+}
 
 /// The floor view as the planner reads it, row by row. Reused.
 #[derive(Debug, Clone)]
@@ -13,19 +25,28 @@ pub(crate) struct Terrain {
     pub(crate) lattice: Lattice,
     pub(crate) cols: usize,
     pub(crate) rows: usize,
-    /// Obstacles, and cells at a step.
+    /// Obstacles.
     pub(crate) blocked: Vec<bool>,
     pub(crate) unknown: Vec<bool>,
+    /// To obstacles.
     pub(crate) distance: DistanceField,
+    pub(crate) needs: Needs,
+    pub(crate) levels: Levels,
+    /// Distance to the nearest obstacle where the robot stands, m: there it is.
+    pub(crate) clearance_at_start_m: f64,
+    edge_distance: DistanceField,
+    treads: Treads,
     /// What a length costs in a cell: 1 on open known floor, infinite where the robot may not be.
     pub(crate) weights: Vec<f32>,
     specks: Specks,
     /// Weight of a cell by its squared distance to what is blocked, in cells.
     by_squared: Vec<f32>,
+    /// The same for edges.
+    by_edge_squared: Vec<f32>,
 }
 
 impl Terrain {
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(needs: Needs) -> Self {
         Self {
             lattice: Lattice {
                 origin_m: [0.0; 2],
@@ -36,75 +57,73 @@ impl Terrain {
             blocked: Vec::new(),
             unknown: Vec::new(),
             distance: DistanceField::default(),
+            needs,
+            clearance_at_start_m: 0.0,
+            levels: Levels::default(),
+            edge_distance: DistanceField::default(),
+            treads: Treads::default(),
             weights: Vec::new(),
             specks: Specks::default(),
             by_squared: Vec::new(),
+            by_edge_squared: Vec::new(),
         }
     }
 
-    /// Reads a view for a robot at `start_m` that needs `needed_m` around its middle.
+    /// Reads a view and the stairs for a robot that stands at `stand` and needs this room; `goal_m`: the goal's height.
     pub(crate) fn read(
         &mut self,
         view: &FloorView,
-        start_m: [f64; 2],
-        needed_m: f64,
+        stairs: &Staircase,
+        stand: &Stand,
+        goal_m: Option<f64>,
         config: &AStarConfig,
     ) {
-        let surfaces = view.cells.values();
         self.lattice = view.lattice;
         (self.cols, self.rows) = (view.cells.cols(), view.cells.rows());
-        self.blocked.clear();
-        self.unknown.clear();
-        for surface in surfaces {
-            self.blocked.push(matches!(surface, Surface::Obstacle(_)));
-            self.unknown.push(matches!(surface, Surface::Unknown));
-        }
+        self.treads.read(view, stairs);
         let (blocked, unknown) = (&mut self.blocked, &mut self.unknown);
+        self.treads.read_surfaces(view, blocked, unknown);
         self.specks
             .clear(blocked, unknown, self.cols, config.speck_cells);
-        self.mark_steps(view, config);
+        self.levels.read(view, &self.treads, stand, config);
+        let heights = stairs.stairs.iter().map(stairs::Stair::height_m);
+        let lowest_m = heights.chain(goal_m).fold(f64::INFINITY, f64::min);
+        if self.levels.raised(stand, lowest_m, config) {
+            self.bound(stand, config);
+        }
         self.distance.compute(&self.blocked, self.cols);
-        self.weigh(start_m, needed_m, config);
+        if self.levels.any {
+            self.edge_distance.compute(&self.levels.edge, self.cols);
+        }
+        self.weigh(stand.at_m, config);
     }
 
-    /// A step is an obstacle to either side of it.
-    fn mark_steps(&mut self, view: &FloorView, config: &AStarConfig) {
-        let height = |index: usize| match view.cells.values()[index] {
-            Surface::Floor(height) if view.sightings.values()[index] >= config.step_sightings => {
-                Some(height)
-            }
-            _ => None,
+    /// On a raised level, unseen ground ends it, but for what the robot cannot see around its own feet.
+    fn bound(&mut self, stand: &Stand, config: &AStarConfig) {
+        let (lattice, cols, at_m) = (self.lattice, self.cols, stand.at_m);
+        let on_tread = self
+            .index_at(at_m)
+            .is_some_and(|start| self.treads.covers(start));
+        let blind_m = if on_tread { 0.0 } else { config.blind };
+        let free = |index: usize| {
+            let cell = Cell::new((index % cols) as i32, (index / cols) as i32);
+            let [x, y] = lattice.center_of(cell);
+            (x - at_m[0]).hypot(y - at_m[1]) <= blind_m
         };
-        for index in 0..self.blocked.len() {
-            let Some(here) = height(index) else { continue };
-            let east = (index % self.cols + 1 < self.cols).then_some(index + 1);
-            let north = (index + self.cols < self.blocked.len()).then_some(index + self.cols);
-            for next in east.into_iter().chain(north) {
-                if height(next).is_some_and(|h| f64::from((h - here).abs()) > config.max_step) {
-                    self.blocked[index] = true;
-                    self.blocked[next] = true;
-                }
-            }
-        }
+        self.levels
+            .mark_verge(&self.unknown, cols, stand, config.max_step, free);
     }
 
     /// What a length costs, by clearance, escape and what is unseen.
-    fn weigh(&mut self, start_m: [f64; 2], needed_m: f64, config: &AStarConfig) {
-        // By squared distance in cells, as far as being near costs anything.
-        let reach = ((needed_m + config.soft_range) / self.lattice.cell_m).ceil() as u32;
-        self.by_squared.clear();
-        for squared in 0..=reach * reach {
-            let clearance_m = f64::from(squared).sqrt() * self.lattice.cell_m;
-            let spare = (clearance_m - needed_m) / config.soft_range.max(1e-9);
-            let near = (1.0 - spare).max(0.0);
-            let weight = 1.0 + config.soft_cost * near * near;
-            let allowed = clearance_m >= needed_m;
-            self.by_squared.push(if allowed {
-                weight as f32
-            } else {
-                f32::INFINITY
-            });
-        }
+    fn weigh(&mut self, start_m: [f64; 2], config: &AStarConfig) {
+        let cell_m = self.lattice.cell_m;
+        fill(
+            &mut self.by_squared,
+            self.needs.body_m,
+            config.soft_range,
+            config,
+            |cells| cells * cell_m,
+        );
         let furthest = self.by_squared.len() - 1;
         self.weights.clear();
         for (&squared, &unknown) in self.distance.all_squared().iter().zip(&self.unknown) {
@@ -116,26 +135,68 @@ impl Terrain {
             self.weights
                 .push(self.by_squared[furthest.min(squared as usize)] + unseen);
         }
-        self.open_escape(start_m, needed_m, config);
+        if self.levels.any {
+            let soft_m = 0.5 * config.soft_range;
+            let table = &mut self.by_edge_squared;
+            fill(table, self.needs.feet_m, soft_m, config, |cells| {
+                (cells + 0.5) * cell_m
+            });
+            let furthest = table.len() - 1;
+            let squared = self.edge_distance.all_squared();
+            for (weight, &squared) in self.weights.iter_mut().zip(squared) {
+                *weight += table[furthest.min(squared as usize)] - 1.0;
+            }
+            for (weight, &edge) in self.weights.iter_mut().zip(&self.levels.edge) {
+                if edge {
+                    *weight = f32::INFINITY;
+                }
+            }
+        }
+        self.open_escape(start_m, config);
     }
 
     /// Where the robot already stands too near to something it may leave, but come no nearer.
-    fn open_escape(&mut self, start_m: [f64; 2], needed_m: f64, config: &AStarConfig) {
-        let at_start_m = self
-            .index_at(start_m)
-            .map_or(needed_m, |i| self.clearance_m(i));
-        if at_start_m >= needed_m {
+    fn open_escape(&mut self, start_m: [f64; 2], config: &AStarConfig) {
+        let Some(start) = self.index_at(start_m) else {
+            return;
+        };
+        let Needs { body_m, feet_m } = self.needs;
+        let (at_start_m, to_edge_m) = (self.clearance_m(start), self.edge_clearance_m(start));
+        self.clearance_at_start_m = at_start_m;
+        if at_start_m >= body_m && to_edge_m >= feet_m {
             return;
         }
-        let least_m = at_start_m - 0.5 * self.lattice.cell_m;
+        let half_m = 0.5 * self.lattice.cell_m;
+        let least_m = (at_start_m - half_m).min(body_m);
+        let least_edge_m = (to_edge_m - half_m).min(feet_m);
         for index in 0..self.weights.len() {
             let [x, y] = self.center_m(index);
             let near = (x - start_m[0]).hypot(y - start_m[1]) <= config.escape_range;
-            let barred = self.weights[index].is_infinite() && !self.blocked[index];
-            if near && barred && self.clearance_m(index) >= least_m {
+            let no_ground = self.blocked[index] || self.levels.edge[index];
+            let barred = self.weights[index].is_infinite() && !no_ground;
+            if near
+                && barred
+                && self.clearance_m(index) >= least_m
+                && self.edge_clearance_m(index) >= least_edge_m
+            {
                 self.weights[index] = 1.0 + config.escape_cost as f32;
             }
         }
+    }
+
+    /// Distance from a cell's centre to the nearest edge of a level, m: the edge lies between the cells beside it.
+    pub(crate) fn edge_clearance_m(&self, index: usize) -> f64 {
+        if !self.levels.any || self.edge_distance.squared(index) == NOTHING_NEAR {
+            return f64::from(u16::MAX);
+        }
+        let cells = f64::from(self.edge_distance.squared(index)).sqrt();
+        (cells + 0.5) * self.lattice.cell_m
+    }
+
+    /// Height of a cell, m, where one is known.
+    pub(crate) fn level_m(&self, index: usize) -> Option<f64> {
+        let height = self.levels.height_m[index];
+        (!height.is_nan()).then(|| f64::from(height))
     }
 
     /// Distance from a cell's centre to the centre of the nearest blocked cell, m. An obstacle's surface lies anywhere in
@@ -187,5 +248,27 @@ impl Terrain {
             sum += f64::from(weight);
         }
         Some(sum * length / pieces)
+    }
+}
+
+/// Weights by squared distance in cells, as far as being near costs anything; `clearance_m` of a distance in cells.
+fn fill(
+    table: &mut Vec<f32>,
+    needed_m: f64,
+    soft_m: f64,
+    config: &AStarConfig,
+    clearance_m: impl Fn(f64) -> f64,
+) {
+    table.clear();
+    for squared in 0_u32.. {
+        let clearance_m = clearance_m(f64::from(squared).sqrt());
+        let spare = (clearance_m - needed_m) / soft_m.max(1e-9);
+        let near = (1.0 - spare).max(0.0);
+        let weight = (1.0 + config.soft_cost * near * near) as f32;
+        let allowed = clearance_m >= needed_m;
+        table.push(if allowed { weight } else { f32::INFINITY });
+        if allowed && near <= 0.0 {
+            break;
+        }
     }
 }

@@ -1,0 +1,164 @@
+//! From stair to stair: the steps of a climb, and where it ends.
+
+use geometry::Map;
+use stairs::{Footing, Onward, Stair};
+
+use crate::Step;
+use crate::faces::{After, GROUND_DEPTH_M};
+use crate::line::{Line, ground_behind};
+use crate::portals::{Entry, Landing, Portals, Scene, Stride, Way};
+use crate::room::{SAME_M, clear, distance_m, range_m, run_to_cell, walk_m, width_m};
+use crate::route::{LEVEL_M, PULL};
+
+/// Heels come to stand this far beyond an edge where no limit says better, m.
+const HEEL_M: f64 = 0.015;
+/// Nobody climbs more steps in one go.
+const MOST_STEPS: usize = 32;
+/// What lies behind the last stair is paid for with this, m, and by the height that is missing.
+const HOPE_M: f64 = 0.3;
+const RISE_M: f64 = 0.03;
+
+impl Portals {
+    /// Climbs on from stair to stair, and adds a link for each place where one can walk on.
+    pub(crate) fn follow(&mut self, scene: &Scene<'_>, entry: &Entry) {
+        let first = self.strides.len();
+        let (mut stair, mut face, mut offset_m) = (entry.stair, entry.face, entry.offset_m);
+        let (mut level_m, mut at_m) = (entry.level_m, entry.enter_m);
+        let (mut fixed, mut fits, mut cost_m) = (entry.fixed, true, 0.0);
+        for _ in 0..MOST_STEPS {
+            let line = Line::of(&stair.front);
+            let crossing_m = line.at(offset_m, 0.0);
+            let after = self
+                .faces
+                .after(scene.terrain, scene.climbing, &stair, face, crossing_m);
+            let mut stride = self.stride(scene, &stair, level_m, crossing_m, after);
+            if fixed {
+                stride.from_m = at_m;
+            }
+            if !clear(scene, stride.from_m, level_m) || !clear(scene, stride.to_m, stair.height_m())
+            {
+                break;
+            }
+            fits &= stride.limit.is_none();
+            cost_m += walk_m(at_m, stride.from_m) + walk_m(stride.from_m, stride.to_m);
+            cost_m += scene.config.climb_cost;
+            at_m = stride.to_m;
+            self.strides.push(stride);
+            let way = Way {
+                first,
+                end: self.strides.len(),
+                enter_m: entry.enter_m,
+                leave_m: None,
+                fits,
+                at_goal: false,
+            };
+            self.end(scene, entry, way, &Landing { stair, face, after }, cost_m);
+            level_m = stair.height_m();
+            let depth_m;
+            (stair, face, depth_m) = match after {
+                After::Face(next, depth_m) => (self.faces.all()[next].stair, Some(next), depth_m),
+                After::Ground(height_m, depth_m) => {
+                    let ground = ground_behind(&stair, height_m, GROUND_DEPTH_M);
+                    (ground, None, depth_m)
+                }
+                After::Level | After::Wall | After::Unknown => break,
+            };
+            fixed = depth_m <= scene.config.stride;
+            let next = Line::of(&stair.front);
+            let range_m = range_m(scene, &next);
+            offset_m = next.offset_m(at_m).clamp(-range_m, range_m);
+        }
+        // Steps that no way ends with are none.
+        let used = self.ways.last().map_or(0, |way| way.end);
+        self.strides.truncate(used.max(first));
+    }
+
+    /// One step onto a stair.
+    fn stride(
+        &self,
+        scene: &Scene<'_>,
+        stair: &Stair<Map>,
+        level_m: f64,
+        crossing_m: [f64; 2],
+        after: After,
+    ) -> Stride {
+        let line = Line::of(&stair.front);
+        let rise_m = stair.height_m() - level_m;
+        let next = match after {
+            After::Face(next, depth_m) => Some((self.faces.all()[next].stair.height_m(), depth_m)),
+            After::Ground(height_m, depth_m) => Some((height_m, depth_m)),
+            After::Level | After::Wall | After::Unknown => None,
+        };
+        let onward = next.filter(|&(_, depth_m)| depth_m <= scene.config.stride);
+        let onward = onward.map_or(Onward::Level, |(height_m, depth_m)| Onward::Edge {
+            depth_m,
+            rise_m: height_m - stair.height_m(),
+        });
+        let width_m = width_m(&line, stair);
+        let footing = Footing::on_stair(scene.climbing, scene.feet, rise_m, width_m, onward);
+        let heel_m = footing.map_or(HEEL_M, |footing| footing.heel_m);
+        let toes_m = scene.climbing.set_for(rise_m).approach_x;
+        let offset_m = line.offset_m(crossing_m);
+        Stride {
+            step: Step {
+                stair: *stair,
+                rise_m,
+                crossing_m,
+            },
+            from_m: line.at(offset_m, toes_m - 0.5 * scene.feet.length_m),
+            to_m: line.at(offset_m, heel_m + 0.5 * scene.feet.length_m),
+            limit: footing.err(),
+        }
+    }
+
+    /// Adds the links that end on a stair: at a cell where one walks on, at the goal, or with what is not known yet.
+    fn end(&mut self, scene: &Scene<'_>, entry: &Entry, way: Way, on: &Landing, cost_m: f64) {
+        let (goal, stair) = (&scene.goal, &on.stair);
+        let line = Line::of(&stair.front);
+        let Some(at_m) = self.strides.last().map(|stride| stride.to_m) else {
+            return;
+        };
+        // Unseen ground may be the floor at the foot of an edge, but no stair goes on over it.
+        let on_level = |height: Option<f64>| {
+            height.map_or(on.face.is_none(), |height_m| {
+                (height_m - stair.height_m()).abs() <= SAME_M
+            })
+        };
+        let (offset_m, beyond_m) = (line.offset_m(at_m), line.beyond_m(at_m));
+        if let Some((cell, leave_m)) = run_to_cell(scene, &line, offset_m, beyond_m, 1.0, on_level)
+        {
+            let run_m = walk_m(at_m, leave_m);
+            let way = Way {
+                leave_m: Some(leave_m),
+                ..way
+            };
+            self.add(scene, entry.cell, Some(cell), cost_m + run_m, way);
+        } else {
+            let away_m = distance_m(at_m, [goal.x_m, goal.y_m]);
+            let missing_m = goal.height_m.map_or(0.0, |h| (h - stair.height_m()).abs());
+            if away_m <= goal.radius_m && missing_m <= LEVEL_M {
+                let way = Way {
+                    at_goal: true,
+                    ..way
+                };
+                self.add(scene, entry.cell, None, cost_m + PULL * away_m, way);
+                return;
+            }
+        }
+        if on.after == After::Unknown {
+            let remaining_m = walk_m(at_m, [goal.x_m, goal.y_m]);
+            let ahead_m = (1.0 + scene.config.unknown_cost) * remaining_m + HOPE_M;
+            let missing_m = goal.height_m.map_or(0.0, |h| (h - stair.height_m()).abs());
+            let rises_m = scene.config.climb_cost * missing_m / RISE_M;
+            self.add(scene, entry.cell, None, cost_m + ahead_m + rises_m, way);
+        }
+    }
+
+    /// Adds a link to a cell, or to a node of its own.
+    fn add(&mut self, scene: &Scene<'_>, from: usize, to: Option<usize>, cost_m: f64, way: Way) {
+        let to = to.unwrap_or(scene.terrain.weights.len() + self.ways.len());
+        let cost = cost_m / scene.terrain.lattice.cell_m;
+        let _ = self.links.add(from, to, cost);
+        self.ways.push(way);
+    }
+}

@@ -1,0 +1,180 @@
+//! The path that is being followed: its passed part cut off, its steps as the stairs are seen now.
+
+use crate::legs::Draft;
+use crate::line::Line;
+use crate::portals::Portals;
+use crate::terrain::Terrain;
+use crate::{AStarConfig, Climb, Goal};
+
+/// How far ahead on the path the robot is looked for, m: a path may come back to where it passed.
+const PROGRESS_M: f64 = 0.6;
+/// A path that ends at the window's border is planned anew when less than this is left of it, m.
+const HORIZON_M: f64 = 1.0;
+/// An edge that moved by more than this is another one, m, rad.
+const MOVED_M: f64 = 0.03;
+const TURNED_RAD: f64 = 0.25;
+/// So is one whose stair's height, or whose rise, differs by more than this, m.
+const LIFTED_M: f64 = 0.012;
+
+/// The path that is being followed.
+#[derive(Debug, Clone)]
+pub(crate) struct Kept {
+    pub(crate) draft: Draft,
+    pub(crate) goal: Goal,
+    /// Whether it leads to the goal, or only to the border of the window, or towards what was not seen yet.
+    pub(crate) end: End,
+    /// How many of its points were unknown.
+    pub(crate) unknown: usize,
+}
+
+/// Where a path ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum End {
+    /// In the goal's disc.
+    Goal,
+    /// At the border of the window: the goal lies outside.
+    Border,
+    /// On a stair behind which, or at a place from which, more is to be seen.
+    Search,
+}
+
+impl Kept {
+    /// What is left of it where it holds.
+    pub(crate) fn rest(
+        &self,
+        terrain: &Terrain,
+        portals: &Portals,
+        start_m: [f64; 2],
+        config: &AStarConfig,
+    ) -> Option<Draft> {
+        let mut draft = rest_of(&self.draft, start_m, config.stray)?;
+        if self.end == End::Border {
+            let inside = terrain.index_at([self.goal.x_m, self.goal.y_m]).is_some();
+            let left = draft.points_m.len() as f64 * terrain.lattice.cell_m;
+            if inside || left < HORIZON_M {
+                return None;
+            }
+        }
+        for climb in &mut draft.climbs {
+            refresh(climb, &mut draft.points_m, portals)?;
+        }
+        holds(&draft, terrain).then_some(draft)
+    }
+}
+
+/// Whether the robot has room everywhere: an obstacle or edge may seem half a cell nearer without a new plan.
+fn holds(draft: &Draft, terrain: &Terrain) -> bool {
+    let half_m = 0.5 * terrain.lattice.cell_m;
+    let needs = &terrain.needs;
+    let least_m = (needs.body_m - half_m).max(needs.body_m - 0.03);
+    let least_edge_m = needs.feet_m - half_m;
+    draft.points_m.iter().enumerate().all(|(i, point)| {
+        let Some(index) = terrain.index_at(*point) else {
+            return false;
+        };
+        let at_stairs = draft.at_stairs(i) || i > 0 && draft.at_stairs(i - 1);
+        let roomy = terrain.clearance_m(index) >= least_m
+            && terrain.edge_clearance_m(index) >= least_edge_m
+            && !terrain.levels.edge[index];
+        roomy || at_stairs || terrain.weights[index].is_finite()
+    })
+}
+
+/// Takes over edges and heights as they are seen now; `None` where a step is none any more.
+fn refresh(climb: &mut Climb, points_m: &mut [[f64; 2]], portals: &Portals) -> Option<()> {
+    for (i, step) in climb.steps.iter_mut().enumerate() {
+        let before = Line::of(&step.stair.front);
+        let mut best: Option<(f64, usize)> = None;
+        for (index, stride) in portals.all_strides().iter().enumerate() {
+            let now = &stride.step;
+            let line = Line::of(&now.stair.front);
+            let same = stride.limit.is_none()
+                && line.askew_rad(&before) <= TURNED_RAD
+                && line.beyond_m(step.crossing_m).abs() <= MOVED_M
+                && line.offset_m(step.crossing_m).abs() <= line.half_m()
+                && (now.stair.height_m() - step.stair.height_m()).abs() <= LIFTED_M
+                && (now.rise_m - step.rise_m).abs() <= LIFTED_M;
+            let away_m = (now.crossing_m[0] - step.crossing_m[0])
+                .hypot(now.crossing_m[1] - step.crossing_m[1]);
+            if same && best.is_none_or(|(least_m, _)| away_m < least_m) {
+                best = Some((away_m, index));
+            }
+        }
+        let now = &portals.all_strides()[best?.1];
+        let line = Line::of(&now.step.stair.front);
+        let offset_m = line.offset_m(step.crossing_m);
+        let lane_m = offset_m - line.offset_m(now.step.crossing_m);
+        let moved =
+            |place_m: [f64; 2]| line.at(line.offset_m(place_m) + lane_m, line.beyond_m(place_m));
+        if i == 0 && climb.from_point > 0 {
+            points_m[climb.from_point] = moved(now.from_m);
+        }
+        points_m[climb.from_point + i + 1] = moved(now.to_m);
+        *step = crate::Step {
+            crossing_m: line.at(offset_m, 0.0),
+            ..now.step
+        };
+    }
+    Some(())
+}
+
+/// The path from where the robot is beside it onward; `None` where it strayed too far.
+fn rest_of(draft: &Draft, at: [f64; 2], stray_m: f64) -> Option<Draft> {
+    let points = &draft.points_m;
+    let mut best: Option<(f64, usize, f64, [f64; 2])> = None;
+    let mut along = 0.0;
+    for (i, pair) in points.windows(2).enumerate() {
+        let d = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
+        let length = d[0].hypot(d[1]);
+        let dot = (at[0] - pair[0][0]) * d[0] + (at[1] - pair[0][1]) * d[1];
+        let t = if length > 0.0 {
+            (dot / (length * length)).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        let foot = [pair[0][0] + t * d[0], pair[0][1] + t * d[1]];
+        let away = (at[0] - foot[0]).hypot(at[1] - foot[1]);
+        if best.is_none_or(|(least, ..)| away < least) {
+            best = Some((away, i, t, foot));
+        }
+        along += length;
+        if along > PROGRESS_M {
+            break;
+        }
+    }
+    let (away, piece, t, foot) = best?;
+    if away > stray_m {
+        return None;
+    }
+    let climbing = draft
+        .climbs
+        .iter()
+        .any(|climb| (climb.from_point..climb.to_point).contains(&piece));
+    // A step is taken once the robot is nearer to where it ends; until then it stands where it begins.
+    let passed = if climbing && t > 0.5 {
+        piece + 1
+    } else {
+        piece
+    };
+    let here = if climbing { at } else { foot };
+    Some(cut(draft, passed, here))
+}
+
+/// The draft from a point on, which is replaced by `here`.
+fn cut(draft: &Draft, passed: usize, here: [f64; 2]) -> Draft {
+    let mut points_m = vec![here];
+    points_m.extend(draft.points_m.iter().skip(passed + 1));
+    let shifted = |point: usize| point.saturating_sub(passed);
+    let climbs = draft.climbs.iter().filter(|climb| climb.to_point > passed);
+    let climbs = climbs.map(|climb| Climb {
+        from_point: shifted(climb.from_point),
+        to_point: shifted(climb.to_point),
+        steps: climb.steps[passed.saturating_sub(climb.from_point)..].to_vec(),
+    });
+    let spans = draft.spans.iter().filter(|span| span[1] > passed);
+    Draft {
+        climbs: climbs.collect(),
+        spans: spans.map(|span| span.map(shifted)).collect(),
+        points_m,
+    }
+}

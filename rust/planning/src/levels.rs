@@ -1,0 +1,186 @@
+//! The height of each cell, and the cells at an edge between two levels: no foot is set across one but by a climb.
+
+use mapping::{FloorView, Surface};
+
+use crate::AStarConfig;
+use crate::treads::Treads;
+
+/// A shadow below an edge, as seen from above, is at most so many cells wide.
+const SHADOW_CELLS: usize = 4;
+/// From so many cells on a lower level is believed.
+const LOWER_CELLS: usize = 12;
+
+/// Where the robot stands, in the map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Stand {
+    pub(crate) at_m: [f64; 2],
+    pub(crate) height_m: f64,
+    pub(crate) heading_rad: f64,
+}
+
+/// The levels of a view. Reused.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Levels {
+    /// Height of each cell, m; not a number where none is known.
+    pub(crate) height_m: Vec<f32>,
+    /// Cells beside a difference that is no floor, to either side of it, or between two such levels.
+    pub(crate) edge: Vec<bool>,
+    /// Whether there is any edge.
+    pub(crate) any: bool,
+}
+
+impl Levels {
+    /// Heights of the floor that was seen often enough, and of the treads.
+    pub(crate) fn read(
+        &mut self,
+        view: &FloorView,
+        treads: &Treads,
+        stand: &Stand,
+        config: &AStarConfig,
+    ) {
+        self.height_m.clear();
+        let cells = view.cells.values().iter().zip(view.sightings.values());
+        self.height_m.extend(cells.map(|(surface, &sightings)| {
+            if let Surface::Floor(height) = surface
+                && sightings >= config.step_sightings
+            {
+                *height
+            } else {
+                f32::NAN
+            }
+        }));
+        treads.lay(&mut self.height_m);
+        self.edge.clear();
+        self.edge.resize(self.height_m.len(), false);
+        self.any = false;
+        let (cols, max_step) = (view.cells.cols(), config.max_step as f32);
+        self.mark_rims(cols, treads, stand.height_m, config.max_step);
+        self.mark_differences(cols, max_step);
+        self.mark_shadows(cols, max_step);
+    }
+
+    /// The cells of a stair on another level beside what was not seen: it is stepped on over its edges only.
+    fn mark_rims(&mut self, cols: usize, treads: &Treads, height_m: f64, max_step: f64) {
+        for index in treads.cells() {
+            let (col, len) = (index % cols, self.height_m.len());
+            let beside = [
+                (col > 0, index.wrapping_sub(1)),
+                (col + 1 < cols, index + 1),
+                (true, index.wrapping_sub(cols)),
+                (true, index + cols),
+            ];
+            if (f64::from(self.height_m[index]) - height_m).abs() <= max_step {
+                continue;
+            }
+            let unseen = |next: usize| next < len && self.height_m[next].is_nan();
+            if beside.iter().any(|&(inside, next)| inside && unseen(next)) {
+                self.edge[index] = true;
+                self.any = true;
+            }
+        }
+    }
+
+    /// Both cells beside a difference, neighbours by a side or by a corner.
+    fn mark_differences(&mut self, cols: usize, max_step: f32) {
+        for index in 0..self.height_m.len() {
+            let here = self.height_m[index];
+            if here.is_nan() {
+                continue;
+            }
+            let col = index % cols;
+            let neighbours = [
+                (col + 1 < cols, index + 1),
+                (true, index + cols),
+                (col + 1 < cols, index + cols + 1),
+                (col > 0, index + cols - 1),
+            ];
+            for (inside, next) in neighbours {
+                // Not a number: unknown, no difference.
+                let differs = self
+                    .height_m
+                    .get(next)
+                    .is_some_and(|there| (there - here).abs() > max_step);
+                if inside && differs {
+                    self.edge[index] = true;
+                    self.edge[next] = true;
+                    self.any = true;
+                }
+            }
+        }
+    }
+
+    /// Differences across a few cells of which nothing is known.
+    fn mark_shadows(&mut self, cols: usize, max_step: f32) {
+        let rows = self.height_m.len() / cols.max(1);
+        for row in 0..rows {
+            self.mark_line(row * cols, 1, cols, max_step);
+        }
+        for col in 0..cols {
+            self.mark_line(col, cols, rows, max_step);
+        }
+    }
+
+    fn mark_line(&mut self, first: usize, stride: usize, count: usize, max_step: f32) {
+        let mut last: Option<(usize, f32)> = None;
+        for i in 0..count {
+            let here = self.height_m[first + i * stride];
+            if here.is_nan() {
+                continue;
+            }
+            if let Some((known, height)) = last
+                && (2..=SHADOW_CELLS + 1).contains(&(i - known))
+                && (here - height).abs() > max_step
+            {
+                for between in known..=i {
+                    self.edge[first + between * stride] = true;
+                }
+                self.any = true;
+            }
+            last = Some((i, here));
+        }
+    }
+
+    /// Whether something known, or the goal, lies lower than the robot stands.
+    pub(crate) fn raised(&self, stand: &Stand, lowest_known_m: f64, config: &AStarConfig) -> bool {
+        let below_m = stand.height_m - 2.0 * config.max_step;
+        lowest_known_m < below_m
+            || self
+                .height_m
+                .iter()
+                .filter(|&&height| f64::from(height) < below_m)
+                .count()
+                >= LOWER_CELLS
+    }
+
+    /// Around a level that lies higher than others, what was not seen is no ground: the cells `free` are the robot's own.
+    pub(crate) fn mark_verge(
+        &mut self,
+        unknown: &[bool],
+        cols: usize,
+        stand: &Stand,
+        max_step: f64,
+        free: impl Fn(usize) -> bool,
+    ) {
+        let level = |height: f32| (f64::from(height) - stand.height_m).abs() <= 2.0 * max_step;
+        for (index, &unknown) in unknown.iter().enumerate() {
+            if unknown && self.height_m[index].is_nan() && !self.edge[index] && free(index) {
+                self.height_m[index] = stand.height_m as f32;
+            }
+        }
+        for index in 0..unknown.len() {
+            if !level(self.height_m[index]) {
+                continue;
+            }
+            let (col, row) = (index % cols, index / cols);
+            for r in row.saturating_sub(1)..(row + 2).min(unknown.len() / cols) {
+                for c in col.saturating_sub(1)..(col + 2).min(cols) {
+                    let next = r * cols + c;
+                    if unknown[next] && self.height_m[next].is_nan() {
+                        self.edge[next] = true;
+                        self.any = true;
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! Room at edges: where the robot lines up, where it may cross, where it walks on.
+
+use geometry::{CellArea, Map};
+use mapping::Surface;
+use stairs::Stair;
+
+use crate::line::Line;
+use crate::portals::Scene;
+use crate::search::octile;
+
+/// How far from an edge the robot lines up, or walks on as it came, at most, m.
+pub(crate) const RUN_M: f64 = 0.35;
+/// Heights of one level differ by less than this, m.
+pub(crate) const SAME_M: f64 = 0.012;
+/// An edge that is less wide than this, beyond what the feet need, is crossed near its middle, m.
+const NARROW_M: f64 = 0.3;
+/// What stands on a stair reaches higher than what may still be a riser by this, m.
+const RISER_M: f64 = 0.1;
+
+/// From a place at an edge straight on (`side` 1) or back (-1) to the first cell where the robot may be; the place there.
+pub(crate) fn run_to_cell(
+    scene: &Scene<'_>,
+    line: &Line,
+    offset_m: f64,
+    beyond_m: f64,
+    side: f64,
+    on_level: impl Fn(Option<f64>) -> bool,
+) -> Option<(usize, [f64; 2])> {
+    let terrain = scene.terrain;
+    let stride_m = 0.5 * terrain.lattice.cell_m;
+    let mut away_m = beyond_m.abs();
+    while away_m <= RUN_M {
+        let at_m = line.at(offset_m, side * away_m);
+        let cell = terrain.index_at(at_m)?;
+        // The cell at the edge may have either height.
+        let at_edge = away_m <= terrain.lattice.cell_m;
+        let on_level = on_level(terrain.level_m(cell));
+        if terrain.blocked[cell] || !(on_level || at_edge) {
+            return None;
+        }
+        if terrain.weights[cell].is_finite() && on_level {
+            return Some((cell, at_m));
+        }
+        away_m += stride_m;
+    }
+    None
+}
+
+/// Whether nothing stands, and no other level lies, on the straight way between two places.
+pub(crate) fn walkable(scene: &Scene<'_>, from_m: [f64; 2], to_m: [f64; 2], level_m: f64) -> bool {
+    let terrain = scene.terrain;
+    let pieces = (distance_m(from_m, to_m) / (0.5 * terrain.lattice.cell_m)).ceil();
+    (0..=pieces as usize).all(|piece| {
+        let t = piece as f64 / pieces.max(1.0);
+        let at = [
+            from_m[0] + t * (to_m[0] - from_m[0]),
+            from_m[1] + t * (to_m[1] - from_m[1]),
+        ];
+        terrain.index_at(at).is_some_and(|cell| {
+            let level = terrain.level_m(cell);
+            // The last cell lies at the edge.
+            let last = piece as f64 >= pieces - 2.0;
+            !terrain.blocked[cell]
+                && (last || level.is_none_or(|height_m| (height_m - level_m).abs() <= SAME_M))
+        })
+    })
+}
+
+/// Whether the body has room at a place on stairs: what is hardly higher than the next tread may be a riser.
+pub(crate) fn clear(scene: &Scene<'_>, at_m: [f64; 2], level_m: f64) -> bool {
+    let terrain = scene.terrain;
+    let Some(index) = terrain.index_at(at_m) else {
+        return false;
+    };
+    let needed_m = terrain.needs.body_m.min(terrain.clearance_at_start_m);
+    if terrain.clearance_m(index) >= needed_m {
+        return true;
+    }
+    let lattice = &scene.view.lattice;
+    let low = lattice.cell_at(at_m[0] - needed_m, at_m[1] - needed_m);
+    let high = lattice.cell_at(at_m[0] + needed_m, at_m[1] + needed_m);
+    let area = CellArea {
+        min: low,
+        max: high,
+    };
+    area.cells().all(|cell| {
+        let tall = match scene.view.cell(cell) {
+            Surface::Obstacle(top) => f64::from(top) > level_m + RISER_M,
+            _ => false,
+        };
+        let stands = scene
+            .view
+            .cells
+            .index(cell)
+            .is_some_and(|i| terrain.blocked[i]);
+        !(tall && stands) || distance_m(lattice.center_of(cell), at_m) >= needed_m
+    })
+}
+
+/// How far from its middle an edge may be crossed, m.
+pub(crate) fn range_m(scene: &Scene<'_>, line: &Line) -> f64 {
+    let needed_m = 0.5 * scene.feet.pair_width_m + scene.climbing.side_room;
+    let room_m = (line.half_m() - needed_m).max(0.0);
+    if 2.0 * room_m > NARROW_M {
+        room_m
+    } else {
+        0.5 * room_m
+    }
+}
+
+/// Width of a stair at its front edge, its margins included, m.
+pub(crate) fn width_m(line: &Line, stair: &Stair<Map>) -> f64 {
+    2.0 * line.half_m() + stair.left_margin_m.max(0.0) + stair.right_margin_m.max(0.0)
+}
+
+/// Where an edge is crossed: in its middle, or all along it.
+pub(crate) fn lanes(range_m: f64, lane_m: f64) -> impl Iterator<Item = f64> {
+    let narrow = 2.0 * range_m <= NARROW_M;
+    let pieces = if narrow {
+        0
+    } else {
+        2 * (range_m / lane_m).ceil() as i32
+    };
+    (0..=pieces).map(move |piece| {
+        if pieces == 0 {
+            0.0
+        } else {
+            range_m * (2.0 * f64::from(piece) / f64::from(pieces) - 1.0)
+        }
+    })
+}
+
+pub(crate) fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// Length of a way on the grid, m: what the search's heuristic takes for the least.
+pub(crate) fn walk_m(a: [f64; 2], b: [f64; 2]) -> f64 {
+    octile(a[0] - b[0], a[1] - b[1])
+}

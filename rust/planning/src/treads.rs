@@ -1,0 +1,152 @@
+//! What recognised stairs say about cells: their height, and that a riser beside them is no obstacle.
+
+use geometry::{Cell, Lattice, Map};
+use mapping::{FloorView, Surface};
+use stairs::{Stair, Staircase};
+
+/// An obstacle on a stair is higher than it by more than this, m: a riser that is taken for one is not.
+const OBSTACLE_M: f32 = 0.05;
+
+/// The cells of all stairs. Reused.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Treads {
+    /// Height of the stair in whose outline a cell's centre lies, m; not a number where none is.
+    height_m: Vec<f32>,
+    /// Height of the highest stair within a cell of it, m.
+    near_m: Vec<f32>,
+    any: bool,
+}
+
+impl Treads {
+    /// Finds the cells of each stair.
+    pub(crate) fn read(&mut self, view: &FloorView, stairs: &Staircase) {
+        let (cols, rows) = (view.cells.cols(), view.cells.rows());
+        self.any = !stairs.stairs.is_empty();
+        self.height_m.clear();
+        self.near_m.clear();
+        if !self.any {
+            return;
+        }
+        self.height_m.resize(cols * rows, f32::NAN);
+        self.near_m.resize(cols * rows, f32::NEG_INFINITY);
+        for stair in &stairs.stairs {
+            self.add(stair, &view.lattice, cols, rows);
+        }
+    }
+
+    fn add(&mut self, stair: &Stair<Map>, lattice: &Lattice, cols: usize, rows: usize) {
+        let outline = Outline::of(stair);
+        let (min, max) = outline.bounds_m();
+        let low = lattice.cell_at(min[0] - lattice.cell_m, min[1] - lattice.cell_m);
+        let high = lattice.cell_at(max[0] + lattice.cell_m, max[1] + lattice.cell_m);
+        let height = stair.height_m() as f32;
+        for row in low.row.max(0)..=high.row.min(rows as i32 - 1) {
+            for col in low.col.max(0)..=high.col.min(cols as i32 - 1) {
+                let outside_m = outline.outside_m(lattice.center_of(Cell::new(col, row)));
+                let index = row as usize * cols + col as usize;
+                if outside_m <= lattice.cell_m {
+                    self.near_m[index] = self.near_m[index].max(height);
+                }
+                // Where two overlap, the higher one hides the other.
+                if outside_m <= 0.0 {
+                    self.height_m[index] = self.height_m[index].max(height);
+                }
+            }
+        }
+    }
+
+    /// Whether an obstacle in a cell is one: near to stairs only if it is higher than they are.
+    pub(crate) fn is_obstacle(&self, index: usize, top_m: f32) -> bool {
+        !self.any || top_m > self.near_m[index] + OBSTACLE_M
+    }
+
+    /// Whether a cell lies in a stair's outline.
+    pub(crate) fn covers(&self, index: usize) -> bool {
+        self.any && !self.height_m[index].is_nan()
+    }
+
+    /// The cells of stairs.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = usize> {
+        let cells = self.height_m.iter().enumerate();
+        cells.filter(|(_, height)| !height.is_nan()).map(|(i, _)| i)
+    }
+
+    /// Overwrites the heights of the cells of stairs.
+    pub(crate) fn lay(&self, height_m: &mut [f32]) {
+        for (height, &tread) in height_m.iter_mut().zip(&self.height_m) {
+            if !tread.is_nan() {
+                *height = tread;
+            }
+        }
+    }
+
+    /// The obstacles of a view, and what is unknown, as stairs leave them.
+    pub(crate) fn read_surfaces(
+        &self,
+        view: &FloorView,
+        blocked: &mut Vec<bool>,
+        unknown: &mut Vec<bool>,
+    ) {
+        blocked.clear();
+        unknown.clear();
+        for (index, surface) in view.cells.values().iter().enumerate() {
+            let (stands, riser) = match *surface {
+                Surface::Obstacle(top) => {
+                    let stands = self.is_obstacle(index, top);
+                    (stands, !stands)
+                }
+                Surface::Unknown => (false, true),
+                Surface::Floor(_) => (false, false),
+            };
+            blocked.push(stands);
+            unknown.push(riser && !self.covers(index));
+        }
+    }
+}
+
+/// A stair seen from above.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Outline {
+    /// Counter-clockwise.
+    corners_m: [[f64; 2]; 4],
+}
+
+impl Outline {
+    pub(crate) fn of(stair: &Stair<Map>) -> Self {
+        let corners = [
+            stair.front.right,
+            stair.back.right,
+            stair.back.left,
+            stair.front.left,
+        ];
+        Self {
+            corners_m: corners.map(|corner| [corner.inner.x, corner.inner.y]),
+        }
+    }
+
+    fn bounds_m(&self) -> ([f64; 2], [f64; 2]) {
+        let fold = |axis: usize, pick: fn(f64, f64) -> f64| {
+            let values = self.corners_m.iter().map(|corner| corner[axis]);
+            values.reduce(pick).unwrap_or(0.0)
+        };
+        (
+            [fold(0, f64::min), fold(1, f64::min)],
+            [fold(0, f64::max), fold(1, f64::max)],
+        )
+    }
+
+    /// How far a place lies beyond the side that it is furthest beyond, m; negative inside.
+    pub(crate) fn outside_m(&self, [x, y]: [f64; 2]) -> f64 {
+        let mut furthest = f64::NEG_INFINITY;
+        for (i, from) in self.corners_m.iter().enumerate() {
+            let to = self.corners_m[(i + 1) % 4];
+            let side = [to[0] - from[0], to[1] - from[1]];
+            let length = side[0].hypot(side[1]);
+            if length > 1e-6 {
+                let beyond = ((x - from[0]) * side[1] - (y - from[1]) * side[0]) / length;
+                furthest = furthest.max(beyond);
+            }
+        }
+        furthest
+    }
+}

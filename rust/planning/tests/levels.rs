@@ -1,0 +1,261 @@
+//! Levels: floor of different height joins only by a climb, square to an edge and within the limits.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+mod common;
+
+use common::{Course, FEET, goal, goal_at, plan, planner, refused, way};
+use planning::{Path, Planner as _, Refusal};
+
+/// All crossings of a path, in their order.
+fn crossings(path: &Path) -> Vec<[f64; 2]> {
+    let steps = path.climbs.iter().flat_map(|climb| &climb.steps);
+    steps.map(|step| step.crossing_m).collect()
+}
+
+/// Changes of height in mm, in their order.
+fn rises_mm(path: &Path) -> Vec<i64> {
+    let steps = path.climbs.iter().flat_map(|climb| &climb.steps);
+    steps
+        .map(|step| (step.rise_m * 1e3).round() as i64)
+        .collect()
+}
+
+#[test]
+fn a_staircase_is_one_leg_that_begins_with_the_toes_15_mm_before_it() {
+    let course = Course::staircase(4, 0.03, 0.33);
+    let path = way(&course, 0.0, &goal_at(1.0 + 3.0 * 0.12 + 0.165, 0.0, 0.12));
+    assert_eq!(path.climbs.len(), 1, "{:?}", path.climbs);
+    let climb = &path.climbs[0];
+    assert_eq!(rises_mm(&path), [30, 30, 30, 30]);
+    assert_eq!(climb.to_point - climb.from_point, 4);
+    let [x, y] = path.points_m[climb.from_point];
+    assert!(
+        (x + 0.5 * FEET.length_m - (1.0 - 0.015)).abs() < 1e-6,
+        "{x}"
+    );
+    assert!(y.abs() < 0.05, "{y}");
+    for (i, step) in climb.steps.iter().enumerate() {
+        assert!((step.crossing_m[0] - (1.0 + 0.12 * i as f64)).abs() < 1e-6);
+        assert!(
+            step.stair
+                .front
+                .beyond_m(path.points_m[climb.from_point + i])
+                < 0.0
+        );
+        assert!(
+            step.stair
+                .front
+                .beyond_m(path.points_m[climb.from_point + i + 1])
+                > 0.0
+        );
+    }
+    // On the first three treads the heels are on the edge, on the landing a little beyond.
+    let heel_m = path.points_m[climb.from_point + 1][0] - 0.5 * FEET.length_m;
+    assert!((heel_m - 1.0).abs() < 1e-6, "{heel_m}");
+}
+
+#[test]
+fn a_staircase_seen_from_above_is_gone_down_with_its_stairs_turned() {
+    let course = Course::staircase(4, 0.03, 0.33);
+    let start = [1.0 + 3.0 * 0.12 + 0.165, 0.0, 0.12];
+    let path = common::way_from(&course, start, 3.0, &goal_at(0.2, 0.0, 0.0));
+    assert_eq!(rises_mm(&path), [-30, -30, -30, -30]);
+    for step in path.climbs.iter().flat_map(|climb| &climb.steps) {
+        assert!(
+            step.stair.front.heading_rad().cos() < -0.99,
+            "it faces the other way"
+        );
+        let before = [step.crossing_m[0] + 0.05, step.crossing_m[1]];
+        assert!(step.stair.front.beyond_m(before) < 0.0);
+    }
+    let climb = &path.climbs[0];
+    let [x, _] = path.points_m[climb.from_point];
+    // Toes 15 mm over the landing's front edge.
+    assert!(
+        (x - 0.5 * FEET.length_m - (1.36 - 0.015)).abs() < 1e-6,
+        "{x}"
+    );
+}
+
+#[test]
+fn a_sill_across_the_stage_is_crossed_where_the_path_comes() {
+    let mut course = Course::stage();
+    course.sill(0.8, 0.09, 0.038, 1.0);
+    for y in [-0.2, 0.0, 0.2] {
+        let path = common::way_from(&course, [0.0, y, 0.0], 0.0, &goal(1.6, y));
+        assert_eq!(rises_mm(&path), [38, -38]);
+        assert_eq!(path.climbs.len(), 1);
+        for crossing in crossings(&path) {
+            assert!((crossing[1] - y).abs() < 0.06, "{crossing:?} for {y}");
+        }
+    }
+}
+
+#[test]
+fn a_short_way_around_a_sill_is_preferred_and_a_long_one_is_not() {
+    let mut short = Course::floor();
+    short.sill(0.8, 0.09, 0.038, 0.5);
+    assert!(way(&short, 0.0, &goal(1.6, 0.0)).climbs.is_empty());
+    let mut long = Course::floor();
+    long.sill(0.8, 0.09, 0.038, 3.4);
+    assert_eq!(rises_mm(&way(&long, 0.0, &goal(1.6, 0.0))), [38, -38]);
+}
+
+#[test]
+fn steps_of_55_and_65_mm_are_refused_with_figures_and_avoided_where_one_can() {
+    for (rise_m, mm) in [(0.055, 55), (0.065, 65)] {
+        let course = Course::staircase(3, rise_m, 0.33);
+        let to = goal_at(1.4, 0.0, 3.0 * rise_m);
+        let (refusal, sentence) = refused(&course, 0.0, &to);
+        assert_eq!(refusal, Refusal::StepTooHigh);
+        assert_eq!(
+            sentence,
+            format!("the step is {mm} mm high, 50 mm is the limit")
+        );
+        let path = way(&course, 0.0, &goal(1.0, -0.6));
+        assert!(path.climbs.is_empty());
+    }
+}
+
+#[test]
+fn a_basin_is_entered_from_125_mm_on_and_refused_below() {
+    for (depth_m, fits) in [
+        (0.08, false),
+        (0.10, false),
+        (0.12, false),
+        (0.13, true),
+        (0.15, true),
+    ] {
+        let mut course = Course::stage();
+        course.basin(0.8, depth_m, 0.03);
+        let start = [0.0, 0.0, 0.03];
+        if fits {
+            let path = common::way_from(&course, start, 0.0, &goal(1.6, 0.0));
+            assert_eq!(rises_mm(&path), [-30, 30], "{depth_m}");
+        } else {
+            let (refusal, sentence) = common::refused_from(&course, start, &goal(1.6, 0.0));
+            assert_eq!(refusal, Refusal::GapTooShort, "{depth_m}");
+            let mm = (depth_m * 1e3).round();
+            assert_eq!(
+                sentence,
+                format!("the basin is {mm} mm deep, 125 mm is needed")
+            );
+        }
+    }
+}
+
+#[test]
+fn a_staircase_that_ends_in_the_air_is_refused() {
+    // Three steps of 40 mm and nothing behind them but the floor.
+    let course = Course::in_the_air(3, 0.04);
+    let mut walled = course;
+    walled.wall_in(0.5);
+    let (refusal, sentence) = refused(&walled, 0.0, &goal_at(1.8, 0.0, 0.0));
+    assert_eq!(refusal, Refusal::Drop, "{sentence}");
+    assert_eq!(sentence, "it goes down 120 mm, 50 mm is the limit");
+}
+
+#[test]
+fn what_lies_behind_the_first_stair_need_not_be_seen() {
+    let mut course = Course::staircase(4, 0.03, 0.33);
+    course.stairs.stairs.truncate(1);
+    course.stairs.stairs[0].back_fit = None;
+    course.forget([1.12, -1.0], [2.0, 1.0]);
+    let path = way(&course, 0.0, &goal_at(1.6, 0.0, 0.12));
+    assert_eq!(rises_mm(&path), [30]);
+}
+
+#[test]
+fn on_a_tread_in_the_middle_of_a_flight_the_plan_begins_with_a_step() {
+    let course = Course::staircase(4, 0.03, 0.33);
+    let stands = |i: f64| [1.0 + 0.12 * i + 0.0525, 0.01, 0.03 * (i + 1.0)];
+    for i in 0..3 {
+        let up = common::way_from(&course, stands(f64::from(i)), 0.0, &goal_at(1.5, 0.0, 0.12));
+        assert_eq!(up.climbs[0].from_point, 0);
+        assert_eq!(rises_mm(&up).len(), 3 - i as usize);
+        let down = common::way_from(
+            &course,
+            stands(f64::from(i)),
+            std::f64::consts::PI,
+            &goal(0.2, 0.0),
+        );
+        assert_eq!(down.climbs[0].from_point, 0);
+        assert_eq!(rises_mm(&down).len(), 1 + i as usize);
+    }
+    // The stair under the robot is not known: the one in front is.
+    let mut unknown = course;
+    let _ = unknown.stairs.stairs.remove(1);
+    unknown.forget([1.12, -0.5], [1.24, 0.5]);
+    let path = common::way_from(&unknown, stands(1.0), 0.0, &goal_at(1.5, 0.0, 0.12));
+    assert_eq!(
+        (path.climbs[0].from_point, rises_mm(&path)),
+        (0, vec![30, 30])
+    );
+}
+
+#[test]
+fn a_path_follows_the_stairs_as_they_are_seen_and_is_planned_anew_when_they_move() {
+    let mut planner = planner();
+    let mut course = Course::staircase(2, 0.03, 0.33);
+    let to = goal_at(1.3, 0.0, 0.06);
+    let first = plan(&mut planner, &course, [0.0, 0.0, 0.0], 0.0, &to);
+    assert!(first.replanned);
+    for stair in &mut course.stairs.stairs {
+        common::shift(stair, 0.008, 0.002);
+    }
+    let second = plan(&mut planner, &course, [0.1, 0.0, 0.0], 0.0, &to);
+    assert!(!second.replanned);
+    let path = second.way.unwrap();
+    assert_eq!(rises_mm(&path), [32, 30]);
+    assert!((crossings(&path)[0][0] - 1.008).abs() < 1e-6);
+    for stair in &mut course.stairs.stairs {
+        common::shift(stair, 0.05, 0.0);
+    }
+    assert!(plan(&mut planner, &course, [0.1, 0.0, 0.0], 0.0, &to).replanned);
+    course.stairs.stairs.clear();
+    assert!(plan(&mut planner, &course, [0.1, 0.0, 0.0], 0.0, &to).replanned);
+}
+
+#[test]
+fn steps_taken_are_cut_off_the_path() {
+    let mut planner = planner();
+    let course = Course::staircase(4, 0.03, 0.33);
+    let to = goal_at(1.52, 0.0, 0.12);
+    let path = plan(&mut planner, &course, [0.6, 0.0, 0.0], 0.0, &to)
+        .way
+        .unwrap();
+    let climb = path.climbs[0].clone();
+    for (i, &[x, y]) in path.points_m[climb.from_point..climb.to_point]
+        .iter()
+        .enumerate()
+    {
+        let at = [x + 0.004, y - 0.003, 0.03 * i as f64];
+        let plan = plan(&mut planner, &course, at, 0.0, &to);
+        assert!(!plan.replanned, "after {i} steps");
+        let rest = plan.way.unwrap();
+        assert_eq!(rises_mm(&rest).len(), 4 - i);
+        assert!(rest.climbs[0].from_point <= 1, "after {i} steps");
+    }
+}
+
+#[test]
+fn a_goal_on_the_platform_is_no_goal_below_it() {
+    let course = Course::staircase(4, 0.03, 0.33);
+    // The disc holds floor beside the landing as well.
+    let mut to = goal_at(1.52, 0.0, 0.12);
+    to.radius_m = 0.3;
+    assert_eq!(rises_mm(&way(&course, 0.0, &to)).len(), 4);
+    let mut any = goal(1.52, 0.35);
+    any.radius_m = 0.15;
+    assert!(way(&course, 0.0, &any).climbs.is_empty());
+}
+
+#[test]
+fn the_obstacle_field_does_not_hold_treads() {
+    let mut planner = planner();
+    let course = Course::staircase(4, 0.03, 0.33);
+    let _ = plan(&mut planner, &course, [0.0; 3], 0.0, &goal(0.5, 0.0));
+    let field = planner.distance_field_m().unwrap();
+    assert!(field.iter().all(|&distance_m| distance_m > 10.0));
+}
