@@ -112,9 +112,10 @@ impl Faces {
     ) -> Option<After> {
         let back = Line::of(&stair.back);
         let own_depth_m = -back.beyond_m(crossing_m);
-        let joint_m = match (own, stair.back_fit) {
-            (Some(_), Some(_)) => JOINT_M,
-            (Some(_), None) => LOOSE_JOINT_M,
+        let ends_there = stair.back_fit.is_some() || stair.seen_ends.back > 0;
+        let joint_m = match (own, ends_there) {
+            (Some(_), true) => JOINT_M,
+            (Some(_), false) => LOOSE_JOINT_M,
             // Ground goes on as far as nothing follows.
             (None, _) => GROUND_DEPTH_M,
         };

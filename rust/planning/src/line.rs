@@ -1,7 +1,7 @@
 //! A straight edge seen from above, for one who goes over it.
 
 use geometry::{Map, Point, angle_between};
-use stairs::{Edge, Stair};
+use stairs::{Edge, Sides, Stair};
 
 /// The line of an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,6 +68,12 @@ pub(crate) fn flipped(stair: &Stair<Map>) -> Stair<Map> {
     Stair {
         front: turned(stair.back),
         back: turned(stair.front),
+        seen_ends: Sides {
+            front: stair.seen_ends.back,
+            back: stair.seen_ends.front,
+            left: stair.seen_ends.right,
+            right: stair.seen_ends.left,
+        },
         left_margin_m: stair.right_margin_m,
         right_margin_m: stair.left_margin_m,
         front_fit: stair.back_fit,
@@ -94,6 +100,11 @@ pub(crate) fn ground_behind(stair: &Stair<Map>, height_m: f64, depth_m: f64) -> 
         front: edge(0.0),
         back: edge(depth_m),
         reference: moved(stair.back.middle(), 0.5 * depth_m),
+        seen_ends: Sides {
+            front: stair.seen_ends.back,
+            back: 0,
+            ..stair.seen_ends
+        },
         front_fit: stair.back_fit,
         back_fit: None,
         ..*stair

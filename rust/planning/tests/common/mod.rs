@@ -3,7 +3,7 @@
 use geometry::{Grid, Lattice, Map, Point, Pose};
 use mapping::{FloorView, Surface};
 use planning::{AStar, AStarConfig, Goal, Path, Plan, Planner, Refusal};
-use stairs::{ClimbingConfig, Edge, EdgeFit, Feet, Stair, Staircase};
+use stairs::{ClimbingConfig, Edge, EdgeFit, Feet, Sides, Stair, Staircase};
 
 pub(crate) const FEET: Feet = Feet {
     length_m: 0.105,
@@ -130,6 +130,12 @@ pub(crate) fn stair(x_m: f64, depth_m: f64, height_m: f64, width_m: f64) -> Stai
         left_margin_m: 0.0,
         right_margin_m: 0.0,
         support: 500,
+        seen_ends: Sides {
+            front: 500,
+            back: 500,
+            left: 500,
+            right: 500,
+        },
         front_fit: SURE,
         back_fit: SURE,
         steps_ago: 0,
