@@ -15,6 +15,7 @@ TESTED_BY = {
     "course.levels": "test_course.py",
     "course.pieces": "test_course.py",
     "recording.products": "test_recording.py",
+    "recording.stair_shapes": "test_recording.py",
     "scenario.messages": "test_scenario.py",
     "scenario.types": "test_scenario.py",
 }

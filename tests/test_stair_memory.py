@@ -26,6 +26,15 @@ def test_what_is_no_longer_seen_stays_and_what_is_only_remembered_is_not_taken_i
     assert len(remembered(flight(3, steps_ago=1))) == 0
 
 
+def test_the_floor_at_the_foot_of_stairs_is_no_stair_to_be_drawn() -> None:
+    (stair,) = flight(1)
+    far = np.array([1.0, 0.0, 0.0])
+    floor = StairTrace(
+        stair.front, stair.back + far, front_fitted=True, back_fitted=False, steps_ago=0
+    )
+    assert remembered((floor,)) == []
+
+
 def test_a_stair_above_another_is_one_more() -> None:
     (low,) = flight(1)
     up = np.array([0.0, 0.0, 0.03])

@@ -173,6 +173,25 @@ def verify(
     return FAILED if any(faults.values()) else PASSED
 
 
+@app.command(epilog="Example: treadwell experiment stairs --seeds 5 --out runs/stairs")
+def experiment(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Which experiment: stairs.")],
+    *,
+    seeds: Annotated[
+        int, typer.Option("--seeds", metavar="N", min=1, help="Seeds 0 to N-1 of each scenario.")
+    ] = 3,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", help="Its folder; default: a new one in runs/."),
+    ] = None,
+    as_json: JsonOption = False,
+) -> int:
+    """Run a paper's experiments, and print its figures with ours beside them."""
+    from treadwell.cli import experiment as cli_experiment
+
+    return cli_experiment.experiment(name, seeds=seeds, out=out, as_json=as_json)
+
+
 def execute(arguments: Sequence[str]) -> int:
     """Run the command line and return its exit status.
 

@@ -1,4 +1,4 @@
-"""The folder of a run: where it is, that it is new, and `runs/latest`."""
+"""Folders of runs and experiments: where they are, that they are new, and `runs/latest`."""
 
 import os
 import time
@@ -21,16 +21,36 @@ def make_run_folder(out: Path | None, scenario: str, robot: str, seed: int) -> P
     Raises:
         InputError: there is something already, or no folder can be made there.
     """
+    folder = _make(out, f"{scenario}-{robot}-{seed}")
+    if out is None:
+        try:
+            _point_latest(folder)
+        except OSError as error:
+            raise InputError(f"--out: {folder}: {error.strerror}") from None
+    return folder
+
+
+def make_experiment_folder(out: Path | None, experiment: str) -> Path:
+    """Return a new, empty folder for an experiment's report and its runs.
+
+    Args:
+        out: where; None: `runs/experiment-<name>-<time>/`.
+        experiment: the experiment's name.
+
+    Raises:
+        InputError: there is something already, or no folder can be made there.
+    """
+    return _make(out, f"experiment-{experiment}")
+
+
+def _make(out: Path | None, stem: str) -> Path:
     folder = out
     if folder is None:
-        stamp = time.strftime("%Y%m%d-%H%M%S")
-        folder = _unused(RUNS / f"{scenario}-{robot}-{seed}-{stamp}")
+        folder = _unused(RUNS / f"{stem}-{time.strftime('%Y%m%d-%H%M%S')}")
     try:
         if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
             raise InputError(f"--out: {folder} exists already; a run is never overwritten")
         folder.mkdir(parents=True, exist_ok=True)
-        if out is None:
-            _point_latest(folder)
     except OSError as error:
         raise InputError(f"--out: {folder}: {error.strerror}") from None
     return folder

@@ -11,6 +11,10 @@ _SAME_HEIGHT: Final = 0.012
 """Metres by which two sightings of one stair may differ."""
 
 
+_FLOOR_DEPTH: Final = 1.0
+"""Metres from front to back from which on a level is floor to look at, not a stair."""
+
+
 class StairMemory:
     """Keeps every stair as it was seen last, and when the robot climbed.
 
@@ -27,7 +31,7 @@ class StairMemory:
     def update(self, trace: Trace) -> None:
         """Take in a camera frame."""
         self.climbing.append(bool(trace.footsteps))
-        seen = [stair for stair in trace.stairs if stair.steps_ago == 0]
+        seen = [s for s in trace.stairs if s.steps_ago == 0 and _depth(s) < _FLOOR_DEPTH]
         if seen:
             self.stairs = [
                 old for old in self.stairs if not any(_is_same(old, new) for new in seen)
@@ -39,6 +43,11 @@ def outline(stair: StairTrace) -> NDArray[np.float64]:
     """Return a stair's corners from above, (4, 2) m: front left and right, back right and left."""
     corners: NDArray[np.float64] = np.vstack([stair.front, stair.back[::-1]])[:, :2]
     return corners
+
+
+def _depth(stair: StairTrace) -> float:
+    """Return how far its back edge's middle lies from its front edge's, m."""
+    return float(np.linalg.norm((stair.back - stair.front).mean(axis=0)[:2]))
 
 
 def _is_same(one: StairTrace, other: StairTrace) -> bool:

@@ -1,0 +1,36 @@
+"""The verb `experiment`: a paper's tables with ours beside them."""
+
+from pathlib import Path
+
+from treadwell.cli.output import ERROR, FAILED, PASSED, write_json, write_message, write_table
+from treadwell.experiments.catalogue import find_experiment
+from treadwell.experiments.conduct import Report, conduct
+
+
+def experiment(name: str, *, seeds: int, out: Path | None, as_json: bool) -> int:
+    """Run an experiment, show its tables, and return the exit status.
+
+    Args:
+        name: which.
+        seeds: how many; 0 is the first.
+        out: the folder of the report and of the runs.
+        as_json: write the report to standard output as JSON instead of tables.
+
+    Raises:
+        InputError: there is no such experiment, or the folder cannot be taken.
+    """
+    report = conduct(find_experiment(name), seeds, out)
+    if as_json:
+        write_json(report.document())
+    else:
+        show(report)
+    write_message(f"report: {report.folder / 'experiment.md'}")
+    if "error" in report.outcomes:
+        return ERROR
+    return PASSED if report.passed else FAILED
+
+
+def show(report: Report) -> None:
+    """Write the tables."""
+    for table in report.tables:
+        write_table(table.title, table.header, table.rows)

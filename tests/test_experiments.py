@@ -1,0 +1,243 @@
+"""Experiments: which there are, what their tables say of results, and one small one in full."""
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from episode_builders import result, scenario
+
+from treadwell.cli import experiment as cli_experiment
+from treadwell.cli.app import execute
+from treadwell.errors import InputError
+from treadwell.experiments import conduct as conducting
+from treadwell.experiments.catalogue import EXPERIMENTS, find_experiment
+from treadwell.experiments.conduct import conduct
+from treadwell.experiments.experiment import NOTHING, Experiment, Table, middle, share
+from treadwell.experiments.stairs import CHANGES, PHASES, STAIRS, phase_seconds, stairs_tables
+from treadwell.judging.result import Result, StateEntry, SurfaceEntry
+from treadwell.scenario.elements import Stairs
+from treadwell.scenario.loading import load_scenario, scenario_names
+
+ROOT = Path(__file__).parents[1]
+MADE = scenario()
+SHORT = """
+schema = 1
+name = "short"
+time_limit = 0.2
+[start]
+position = [0.0, 0.0]
+[goal]
+position = [1.0, 0.0]
+"""
+
+
+def lane(**seconds: float) -> list[StateEntry]:
+    """States one after the other; a name may end in _2 where it comes again."""
+    time, entries = 0.0, []
+    for name, length in seconds.items():
+        entries.append(StateEntry(time=time, state=re.sub(r"_\d$", "", name)))
+        time += length
+    return entries
+
+
+def climbed(**changes: object) -> Result:
+    facts: dict[str, Any] = {
+        "passed": True,
+        "stairs_climbed": 4,
+        "simulated_seconds": 44.0,
+        "behaviour": lane(look_around=4, turn=1, align=5, approach=5, climb=24, finish=5),
+    }
+    return result(MADE, **facts | changes)
+
+
+def table(results: dict[str, list[Result]], number: int) -> dict[str, tuple[str, ...]]:
+    """One of the tables, its rows by their first cell."""
+    made = stairs_tables(results)[number]
+    assert all(len(row) == len(made.header) for row in made.rows)
+    return {row[0]: row[1:] for row in made.rows}
+
+
+def test_every_experiments_scenarios_are_there() -> None:
+    for made in EXPERIMENTS.values():
+        assert set(made.scenarios) <= set(scenario_names())
+        assert made is find_experiment(made.name)
+
+
+@pytest.mark.parametrize("name", ["stair", "fog", "", "Stairs"])
+def test_an_experiment_that_is_not_there_is_bad_input(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(InputError, match="allowed are stairs"):
+        find_experiment(name)
+    assert execute(["experiment", name]) == 2
+    assert "there is no experiment" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("arguments", [["--seeds", "0"], ["--seeds", "x"], ["--sed", "1"]])
+def test_options_that_make_no_sense_are_bad_input(
+    arguments: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert execute(["experiment", "stairs", *arguments]) == 2
+    assert capsys.readouterr().out == ""
+
+
+def test_as_many_steps_are_expected_as_the_scenarios_have() -> None:
+    for name, (up, down) in CHANGES.items():
+        made = load_scenario(name)
+        if made.expect.outcome == "refused":
+            assert (up, down) == (0, 0), name
+            continue
+        assert up + down > 0, name
+        flights = [e for e in made.course if isinstance(e, Stairs)]
+        if [e.kind for e in made.course if e.kind not in ("wall", "box", "cylinder")] == ["stairs"]:
+            assert up == flights[0].steps, name
+            assert down == flights[0].steps * flights[0].descent, name
+
+
+def test_the_phases_of_a_climb_are_those_of_the_paper() -> None:
+    assert phase_seconds(climbed()) == {
+        "search": 5.0, "align": 5.0, "approach": 5.0, "climb": 24.0, "finish": 5.0, "other": 0.0,
+    }  # fmt: skip
+    assert sum(paper for _, paper in PHASES.values()) == 44.0
+
+
+def test_what_comes_between_steps_is_no_finish_and_what_comes_after_them_is() -> None:
+    way = lane(search=2, climb=6, stop=3, climb_2=6, walk=4, look_around=1, arrive=1)
+    seconds = phase_seconds(climbed(behaviour=way, simulated_seconds=23.0))
+    assert seconds["climb"] == 12.0
+    assert seconds["other"] == 3.0
+    assert seconds["finish"] == 6.0
+    assert sum(seconds.values()) == 23.0
+
+
+def test_every_state_of_the_core_counts_for_a_phase() -> None:
+    known = {state for states, _ in PHASES.values() for state in states}
+    for part in ("walking", "climbing"):
+        source = (ROOT / "rust" / "behaviour" / "src" / part / "state.rs").read_text()
+        states = set(re.findall(r'Self::\w+ => "(\w+)"', source))
+        assert states
+        assert states <= known
+
+
+def test_successes_falls_and_steps_are_counted() -> None:
+    runs = [climbed(), climbed(stairs_climbed=3), climbed(passed=False, outcome="fell", falls=1)]
+    rows = table({"stairs_up": runs}, 0)
+    assert set(rows) == set(CHANGES)
+    assert rows["stairs_up"][1:] == ("2 of 3", "1", "0", "4 up, 0 down", "2 of 3", "44.0")
+    assert rows["sill"][1] == NOTHING
+
+
+def test_times_are_of_the_runs_that_went_as_expected() -> None:
+    slow = climbed(passed=False, behaviour=lane(climb=100), simulated_seconds=100.0)
+    rows = table({"stairs_up": [climbed(), slow]}, 1)
+    assert rows["climb"][:2] == ("24", "24.0")
+    assert rows["climb, a step"][:2] == ("6", "6.0")
+    assert rows["in all"] == ("44", "44.0", NOTHING, NOTHING)
+
+
+def test_refusals_have_their_words_and_surprises_too() -> None:
+    refused = climbed(outcome="refused", reason="step_too_high: 55 mm")
+    lost = climbed(outcome="refused", reason="lost: gone", passed=False)
+    found = stairs_tables({"stairs_too_high": [refused], "sill": [lost, climbed()]})[2].rows
+    assert found == (
+        ("stairs_too_high", "0", "step_too_high: 55 mm", "yes"),
+        ("sill", "0", "lost: gone", "no"),
+    )
+
+
+def test_heights_of_levels_stand_beside_the_papers() -> None:
+    def top(truth: float, estimate: float | None) -> SurfaceEntry:
+        return SurfaceEntry(element="x", part="y", truth=truth, estimate=estimate, cells=9)
+
+    runs = [
+        climbed(surfaces=[top(0.038, 0.037), top(0.122, None)]),
+        climbed(surfaces=[top(0.038, 0.0384), top(0.061, 0.0625)]),
+    ]
+    rows = table({"obstacle_course": runs}, 3)
+    assert rows["sill"] == ("38", "37", "37.7", "37.0 to 38.4", "2")
+    assert rows["2nd step"] == ("61", "61", "62.5", "62.5 to 62.5", "1")
+    assert rows["platform"] == ("122", "126", NOTHING, NOTHING, "0")
+
+
+def test_no_results_at_all_make_tables_too() -> None:
+    for made in stairs_tables({}):
+        assert made.rows
+        assert made.markdown().startswith("## ")
+
+
+def test_a_table_is_markdown_whatever_its_cells_hold() -> None:
+    text = Table("T", ("a", "b"), (("x|y", "1"),), ("A note.",)).markdown()
+    assert text == "## T\n\n| a | b |\n| --- | --- |\n| x\\|y | 1 |\n\nA note.\n"
+    assert (middle([]), share(0, 0)) == (NOTHING, NOTHING)
+
+
+@pytest.fixture
+def small(tmp_path: Path) -> Experiment:
+    """An experiment of two episodes that are over at once."""
+    files = [tmp_path / name for name in ("short.toml", "again.toml")]
+    for file in files:
+        file.write_text(SHORT)
+    return replace(STAIRS, name="small", scenarios=tuple(str(file) for file in files))
+
+
+def test_an_experiment_leaves_its_report_and_the_runs(
+    small: Experiment,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    out = tmp_path / "out"
+    monkeypatch.setitem(EXPERIMENTS, "small", small)
+    assert execute(["experiment", "small", "--seeds", "1", "--out", str(out), "--json"]) == 1
+    captured = capsys.readouterr()
+    document = json.loads(captured.out)
+    assert document == json.loads((out / "experiment.json").read_text())
+    assert document["schema"] == "treadwell.experiment/1"
+    assert [run["folder"] for run in document["runs"]] == ["short-0", "again-0"]
+    assert {run["outcome"] for run in document["runs"]} == {"timed_out"}
+    assert not document["passed"]
+    assert "2 of 2: again seed 0" in captured.err
+    for run in document["runs"]:
+        assert (out / run["folder"] / "result.json").is_file()
+    assert "## Seconds of each phase" in (out / "experiment.md").read_text()
+    with pytest.raises(InputError, match="exists already"):
+        conduct(small, 1, out)
+
+
+def test_an_interrupted_experiment_reports_what_there_is(
+    small: Experiment, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The second run is interrupted, as by Ctrl-C."""
+    outcomes = iter(("timed_out", "interrupted"))
+
+    def run(*_: object, **__: object) -> Any:  # noqa: ANN401 - as much of a run as is asked for
+        made = climbed(outcome=next(outcomes))
+        return type("Done", (), {"result": made, "outcome": made.outcome})
+
+    monkeypatch.setattr(conducting, "run", run)
+    out = tmp_path / "out"
+    with pytest.raises(KeyboardInterrupt):
+        conduct(small, 1, out)
+    assert len(json.loads((out / "experiment.json").read_text())["runs"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("changes", "status"),
+    [({}, 0), ({"passed": False}, 1), ({"passed": False, "outcome": "error"}, 3)],
+)
+def test_the_exit_status_says_how_it_went(
+    changes: dict[str, Any], status: int, small: Experiment, tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    made = climbed(**changes)
+    done = type("Done", (), {"result": made, "outcome": made.outcome})
+    monkeypatch.setitem(EXPERIMENTS, "small", small)
+    monkeypatch.setattr(conducting, "run", lambda *_, **__: done)
+    out = tmp_path / "out"
+    assert cli_experiment.experiment("small", seeds=1, out=out, as_json=False) == status
+    shown = capsys.readouterr()
+    assert "Seconds of each phase" in shown.out
+    assert "experiment.md" in shown.err
