@@ -2,10 +2,13 @@
 
     python benches/walking_trials.py straight --trials 200 --workers 2
     python benches/walking_trials.py push_sideways --impulse 1.5 --trials 100 --first-seed 5000
+    python benches/walking_trials.py climb_up climb_down --rise 0.05 --x-error 0.01 --trials 40
 
 Every seed draws friction (0.6 to 1.0), masses (all off by up to 10 %, each link by 3 % more),
 encoder offsets, the IMU's biases, and the task's own numbers; every noise is on. A trial is lost
-when the torso tilts by more than 0.8 rad or anything but a sole touches the ground.
+when the torso tilts by more than 0.8 rad or anything but a sole touches the ground. Climbing, the
+footsteps are placed by the true course, seen wrong by as much as the options say; they count from
+where leg odometry has the robot, and are given for one stand after the other.
 """
 
 import argparse
@@ -20,11 +23,13 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
+from climbing import Climber, Errors, Footstep, Tread, alternating, course, elements, pairs, seen
+from numpy.typing import NDArray
 
 from treadwell._core import Walker
 from treadwell.course.build import build_course
 from treadwell.physics.motors import JointTargets
-from treadwell.physics.simulation import Simulation
+from treadwell.physics.simulation import Simulation, Start
 from treadwell.random_streams import RandomStreams
 from treadwell.robot.load import load_robot
 from treadwell.scenario.model import Scenario
@@ -34,8 +39,12 @@ TICK_S = 0.01
 PUSH_S = 0.1
 STARTS_S = 0.5
 WALKING_MPS = 0.1
+CLIMBS_S = 2.0
+SETTLES_S = 0.5
+STAIR_S = 4.5
+"""Longest time for one stand on the stairs; a climb that takes longer is over."""
 
-Motion = tuple[float, float, float] | None
+Motion = tuple[float, float, float] | list[Footstep] | None
 
 
 @dataclass(frozen=True)
@@ -45,6 +54,7 @@ class Plan:
     motions: list[tuple[float, Motion]]
     end_s: float
     pushes: list[tuple[float, tuple[float, float]]] = field(default_factory=list)
+    climber: Climber | None = None
 
 
 @dataclass(frozen=True)
@@ -57,6 +67,11 @@ class Job:
     impulse: float
     minutes: float
     gait: dict[str, float]
+    rise: float
+    tread: float
+    steps: int
+    errors: Errors
+    pushed: float
 
 
 @dataclass(frozen=True)
@@ -74,6 +89,10 @@ class Trial:
     odometry_error_rad: float
     feet_touched: bool
     pushes: list[tuple[float, tuple[float, float]]]
+    misstep: str | None
+    stands_missed: int
+    seconds_per_stand: float
+    ground_error_m: float
 
 
 def straight(_rng: np.random.Generator, _job: Job) -> Plan:
@@ -153,6 +172,57 @@ def wander(rng: np.random.Generator, job: Job) -> Plan:
     return Plan(motions, end, pushes)
 
 
+def stair(_rng: np.random.Generator, job: Job, sign: float) -> list[Tread]:
+    return course([sign * job.rise] * job.steps, [job.tread] * (job.steps - 1))
+
+
+def climb_up(rng: np.random.Generator, job: Job) -> list[Tread]:
+    return stair(rng, job, 1.0)
+
+
+def climb_down(rng: np.random.Generator, job: Job) -> list[Tread]:
+    return stair(rng, job, -1.0)
+
+
+def sill(_rng: np.random.Generator, _job: Job) -> list[Tread]:
+    return course([0.038, -0.038], [0.09])
+
+
+def basin(_rng: np.random.Generator, _job: Job) -> list[Tread]:
+    return course([-0.03, 0.03], [0.13])
+
+
+def random_stairs(rng: np.random.Generator, job: Job) -> list[Tread]:
+    """Up or down, whichever the seed says."""
+    sign = rng.choice([-1.0, 1.0])
+    rises = sign * rng.uniform(0.02, 0.05, job.steps)
+    return course(list(rises), list(rng.uniform(0.11, 0.2, job.steps - 1)))
+
+
+COURSES: dict[str, Callable[[np.random.Generator, Job], list[Tread]]] = {
+    "climb_up": climb_up,
+    "climb_down": climb_down,
+    "sill": sill,
+    "basin": basin,
+    "random_stairs": random_stairs,
+    "continuous_up": climb_up,
+    "continuous_down": climb_down,
+}
+
+
+def climb(rng: np.random.Generator, job: Job, treads: list[Tread]) -> Plan:
+    """Climb the course, and stand for a second."""
+    believed = seen(treads, job.errors, rng)
+    lists = (alternating if job.task.startswith("continuous") else pairs)(believed)
+    end = CLIMBS_S + STAIR_S * (sum(map(len, lists)) + 1)
+    pushes, at = [], CLIMBS_S + rng.uniform(0.0, 4.0)
+    while job.pushed > 0.0 and at < end:
+        direction = rng.uniform(-math.pi, math.pi)
+        pushes.append((at, (job.pushed * math.cos(direction), job.pushed * math.sin(direction))))
+        at += rng.uniform(2.0, 4.0)
+    return Plan([], end, pushes, Climber(lists, SETTLES_S, CLIMBS_S))
+
+
 TASKS: dict[str, Callable[[np.random.Generator, Job], Plan]] = {
     "straight": straight,
     "backward": backward,
@@ -168,11 +238,12 @@ TASKS: dict[str, Callable[[np.random.Generator, Job], Plan]] = {
 
 
 class World:
-    """A robot with random errors on level ground."""
+    """A robot with random errors on level ground or before stairs."""
 
     def __init__(self, job: Job) -> None:
         streams = RandomStreams(job.seed)
         rng = streams("trial")
+        self.treads = COURSES[job.task](streams("course"), job) if job.task in COURSES else []
         scenario = Scenario.model_validate(
             {
                 "schema": 1,
@@ -181,6 +252,7 @@ class World:
                 "seed": job.seed,
                 "start": {"position": [0.0, 0.0]},
                 "goal": {"position": [50.0, 0.0]},
+                "course": elements(self.treads),
                 "physics": {
                     "friction": float(rng.uniform(0.6, 1.0)),
                     "mass_scale": float(rng.uniform(0.9, 1.1)),
@@ -188,12 +260,13 @@ class World:
             }
         )
         robot = load_robot(job.robot)
-        model = build_course(scenario, robot).model
+        built = build_course(scenario, robot)
+        model, self.start_height = built.model, built.start.height
         scale = rng.uniform(0.97, 1.03, model.nbody)
         model.body_mass *= scale
         model.body_inertia *= scale[:, None]
         mujoco.mj_setConst(model, mujoco.MjData(model))
-        self.simulation = Simulation(model, robot)
+        self.simulation = Simulation(model, robot, Start(height=self.start_height))
         self.sensors = Sensors(model, robot, scenario.sensors, streams)
         self.sensors.blind(2**62)
         self.simulation.motors.encoder_offsets = self.sensors.encoder_offsets
@@ -204,6 +277,7 @@ class World:
         self.soles = [
             model.body(leg.sole.link).id for leg in (robot.file.legs.left, robot.file.legs.right)
         ]
+        self.foot_height = -robot.file.legs.left.sole.position[2]
         self.rng = rng
 
     def tick(self, motion: Motion) -> None:
@@ -219,12 +293,22 @@ class World:
         if data.xmat[self.torso][8] < math.cos(0.8):
             return True
         bodies = model.geom_bodyid[data.contact.geom]
-        on_ground = bodies[(bodies == 0).any(axis=1)].max(axis=1)
-        return not np.isin(on_ground, self.soles).all()
+        parts = bodies[self._is_robot(bodies).sum(axis=1) == 1]
+        return not np.isin(parts[self._is_robot(parts)], self.soles).all()
 
     def feet_touch(self) -> bool:
         bodies = self.simulation.model.geom_bodyid[self.simulation.data.contact.geom]
-        return bool((bodies > 0).all(axis=1).any())
+        return bool(self._is_robot(bodies).all(axis=1).any())
+
+    def _is_robot(self, bodies: NDArray[np.int32]) -> NDArray[np.bool_]:
+        root = self.simulation.model.body_rootid
+        return np.asarray(root[bodies] == root[self.torso])
+
+    def ground(self) -> float:
+        """Height of the lower sole above the start's ground, m."""
+        data = self.simulation.data
+        feet = data.xpos[self.soles, 2].min()
+        return float(feet) - self.foot_height - self.start_height
 
     def ground_pose(self) -> tuple[float, float, float]:
         """Middle of the soles and mean heading of the feet."""
@@ -237,11 +321,16 @@ class World:
 def run(job: Job) -> Trial:
     """Run one trial."""
     world = World(job)
-    plan = TASKS[job.task](world.rng, job)
+    plan = climb(world.rng, job, world.treads) if world.treads else TASKS[job.task](world.rng, job)
+    climber = plan.climber
     fell, touched, turned, heading = None, False, 0.0, 0.0
     for index in range(round(plan.end_s / TICK_S)):
         now = index * TICK_S
         motion = next((then for at, then in reversed(plan.motions) if at <= now), None)
+        if climber:
+            motion = climber.motion(now, world.walker, world.start_height)
+            if climber.is_over(now):
+                break
         force = next(
             ((x / PUSH_S, y / PUSH_S) for at, (x, y) in plan.pushes if at <= now < at + PUSH_S),
             (0.0, 0.0),
@@ -269,6 +358,10 @@ def run(job: Job) -> Trial:
         odometry_error_rad=abs(math.remainder(by_yaw - yaw, math.tau)),
         feet_touched=touched,
         pushes=plan.pushes if len(plan.pushes) == 1 else [],
+        misstep=climber.misstep if climber else None,
+        stands_missed=len(climber.lists) - climber.done if climber else 0,
+        seconds_per_stand=climber.seconds_per_stand() if climber else math.nan,
+        ground_error_m=world.walker.ground - world.ground(),
     )
 
 
@@ -292,24 +385,46 @@ def summary(task: str, trials: list[Trial]) -> dict[str, object]:
         "abs_turned": spread([abs(trial.turned) for trial in upright]),
         "odometry_error_m": spread([trial.odometry_error_m for trial in upright]),
         "odometry_error_rad": spread([trial.odometry_error_rad for trial in upright]),
+        "ground_error_m": spread([trial.ground_error_m for trial in upright]),
+        "missteps": {trial.seed: trial.misstep for trial in trials if trial.misstep},
+        "not_all_climbed": [trial.seed for trial in upright if trial.stands_missed],
+        "seconds_per_stand": spread([trial.seconds_per_stand for trial in upright]),
     }
 
 
 def main() -> int:
     """Run the trials of a task and print what came out."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("task", nargs="+", choices=list(TASKS))
+    parser.add_argument("task", nargs="+", choices=[*TASKS, *COURSES])
     parser.add_argument("--trials", type=int, default=20)
     parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--first-seed", type=int, default=0)
     parser.add_argument("--robot", default="qrio")
     parser.add_argument("--impulse", type=float, default=0.5, help="of a push, N s")
     parser.add_argument("--minutes", type=float, default=3.0, help="of wandering")
+    parser.add_argument("--rise", type=float, default=0.03, help="of each stair, m")
+    parser.add_argument("--tread", type=float, default=0.12, help="of each stair, m")
+    parser.add_argument("--steps", type=int, default=4, help="of the stairs")
+    parser.add_argument("--height-error", type=float, default=0.0, help="of each level, m")
+    parser.add_argument("--x-error", type=float, default=0.0, help="of each edge, m")
+    parser.add_argument("--pushed", type=float, default=0.0, help="every 2 to 4 s on stairs, N s")
     parser.add_argument("--gait", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--json", type=Path, help="file for all trials")
     arguments = parser.parse_args()
     gait = {key: float(value) for key, value in (item.split("=") for item in arguments.gait)}
-    first = Job("", 0, arguments.robot, arguments.impulse, arguments.minutes, gait)
+    first = Job(
+        task="",
+        seed=0,
+        robot=arguments.robot,
+        impulse=arguments.impulse,
+        minutes=arguments.minutes,
+        gait=gait,
+        rise=arguments.rise,
+        tread=arguments.tread,
+        steps=arguments.steps,
+        errors=Errors(arguments.height_error, arguments.x_error),
+        pushed=arguments.pushed,
+    )
     results = []
     for task in arguments.task:
         begin = time.perf_counter()

@@ -1,10 +1,11 @@
 //! The walker alone, with the senses that it needs: for walking trials without camera and map.
 
-use behaviour::{Command, Gaze, Motion, Velocity};
+use behaviour::{Arms, Command, Footstep, Gaze, Misstep, Motion, Velocity};
+use geometry::PlanarPose;
 use localization::{Proprioception, ProprioceptionConfig};
 use numpy::{PyArray1, ToPyArray};
 use pyo3::prelude::*;
-use robot::{Body, Description};
+use robot::{Body, Description, Side};
 use sensing::{Frame, Observation};
 use walking::Walker;
 
@@ -16,6 +17,16 @@ type Targets<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
 );
+
+/// Side, x m, y m, yaw rad, height m, bearing from m, bearing to m: see `behaviour::Footstep`.
+type Step = (String, f64, f64, f64, f64, f64, f64);
+
+/// What the feet are told.
+#[derive(FromPyObject)]
+enum Told {
+    Velocity((f64, f64, f64)),
+    Steps(Vec<Step>),
+}
 
 /// Walks as it is told: proprioception and walker of one robot.
 #[pyclass(name = "Walker", module = "treadwell._core")]
@@ -45,13 +56,14 @@ impl PyWalker {
     }
 
     /// One control tick: positions (n,) rad, velocities (n,) rad/s and torques (n,) N m by joint order. `motion` is
-    /// (x m/s, y m/s, yaw rad/s) or None to stand; the head looks `pan` rad to the left and `down` rad below the horizon.
+    /// (x m/s, y m/s, yaw rad/s), or a list of footsteps (side, x m, y m, yaw rad, height m, bearing from m, bearing to m), or None
+    /// to stand; the head looks `pan` rad to the left and `down` rad below the horizon.
     #[pyo3(signature = (observation, motion, pan=0.0, down=0.0))]
     fn step<'py>(
         &mut self,
         py: Python<'py>,
         observation: &Bound<'_, PyAny>,
-        motion: Option<(f64, f64, f64)>,
+        motion: Option<Told>,
         pan: f64,
         down: f64,
     ) -> PyResult<Targets<'py>> {
@@ -61,13 +73,9 @@ impl PyWalker {
             .proprioception
             .update(&self.observation)
             .map_err(|error| failed(py, &error))?;
-        self.command.motion = motion.map_or(Motion::Stand, |(x_mps, y_mps, yaw_radps)| {
-            Motion::Walk(Velocity {
-                x_mps,
-                y_mps,
-                yaw_radps,
-            })
-        });
+        self.command.motion = motion
+            .map_or(Ok(Motion::Stand), told)
+            .map_err(|error| bad_setting(py, &error))?;
         self.command.gaze = Gaze {
             pan_rad: pan,
             down_rad: down,
@@ -88,6 +96,17 @@ impl PyWalker {
         ))
     }
 
+    /// Whether the arms are to be raised; at rest otherwise.
+    #[getter]
+    fn arms_raised(&self) -> bool {
+        self.command.arms == Arms::Raised
+    }
+
+    #[setter]
+    fn set_arms_raised(&mut self, raised: bool) {
+        self.command.arms = if raised { Arms::Raised } else { Arms::AtRest };
+    }
+
     /// Whether it stands still on both soles.
     #[getter]
     fn standing(&self) -> bool {
@@ -100,6 +119,25 @@ impl PyWalker {
         self.walker.steps_taken()
     }
 
+    /// How the listed footsteps go: steps landed, how much higher than told the last landing was (m), and why the list was given
+    /// up, if it was: "no_ground" or "obstructed".
+    #[getter]
+    fn stepping(&self) -> (usize, f64, Option<&'static str>) {
+        let stepping = self.walker.stepping();
+        let misstep = stepping.misstep.map(|misstep| match misstep {
+            Misstep::NoGround => "no_ground",
+            Misstep::Obstructed => "obstructed",
+        });
+        (stepping.landed, stepping.height_error_m, misstep)
+    }
+
+    /// Height of the ground that carries by leg odometry, above that of the start, m.
+    #[getter]
+    fn ground(&self) -> f64 {
+        let pose = self.proprioception.state().odometry_from_robot;
+        pose.origin().inner.z
+    }
+
     /// (x m, y m, yaw rad) of the robot by leg odometry.
     #[getter]
     fn odometry(&self) -> (f64, f64, f64) {
@@ -107,4 +145,31 @@ impl PyWalker {
         let origin = pose.origin().inner;
         (origin.x, origin.y, pose.yaw_rad())
     }
+}
+
+fn told(motion: Told) -> Result<Motion, String> {
+    Ok(match motion {
+        Told::Velocity((x_mps, y_mps, yaw_radps)) => Motion::Walk(Velocity {
+            x_mps,
+            y_mps,
+            yaw_radps,
+        }),
+        Told::Steps(steps) => {
+            Motion::Footsteps(steps.into_iter().map(footstep).collect::<Result<_, _>>()?)
+        }
+    })
+}
+
+fn footstep((side, x_m, y_m, yaw_rad, height_m, from_m, to_m): Step) -> Result<Footstep, String> {
+    let side = match side.as_str() {
+        "left" => Side::Left,
+        "right" => Side::Right,
+        other => return Err(format!("a footstep's side is left or right, got {other}")),
+    };
+    Ok(Footstep {
+        side,
+        pose: PlanarPose::new(x_m, y_m, yaw_rad),
+        height_m,
+        bearing_m: [from_m, to_m],
+    })
 }

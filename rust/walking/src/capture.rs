@@ -6,7 +6,7 @@ use robot::Side;
 
 use crate::GaitConfig;
 use crate::footsteps::FootstepPlanner;
-use crate::gait::{Gait, Phase, Swing};
+use crate::gait::{Gait, Manner, Phase, Swing};
 use crate::support::Soles;
 
 /// Share of the swing after which the landing stays where it is.
@@ -61,6 +61,8 @@ impl Capture {
                     Some((swing.side, false)),
                 )
             }
+            // A listed step is put where it was told: beside that there may be an edge.
+            Phase::Single { swing, .. } if swing.manner != Manner::Walk => (1.0, None),
             Phase::Single {
                 elapsed_s,
                 duration_s,
@@ -151,20 +153,15 @@ mod tests {
         let planner = FootstepPlanner::new(&config, &body);
         let foot = |y: f64| FootPose {
             planar: PlanarPose::new(0.0, y, 0.0),
-            z_m: 0.0,
+            ..FootPose::default()
         };
         let feet = [foot(0.0425), foot(-0.0425)];
         let mut gait = Gait::new(&config, planner.clone(), feet);
-        let duration_s = config.single_support();
+        let duration_s = Manner::Walk.single_support_s(&config);
         gait.phase = Phase::Single {
             elapsed_s: share * duration_s,
             duration_s,
-            swing: Swing {
-                side: Side::Left,
-                from: feet[0],
-                to: feet[0],
-                planned: feet[0],
-            },
+            swing: Swing::new(Side::Left, Manner::Walk, feet[0], feet[0]),
         };
         let soles = Soles::new(&body, config.sole_margin);
         (Capture::new(&config, planner), gait, soles)

@@ -64,6 +64,24 @@ pub struct GaitConfig {
     pub capture_patience: f64,
     /// Share of the measured tilt that the swing foot makes up for.
     pub swing_tilt: f64,
+    /// Time in which the foot of a listed step is in the air, s,
+    pub climb_swing_time: f64,
+    /// in which it has to be found on the ground after that, while the other foot still carries everything, s,
+    pub climb_landing_time: f64,
+    /// and on both feet between two listed steps, s.
+    pub climb_double_support: f64,
+    /// Height of a listed step's sole over the higher of its two ends, m.
+    pub climb_clearance: f64,
+    /// Longest listed step forward or backward, m.
+    pub climb_forward: f64,
+    /// Highest listed step up or down, m.
+    pub climb_rise: f64,
+    /// Speed at which a foot goes down that has not found the ground where it was told to be, m/s.
+    pub probe_speed: f64,
+    /// How much deeper than told a foot seeks the ground, m.
+    pub probe_depth: f64,
+    /// Speed up to which the hips are raised and lowered, m/s.
+    pub hip_speed: f64,
     /// Largest speed of the head's joints, rad/s.
     pub gaze_speed: f64,
 }
@@ -98,6 +116,15 @@ impl Default for GaitConfig {
             capture_hold: 0.01,
             capture_patience: 0.6,
             swing_tilt: 1.0,
+            climb_swing_time: 0.8,
+            climb_landing_time: 0.2,
+            climb_double_support: 0.2,
+            climb_clearance: 0.02,
+            climb_forward: 0.135,
+            climb_rise: 0.055,
+            probe_speed: 0.08,
+            probe_depth: 0.02,
+            hip_speed: 0.12,
             gaze_speed: 2.0,
         }
     }
@@ -122,11 +149,6 @@ impl GaitConfig {
         Ok(config)
     }
 
-    /// Time in which one foot carries in a step, s.
-    pub fn single_support(&self) -> f64 {
-        self.step_time - self.double_support
-    }
-
     /// Refuses what no gait can have.
     pub fn check(&self) -> Result<(), ConfigError> {
         for (name, value) in self.positive() {
@@ -140,7 +162,7 @@ impl GaitConfig {
         self.check_bounds()
     }
 
-    fn positive(&self) -> [(&'static str, f64); 15] {
+    fn positive(&self) -> [(&'static str, f64); 22] {
         [
             ("step_time", self.step_time),
             ("double_support", self.double_support),
@@ -156,11 +178,18 @@ impl GaitConfig {
             ("landing_load", self.landing_load),
             ("capture_limit", self.capture_limit),
             ("capture_hold", self.capture_hold),
+            ("climb_swing_time", self.climb_swing_time),
+            ("climb_double_support", self.climb_double_support),
+            ("climb_clearance", self.climb_clearance),
+            ("climb_forward", self.climb_forward),
+            ("climb_rise", self.climb_rise),
+            ("probe_speed", self.probe_speed),
+            ("hip_speed", self.hip_speed),
             ("gaze_speed", self.gaze_speed),
         ]
     }
 
-    fn not_negative(&self) -> [(&'static str, f64); 9] {
+    fn not_negative(&self) -> [(&'static str, f64); 11] {
         [
             ("foot_gap", self.foot_gap),
             ("sole_margin", self.sole_margin),
@@ -171,6 +200,8 @@ impl GaitConfig {
             ("capture_deadband", self.capture_deadband),
             ("capture_patience", self.capture_patience),
             ("swing_tilt", self.swing_tilt),
+            ("climb_landing_time", self.climb_landing_time),
+            ("probe_depth", self.probe_depth),
         ]
     }
 

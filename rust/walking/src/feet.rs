@@ -3,7 +3,7 @@
 use robot::Side;
 
 use crate::GaitConfig;
-use crate::gait::{FootPose, Phase};
+use crate::gait::{FootPose, Landing, Manner, Phase};
 
 /// Share of the swing after which a load on the foot is a landing.
 const LANDING_SHARE: f64 = 0.6;
@@ -15,6 +15,7 @@ pub struct FeetControl {
     tilt_m: f64,
     landed: [f64; 2],
     held: Option<Held>,
+    flying: Option<(Side, f64)>,
 }
 
 /// A foot that landed before its time; its height is taken over when it is placed next.
@@ -32,6 +33,7 @@ impl FeetControl {
             tilt_m: 0.0,
             landed: [0.0; 2],
             held: None,
+            flying: None,
         }
     }
 
@@ -57,7 +59,8 @@ impl FeetControl {
             swing,
         } = phase
         {
-            let landed = loads_n[swing.side.index()] > config.landing_load
+            let landed = swing.manner == Manner::Walk
+                && loads_n[swing.side.index()] > config.landing_load
                 && elapsed_s / duration_s > LANDING_SHARE;
             if landed && self.held.is_none() {
                 self.held = Some(Held {
@@ -73,14 +76,29 @@ impl FeetControl {
             .clamp(-config.load_limit, config.load_limit);
     }
 
-    /// The foot's place with the corrections.
-    pub fn place(&mut self, mut foot: FootPose, side: Side) -> FootPose {
+    /// The foot's place with the corrections. A careful landing takes over where the foot was found; what it was told until then
+    /// is left slowly.
+    pub fn place(&mut self, phase: &Phase, mut foot: FootPose, side: Side) -> FootPose {
         let index = side.index();
+        match phase {
+            Phase::Single { swing, .. } if swing.side == side => {
+                let careful = swing.manner != Manner::Walk;
+                self.flying = careful.then_some((side, foot.z_m));
+                if careful && swing.landing == Landing::Seeking(0.0) {
+                    self.landed[index] = 0.0;
+                }
+            }
+            _ => {
+                if let Some((_, told_m)) = self.flying.take_if(|(flying, _)| *flying == side) {
+                    self.landed[index] = told_m - foot.z_m;
+                }
+            }
+        }
         if let Some(held) = self.held.as_mut().filter(|held| held.side == side) {
             let height_m = *held.height_m.get_or_insert(foot.z_m);
             self.landed[index] = height_m - foot.z_m;
         }
-        foot.z_m += side.sign() * 0.5 * self.tilt_m + self.landed[index].max(0.0);
+        foot.z_m += side.sign() * 0.5 * self.tilt_m + self.landed[index];
         foot
     }
 }
@@ -88,6 +106,7 @@ impl FeetControl {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gait::Swing;
     use crate::test_biped::config;
 
     #[test]
@@ -96,7 +115,11 @@ mod tests {
         for _ in 0..10 {
             control.update(&Phase::Standing, &[0.5, 0.5], &[50.0, 20.0], 70.0, 0.01);
         }
-        let [left, right] = Side::BOTH.map(|side| control.place(FootPose::default(), side).z_m);
+        let [left, right] = Side::BOTH.map(|side| {
+            control
+                .place(&Phase::Standing, FootPose::default(), side)
+                .z_m
+        });
         assert!(left > 0.0 && right < 0.0);
         assert!(left - right <= config().load_limit);
     }
@@ -104,12 +127,8 @@ mod tests {
     #[test]
     fn a_foot_that_finds_the_ground_early_stays_at_that_height() {
         let mut control = FeetControl::new(&config());
-        let swing = crate::gait::Swing {
-            side: Side::Left,
-            from: FootPose::default(),
-            to: FootPose::default(),
-            planned: FootPose::default(),
-        };
+        let place = FootPose::default();
+        let swing = Swing::new(Side::Left, Manner::Walk, place, place);
         let mut at = |elapsed_s: f64, height_m: f64, load_n: f64| {
             let phase = Phase::Single {
                 elapsed_s,
@@ -121,7 +140,7 @@ mod tests {
                 z_m: height_m,
                 ..FootPose::default()
             };
-            control.place(foot, Side::Left).z_m
+            control.place(&phase, foot, Side::Left).z_m
         };
         assert_eq!(at(0.10, 0.02, 20.0), 0.02);
         assert_eq!(at(0.38, 0.006, 20.0), 0.006);

@@ -25,6 +25,11 @@ impl FootstepPlanner {
         }
     }
 
+    /// Length of a sole, m.
+    pub const fn sole_length_m(&self) -> f64 {
+        self.sole_length_m
+    }
+
     /// The place beside the standing foot.
     pub fn beside(&self, stance: &PlanarPose, swing: Side) -> PlanarPose {
         stance.compose(&PlanarPose::new(
@@ -78,6 +83,24 @@ impl FootstepPlanner {
             .x_m
             .clamp(-config.max_backward - extra, config.max_forward + extra);
         local.yaw_rad = local.yaw_rad.clamp(-config.max_turn, config.max_turn);
+        let (nearest, farthest) = self.lateral_limits_m(local.yaw_rad);
+        local.y_m = swing.sign() * (swing.sign() * local.y_m).clamp(nearest, farthest);
+        stance.compose(&local)
+    }
+
+    /// Moves a landing of a careful step within reach, as [`Self::keep_apart`].
+    pub fn within_climb(
+        &self,
+        stance: &PlanarPose,
+        landing: &PlanarPose,
+        swing: Side,
+    ) -> PlanarPose {
+        let mut local = stance.relative(landing);
+        let most = self.config.climb_forward;
+        local.x_m = local.x_m.clamp(-most, most);
+        local.yaw_rad = local
+            .yaw_rad
+            .clamp(-self.config.max_turn, self.config.max_turn);
         let (nearest, farthest) = self.lateral_limits_m(local.yaw_rad);
         local.y_m = swing.sign() * (swing.sign() * local.y_m).clamp(nearest, farthest);
         stance.compose(&local)

@@ -1,85 +1,30 @@
 //! The sequence of steps: which foot stands, which moves, and what comes next.
 
-use behaviour::{Motion, Velocity};
+use behaviour::Velocity;
 use geometry::PlanarPose;
 use nalgebra::Vector2;
 use robot::Side;
 
+use crate::GaitConfig;
 use crate::footsteps::FootstepPlanner;
-use crate::{GaitConfig, swing};
-
-/// A level foot on the ground: its sole's centre in the walker's own plan frame.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct FootPose {
-    /// Place and heading.
-    pub planar: PlanarPose,
-    /// Height, m.
-    pub z_m: f64,
-}
-
-/// A foot on its way.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Swing {
-    /// The foot.
-    pub side: Side,
-    /// Where it left.
-    pub from: FootPose,
-    /// Where it lands.
-    pub to: FootPose,
-    /// Where it was to land before any push.
-    pub planned: FootPose,
-}
-
-/// What the feet do at the moment.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Phase {
-    /// Both stand, no step is due.
-    Standing,
-    /// Both carry while the weight moves; then comes the step, if any.
-    Double {
-        /// Time in it, s.
-        elapsed_s: f64,
-        /// How long it takes, s.
-        duration_s: f64,
-        /// ZMP at its beginning, m.
-        from: Vector2<f64>,
-        /// The step behind it; without one the robot comes to stand.
-        next: Option<Swing>,
-    },
-    /// One stands, one moves.
-    Single {
-        /// Time in it, s.
-        elapsed_s: f64,
-        /// How long it takes, s.
-        duration_s: f64,
-        /// The foot that moves.
-        swing: Swing,
-    },
-}
-
-/// The reference at a tick.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reference {
-    /// Zero moment point, m.
-    pub zmp: Vector2<f64>,
-    /// Divergent component of motion, m.
-    pub dcm: Vector2<f64>,
-}
+use crate::landing::Ground;
+use crate::listed::Listed;
+pub use crate::phase::{Bearing, FootPose, Landing, Manner, Phase, Reference, Swing};
+use crate::task::Task;
 
 /// Where feet and weight are in the sequence of steps.
 #[derive(Debug, Clone)]
 pub struct Gait {
     pub(crate) config: GaitConfig,
-    planner: FootstepPlanner,
+    pub(crate) planner: FootstepPlanner,
     /// Where each foot stands, or left.
     pub feet: [FootPose; 2],
     /// What they do.
     pub phase: Phase,
     /// Steps landed so far.
     pub steps_taken: u64,
-    listed: usize,
-    list_origin: PlanarPose,
-    last_swing: Side,
+    pub(crate) listed: Listed,
+    last: (Side, Manner),
 }
 
 impl Gait {
@@ -91,34 +36,30 @@ impl Gait {
             feet,
             phase: Phase::Standing,
             steps_taken: 0,
-            listed: 0,
-            list_origin: PlanarPose::default(),
-            last_swing: Side::Right,
+            listed: Listed::default(),
+            last: (Side::Right, Manner::Walk),
         }
     }
 
-    /// Point under a foot where it is to carry: towards the other foot by `support_inward`.
+    /// Whether both feet stand and no step is due.
+    pub fn is_standing(&self) -> bool {
+        self.phase == Phase::Standing
+    }
+
+    /// Point under a foot where it is to carry: the middle of what bears, towards the other foot by `support_inward`.
     pub fn support_point(&self, foot: &FootPose, side: Side) -> Vector2<f64> {
-        let (x, y) = foot
-            .planar
-            .apply(0.0, -side.sign() * self.config.support_inward);
+        let [rear, front] = foot
+            .bearing
+            .on_sole_m(0.5 * self.planner.sole_length_m(), 0.0);
+        let inward = -side.sign() * self.config.support_inward;
+        let (x, y) = foot.planar.apply(0.5 * (rear + front), inward);
         Vector2::new(x, y)
     }
 
     /// Midway between the feet's supporting points.
     pub fn middle(&self) -> Vector2<f64> {
-        let points = Side::BOTH.map(|side| self.support_point(&self.feet[side.index()], side));
+        let points = Side::BOTH.map(|side| self.stance_point(side));
         0.5 * (points[0] + points[1])
-    }
-
-    /// Steps of the list that landed.
-    pub const fn listed(&self) -> usize {
-        self.listed
-    }
-
-    /// Frame between the places where the feet stand.
-    pub fn center(&self) -> PlanarPose {
-        Self::center_of(&self.feet)
     }
 
     /// Height of the ground that carries, m.
@@ -141,13 +82,10 @@ impl Gait {
     }
 
     /// Advances the sequence by `passed_s` of its own clock. A command takes effect when the next step is chosen.
-    pub fn advance(&mut self, passed_s: f64, motion: &Motion) {
+    pub fn advance(&mut self, passed_s: f64, task: Task<'_>, ground: &Ground) {
         match &mut self.phase {
             Phase::Standing => {
-                if !matches!(motion, Motion::Footsteps(_)) {
-                    self.listed = 0;
-                }
-                if let Some(next) = self.first_swing(motion) {
+                if let Some(next) = self.first_swing(task) {
                     self.phase = Self::shift(self.middle(), Some(next), self.config.shift_time);
                 }
             }
@@ -164,12 +102,12 @@ impl Gait {
                         None => Phase::Standing,
                         Some(swing) => Phase::Single {
                             elapsed_s: over_s,
-                            duration_s: self.config.step_time - self.config.double_support,
+                            duration_s: swing.manner.single_support_s(&self.config),
                             swing,
                         },
                     };
                 } else if next.is_none()
-                    && let Some(swing) = self.first_swing(motion)
+                    && let Some(swing) = self.first_swing(task)
                 {
                     let zmp = self.zmp();
                     self.phase = Self::shift(zmp, Some(swing), self.config.shift_time);
@@ -180,30 +118,30 @@ impl Gait {
                 duration_s,
                 swing,
             } => {
+                let before_s = *elapsed_s;
                 *elapsed_s += passed_s;
-                if *elapsed_s >= *duration_s {
+                let over = *elapsed_s >= *duration_s;
+                if swing.manner != Manner::Walk {
+                    self.go_carefully(before_s, passed_s, task, ground);
+                } else if over {
                     let swing = *swing;
-                    self.land(&swing, motion);
+                    self.land(&swing, swing.to, task);
                 }
             }
         }
     }
 
-    fn land(&mut self, swing: &Swing, motion: &Motion) {
-        self.feet[swing.side.index()] = swing.to;
+    /// Puts the foot down at `at` and goes on to the next step.
+    pub(crate) fn land(&mut self, swing: &Swing, at: FootPose, task: Task<'_>) {
+        self.feet[swing.side.index()] = at;
         self.steps_taken += 1;
-        self.last_swing = swing.side;
-        if matches!(motion, Motion::Footsteps(_)) {
-            self.listed += 1;
-        }
-        let stance = swing.side.other();
-        let zmp = self.support_point(&self.feet[stance.index()], stance);
-        let next = self.swing_of(stance, motion);
-        let duration = match next {
-            Some(_) => self.config.double_support,
-            None => self.config.shift_time,
-        };
-        self.phase = Self::shift(zmp, next, duration);
+        self.last = (swing.side, swing.manner);
+        let zmp = self.stance_point(swing.side.other());
+        let next = self.next_swing(&self.feet, swing.side, task, 0);
+        let duration_s = next.map_or(self.config.shift_time, |next| {
+            next.manner.double_support_s(&self.config)
+        });
+        self.phase = Self::shift(zmp, next, duration_s);
     }
 
     const fn shift(from: Vector2<f64>, next: Option<Swing>, duration_s: f64) -> Phase {
@@ -216,78 +154,52 @@ impl Gait {
     }
 
     /// The first step out of a stand.
-    fn first_swing(&mut self, motion: &Motion) -> Option<Swing> {
-        match motion {
-            Motion::Stand => None,
-            Motion::Walk(velocity) => {
-                let turning = velocity.y_mps + 0.1 * velocity.yaw_radps;
-                let side = if turning > 0.0 {
-                    Side::Left
-                } else if turning < 0.0 {
-                    Side::Right
-                } else {
-                    self.last_swing.other()
-                };
-                self.swing_of(side, motion)
-            }
-            Motion::Footsteps(steps) => {
-                if self.listed == 0 {
-                    self.list_origin = self.center();
-                }
-                let side = steps.get(self.listed)?.side;
-                self.swing_of(side, motion)
-            }
-        }
+    fn first_swing(&self, task: Task<'_>) -> Option<Swing> {
+        let Task::Walk(velocity) = task else {
+            return match task {
+                Task::Steps(_) => self.next_swing(&self.feet, self.last.0, task, 0),
+                _ => None,
+            };
+        };
+        let turning = velocity.y_mps + 0.1 * velocity.yaw_radps;
+        let last = if turning > 0.0 {
+            Side::Right
+        } else if turning < 0.0 {
+            Side::Left
+        } else {
+            self.last.0
+        };
+        self.next_swing(&self.feet, last, task, 0)
     }
 
-    /// The next step with this foot, if the motion asks for one.
-    fn swing_of(&self, side: Side, motion: &Motion) -> Option<Swing> {
-        let from = self.feet[side.index()];
-        let stance = self.feet[side.other().index()];
-        let to = self.landing(&stance, &from, side, motion, 0)?;
-        Some(Swing {
-            side,
-            from,
-            to,
-            planned: to,
-        })
-    }
-
-    /// Landing of the step after `ahead` others; `None` where the feet shall stay.
-    pub(crate) fn landing(
+    /// The step behind one with foot `last` after which the feet stand as in `feet`, `ahead` others of a list left out; `None`
+    /// where the feet shall stay.
+    pub(crate) fn next_swing(
         &self,
-        stance: &FootPose,
-        from: &FootPose,
-        side: Side,
-        motion: &Motion,
+        feet: &[FootPose; 2],
+        last: Side,
+        task: Task<'_>,
         ahead: usize,
-    ) -> Option<FootPose> {
-        match motion {
-            Motion::Walk(velocity) => Some(self.on_level(stance, side, velocity)),
-            Motion::Stand => {
-                if self.planner.is_beside(&stance.planar, &from.planar, side) {
-                    return None;
-                }
-                Some(FootPose {
+    ) -> Option<Swing> {
+        let side = last.other();
+        let (stance, from) = (feet[last.index()], feet[side.index()]);
+        match task {
+            Task::Walk(velocity) => {
+                let to = self.on_level(&stance, side, &velocity);
+                Some(Swing::new(side, Manner::Walk, from, to))
+            }
+            // Behind a careful step there may be no ground beside the other foot.
+            Task::Stand if self.last.1 != Manner::Walk => None,
+            Task::Stand if self.planner.is_beside(&stance.planar, &from.planar, side) => None,
+            Task::Stand => {
+                let to = FootPose {
                     planar: self.planner.beside(&stance.planar, side),
                     z_m: stance.z_m,
-                })
+                    ..FootPose::default()
+                };
+                Some(Swing::new(side, Manner::Walk, from, to))
             }
-            Motion::Footsteps(steps) => {
-                let step = steps.get(self.listed + ahead)?;
-                if step.side != side {
-                    return Some(*from);
-                }
-                let wanted = self.list_origin.compose(&step.pose);
-                Some(FootPose {
-                    planar: self.planner.keep_apart(&stance.planar, &wanted, side),
-                    z_m: if step.height_m.is_finite() {
-                        step.height_m
-                    } else {
-                        stance.z_m
-                    },
-                })
-            }
+            Task::Steps(steps) => self.listed_swing(feet, steps, ahead),
         }
     }
 
@@ -295,6 +207,7 @@ impl Gait {
         FootPose {
             planar: self.planner.next(&stance.planar, side, velocity),
             z_m: stance.z_m,
+            ..FootPose::default()
         }
     }
 
@@ -328,29 +241,11 @@ impl Gait {
 
     /// Where a foot is to be now, without what the stabiliser adds.
     pub fn foot(&self, side: Side) -> FootPose {
-        let Phase::Single {
-            elapsed_s,
-            duration_s,
-            swing,
-        } = &self.phase
-        else {
-            return self.feet[side.index()];
-        };
-        if swing.side != side {
-            return self.feet[side.index()];
-        }
-        let share = elapsed_s / duration_s;
-        let along = swing::travel(share);
-        let (from, to) = (&swing.from, &swing.to);
-        let turn = geometry::angle_between(from.planar.yaw_rad, to.planar.yaw_rad);
-        let top = from.z_m.max(to.z_m) + self.config.step_height;
-        FootPose {
-            planar: PlanarPose::new(
-                from.planar.x_m + (to.planar.x_m - from.planar.x_m) * along,
-                from.planar.y_m + (to.planar.y_m - from.planar.y_m) * along,
-                from.planar.yaw_rad + turn * along,
-            ),
-            z_m: swing::height_m(share, from.z_m, top, to.z_m),
+        match &self.phase {
+            Phase::Single {
+                elapsed_s, swing, ..
+            } if swing.side == side => swing.foot(*elapsed_s, &self.config),
+            _ => self.feet[side.index()],
         }
     }
 }

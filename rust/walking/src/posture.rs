@@ -1,12 +1,13 @@
 //! From centre of mass and feet to joint angles, and the torques that hold them.
 
 use geometry::PlanarPose;
-use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use robot::{Body, LinkPoses, Side};
 
 use crate::balance::{Balance, GRAVITY_MPS2};
 use crate::gait::{FootPose, Gait, Phase};
 use crate::leg::Leg;
+use crate::pelvis::{Course, Pelvis, Trunk};
 use crate::support::Pressure;
 use crate::{GaitConfig, JointTargets, WalkError};
 
@@ -22,8 +23,8 @@ const TILT_DEADBAND_RAD: f64 = 0.02;
 pub(crate) struct Moment<'a> {
     /// The body.
     pub(crate) body: &'a Body,
-    /// The steps.
-    pub(crate) gait: &'a Gait,
+    /// The steps, and where they lead the centre of mass.
+    pub(crate) course: Course<'a>,
     /// The measured balance.
     pub(crate) balance: &'a Balance,
     /// Time since the last tick, s.
@@ -35,7 +36,7 @@ pub(crate) struct Moment<'a> {
 pub(crate) struct Posture {
     legs: [Leg; 2],
     mass_kg: f64,
-    hip_height_m: f64,
+    pelvis: Pelvis,
     swing_tilt: f64,
     yaw_rad: f64,
     tilt_weight: [f64; 2],
@@ -51,7 +52,7 @@ impl Posture {
                 Leg::new(body, Side::Right, config.max_extension)?,
             ],
             mass_kg: body.mass_kg(),
-            hip_height_m: config.hip_height,
+            pelvis: Pelvis::new(config),
             swing_tilt: config.swing_tilt,
             yaw_rad: 0.0,
             tilt_weight: [0.0; 2],
@@ -59,12 +60,11 @@ impl Posture {
         })
     }
 
-    /// Writes the legs' angles and speeds that put the centre of mass over `com` and the soles at `feet`, torso upright along the
+    /// Writes the legs' angles and speeds that put the centre of mass over its reference and the soles at `feet`, torso upright along the
     /// feet's mean heading. The torso follows from the centre of mass of the last tick's targets.
     pub(crate) fn pose(
         &mut self,
         moment: &Moment<'_>,
-        com: &Vector2<f64>,
         feet: &[FootPose; 2],
         targets: &mut JointTargets,
     ) -> Result<(), WalkError> {
@@ -75,8 +75,15 @@ impl Posture {
         let rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_rad);
         body.pose_links(&targets.positions_rad, &mut self.poses)?;
         let offset = rotation * body.center_of_mass_in_torso(&self.poses).coords;
-        let over = com - offset.xy();
-        let height = self.torso_height_m(feet, moment.gait.ground_m(), &rotation, &over);
+        let course = &moment.course;
+        let over = course.com - offset.xy();
+        let trunk = Trunk {
+            from_com: -offset.xy(),
+            hips: [0, 1].map(|index| rotation * self.legs[index].hip()),
+        };
+        let height = self
+            .pelvis
+            .height_m(course, &self.legs, &trunk, feet, passed_s);
         let place = Translation3::new(over.x, over.y, height);
         let plan_from_torso = Isometry3::from_parts(place, rotation);
         let torso_from_plan = plan_from_torso.inverse();
@@ -102,7 +109,7 @@ impl Posture {
         plan_from_torso: &Isometry3<f64>,
         side: Side,
     ) -> Isometry3<f64> {
-        let gait = moment.gait;
+        let gait = moment.course.gait;
         let goal = match &gait.phase {
             Phase::Single { swing, .. } if swing.side == side => self.swing_tilt,
             _ => 0.0,
@@ -124,28 +131,6 @@ impl Posture {
         Isometry3::from_parts(Translation3::from(pivot - turn * pivot), turn)
     }
 
-    /// Height of the torso's origin over `over`: the hips at their height over the ground, lower where a leg would get too long.
-    fn torso_height_m(
-        &self,
-        feet: &[FootPose; 2],
-        ground_m: f64,
-        rotation: &UnitQuaternion<f64>,
-        over: &Vector2<f64>,
-    ) -> f64 {
-        let mut height = f64::INFINITY;
-        for side in Side::BOTH {
-            let (leg, foot) = (&self.legs[side.index()], &feet[side.index()]);
-            let hip = rotation * leg.hip();
-            let across = over + hip.xy() - leg.ankle_in_plan(&foot.planar);
-            let reach = leg.max_length_m();
-            let rise = (reach * reach - across.norm_squared()).max(0.0).sqrt();
-            height = height
-                .min(foot.z_m + leg.ankle_height_m() + rise - hip.z)
-                .min(ground_m + self.hip_height_m - hip.z);
-        }
-        height
-    }
-
     /// Writes the torques that hold the measured posture against gravity while the feet push as in `pressure`: the weight of
     /// what each joint carries beyond itself, and J^T f of the force under each sole. The horizontal force is the pendulum's,
     /// m w^2 (c - p).
@@ -158,7 +143,7 @@ impl Posture {
     ) {
         let Moment {
             body,
-            gait,
+            course: Course { gait, .. },
             balance,
             ..
         } = *moment;

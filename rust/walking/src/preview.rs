@@ -1,11 +1,11 @@
 //! The plan of the coming steps, and the reference of weight and motion that follows from it.
 
-use behaviour::Motion;
 use nalgebra::Vector2;
 use robot::Side;
 
 use crate::dcm::{self, Segment};
 use crate::gait::{Gait, Phase, Reference, Swing};
+use crate::task::Task;
 
 /// Steps that are looked ahead, the running one included: what lies beyond hardly counts.
 const STEPS: usize = 3;
@@ -45,11 +45,11 @@ impl Plan {
 
 impl Gait {
     /// ZMP and DCM of the plan at the moment. The plan ends in a stand behind the last step that is looked ahead.
-    pub fn reference(&self, omega: f64, motion: &Motion) -> Reference {
+    pub fn reference(&self, omega: f64, task: Task<'_>) -> Reference {
         let zmp = self.zmp();
         let mut plan = Plan::empty();
         if let Some(swing) = self.running(&mut plan) {
-            self.coming(swing, motion, &mut plan);
+            self.coming(swing, task, &mut plan);
         }
         let dcm = dcm::start_dcm(&plan.segments[..plan.count], omega).unwrap_or(zmp);
         Reference { zmp, dcm }
@@ -68,7 +68,7 @@ impl Gait {
                 let goal = self.shift_goal(next.as_ref());
                 plan.add(self.zmp(), goal, duration_s - elapsed_s);
                 let swing = (*next)?;
-                plan.add(goal, goal, self.config.single_support());
+                plan.add(goal, goal, swing.manner.single_support_s(&self.config));
                 Some(swing)
             }
             Phase::Single {
@@ -84,26 +84,20 @@ impl Gait {
     }
 
     /// Adds the steps behind `swing`, and the shift to the middle behind the last.
-    fn coming(&self, mut swing: Swing, motion: &Motion, plan: &mut Plan) {
+    fn coming(&self, mut swing: Swing, task: Task<'_>, plan: &mut Plan) {
         let mut feet = self.feet;
         let mut stands = self.stance_point(swing.side.other());
         for ahead in 1..STEPS {
             feet[swing.side.index()] = swing.to;
-            let side = swing.side.other();
-            let (stance, from) = (feet[swing.side.index()], feet[side.index()]);
-            let Some(to) = self.landing(&stance, &from, side, motion, ahead) else {
+            let Some(next) = self.next_swing(&feet, swing.side, task, ahead) else {
                 break;
             };
-            let point = self.support_point(&stance, swing.side);
-            plan.add(stands, point, self.config.double_support);
-            plan.add(point, point, self.config.single_support());
+            let stance = next.side.other();
+            let point = self.support_point(&feet[stance.index()], stance);
+            plan.add(stands, point, next.manner.double_support_s(&self.config));
+            plan.add(point, point, next.manner.single_support_s(&self.config));
             stands = point;
-            swing = Swing {
-                side,
-                from,
-                to,
-                planned: to,
-            };
+            swing = next;
         }
         feet[swing.side.index()] = swing.to;
         let points = Side::BOTH.map(|side| self.support_point(&feet[side.index()], side));

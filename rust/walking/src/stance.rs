@@ -40,7 +40,7 @@ impl Stance {
         Ok(Self {
             feet: soles.map(|sole| FootPose {
                 planar: PlanarPose::new(sole.x - middle.x, sole.y - middle.y, 0.0),
-                z_m: 0.0,
+                ..FootPose::default()
             }),
             com: body.center_of_mass_in_torso(&poses).coords - middle,
             rest,

@@ -19,6 +19,7 @@ pub struct Pressure {
 /// The soles without their margins.
 #[derive(Debug, Clone)]
 pub struct Soles {
+    margin_m: f64,
     half: [Vector2<f64>; 2],
 }
 
@@ -26,23 +27,23 @@ impl Soles {
     /// The soles of the body, smaller by `margin_m` all around.
     pub fn new(body: &Body, margin_m: f64) -> Self {
         Self {
+            margin_m,
             half: Side::BOTH.map(|side| {
                 let sole = &body.description().legs.get(side).sole;
-                Vector2::new(
-                    (0.5 * sole.length - margin_m).max(0.0),
-                    (0.5 * sole.width - margin_m).max(0.0),
-                )
+                Vector2::new(0.5 * sole.length, 0.5 * sole.width)
             }),
         }
     }
 
-    /// The point of a standing foot's sole that is nearest to `point`, axis by axis.
+    /// The point of what bears of a standing foot's sole that is nearest to `point`, axis by axis.
     pub fn nearest(&self, foot: &FootPose, side: Side, point: &Vector2<f64>) -> Vector2<f64> {
         let (x, y) = foot.planar.inverse().apply(point.x, point.y);
         let half = &self.half[side.index()];
+        let [rear, front] = foot.bearing.on_sole_m(half.x, self.margin_m);
+        let across = (half.y - self.margin_m).max(0.0);
         let (x, y) = foot
             .planar
-            .apply(x.clamp(-half.x, half.x), y.clamp(-half.y, half.y));
+            .apply(x.clamp(rear, front), y.clamp(-across, across));
         Vector2::new(x, y)
     }
 
@@ -104,7 +105,7 @@ mod tests {
         let at = |y: f64| {
             (-0.1..0.1f64, y - 0.02..y + 0.02f64, -0.3..0.3f64).prop_map(|(x, y, yaw)| FootPose {
                 planar: PlanarPose::new(x, y, yaw),
-                z_m: 0.0,
+                ..FootPose::default()
             })
         };
         (at(0.07), at(-0.07)).prop_map(|(left, right)| [left, right])

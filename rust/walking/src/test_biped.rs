@@ -164,11 +164,14 @@ pub(crate) fn biped() -> Body {
     Body::new(description()).unwrap()
 }
 
-/// A world without inertia: joints are where their targets are, the torso is level, the feet carry what they shall carry.
+/// A world without inertia: joints are where their targets are, the torso is level, the feet that stand carry what they shall
+/// carry, and one that comes down on the ground feels it.
 pub(crate) struct Ideal {
     pub(crate) body: Body,
     pub(crate) walker: Walker,
     pub(crate) targets: JointTargets,
+    /// Height of the ground at a place, m; where the robot starts it is 0.
+    pub(crate) ground_m: fn(f64, f64) -> f64,
     time_ns: u64,
 }
 
@@ -184,6 +187,7 @@ impl Ideal {
             body,
             walker,
             targets,
+            ground_m: |_, _| 0.0,
             time_ns: 0,
         }
     }
@@ -191,7 +195,14 @@ impl Ideal {
     /// One tick.
     pub(crate) fn tick(&mut self, command: &Command) {
         let weight = self.body.mass_kg() * 9.81;
-        let loads = self.walker.balance().2.share.map(|share| share * weight);
+        let mut loads = self.walker.balance().2.share.map(|share| share * weight);
+        if let Some(stance) = self.walker.support() {
+            let sole = self.sole_beside(stance);
+            let ground_m = (self.ground_m)(sole.x, sole.y);
+            if sole.z < ground_m + 1e-4 {
+                loads[stance.other().index()] = 10.0;
+            }
+        }
         let observation = Observation {
             time_ns: self.time_ns,
             joint_positions_rad: self.targets.positions_rad.clone(),
@@ -217,6 +228,17 @@ impl Ideal {
             .step(command, &observation, &state)
             .unwrap()
             .clone();
+    }
+
+    /// Centre of the sole of the foot that does not stand, in the walker's plan, m.
+    pub(crate) fn sole_beside(&self, stance: Side) -> Vector3<f64> {
+        let links = self.links();
+        let torso_from_stance = self.body.torso_from_sole(&links, stance);
+        let other = self.body.torso_from_sole(&links, stance.other());
+        let apart = torso_from_stance.inverse() * other;
+        let foot = self.walker.foot_in_plan(stance);
+        let (x, y) = foot.planar.apply(apart.translation.x, apart.translation.y);
+        Vector3::new(x, y, foot.z_m + apart.translation.z)
     }
 
     /// Poses of the links at the targets.

@@ -10,11 +10,14 @@ use crate::balance::{Balance, GRAVITY_MPS2, Sensed};
 use crate::capture::Capture;
 use crate::feet::FeetControl;
 use crate::footsteps::FootstepPlanner;
-use crate::gait::{Gait, Phase, Reference};
+use crate::gait::{FootPose, Gait, Phase, Reference};
 use crate::gaze::Head;
+use crate::landing::{Felt, Ground};
+use crate::pelvis::Course;
 use crate::posture::{Moment, Posture};
 use crate::stance::Stance;
 use crate::support::{Pressure, Soles};
+use crate::task::{Frame, StepList};
 use crate::{GaitConfig, JointTargets, WalkError};
 
 /// The control tick, s; longer gaps count as two.
@@ -28,6 +31,7 @@ pub struct Walker {
     weight_n: f64,
     head: Head,
     gait: Gait,
+    list: StepList,
     balance: Balance,
     soles: Soles,
     feet_control: FeetControl,
@@ -76,6 +80,7 @@ impl Walker {
                 dcm: middle,
             },
             last_ns: None,
+            list: StepList::default(),
             gait,
             config,
             body: body.clone(),
@@ -96,11 +101,17 @@ impl Walker {
         let rate = self
             .capture
             .adjust(&mut self.gait, &self.soles, &error, omega, passed_s);
-        self.gait.advance(passed_s * rate, &command.motion);
-        self.reference = self.gait.reference(omega, &command.motion);
+        let felt = self.feel(state);
+        let frame = self.frame(&felt);
+        self.list.take(&command.motion, &mut self.gait, frame);
+        let task = self.list.task(&command.motion, &self.gait);
+        self.gait
+            .advance(passed_s * rate, task, &Ground::Felt(felt));
+        let task = self.list.task(&command.motion, &self.gait);
+        self.reference = self.gait.reference(omega, task);
         self.com += (self.reference.dcm - self.com) * (omega * passed_s)
             + (self.balance.com - self.com) * (self.config.reference_pull * passed_s);
-        self.push();
+        self.pressure = self.pressed();
         self.feet_control.update(
             &self.gait.phase,
             &self.pressure.share,
@@ -108,15 +119,21 @@ impl Walker {
             self.weight_n,
             passed_s,
         );
-        let feet = Side::BOTH.map(|side| self.feet_control.place(self.gait.foot(side), side));
+        let (gait, control) = (&self.gait, &mut self.feet_control);
+        let feet = Side::BOTH.map(|side| control.place(&gait.phase, gait.foot(side), side));
         let moment = Moment {
             body: &self.body,
-            gait: &self.gait,
+            course: Course {
+                gait: &self.gait,
+                task,
+                omega,
+                com: self.com,
+            },
             balance: &self.balance,
             passed_s,
         };
         let targets = &mut self.targets;
-        self.posture.pose(&moment, &self.com, &feet, targets)?;
+        self.posture.pose(&moment, &feet, targets)?;
         let torques = &mut targets.torques_nm;
         self.posture
             .feed_forward(&moment, &state.links, &self.pressure, torques);
@@ -126,7 +143,7 @@ impl Walker {
 
     /// Whether it stands still on both soles.
     pub fn standing(&self) -> bool {
-        self.gait.phase == Phase::Standing
+        self.gait.is_standing()
     }
 
     /// Distance between the soles' centres when it stands, m.
@@ -141,10 +158,7 @@ impl Walker {
 
     /// How the listed footsteps go.
     pub fn stepping(&self) -> Stepping {
-        Stepping {
-            landed: self.gait.listed(),
-            ..Stepping::default()
-        }
+        self.gait.stepping()
     }
 
     /// The foot that stands while the other moves; `None` while both carry.
@@ -153,6 +167,11 @@ impl Walker {
             Phase::Single { swing, .. } => Some(swing.side.other()),
             Phase::Standing | Phase::Double { .. } => None,
         }
+    }
+
+    /// Where a foot stands, or left, in the walker's own frame, which drifts against the world's.
+    pub const fn foot_in_plan(&self, side: Side) -> &FootPose {
+        &self.gait.feet[side.index()]
     }
 
     /// What the feet do, for the recording.
@@ -200,17 +219,40 @@ impl Walker {
         self.balance.update(&sensed, &self.pressure.zmp);
     }
 
+    /// What the feet feel.
+    fn feel(&self, state: &BodyState) -> Felt {
+        let plan_from_torso = &self.balance.plan_from_torso;
+        Felt {
+            loads_n: state.foot_loads_n,
+            soles_m: Side::BOTH.map(|side| {
+                let torso_from_sole = self.body.torso_from_sole(&state.links, side);
+                (plan_from_torso * torso_from_sole).translation.vector
+            }),
+        }
+    }
+
+    /// The robot's frame in the plan: midway between the soles as they are.
+    fn frame(&self, felt: &Felt) -> Frame {
+        let mut planar = Gait::center_of(&self.gait.feet);
+        let middle = 0.5 * (felt.soles_m[0] + felt.soles_m[1]);
+        (planar.x_m, planar.y_m) = (middle.x, middle.y);
+        Frame {
+            planar,
+            ground_m: self.gait.ground_m(),
+        }
+    }
+
     /// DCM feedback: p = p_ref + k (xi - xi_ref), within the soles that stand.
-    fn push(&mut self) {
+    fn pressed(&self) -> Pressure {
         let error = self.balance.dcm() - self.reference.dcm;
         let wanted = self.reference.zmp + error * self.config.dcm_gain;
         let (gait, soles) = (&self.gait, &self.soles);
-        self.pressure = if let Some(stance) = self.support() {
+        if let Some(stance) = self.support() {
             soles.on_one(&gait.feet, stance, &wanted)
         } else {
             let carry = Side::BOTH.map(|side| gait.support_point(&gait.feet[side.index()], side));
             soles.on_both(&gait.feet, &carry, &wanted)
-        };
+        }
     }
 }
 

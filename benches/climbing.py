@@ -1,0 +1,170 @@
+"""Stairs, sills and basins for walking trials: where the feet go, and in which order."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from treadwell._core import Walker
+
+HALF_SOLE_M = 0.0525
+STANCE_M = 0.085
+GAP_M = 0.015
+"""Of a toe to a riser in front, of a heel to one behind (003, Table I)."""
+HANG_M = 0.025
+"""The most that a heel or a toe hangs over an edge (003, Table I)."""
+STRIDE_M = 0.08
+"""On one tread."""
+RUN_M = 0.6
+"""Level ground before the first and behind the last edge."""
+
+Footstep = tuple[str, float, float, float, float, float, float]
+Pose = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Tread:
+    """A level from `front` to `back` along x."""
+
+    front: float
+    back: float
+    height: float
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Bounds of what was seen wrong: heights and edges, metres."""
+
+    height: float = 0.0
+    x: float = 0.0
+
+
+def course(rises: list[float], depths: list[float]) -> list[Tread]:
+    """Return the levels; the robot stands at x = 0 with its toes at the first edge."""
+    edge = HALF_SOLE_M + (GAP_M if rises[0] > 0 else 0.005)
+    lowest = min(0.0, *np.cumsum(rises))
+    height = -float(lowest)
+    treads = [Tread(edge - RUN_M, edge, height)]
+    for rise, depth in zip(rises, [*depths, RUN_M], strict=True):
+        height += rise
+        treads.append(Tread(edge, edge + depth, height))
+        edge += depth
+    return treads
+
+
+def elements(treads: list[Tread]) -> list[dict[str, object]]:
+    """Return the levels as elements of a scenario."""
+    return [
+        {
+            "kind": "platform",
+            "name": f"level {index}",
+            "position": [(tread.front + tread.back) / 2, 0.0],
+            "yaw": 0.0,
+            "size": [tread.back - tread.front, 1.0, tread.height],
+        }
+        for index, tread in enumerate(treads)
+        if tread.height > 1e-6
+    ]
+
+
+def seen(treads: list[Tread], errors: Errors, rng: np.random.Generator) -> list[Tread]:
+    """Return the levels as they are believed to be, but for the one that the robot stands on."""
+    edges = [tread.back + rng.uniform(-errors.x, errors.x) for tread in treads]
+    heights = [tread.height + rng.uniform(-errors.height, errors.height) for tread in treads[1:]]
+    believed = [Tread(treads[0].front, edges[0], treads[0].height)]
+    for before, after, height in zip(edges[:-1], edges[1:], heights, strict=True):
+        believed.append(Tread(before, after, height))
+    return believed
+
+
+@dataclass(frozen=True)
+class Stand:
+    """Where both feet are to stand side by side, and the level there."""
+
+    x: float
+    tread: Tread
+
+    def foot(self, side: str, robot: Pose, ground: float) -> Footstep:
+        """Return the footstep relative to the robot's frame over its ground."""
+        y = STANCE_M / 2 if side == "left" else -STANCE_M / 2
+        dx, dy = self.x - robot[0], y - robot[1]
+        cos, sin = math.cos(robot[2]), math.sin(robot[2])
+        bears = (
+            max(-HALF_SOLE_M, self.tread.front - self.x),
+            min(HALF_SOLE_M, self.tread.back - self.x),
+        )
+        place = (cos * dx + sin * dy, cos * dy - sin * dx, -robot[2])
+        return (side, *place, self.tread.height - ground, *bears)
+
+
+def stands(treads: list[Tread]) -> list[Stand]:
+    """Return the stands one after the other: on each level as few as the legs' reach allows."""
+    out = []
+    for index, tread in enumerate(treads[1:], start=1):
+        rises = tread.height > treads[index - 1].height
+        least = tread.front + HALF_SOLE_M + (-HANG_M if rises else GAP_M)
+        first = tread.front + HALF_SOLE_M + (0.0 if rises else GAP_M)
+        if index + 1 == len(treads):
+            out.append(Stand(first, tread))
+            break
+        rises_next = treads[index + 1].height > tread.height
+        most = tread.back - HALF_SOLE_M + (-GAP_M if rises_next else HANG_M)
+        goal = tread.back - HALF_SOLE_M + (-GAP_M if rises_next else 0.0)
+        at = max(min(first, most), least) if least <= most else (least + most) / 2
+        out.append(Stand(at, tread))
+        while goal - at > 0.01:
+            at += min(goal - at, STRIDE_M)
+            out.append(Stand(at, tread))
+    return out
+
+
+def pairs(treads: list[Tread]) -> list[list[tuple[str, Stand]]]:
+    """Return lists of footsteps with both feet on each stand."""
+    return [[("left", stand), ("right", stand)] for stand in stands(treads)]
+
+
+def alternating(treads: list[Tread]) -> list[list[tuple[str, Stand]]]:
+    """Return one list with a foot a stand, the feet side by side at the end."""
+    sides = ("left", "right")
+    steps = [(sides[index % 2], stand) for index, stand in enumerate(stands(treads))]
+    last, stand = steps[-1]
+    return [[*steps, ("right" if last == "left" else "left", stand)]]
+
+
+class Climber:
+    """Gives the lists one after the other, and stands a while between them."""
+
+    def __init__(
+        self, lists: list[list[tuple[str, Stand]]], settle_s: float, start_s: float
+    ) -> None:
+        self.lists = lists
+        self.settle_s = settle_s
+        self.start_s = start_s
+        self.steps: list[Footstep] = []
+        self.done = 0
+        self.since = start_s - settle_s
+        self.finished = math.inf
+        self.misstep: str | None = None
+
+    def motion(self, now: float, walker: Walker, start_height: float) -> list[Footstep] | None:
+        """Return the footsteps for this tick."""
+        if self.steps and walker.standing:
+            landed, _, misstep = walker.stepping
+            if misstep or landed >= len(self.steps):
+                self.since, self.steps = now, []
+                self.done += not misstep
+                self.misstep = misstep
+                if misstep or self.done == len(self.lists):
+                    self.finished = now
+        elif not self.steps and now - self.since >= self.settle_s and self.finished > now:
+            robot, ground = walker.odometry, start_height + walker.ground
+            self.steps = [stand.foot(side, robot, ground) for side, stand in self.lists[self.done]]
+        return self.steps or None
+
+    def is_over(self, now: float) -> bool:
+        """Return whether all is climbed, or a step was taken back, a second ago."""
+        return now > self.finished + 1.0
+
+    def seconds_per_stand(self) -> float:
+        """Return the mean time for one list, standing included."""
+        return (self.since - self.start_s) / self.done if self.done else math.nan

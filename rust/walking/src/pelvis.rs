@@ -1,0 +1,125 @@
+//! Height of the hips: over the ground that carries as the gait says, lower where a leg would get too long, and smooth.
+//!
+//! The coming steps are played ahead, so that the hips are down when a foot has to reach down.
+
+use nalgebra::Vector2;
+use robot::Side;
+
+use crate::GaitConfig;
+use crate::gait::{FootPose, Gait, Reference};
+use crate::landing::Ground;
+use crate::leg::Leg;
+use crate::task::Task;
+
+/// How far is looked ahead, ticks of [`TICK_S`].
+const TICKS: usize = 24;
+const TICK_S: f64 = 0.04;
+/// Time constant of the smoothing, s.
+const SMOOTH_S: f64 = 0.06;
+
+/// What the hips' height is for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Course<'a> {
+    /// The steps.
+    pub(crate) gait: &'a Gait,
+    /// What is to be done.
+    pub(crate) task: Task<'a>,
+    /// Natural frequency of the pendulum, 1/s.
+    pub(crate) omega: f64,
+    /// Reference of the centre of mass, m.
+    pub(crate) com: Vector2<f64>,
+}
+
+/// Where the torso is over the centre of mass.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Trunk {
+    /// From the centre of mass to the torso's origin over the ground, m.
+    pub(crate) from_com: Vector2<f64>,
+    /// From the torso's origin to each hip, in the plan's axes, m.
+    pub(crate) hips: [nalgebra::Vector3<f64>; 2],
+}
+
+/// The height of the torso's origin over the plan's ground.
+#[derive(Debug, Clone)]
+pub(crate) struct Pelvis {
+    hip_height_m: f64,
+    speed_mps: f64,
+    goal_m: f64,
+    height_m: f64,
+    rate_mps: f64,
+    started: bool,
+}
+
+impl Pelvis {
+    pub(crate) const fn new(config: &GaitConfig) -> Self {
+        Self {
+            hip_height_m: config.hip_height,
+            speed_mps: config.hip_speed,
+            goal_m: 0.0,
+            height_m: 0.0,
+            rate_mps: 0.0,
+            started: false,
+        }
+    }
+
+    /// The height for this tick, m. `feet`: where the feet are put now.
+    pub(crate) fn height_m(
+        &mut self,
+        course: &Course<'_>,
+        legs: &[Leg; 2],
+        trunk: &Trunk,
+        feet: &[FootPose; 2],
+        passed_s: f64,
+    ) -> f64 {
+        let over = course.com + trunk.from_com;
+        let now_m = self.limit_m(legs, trunk, feet, course.gait.ground_m(), &over);
+        let mut goal_m = now_m;
+        let mut gait = course.gait.clone();
+        let mut com = course.com;
+        for tick in 1..=TICKS {
+            gait.advance(TICK_S, course.task, &Ground::AsTold);
+            let Reference { dcm, .. } = gait.reference(course.omega, course.task);
+            com += (dcm - com) * (1.0 - (-course.omega * TICK_S).exp());
+            let feet = Side::BOTH.map(|side| gait.foot(side));
+            let over = com + trunk.from_com;
+            let limit_m = self.limit_m(legs, trunk, &feet, gait.ground_m(), &over);
+            let left_s = (tick as f64 * TICK_S - 2.5 * SMOOTH_S).max(0.0);
+            goal_m = goal_m.min(limit_m + self.speed_mps * left_s);
+        }
+        if !self.started {
+            self.started = true;
+            (self.goal_m, self.height_m) = (goal_m, goal_m);
+        }
+        let most_m = self.speed_mps * passed_s;
+        self.goal_m += (goal_m - self.goal_m).clamp(-2.0 * most_m, most_m);
+        // Critically damped, implicit in the rate.
+        let stiff = passed_s / SMOOTH_S;
+        let pull = (self.goal_m - self.height_m) / SMOOTH_S;
+        self.rate_mps = (self.rate_mps + stiff * pull) / ((1.0 + stiff) * (1.0 + stiff));
+        self.height_m += self.rate_mps * passed_s;
+        self.height_m
+    }
+
+    /// The greatest height at which both soles are reached, the hips no higher over the ground than the gait says.
+    fn limit_m(
+        &self,
+        legs: &[Leg; 2],
+        trunk: &Trunk,
+        feet: &[FootPose; 2],
+        ground_m: f64,
+        over: &Vector2<f64>,
+    ) -> f64 {
+        let mut limit_m = f64::INFINITY;
+        for side in Side::BOTH {
+            let (leg, foot) = (&legs[side.index()], &feet[side.index()]);
+            let hip = &trunk.hips[side.index()];
+            let across = over + hip.xy() - leg.ankle_in_plan(&foot.planar);
+            let reach_m = leg.max_length_m();
+            let rise_m = (reach_m * reach_m - across.norm_squared()).max(0.0).sqrt();
+            limit_m = limit_m
+                .min(foot.z_m + leg.ankle_height_m() + rise_m - hip.z)
+                .min(ground_m + self.hip_height_m - hip.z);
+        }
+        limit_m
+    }
+}

@@ -1,0 +1,193 @@
+//! Feet on the ground and on their way.
+
+use geometry::PlanarPose;
+use nalgebra::Vector2;
+use robot::Side;
+
+use crate::{GaitConfig, swing};
+
+/// The part of a sole that bears load, from and to, m from its middle forward. Nothing said: all of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bearing {
+    /// Its rear end, m.
+    pub from_m: f64,
+    /// Its front end, m.
+    pub to_m: f64,
+}
+
+impl Default for Bearing {
+    fn default() -> Self {
+        Self {
+            from_m: f64::NEG_INFINITY,
+            to_m: f64::INFINITY,
+        }
+    }
+}
+
+impl Bearing {
+    /// The part of a sole of this half length that bears load and is `margin_m` from the part's ends: rear and front, m. Where
+    /// nothing is left, the middle of what bears twice; where nothing bears at all, the sole's middle.
+    pub fn on_sole_m(&self, half_length_m: f64, margin_m: f64) -> [f64; 2] {
+        let rear = self.from_m.max(-half_length_m);
+        let front = self.to_m.min(half_length_m);
+        let middle = if rear <= front {
+            0.5 * (rear + front)
+        } else {
+            0.0
+        };
+        [
+            (rear + margin_m).min(middle),
+            (front - margin_m).max(middle),
+        ]
+    }
+}
+
+/// A level foot on the ground: its sole's centre in the walker's own plan frame.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FootPose {
+    /// Place and heading.
+    pub planar: PlanarPose,
+    /// Height, m.
+    pub z_m: f64,
+    /// What of the sole stands on something.
+    pub bearing: Bearing,
+}
+
+/// How a foot goes from one place to another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Manner {
+    /// A step of a walk on level ground.
+    Walk,
+    /// A step of a list: straight up, over and straight down, the landing verified.
+    Careful,
+    /// Back to where the foot came from, when a step of a list has failed.
+    Back,
+}
+
+impl Manner {
+    /// Time in which one foot carries, s.
+    pub fn single_support_s(self, config: &GaitConfig) -> f64 {
+        match self {
+            Self::Walk => config.step_time - config.double_support,
+            Self::Careful | Self::Back => config.climb_swing_time + config.climb_landing_time,
+        }
+    }
+
+    /// Time on both feet between two steps when the coming one is of this kind, s.
+    pub fn double_support_s(self, config: &GaitConfig) -> f64 {
+        match self {
+            Self::Walk => config.double_support,
+            Self::Careful | Self::Back => config.climb_double_support,
+        }
+    }
+}
+
+/// What a careful foot has found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Landing {
+    /// No ground yet, this far below where it was told to be, m.
+    Seeking(f64),
+    /// Ground: the foot stays at this height, m.
+    Found(f64),
+}
+
+/// A foot on its way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swing {
+    /// The foot.
+    pub side: Side,
+    /// How it goes.
+    pub manner: Manner,
+    /// Where it left.
+    pub from: FootPose,
+    /// Where it lands.
+    pub to: FootPose,
+    /// Where it was to land before any push.
+    pub planned: FootPose,
+    /// What a careful foot has found.
+    pub landing: Landing,
+}
+
+impl Swing {
+    /// A foot that has not left yet.
+    pub const fn new(side: Side, manner: Manner, from: FootPose, to: FootPose) -> Self {
+        Self {
+            side,
+            manner,
+            from,
+            to,
+            planned: to,
+            landing: Landing::Seeking(0.0),
+        }
+    }
+
+    /// Where the foot is to be after `elapsed_s`.
+    pub fn foot(&self, elapsed_s: f64, config: &GaitConfig) -> FootPose {
+        let (from, to) = (&self.from, &self.to);
+        let higher_m = from.z_m.max(to.z_m);
+        let (along, mut z_m) = match self.manner {
+            Manner::Walk => {
+                let share = elapsed_s / self.manner.single_support_s(config);
+                let top_m = higher_m + config.step_height;
+                let height_m = swing::height_m(share, from.z_m, top_m, to.z_m);
+                (swing::travel(share), height_m)
+            }
+            Manner::Careful | Manner::Back => {
+                let share = elapsed_s / config.climb_swing_time;
+                let top_m = higher_m + config.climb_clearance;
+                let height_m = swing::careful_height_m(share, from.z_m, top_m, to.z_m);
+                (swing::careful_travel(share), height_m)
+            }
+        };
+        match self.landing {
+            Landing::Seeking(below_m) => z_m -= below_m,
+            Landing::Found(height_m) => z_m = height_m,
+        }
+        let turn = geometry::angle_between(from.planar.yaw_rad, to.planar.yaw_rad);
+        FootPose {
+            planar: PlanarPose::new(
+                from.planar.x_m + (to.planar.x_m - from.planar.x_m) * along,
+                from.planar.y_m + (to.planar.y_m - from.planar.y_m) * along,
+                from.planar.yaw_rad + turn * along,
+            ),
+            z_m,
+            bearing: to.bearing,
+        }
+    }
+}
+
+/// What the feet do at the moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Phase {
+    /// Both stand, no step is due.
+    Standing,
+    /// Both carry while the weight moves; then comes the step, if any.
+    Double {
+        /// Time in it, s.
+        elapsed_s: f64,
+        /// How long it takes, s.
+        duration_s: f64,
+        /// ZMP at its beginning, m.
+        from: Vector2<f64>,
+        /// The step behind it; without one the robot comes to stand.
+        next: Option<Swing>,
+    },
+    /// One stands, one moves.
+    Single {
+        /// Time in it, s.
+        elapsed_s: f64,
+        /// How long it takes, s.
+        duration_s: f64,
+        /// The foot that moves.
+        swing: Swing,
+    },
+}
+
+/// The reference at a tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reference {
+    /// Zero moment point, m.
+    pub zmp: Vector2<f64>,
+    /// Divergent component of motion, m.
+    pub dcm: Vector2<f64>,
+}

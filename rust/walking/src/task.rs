@@ -1,0 +1,96 @@
+//! What the legs have to do: the command's motion, with a list of footsteps kept until it is done.
+
+use behaviour::{Footstep, Motion, Velocity};
+
+use crate::gait::Gait;
+
+/// The motion of a tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Task<'a> {
+    /// Come to stand.
+    Stand,
+    /// Walk.
+    Walk(Velocity),
+    /// Take these steps, from where the gait's list is on.
+    Steps(&'a [Footstep]),
+}
+
+/// The list of footsteps that was given last.
+///
+/// A list is new when it is not that of the tick before: after any other motion, or, once the one before is done and the robot
+/// stands, when it differs from it. What is given in the midst of a list is left alone until then.
+#[derive(Debug, Clone, Default)]
+pub struct StepList {
+    steps: Vec<Footstep>,
+    state: State,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum State {
+    /// Something else is asked for.
+    #[default]
+    Idle,
+    /// The robot comes to stand first.
+    Waiting,
+    /// Steps are taken, or were.
+    Begun,
+}
+
+impl StepList {
+    /// Takes in the motion of a tick. `gait` gets a new list's frame, which is the robot's now.
+    pub fn take(&mut self, motion: &Motion, gait: &mut Gait, robot: Frame) {
+        let Motion::Footsteps(steps) = motion else {
+            self.state = State::Idle;
+            return;
+        };
+        let done = gait.list_is_done(self.steps.len()) && gait.is_standing();
+        let new = match self.state {
+            State::Idle => true,
+            State::Waiting => false,
+            State::Begun => done && *steps != self.steps,
+        };
+        if new && steps.iter().all(is_finite) {
+            self.steps.clear();
+            self.steps.extend_from_slice(steps);
+            self.state = State::Waiting;
+            gait.begin_list(robot.planar, robot.ground_m);
+        }
+        if self.state == State::Waiting && gait.is_standing() {
+            self.state = State::Begun;
+        }
+    }
+
+    /// What is to be done at this tick for this motion.
+    pub fn task(&self, motion: &Motion, gait: &Gait) -> Task<'_> {
+        match motion {
+            Motion::Walk(velocity) => Task::Walk(*velocity),
+            Motion::Footsteps(_) if self.state == State::Begun && !gait.gave_up() => {
+                Task::Steps(&self.steps)
+            }
+            Motion::Stand | Motion::Footsteps(_) => Task::Stand,
+        }
+    }
+}
+
+/// The robot's frame in the walker's plan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// Place and heading.
+    pub planar: geometry::PlanarPose,
+    /// Height of the ground that carries, m.
+    pub ground_m: f64,
+}
+
+fn is_finite(step: &Footstep) -> bool {
+    let [from_m, to_m] = step.bearing_m;
+    let pose = &step.pose;
+    let numbers = [
+        pose.x_m,
+        pose.y_m,
+        pose.yaw_rad,
+        step.height_m,
+        from_m,
+        to_m,
+    ];
+    numbers.iter().all(|number| number.is_finite())
+}
