@@ -69,23 +69,21 @@ impl Outline {
     /// Area that two outlines have in common, square metres: one is cut off along each edge of the other. (parry's own
     /// intersection is wrong for outlines that share a corner.)
     pub fn shared_area_m2(&self, other: &Self) -> f64 {
-        let (mut shared, mut cut) = (self.corners.clone(), Vec::new());
+        let mut shared = self.corners.clone();
         for (a, b) in other.edges() {
-            let side = |p: &Point2<f64>| (b - a).perp(&(p - a));
-            cut.clear();
-            for (i, p) in shared.iter().enumerate() {
-                let next = &shared[(i + 1) % shared.len()];
-                let (here, there) = (side(p), side(next));
-                if here >= 0.0 {
-                    cut.push(*p);
-                }
-                if (here >= 0.0) != (there >= 0.0) {
-                    cut.push(p + (next - p) * (here / (here - there)));
-                }
-            }
-            std::mem::swap(&mut shared, &mut cut);
+            let side = b - a;
+            shared = cut_off(&shared, &a, &Vector2::new(-side.y, side.x));
         }
         Self { corners: shared }.area_m2().max(0.0)
+    }
+
+    /// The part on that side of the line through `point` to which `inward` points.
+    pub fn cut_off(
+        &self,
+        point: &Point2<f64>,
+        inward: &Vector2<f64>,
+    ) -> Result<Self, OutlineError> {
+        Self::hull(&cut_off(&self.corners, point, inward))
     }
 
     /// Where the line through `point` in this direction enters and leaves the outline; `None` when it misses it.
@@ -131,6 +129,27 @@ impl Outline {
     pub fn contains(&self, point: &Point2<f64>) -> bool {
         self.edges().all(|(a, b)| (b - a).perp(&(point - a)) >= 0.0)
     }
+}
+
+/// Corners of the part of a convex polygon on that side of the line through `point` to which `inward` points.
+fn cut_off(
+    corners: &[Point2<f64>],
+    point: &Point2<f64>,
+    inward: &Vector2<f64>,
+) -> Vec<Point2<f64>> {
+    let side = |corner: &Point2<f64>| inward.dot(&(corner - point));
+    let mut left = Vec::with_capacity(corners.len() + 1);
+    for (i, corner) in corners.iter().enumerate() {
+        let next = &corners[(i + 1) % corners.len()];
+        let (here, there) = (side(corner), side(next));
+        if here >= 0.0 {
+            left.push(*corner);
+        }
+        if (here >= 0.0) != (there >= 0.0) {
+            left.push(corner + (next - corner) * (here / (here - there)));
+        }
+    }
+    left
 }
 
 #[cfg(test)]

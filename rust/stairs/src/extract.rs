@@ -1,26 +1,27 @@
 //! Stairs in one frame (003, section IV.B).
 
 use geometry::{Outline, Point, Robot};
-use nalgebra::{Point2, Vector2};
+use nalgebra::Point2;
 use segmentation::Planes;
 use sensing::Intrinsics;
 
 use crate::boundary::side;
 use crate::outer_points::{OuterPoints, Rows};
-use crate::shared_edges::share_edges;
-use crate::view::{Shows, View};
+use crate::shared_edges::{SharedEdge, SharedEdges};
+use crate::view::View;
+use crate::visible::{is_solid, seen_ends};
 use crate::{Edge, Sides, Stair, StairsConfig};
 
-/// Least fringe of a boundary that does not split a side, m.
-const FRINGE_M: f64 = 0.008;
-/// Share of a side's places that must show that the surface ends there.
-const ENDS: f64 = 0.5;
-/// Share of a stair's places that must show the surface, of those that show anything.
-const SOLID: f64 = 0.6;
-/// Front and back may differ by this much in heading before one of them is doubted, cosine.
-pub(crate) const OPPOSITE: f64 = 0.82;
-/// What an edge counts that was seen from one of its sides only: fringes move it by centimetres.
-const ONE_SIDED: usize = 8;
+/// Front and back may differ by this much in heading before the back is doubted, cosine.
+const OPPOSITE: f64 = 0.9;
+/// A front that points further away from the robot than this is a side, cosine.
+const FACES: f64 = 0.5;
+/// Edges to neighbours count from this share of the longest on.
+const LONG_ENOUGH: f64 = 0.5;
+/// How far a surface may seem to reach into one that it lies before, m.
+const BEFORE_M: f64 = 0.05;
+/// Least height of the camera above a surface, m.
+const LEAST_BELOW_M: f64 = 0.05;
 
 /// One stair as one frame shows it.
 #[derive(Debug, Clone)]
@@ -29,8 +30,6 @@ pub(crate) struct Sighting {
     pub(crate) stair: Stair<Robot>,
     /// Its whole boundary, robot frame, m.
     pub(crate) hull: Outline,
-    /// How wide its fringes are, m.
-    pub(crate) fringe_m: f64,
     /// Whether it is at the robot's own height, with no other surface between.
     pub(crate) own_level: bool,
     /// Whether it is large enough to be a stair by itself.
@@ -41,6 +40,7 @@ pub(crate) struct Sighting {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Extraction {
     outer_points: OuterPoints,
+    shared_edges: SharedEdges,
     /// What the last frame showed: level surfaces that may be stairs, and those that the robot may stand on.
     pub(crate) found: Vec<Sighting>,
 }
@@ -50,17 +50,16 @@ impl Extraction {
     pub(crate) fn read(&mut self, planes: &Planes, camera: Intrinsics, config: &StairsConfig) {
         let view = View::new(planes, camera);
         self.outer_points.read(planes, camera.width);
+        self.shared_edges.read(planes, &view, camera.width, config);
         self.found.clear();
         for region in 0..planes.regions.len() {
             let sighting = self.sighting(region, &view);
             self.found.extend(sighting);
         }
-        let found = &mut self.found;
-        for i in 0..found.len() {
-            found[i].own_level = is_own_level(found, i, config);
+        for i in 0..self.found.len() {
+            self.found[i].own_level = is_own_level(&self.found, i, config);
         }
-        share_edges(found, &view, config);
-        for sighting in found {
+        for sighting in &mut self.found {
             let stair = &sighting.stair;
             let shortest_m = stair.front.length_m().min(stair.back.length_m());
             sighting.large_enough =
@@ -69,28 +68,37 @@ impl Extraction {
     }
 
     fn sighting(&mut self, index: usize, view: &View<'_>) -> Option<Sighting> {
-        let region = view.region(index);
-        let (height_m, hull) = (region.floor_height_m?, region.boundary.as_ref()?);
-        let reference = region.mean.inner.xy();
-        let (away_m, below_m) = (reference.coords.norm(), view.height_m() - height_m);
-        if away_m < 1e-3 || below_m < 0.05 {
+        let shared_front = self.shared(view, |edge| edge.farther == index);
+        let shared_back = self.shared(view, |edge| edge.nearer == index);
+        let surface = Surface::new(index, view, shared_front.as_ref(), shared_back.as_ref())?;
+        let reference = surface.reference;
+        let [enters, leaves] = surface.hull.cuts(&reference, &reference.coords)?;
+        let front = shared_front.map_or_else(
+            || self.front(&surface, view, enters.edge),
+            |front| front.at_height(surface.height_m),
+        );
+        if front.across().dot(&reference.coords) < FACES * reference.coords.norm() {
             return None;
         }
-        let fringe_m = FRINGE_M.max(view.row_depth_m(below_m, away_m));
-        let [enters, leaves] = hull.cuts(&reference, &reference.coords)?;
-        // Counter-clockwise a side that the line enters goes from left to right.
-        let [left, right] = side(hull, enters.edge, fringe_m);
-        let front = level_edge([right, left], height_m);
-        let [right, left] = side(hull, leaves.edge, fringe_m);
-        let back = level_edge([right, left], height_m);
-        let (front, back) = square(front, back, hull);
+        let back = shared_back.map_or_else(
+            || self.back(&surface, view, leaves.edge),
+            |back| Some(back.at_height(surface.height_m)),
+        );
+        let parallel = |back: &Edge<Robot>| front.across().dot(&back.across()) > OPPOSITE;
+        let back = match back.filter(parallel) {
+            Some(back) => back,
+            // A spike of the hull, or no straight side: as the front, through the middle of what is there.
+            None => self
+                .outer_points
+                .parallel(view, (index, Rows::Highest), &front)?,
+        };
         let mut stair = Stair {
             front,
             back,
-            reference: Point::new(reference.x, reference.y, height_m),
+            reference: Point::new(reference.x, reference.y, surface.height_m),
             left_margin_m: 0.0,
             right_margin_m: 0.0,
-            support: region.support,
+            support: view.region(index).support,
             seen_ends: Sides::default(),
             front_fit: None,
             back_fit: None,
@@ -100,27 +108,96 @@ impl Extraction {
             return None;
         }
         stair.seen_ends = seen_ends(&stair, view);
-        let mut smooth = |edge: &mut Edge<Robot>, rows| {
-            let ends = [&edge.right, &edge.left].map(|end| end.inner.xy());
-            let smooth = self
-                .outer_points
-                .through(view, (index, rows), (ends, height_m), fringe_m);
-            if let Some(ends) = smooth {
-                *edge = level_edge(ends, height_m);
-            }
-        };
-        if stair.seen_ends.front > 0 {
-            smooth(&mut stair.front, Rows::Lowest);
+        if shared_front.is_some() {
+            stair.seen_ends.front = stair.support;
         }
-        if stair.seen_ends.back > 0 {
-            smooth(&mut stair.back, Rows::Highest);
+        if shared_back.is_some() {
+            stair.seen_ends.back = stair.support;
         }
         Some(Sighting {
             stair,
-            hull: hull.clone(),
-            fringe_m,
+            hull: surface.hull,
             own_level: false,
             large_enough: false,
+        })
+    }
+
+    /// The side of the hull that the line from the robot enters, from corner `edge` on, without its fringes.
+    fn front(&mut self, surface: &Surface, view: &View<'_>, edge: usize) -> Edge<Robot> {
+        // Counter-clockwise such a side goes from left to right.
+        let [left, right] = side(&surface.hull, edge, surface.fringe_m);
+        let rough = level_edge([right, left], surface.height_m);
+        let rows = (surface.index, Rows::Lowest);
+        let smooth = self
+            .outer_points
+            .through(view, rows, &rough, surface.fringe_m);
+        smooth.unwrap_or(rough)
+    }
+
+    /// The side of the hull that the line leaves, without its fringes; `None` where it is not straight.
+    fn back(&mut self, surface: &Surface, view: &View<'_>, edge: usize) -> Option<Edge<Robot>> {
+        let [right, left] = side(&surface.hull, edge, surface.fringe_m);
+        let rough = level_edge([right, left], surface.height_m);
+        let rows = (surface.index, Rows::Highest);
+        self.outer_points
+            .through(view, rows, &rough, surface.fringe_m)
+    }
+
+    /// The edge to the neighbour with the smallest difference in height, of those edges that are long enough.
+    fn shared(&self, view: &View<'_>, wanted: impl Fn(&SharedEdge) -> bool) -> Option<Edge<Robot>> {
+        let of_region = || self.shared_edges.edges.iter().filter(|edge| wanted(edge));
+        let longest_m = of_region()
+            .map(|edge| edge.edge.length_m())
+            .fold(0.0, f64::max);
+        let rise_m = |edge: &SharedEdge| {
+            let [near, far] = [edge.nearer, edge.farther].map(|at| view.region(at).floor_height_m);
+            near.zip(far)
+                .map_or(f64::INFINITY, |(near_m, far_m)| (far_m - near_m).abs())
+        };
+        let long = of_region().filter(|edge| edge.edge.length_m() > LONG_ENOUGH * longest_m);
+        long.min_by(|a, b| rise_m(a).total_cmp(&rise_m(b)))
+            .map(|edge| edge.edge)
+    }
+}
+
+/// A level region without what its hull has in front of its front and behind its back.
+struct Surface {
+    index: usize,
+    height_m: f64,
+    hull: Outline,
+    reference: Point2<f64>,
+    fringe_m: f64,
+}
+
+impl Surface {
+    fn new(
+        index: usize,
+        view: &View<'_>,
+        front: Option<&Edge<Robot>>,
+        back: Option<&Edge<Robot>>,
+    ) -> Option<Self> {
+        let region = view.region(index);
+        let (height_m, mut hull) = (region.floor_height_m?, region.boundary.clone()?);
+        for (edge, inward) in [(front, 1.0), (back, -1.0)] {
+            if let Some(edge) = edge {
+                let at = edge.middle().inner.xy();
+                hull = hull.cut_off(&at, &(edge.across() * inward)).ok()?;
+            }
+        }
+        let mut reference = region.mean.inner.xy();
+        if !hull.contains(&reference) {
+            // It lies around what stands before it.
+            let corners = hull.corners();
+            reference = nalgebra::center(&corners[0], &corners[corners.len() / 2]);
+        }
+        let away_m = reference.coords.norm();
+        let usable = away_m > 1e-3 && view.height_m() - height_m > LEAST_BELOW_M;
+        usable.then(|| Self {
+            index,
+            height_m,
+            hull,
+            reference,
+            fringe_m: view.fringe_m(height_m, away_m),
         })
     }
 }
@@ -131,59 +208,6 @@ pub(crate) fn level_edge([right, left]: [Point2<f64>; 2], z_m: f64) -> Edge<Robo
     Edge {
         left: at(left),
         right: at(right),
-    }
-}
-
-/// Where front and back point different ways, the shorter is drawn anew: along the longer, around the hull.
-fn square(front: Edge<Robot>, back: Edge<Robot>, hull: &Outline) -> (Edge<Robot>, Edge<Robot>) {
-    if front.across().dot(&back.across()) > OPPOSITE {
-        return (front, back);
-    }
-    let parallel = |edge: &Edge<Robot>, outward: f64| {
-        let reach = hull
-            .corners()
-            .iter()
-            .map(|p| outward * edge.beyond_m([p.x, p.y]));
-        edge.shifted(outward * reach.fold(0.0, f64::max))
-    };
-    if front.length_m() >= back.length_m() {
-        let back = parallel(&front, 1.0);
-        (front, back)
-    } else {
-        (parallel(&back, -1.0), back)
-    }
-}
-
-/// Whether the surface is seen at most of the places of the stair: hulls are optimistic.
-fn is_solid(stair: &Stair<Robot>, view: &View<'_>) -> bool {
-    let (mut surface, mut other) = (0, 0);
-    for place in stair.places() {
-        match view.shows_at(&place.inner) {
-            Some(Shows::Surface) => surface += 1,
-            Some(Shows::Higher | Shows::Lower) => other += 1,
-            None => {}
-        }
-    }
-    f64::from(surface) >= SOLID * f64::from(surface + other) && surface > 0
-}
-
-/// Which sides end the surface and not only the view. What ends behind something higher on the robot's side is hidden.
-fn seen_ends(stair: &Stair<Robot>, view: &View<'_>) -> Sides {
-    let [front_left, front_right] = [&stair.front.left.inner, &stair.front.right.inner];
-    let [back_left, back_right] = [&stair.back.left.inner, &stair.back.right.inner];
-    let to_left = |edge: &Edge<Robot>| (edge.left.inner - edge.right.inner).xy();
-    let left = to_left(&stair.front) + to_left(&stair.back);
-    let ends = |side: [&_; 2], outward: Vector2<f64>| {
-        let beyond = view.beyond(side, &outward);
-        beyond.lower + beyond.higher >= ENDS
-    };
-    let front = view.beyond([front_left, front_right], &-stair.front.across());
-    let back = ends([back_left, back_right], stair.back.across());
-    Sides {
-        front: usize::from(front.lower >= ENDS) * stair.support.div_ceil(ONE_SIDED),
-        back: usize::from(back) * stair.support.div_ceil(ONE_SIDED),
-        left: usize::from(ends([front_left, back_left], left)) * stair.support,
-        right: usize::from(ends([front_right, back_right], -left)) * stair.support,
     }
 }
 
@@ -201,7 +225,7 @@ fn is_own_level(found: &[Sighting], index: usize, config: &StairsConfig) -> bool
     let between = |other: &Sighting| {
         cuts_m(&other.hull).is_some_and(|[enters_m, leaves_m]| {
             let deep = leaves_m - enters_m > config.min_depth / 2.0;
-            let before = enters_m > 0.0 && leaves_m < reach_m + 2.0 * other.fringe_m;
+            let before = enters_m > 0.0 && leaves_m < reach_m + BEFORE_M;
             deep && before && !own(&other.stair)
         })
     };

@@ -12,10 +12,12 @@ mod memory;
 mod merge;
 mod outer_points;
 mod recognizer;
+mod robust_line;
 mod shared_edges;
 mod stair;
 mod tread;
 mod view;
+mod visible;
 
 #[cfg(test)]
 #[path = "../../segmentation/src/synthetic.rs"]

@@ -1,5 +1,6 @@
 //! A straight line through many segments: the sum of their moments, so that the order of summing does not matter.
 
+use crate::Edge;
 use nalgebra::{Matrix2, Point2, Vector2};
 
 /// Cosine of the largest angle between the line and the mean of the segments; beyond, they lie beside each other.
@@ -15,6 +16,15 @@ pub(crate) struct Line {
 }
 
 impl Line {
+    /// Through an edge, from right to left.
+    pub(crate) fn along<F>(edge: &Edge<F>) -> Option<Self> {
+        let (right, left) = (edge.right.inner.xy(), edge.left.inner.xy());
+        Some(Self {
+            at: right,
+            along: (left - right).try_normalize(1e-9)?,
+        })
+    }
+
     /// Square to the line, to the right of its direction: from front to back where the line goes from right to left.
     pub(crate) fn across(&self) -> Vector2<f64> {
         Vector2::new(self.along.y, -self.along.x)

@@ -1,21 +1,18 @@
 //! Where each column of the picture enters and leaves a surface: its near and its far side, fringes and all.
 
-use nalgebra::Point2;
+use geometry::Robot;
 use segmentation::Planes;
 
-use crate::line::LineSum;
+use crate::Edge;
+use crate::extract::level_edge;
+use crate::line::Line;
+use crate::robust_line::Row;
 use crate::view::View;
 
 /// Points further from the side of the hull than this many fringes belong to other sides.
 const WINDOW: f64 = 3.0;
 /// Share of the side's length that the points must span.
 const SPANNED: f64 = 0.5;
-/// Least number of points.
-const FEW: usize = 8;
-/// Rounds of fitting.
-const ROUNDS: usize = 3;
-/// Columns that may be missing between two neighbours.
-const MISSING: usize = 4;
 
 /// Which side of a surface is meant, by its rows in the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,8 +29,7 @@ pub(crate) struct OuterPoints {
     width: usize,
     // Highest and lowest row, by region and column; empty where the lowest is above the highest.
     rows: Vec<[u16; 2]>,
-    points: Vec<(usize, Point2<f64>)>,
-    offsets: Vec<f64>,
+    row: Row,
 }
 
 const NONE: [u16; 2] = [u16::MAX, 0];
@@ -46,8 +42,8 @@ impl OuterPoints {
         self.rows.resize(planes.regions.len() * width, NONE);
         for (row, labels) in planes.labels.chunks_exact(width).enumerate() {
             for (col, &label) in labels.iter().enumerate().filter(|(_, label)| **label > 0) {
-                if let Some([high, low]) = self.rows.get_mut((usize::from(label) - 1) * width + col)
-                {
+                let at = (usize::from(label) - 1) * width + col;
+                if let Some([high, low]) = self.rows.get_mut(at) {
                     *high = (*high).min(row as u16);
                     *low = row as u16;
                 }
@@ -55,61 +51,49 @@ impl OuterPoints {
         }
     }
 
-    /// The side of the region that lies near `side` (its right and its left end), through the middle of its fringes, as
-    /// long as before; `None` where too little of it is there.
+    /// The side of the region that lies near `rough`, through the middle of its fringes, as long as before; `None` where
+    /// too little of it is straight.
     pub(crate) fn through(
         &mut self,
         view: &View<'_>,
-        (region, which): (usize, Rows),
-        (side, height_m): ([Point2<f64>; 2], f64),
+        (region, rows): (usize, Rows),
+        rough: &Edge<Robot>,
         fringe_m: f64,
-    ) -> Option<[Point2<f64>; 2]> {
-        let [right, left] = side;
-        let mut rough = LineSum::default();
-        rough.add([&right, &left], 1.0);
-        let mut line = rough.line()?;
-        let length_m = (left - right).norm();
-        self.points.clear();
+    ) -> Option<Edge<Robot>> {
+        let (right, length_m) = (rough.right.inner.xy(), rough.length_m());
+        let line = Line::along(rough)?;
+        self.gather(view, region, rows, rough.left.inner.z);
+        self.row.points.retain(|(_, point)| {
+            let along_m = line.along.dot(&(point - right));
+            let beside = along_m < -fringe_m || along_m > length_m + fringe_m;
+            !beside && line.offset_m(point).abs() < WINDOW * fringe_m
+        });
+        let straight = self.row.straight(Some(line), fringe_m)?;
+        let ends = [&rough.right, &rough.left].map(|end| straight.line.nearest(&end.inner.xy()));
+        let enough = straight.spanned_m > SPANNED * length_m;
+        enough.then(|| level_edge(ends, rough.left.inner.z))
+    }
+
+    /// The side of the region parallel to an edge, through the middle of its points, as long as the edge.
+    pub(crate) fn parallel(
+        &mut self,
+        view: &View<'_>,
+        (region, rows): (usize, Rows),
+        edge: &Edge<Robot>,
+    ) -> Option<Edge<Robot>> {
+        self.gather(view, region, rows, edge.left.inner.z);
+        let median_m = self.row.median_offset_m(&Line::along(edge)?)?;
+        Some(edge.shifted(median_m))
+    }
+
+    /// Collects the outermost points of a region, from left to right.
+    fn gather(&mut self, view: &View<'_>, region: usize, which: Rows, height_m: f64) {
+        self.row.points.clear();
         let rows = &self.rows[region * self.width..(region + 1) * self.width];
         for (col, &[high, low]) in rows.iter().enumerate().filter(|(_, rows)| **rows != NONE) {
             let row = if which == Rows::Lowest { low } else { high };
-            let Some(point) = view.on_level(col, usize::from(row), height_m) else {
-                continue;
-            };
-            let along_m = line.along.dot(&(point - right));
-            let beside = along_m < -fringe_m || along_m > length_m + fringe_m;
-            if !beside && line.offset_m(&point).abs() < WINDOW * fringe_m {
-                self.points.push((col, point));
-            }
+            let point = view.on_level([col as f64, f64::from(row)], height_m);
+            self.row.points.extend(point.map(|point| (col, point)));
         }
-        for _ in 0..ROUNDS {
-            self.offsets.clear();
-            self.offsets
-                .extend(self.points.iter().map(|(_, point)| line.offset_m(point)));
-            let middle = self.offsets.len() / 2;
-            if middle < FEW / 2 {
-                return None;
-            }
-            let (_, &mut median_m, _) = self.offsets.select_nth_unstable_by(middle, f64::total_cmp);
-            let mut sum = LineSum::default();
-            let mut spanned_m = 0.0;
-            let fits = |point: &Point2<f64>| (line.offset_m(point) - median_m).abs() <= fringe_m;
-            let mut before: Option<(usize, Point2<f64>)> = None;
-            // To the right in the picture is to the right of the side.
-            for &(col, point) in self.points.iter().filter(|(_, point)| fits(point)) {
-                if let Some((last_col, last)) = before
-                    && col - last_col <= MISSING
-                {
-                    sum.add([&point, &last], 1.0);
-                    spanned_m += line.along.dot(&(last - point)).abs();
-                }
-                before = Some((col, point));
-            }
-            if spanned_m < SPANNED * length_m {
-                return None;
-            }
-            line = sum.line()?;
-        }
-        Some([line.nearest(&right), line.nearest(&left)])
     }
 }

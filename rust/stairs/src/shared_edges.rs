@@ -1,100 +1,142 @@
-//! The edge between two surfaces, seen from both. The labels of each run over it or stop before it, by as much: the
-//! middle between the far side of the nearer and the near side of the farther surface is right within millimetres.
+//! Edges between two surfaces, seen from both. The labels of each run over the edge or stop before it, by as much: the
+//! middle between where one ends and where the other begins, column by column, is right within millimetres.
 
 use geometry::Robot;
-use nalgebra::{Point2, Vector2};
+use segmentation::Planes;
 
-use crate::extract::{OPPOSITE, Sighting, level_edge};
+use crate::Edge;
+use crate::StairsConfig;
+use crate::extract::level_edge;
+use crate::robust_line::Row;
 use crate::view::View;
-use crate::{Edge, StairsConfig};
 
-/// How far the two sides may lie apart besides their fringes, m.
-const GAP_M: f64 = 0.03;
-/// How far beside its ends an edge is still believed to go on, m.
-const BESIDE_M: f64 = 0.05;
+/// Pixels that a surface must have in a column in one piece to count there.
+const LEAST_RUN: u16 = 3;
+/// Pixels between two surfaces of which one ends where the other begins: what a riser takes from near.
+const LARGEST_GAP: u16 = 14;
+/// Least length of an edge, m.
+const LEAST_LENGTH_M: f64 = 0.05;
 
-/// Two surfaces that meet, and the edge between them.
-struct Shared {
-    nearer: usize,
-    farther: usize,
-    at: Point2<f64>,
-    along: Vector2<f64>,
+/// One column's change from a surface to the next behind it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Change {
+    nearer: u16,
+    farther: u16,
+    col: u16,
+    last_row: u16,
+    first_row: u16,
 }
 
-/// Gives neighbours the edge between them.
-pub(crate) fn share_edges(found: &mut [Sighting], view: &View<'_>, config: &StairsConfig) {
-    for farther in 0..found.len() {
-        let candidates = (0..found.len()).filter(|&nearer| nearer != farther);
-        let shared = candidates.filter_map(|nearer| shared(found, [nearer, farther], view, config));
-        let nearest = shared.min_by(|(a_m, _), (b_m, _)| a_m.total_cmp(b_m));
-        if let Some((_, shared)) = nearest {
-            let nearer = &mut found[shared.nearer].stair;
-            nearer.back = shared.on(&nearer.back);
-            nearer.seen_ends.back = nearer.support;
-            let farther = &mut found[shared.farther].stair;
-            farther.front = shared.on(&farther.front);
-            farther.seen_ends.front = farther.support;
+/// An edge between two regions.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SharedEdge {
+    /// Index of the region in front of it.
+    pub(crate) nearer: usize,
+    /// Index of the region behind it.
+    pub(crate) farther: usize,
+    /// The edge at the height of the farther one, robot frame.
+    pub(crate) edge: Edge<Robot>,
+}
+
+/// Finds edges. Keeps its buffers.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct SharedEdges {
+    changes: Vec<Change>,
+    row: Row,
+    /// Those of the last frame.
+    pub(crate) edges: Vec<SharedEdge>,
+}
+
+impl SharedEdges {
+    /// Reads the labels of a frame.
+    pub(crate) fn read(
+        &mut self,
+        planes: &Planes,
+        view: &View<'_>,
+        width: usize,
+        config: &StairsConfig,
+    ) {
+        self.changes.clear();
+        for col in 0..width {
+            self.read_column(planes, col, width, config);
+        }
+        self.changes.sort_unstable();
+        self.edges.clear();
+        let Self {
+            changes,
+            row,
+            edges,
+        } = self;
+        let pairs = changes.chunk_by(|a, b| (a.nearer, a.farther) == (b.nearer, b.farther));
+        edges.extend(pairs.filter_map(|pair| fit(pair, planes, view, row)));
+    }
+
+    /// Follows a column from its bottom up.
+    fn read_column(&mut self, planes: &Planes, col: usize, width: usize, config: &StairsConfig) {
+        let level_m = |region: u16| planes.regions[usize::from(region)].floor_height_m;
+        let mut last: Option<(u16, u16)> = None;
+        let (mut run, mut run_start, mut run_length) = (0, 0, 0);
+        for row in (0..planes.labels.len() / width).rev() {
+            let (label, row) = (planes.labels[row * width + col], row as u16);
+            if label == 0 || level_m(label - 1).is_none() {
+                continue;
+            }
+            if label != run {
+                (run, run_start, run_length) = (label, row, 0);
+            }
+            run_length += 1;
+            if run_length < LEAST_RUN {
+                continue;
+            }
+            let region = run - 1;
+            if run_length == LEAST_RUN
+                && let Some((nearer, last_row)) = last
+                && let (Some(near_m), Some(far_m)) = (level_m(nearer), level_m(region))
+                && (near_m - far_m).abs() > config.own_height
+                && last_row.saturating_sub(run_start) <= LARGEST_GAP
+            {
+                self.changes.push(Change {
+                    nearer,
+                    farther: region,
+                    col: col as u16,
+                    last_row,
+                    first_row: run_start,
+                });
+            }
+            last = Some((region, row));
         }
     }
 }
 
-impl Shared {
-    /// An edge of one of the two, moved onto the shared one.
-    fn on(&self, edge: &Edge<Robot>) -> Edge<Robot> {
-        let ends = [&edge.right, &edge.left].map(|end| {
-            let end = end.inner.xy();
-            self.at + self.along * self.along.dot(&(end - self.at))
-        });
-        level_edge(ends, edge.left.inner.z)
+/// The line through the changes between two regions.
+fn fit(pair: &[Change], planes: &Planes, view: &View<'_>, row: &mut Row) -> Option<SharedEdge> {
+    let first = pair.first()?;
+    let [nearer, farther] = [first.nearer, first.farther].map(usize::from);
+    let near_m = planes.regions[nearer].floor_height_m?;
+    let far_m = planes.regions[farther].floor_height_m?;
+    row.points.clear();
+    for change in pair {
+        let [last, begin] = [change.last_row, change.first_row].map(f64::from);
+        let col = f64::from(change.col);
+        let place = if far_m > near_m {
+            // The riser is in view, its foot and its top.
+            let foot = view.on_level([col, last], near_m);
+            foot.zip(view.on_level([col, begin], far_m))
+                .map(|(foot, top)| nalgebra::center(&foot, &top))
+        } else {
+            // The ray that passes over the higher surface's edge.
+            view.on_level([col, f64::midpoint(last, begin)], near_m)
+        };
+        row.points
+            .extend(place.map(|place| (usize::from(change.col), place)));
     }
-}
-
-/// How far the far side of one surface and the near side of another lie apart, m, and the middle between them, if they
-/// are neighbours.
-fn shared(
-    found: &[Sighting],
-    [nearer, farther]: [usize; 2],
-    view: &View<'_>,
-    config: &StairsConfig,
-) -> Option<(f64, Shared)> {
-    let (before, behind) = (&found[nearer], &found[farther]);
-    let (back, front) = (&before.stair.back, &behind.stair.front);
-    let towards = behind.stair.reference.inner.xy().coords.normalize();
-    let crossing_m = |edge: &Edge<Robot>| {
-        let steepness = edge.across().dot(&towards);
-        (steepness > 0.5).then(|| -edge.beyond_m([0.0, 0.0]) / steepness)
-    };
-    let (ends_m, begins_m) = (crossing_m(back)?, crossing_m(front)?);
-    let drop_m = before.stair.height_m() - behind.stair.height_m();
-    let below_m = view.height_m() - before.stair.height_m();
-    if drop_m.abs() < config.own_height || below_m < 0.05 || ends_m < 0.0 {
-        return None;
-    }
-    // The near side of a lower surface is hidden as far as the ray over the higher one's edge goes on.
-    let hidden_m = drop_m.max(0.0) * ends_m / below_m;
-    let gap_m = begins_m - hidden_m - ends_m;
-    let parallel = back.across().dot(&front.across()) > OPPOSITE;
-    let fringes_m = before.fringe_m + behind.fringe_m;
-    let crossing = Point2::from(towards * ends_m);
-    if !parallel || gap_m.abs() > GAP_M + fringes_m || beside_m(back, &crossing) > BESIDE_M {
-        return None;
-    }
-    let [back_run, front_run] = [back, front].map(|edge| (edge.left.inner - edge.right.inner).xy());
-    let along = (back_run + front_run).normalize();
-    let middle_m = (ends_m + begins_m - hidden_m) / 2.0;
-    let shared = Shared {
+    let away_m = row.points.first()?.1.coords.norm();
+    let fringe_m = view.fringe_m(near_m, away_m);
+    let straight = row.straight(None, fringe_m)?;
+    let edge = level_edge(straight.ends, far_m);
+    (straight.spanned_m > LEAST_LENGTH_M.max(edge.length_m() / 2.0)).then_some(SharedEdge {
         nearer,
         farther,
-        at: (towards * middle_m).into(),
-        along,
-    };
-    Some((gap_m.abs(), shared))
-}
-
-/// How far beside an edge's ends a place lies, m.
-fn beside_m(edge: &Edge<Robot>, place: &Point2<f64>) -> f64 {
-    let (left, right) = (edge.left.inner.xy(), edge.right.inner.xy());
-    let along = (left - right).normalize();
-    let to_left_m = along.dot(&(place - left));
-    to_left_m.max(along.dot(&(right - place)))
+        edge,
+    })
 }

@@ -101,6 +101,15 @@ impl<F> Edge<F> {
         Vector2::new(cos, sin)
     }
 
+    /// The same edge at another height, m.
+    pub(crate) fn at_height(&self, height_m: f64) -> Self {
+        let at = |end: &Point<F>| Point::new(end.inner.x, end.inner.y, height_m);
+        Self {
+            left: at(&self.left),
+            right: at(&self.right),
+        }
+    }
+
     /// The same edge, farther back, m.
     pub(crate) fn shifted(&self, back_m: f64) -> Self {
         let shift = (self.across() * back_m).push(0.0);

@@ -12,6 +12,8 @@ const BEYOND_PX: [f64; 3] = [3.5, 6.0, 8.5];
 const SAME_HEIGHT_M: f64 = 0.008;
 /// Noise of a single point's height at 1 m, m; it grows with the squared distance.
 const HEIGHT_NOISE: f64 = 0.025;
+/// Least fringe of a boundary, m.
+const FRINGE_M: f64 = 0.008;
 /// Places along a side at which the picture is asked.
 const PLACES: usize = 7;
 
@@ -54,15 +56,23 @@ impl<'a> View<'a> {
         self.planes.robot_from_camera.inner.translation.z
     }
 
-    /// Depth that one row of pixels covers on a surface `below_m` below the camera and `away_m` away, m.
-    pub(crate) fn row_depth_m(&self, below_m: f64, away_m: f64) -> f64 {
-        (below_m.powi(2) + away_m.powi(2)) / (self.camera.focal_px * below_m)
+    /// How wide the fringes of a surface are, `away_m` away, m: what one row of pixels covers.
+    pub(crate) fn fringe_m(&self, height_m: f64, away_m: f64) -> f64 {
+        let below_m = (self.height_m() - height_m).max(0.05);
+        let row_m = (below_m.powi(2) + away_m.powi(2)) / (self.camera.focal_px * below_m);
+        row_m.max(FRINGE_M)
     }
 
-    /// Where the ray of a pixel meets the level at this height; `None` where it does not.
-    pub(crate) fn on_level(&self, col: usize, row: usize, height_m: f64) -> Option<Point2<f64>> {
+    /// Where the ray through a place of the image (column, row) meets the level at this height; `None` where it does not.
+    pub(crate) fn on_level(&self, [col, row]: [f64; 2], height_m: f64) -> Option<Point2<f64>> {
         let eye = &self.planes.robot_from_camera.inner;
-        let ray = eye.rotation * Vector3::from(self.camera.ray(col, row));
+        let (cx, cy) = self.camera.principal_point_px();
+        let ray = Vector3::new(
+            (col - cx) / self.camera.focal_px,
+            (row - cy) / self.camera.focal_px,
+            1.0,
+        );
+        let ray = eye.rotation * ray;
         let from = eye.translation.vector;
         let along = (height_m - from.z) / ray.z;
         (along > 0.0).then(|| (from + ray * along).xy().into())
