@@ -5,7 +5,7 @@ UV_VERSION := 0.13.8
 # uv from the machine where it is there, else a pinned one in a folder of the project.
 UV := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
 RUN := $(UV) run --locked --quiet
-DEMO ?= slalom
+DEMO ?= obstacle_course
 
 .PHONY: setup demo test check lint format bench clean
 
