@@ -1,0 +1,123 @@
+//! A first look: the best of a grid of places and headings, without what the matching window does.
+
+use super::excerpt::Excerpt;
+use super::render::Area;
+use super::sight::{Sight, Step, first_met};
+
+/// The grid: steps to each side of the guess, and their size, m and rad.
+const PLACES: i32 = 6;
+const PLACE_STEP_M: f64 = 0.009;
+const HEADINGS: i32 = 4;
+const HEADING_STEP_RAD: f64 = 0.09;
+/// Residuals count up to this, px.
+const LARGEST_PX: f32 = 0.4;
+/// About so many pixels are looked at.
+const SAMPLES: usize = 300;
+/// Fewest pixels that tell anything.
+const FEWEST: usize = 60;
+
+/// Samples of the excerpt, one quantity a list.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Coarse {
+    near_px: Vec<f32>,
+    far_px: Vec<f32>,
+    x: Vec<f32>,
+    y: Vec<f32>,
+    observed_px: Vec<f32>,
+}
+
+impl Coarse {
+    pub(super) fn with_room() -> Self {
+        let list = || Vec::with_capacity(2 * SAMPLES);
+        Self {
+            near_px: list(),
+            far_px: list(),
+            x: list(),
+            y: list(),
+            observed_px: list(),
+        }
+    }
+
+    /// The step of the grid around `guess` that explains the chosen pixels best; `None` when there are too few.
+    pub(super) fn search(
+        &mut self,
+        excerpt: &Excerpt,
+        area: &Area,
+        sight: &Sight,
+        guess: &Step,
+    ) -> Option<Step> {
+        self.sample(excerpt, area, sight, guess)?;
+        let mut best: Option<(f32, Step)> = None;
+        for i in -HEADINGS..=HEADINGS {
+            for j in -PLACES..=PLACES {
+                let step = Step {
+                    place_m: guess.place_m + f64::from(j) * PLACE_STEP_M,
+                    heading_rad: guess.heading_rad + f64::from(i) * HEADING_STEP_RAD,
+                    ..*guess
+                };
+                let ahead_m = -step.beyond_m(&sight.position_m.xy());
+                if ahead_m < 0.02 {
+                    continue;
+                }
+                let cost = self.cost(&step, ahead_m);
+                if best.is_none_or(|(least, _)| cost < least) {
+                    best = Some((cost, step));
+                }
+            }
+        }
+        best.map(|(_, step)| step)
+    }
+
+    fn sample(
+        &mut self,
+        excerpt: &Excerpt,
+        area: &Area,
+        sight: &Sight,
+        guess: &Step,
+    ) -> Option<()> {
+        let faces = guess.faces(sight)?;
+        for list in [
+            &mut self.near_px,
+            &mut self.far_px,
+            &mut self.x,
+            &mut self.y,
+            &mut self.observed_px,
+        ] {
+            list.clear();
+        }
+        if excerpt.chosen.len() < FEWEST {
+            return None;
+        }
+        // An odd stride that shares no factor with usual widths spreads the samples over rows and columns.
+        let stride = excerpt.chosen.len().div_ceil(SAMPLES);
+        for &at in excerpt.chosen.iter().step_by(stride) {
+            let at = at as usize;
+            let col = (area.cols.0 + at % area.columns()) as f64;
+            let row = (area.rows.0 + at / area.columns()) as f64;
+            self.near_px.push(faces.near.at(col, row) as f32);
+            self.far_px.push(faces.far.at(col, row) as f32);
+            self.x.push(sight.x.at(col, row) as f32);
+            self.y.push(sight.y.at(col, row) as f32);
+            self.observed_px.push(excerpt.observed_px[at]);
+        }
+        Some(())
+    }
+
+    fn cost(&self, step: &Step, ahead_m: f64) -> f32 {
+        let normal = step.normal() / ahead_m;
+        let (nx, ny) = (normal.x as f32, normal.y as f32);
+        let is_rising = step.far_height_m > step.near_height_m;
+        let surfaces = self.near_px.iter().zip(&self.far_px);
+        let rays = self.x.iter().zip(&self.y);
+        let mut sums = [0.0_f32; 4];
+        for (i, (((near, far), (x, y)), observed)) in
+            surfaces.zip(rays).zip(&self.observed_px).enumerate()
+        {
+            let riser = nx * x + ny * y;
+            let seen = first_met(is_rising, *near, *far, riser);
+            let miss = (observed - seen).abs().min(LARGEST_PX);
+            sums[i % 4] += miss * miss;
+        }
+        sums.iter().sum()
+    }
+}

@@ -1,0 +1,217 @@
+//! The part of a scan that shows an edge: where it lies in the picture, and which of its pixels take part.
+
+use geometry::Robot;
+use nalgebra::{Point3, Vector2, Vector3};
+use segmentation::Planes;
+use sensing::{Intrinsics, Scan};
+
+use super::product::Untrusted;
+use super::render::Area;
+use super::sight::{Faces, Sight, Step};
+use crate::Edge;
+
+/// Pixels this far before and behind the edge take part, m; what is behind is less than the shortest tread.
+pub(super) const BEFORE_M: f64 = 0.09;
+pub(super) const BEHIND_M: f64 = 0.075;
+/// At most so much of an edge is looked at, m, and at least so much of it must be in view.
+const LONGEST_M: f64 = 0.44;
+const SHORTEST_M: f64 = 0.08;
+/// Taken off at each end of the edge: half a window and what the ends may be wrong, m.
+const END_M: f64 = 0.01;
+/// Places along the guess that are looked up in the picture.
+const PLACES: usize = 41;
+/// The guess may be so far outside the picture, pixels: it may be off.
+const OUTSIDE_PX: f64 = 5.0;
+/// Above so many pixels every second one takes part: neighbouring windows overlap and tell the same.
+const MANY: usize = 1200;
+/// Least disparity of a surface, px: farther away nothing can be told.
+pub(super) const FARTHEST_PX: f32 = 1.5;
+
+/// The pixels around an edge.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Excerpt {
+    /// Disparities in `area`, row by row, px; NaN where nothing was seen.
+    pub(super) observed_px: Vec<f32>,
+    /// Which of them take part.
+    pub(super) chosen: Vec<u32>,
+    /// Every so many of those that could take part does.
+    pub(super) thinned: u32,
+}
+
+/// The part of the guess that is in the picture: its middle and half its length.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stretch {
+    pub(super) middle_m: Vector2<f64>,
+    pub(super) half_m: f64,
+}
+
+/// Finds the part of `guess` that is in the picture.
+pub(super) fn stretch_in_view(
+    camera: &Intrinsics,
+    planes: &Planes,
+    guess: &Edge<Robot>,
+    height_m: f64,
+) -> Result<Stretch, Untrusted> {
+    let (left, right) = (guess.left.inner.coords.xy(), guess.right.inner.coords.xy());
+    let mut ends: Option<(f64, f64)> = None;
+    for i in 0..PLACES {
+        let part = i as f64 / (PLACES - 1) as f64;
+        let place = right.lerp(&left, part).push(height_m);
+        if let Some((col, row)) = pixel_of(camera, planes, &place)
+            && (-OUTSIDE_PX..camera.width as f64 + OUTSIDE_PX).contains(&col)
+            && (-OUTSIDE_PX..camera.height as f64 + OUTSIDE_PX).contains(&row)
+        {
+            ends = Some((ends.map_or(part, |(first, _)| first), part));
+        }
+    }
+    let (first, last) = ends.ok_or(Untrusted::OutOfView)?;
+    let length_m = (last - first) * (left - right).norm();
+    if length_m < SHORTEST_M {
+        return Err(Untrusted::OutOfView);
+    }
+    Ok(Stretch {
+        middle_m: right.lerp(&left, 0.5 * (first + last)),
+        half_m: 0.5 * length_m.min(LONGEST_M) - END_M,
+    })
+}
+
+/// Width of a pixel at a place, m.
+pub(super) fn pixel_m(camera: &Intrinsics, planes: &Planes, place: &Vector3<f64>) -> f64 {
+    let pose = planes.robot_from_camera.inner;
+    pose.inverse_transform_point(&Point3::from(*place)).z / camera.focal_px
+}
+
+/// Column and row at which a place is seen; `None` when it is not in front of the camera.
+fn pixel_of(camera: &Intrinsics, planes: &Planes, place: &Vector3<f64>) -> Option<(f64, f64)> {
+    let seen = planes
+        .robot_from_camera
+        .inner
+        .inverse_transform_point(&Point3::from(*place));
+    if seen.z < 0.05 {
+        return None;
+    }
+    let (cx, cy) = camera.principal_point_px();
+    let scale = camera.focal_px / seen.z;
+    Some((cx + seen.x * scale, cy + seen.y * scale))
+}
+
+/// The rectangle of pixels around a step; `slack_m` more than takes part.
+pub(super) fn area_of(
+    camera: &Intrinsics,
+    planes: &Planes,
+    step: &Step,
+    half_m: f64,
+    slack_m: f64,
+) -> Result<Area, Untrusted> {
+    let (normal, along) = (step.normal(), step.along());
+    let mut low = (f64::INFINITY, f64::INFINITY);
+    let mut high = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+    for (beyond_m, height_m) in [
+        (-BEFORE_M - slack_m, step.near_height_m),
+        (BEHIND_M + slack_m, step.far_height_m),
+    ] {
+        for aside_m in [-half_m, half_m] {
+            let place = step.anchor_m + normal * (step.place_m + beyond_m) + along * aside_m;
+            let (col, row) = pixel_of(camera, planes, &place.push(height_m))
+                .unwrap_or((0.5 * camera.width as f64, camera.height as f64));
+            low = (low.0.min(col), low.1.min(row));
+            high = (high.0.max(col), high.1.max(row));
+        }
+    }
+    let span = |low: f64, high: f64, limit: usize| {
+        let from = low.floor().clamp(0.0, limit as f64) as usize;
+        (from, (high.ceil() + 1.0).clamp(0.0, limit as f64) as usize)
+    };
+    let area = Area {
+        cols: span(low.0, high.0, camera.width),
+        rows: span(low.1, high.1, camera.height),
+    };
+    if area.cols.0 >= area.cols.1 || area.rows.0 >= area.rows.1 {
+        return Err(Untrusted::OutOfView);
+    }
+    Ok(area)
+}
+
+impl Excerpt {
+    /// Room for `pixels` pixels.
+    pub(super) fn with_room(pixels: usize) -> Self {
+        Self {
+            observed_px: Vec::with_capacity(pixels),
+            chosen: Vec::with_capacity(pixels),
+            thinned: 1,
+        }
+    }
+
+    /// Takes the area out of a scan.
+    pub(super) fn cut(&mut self, scan: &Scan, area: &Area) {
+        self.observed_px.clear();
+        for row in area.rows.0..area.rows.1 {
+            let from = row * scan.camera.width;
+            let line = &scan.disparity_px[from + area.cols.0..from + area.cols.1];
+            self.observed_px.extend_from_slice(line);
+        }
+    }
+
+    /// Chooses the pixels that are close to the step's edge.
+    pub(super) fn choose(&mut self, sight: &Sight, step: &Step, half_m: f64, area: &Area) {
+        let Some(faces) = step.faces(sight) else {
+            self.chosen.clear();
+            return;
+        };
+        let zone = Zone::new(sight, step, half_m);
+        self.chosen.clear();
+        for (index, line) in self.observed_px.chunks_exact(area.columns()).enumerate() {
+            let row = (area.rows.0 + index) as f64;
+            for (i, &observed) in line.iter().enumerate() {
+                let col = (area.cols.0 + i) as f64;
+                if observed > 0.0 && zone.holds(&faces, col, row) {
+                    self.chosen.push((index * area.columns() + i) as u32);
+                }
+            }
+        }
+        self.thinned = 1;
+        if self.chosen.len() > MANY {
+            self.thinned = 2;
+            let columns = area.columns() as u32;
+            self.chosen
+                .retain(|at| (at / columns + at % columns).is_multiple_of(2));
+        }
+    }
+}
+
+/// The places around an edge whose pixels take part.
+struct Zone {
+    ahead_m: f64,
+    aside_m: f64,
+    half_m: f64,
+    along: super::sight::Linear,
+    across: super::sight::Linear,
+}
+
+impl Zone {
+    fn new(sight: &Sight, step: &Step, half_m: f64) -> Self {
+        let camera = sight.position_m.xy();
+        Self {
+            ahead_m: -step.beyond_m(&camera),
+            aside_m: step.along().dot(&(camera - step.anchor_m)),
+            half_m,
+            along: sight.along(&step.along()),
+            across: sight.along(&step.normal()),
+        }
+    }
+
+    fn holds(&self, faces: &Faces, col: f64, row: f64) -> bool {
+        let (near, far) = (
+            faces.near.at(col, row) as f32,
+            faces.far.at(col, row) as f32,
+        );
+        if near.min(far) < FARTHEST_PX {
+            return false;
+        }
+        let (across, along) = (self.across.at(col, row), self.along.at(col, row));
+        let on_near_m = across / f64::from(near) - self.ahead_m;
+        let on_far_m = across / f64::from(far) - self.ahead_m;
+        let aside_m = self.aside_m + along / f64::from(faces.seen(col, row));
+        on_near_m > -BEFORE_M && on_far_m < BEHIND_M && aside_m.abs() < self.half_m
+    }
+}

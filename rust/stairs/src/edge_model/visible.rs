@@ -1,0 +1,105 @@
+//! Whether enough of both surfaces is in view to trust an edge.
+
+use super::excerpt::{Excerpt, FARTHEST_PX};
+use super::product::Untrusted;
+use super::refine::NOISE_PX;
+use super::render::Area;
+use super::sight::{Sight, Step};
+
+/// Slices of the edge that are looked at.
+const SLICES: usize = 96;
+/// Pixels of a surface that a slice must show, away from the edge by more than a window reaches.
+const PIXELS: u16 = 3;
+const AWAY_PX: f64 = 2.5;
+/// A pixel belongs to a surface when it is closer than this, px.
+const CLOSE_PX: f32 = 3.0 * NOISE_PX;
+/// Share of the slices that must show enough of a surface.
+const MOST: f64 = 0.6;
+/// Fewest slices: less of an edge says nothing of its heading.
+const FEWEST: usize = 14;
+
+/// Checks that both surfaces are seen along most of the edge, which is `half_m` long to each side and where a pixel is
+/// `pixel_m` wide.
+pub(super) fn check(
+    excerpt: &Excerpt,
+    area: &Area,
+    sight: &Sight,
+    step: &Step,
+    (half_m, pixel_m): (f64, f64),
+) -> Result<(), Untrusted> {
+    let counts =
+        Counts::of(excerpt, area, sight, step, (half_m, pixel_m)).ok_or(Untrusted::WrongSide)?;
+    let seen = counts.any.iter().filter(|&&any| any).count();
+    if seen < FEWEST {
+        return Err(Untrusted::OutOfView);
+    }
+    let share = |counts: &[u16; SLICES]| {
+        counts.iter().filter(|&&count| count >= PIXELS).count() as f64 / seen as f64
+    };
+    if share(&counts.near) < MOST {
+        return Err(Untrusted::NearHidden(share(&counts.near)));
+    }
+    if share(&counts.far) < MOST {
+        return Err(Untrusted::FarHidden(share(&counts.far)));
+    }
+    Ok(())
+}
+
+/// Pixels that show a surface well away from the edge, slice by slice of the edge, and whether a slice shows anything.
+struct Counts {
+    near: [u16; SLICES],
+    far: [u16; SLICES],
+    any: [bool; SLICES],
+}
+
+impl Counts {
+    fn of(
+        excerpt: &Excerpt,
+        area: &Area,
+        sight: &Sight,
+        step: &Step,
+        (half_m, pixel_m): (f64, f64),
+    ) -> Option<Self> {
+        let faces = step.faces(sight)?;
+        let along = sight.along(&step.along());
+        let aside_m = step.along().dot(&(sight.position_m.xy() - step.anchor_m));
+        let before = faces.near.mix(1.0, &faces.riser, -1.0);
+        let behind = if faces.rising {
+            faces.riser.mix(1.0, &faces.far, -1.0)
+        } else {
+            before.times(-1.0)
+        };
+        let away_px = [AWAY_PX * before.steepness(), AWAY_PX * behind.steepness()];
+        // A slice is as wide as a pixel at the edge, so that it holds about one pixel a row.
+        let slices = ((2.0 * half_m / pixel_m) as usize).clamp(1, SLICES);
+        let mut counts = Self {
+            near: [0; SLICES],
+            far: [0; SLICES],
+            any: [false; SLICES],
+        };
+        for (at, &observed) in excerpt.observed_px.iter().enumerate() {
+            let col = (area.cols.0 + at % area.columns()) as f64;
+            let row = (area.rows.0 + at / area.columns()) as f64;
+            let (near, far) = (
+                faces.near.at(col, row) as f32,
+                faces.far.at(col, row) as f32,
+            );
+            if observed.is_nan() || near.min(far) < FARTHEST_PX {
+                continue;
+            }
+            let place_m = aside_m + along.at(col, row) / f64::from(faces.seen(col, row));
+            let slice = (place_m + half_m) / (2.0 * half_m) * slices as f64;
+            if !(0.0..slices as f64).contains(&slice) {
+                continue;
+            }
+            let slice = slice as usize;
+            counts.any[slice] = true;
+            if before.at(col, row) > away_px[0] {
+                counts.near[slice] += u16::from((observed - near).abs() < CLOSE_PX);
+            } else if behind.at(col, row) > away_px[1] {
+                counts.far[slice] += u16::from((observed - far).abs() < CLOSE_PX);
+            }
+        }
+        Some(counts)
+    }
+}
