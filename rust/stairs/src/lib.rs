@@ -21,10 +21,6 @@ mod visible;
 
 #[cfg(test)]
 #[path = "../../segmentation/src/synthetic.rs"]
-#[expect(
-    dead_code,
-    reason = "shared with the segmenter's tests, which use more of it"
-)]
 mod synthetic;
 #[cfg(test)]
 mod tests;

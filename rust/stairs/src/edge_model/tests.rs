@@ -1,14 +1,10 @@
 //! Laws of the step model, on exact rays and with the errors of block matching.
 
-#[path = "../../../segmentation/src/synthetic.rs"]
-#[expect(dead_code, reason = "segmentation's tests use more of it")]
-mod synthetic;
-
+use crate::synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
 use geometry::{Camera, Map, Point, Pose, Robot};
 use proptest::prelude::*;
 use segmentation::Planes;
 use sensing::Scan;
-use synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
 
 use super::*;
 
