@@ -5,6 +5,8 @@ use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
 
 use crate::extract::Extraction;
+use crate::fits::Fits;
+use crate::joints::join;
 use crate::memory::Memory;
 use crate::view::View;
 use crate::{Stair, Staircase, StairsConfig};
@@ -32,6 +34,7 @@ pub struct Recognizer {
     camera: Intrinsics,
     extraction: Extraction,
     memory: Memory,
+    fits: Fits,
     steps_taken: u64,
     staircase: Staircase,
 }
@@ -45,6 +48,7 @@ impl Recognizer {
             camera,
             extraction: Extraction::default(),
             memory: Memory::default(),
+            fits: Fits::new(camera),
             steps_taken: 0,
             staircase: Staircase::default(),
         })
@@ -54,7 +58,7 @@ impl Recognizer {
     /// teach nothing.
     pub fn update(
         &mut self,
-        _scan: &Scan,
+        scan: &Scan,
         planes: &Planes,
         map_from_robot: &Pose<Map, Robot>,
         steps_taken: u64,
@@ -75,17 +79,27 @@ impl Recognizer {
         let stepped = steps_taken.saturating_sub(self.steps_taken);
         if stepped > 0 {
             self.memory.step(stepped, &self.config);
+            self.fits.step(stepped, &self.config);
             self.steps_taken = steps_taken;
         }
+        let view = View::new(planes, self.camera);
         if planes.reliable {
             self.extraction.read(planes, self.camera, &self.config);
-            let view = View::new(planes, self.camera);
             self.memory
                 .see(&self.extraction.found, &view, map_from_robot, &self.config);
         }
+        let stairs = &mut self.staircase.stairs;
+        self.memory.stairs(&self.config, stairs);
+        join(stairs, self.config.own_height);
+        self.fits.apply(stairs);
+        if planes.reliable {
+            let seen = (scan, planes);
+            self.fits
+                .see(seen, &view, stairs, map_from_robot, &self.config);
+        }
+        self.fits.apply(stairs);
+        sort_by_nearness(stairs, map_from_robot);
         self.staircase.frames = self.memory.frames;
-        self.memory.stairs(&self.config, &mut self.staircase.stairs);
-        sort_by_nearness(&mut self.staircase.stairs, map_from_robot);
         Ok(&self.staircase)
     }
 

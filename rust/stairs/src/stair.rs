@@ -3,6 +3,8 @@
 use geometry::{Map, Point, Pose};
 use nalgebra::Vector2;
 
+use crate::line::Line;
+
 /// A straight edge of a level surface. Its ends are left and right for one who goes over it from front to back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge<Frame> {
@@ -107,6 +109,26 @@ impl<F> Edge<F> {
         Self {
             left: at(&self.left),
             right: at(&self.right),
+        }
+    }
+
+    /// The same edge on a line.
+    pub(crate) fn onto(&self, line: &Line) -> Self {
+        let at = |end: &Point<F>| {
+            let place = line.nearest(&end.inner.xy());
+            Point::new(place.x, place.y, end.inner.z)
+        };
+        Self {
+            left: at(&self.left),
+            right: at(&self.right),
+        }
+    }
+
+    /// The same edge for one who crosses it the other way.
+    pub(crate) const fn reversed(&self) -> Self {
+        Self {
+            left: self.right,
+            right: self.left,
         }
     }
 

@@ -100,6 +100,12 @@ impl<'a> View<'a> {
         inside.then(|| row as usize * self.camera.width + col as usize)
     }
 
+    /// Whether a place is in the picture, whatever shows there.
+    pub(crate) fn contains(&self, place: &Point3<f64>) -> bool {
+        let pixel = self.pixel(place);
+        pixel.is_some_and(|pixel| self.index(&pixel).is_some())
+    }
+
     /// What the pixel shows against a surface at this height; `None` where nothing was seen.
     fn shows(&self, pixel: &Vector2<f64>, height_m: f64) -> Option<Shows> {
         let at = self.index(pixel)?;
