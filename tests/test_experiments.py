@@ -208,7 +208,10 @@ def test_an_experiment_leaves_its_report_and_the_runs(
 
 
 def test_an_interrupted_experiment_reports_what_there_is(
-    small: Experiment, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    small: Experiment,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     """The second run is interrupted, as by Ctrl-C."""
     outcomes = iter(("timed_out", "interrupted"))
@@ -219,9 +222,12 @@ def test_an_interrupted_experiment_reports_what_there_is(
 
     monkeypatch.setattr(conducting, "run", run)
     out = tmp_path / "out"
-    with pytest.raises(KeyboardInterrupt):
-        conduct(small, 1, out)
-    assert len(json.loads((out / "experiment.json").read_text())["runs"]) == 1
+    monkeypatch.setitem(EXPERIMENTS, "small", small)
+    assert execute(["experiment", "small", "--seeds", "1", "--out", str(out), "--json"]) == 130
+    document = json.loads(capsys.readouterr().out)
+    assert document["interrupted"]
+    assert not document["passed"]
+    assert len(document["runs"]) == 1
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,15 @@
 
 from pathlib import Path
 
-from treadwell.cli.output import ERROR, FAILED, PASSED, write_json, write_message, write_table
+from treadwell.cli.output import (
+    ERROR,
+    FAILED,
+    INTERRUPTED,
+    PASSED,
+    write_json,
+    write_message,
+    write_table,
+)
 from treadwell.experiments.catalogue import find_experiment
 from treadwell.experiments.conduct import Report, conduct
 
@@ -25,6 +33,8 @@ def experiment(name: str, *, seeds: int, out: Path | None, as_json: bool) -> int
     else:
         show(report)
     write_message(f"report: {report.folder / 'experiment.md'}")
+    if report.interrupted:
+        return INTERRUPTED
     if "error" in report.outcomes:
         return ERROR
     return PASSED if report.passed else FAILED

@@ -26,6 +26,7 @@ class Report:
         seeds: 0 to this, exclusive.
         runs: scenario, folder of the run and its result, in the order in which they were run.
         tables: the paper's figures with ours beside them.
+        interrupted: whether it was, and some runs are missing.
     """
 
     experiment: Experiment
@@ -33,6 +34,7 @@ class Report:
     seeds: int
     runs: tuple[tuple[str, Path, Result], ...]
     tables: tuple[Table, ...]
+    interrupted: bool
 
     @property
     def outcomes(self) -> set[str]:
@@ -41,8 +43,8 @@ class Report:
 
     @property
     def passed(self) -> bool:
-        """Whether every run met its scenario's expectations."""
-        return all(result.passed for _, _, result in self.runs)
+        """Whether there is every run, and each met its scenario's expectations."""
+        return not self.interrupted and all(result.passed for _, _, result in self.runs)
 
     def document(self) -> dict[str, Any]:
         """Return it as plain data."""
@@ -52,6 +54,7 @@ class Report:
             "version": __version__,
             "folder": str(self.folder),
             "seeds": self.seeds,
+            "interrupted": self.interrupted,
             "passed": self.passed,
             "runs": [
                 {
@@ -107,10 +110,10 @@ def conduct(
         scenario: [result for name, _, result in runs if name == scenario]
         for scenario in experiment.scenarios
     }
-    report = Report(experiment, folder, seeds, tuple(runs), tuple(experiment.tables(results)))
+    tables = tuple(experiment.tables(results))
+    missing = len(runs) < len(jobs)
+    report = Report(experiment, folder, seeds, tuple(runs), tables, interrupted=missing)
     write_whole(folder / "experiment.md", report.markdown())
     document = json.dumps(report.document(), indent=2, allow_nan=False)
     write_whole(folder / "experiment.json", document + "\n")
-    if len(runs) < len(jobs):
-        raise KeyboardInterrupt
     return report
