@@ -5,12 +5,13 @@ use mapping::FloorView;
 use stairs::{ClimbingConfig, Feet, Staircase};
 
 use crate::keep::{End, Kept};
-use crate::legs::{Draft, link_between};
-use crate::levels::Stand;
+use crate::legs::Draft;
+use crate::levels::{Limits, Stand};
 use crate::portals::{Portals, Scene};
 use crate::refusal::{explain, first_limit};
-use crate::route::Ends;
-use crate::search::{Graph, Route, Search};
+use crate::route::{Ends, end_of, run};
+use crate::search::{Route, Search};
+use crate::seek::Seek;
 use crate::terrain::{Needs, Terrain};
 use crate::{AStarConfig, Goal, NoWay, Path, Plan, PlanError, Planner};
 
@@ -26,7 +27,18 @@ pub struct AStar {
     terrain: Terrain,
     portals: Portals,
     search: Search,
+    seek: Seek,
     kept: Option<Kept>,
+}
+
+/// What is left of the path before.
+struct Rest {
+    draft: Draft,
+    path: Path,
+    end: End,
+    certain: bool,
+    /// Whether part of it became known.
+    revealed: bool,
 }
 
 impl AStar {
@@ -45,7 +57,13 @@ impl AStar {
         let radius_m = config.radius.unwrap_or(robot_radius_m);
         let holds = radius_m > 0.0 && radius_m.is_finite();
         require(holds, "navigation.a_star.radius", "> 0", radius_m)?;
+        let step_m = climbing.ascend.step_max_z.max(-climbing.descend.step_min_z);
+        let limits = Limits {
+            floor_m: config.max_step,
+            step_m: step_m + climbing.tolerance,
+        };
         let needs = Needs {
+            limits,
             body_m: radius_m + config.margin,
             feet_m: 0.5 * feet.pair_width_m + config.foot_margin,
         };
@@ -56,6 +74,7 @@ impl AStar {
             terrain: Terrain::new(needs),
             portals: Portals::default(),
             search: Search::default(),
+            seek: Seek::default(),
             kept: None,
         })
     }
@@ -95,8 +114,15 @@ impl AStar {
         {
             return Err(no_way);
         }
-        let Some(route) = route else {
-            return Err(explain(terrain, &ends, start, goal));
+        let end = route
+            .as_ref()
+            .map(|route| end_of(route, terrain, portals, &ends));
+        let Some((route, end)) = route.zip(end).or_else(|| {
+            let levels = terrain.levels.any || ends.on_another_level();
+            let route = levels.then(|| self.seek.route(search, terrain, portals, &ends, start));
+            route.flatten().map(|route| (route, End::Look))
+        }) else {
+            return Err(explain(terrain, &self.climbing, &ends, start, goal));
         };
         let end_m = |last: usize| {
             let middle = [goal.x_m, goal.y_m];
@@ -106,7 +132,6 @@ impl AStar {
                 terrain.center_m(last)
             }
         };
-        let end = end_of(&route, terrain, portals, &ends);
         Ok(Kept {
             draft: Draft::of(terrain, portals, &route, stand.at_m, end_m),
             goal: *goal,
@@ -139,44 +164,15 @@ impl Planner for AStar {
             heading_rad: start.yaw_rad,
         };
         self.look(view, stairs, stand, goal);
-        let kept = self.kept.as_ref().filter(|kept| kept.goal == *goal);
-        let kept = kept.and_then(|kept| {
-            let rest = kept.rest(&self.terrain, &self.portals, stand.at_m, &self.config)?;
-            let path = rest.annotate(&self.terrain, self.config.climb_cost);
-            // What became known, or a stair, may open a better way.
-            let settled = unknown_in(&path) >= kept.unknown && stairs.stairs.is_empty();
-            Some((rest, path, settled && kept.end != End::Search, kept.end))
-        });
-        if let Some((rest, path, true, end)) = kept {
-            return Ok(self.hold(rest, path, end));
-        }
+        self.seek.begin(goal);
+        let settled = stairs.stairs.is_empty();
+        let kept = self.rest(&stand, goal);
+        let kept = match kept {
+            Some(rest) if rest.certain && settled && !rest.revealed => return Ok(self.hold(rest)),
+            other => other,
+        };
         let found = self.find(&stand, goal);
-        let cost_m = |path: &Path| path.cost_m + self.config.turn_cost * turn_rad(path, &start);
-        match (kept, found) {
-            (Some((rest, path, _, end)), Ok(new)) => {
-                let new_path = new.draft.annotate(&self.terrain, self.config.climb_cost);
-                let worse = cost_m(&new_path) >= self.config.better * cost_m(&path);
-                let same_end =
-                    end == new.end && (end != End::Search || new.draft.steps() == rest.steps());
-                if worse && same_end {
-                    Ok(self.hold(rest, path, end))
-                } else {
-                    Ok(self.follow(new, new_path))
-                }
-            }
-            (Some((rest, path, _, end)), Err(_)) => Ok(self.hold(rest, path, end)),
-            (None, Ok(new)) => {
-                let path = new.draft.annotate(&self.terrain, self.config.climb_cost);
-                Ok(self.follow(new, path))
-            }
-            (None, Err(no_way)) => {
-                self.kept = None;
-                Ok(Plan {
-                    way: Err(no_way),
-                    replanned: true,
-                })
-            }
-        }
+        Ok(self.choose(kept, found, &start))
     }
 
     fn distance_field_m(&self) -> Option<Vec<f32>> {
@@ -202,15 +198,73 @@ impl AStar {
         self.portals.read(&scene, stairs);
     }
 
+    /// What is left of the path before where it holds.
+    fn rest(&mut self, stand: &Stand, goal: &Goal) -> Option<Rest> {
+        let kept = self.kept.as_ref().filter(|kept| kept.goal == *goal)?;
+        if kept.end == End::Look
+            && let Some(&end_m) = kept.draft.points_m.last()
+            && self.seek.arrive(stand.at_m, end_m)
+        {
+            return None;
+        }
+        let draft = kept.rest(&self.terrain, &self.portals, stand.at_m, &self.config)?;
+        let path = draft.annotate(&self.terrain, self.config.climb_cost);
+        Some(Rest {
+            revealed: unknown_in(&path) < kept.unknown,
+            certain: kept.end.is_certain(),
+            end: kept.end,
+            draft,
+            path,
+        })
+    }
+
+    /// The path before, or the new one if it is much better or leads further.
+    fn choose(
+        &mut self,
+        kept: Option<Rest>,
+        found: Result<Kept, NoWay>,
+        start: &PlanarPose,
+    ) -> Plan {
+        let (new, kept) = match (found, kept) {
+            (Ok(new), kept) => (new, kept),
+            (Err(_), Some(rest)) if rest.certain => return self.hold(rest),
+            (Err(no_way), _) => {
+                self.kept = None;
+                return Plan {
+                    way: Err(no_way),
+                    replanned: true,
+                };
+            }
+        };
+        let path = new.draft.annotate(&self.terrain, self.config.climb_cost);
+        let Some(rest) = kept else {
+            return self.follow(new, path);
+        };
+        let cost_m = |path: &Path| path.cost_m + self.config.turn_cost * turn_rad(path, start);
+        let worse = cost_m(&path) >= self.config.better * cost_m(&rest.path);
+        let stays = match (rest.certain, new.end.is_certain()) {
+            (true, true) => worse,
+            (true, false) => true,
+            (false, true) => false,
+            (false, false) => {
+                worse && rest.end == new.end && rest.draft.steps() == new.draft.steps()
+            }
+        };
+        if stays {
+            self.hold(rest)
+        } else {
+            self.follow(new, path)
+        }
+    }
+
     /// Goes on with the path before.
-    fn hold(&mut self, draft: Draft, path: Path, end: End) -> Plan {
+    fn hold(&mut self, rest: Rest) -> Plan {
         if let Some(kept) = &mut self.kept {
-            kept.draft = draft;
-            kept.end = end;
-            kept.unknown = unknown_in(&path);
+            kept.draft = rest.draft;
+            kept.unknown = unknown_in(&rest.path);
         }
         Plan {
-            way: Ok(path),
+            way: Ok(rest.path),
             replanned: false,
         }
     }
@@ -225,49 +279,6 @@ impl AStar {
             way: Ok(path),
             replanned: true,
         }
-    }
-}
-
-/// The cheapest route; `lifted`: as if there were no limits to what is climbed.
-fn run(
-    search: &mut Search,
-    terrain: &Terrain,
-    portals: &Portals,
-    ends: &Ends<'_>,
-    start: usize,
-    lifted: bool,
-) -> Option<Route> {
-    let graph = Graph {
-        weights: &terrain.weights,
-        cols: terrain.cols,
-        links: Some(&portals.links),
-    };
-    search.run_linked(
-        graph,
-        |link| lifted || portals.way(link).fits,
-        start,
-        |cell| ends.cost(cell),
-        |cell| ends.remaining(cell),
-    )
-}
-
-/// Where a route ends.
-fn end_of(route: &Route, terrain: &Terrain, portals: &Portals, ends: &Ends<'_>) -> End {
-    let last_way = match route.cells[..] {
-        [.., from, to] => link_between(terrain, portals, from, to, false),
-        _ => None,
-    };
-    let climbed = last_way.filter(|way| way.leave_m.is_none());
-    let blind = route
-        .cells
-        .last()
-        .is_some_and(|&cell| ends.is_blind(cell as usize));
-    match climbed {
-        Some(way) if way.at_goal => End::Goal,
-        Some(_) => End::Search,
-        None if blind => End::Search,
-        None if ends.inside => End::Goal,
-        None => End::Border,
     }
 }
 

@@ -125,8 +125,8 @@ impl Portals {
             })
         };
         let (offset_m, beyond_m) = (line.offset_m(at_m), line.beyond_m(at_m));
-        if let Some((cell, leave_m)) = run_to_cell(scene, &line, offset_m, beyond_m, 1.0, on_level)
-        {
+        let run = run_to_cell(scene, &line, offset_m, beyond_m, 1.0, on_level);
+        if let Some((cell, leave_m)) = run {
             let run_m = walk_m(at_m, leave_m);
             let way = Way {
                 leave_m: Some(leave_m),
@@ -145,7 +145,9 @@ impl Portals {
                 return;
             }
         }
-        if on.after == After::Unknown {
+        // Floor that is too short to walk on may be a stair that is not known as one yet.
+        let short = on.face.is_none() && on.after == After::Level && run.is_none();
+        if on.after == After::Unknown || short {
             let remaining_m = walk_m(at_m, [goal.x_m, goal.y_m]);
             let ahead_m = (1.0 + scene.config.unknown_cost) * remaining_m + HOPE_M;
             let missing_m = goal.height_m.map_or(0.0, |h| (h - stair.height_m()).abs());

@@ -169,11 +169,11 @@ fn seen(terrain: &Terrain, line: &Line, offset_m: f64, side: f64) -> Seen {
             let Some(cell) = terrain.index_at(line.at(offset_m + beside_m, side * away_m)) else {
                 continue;
             };
-            if terrain.blocked[cell] {
-                walls += 1;
-            } else if let Some(height_m) = terrain.level_m(cell) {
+            if let Some(height_m) = terrain.level_m(cell) {
                 heights[known] = height_m;
                 known += 1;
+            } else if terrain.blocked[cell] {
+                walls += 1;
             }
         }
     }

@@ -34,8 +34,17 @@ pub(crate) enum End {
     Goal,
     /// At the border of the window: the goal lies outside.
     Border,
-    /// On a stair behind which, or at a place from which, more is to be seen.
-    Search,
+    /// On a stair behind which, or on unseen ground where, the way may go on.
+    Hope,
+    /// At a place from which more is to be seen.
+    Look,
+}
+
+impl End {
+    /// Whether everything up to there is as it should be.
+    pub(crate) const fn is_certain(self) -> bool {
+        matches!(self, Self::Goal | Self::Border)
+    }
 }
 
 impl Kept {

@@ -18,6 +18,15 @@ pub(crate) struct Stand {
     pub(crate) heading_rad: f64,
 }
 
+/// Differences in height that matter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Limits {
+    /// What is still floor, m.
+    pub(crate) floor_m: f64,
+    /// What may still be climbed, m.
+    pub(crate) step_m: f64,
+}
+
 /// The levels of a view. Reused.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Levels {
@@ -25,6 +34,8 @@ pub(crate) struct Levels {
     pub(crate) height_m: Vec<f32>,
     /// Cells beside a difference that is no floor, to either side of it, or between two such levels.
     pub(crate) edge: Vec<bool>,
+    /// Edges that a stair which is not known yet may be: low enough to be climbed, or with nothing seen behind them.
+    pub(crate) open: Vec<bool>,
     /// Whether there is any edge.
     pub(crate) any: bool,
 }
@@ -36,6 +47,7 @@ impl Levels {
         view: &FloorView,
         treads: &Treads,
         stand: &Stand,
+        limits: &Limits,
         config: &AStarConfig,
     ) {
         self.height_m.clear();
@@ -53,10 +65,12 @@ impl Levels {
         self.edge.clear();
         self.edge.resize(self.height_m.len(), false);
         self.any = false;
-        let (cols, max_step) = (view.cells.cols(), config.max_step as f32);
-        self.mark_rims(cols, treads, stand.height_m, config.max_step);
-        self.mark_differences(cols, max_step);
-        self.mark_shadows(cols, max_step);
+        self.open.clear();
+        self.open.resize(self.height_m.len(), false);
+        let cols = view.cells.cols();
+        self.mark_rims(cols, treads, stand.height_m, limits.floor_m);
+        self.mark_differences(cols, limits);
+        self.mark_shadows(cols, limits);
     }
 
     /// The cells of a stair on another level beside what was not seen: it is stepped on over its edges only.
@@ -81,7 +95,8 @@ impl Levels {
     }
 
     /// Both cells beside a difference, neighbours by a side or by a corner.
-    fn mark_differences(&mut self, cols: usize, max_step: f32) {
+    fn mark_differences(&mut self, cols: usize, limits: &Limits) {
+        let floor = limits.floor_m as f32;
         for index in 0..self.height_m.len() {
             let here = self.height_m[index];
             if here.is_nan() {
@@ -96,31 +111,34 @@ impl Levels {
             ];
             for (inside, next) in neighbours {
                 // Not a number: unknown, no difference.
-                let differs = self
-                    .height_m
-                    .get(next)
-                    .is_some_and(|there| (there - here).abs() > max_step);
-                if inside && differs {
-                    self.edge[index] = true;
-                    self.edge[next] = true;
-                    self.any = true;
+                let there = self.height_m.get(next).copied().unwrap_or(f32::NAN);
+                let rise = (there - here).abs();
+                if inside && rise > floor {
+                    self.mark(index, rise, limits);
+                    self.mark(next, rise, limits);
                 }
             }
         }
     }
 
+    fn mark(&mut self, index: usize, rise: f32, limits: &Limits) {
+        self.edge[index] = true;
+        self.open[index] |= f64::from(rise) <= limits.step_m;
+        self.any = true;
+    }
+
     /// Differences across a few cells of which nothing is known.
-    fn mark_shadows(&mut self, cols: usize, max_step: f32) {
+    fn mark_shadows(&mut self, cols: usize, limits: &Limits) {
         let rows = self.height_m.len() / cols.max(1);
         for row in 0..rows {
-            self.mark_line(row * cols, 1, cols, max_step);
+            self.mark_line(row * cols, 1, cols, limits);
         }
         for col in 0..cols {
-            self.mark_line(col, cols, rows, max_step);
+            self.mark_line(col, cols, rows, limits);
         }
     }
 
-    fn mark_line(&mut self, first: usize, stride: usize, count: usize, max_step: f32) {
+    fn mark_line(&mut self, first: usize, stride: usize, count: usize, limits: &Limits) {
         let mut last: Option<(usize, f32)> = None;
         for i in 0..count {
             let here = self.height_m[first + i * stride];
@@ -129,12 +147,11 @@ impl Levels {
             }
             if let Some((known, height)) = last
                 && (2..=SHADOW_CELLS + 1).contains(&(i - known))
-                && (here - height).abs() > max_step
+                && f64::from((here - height).abs()) > limits.floor_m
             {
                 for between in known..=i {
-                    self.edge[first + between * stride] = true;
+                    self.mark(first + between * stride, (here - height).abs(), limits);
                 }
-                self.any = true;
             }
             last = Some((i, here));
         }
@@ -177,6 +194,7 @@ impl Levels {
                     let next = r * cols + c;
                     if unknown[next] && self.height_m[next].is_nan() {
                         self.edge[next] = true;
+                        self.open[next] = true;
                         self.any = true;
                     }
                 }

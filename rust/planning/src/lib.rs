@@ -16,6 +16,7 @@ mod refusal;
 mod room;
 mod route;
 pub mod search;
+mod seek;
 mod shortcut;
 mod specks;
 mod terrain;

@@ -8,7 +8,8 @@ const NONE: u32 = u32::MAX;
 pub struct Links {
     /// First link of a cell.
     first: Vec<u32>,
-    links: Vec<Link>,
+    all: Vec<Link>,
+    nodes: usize,
 }
 
 /// A way from one node to another.
@@ -27,26 +28,28 @@ pub struct Link {
 impl Links {
     /// Forgets all links; there are `cells` cells.
     pub fn clear(&mut self, cells: usize) {
-        self.links.clear();
+        self.all.clear();
+        self.nodes = cells;
         self.first.clear();
         self.first.resize(cells, NONE);
     }
 
     /// Adds a link from a cell and says its index.
     pub fn add(&mut self, from: usize, to: usize, cost: f64) -> usize {
-        let next = std::mem::replace(&mut self.first[from], self.links.len() as u32);
-        self.links.push(Link {
+        self.nodes = self.nodes.max(to + 1);
+        let next = std::mem::replace(&mut self.first[from], self.all.len() as u32);
+        self.all.push(Link {
             from: from as u32,
             to: to as u32,
             cost,
             next,
         });
-        self.links.len() - 1
+        self.all.len() - 1
     }
 
-    /// All links, in the order in which they were added.
-    pub fn all(&self) -> &[Link] {
-        &self.links
+    /// Number of nodes: the cells, and those beyond them.
+    pub const fn nodes(&self) -> usize {
+        self.nodes
     }
 
     /// The links from a node with their indices.
@@ -54,7 +57,7 @@ impl Links {
         let mut at = self.first.get(node).copied().unwrap_or(NONE);
         std::iter::from_fn(move || {
             let index = at as usize;
-            let link = self.links.get(index)?;
+            let link = self.all.get(index)?;
             at = link.next;
             Some((index, link))
         })

@@ -8,7 +8,7 @@ use stairs::{ClimbingConfig, Unfit};
 use crate::legs::link_between;
 use crate::portals::Portals;
 use crate::route::Ends;
-use crate::search::{Route, for_each_neighbour};
+use crate::search::{Route, Search, for_each_neighbour};
 use crate::terrain::Terrain;
 use crate::{Goal, NoWay, Refusal};
 
@@ -95,7 +95,13 @@ fn unfit(climbing: &ClimbingConfig, limit: Unfit) -> NoWay {
 }
 
 /// Explains why the robot finds no way from `start`.
-pub(crate) fn explain(terrain: &Terrain, ends: &Ends<'_>, start: usize, goal: &Goal) -> NoWay {
+pub(crate) fn explain(
+    terrain: &Terrain,
+    climbing: &ClimbingConfig,
+    ends: &Ends<'_>,
+    start: usize,
+    goal: &Goal,
+) -> NoWay {
     let needed_m = terrain.needs.body_m;
     let widest = widest_way(terrain, ends, start);
     let gap_m = 2.0 * widest.clearance_m;
@@ -106,10 +112,22 @@ pub(crate) fn explain(terrain: &Terrain, ends: &Ends<'_>, start: usize, goal: &G
             sentence: format!("the widest gap is {gap_m:.2} m, {needed:.2} m are needed"),
         };
     }
+    if let Some(rise_m) = rise_in_the_way(terrain, ends, start) {
+        return unjoined(climbing, rise_m);
+    }
     let nearest = widest.nearest_cells * terrain.lattice.cell_m;
-    let free_end = |index: usize| !terrain.blocked[index] && ends.cost(index).is_some();
-    let sentence = if (0..terrain.blocked.len()).any(free_end) {
+    let cells = 0..terrain.blocked.len();
+    let free = |index: &usize| !terrain.blocked[*index];
+    let sentence = if cells
+        .clone()
+        .any(|index| free(&index) && ends.cost(index).is_some())
+    {
         format!("no way around what stands there leads nearer to the goal than {nearest:.2} m")
+    } else if let Some(height_m) = goal.height_m
+        && cells.clone().any(|index| free(&index) && ends.holds(index))
+    {
+        let radius = goal.radius_m;
+        format!("no floor within {radius:.2} m of the goal lies {height_m:.2} m high")
     } else {
         let radius = goal.radius_m;
         format!("no place within {radius:.2} m of the goal is free to stand on")
@@ -117,6 +135,52 @@ pub(crate) fn explain(terrain: &Terrain, ends: &Ends<'_>, start: usize, goal: &G
     NoWay {
         refusal: Refusal::Blocked,
         sentence,
+    }
+}
+
+/// The first change of level, m, on the way that would lead to the goal if levels were one.
+fn rise_in_the_way(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Option<f64> {
+    if !terrain.levels.any {
+        return None;
+    }
+    let cells = terrain.blocked.iter().enumerate();
+    let stands = cells.map(|(i, &blocked)| blocked && terrain.level_m(i).is_none());
+    let open: Vec<f32> = stands
+        .map(|stands| if stands { f32::INFINITY } else { 1.0 })
+        .collect();
+    let ending = |cell: usize| ends.cost(cell);
+    let remaining = |cell: usize| ends.remaining(cell);
+    let route = Search::default().run(&open, terrain.cols, start, ending, remaining)?;
+    let levels = route
+        .cells
+        .iter()
+        .filter_map(|&cell| terrain.level_m(cell as usize));
+    let mut last: Option<f64> = None;
+    for level_m in levels {
+        if let Some(before_m) = last.replace(level_m)
+            && (level_m - before_m).abs() > terrain.needs.limits.floor_m
+        {
+            return Some(level_m - before_m);
+        }
+    }
+    None
+}
+
+/// The word and sentence for a change of level at which no stair is known.
+fn unjoined(climbing: &ClimbingConfig, rise_m: f64) -> NoWay {
+    let set = climbing.set_for(rise_m);
+    let limit_m = if rise_m > 0.0 {
+        set.step_max_z
+    } else {
+        -set.step_min_z
+    };
+    if rise_m.abs() > limit_m + climbing.tolerance {
+        return unfit(climbing, Unfit::TooHigh(rise_m));
+    }
+    let mm = (1e3 * rise_m.abs()).round();
+    NoWay {
+        refusal: Refusal::Blocked,
+        sentence: format!("a step of {mm} mm is in the way, and no edge to climb it by was found"),
     }
 }
 

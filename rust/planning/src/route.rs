@@ -1,7 +1,10 @@
-//! Where a path may end: in the goal's disc, or at the window's border when the goal lies outside.
+//! Routes to the goal: where they may end, in the goal's disc, or at the window's border when the goal lies outside.
 
 use crate::Goal;
-use crate::search::octile;
+use crate::keep::End;
+use crate::legs::link_between;
+use crate::portals::Portals;
+use crate::search::{Graph, Route, Search, octile};
 use crate::terrain::Terrain;
 
 /// How much worse a place off the goal's middle is than walking there: above 1.09, so that the octile distance to the
@@ -55,10 +58,7 @@ impl<'a> Ends<'a> {
         if !self.inside {
             return self.terrain.on_border(index).then(|| self.remaining(index));
         }
-        let [x, y] = self.terrain.center_m(index);
-        let (dx, dy) = (x - self.goal.x_m, y - self.goal.y_m);
-        let away = (dx * dx + dy * dy).sqrt();
-        if away > self.goal.radius_m && self.middle != Some(index) {
+        if !self.holds(index) {
             return None;
         }
         let on_level = match (self.goal.height_m, self.terrain.level_m(index)) {
@@ -71,7 +71,23 @@ impl<'a> Ends<'a> {
             0.0
         };
         // A path is followed to a centimetre or two: stay off the disc's rim where there is room.
-        on_level.then(|| PULL * away / self.terrain.lattice.cell_m + blind)
+        on_level.then(|| PULL * self.away_m(index) / self.terrain.lattice.cell_m + blind)
+    }
+
+    /// Whether a cell lies in the goal's disc.
+    pub(crate) fn holds(&self, index: usize) -> bool {
+        self.away_m(index) <= self.goal.radius_m || self.middle == Some(index)
+    }
+
+    fn away_m(&self, index: usize) -> f64 {
+        let [x, y] = self.terrain.center_m(index);
+        let (dx, dy) = (x - self.goal.x_m, y - self.goal.y_m);
+        (dx * dx + dy * dy).sqrt()
+    }
+
+    /// Whether the goal lies on another level than the robot stands on.
+    pub(crate) fn on_another_level(&self) -> bool {
+        self.blind > 0.0
     }
 
     /// Whether ending in a cell is but a hope: the goal's level was not seen there.
@@ -84,12 +100,60 @@ impl<'a> Ends<'a> {
                 .is_some_and(|&unknown| unknown)
     }
 
-    /// Octile distance from a cell to the goal's middle, in cells.
+    /// The least that a way from a node on costs: octile distance to the goal's middle, in cells; 0 at the end of a climb.
     pub(crate) fn remaining(&self, index: usize) -> f64 {
         if index >= self.terrain.weights.len() {
             return 0.0;
         }
+        self.away(index)
+    }
+
+    /// Octile distance from a cell to the goal's middle, in cells.
+    pub(crate) fn away(&self, index: usize) -> f64 {
         let [x, y] = self.terrain.center_m(index);
         octile(x - self.goal.x_m, y - self.goal.y_m) / self.terrain.lattice.cell_m
+    }
+}
+
+/// The cheapest route to the goal; `lifted`: as if there were no limits to what is climbed.
+pub(crate) fn run(
+    search: &mut Search,
+    terrain: &Terrain,
+    portals: &Portals,
+    ends: &Ends<'_>,
+    start: usize,
+    lifted: bool,
+) -> Option<Route> {
+    let graph = Graph {
+        weights: &terrain.weights,
+        cols: terrain.cols,
+        links: Some(&portals.links),
+    };
+    search.run_linked(
+        graph,
+        |link| lifted || portals.way(link).fits,
+        start,
+        |cell| ends.cost(cell),
+        |cell| ends.remaining(cell),
+    )
+}
+
+/// Where a route ends.
+pub(crate) fn end_of(route: &Route, terrain: &Terrain, portals: &Portals, ends: &Ends<'_>) -> End {
+    let last_way = match route.cells[..] {
+        [.., from, to] => link_between(terrain, portals, from, to, false),
+        _ => None,
+    };
+    let climbed = last_way.filter(|way| way.leave_m.is_none());
+    let blind = route
+        .cells
+        .last()
+        .is_some_and(|&cell| ends.is_blind(cell as usize));
+    match climbed {
+        Some(way) if way.at_goal => End::Goal,
+        Some(_) => End::Hope,
+        None if blind => End::Hope,
+        None if ends.inside => End::Goal,
+        None => End::Border,
     }
 }

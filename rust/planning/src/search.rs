@@ -92,8 +92,8 @@ impl Search {
             cols,
             links,
         } = graph;
-        let ends = links.map_or(0, |links| links.all().len());
-        self.begin(weights.len() + ends);
+        let nodes = links.map_or(0, Links::nodes).max(weights.len());
+        self.begin(nodes);
         let mut best: Option<(f64, usize)> = None;
         self.reach(start, 0.0, NONE, heuristic(start), 0);
         let mut bucket = 0;

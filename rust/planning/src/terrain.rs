@@ -6,7 +6,7 @@ use stairs::Staircase;
 
 use crate::AStarConfig;
 use crate::distance::{DistanceField, NOTHING_NEAR};
-use crate::levels::{Levels, Stand};
+use crate::levels::{Levels, Limits, Stand};
 use crate::specks::Specks;
 use crate::treads::Treads;
 
@@ -17,6 +17,8 @@ pub(crate) struct Needs {
     pub(crate) body_m: f64,
     /// Around the middle between its feet, to edges of the level, m.
     pub(crate) feet_m: f64,
+    /// Of the ground that it walks on.
+    pub(crate) limits: Limits,
 }
 
 /// The floor view as the planner reads it, row by row. Reused.
@@ -85,12 +87,14 @@ impl Terrain {
         self.treads.read_surfaces(view, blocked, unknown);
         self.specks
             .clear(blocked, unknown, self.cols, config.speck_cells);
-        self.levels.read(view, &self.treads, stand, config);
+        let limits = &self.needs.limits;
+        self.levels.read(view, &self.treads, stand, limits, config);
         let heights = stairs.stairs.iter().map(stairs::Stair::height_m);
         let lowest_m = heights.chain(goal_m).fold(f64::INFINITY, f64::min);
         if self.levels.raised(stand, lowest_m, config) {
             self.bound(stand, config);
         }
+        self.block_tall(stand);
         self.distance.compute(&self.blocked, self.cols);
         if self.levels.any {
             self.edge_distance.compute(&self.levels.edge, self.cols);
@@ -112,6 +116,17 @@ impl Terrain {
         };
         self.levels
             .mark_verge(&self.unknown, cols, stand, config.max_step, free);
+    }
+
+    /// What ends higher above the robot's feet than a step is an obstacle to its body, flat as its top may be.
+    fn block_tall(&mut self, stand: &Stand) {
+        let highest_m = stand.height_m + self.needs.limits.step_m;
+        for (index, &edge) in self.levels.edge.iter().enumerate() {
+            let tall = f64::from(self.levels.height_m[index]) > highest_m;
+            if edge && tall && !self.treads.is_near(index) {
+                self.blocked[index] = true;
+            }
+        }
     }
 
     /// What a length costs, by clearance, escape and what is unseen.
@@ -160,7 +175,7 @@ impl Terrain {
         let Some(start) = self.index_at(start_m) else {
             return;
         };
-        let Needs { body_m, feet_m } = self.needs;
+        let Needs { body_m, feet_m, .. } = self.needs;
         let (at_start_m, to_edge_m) = (self.clearance_m(start), self.edge_clearance_m(start));
         self.clearance_at_start_m = at_start_m;
         if at_start_m >= body_m && to_edge_m >= feet_m {
@@ -191,6 +206,11 @@ impl Terrain {
         }
         let cells = f64::from(self.edge_distance.squared(index)).sqrt();
         (cells + 0.5) * self.lattice.cell_m
+    }
+
+    /// Whether a cell lies at the end of a level with nothing known behind it, or at an edge that is no stair's.
+    pub(crate) fn is_open_edge(&self, index: usize) -> bool {
+        self.levels.open[index] && !self.treads.is_near(index)
     }
 
     /// Height of a cell, m, where one is known.

@@ -65,6 +65,11 @@ impl Treads {
         self.any && !self.height_m[index].is_nan()
     }
 
+    /// Whether a cell lies in a stair's outline or within a cell of it.
+    pub(crate) fn is_near(&self, index: usize) -> bool {
+        self.any && self.near_m[index] > f32::NEG_INFINITY
+    }
+
     /// The cells of stairs.
     pub(crate) fn cells(&self) -> impl Iterator<Item = usize> {
         let cells = self.height_m.iter().enumerate();

@@ -1,10 +1,7 @@
-//! Levels: floor of different height joins only by a climb, square to an edge and within the limits.
+//! Legs that are climbed: where they begin and end, what they cross, what is refused.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
-mod common;
-
-use common::{Course, FEET, goal, goal_at, plan, planner, refused, way};
+use crate::course::{self, Course, FEET, goal, goal_at, plan, planner, refused, way};
+use geometry::Map;
 use planning::{Path, Planner as _, Refusal};
 
 /// All crossings of a path, in their order.
@@ -59,7 +56,7 @@ fn a_staircase_is_one_leg_that_begins_with_the_toes_15_mm_before_it() {
 fn a_staircase_seen_from_above_is_gone_down_with_its_stairs_turned() {
     let course = Course::staircase(4, 0.03, 0.33);
     let start = [1.0 + 3.0 * 0.12 + 0.165, 0.0, 0.12];
-    let path = common::way_from(&course, start, 3.0, &goal_at(0.2, 0.0, 0.0));
+    let path = course::way_from(&course, start, 3.0, &goal_at(0.2, 0.0, 0.0));
     assert_eq!(rises_mm(&path), [-30, -30, -30, -30]);
     for step in path.climbs.iter().flat_map(|climb| &climb.steps) {
         assert!(
@@ -83,7 +80,7 @@ fn a_sill_across_the_stage_is_crossed_where_the_path_comes() {
     let mut course = Course::stage();
     course.sill(0.8, 0.09, 0.038, 1.0);
     for y in [-0.2, 0.0, 0.2] {
-        let path = common::way_from(&course, [0.0, y, 0.0], 0.0, &goal(1.6, y));
+        let path = course::way_from(&course, [0.0, y, 0.0], 0.0, &goal(1.6, y));
         assert_eq!(rises_mm(&path), [38, -38]);
         assert_eq!(path.climbs.len(), 1);
         for crossing in crossings(&path) {
@@ -131,10 +128,10 @@ fn a_basin_is_entered_from_125_mm_on_and_refused_below() {
         course.basin(0.8, depth_m, 0.03);
         let start = [0.0, 0.0, 0.03];
         if fits {
-            let path = common::way_from(&course, start, 0.0, &goal(1.6, 0.0));
+            let path = course::way_from(&course, start, 0.0, &goal(1.6, 0.0));
             assert_eq!(rises_mm(&path), [-30, 30], "{depth_m}");
         } else {
-            let (refusal, sentence) = common::refused_from(&course, start, &goal(1.6, 0.0));
+            let (refusal, sentence) = course::refused_from(&course, start, &goal(1.6, 0.0));
             assert_eq!(refusal, Refusal::GapTooShort, "{depth_m}");
             let mm = (depth_m * 1e3).round();
             assert_eq!(
@@ -171,10 +168,10 @@ fn on_a_tread_in_the_middle_of_a_flight_the_plan_begins_with_a_step() {
     let course = Course::staircase(4, 0.03, 0.33);
     let stands = |i: f64| [1.0 + 0.12 * i + 0.0525, 0.01, 0.03 * (i + 1.0)];
     for i in 0..3 {
-        let up = common::way_from(&course, stands(f64::from(i)), 0.0, &goal_at(1.5, 0.0, 0.12));
+        let up = course::way_from(&course, stands(f64::from(i)), 0.0, &goal_at(1.5, 0.0, 0.12));
         assert_eq!(up.climbs[0].from_point, 0);
         assert_eq!(rises_mm(&up).len(), 3 - i as usize);
-        let down = common::way_from(
+        let down = course::way_from(
             &course,
             stands(f64::from(i)),
             std::f64::consts::PI,
@@ -187,7 +184,7 @@ fn on_a_tread_in_the_middle_of_a_flight_the_plan_begins_with_a_step() {
     let mut unknown = course;
     let _ = unknown.stairs.stairs.remove(1);
     unknown.forget([1.12, -0.5], [1.24, 0.5]);
-    let path = common::way_from(&unknown, stands(1.0), 0.0, &goal_at(1.5, 0.0, 0.12));
+    let path = course::way_from(&unknown, stands(1.0), 0.0, &goal_at(1.5, 0.0, 0.12));
     assert_eq!(
         (path.climbs[0].from_point, rises_mm(&path)),
         (0, vec![30, 30])
@@ -202,7 +199,7 @@ fn a_path_follows_the_stairs_as_they_are_seen_and_is_planned_anew_when_they_move
     let first = plan(&mut planner, &course, [0.0, 0.0, 0.0], 0.0, &to);
     assert!(first.replanned);
     for stair in &mut course.stairs.stairs {
-        common::shift(stair, 0.008, 0.002);
+        course::shift(stair, 0.008, 0.002);
     }
     let second = plan(&mut planner, &course, [0.1, 0.0, 0.0], 0.0, &to);
     assert!(!second.replanned);
@@ -210,7 +207,7 @@ fn a_path_follows_the_stairs_as_they_are_seen_and_is_planned_anew_when_they_move
     assert_eq!(rises_mm(&path), [32, 30]);
     assert!((crossings(&path)[0][0] - 1.008).abs() < 1e-6);
     for stair in &mut course.stairs.stairs {
-        common::shift(stair, 0.05, 0.0);
+        course::shift(stair, 0.05, 0.0);
     }
     assert!(plan(&mut planner, &course, [0.1, 0.0, 0.0], 0.0, &to).replanned);
     course.stairs.stairs.clear();
@@ -258,4 +255,40 @@ fn the_obstacle_field_does_not_hold_treads() {
     let _ = plan(&mut planner, &course, [0.0; 3], 0.0, &goal(0.5, 0.0));
     let field = planner.distance_field_m().unwrap();
     assert!(field.iter().all(|&distance_m| distance_m > 10.0));
+}
+
+#[test]
+fn after_the_last_step_the_robot_walks_on_over_the_landing() {
+    let course = Course::staircase(4, 0.03, 0.33);
+    let path = course::way_from(
+        &course,
+        [1.36 + 0.0675, 0.0, 0.12],
+        0.0,
+        &goal_at(1.52, 0.0, 0.12),
+    );
+    assert!(path.climbs.is_empty());
+    assert!(path.points_m.iter().all(|point| point[1].abs() < 0.05));
+}
+
+#[test]
+fn a_turning_staircase_is_climbed_square_to_each_edge() {
+    let mut course = Course::floor();
+    let mut foot = geometry::Pose::<Map, Map>::from_yaw(1.0, 0.0, 0.0, 0.0);
+    for i in 0..4 {
+        let depth_m = if i == 3 { 0.33 } else { 0.15 };
+        let step = course::stair(0.0, depth_m, 0.03 * f64::from(i + 1), 0.45);
+        let step = step.transformed(&foot);
+        let next = step.back.middle().inner;
+        foot = geometry::Pose::from_yaw(next.x, next.y, 0.0, 0.1 * f64::from(i + 1));
+        course.stairs.stairs.push(step);
+    }
+    let landing = course.stairs.stairs[3].reference.inner;
+    let path = way(&course, 0.0, &goal_at(landing.x, landing.y, 0.12));
+    assert_eq!(rises_mm(&path), [30, 30, 30, 30]);
+    let steps = path.climbs.iter().flat_map(|climb| &climb.steps);
+    for (i, step) in steps.enumerate() {
+        assert!((step.stair.front.heading_rad() - 0.1 * i as f64).abs() < 1e-9);
+        let middle = step.stair.front.middle().inner;
+        assert!((step.crossing_m[0] - middle.x).hypot(step.crossing_m[1] - middle.y) < 0.07);
+    }
 }

@@ -1,0 +1,7 @@
+//! Levels: floor of different height joins only by a climb, square to an edge and within the limits.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+mod climbs;
+mod course;
+mod ground;
