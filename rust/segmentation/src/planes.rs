@@ -51,6 +51,9 @@ pub struct Planes {
     pub points_in_robot_m: Vec<[f32; 3]>,
     /// `h` of the paper (000, section III.A): height of the horizontal plane that a pixel belongs to, m; NaN is *invalid*.
     pub floor_height_m: Vec<f32>,
+    /// Pixels beside an edge between two level surfaces that are a step apart: the matching window saw both, so that
+    /// neither their height nor their place is that of one of them.
+    pub at_step: Vec<bool>,
     /// Whether the points' heights may be trusted: the ground is tracked, and was found in this frame or not long ago.
     pub reliable: bool,
 }
@@ -66,6 +69,7 @@ impl Planes {
             labels: vec![0; pixels],
             points_in_robot_m: vec![[f32::NAN; 3]; pixels],
             floor_height_m: vec![f32::NAN; pixels],
+            at_step: vec![false; pixels],
             reliable: false,
         }
     }

@@ -28,7 +28,8 @@ pub struct LabelledFrame {
 
 impl LabelledFrame {
     /// Carries the points to the map frame: turned by the heading, moved by the position, `h_G = h_R + z_R`.
-    /// Points on a horizontal plane are moved along their ray to its height when `snap`.
+    /// Points on a horizontal plane are moved along their ray to its height when `snap`. Those at the edge of a step tell
+    /// of neither surface and are left out.
     pub fn read(
         &mut self,
         planes: &Planes,
@@ -41,9 +42,10 @@ impl LabelledFrame {
         self.points.clear();
         let rotation = map_from_robot.inner.rotation.to_rotation_matrix();
         let translation = map_from_robot.inner.translation.vector;
-        for (point, &height) in planes.points_in_robot_m.iter().zip(&planes.floor_height_m) {
+        let pixels = planes.points_in_robot_m.iter().zip(&planes.floor_height_m);
+        for ((point, &height), &at_step) in pixels.zip(&planes.at_step) {
             let [x, y, z] = point.map(f64::from);
-            if !(x + y + z).is_finite() {
+            if at_step || !(x + y + z).is_finite() {
                 continue;
             }
             let mut at = rotation * Point3::new(x, y, z) + translation;
@@ -147,8 +149,12 @@ mod tests {
     }
 
     #[test]
-    fn points_not_seen_are_left_out() {
+    fn points_not_seen_or_at_a_step_are_left_out() {
         let mut frame = LabelledFrame::default();
+        let mut at_step = planes([0.5, 0.0, 0.0], 0.0);
+        at_step.at_step[0] = true;
+        frame.read(&at_step, &Pose::identity(), true, 2.0);
+        assert!(frame.points.is_empty());
         frame.read(&planes([f32::NAN; 3], 0.0), &Pose::identity(), true, 2.0);
         assert!(frame.points.is_empty());
     }

@@ -16,6 +16,7 @@ mod noise;
 mod product;
 mod reference;
 mod steep;
+mod steps;
 mod strips;
 mod surfaces;
 #[cfg(test)]

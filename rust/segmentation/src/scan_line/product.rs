@@ -3,6 +3,7 @@
 use geometry::{Outline, Plane, Point, Pose, Robot};
 use nalgebra::{Isometry3, Point2, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
+use super::steps::mark_steps;
 use super::{Levelled, ScanLine};
 use crate::{PlaneRegion, Planes};
 
@@ -46,6 +47,7 @@ impl ScanLine {
             planes,
         );
         planes.labels.copy_from_slice(&self.surfaces.labels);
+        mark_steps(self.camera.width, planes);
     }
 
     /// Every pixel's point: `position + f B / d * ray`.
