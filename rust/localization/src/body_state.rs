@@ -30,6 +30,8 @@ pub struct BodyState {
     pub foot_loads_n: [f64; 2],
     /// Foot that carries the robot and that odometry is anchored to.
     pub support: Side,
+    /// Whether both soles hold, on one level: on different ones, the robot's frame is somewhere between the two.
+    pub stands_level: bool,
     /// The robot's frame (between the soles, on the supporting surface) by leg odometry.
     pub odometry_from_robot: Pose<Odometry, Robot>,
     /// The torso in the robot's frame.

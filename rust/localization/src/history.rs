@@ -50,6 +50,7 @@ impl BodyStateHistory {
             links,
             foot_loads_n: state.foot_loads_n,
             support: state.support,
+            stands_level: state.stands_level,
             odometry_from_robot: state.odometry_from_robot,
             robot_from_torso: state.robot_from_torso,
         };

@@ -56,6 +56,13 @@ impl LegOdometry {
         self.torso_m
     }
 
+    /// Whether both feet hold, on one level.
+    pub(crate) fn stands_level(&self, config: &ProprioceptionConfig) -> bool {
+        let [left, right] = self.anchors_m;
+        left.zip(right)
+            .is_some_and(|(left, right)| (left.z - right.z).abs() < config.level_band)
+    }
+
     /// Puts the point midway between the soles at the origin, both on one level.
     pub(crate) fn start(&mut self, legs: &Legs) {
         let reaches = Side::BOTH.map(|side| legs.reach_m(side));

@@ -2,6 +2,7 @@
 
 use geometry::{ConfigError, Map, Odometry, Pose, Robot, require};
 use mapping::{FloorView, Surface};
+use nalgebra::Point3;
 use segmentation::Planes;
 use serde::{Deserialize, Serialize};
 
@@ -25,6 +26,9 @@ impl Default for OdometryLocalizerConfig {
         }
     }
 }
+
+/// How far from the middle between the feet their soles' middles are, to each side, about, m.
+const SOLE_Y_M: f64 = 0.04;
 
 /// Section IV of 000: (x, y, yaw) by odometry, z_R filtered with Floor(x_R, y_R).
 #[derive(Debug, Clone)]
@@ -70,6 +74,27 @@ impl OdometryLocalizer {
     }
 }
 
+impl OdometryLocalizer {
+    /// By how much the floor under the feet lies above the robot's frame in the map, m: the mean over the places under
+    /// and between the soles, where all that are known show the robot's level. Beside an edge one of them may show
+    /// another: then nothing is sure.
+    fn floor_above_m(&self, map_from_robot: &Pose<Map, Robot>, view: &FloorView) -> Option<f64> {
+        let (mut sum_m, mut count) = (0.0, 0.0);
+        for y_m in [-SOLE_Y_M, 0.0, SOLE_Y_M] {
+            let place = map_from_robot.inner * Point3::new(0.0, y_m, 0.0);
+            if let Surface::Floor(floor_m) = view.at(place.x, place.y) {
+                let above_m = f64::from(floor_m) - place.z;
+                if above_m.abs() >= self.config.height_gate {
+                    return None;
+                }
+                sum_m += above_m;
+                count += 1.0;
+            }
+        }
+        (count > 0.0).then(|| sum_m / count)
+    }
+}
+
 impl Localizer for OdometryLocalizer {
     fn correct(
         &mut self,
@@ -78,16 +103,14 @@ impl Localizer for OdometryLocalizer {
         view: &FloorView,
     ) -> Result<(), LocalizerError> {
         let map_from_odometry = self.map_from_odometry(body);
-        let robot_in_map = (map_from_odometry * body.odometry_from_robot)
-            .origin()
-            .inner;
-        if let Surface::Floor(floor_m) = view.at(robot_in_map.x, robot_in_map.y) {
-            let error_m = f64::from(floor_m) - robot_in_map.z;
-            if error_m.abs() < self.config.height_gate {
-                let mut corrected = map_from_odometry.inner;
-                corrected.translation.vector.z += self.config.height_gain * error_m;
-                self.map_from_odometry = Some(Pose::wrap(corrected));
-            }
+        if !body.stands_level {
+            return Ok(());
+        }
+        let map_from_robot = map_from_odometry * body.odometry_from_robot;
+        if let Some(error_m) = self.floor_above_m(&map_from_robot, view) {
+            let mut corrected = map_from_odometry.inner;
+            corrected.translation.vector.z += self.config.height_gain * error_m;
+            self.map_from_odometry = Some(Pose::wrap(corrected));
         }
         Ok(())
     }
@@ -147,6 +170,26 @@ mod tests {
             let expected_m = if error_m.abs() < 0.012 { error_m } else { 0.0 };
             prop_assert!((height_m - expected_m).abs() < 1e-5);
         }
+    }
+
+    #[test]
+    fn beside_an_edge_or_with_the_feet_on_two_levels_the_height_stays() {
+        let height_m = |level: bool, beside_m: f32| {
+            let mut localizer = localizer(Pose::identity());
+            let mut view = view(Surface::Floor(0.01));
+            let cell = view.lattice.cell_at(0.0, 0.04);
+            *view.cells.get_mut(cell).unwrap() = Surface::Floor(beside_m);
+            let mut body = state_at(0);
+            body.stands_level = level;
+            for _ in 0..100 {
+                localizer.correct(&body, &Planes::new(0), &view).unwrap();
+            }
+            let estimate = localizer.estimate(&body).unwrap();
+            estimate.map_from_robot.origin().inner.z
+        };
+        assert!((height_m(true, 0.01) - 0.01).abs() < 1e-5);
+        assert_eq!(height_m(true, -0.015), 0.0);
+        assert_eq!(height_m(false, 0.01), 0.0);
     }
 
     #[test]

@@ -219,6 +219,7 @@ impl Ideal {
             links: self.links(),
             foot_loads_n: loads,
             support: Side::Left,
+            stands_level: true,
             odometry_from_robot: Pose::identity(),
             robot_from_torso: Pose::identity(),
         };
