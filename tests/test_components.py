@@ -92,7 +92,7 @@ def test_footsteps_of_a_behaviour_are_taken_one_by_one() -> None:
         if part.done:
             break
     assert part.done
-    assert episode.pilot.steps_taken == 2
+    assert episode.pilot.steps_taken == episode.pilot.stepping.landed == 2
     assert pose[0] == pytest.approx(0.04, abs=0.015)
 
 

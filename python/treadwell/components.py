@@ -15,7 +15,7 @@ COMPONENTS: Final[dict[str, dict[str, str]]] = {
         "truth": "the simulator's own pose; for ablations only, the result says so",
     },
     "planner": {
-        "a_star": "A* on the grid by clearance, unknown cells at a price",
+        "a_star": "A* on the grid by clearance; levels join by climbs, unknown cells have a price",
     },
     "behaviour": {
         "stair_climbing": "walks where it can, climbs where stairs lead on, both feet on each step",
