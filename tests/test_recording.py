@@ -86,6 +86,7 @@ def test_stairs_climbs_landings_and_missteps_are_in_the_recording(
         "/world/stairs",
         "/world/stairs/front",
         "/world/stairs/back",
+        "/world/stairs/height",
         "/world/soles/planned",
         "/world/soles/landed",
         "/behaviour/misstep",

@@ -15,10 +15,17 @@ def remembered(*frames: tuple[StairTrace, ...]) -> list[StairTrace]:
 
 
 def test_a_stair_that_is_seen_again_takes_its_own_place_and_no_other() -> None:
-    first, second = flight(4), flight(2)
+    first, second = flight(4, front_fitted=True), flight(2, front_fitted=True)
     stairs = remembered(first, second)
     assert len(stairs) == 4
     assert sum(any(stair is new for new in second) for stair in stairs) == 2
+
+
+def test_a_fitted_sighting_is_kept_until_there_is_another() -> None:
+    fitted, bare = flight(1, front_fitted=True), flight(1, front_fitted=False)
+    later = flight(1, front_fitted=True)
+    assert remembered(bare, fitted, bare) == [*fitted]
+    assert remembered(fitted, later) == [*later]
 
 
 def test_what_is_no_longer_seen_stays_and_what_is_only_remembered_is_not_taken_in() -> None:

@@ -195,7 +195,7 @@ def _draw_stairs(axes: Axes, stairs: Sequence[StairTrace]) -> None:
             label=labels.pop(kind, None),
         )
         axes.annotate(
-            f"{1e3 * stair.front[:, 2].mean():.0f}",
+            f"{1e3 * stair.height():.0f}",
             tuple(stair.front[0, :2]),
             xytext=(-2, 2),
             textcoords="offset points",

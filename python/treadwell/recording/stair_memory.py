@@ -1,25 +1,21 @@
-"""What a run knew of stairs in the end, for `map.png`: each stair as it was seen last."""
+"""What a run knew of stairs, for `map.png`: each stair as it was seen best."""
 
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.recording.trace import StairTrace, Trace
+from treadwell.recording.trace import FLOOR_DEPTH, StairTrace, Trace
 
 _SAME_HEIGHT: Final = 0.012
 """Metres by which two sightings of one stair may differ."""
 
 
-_FLOOR_DEPTH: Final = 1.0
-"""Metres from front to back from which on a level is floor to look at, not a stair."""
-
-
 class StairMemory:
-    """Keeps every stair as it was seen last, and when the robot climbed.
+    """Keeps every stair as it was seen last with a fitted front edge, and when the robot climbed.
 
     Attributes:
-        stairs: the stairs, those seen last at the end.
+        stairs: the stairs; those that were never fitted as they were seen last.
         climbing: for each camera frame whether the feet took listed steps.
     """
 
@@ -31,12 +27,13 @@ class StairMemory:
     def update(self, trace: Trace) -> None:
         """Take in a camera frame."""
         self.climbing.append(bool(trace.footsteps))
-        seen = [s for s in trace.stairs if s.steps_ago == 0 and _depth(s) < _FLOOR_DEPTH]
-        if seen:
-            self.stairs = [
-                old for old in self.stairs if not any(_is_same(old, new) for new in seen)
-            ]
-            self.stairs += seen
+        for new in trace.stairs:
+            if new.steps_ago or new.depth() >= FLOOR_DEPTH:
+                continue
+            same = [old for old in self.stairs if _is_same(old, new)]
+            if new.front_fitted or not any(old.front_fitted for old in same):
+                self.stairs = [old for old in self.stairs if old not in same]
+                self.stairs.append(new)
 
 
 def outline(stair: StairTrace) -> NDArray[np.float64]:
@@ -45,14 +42,9 @@ def outline(stair: StairTrace) -> NDArray[np.float64]:
     return corners
 
 
-def _depth(stair: StairTrace) -> float:
-    """Return how far its back edge's middle lies from its front edge's, m."""
-    return float(np.linalg.norm((stair.back - stair.front).mean(axis=0)[:2]))
-
-
 def _is_same(one: StairTrace, other: StairTrace) -> bool:
     """Say whether two sightings are of one stair: as high, and the middle of one on the other."""
-    rise = one.front[:, 2].mean() - other.front[:, 2].mean()
+    rise = one.height() - other.height()
     if abs(rise) > _SAME_HEIGHT:
         return False
     a, b = outline(one), outline(other)

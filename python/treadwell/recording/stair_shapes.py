@@ -15,7 +15,7 @@ from treadwell.recording.layout import (
     PLANNED_SOLE,
     STAIR,
 )
-from treadwell.recording.trace import StairTrace, Trace
+from treadwell.recording.trace import FLOOR_DEPTH, StairTrace, Trace
 
 _Colour = tuple[int, int, int, int]
 
@@ -62,13 +62,21 @@ class StairShapes:
         if not stairs and not self._stairs_shown:
             return
         self._stairs_shown = bool(stairs)
-        rims = [_raised([*s.front, *s.back[::-1], s.front[0]]) for s in stairs]
-        rim_colours = [(*STAIR, _opacity(s)) for s in stairs]
-        self._lines("world/stairs", rims, rim_colours, 0.003)
+        # The floor at the foot of stairs is one of them, but its rim would lie over everything.
+        steps = [s for s in stairs if s.depth() < FLOOR_DEPTH]
+        rims = [_raised([*s.front, *s.back[::-1], s.front[0]]) for s in steps]
+        self._lines("world/stairs", rims, [(*STAIR, _opacity(s)) for s in steps], 0.003)
         fronts = [_raised(s.front) for s in stairs]
         colours = [_edge_colour(s, fitted=s.front_fitted) for s in stairs]
-        labels = [f"{1e3 * s.front[:, 2].mean():.0f} mm" for s in stairs]
-        self._lines("world/stairs/front", fronts, colours, 0.006, labels)
+        self._lines("world/stairs/front", fronts, colours, 0.006)
+        heights = rr.Points3D(
+            [s.front.mean(axis=0) for s in steps],
+            radii=[0.001],
+            colors=[(255, 255, 255)],
+            labels=[f"{1e3 * s.height():.0f} mm" for s in steps],
+            show_labels=True,
+        )
+        self._stream.log("world/stairs/height", heights)
         backs = [s for s in stairs if s.back_fitted]
         colours = [_edge_colour(s, fitted=True) for s in backs]
         self._lines("world/stairs/back", [_raised(s.back) for s in backs], colours, 0.004)
@@ -113,11 +121,8 @@ class StairShapes:
         strips: list[NDArray[np.float64]],
         colours: list[_Colour],
         radius: float,
-        labels: list[str] | None = None,
     ) -> None:
-        lines = rr.LineStrips3D(
-            strips, colors=colours, radii=[radius], labels=labels, show_labels=bool(labels)
-        )
+        lines = rr.LineStrips3D(strips, colors=colours, radii=[radius])
         self._stream.log(entity, lines)
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,8 @@ from treadwell.judging.ground_truth import Sole
 from treadwell.protocols import Footstep
 
 Floats = NDArray[np.float64]
+FLOOR_DEPTH: Final = 1.0
+"""Metres from front to back from which on a level is floor to look at, not a stair."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,6 +32,14 @@ class StairTrace:
     front_fitted: bool
     back_fitted: bool
     steps_ago: int
+
+    def height(self) -> float:
+        """Return its height in the map frame, m."""
+        return float(self.front[:, 2].mean())
+
+    def depth(self) -> float:
+        """Return how far its back edge's middle lies from its front edge's, m."""
+        return float(np.linalg.norm((self.back - self.front).mean(axis=0)[:2]))
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
