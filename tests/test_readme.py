@@ -73,3 +73,15 @@ def test_the_scenario_of_the_readme_is_one(tmp_path: Path) -> None:
     path = tmp_path / "two_boxes.toml"
     path.write_text(example)
     assert execute(["check", str(path), "--seed", "3"]) == 0
+
+
+def test_the_tests_and_scenarios_that_the_results_name_exist() -> None:
+    text = (ROOT / "docs" / "results.md").read_text()
+    rows = [line for line in text.splitlines() if re.match(r"\| S(-M)?\d+ \|", line)]
+    assert len(rows) == 29
+    named = {name for row in rows for name in re.findall(r"`([a-z_0-9]+)`", row)}
+    sources = [*(ROOT / "rust").rglob("*.rs"), *(ROOT / "tests").glob("*.py")]
+    code = "\n".join(path.read_text() for path in sources)
+    tests = set(re.findall(r"\b(?:fn|def) (\w+)", code))
+    scenarios = {path.stem for path in (ROOT / "scenarios").glob("*.toml")}
+    assert named <= tests | scenarios, named - tests - scenarios
