@@ -9,11 +9,14 @@ mod finish;
 mod flight;
 mod footsteps;
 mod head;
+mod inspection;
 mod leg;
 mod placement;
+mod setback;
 mod state;
 mod states;
 mod stepper;
+mod walk;
 
 #[cfg(test)]
 mod simulation;
@@ -21,7 +24,7 @@ mod simulation;
 mod tests;
 
 use geometry::{ConfigError, PlanarPose};
-use planning::{Plan, Step};
+use planning::{Plan, Refusal, Step};
 use stairs::{ClimbingConfig, Feet};
 
 use crate::{
@@ -32,6 +35,7 @@ pub use config::StairClimbingConfig;
 use flight::Flight;
 use footsteps::Stance;
 use head::Head;
+use inspection::Inspection;
 use leg::Leg;
 use placement::Before;
 use state::State;
@@ -98,6 +102,9 @@ pub struct StairClimbing {
     /// The plan for `walking`: cut off before the next climb.
     walk_plan: Option<Plan>,
     climb_ahead_s: f64,
+    inspection: Option<Inspection>,
+    /// Edges of stairs that were looked at from near by, m.
+    inspected: Vec<[f64; 2]>,
 }
 
 /// What the states read at a tick.
@@ -121,6 +128,25 @@ impl Here<'_> {
     fn no_way(&self) -> Option<String> {
         let no_way = self.situation.plan?.way.as_ref().err()?;
         Some(format!("{}: {}", no_way.refusal.word(), no_way.sentence))
+    }
+
+    /// Whether the planner finds no way because of what stairs are like.
+    fn breaks_a_limit(&self) -> bool {
+        let way = self.situation.plan.map(|plan| &plan.way);
+        matches!(way, Some(Err(no_way)) if matches!(
+            no_way.refusal,
+            Refusal::StepTooHigh
+                | Refusal::StepTooLow
+                | Refusal::TreadTooShort
+                | Refusal::GapTooShort
+                | Refusal::Drop
+        ))
+    }
+
+    /// Whether the goal is known to be on another level than the robot.
+    fn goal_is_elsewhere(&self, floor_max_m: f64) -> bool {
+        let height_m = self.situation.goal.height_m;
+        height_m.is_some_and(|height_m| (height_m - self.ground_m).abs() > floor_max_m)
     }
 
     /// Seconds since a frame was last taken into the map.
@@ -165,6 +191,8 @@ impl StairClimbing {
             refusal: String::new(),
             walk_plan: None,
             climb_ahead_s: 0.0,
+            inspection: None,
+            inspected: Vec::new(),
         })
     }
 

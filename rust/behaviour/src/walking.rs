@@ -20,7 +20,8 @@ use geometry::{ConfigError, PlanarPose};
 use planning::{Goal, Path};
 
 use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Outcome, Situation};
-use ahead::{Followed, Looked, is_roomy};
+pub(crate) use ahead::is_roomy;
+use ahead::{Followed, Looked};
 pub use config::WalkingConfig;
 use gaze::{Gazer, Sweep};
 use progress::Progress;

@@ -2,15 +2,13 @@
 
 use mapping::Surface;
 use planning::Step;
-use robot::Side;
-use stairs::Unfit;
 
 use super::{Here, Pace, Phase, StairClimbing, State};
+use crate::Motion;
 use crate::climbing::flight::{is_same, nearest};
-use crate::climbing::footsteps::{Foothold, Stance, alternating, leading_side, level};
-use crate::climbing::placement::{Behind, Verdict};
+use crate::climbing::footsteps::{Stance, alternating, leading_side, level};
+use crate::climbing::placement::{Behind, Verdict, reason};
 use crate::climbing::stepper::Stepped;
-use crate::{Misstep, Motion};
 
 /// A robot on a stair deeper than this has room to turn and to walk, m.
 const ROOMY_M: f64 = 0.22;
@@ -249,61 +247,6 @@ impl StairClimbing {
         }
     }
 
-    fn after_misstep(&mut self, here: &Here<'_>, misstep: Misstep, landed: usize) {
-        self.tries.missteps += 1;
-        let what = match misstep {
-            Misstep::NoGround => "the next step is not where it was seen",
-            Misstep::Obstructed => "something is in the way of the foot",
-        };
-        let holds = self.stepper.holds().to_vec();
-        let missed = holds.get(landed).copied();
-        if landed == 0 {
-            if self.tries.missteps > 1 {
-                self.refuse(format!("blocked: {what}"));
-            } else {
-                self.begin_look(here);
-            }
-        } else if self.tries.missteps == 1 && missed.is_some() {
-            // The feet stand on two levels: the other one tries once more.
-            self.stepper
-                .start(holds[landed..].to_vec(), &here.pose, here.ground_m);
-            self.phase(Phase::Step);
-        } else {
-            self.take_back(here, &holds[..landed.min(holds.len())]);
-            self.refusal = format!("blocked: {what}");
-        }
-    }
-
-    /// Back to where the robot stood before the last list.
-    fn take_back(&mut self, here: &Here<'_>, landed: &[Foothold]) {
-        let Some(from) = self.came_from else {
-            self.refuse("blocked: a step could not be finished".to_owned());
-            return;
-        };
-        let sides = Side::BOTH
-            .into_iter()
-            .filter(|side| landed.iter().any(|hold| hold.side == *side));
-        let holds = sides
-            .map(|side| from.foothold(side, self.feet.stance_m))
-            .collect();
-        self.enter(State::StepBack);
-        self.stepper.start(holds, &here.pose, here.ground_m);
-        self.phase(Phase::Step);
-    }
-
-    /// One tick of moving back: on the level to look again, from a step that failed to give up.
-    pub(super) fn step_back(&mut self, here: &Here<'_>) -> Motion {
-        match self.stepper.advance(here.situation, here.passed_s) {
-            Stepped::Running => {}
-            _ if self.on.is_some() || self.tries.missteps > 1 => {
-                let reason = std::mem::take(&mut self.refusal);
-                self.refuse(reason);
-            }
-            _ => self.begin_search(here),
-        }
-        self.stepper.motion()
-    }
-
     /// No step is left.
     fn end_climb(&mut self, here: &Here<'_>) {
         let roomy = self.on.is_none_or(|step| step.stair.depth_m() >= ROOMY_M);
@@ -325,32 +268,4 @@ fn is_seen_now(here: &Here<'_>, step: &Step) -> bool {
         .stairs
         .iter()
         .any(|stair| is_same(step, stair) && stair.steps_ago == 0)
-}
-
-/// The refusal of a step, with figures.
-fn reason(unfit: &Unfit) -> String {
-    let mm = |value_m: f64| 1e3 * value_m;
-    match *unfit {
-        Unfit::TooLow(rise_m) => {
-            format!("step_too_low: the next step is {:.0} mm high", mm(rise_m))
-        }
-        Unfit::TooHigh(rise_m) => {
-            format!("step_too_high: the next step is {:.0} mm high", mm(rise_m))
-        }
-        Unfit::TreadTooShort(depth_m, needed_m) => format!(
-            "tread_too_short: the next step is {:.0} mm deep, {:.0} mm are needed",
-            mm(depth_m),
-            mm(needed_m)
-        ),
-        Unfit::GapTooShort(depth_m, needed_m) => format!(
-            "gap_too_short: the ground below is {:.0} mm deep, {:.0} mm are needed",
-            mm(depth_m),
-            mm(needed_m)
-        ),
-        Unfit::TooNarrow(width_m, needed_m) => format!(
-            "too_narrow: the next step is {:.0} mm wide, {:.0} mm are needed",
-            mm(width_m),
-            mm(needed_m)
-        ),
-    }
 }

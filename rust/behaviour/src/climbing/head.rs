@@ -61,6 +61,20 @@ impl Head {
         ]);
     }
 
+    /// Begins to look at stairs from near by: at their first edge and up or down all of them.
+    pub(crate) fn inspect(&mut self, place_m: [f64; 2]) {
+        let Gaze { pan_rad, down_rad } = self.towards(place_m);
+        let (left, right) = (pan_rad + 0.15, pan_rad - 0.15);
+        self.begin(&[
+            (left, down_rad),
+            (right, down_rad),
+            (right, 0.8),
+            (left, 0.7),
+            (left, 0.55),
+            (right, 0.55),
+        ]);
+    }
+
     fn begin(&mut self, places: &[(f64, f64)]) {
         self.sweep = Sweep::through(places);
         self.looked_s = 0.0;

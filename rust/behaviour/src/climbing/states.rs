@@ -1,16 +1,13 @@
-//! The states up to the first step: walk, search, align, approach; and what may end any state.
+//! The states up to the first step: search, align, approach; and what may end any state.
 
 use geometry::angle_between;
 
-use super::{Here, Leg, Phase, StairClimbing, State};
+use super::walk::SURE_S;
+use super::{Here, Phase, StairClimbing, State};
 use crate::climbing::footsteps::{Stance, level};
 use crate::climbing::stepper::Stepped;
-use crate::{Behaviour, BehaviourError, Decision, Motion, Outcome, Situation, Velocity};
+use crate::{Motion, Velocity};
 
-/// The first look around may end after this when stairs lie on the way, s: by then all near ground was looked at.
-const FIRST_LOOK_S: f64 = 3.8;
-/// A climb must be on the plan this long to be counted on, s.
-const SURE_S: f64 = 0.4;
 /// A climb that the plan has not shown for this long is lost, s.
 const LOST_S: f64 = 1.5;
 /// Seeing nothing for this long is being blind, s;
@@ -23,61 +20,6 @@ const LONGEST_IDLE_S: f64 = 60.0;
 const LONGEST_ALIGN_S: f64 = 10.0;
 
 impl StairClimbing {
-    /// A tick of `walking` on the way to the next climb or to the goal.
-    pub(super) fn walk(&mut self, here: &Here<'_>) -> Result<Decision, BehaviourError> {
-        let situation = here.situation;
-        let leg = Leg::next(situation.plan, &self.config, &self.climbing, &self.feet);
-        let ahead_s = self.climb_ahead_s + here.passed_s;
-        self.climb_ahead_s = if leg.is_some() { ahead_s } else { 0.0 };
-        self.idle_s = 0.0;
-        let Some(leg) = leg else {
-            self.walk_plan = None;
-            let decision = self.walking.next(situation)?;
-            return Ok(self.unless_stairs_may_help(here, decision));
-        };
-        let looking = self.walking.is_looking_around();
-        if self.climb_ahead_s > SURE_S && leg.is_reached(&here.pose) && !looking {
-            self.flight.adopt(leg.steps);
-            self.head.gazer.start(situation.gaze);
-            self.enter(State::Align);
-            return Ok(self.decision(here, Motion::Stand));
-        }
-        if here.new_frame || self.walk_plan.is_none() {
-            self.walk_plan = situation.plan.and_then(|plan| leg.walk(plan));
-        }
-        if looking && self.climb_ahead_s > SURE_S && self.state_s > FIRST_LOOK_S {
-            self.walking.end_look();
-        }
-        let mut decision = self.walking.next(&Situation {
-            plan: self.walk_plan.as_ref(),
-            last_goal: false,
-            ..*situation
-        })?;
-        decision.goal_passed = false;
-        if looking {
-            decision.state = State::Search.name();
-        }
-        Ok(decision)
-    }
-
-    /// Before a refusal that stairs could prevent, the robot searches for stairs.
-    fn unless_stairs_may_help(&mut self, here: &Here<'_>, decision: Decision) -> Decision {
-        let situation = here.situation;
-        let refuses = matches!(decision.outcome, Some(Outcome::Refused(_)));
-        let other_level = situation
-            .goal
-            .height_m
-            .is_some_and(|height_m| (height_m - here.ground_m).abs() > self.climbing.floor_max);
-        let stairs_help = other_level || !situation.stairs.stairs.is_empty();
-        if refuses && stairs_help && here.no_way().is_some() && self.tries.searches == 0 {
-            self.head.gazer.start(situation.gaze);
-            self.flight.clear();
-            self.begin_search(here);
-            return self.decision(here, Motion::Stand);
-        }
-        decision
-    }
-
     /// What may end any state of the climb while no foot is on its way.
     pub(super) fn interrupt(&mut self, here: &Here<'_>) {
         if self.stepper.is_running() || matches!(self.state, State::Refuse | State::Blind) {
@@ -107,6 +49,7 @@ impl StairClimbing {
         }
     }
 
+    /// Looks for the step that was lost, else towards the goal.
     pub(super) fn begin_search(&mut self, here: &Here<'_>) {
         self.tries.searches += 1;
         let goal = here.situation.goal;
@@ -120,33 +63,23 @@ impl StairClimbing {
     }
 
     fn search(&mut self, here: &Here<'_>) -> Motion {
-        let leg = Leg::next(
-            here.situation.plan,
-            &self.config,
-            &self.climbing,
-            &self.feet,
-        );
-        self.climb_ahead_s = if leg.is_some() {
-            self.climb_ahead_s + here.passed_s
-        } else {
-            0.0
-        };
+        let climbs = self.leg(here).is_some();
+        self.count_climb_ahead(climbs, here.passed_s);
         let found = self.climb_ahead_s > SURE_S;
-        let seen = self.head.advance(here.situation.frames_used, here.passed_s);
+        let seen =
+            here.situation.standing && self.head.advance(here.situation.frames_used, here.passed_s);
         if !found && !seen {
             return Motion::Stand;
         }
-        if self.tries.searches > self.config.tries {
+        if self.tries.searches > self.config.tries || (!found && here.breaks_a_limit()) {
             let reason = here.no_way().unwrap_or_else(|| {
                 "lost: the stairs were seen and could not be found again".to_owned()
             });
             self.refuse(reason);
-        } else if found || here.no_way().is_none() {
+        } else {
             self.flight.clear();
             self.walking.resume(here.situation);
             self.enter(State::Walk);
-        } else {
-            self.begin_search(here);
         }
         Motion::Stand
     }

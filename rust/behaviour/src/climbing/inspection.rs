@@ -1,0 +1,131 @@
+//! Stairs that a plan needs and does not use yet: too little of them is known from afar, so they are looked at from near by.
+
+use geometry::{Map, PlanarPose};
+use mapping::{FloorView, Surface};
+use planning::{Path, Plan, Step};
+use stairs::Stair;
+
+use crate::climbing::Here;
+use crate::climbing::leg::align_pose;
+use crate::climbing::placement::Before;
+
+/// Stairs further away than this are left alone, m.
+const FARTHEST_M: f64 = 1.5;
+/// A change of height above this is no step to look at, m.
+const HIGHEST_M: f64 = 0.1;
+/// Stairs nearer than this to some that were inspected have been looked at, m.
+const INSPECTED_M: f64 = 0.3;
+/// A place counts as reached within this, m.
+const NEAR_M: f64 = 0.1;
+/// Room that the robot needs on the way, from its middle, m.
+const ROOM_M: f64 = 0.14;
+/// Distance between the places of a path, m.
+const SPACING_M: f64 = 0.04;
+
+/// Where to go and what to look at there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Inspection {
+    /// Where to stand.
+    pub(crate) pose: PlanarPose,
+    /// Middle of the nearest edge.
+    pub(crate) edge_m: [f64; 2],
+}
+
+impl Inspection {
+    /// The nearest stair that was not looked at from near by, where the plan has no way, or none to the goal's level.
+    pub(crate) fn find(
+        here: &Here<'_>,
+        before: &Before<'_>,
+        inspected: &[[f64; 2]],
+    ) -> Option<Self> {
+        let situation = here.situation;
+        let no_way = situation.plan?.way.is_err();
+        if !no_way && !here.goal_is_elsewhere(before.climbing.floor_max) {
+            return None;
+        }
+        situation
+            .stairs
+            .stairs
+            .iter()
+            .filter_map(|stair| Self::of(stair, before))
+            .filter(|found| {
+                let away_m = |place: &[f64; 2]| distance_m(*place, found.edge_m);
+                !inspected.iter().any(|place| away_m(place) < INSPECTED_M)
+            })
+            .filter(|found| found.is_free(situation.view, &here.pose, here.ground_m))
+            .min_by(|a, b| a.away_m(&here.pose).total_cmp(&b.away_m(&here.pose)))
+    }
+
+    fn of(stair: &Stair<Map>, before: &Before<'_>) -> Option<Self> {
+        let rise_m = stair.height_m() - before.ground_m;
+        let middle = stair.front.middle().inner;
+        let edge_m = [middle.x, middle.y];
+        let here_m = [before.pose.x_m, before.pose.y_m];
+        let adjacent = rise_m.abs() > before.climbing.floor_max && rise_m.abs() < HIGHEST_M;
+        let ahead = stair.front.beyond_m(here_m) < 0.0;
+        if !(adjacent && ahead && distance_m(edge_m, here_m) < FARTHEST_M) {
+            return None;
+        }
+        let step = Step {
+            stair: *stair,
+            rise_m,
+            crossing_m: edge_m,
+        };
+        Some(Self {
+            pose: align_pose(&step, before.config, before.climbing, before.feet),
+            edge_m,
+        })
+    }
+
+    fn away_m(&self, pose: &PlanarPose) -> f64 {
+        self.pose.distance_m(pose)
+    }
+
+    /// Whether a robot here has come near enough.
+    pub(crate) fn is_reached(&self, pose: &PlanarPose) -> bool {
+        self.away_m(pose) < NEAR_M
+    }
+
+    /// Places on the straight way there.
+    fn places(&self, from: &PlanarPose) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let (from_m, to_m) = ([from.x_m, from.y_m], [self.pose.x_m, self.pose.y_m]);
+        let count = (distance_m(from_m, to_m) / SPACING_M).ceil().max(1.0) as usize;
+        (0..=count).map(move |i| {
+            let share = i as f64 / count as f64;
+            let at = |axis: usize| from_m[axis] + (to_m[axis] - from_m[axis]) * share;
+            [at(0), at(1)]
+        })
+    }
+
+    /// Whether nothing is known to stand on the straight way there, and no other level.
+    fn is_free(&self, view: &FloorView, from: &PlanarPose, ground_m: f64) -> bool {
+        const LEVEL_M: f64 = 0.012;
+        self.places(from).all(|[x_m, y_m]| {
+            crate::walking::is_roomy(view, [x_m, y_m], ROOM_M)
+                && match view.at(x_m, y_m) {
+                    Surface::Floor(height_m) => (f64::from(height_m) - ground_m).abs() < LEVEL_M,
+                    Surface::Unknown => true,
+                    Surface::Obstacle(_) => false,
+                }
+        })
+    }
+
+    /// A plan that leads there.
+    pub(crate) fn plan(&self, from: &PlanarPose) -> Plan {
+        let points_m: Vec<_> = self.places(from).collect();
+        Plan {
+            way: Ok(Path {
+                unknown: vec![false; points_m.len()],
+                clearance_m: vec![ROOM_M; points_m.len()],
+                climbs: Vec::new(),
+                cost_m: self.away_m(from),
+                points_m,
+            }),
+            replanned: false,
+        }
+    }
+}
+
+fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}

@@ -1,0 +1,66 @@
+//! What follows when a step fails: a new try, back to where the robot came from, or giving up.
+
+use robot::Side;
+
+use super::{Here, Phase, StairClimbing, State};
+use crate::climbing::footsteps::Foothold;
+use crate::climbing::stepper::Stepped;
+use crate::{Misstep, Motion};
+
+impl StairClimbing {
+    /// A step was taken back: look again, let the other foot try again, or give up.
+    pub(super) fn after_misstep(&mut self, here: &Here<'_>, misstep: Misstep, landed: usize) {
+        self.tries.missteps += 1;
+        let what = match misstep {
+            Misstep::NoGround => "the next step is not where it was seen",
+            Misstep::Obstructed => "something is in the way of the foot",
+        };
+        let holds = self.stepper.holds().to_vec();
+        let missed = holds.get(landed).copied();
+        if landed == 0 {
+            if self.tries.missteps > 1 {
+                self.refuse(format!("blocked: {what}"));
+            } else {
+                self.begin_look(here);
+            }
+        } else if self.tries.missteps == 1 && missed.is_some() {
+            // The feet stand on two levels: the other one tries once more.
+            self.stepper
+                .start(holds[landed..].to_vec(), &here.pose, here.ground_m);
+            self.phase(Phase::Step);
+        } else {
+            self.take_back(here, &holds[..landed.min(holds.len())]);
+            self.refusal = format!("blocked: {what}");
+        }
+    }
+
+    /// Back to where the robot stood before the last list.
+    fn take_back(&mut self, here: &Here<'_>, landed: &[Foothold]) {
+        let Some(from) = self.came_from else {
+            self.refuse("blocked: a step could not be finished".to_owned());
+            return;
+        };
+        let sides = Side::BOTH
+            .into_iter()
+            .filter(|side| landed.iter().any(|hold| hold.side == *side));
+        let holds = sides
+            .map(|side| from.foothold(side, self.feet.stance_m))
+            .collect();
+        self.enter(State::StepBack);
+        self.stepper.start(holds, &here.pose, here.ground_m);
+        self.phase(Phase::Step);
+    }
+
+    /// One tick of moving back: on the level to look again, from a step that failed to give up.
+    pub(super) fn step_back(&mut self, here: &Here<'_>) -> Motion {
+        match self.stepper.advance(here.situation, here.passed_s) {
+            Stepped::Running => {}
+            _ if self.on.is_some() || self.tries.missteps > 1 => {
+                let reason = std::mem::take(&mut self.refusal);
+                self.refuse(reason);
+            }
+            _ => self.begin_search(here),
+        }
+        self.stepper.motion()
+    }
+}

@@ -1,0 +1,106 @@
+//! The walk to the next climb, or nearer to stairs of which too little is known (003: search).
+
+use super::{Here, Leg, StairClimbing, State};
+use crate::climbing::inspection::Inspection;
+use crate::{Behaviour, BehaviourError, Decision, Motion, Outcome, Situation};
+
+/// The first look around may end after this when stairs lie on the way, s: by then all near ground was looked at.
+const FIRST_LOOK_S: f64 = 3.8;
+/// A climb must be on the plan this long to be counted on, s.
+pub(super) const SURE_S: f64 = 0.4;
+
+impl StairClimbing {
+    /// The next climb of the plan.
+    pub(super) fn leg<'a>(&self, here: &Here<'a>) -> Option<Leg<'a>> {
+        Leg::next(
+            here.situation.plan,
+            &self.config,
+            &self.climbing,
+            &self.feet,
+        )
+    }
+
+    pub(super) fn count_climb_ahead(&mut self, climbs: bool, passed_s: f64) {
+        self.climb_ahead_s = if climbs {
+            self.climb_ahead_s + passed_s
+        } else {
+            0.0
+        };
+    }
+
+    /// A tick of `walking` on the way to the next climb, to stairs that need a closer look, or to the goal.
+    pub(super) fn walk(&mut self, here: &Here<'_>) -> Result<Decision, BehaviourError> {
+        let situation = here.situation;
+        let leg = self.leg(here);
+        self.idle_s = 0.0;
+        let looking = self.walking.is_looking_around();
+        if here.new_frame {
+            self.inspection = if leg.is_none() {
+                Inspection::find(here, &self.before(here), &self.inspected)
+            } else {
+                None
+            };
+        }
+        self.count_climb_ahead(leg.is_some() || self.inspection.is_some(), here.passed_s);
+        let sure = self.climb_ahead_s > SURE_S;
+        if let Some(leg) = &leg {
+            if sure && leg.is_reached(&here.pose) && !looking {
+                self.flight.adopt(leg.steps);
+                self.head.gazer.start(situation.gaze);
+                self.enter(State::Align);
+                return Ok(self.decision(here, Motion::Stand));
+            }
+            if here.new_frame || self.walk_plan.is_none() {
+                self.walk_plan = situation.plan.and_then(|plan| leg.walk(plan));
+            }
+        } else if let Some(inspection) = self.inspection {
+            if sure && inspection.is_reached(&here.pose) && !looking {
+                self.inspect(here, &inspection);
+                return Ok(self.decision(here, Motion::Stand));
+            }
+            if here.new_frame || self.walk_plan.is_none() {
+                self.walk_plan = Some(inspection.plan(&here.pose));
+            }
+        } else {
+            self.walk_plan = None;
+            let decision = self.walking.next(situation)?;
+            return Ok(self.unless_stairs_may_help(here, decision));
+        }
+        if looking && sure && self.state_s > FIRST_LOOK_S {
+            self.walking.end_look();
+        }
+        let mut decision = self.walking.next(&Situation {
+            plan: self.walk_plan.as_ref(),
+            last_goal: false,
+            ..*situation
+        })?;
+        decision.goal_passed = false;
+        if looking {
+            decision.state = State::Search.name();
+        }
+        Ok(decision)
+    }
+
+    /// Looks at stairs from near by.
+    fn inspect(&mut self, here: &Here<'_>, inspection: &Inspection) {
+        self.inspected.push(inspection.edge_m);
+        self.flight.clear();
+        self.head.gazer.start(here.situation.gaze);
+        self.begin_search(here);
+        self.head.inspect(here.in_robot(inspection.edge_m));
+    }
+
+    /// Before a refusal that stairs could prevent, the robot searches for stairs.
+    fn unless_stairs_may_help(&mut self, here: &Here<'_>, decision: Decision) -> Decision {
+        let refuses = matches!(decision.outcome, Some(Outcome::Refused(_)));
+        let stairs_help = here.goal_is_elsewhere(self.climbing.floor_max)
+            || !here.situation.stairs.stairs.is_empty();
+        if refuses && stairs_help && here.no_way().is_some() && self.tries.searches == 0 {
+            self.head.gazer.start(here.situation.gaze);
+            self.flight.clear();
+            self.begin_search(here);
+            return self.decision(here, Motion::Stand);
+        }
+        decision
+    }
+}
