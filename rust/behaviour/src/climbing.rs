@@ -12,6 +12,7 @@ mod head;
 mod inspection;
 mod leg;
 mod placement;
+mod run;
 mod setback;
 mod state;
 mod states;
@@ -93,6 +94,8 @@ pub struct StairClimbing {
     head: Head,
     flight: Flight,
     stepper: Stepper,
+    /// The stances of a climb without stops that is on its way.
+    run: Vec<Stance>,
     /// The stair that the robot stands on, once it has climbed one.
     on: Option<Step>,
     /// Where it stood before the last step.
@@ -185,6 +188,7 @@ impl StairClimbing {
             frames_used: 0,
             flight: Flight::default(),
             stepper: Stepper::default(),
+            run: Vec::new(),
             on: None,
             came_from: None,
             tries: Tries::default(),
@@ -220,7 +224,8 @@ impl StairClimbing {
         self.flight.lost_s += here.passed_s;
         if here.new_frame && self.state != State::Walk {
             let Situation { plan, stairs, .. } = *here.situation;
-            self.flight.refresh(plan, stairs, &self.climbing);
+            self.flight
+                .refresh(plan, stairs, &here.pose, &self.climbing);
         }
     }
 

@@ -38,9 +38,14 @@ impl StairClimbing {
     pub(super) fn climb(&mut self, here: &Here<'_>) -> Motion {
         match self.phase {
             Phase::Look | Phase::Wait => {
-                let seen = here.situation.standing
-                    && self.head.advance(here.situation.frames_used, here.passed_s);
-                if seen {
+                let known = self.phase == Phase::Look
+                    && self.tries.missteps == 0
+                    && self.tries.looks == 0
+                    && self
+                        .flight
+                        .second()
+                        .is_some_and(|second| self.is_well_measured(second));
+                if self.look(here, known) {
                     self.decide(here);
                 }
             }
@@ -50,6 +55,9 @@ impl StairClimbing {
                     .second()
                     .map_or([0.3, 0.0], |step| here.in_robot(step.crossing_m));
                 self.head.turn_to(place_m, here.passed_s);
+                if here.new_frame {
+                    self.go_on_without_a_stop(here);
+                }
                 let stepped = self.stepper.advance(here.situation, here.passed_s);
                 self.after_steps(here, stepped);
             }
@@ -85,6 +93,7 @@ impl StairClimbing {
                     return;
                 }
                 let holds = level(&here.pose, &stance, self.feet.stance_m, &self.config);
+                self.run.clear();
                 self.stepper.start(holds, &here.pose, here.ground_m);
                 self.phase(Phase::Step);
             }
@@ -142,7 +151,7 @@ impl StairClimbing {
     }
 
     /// Whether something stands where the feet shall go.
-    fn is_occupied(&self, here: &Here<'_>, stance: &Stance) -> bool {
+    pub(super) fn is_occupied(&self, here: &Here<'_>, stance: &Stance) -> bool {
         const RASTER: i32 = 4;
         let view = here.situation.view;
         let half = [0.5 * self.feet.length_m, 0.5 * self.feet.pair_width_m];
@@ -181,9 +190,13 @@ impl StairClimbing {
 
     fn step(&mut self, here: &Here<'_>, stance: &Stance) {
         let first = leading_side(&here.pose, &stance.pose);
-        let stances = self.run(here, stance);
-        let holds = if stances.len() > 1 {
-            alternating(first, &stances, self.feet.stance_m)
+        self.run.clear();
+        self.run.push(*stance);
+        if self.pace == Pace::Continuous {
+            let _ = self.lengthen_run(here);
+        }
+        let holds = if self.run.len() > 1 {
+            alternating(first, &self.run, self.feet.stance_m)
         } else {
             stance.both(first, self.feet.stance_m).to_vec()
         };
@@ -195,31 +208,6 @@ impl StairClimbing {
         });
         self.stepper.start(holds, &here.pose, here.ground_m);
         self.phase(Phase::Step);
-    }
-
-    /// The stances that can be taken without a stop, this one first.
-    fn run(&self, here: &Here<'_>, stance: &Stance) -> Vec<Stance> {
-        let mut stances = vec![*stance];
-        if self.pace == Pace::StepByStep {
-            return stances;
-        }
-        let steps = self.flight.steps();
-        for (index, step) in steps.iter().enumerate().skip(1) {
-            let from = stances[index - 1];
-            let mut before = self.before(here);
-            before.pose = from.pose;
-            before.ground_m = from.height_m;
-            let behind = match steps.get(index + 1) {
-                Some(after) if self.is_measured(after) => Behind::Step(after),
-                Some(_) => break,
-                None => before.without_next(step),
-            };
-            match before.check(step, &behind) {
-                Verdict::Go(next) if !self.is_occupied(here, &next) => stances.push(next),
-                _ => break,
-            }
-        }
-        stances
     }
 
     fn after_steps(&mut self, here: &Here<'_>, stepped: Stepped) {

@@ -43,7 +43,7 @@ pub struct StairClimbingConfig {
 impl Default for StairClimbingConfig {
     fn default() -> Self {
         Self {
-            look_distance: 0.24,
+            look_distance: 0.22,
             gaze_steep: 1.1,
             gaze_speed: 0.9,
             edge_frames: 4,
@@ -52,7 +52,7 @@ impl Default for StairClimbingConfig {
             near_tolerance: 0.012,
             aligned: 0.09,
             longest_stride: 0.15,
-            step_forward: 0.05,
+            step_forward: 0.055,
             step_side: 0.03,
             step_turn: 0.2,
             wait: 10.0,

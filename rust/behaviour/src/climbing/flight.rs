@@ -10,6 +10,9 @@ const SAME_HEIGHT_M: f64 = 0.012;
 const SAME_PLACE_M: f64 = 0.05;
 /// and in its heading, rad.
 const SAME_HEADING_RAD: f64 = 0.4;
+/// An edge nearer than this to the robot's middle is out of view: what was measured before is better than what is thought
+/// of it now, m.
+const OUT_OF_VIEW_M: f64 = 0.17;
 /// A step follows another when its front edge is no further than this behind the other's back edge, m.
 const JOINT_M: f64 = 0.06;
 
@@ -37,6 +40,17 @@ impl Flight {
         &self.steps
     }
 
+    /// Takes over the steps of a plan's leg, but for the edges that the robot is too near to see.
+    fn renew(&mut self, steps: &[Step], pose: &PlanarPose) {
+        let before = std::mem::take(&mut self.steps);
+        self.adopt(steps);
+        for step in &mut self.steps {
+            if let Some(old) = before.iter().find(|old| is_same(old, &step.stair)) {
+                keep_unseen_edge(step, old, pose);
+            }
+        }
+    }
+
     /// Takes over the steps of a plan's leg.
     pub(crate) fn adopt(&mut self, steps: &[Step]) {
         self.steps.clear();
@@ -60,18 +74,24 @@ impl Flight {
         &mut self,
         plan: Option<&Plan>,
         stairs: &Staircase,
+        pose: &PlanarPose,
         config: &ClimbingConfig,
     ) {
         let Some(first) = self.steps.first().copied() else {
             return;
         };
         if let Some(steps) = plan.and_then(|plan| steps_from(plan, &first)) {
-            self.adopt(steps);
+            self.renew(steps, pose);
             return;
         }
         for step in &mut self.steps {
             if let Some(stair) = stairs.stairs.iter().find(|stair| is_same(step, stair)) {
-                step.stair = *stair;
+                let old = std::mem::replace(&mut step.stair, *stair);
+                let old = Step {
+                    stair: old,
+                    ..*step
+                };
+                keep_unseen_edge(step, &old, pose);
             }
         }
         while let Some(next) = self
@@ -81,6 +101,19 @@ impl Flight {
         {
             self.steps.push(next);
         }
+    }
+}
+
+/// An edge that is out of view stays where it was measured.
+fn keep_unseen_edge(step: &mut Step, old: &Step, pose: &PlanarPose) {
+    let away_m = -old.stair.front.beyond_m([pose.x_m, pose.y_m]);
+    if away_m < OUT_OF_VIEW_M {
+        step.stair.front = old.stair.front;
+        step.stair.front_fit = old.stair.front_fit;
+        step.stair.left_margin_m = old.stair.left_margin_m;
+        step.stair.right_margin_m = old.stair.right_margin_m;
+        step.crossing_m = old.crossing_m;
+        step.rise_m = old.rise_m;
     }
 }
 

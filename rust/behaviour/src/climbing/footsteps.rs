@@ -70,16 +70,15 @@ pub(crate) fn level(
     let way = from.relative(&to.pose);
     let crosses = way.y_m * way.yaw_rad < 0.0;
     let far = way.x_m.abs() > ASIDE_M || way.y_m.abs() > ASIDE_M;
-    if way.yaw_rad.abs() > TURN_RAD && (crosses && far || way.yaw_rad.abs() > config.step_turn) {
+    let turns = way.yaw_rad.abs() > TURN_RAD;
+    if far && turns && (crosses || way.yaw_rad.abs() > config.step_turn) {
         let turned = PlanarPose::new(from.x_m, from.y_m, to.pose.yaw_rad);
         let on_the_spot = Stance {
             pose: turned,
             ..*to
         };
         let mut holds = straight(from, &on_the_spot, stance_m, config);
-        if far {
-            holds.extend(straight(&turned, to, stance_m, config));
-        }
+        holds.extend(straight(&turned, to, stance_m, config));
         return holds;
     }
     straight(from, to, stance_m, config)

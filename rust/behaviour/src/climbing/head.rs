@@ -18,6 +18,7 @@ pub(crate) struct Head {
     speed_radps: f64,
     steep_rad: f64,
     looked_s: f64,
+    frames_before: Option<u64>,
 }
 
 impl Head {
@@ -28,6 +29,7 @@ impl Head {
             speed_radps,
             steep_rad,
             looked_s: 0.0,
+            frames_before: None,
         }
     }
 
@@ -78,15 +80,24 @@ impl Head {
     fn begin(&mut self, places: &[(f64, f64)]) {
         self.sweep = Sweep::through(places);
         self.looked_s = 0.0;
+        self.frames_before = None;
     }
 
     /// One tick of the look; true when it is done and its frames were used, or when it takes too long.
     pub(crate) fn advance(&mut self, frames_used: u64, passed_s: f64) -> bool {
         const LONGEST_S: f64 = 8.0;
         self.looked_s += passed_s;
+        let _ = self.frames_before.get_or_insert(frames_used);
         self.sweep
             .advance(&mut self.gazer, frames_used, passed_s, self.speed_radps)
             || self.looked_s > LONGEST_S
+    }
+
+    /// Whether some frames were used since the look began.
+    pub(crate) fn has_glanced(&self, frames_used: u64) -> bool {
+        const FRAMES: u64 = 3;
+        self.frames_before
+            .is_some_and(|before| frames_used >= before + FRAMES)
     }
 
     /// One tick towards a place of the ground in the robot's frame, m.

@@ -1,23 +1,24 @@
 //! Test support: two soles in a world of stairs, eyes that see edges in view, and a planner that leads straight over them.
 
-use geometry::{Grid, Lattice, PlanarPose, Point, Pose};
+mod course;
+mod eyes;
+mod soles;
+
+use geometry::{Grid, Lattice, PlanarPose, Pose};
 use localization::Estimate;
 use mapping::{FloorView, Surface};
-use planning::{Climb, Goal, NoWay, Path, Plan, Refusal, Step};
+use planning::{Goal, Plan};
 use robot::Side;
-use stairs::{
-    ClimbingConfig, Edge, EdgeFit, Feet, Footing, Onward, Sides, Stair, Staircase, Unfit,
-};
+use stairs::{ClimbingConfig, Feet, Stair, Staircase};
 
 use crate::{
-    Behaviour, Decision, Footstep, Gaze, Misstep, Motion, Outcome, Pace, Situation, StairClimbing,
+    Behaviour, Decision, Footstep, Gaze, Motion, Outcome, Pace, Situation, StairClimbing,
     StairClimbingConfig, Stepping, WalkingBehaviour, WalkingConfig,
 };
 
+pub(crate) use course::{stair, straight};
+
 pub(crate) const TICK_NS: u64 = 10_000_000;
-const EYE_HEIGHT_M: f64 = 0.45;
-const STEP_TICKS: u32 = 100;
-const SHIFT_TICKS: u32 = 50;
 pub(crate) const FEET: Feet = Feet {
     length_m: 0.105,
     pair_width_m: 0.16,
@@ -65,53 +66,6 @@ pub(crate) struct Simulation {
     staircase: Staircase,
     plan: Option<Plan>,
     view: FloorView,
-}
-
-/// Stairs along x from `first_m` on: rise and tread of each; all of this width.
-pub(crate) fn straight(
-    first_m: f64,
-    steps: &[(f64, f64)],
-    width_m: f64,
-) -> Vec<Stair<geometry::Map>> {
-    let (mut x_m, mut z_m) = (first_m, 0.0);
-    steps
-        .iter()
-        .map(|&(rise_m, tread_m)| {
-            z_m += rise_m;
-            let stair = stair([x_m, 0.0, 0.0], [x_m + tread_m, 0.0, 0.0], z_m, width_m);
-            x_m += tread_m;
-            stair
-        })
-        .collect()
-}
-
-/// A stair between two edges, each by middle and heading.
-pub(crate) fn stair(
-    front: [f64; 3],
-    back: [f64; 3],
-    z_m: f64,
-    width_m: f64,
-) -> Stair<geometry::Map> {
-    let edge = |[x_m, y_m, heading_rad]: [f64; 3]| {
-        let (sin, cos) = heading_rad.sin_cos();
-        let half_m = 0.5 * width_m;
-        Edge {
-            left: Point::new(x_m - sin * half_m, y_m + cos * half_m, z_m),
-            right: Point::new(x_m + sin * half_m, y_m - cos * half_m, z_m),
-        }
-    };
-    Stair {
-        front: edge(front),
-        back: edge(back),
-        reference: Point::new(0.5 * (front[0] + back[0]), 0.5 * (front[1] + back[1]), z_m),
-        left_margin_m: 0.0,
-        right_margin_m: 0.0,
-        support: 500,
-        seen_ends: Sides::default(),
-        front_fit: None,
-        back_fit: None,
-        steps_ago: 0,
-    }
 }
 
 impl Simulation {
@@ -336,196 +290,4 @@ impl Simulation {
             Motion::Footsteps(list) => self.take(list),
         }
     }
-
-    fn take(&mut self, list: &[Footstep]) {
-        if self.stands() && self.stepping.landed == 0 && !list.is_empty() {
-            self.list_from = self.pose();
-            self.list_ground_m = self.ground_m();
-            self.stepping.misstep = None;
-            self.ticks_left = SHIFT_TICKS + STEP_TICKS;
-            self.standing_ticks = 0;
-            return;
-        }
-        if self.ticks_left == 0 {
-            self.standing_ticks += 1;
-            return;
-        }
-        self.ticks_left -= 1;
-        if self.ticks_left == 0
-            && let Some(step) = list.get(self.stepping.landed)
-        {
-            self.land(step);
-            let more = self.stepping.misstep.is_none() && self.stepping.landed < list.len();
-            self.ticks_left = if more { STEP_TICKS } else { 0 };
-        }
-    }
-
-    /// A foot comes down: on what is there, or it is taken back.
-    fn land(&mut self, step: &Footstep) {
-        let pose = self
-            .list_from
-            .compose(&step.pose)
-            .compose(&self.landing_error);
-        let told_m = self.list_ground_m + step.height_m;
-        // The part that bears load must lie on one surface.
-        let [from_m, to_m] = step.bearing_m;
-        let heights = [0.8 * from_m, 0.0, 0.8 * to_m].map(|along_m| {
-            let (x_m, y_m) = pose.apply(along_m, 0.0);
-            self.truth_m([x_m, y_m])
-        });
-        let highest_m = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        if highest_m < told_m - 0.012 {
-            self.stepping.misstep = Some(Misstep::NoGround);
-        } else if highest_m > told_m + 0.012 {
-            self.stepping.misstep = Some(Misstep::Obstructed);
-        } else {
-            let lowest_m = heights.into_iter().fold(f64::INFINITY, f64::min);
-            assert!(
-                highest_m - lowest_m < 1e-9,
-                "a foot tips at {pose:?}: {heights:?}"
-            );
-            let foot = Foot {
-                pose,
-                height_m: highest_m,
-            };
-            self.feet[step.side.index()] = foot;
-            self.landings.push((*step, foot));
-            self.stepping.landed += 1;
-        }
-    }
-
-    fn see(&mut self) {
-        let pose = self.pose();
-        let moving = !self.stands();
-        for (at, stair) in self.steps.iter().enumerate() {
-            let middle = stair.front.middle().inner;
-            let (x_m, y_m) = pose.inverse().apply(middle.x, middle.y);
-            let away_m = (x_m - 0.04).hypot(y_m);
-            let down_rad = (EYE_HEIGHT_M - (stair.height_m() - self.ground_m())).atan2(away_m);
-            let in_view = geometry::angle_between(self.gaze.pan_rad, y_m.atan2(x_m)).abs() < 0.41
-                && (down_rad - self.gaze.down_rad).abs() < 0.30
-                && x_m > 0.14
-                && away_m < 1.2;
-            if in_view {
-                self.seen[at] += 1;
-            }
-        }
-        self.staircase.stairs.clear();
-        for (at, stair) in self.steps.iter().enumerate() {
-            if self.seen[at] == 0 {
-                continue;
-            }
-            let fit = |frames: u32| {
-                (frames > 1).then_some(EdgeFit {
-                    frames,
-                    place_sigma_m: 0.003,
-                    heading_sigma_rad: 0.02,
-                })
-            };
-            let behind = self.seen.get(at + 1).copied().unwrap_or(0);
-            self.staircase.stairs.push(Stair {
-                front_fit: fit(self.seen[at]),
-                back_fit: fit(behind),
-                steps_ago: u32::from(self.sunk_m[at] > 0.0),
-                ..*stair
-            });
-        }
-        self.staircase.frames = if moving { 0 } else { self.staircase.frames + 1 };
-        self.frames += 1;
-        self.last_frame_ns = Some(self.time_ns);
-    }
-
-    fn make_plan(&self) -> Plan {
-        Plan {
-            way: self.way(),
-            replanned: false,
-        }
-    }
-
-    fn way(&self) -> Result<Path, NoWay> {
-        let pose = self.pose();
-        let from = self.index_at([pose.x_m, pose.y_m]).map_or(0, |at| at + 1);
-        let mut ground_m = self.ground_m();
-        let mut steps = Vec::new();
-        for stair in &self.staircase.stairs {
-            let middle = stair.front.middle().inner;
-            if stair.front.beyond_m([pose.x_m, pose.y_m]) >= 0.0
-                || steps.len() + from >= self.steps.len()
-            {
-                continue;
-            }
-            steps.push(Step {
-                stair: *stair,
-                rise_m: stair.height_m() - ground_m,
-                crossing_m: [middle.x, middle.y],
-            });
-            ground_m = stair.height_m();
-        }
-        if self.planner_checks {
-            check(&steps)?;
-        }
-        let mut path = Path {
-            points_m: vec![[pose.x_m, pose.y_m]],
-            ..Path::default()
-        };
-        if let Some(first) = steps.first() {
-            let heading = first.stair.front.heading_rad();
-            let before = PlanarPose::new(first.crossing_m[0], first.crossing_m[1], heading);
-            let (x_m, y_m) = before.apply(-0.07, 0.0);
-            dense(&mut path.points_m, [x_m, y_m]);
-            let from_point = path.points_m.len() - 1;
-            path.points_m
-                .extend(steps.iter().map(|step| step.crossing_m));
-            path.climbs.push(Climb {
-                from_point,
-                to_point: path.points_m.len() - 1,
-                steps,
-            });
-        }
-        dense(&mut path.points_m, [self.goal.x_m, self.goal.y_m]);
-        path.unknown = vec![false; path.points_m.len()];
-        path.clearance_m = vec![0.5; path.points_m.len()];
-        Ok(path)
-    }
-}
-
-fn dense(points_m: &mut Vec<[f64; 2]>, to: [f64; 2]) {
-    let Some(&from) = points_m.last() else { return };
-    let count = ((to[0] - from[0]).hypot(to[1] - from[1]) / 0.04)
-        .ceil()
-        .max(1.0) as usize;
-    points_m.extend((1..=count).map(|i| {
-        let share = i as f64 / count as f64;
-        [
-            from[0] + (to[0] - from[0]) * share,
-            from[1] + (to[1] - from[1]) * share,
-        ]
-    }));
-}
-
-fn check(steps: &[Step]) -> Result<(), NoWay> {
-    let config = ClimbingConfig::default();
-    for (at, step) in steps.iter().enumerate() {
-        let onward = steps
-            .get(at + 1)
-            .map_or(Onward::Level, |after| Onward::Edge {
-                depth_m: step.stair.front.beyond_m(after.crossing_m),
-                rise_m: after.rise_m,
-            });
-        let width_m = step.stair.front.length_m();
-        if let Err(unfit) = Footing::on_stair(&config, &FEET, step.rise_m, width_m, onward) {
-            let refusal = match unfit {
-                Unfit::TooLow(_) => Refusal::StepTooLow,
-                Unfit::TooHigh(_) => Refusal::StepTooHigh,
-                Unfit::TreadTooShort(..) => Refusal::TreadTooShort,
-                Unfit::GapTooShort(..) => Refusal::GapTooShort,
-                Unfit::TooNarrow(..) => Refusal::TooNarrow,
-            };
-            return Err(NoWay {
-                refusal,
-                sentence: "as measured".to_owned(),
-            });
-        }
-    }
-    Ok(())
 }

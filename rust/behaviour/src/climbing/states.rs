@@ -66,8 +66,7 @@ impl StairClimbing {
         let climbs = self.leg(here).is_some();
         self.count_climb_ahead(climbs, here.passed_s);
         let found = self.climb_ahead_s > SURE_S;
-        let seen =
-            here.situation.standing && self.head.advance(here.situation.frames_used, here.passed_s);
+        let seen = self.look(here, false);
         if !found && !seen {
             return Motion::Stand;
         }
@@ -119,9 +118,7 @@ impl StairClimbing {
             return Motion::Stand;
         };
         if self.phase == Phase::Look {
-            let seen = here.situation.standing
-                && self.head.advance(here.situation.frames_used, here.passed_s);
-            if seen {
+            if self.look(here, self.is_well_measured(&first)) {
                 self.judge_edge(here, &first);
             }
             return self.stepper.motion();
@@ -137,6 +134,15 @@ impl StairClimbing {
             Stepped::Idle | Stepped::Done | Stepped::Stuck => self.begin_climb(here),
         }
         self.stepper.motion()
+    }
+
+    /// One tick of a look, standing; true at its end, which comes soon where enough is known.
+    pub(super) fn look(&mut self, here: &Here<'_>, known: bool) -> bool {
+        if !here.situation.standing {
+            return false;
+        }
+        let frames = here.situation.frames_used;
+        self.head.advance(frames, here.passed_s) || (known && self.head.has_glanced(frames))
     }
 
     /// After a look at the first edge: go up to it if it is known well enough.
@@ -162,10 +168,24 @@ impl StairClimbing {
 
     /// Whether the front edge of a step is known well enough to step by it.
     pub(super) fn is_measured(&self, step: &planning::Step) -> bool {
+        step.stair
+            .front_fit
+            .map_or(step.stair.support > 400, |fit| {
+                /*HACK*/
+                fit.frames >= self.config.edge_frames
+                    && fit.place_sigma_m <= self.config.edge_sigma
+                    && fit.heading_sigma_rad <= self.config.heading_sigma
+            })
+    }
+
+    /// Whether it is known so well that another look would tell little.
+    pub(super) fn is_well_measured(&self, step: &planning::Step) -> bool {
+        const FRAMES: u32 = 2;
+        const SIGMA: f64 = 0.5;
         step.stair.front_fit.is_some_and(|fit| {
-            fit.frames >= self.config.edge_frames
-                && fit.place_sigma_m <= self.config.edge_sigma
-                && fit.heading_sigma_rad <= self.config.heading_sigma
+            fit.frames >= FRAMES * self.config.edge_frames
+                && fit.place_sigma_m <= SIGMA * self.config.edge_sigma
+                && fit.heading_sigma_rad <= SIGMA * self.config.heading_sigma
         })
     }
 

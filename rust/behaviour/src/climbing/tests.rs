@@ -336,3 +336,29 @@ fn refusing_is_final_and_every_other_state_can_be_left() {
         assert_eq!(ways_out == 0, state == State::Refuse, "{state:?}");
     }
 }
+
+#[test]
+fn without_stops_the_stairs_take_less_time_and_one_foot_a_step() {
+    let mut by_step = up(PlanarPose::default());
+    let (_, step_by_step_s) = by_step.run(60.0);
+    let mut simulation = Simulation::new(
+        PlanarPose::default(),
+        straight(0.6, &FOUR_UP, 0.33),
+        [1.15, 0.0],
+        Pace::Continuous,
+    );
+    let (outcome, after_s) = simulation.run(60.0);
+    assert_eq!(
+        outcome,
+        Some(Outcome::GoalReached),
+        "{:?}",
+        simulation.states
+    );
+    assert!((simulation.ground_m() - 0.12).abs() < 1e-6);
+    assert!(after_s < step_by_step_s - 5.0, "{after_s} {step_by_step_s}");
+    let on_second = simulation
+        .landings
+        .iter()
+        .filter(|(_, foot)| (foot.height_m - 0.06).abs() < 1e-6);
+    assert_eq!(on_second.count(), 1);
+}

@@ -1,0 +1,57 @@
+//! Climbing without a stop: one foot a step, as far as the steps ahead are known, and on with what is learnt on the way.
+
+use super::{Here, Pace, StairClimbing};
+use crate::climbing::footsteps::alternating;
+use crate::climbing::placement::{Behind, Verdict};
+
+impl StairClimbing {
+    /// Adds the stances that can be taken behind the last one of the run; whether there was any.
+    pub(super) fn lengthen_run(&mut self, here: &Here<'_>) -> bool {
+        let before = self.run.len();
+        while let Some(last) = self.run.last().copied() {
+            let at = [last.pose.x_m, last.pose.y_m];
+            let steps = self.flight.steps();
+            let Some(next) = steps
+                .iter()
+                .position(|step| step.stair.front.beyond_m(at) < 0.0)
+            else {
+                break;
+            };
+            let mut stand = self.before(here);
+            stand.pose = last.pose;
+            stand.ground_m = last.height_m;
+            let behind = match steps.get(next + 1) {
+                Some(after) if self.is_measured(after) => Behind::Step(after),
+                Some(_) => break,
+                None => stand.without_next(&steps[next]),
+            };
+            if !self.is_measured(&steps[next]) {
+                break;
+            }
+            match stand.check(&steps[next], &behind) {
+                Verdict::Go(stance) if !self.is_occupied(here, &stance) => self.run.push(stance),
+                _ => break,
+            }
+        }
+        self.run.len() > before
+    }
+
+    /// While the run is on its way: puts further steps where both feet would have come to stand.
+    pub(super) fn go_on_without_a_stop(&mut self, here: &Here<'_>) {
+        let holds = self.stepper.holds();
+        // The walker looks ahead by one step.
+        let in_time = here.situation.stepping.landed + 2 < holds.len();
+        let Some(first) = holds.first().map(|hold| hold.side) else {
+            return;
+        };
+        if self.pace == Pace::Continuous
+            && self.stepper.is_running()
+            && !self.run.is_empty()
+            && in_time
+            && self.lengthen_run(here)
+        {
+            self.stepper
+                .replace(alternating(first, &self.run, self.feet.stance_m));
+        }
+    }
+}
