@@ -277,6 +277,30 @@ def test_stairs_climbs_and_stepping_are_there_to_look_at() -> None:
         stepping.landed = 1  # type: ignore[misc]
 
 
+def test_a_staircase_ahead_is_told_edge_by_edge() -> None:
+    episode = treadwell.Episode("stairs_up", seed=1, overrides=("time_limit=4",))
+    for _ in episode:
+        pass
+    staircase = episode.pilot.staircase()
+    steps = [stair for stair in staircase.stairs if stair.height > 0.015]
+    assert staircase.frames > 0
+    assert len(steps) >= 2
+    for stair in steps:
+        left, right = (np.array(end) for end in stair.front)
+        assert min(abs(stair.height - 0.03 * i) for i in range(1, 5)) < 0.01
+        assert left[2] == pytest.approx(stair.height, abs=0.02)
+        assert 0.15 <= np.linalg.norm(left - right) < 0.6
+        assert left[1] > right[1]  # for one who comes along +x
+        assert stair.depth >= 0.07
+        assert 0.4 < stair.reference[0] < 1.4
+        assert min(stair.margins) >= 0.0
+        assert stair.support > 0
+        for fit in (stair.front_fit, stair.back_fit):
+            assert fit is None or (fit[0] > 0 and 0.0 <= fit[1] < 0.1 and fit[2] >= 0.0)
+    with pytest.raises(AttributeError):
+        steps[0].height = 0.1  # type: ignore[misc]
+
+
 def test_products_are_copies_that_the_next_tick_leaves_alone() -> None:
     core = pilot()
     seen = observations()
