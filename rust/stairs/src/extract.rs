@@ -1,6 +1,6 @@
 //! Stairs in one frame (003, section IV.B).
 
-use geometry::{Outline, Point, Robot};
+use geometry::{Cut, Outline, Point, Robot};
 use nalgebra::Point2;
 use segmentation::Planes;
 use sensing::Intrinsics;
@@ -69,22 +69,22 @@ impl Extraction {
 
     fn sighting(&mut self, index: usize, view: &View<'_>) -> Option<Sighting> {
         let shared_front = self.shared(view, |edge| edge.farther == index);
-        let shared_back = self.shared(view, |edge| edge.nearer == index);
-        let surface = Surface::new(index, view, shared_front.as_ref(), shared_back.as_ref())?;
+        let surface = Surface::new(index, view, shared_front.as_ref())?;
         let reference = surface.reference;
-        let [enters, leaves] = surface.hull.cuts(&reference, &reference.coords)?;
-        let front = shared_front.map_or_else(
-            || self.front(&surface, view, enters.edge),
-            |front| front.at_height(surface.height_m),
-        );
+        let front = match &shared_front {
+            Some(front) => front.at_height(surface.height_m),
+            None => self.front(&surface, view)?,
+        };
         if front.across().dot(&reference.coords) < FACES * reference.coords.norm() {
             return None;
         }
+        let parallel = |back: &Edge<Robot>| front.across().dot(&back.across()) > OPPOSITE;
+        let shared_back = self.shared(view, |edge| edge.nearer == index && parallel(&edge.edge));
+        let surface = surface.before(shared_back.as_ref())?;
         let back = shared_back.map_or_else(
-            || self.back(&surface, view, leaves.edge),
+            || self.back(&surface, view),
             |back| Some(back.at_height(surface.height_m)),
         );
-        let parallel = |back: &Edge<Robot>| front.across().dot(&back.across()) > OPPOSITE;
         let back = match back.filter(parallel) {
             Some(back) => back,
             // A spike of the hull, or no straight side: as the front, through the middle of what is there.
@@ -92,6 +92,7 @@ impl Extraction {
                 .outer_points
                 .parallel(view, (index, Rows::Highest), &front)?,
         };
+        let reference = surface.reference;
         let mut stair = Stair {
             front,
             back,
@@ -122,21 +123,23 @@ impl Extraction {
         })
     }
 
-    /// The side of the hull that the line from the robot enters, from corner `edge` on, without its fringes.
-    fn front(&mut self, surface: &Surface, view: &View<'_>, edge: usize) -> Edge<Robot> {
+    /// The side of the hull that the line from the robot enters, without its fringes.
+    fn front(&mut self, surface: &Surface, view: &View<'_>) -> Option<Edge<Robot>> {
+        let [enters, _] = surface.cuts()?;
         // Counter-clockwise such a side goes from left to right.
-        let [left, right] = side(&surface.hull, edge, surface.fringe_m);
+        let [left, right] = side(&surface.hull, enters.edge, surface.fringe_m);
         let rough = level_edge([right, left], surface.height_m);
         let rows = (surface.index, Rows::Lowest);
         let smooth = self
             .outer_points
             .through(view, rows, &rough, surface.fringe_m);
-        smooth.unwrap_or(rough)
+        Some(smooth.unwrap_or(rough))
     }
 
     /// The side of the hull that the line leaves, without its fringes; `None` where it is not straight.
-    fn back(&mut self, surface: &Surface, view: &View<'_>, edge: usize) -> Option<Edge<Robot>> {
-        let [right, left] = side(&surface.hull, edge, surface.fringe_m);
+    fn back(&mut self, surface: &Surface, view: &View<'_>) -> Option<Edge<Robot>> {
+        let [_, leaves] = surface.cuts()?;
+        let [right, left] = side(&surface.hull, leaves.edge, surface.fringe_m);
         let rough = level_edge([right, left], surface.height_m);
         let rows = (surface.index, Rows::Highest);
         self.outer_points
@@ -170,35 +173,47 @@ struct Surface {
 }
 
 impl Surface {
-    fn new(
-        index: usize,
-        view: &View<'_>,
-        front: Option<&Edge<Robot>>,
-        back: Option<&Edge<Robot>>,
-    ) -> Option<Self> {
+    fn new(index: usize, view: &View<'_>, front: Option<&Edge<Robot>>) -> Option<Self> {
         let region = view.region(index);
-        let (height_m, mut hull) = (region.floor_height_m?, region.boundary.clone()?);
-        for (edge, inward) in [(front, 1.0), (back, -1.0)] {
-            if let Some(edge) = edge {
-                let at = edge.middle().inner.xy();
-                hull = hull.cut_off(&at, &(edge.across() * inward)).ok()?;
-            }
-        }
-        let mut reference = region.mean.inner.xy();
-        if !hull.contains(&reference) {
-            // It lies around what stands before it.
-            let corners = hull.corners();
-            reference = nalgebra::center(&corners[0], &corners[corners.len() / 2]);
-        }
+        let (height_m, hull) = (region.floor_height_m?, region.boundary.clone()?);
+        let reference = region.mean.inner.xy();
         let away_m = reference.coords.norm();
-        let usable = away_m > 1e-3 && view.height_m() - height_m > LEAST_BELOW_M;
-        usable.then(|| Self {
+        let whole = Self {
             index,
             height_m,
             hull,
             reference,
             fringe_m: view.fringe_m(height_m, away_m),
-        })
+        };
+        let usable = away_m > 1e-3 && view.height_m() - height_m > LEAST_BELOW_M;
+        whole
+            .cut_off(front.filter(|_| usable), 1.0)
+            .filter(|_| usable)
+    }
+
+    /// The part before its back.
+    fn before(self, back: Option<&Edge<Robot>>) -> Option<Self> {
+        self.cut_off(back, -1.0)
+    }
+
+    /// The part behind (1) or before (-1) an edge, if there is one.
+    fn cut_off(mut self, edge: Option<&Edge<Robot>>, side: f64) -> Option<Self> {
+        let Some(edge) = edge else {
+            return Some(self);
+        };
+        let at = edge.middle().inner.xy();
+        self.hull = self.hull.cut_off(&at, &(edge.across() * side)).ok()?;
+        if !self.hull.contains(&self.reference) {
+            // It lies around what stands before it.
+            let corners = self.hull.corners();
+            self.reference = nalgebra::center(&corners[0], &corners[corners.len() / 2]);
+        }
+        Some(self)
+    }
+
+    /// Where the line from the robot through the reference point enters and leaves it.
+    fn cuts(&self) -> Option<[Cut; 2]> {
+        self.hull.cuts(&self.reference, &self.reference.coords)
     }
 }
 

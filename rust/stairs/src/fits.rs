@@ -8,7 +8,7 @@ use crate::fusion::FusedEdge;
 use crate::joints::{apart_m, before};
 use crate::line::Line;
 use crate::view::View;
-use crate::{Edge, EdgeModel, Stair, StairsConfig};
+use crate::{Edge, EdgeFit, EdgeModel, Stair, StairsConfig};
 
 /// Edges fitted in a frame: the nearest in view.
 const FITTED: usize = 2;
@@ -16,6 +16,8 @@ const FITTED: usize = 2;
 const KEPT: usize = 16;
 /// Levels of one edge may differ by this from what was fitted before, m.
 const SAME_LEVEL_M: f64 = 0.012;
+/// Errors of the place (m) and the heading (rad) of an edge between two regions of labels.
+const SURE: (f64, f64) = (0.006, 0.06);
 /// Largest change of height that is fitted, m.
 const LARGEST_RISE_M: f64 = 0.1;
 
@@ -99,7 +101,7 @@ impl Fits {
     pub(crate) fn apply(&self, stairs: &mut [Stair<Map>]) {
         for stair in stairs {
             let height_m = stair.height_m();
-            for fused in &self.edges {
+            for fused in self.edges.iter().filter(|fused| is_sure(&fused.fit())) {
                 let levels = fused
                     .heights_m
                     .map(|level_m| (level_m - height_m).abs() < SAME_LEVEL_M);
@@ -122,6 +124,11 @@ impl Fits {
             }
         }
     }
+}
+
+/// Whether a fit is better than what the labels say.
+fn is_sure(fit: &EdgeFit) -> bool {
+    fit.place_sigma_m < SURE.0 && fit.heading_sigma_rad < SURE.1
 }
 
 /// The front edges ahead of the robot that are in view, with the levels on both sides.
