@@ -39,7 +39,7 @@ pub struct Footing {
 /// Why a stair is not stepped on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unfit {
-    /// The change of height is too small for a step and too large for floor, m.
+    /// The change of height is none: floor, m. All that is more is climbed as a step.
     TooLow(f64),
     /// The change of height is too large, m.
     TooHigh(f64),
@@ -65,6 +65,9 @@ impl Footing {
         } else {
             -config.descend.step_min_z
         };
+        if rise_m.abs() <= config.floor_max {
+            return Err(Unfit::TooLow(rise_m));
+        }
         if rise_m.abs() > limit_m + config.tolerance {
             return Err(Unfit::TooHigh(rise_m));
         }

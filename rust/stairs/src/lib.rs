@@ -3,6 +3,7 @@
 
 mod border;
 mod boundary;
+mod conditions;
 mod config;
 mod edge_model;
 mod extract;
@@ -28,6 +29,7 @@ mod synthetic;
 #[cfg(test)]
 mod tests;
 
+pub use conditions::{Ahead, Stand, Tolerance, Unready, conditions};
 pub use config::{ClimbingConfig, ParameterSet, StairsConfig};
 pub use edge_model::{EdgeModel, FittedEdge, Untrusted};
 pub use footing::{Feet, Footing, Onward, Unfit};
