@@ -66,3 +66,138 @@ fn overlapping_pair(treads: &[Tread], similar_height_m: f64) -> Option<(usize, u
         Some((i, j))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use geometry::{Point, Pose, Robot};
+    use nalgebra::Point2;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::extract::{Sighting, level_edge};
+    use crate::{Sides, Stair};
+
+    const SIMILAR_M: f64 = 0.009;
+
+    /// A level rectangle ahead, of which no end was seen.
+    fn tread(x_m: f64, y_m: f64, depth_m: f64, height_m: f64) -> Tread {
+        let corner = |x: f64, y: f64| Point2::new(x, y);
+        let (near, far, right, left) = (x_m, x_m + depth_m, y_m - 0.1, y_m + 0.1);
+        let corners = [
+            corner(near, right),
+            corner(far, right),
+            corner(far, left),
+            corner(near, left),
+        ];
+        let sighting = Sighting {
+            stair: Stair {
+                front: level_edge([corners[0], corners[3]], height_m),
+                back: level_edge([corners[1], corners[2]], height_m),
+                reference: Point::<Robot>::new(x_m + depth_m / 2.0, y_m, height_m),
+                left_margin_m: 0.0,
+                right_margin_m: 0.0,
+                support: 100,
+                seen_ends: Sides::default(),
+                front_fit: None,
+                back_fit: None,
+                steps_ago: 0,
+            },
+            hull: Outline::hull(&corners).unwrap(),
+            own_level: false,
+            large_enough: true,
+        };
+        Tread::new(&sighting, &Pose::identity()).unwrap()
+    }
+
+    fn treads() -> impl Strategy<Value = Vec<Tread>> {
+        let one = (0.3..1.5f64, -0.5..0.5f64, 0.08..0.3f64, 0..4i32);
+        let one = one.prop_map(|(x, y, depth, level)| tread(x, y, depth, 0.03 * f64::from(level)));
+        prop::collection::vec(one, 0..12)
+    }
+
+    /// What is left, as numbers to compare.
+    fn left(treads: &[Tread]) -> Vec<[i64; 6]> {
+        let mut left: Vec<_> = treads
+            .iter()
+            .map(|tread| {
+                let stair = tread.stair().unwrap();
+                let (near, far) = (stair.front.middle().inner, stair.back.middle().inner);
+                let numbers = [
+                    near.x,
+                    near.y,
+                    far.x,
+                    far.y,
+                    stair.height_m(),
+                    stair.front.length_m(),
+                ];
+                numbers.map(|number| (number * 1e6).round() as i64)
+            })
+            .collect();
+        left.sort_unstable();
+        left
+    }
+
+    proptest! {
+        /// S-M7 and S-M8.
+        #[test]
+        fn merging_ends_with_no_two_that_overlap_and_every_one_inside_one_of_them(mut treads in treads()) {
+            let before = treads.clone();
+            merge_all(&mut treads, SIMILAR_M);
+            prop_assert!(treads.len() <= before.len());
+            for (i, a) in treads.iter().enumerate() {
+                for b in &treads[i + 1..] {
+                    prop_assert!(!overlap(a, b, SIMILAR_M));
+                }
+            }
+            for old in &before {
+                let old = old.stair().unwrap();
+                let inside = treads.iter().any(|new| {
+                    let level = (new.height_m() - old.height_m()).abs() < 1e-6;
+                    let new = new.stair().unwrap();
+                    let corners = [old.front.left, old.front.right, old.back.left, old.back.right];
+                    level && corners.iter().all(|corner| {
+                        let at = [corner.inner.x, corner.inner.y];
+                        new.front.beyond_m(at) > -1e-9 && new.back.beyond_m(at) < 1e-9
+                    })
+                });
+                prop_assert!(inside);
+            }
+        }
+
+        #[test]
+        fn overlap_is_symmetric(a in treads(), b in treads()) {
+            for (a, b) in a.iter().zip(&b) {
+                prop_assert_eq!(overlap(a, b, SIMILAR_M), overlap(b, a, SIMILAR_M));
+            }
+        }
+    }
+
+    /// Sightings of treads that lie well apart, each shifted a little, in any order.
+    #[test]
+    fn the_order_of_sightings_does_not_matter() {
+        let mut noise = crate::synthetic::Noise::new(5);
+        let sightings: Vec<_> = (0..24)
+            .map(|i| {
+                let level = f64::from(i % 4);
+                tread(
+                    0.4 + 0.12 * level + noise.within(0.01),
+                    noise.within(0.05),
+                    0.1,
+                    0.03 * level,
+                )
+            })
+            .collect();
+        let mut expected = sightings.clone();
+        merge_all(&mut expected, SIMILAR_M);
+        assert_eq!(expected.len(), 4);
+        for round in 1..24 {
+            let mut treads = sightings.clone();
+            treads.rotate_left(round);
+            if round % 2 == 0 {
+                treads.reverse();
+            }
+            merge_all(&mut treads, SIMILAR_M);
+            assert_eq!(left(&treads), left(&expected));
+        }
+    }
+}

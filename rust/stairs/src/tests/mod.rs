@@ -1,12 +1,15 @@
 //! What recognition must do as a whole, on synthetic scenes through the real segmenter.
 
+mod exact;
 mod frames;
+mod prisms;
+mod remembered;
 
 use geometry::{Camera, Map, Pose, Robot};
 use segmentation::{Planes, ScanLine, ScanLineConfig, Segmenter};
 use sensing::Scan;
 
-use crate::synthetic::{CAMERA, Noise, Scene, camera_pose};
+use crate::synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
 use crate::{Recognizer, Staircase, StairsConfig};
 
 /// The sensor's noise, px.

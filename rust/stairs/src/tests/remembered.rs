@@ -1,0 +1,150 @@
+//! What is kept while the robot walks and steps.
+
+use super::*;
+use crate::Stair;
+
+fn heights(staircase: &Staircase) -> Vec<i64> {
+    staircase
+        .stairs
+        .iter()
+        .map(|stair| (stair.height_m() * 1e3 / 30.0).round() as i64)
+        .collect()
+}
+
+/// Looks at stairs 0.45 m away.
+fn seen(seed: u64) -> (Looker, Scene) {
+    let scene = Scene::stairs(0.45, 0.03, 0.12, 4);
+    let mut looker = Looker::new(seed, SIGMA);
+    for i in 0..12 {
+        let _ = looker.look(
+            &scene,
+            &camera_pose(0.05 * f64::from(i - 6), 0.75),
+            &Pose::identity(),
+            0,
+        );
+    }
+    (looker, scene)
+}
+
+/// S-M9 and S-M11: four steps that odometry takes for 1 % longer, up the stairs, without a look.
+#[test]
+fn a_step_empties_what_is_seen_and_what_is_remembered_stays_within_1_cm() {
+    let (mut looker, scene) = seen(2);
+    looker.planes.reliable = false;
+    let scan = Scan::new(CAMERA);
+    for steps in 1..=4_u64 {
+        let way_m = 0.12 * steps as f64;
+        let pose: Pose<Map, Robot> = Pose::from_yaw(1.01 * way_m, 0.0, 0.03 * steps as f64, 0.0);
+        let staircase = looker
+            .recognizer
+            .update(&scan, &looker.planes, &pose, steps)
+            .unwrap();
+        assert_eq!(staircase.frames, 0);
+        assert!(
+            staircase
+                .stairs
+                .iter()
+                .all(|stair| u64::from(stair.steps_ago) == steps)
+        );
+        for (block, height_m) in scene.blocks.iter().zip([0.03, 0.06, 0.09, 0.12]) {
+            let same = |stair: &&Stair<Map>| (stair.height_m() - height_m).abs() < 0.005;
+            let stair = staircase.stairs.iter().find(same).unwrap();
+            // Those that are climbed next.
+            let ahead_m = block.low_m[0] - way_m;
+            if (0.05..0.3).contains(&ahead_m) {
+                let found = stair.front.transformed(&pose.inverse());
+                assert!(
+                    found.beyond_m([ahead_m, 0.0]).abs() < 0.01,
+                    "{steps} {stair:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_picture_of_stairs_is_steady_while_the_robot_walks_up_to_them() {
+    let (mut looker, scene) = seen(4);
+    let mut noise = Noise::new(9);
+    for i in 1..=36 {
+        let way_m = 0.006 * f64::from(i);
+        let steps = u64::try_from(i / 6).unwrap();
+        let moved = Scene::with(
+            &scene
+                .blocks
+                .iter()
+                .map(|block| {
+                    let mut block = *block;
+                    block.low_m[0] -= way_m;
+                    block.high_m[0] -= way_m;
+                    block
+                })
+                .collect::<Vec<_>>(),
+        );
+        // The estimate is 2 cm off from the second step on.
+        let off_m = if steps > 1 { 0.02 } else { 0.0 };
+        let pose: Pose<Map, Robot> = Pose::from_yaw(way_m + off_m, 0.0, noise.within(0.001), 0.0);
+        let staircase = looker.look(&moved, &camera_pose(0.0, 0.75), &pose, steps);
+        let mut found = heights(staircase);
+        found.sort_unstable();
+        assert_eq!(found, [1, 2, 3, 4], "frame {i}: {:?}", staircase.stairs);
+    }
+}
+
+#[test]
+fn stairs_that_vanish_are_dropped_after_some_frames_and_not_at_once() {
+    let (mut looker, _) = seen(6);
+    let first = heights(looker.look(
+        &Scene::floor(),
+        &camera_pose(0.0, 0.75),
+        &Pose::identity(),
+        1,
+    ));
+    assert!(first.contains(&1));
+    for _ in 0..6 {
+        let _ = looker.look(
+            &Scene::floor(),
+            &camera_pose(0.0, 0.75),
+            &Pose::identity(),
+            1,
+        );
+    }
+    let last = heights(looker.recognizer.staircase());
+    assert!(!last.contains(&1) && !last.contains(&2), "{last:?}");
+}
+
+#[test]
+fn open_floor_and_boxes_are_no_stairs() {
+    let boxes = [
+        Block {
+            low_m: [0.5, 0.05, 0.0],
+            high_m: [0.6, 0.17, 0.1],
+        },
+        Block {
+            low_m: [0.9, -0.8, 0.0],
+            high_m: [0.95, 0.8, 0.6],
+        },
+    ];
+    for seed in 0..3 {
+        for scene in [Scene::floor(), Scene::with(&boxes)] {
+            let mut looker = Looker::new(seed, SIGMA);
+            for i in 0..12 {
+                let camera = camera_pose(0.05 * f64::from(i - 6), 0.7);
+                let found = looker.look(&scene, &camera, &Pose::identity(), 0);
+                assert!(found.stairs.is_empty(), "{:?}", found.stairs);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_pose_that_is_no_number_is_refused_and_changes_nothing() {
+    let (mut looker, _) = seen(1);
+    let before = looker.recognizer.staircase().clone();
+    let nowhere: Pose<Map, Robot> = Pose::from_yaw(f64::NAN, 0.0, 0.0, 0.0);
+    let refused = looker
+        .recognizer
+        .update(&Scan::new(CAMERA), &looker.planes, &nowhere, 9);
+    assert_eq!(refused.unwrap_err(), crate::StairsError::PoseNotFinite);
+    assert_eq!(looker.recognizer.staircase(), &before);
+}
