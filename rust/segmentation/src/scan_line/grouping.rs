@@ -4,6 +4,10 @@ use super::strips::{Picture, Segment};
 
 /// Most regions that are told apart in one frame; smaller ones are left out.
 pub(super) const MAX_REGIONS: usize = 63;
+/// Pixels below which a region is small: some ten matching windows.
+const SMALL_PIECE: usize = 250;
+/// How much further a small piece may lie from the surface beside it.
+pub(super) const SMALL_JOIN: f64 = 1.35;
 
 /// A horizontal region while it grows.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -23,6 +27,8 @@ pub(super) struct GrowthRules {
     pub(super) strip: usize,
     /// Surfaces closer than this are one.
     pub(super) join: f32,
+    /// And this when one of them is small: half of the noise is shared by a whole matching window.
+    pub(super) join_small: f32,
     /// A pixel closer than this belongs to the surface.
     pub(super) accept: f32,
     /// Smallest region, pixels.
@@ -199,7 +205,9 @@ impl Grouping {
                 }
                 // The mean of sigma / g at the border turns the noise into a difference of q.
                 let apart = (regions[i].q - regions[j].q).abs();
-                if apart < rules.join * limit / times as f32 {
+                let small = regions[i].support.min(regions[j].support) < SMALL_PIECE;
+                let join = if small { rules.join_small } else { rules.join };
+                if apart < join * limit / times as f32 {
                     let (a, b) = (root(&self.parent, i), root(&self.parent, j));
                     self.parent[a.max(b)] = a.min(b);
                 }

@@ -39,6 +39,8 @@ impl Vote {
 pub(super) struct KnownLevels {
     votes: Vec<Vote>,
     misses_m: Vec<Vec<f32>>,
+    /// Pixels of each region that are near, and all of them.
+    near: Vec<(usize, usize)>,
 }
 
 impl KnownLevels {
@@ -55,21 +57,32 @@ impl KnownLevels {
         self.misses_m
             .resize_with(self.misses_m.len().max(count), Vec::new);
         self.misses_m.iter_mut().for_each(Vec::clear);
+        self.near.clear();
+        self.near.resize(count, (0, 0));
         for (row, col, label) in surfaces.inner_pixels(STRIDE) {
             let region = usize::from(label) - 1;
             let below_m = 1.0 / f64::from(surfaces.regions[region].q);
             let depth = below_m / f64::from(view.g.at(col, row));
             let x_m = camera_m.x + f64::from(view.x.at(col, row)) * depth;
             let y_m = camera_m.y + f64::from(view.y.at(col, row)) * depth;
-            if x_m.hypot(y_m) < NEAR_M
-                && let Some(height_m) = known.height_m(x_m, y_m)
-            {
+            self.near[region].1 += 1;
+            if x_m.hypot(y_m) > NEAR_M {
+                continue;
+            }
+            self.near[region].0 += 1;
+            if let Some(height_m) = known.height_m(x_m, y_m) {
                 self.misses_m[region].push((height_m - (camera_m.z - below_m)) as f32);
             }
         }
         for region in (0..count).filter(|&region| surfaces.is_level(region)) {
             self.votes.extend(vote(region, &mut self.misses_m[region]));
         }
+    }
+
+    /// Whether a good part of a region is near enough to tell the height well.
+    pub(super) fn is_near(&self, region: usize) -> bool {
+        let (near, all) = self.near[region];
+        4 * near > all
     }
 
     /// Whether floor at another height than 0 is known where a region lies that is seen at `height_m`.

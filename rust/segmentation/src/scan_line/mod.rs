@@ -15,6 +15,7 @@ mod median;
 mod noise;
 mod product;
 mod reference;
+mod slivers;
 mod steep;
 mod steps;
 mod strips;

@@ -92,16 +92,22 @@ impl ScanLine {
         let camera_m = levelled.predicted.inner.translation.vector;
         self.known
             .compare(&self.surfaces, &levelled.view, &camera_m, known);
-        if let Some(region) = self.find_ground(levelled) {
+        let config = &self.config;
+        let ground = self.find_ground(levelled);
+        let near = ground.is_some_and(|region| self.known.is_near(region));
+        // Ground behind the stairs tells less than the known treads before it.
+        if !near
+            && !self.searching()
+            && let Some(rise_m) = self.known.rise_m(config.known_height, config.min_ground)
+        {
+            return Reference::Known { rise_m };
+        }
+        if let Some(region) = ground {
             let rise_m = 1.0 / f64::from(self.surfaces.regions[region].q) - camera_m.z;
             return Reference::Ground { region, rise_m };
         }
-        let config = &self.config;
         if self.searching() {
             return Reference::None;
-        }
-        if let Some(rise_m) = self.known.rise_m(config.known_height, config.min_ground) {
-            return Reference::Known { rise_m };
         }
         let surfaces = &self.surfaces;
         let levels = (0..surfaces.regions.len()).filter(|&i| {

@@ -6,9 +6,10 @@ use sensing::{Intrinsics, Scan};
 use super::ScanLineConfig;
 use super::erosion::Erosion;
 use super::fit::{RegionFit, fit_regions};
-use super::grouping::{Grouping, GrowthRules, MAX_REGIONS, Region};
+use super::grouping::{Grouping, GrowthRules, MAX_REGIONS, Region, SMALL_JOIN};
 use super::median::Median;
 use super::noise::NoiseMap;
+use super::slivers::Slivers;
 use super::strips::{Picture, Segment, StripRules, Strips};
 use super::view::View;
 
@@ -50,6 +51,7 @@ pub(super) struct Surfaces {
     strips: Strips,
     grouping: Grouping,
     erosion: Erosion,
+    slivers: Slivers,
 }
 
 impl Surfaces {
@@ -66,6 +68,7 @@ impl Surfaces {
             growth_rules: GrowthRules {
                 strip: config.strip,
                 join: config.join as f32,
+                join_small: (SMALL_JOIN * config.join) as f32,
                 accept: config.accept as f32,
                 min_region: config.min_region,
             },
@@ -91,6 +94,7 @@ impl Surfaces {
             strips: Strips::default(),
             grouping: Grouping::default(),
             erosion: Erosion::default(),
+            slivers: Slivers::default(),
         }
     }
 
@@ -171,6 +175,8 @@ impl Surfaces {
         for (region, fit) in self.regions.iter_mut().zip(&self.fits) {
             region.q = fit.q(&Vector2::zeros()) as f32;
         }
+        self.slivers
+            .find(&self.labels, self.width, view, &self.regions);
         self.erosion.erode(
             &self.labels,
             picture.disparity_px,
@@ -196,11 +202,11 @@ impl Surfaces {
             })
     }
 
-    /// Whether a region is horizontal, as far as it tells: no slope, no slice of a wall.
+    /// Whether a region is horizontal, as far as it tells: no slope, no slice of a wall, no sliver at an edge.
     pub(super) fn is_level(&self, index: usize) -> bool {
         let (tilt, certainty) = self.checks[index].own_tilt();
         let steep = tilt.norm() > STEEP_RAD && certainty > STEEP_SURE;
-        self.fits[index].is_level(self.floor_tilt_rad) && !steep
+        self.fits[index].is_level(self.floor_tilt_rad) && !steep && !self.slivers.contains(index)
     }
 }
 

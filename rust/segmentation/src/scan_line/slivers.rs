@@ -1,0 +1,100 @@
+//! Slivers along the edges of steps: where the matching window sees two treads at once, the disparities in between may
+//! look like a thin surface of a height in between.
+
+use super::grouping::Region;
+use super::view::View;
+
+/// A surface between two others is no tread when it is less deep than this on average, m.
+const DEPTH_M: f64 = 0.04;
+/// Share of a sliver's columns in which it lies between two surfaces.
+const BETWEEN: f64 = 0.6;
+/// Most pixels without a region between a sliver and its neighbours.
+const GAP: usize = 3;
+
+/// What the columns of the image say of one region.
+#[derive(Debug, Clone, Copy, Default)]
+struct Columns {
+    runs: u32,
+    between: u32,
+    depth_m: f64,
+}
+
+/// A run of one region's pixels down a column.
+#[derive(Debug, Clone, Copy)]
+struct Run {
+    region: usize,
+    first: usize,
+    last: usize,
+}
+
+/// Finds slivers. Keeps its buffer.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Slivers {
+    columns: Vec<Columns>,
+}
+
+impl Slivers {
+    /// Looks down every second column for what lies between what.
+    pub(super) fn find(&mut self, labels: &[u16], width: usize, view: &View, regions: &[Region]) {
+        self.columns.clear();
+        self.columns.resize(regions.len(), Columns::default());
+        for col in (0..width).step_by(2) {
+            let (mut above, mut here): (Option<Run>, Option<Run>) = (None, None);
+            for (row, &label) in labels.iter().skip(col).step_by(width).enumerate() {
+                let Some(region) = usize::from(label).checked_sub(1) else {
+                    continue;
+                };
+                match &mut here {
+                    Some(run) if run.region == region => run.last = row,
+                    _ => {
+                        let below = Run {
+                            region,
+                            first: row,
+                            last: row,
+                        };
+                        if let Some(run) = here {
+                            self.add(view, regions, col, run, above, Some(below));
+                        }
+                        (above, here) = (here, Some(below));
+                    }
+                }
+            }
+            if let Some(run) = here {
+                self.add(view, regions, col, run, above, None);
+            }
+        }
+    }
+
+    /// Whether a region is a sliver.
+    pub(super) fn contains(&self, region: usize) -> bool {
+        let columns = self.columns[region];
+        let runs = f64::from(columns.runs);
+        f64::from(columns.between) > BETWEEN * runs && columns.depth_m < DEPTH_M * runs
+    }
+
+    fn add(
+        &mut self,
+        view: &View,
+        regions: &[Region],
+        col: usize,
+        run: Run,
+        above: Option<Run>,
+        below: Option<Run>,
+    ) {
+        let q = regions[run.region].q;
+        let columns = &mut self.columns[run.region];
+        let place = |row: usize| {
+            let depth = 1.0 / (q * view.g.at(col, row));
+            [view.x.at(col, row) * depth, view.y.at(col, row) * depth]
+        };
+        let (far, near) = (place(run.first), place(run.last + 1));
+        columns.runs += 1;
+        columns.depth_m += f64::from((far[0] - near[0]).hypot(far[1] - near[1]));
+        if let (Some(above), Some(below)) = (above, below) {
+            let close = run.first - above.last <= GAP + 1 && below.first - run.last <= GAP + 1;
+            let others = (regions[above.region].q, regions[below.region].q);
+            let between = others.0.min(others.1) < q && q < others.0.max(others.1);
+            columns.between += u32::from(close && between);
+        }
+    }
+}
