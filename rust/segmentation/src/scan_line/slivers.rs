@@ -53,14 +53,14 @@ impl Slivers {
                             last: row,
                         };
                         if let Some(run) = here {
-                            self.add(view, regions, col, run, above, Some(below));
+                            self.add(view, regions, col, run, [above, Some(below)]);
                         }
                         (above, here) = (here, Some(below));
                     }
                 }
             }
             if let Some(run) = here {
-                self.add(view, regions, col, run, above, None);
+                self.add(view, regions, col, run, [above, None]);
             }
         }
     }
@@ -78,8 +78,7 @@ impl Slivers {
         regions: &[Region],
         col: usize,
         run: Run,
-        above: Option<Run>,
-        below: Option<Run>,
+        beside: [Option<Run>; 2],
     ) {
         let q = regions[run.region].q;
         let columns = &mut self.columns[run.region];
@@ -90,11 +89,51 @@ impl Slivers {
         let (far, near) = (place(run.first), place(run.last + 1));
         columns.runs += 1;
         columns.depth_m += f64::from((far[0] - near[0]).hypot(far[1] - near[1]));
-        if let (Some(above), Some(below)) = (above, below) {
+        if let [Some(above), Some(below)] = beside {
             let close = run.first - above.last <= GAP + 1 && below.first - run.last <= GAP + 1;
             let others = (regions[above.region].q, regions[below.region].q);
             let between = others.0.min(others.1) < q && q < others.0.max(others.1);
             columns.between += u32::from(close && between);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic::{CAMERA, camera_pose};
+
+    /// Whether a strip of `rows` rows between two treads is a sliver, at this place between their heights (0 to 1).
+    fn sliver(rows: usize, share: f32) -> bool {
+        let rotation = camera_pose(0.0, 0.8).inner.rotation;
+        let view = View::new(&CAMERA, &rotation.to_rotation_matrix());
+        let region = |below_m: f32| Region {
+            q: 1.0 / below_m,
+            ..Region::default()
+        };
+        let regions = [region(0.44), region(0.44 + 0.03 * share), region(0.47)];
+        let labels: Vec<u16> = (0..CAMERA.width * CAMERA.height)
+            .map(|at| match at / CAMERA.width {
+                0..30 => 1,
+                row if row < 30 + rows => 2,
+                _ => 3,
+            })
+            .collect();
+        let mut slivers = Slivers::default();
+        slivers.find(&labels, CAMERA.width, &view, &regions);
+        assert!(!slivers.contains(0) && !slivers.contains(2));
+        slivers.contains(1)
+    }
+
+    #[test]
+    fn a_thin_strip_between_two_treads_is_a_sliver_a_tread_is_not() {
+        assert!(sliver(3, 0.5));
+        assert!(!sliver(12, 0.5));
+    }
+
+    #[test]
+    fn a_thin_strip_above_or_below_both_its_neighbours_is_none() {
+        assert!(!sliver(3, 1.5));
+        assert!(!sliver(3, -0.5));
     }
 }

@@ -101,7 +101,7 @@ fn treads_of_known_height_put_the_camera_right() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(12))]
     #[test]
     fn a_level_is_never_taken_for_another_one(
         which in 0..4usize, off_m in 0.014..0.03f64, up in any::<bool>(), seed in 0..1000u64,
@@ -154,4 +154,73 @@ fn on_unknown_treads_the_tracked_correction_is_held_and_the_ground_is_not_search
         }
         assert_eq!(segmenter.correction.height_m(), held_m);
     }
+}
+
+/// S9: what the ground's correction is worth for the height of a step.
+#[test]
+fn steps_are_high_to_three_millimetres_with_the_ground_and_to_no_ten_without() {
+    let mut noise = Noise::new(23);
+    let (mut with, mut without) = (vec![], vec![]);
+    for _ in 0..8 {
+        let sign = if noise.uniform() < 0.5 { -1.0 } else { 1.0 };
+        let turn = Vector3::new(sign * (0.035 + 0.05 * noise.uniform()), 0.0, 0.0);
+        let wrong = |truth: Pose<Robot, Camera>| {
+            let mut believed = truth;
+            believed.inner.rotation *= UnitQuaternion::new(turn);
+            believed.inner.translation.vector.z += 0.015 * sign;
+            believed
+        };
+        let (mut segmenter, mut planes) = (segmenter(), planes());
+        for (scene, frames) in [(Scene::floor(), 8), (Scene::stairs(0.35, 0.03, 0.12, 4), 1)] {
+            let truth = camera_pose(0.0, 0.8);
+            for _ in 0..frames {
+                let scan = scene.scan(&truth, wrong(truth), SIGMA, &mut noise);
+                segmenter.segment(&scan, &mut planes).unwrap();
+            }
+            if frames > 1 {
+                continue;
+            }
+            let (_, labels) = scene.exact(&truth);
+            let step = (0..planes.regions.len())
+                .find(|&i| true_label(&planes, &labels, i) == GROUND + 2)
+                .unwrap();
+            with.push((planes.regions[step].floor_height_m.unwrap() - 0.03).abs());
+            let back = wrong(truth).inner * planes.robot_from_camera.inner.inverse();
+            let by_joints = back * planes.regions[step].mean.inner;
+            without.push((by_joints.z - 0.03).abs());
+        }
+    }
+    assert!(median(with.clone()) < 0.003, "{with:?}");
+    assert!(with.iter().all(|&error| error < 0.006), "{with:?}");
+    assert!(median(without.clone()) > 0.01, "{without:?}");
+}
+
+/// S-M2: the ground before stairs is found when enough of it is seen, and is the ground.
+#[test]
+fn a_ground_of_400_pixels_is_found_before_stairs() {
+    let mut noise = Noise::new(24);
+    let (mut enough, mut found) = (0, 0);
+    for front_m in [0.25, 0.3, 0.4, 0.55] {
+        let mut segmenter = tracking(&mut noise);
+        let scene = Scene::stairs(front_m, 0.03, 0.12, 4);
+        for _ in 0..15 {
+            let truth = camera_pose(noise.within(0.3), 0.7 + 0.3 * noise.uniform());
+            let planes = look(&mut segmenter, &scene, &truth, &mut noise);
+            let (_, labels) = scene.exact(&truth);
+            let seen = labels.iter().zip(&planes.points_in_robot_m);
+            let ground_px = seen
+                .filter(|(label, point)| **label == GROUND && !point[0].is_nan())
+                .count();
+            if ground_px < 400 {
+                continue;
+            }
+            enough += 1;
+            if let Some(ground) = planes.ground {
+                found += 1;
+                assert_eq!(true_label(&planes, &labels, ground), GROUND);
+            }
+        }
+    }
+    assert!(enough > 30, "{enough}");
+    assert!(100 * found >= 97 * enough, "{found} of {enough}");
 }
