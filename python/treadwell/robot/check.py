@@ -89,13 +89,17 @@ class _Checker:
         self._check_stand()
         for side, leg in (("left", file.legs.left), ("right", file.legs.right)):
             self._check_leg(f"legs.{side}", leg)
-        for joint, angle in file.arms.rest.items():
-            number = self._find("arms.rest", joint, self.joints, "joint")
-            low, high = self.model.jnt_range[number]
-            if not low <= angle <= high:
-                self._fail(f"arms.rest.{joint}", f"must be within {low:g} to {high:g}, got {angle}")
+        self._check_arms("arms.rest", file.arms.rest)
+        self._check_arms("arms.raised", file.arms.raised)
         self._check_imu()
         self._check_camera()
+
+    def _check_arms(self, table: str, angles: dict[str, float]) -> None:
+        for joint, angle in angles.items():
+            number = self._find(table, joint, self.joints, "joint")
+            low, high = self.model.jnt_range[number]
+            if not low <= angle <= high:
+                self._fail(f"{table}.{joint}", f"must be within {low:g} to {high:g}, got {angle}")
 
     def _fail(self, key: str, message: str) -> None:
         raise InputError(f"{self.toml}: {key}: {message}")

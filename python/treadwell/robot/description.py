@@ -54,6 +54,7 @@ def describe(
         "legs": {"left": _leg(file.legs.left), "right": _leg(file.legs.right)},
         "head": {"pan": file.head.pan, "tilt": file.head.tilt},
         "arms_rest": dict(file.arms.rest),
+        "arms_raised": dict(file.arms.raised),
         "imu": {
             "link": model.body(model.site_bodyid[site]).name,
             "position": model.site_pos[site].tolist(),

@@ -88,9 +88,10 @@ class HeadTable(Table):
 
 
 class ArmsTable(Table):
-    """`[arms]`: `rest`, the angle (rad) at which each joint of the arms is held."""
+    """`[arms]`: angles (rad) of joints of the arms, at rest and when they are raised in joy."""
 
     rest: dict[Name, FiniteFloat] = {}
+    raised: dict[Name, FiniteFloat] = {}
 
 
 class ImuTable(Table):

@@ -48,7 +48,7 @@ pub enum Misstep {
 /// How the list of footsteps goes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Stepping {
-    /// Steps of the present or the last list that landed.
+    /// Steps of the present or the last list that landed; 0 from the tick on in which the walker takes a new list.
     pub landed: usize,
     /// How much higher than told the last one landed, m, by joints and foot force.
     pub height_error_m: f64,
@@ -74,7 +74,13 @@ pub enum Motion {
     Stand,
     /// Walk with a velocity.
     Walk(Velocity),
-    /// Take these steps, then stand. Given anew at every tick until the walker says that it stands.
+    /// Take these steps, then stand. Given anew at every tick, the same numbers, until the walker says that all landed
+    /// ([`Stepping::landed`]) or that it gave the list up ([`Stepping::misstep`]), and stands.
+    ///
+    /// A list is new in the first tick after any other motion, and when it differs from a list that is over while the robot
+    /// stands; it counts from the robot's frame and ground of that tick. One that differs while another is on is left alone until
+    /// that is over; another motion ends it with the step under way. Out of a walk the robot comes to stand first. A list with a
+    /// number that is none is not begun. Steps farther than the gait's `climb_forward` and `climb_rise` are shortened to that.
     Footsteps(Vec<Footstep>),
 }
 

@@ -22,6 +22,8 @@ pub(crate) struct ImuSample {
     pub(crate) angular_velocity_radps: Vector3<f64>,
     /// Specific force, m/s^2.
     pub(crate) specific_force_mps2: Vector3<f64>,
+    /// Acceleration of the trunk by leg odometry, in the odometry frame, m/s^2: what of the force is not gravity's.
+    pub(crate) acceleration_mps2: Vector3<f64>,
 }
 
 /// Orientation and bias of the gyroscope.
@@ -104,12 +106,12 @@ impl AttitudeFilter {
         let bias_radps = self.bias_radps + self.stride_bias_radps;
         let turned = (sample.angular_velocity_radps - bias_radps) * passed_s;
         self.odometry_from_imu *= UnitQuaternion::from_scaled_axis(turned);
-        let error = self.tilt_error(sample, config);
         let time_s = if still {
             config.tilt_time_still
         } else {
             config.tilt_time
         };
+        let error = self.tilt_error(sample, f64::from(self.samples) * passed_s > time_s, config);
         // A running mean at first, so that the first sample's noise does not stay for the whole time constant.
         let share = (passed_s / time_s)
             .max(1.0 / f64::from(self.samples))
@@ -124,15 +126,27 @@ impl AttitudeFilter {
     }
 
     /// Rotation vector, in the unit's frame, that takes the estimated vertical towards the measured one. Linear in the
-    /// specific force, so that the accelerations of a stride, which sum to nothing, tilt nothing; a force that is far
-    /// from gravity's strength is a blow and says nothing.
-    fn tilt_error(&self, sample: &ImuSample, config: &ProprioceptionConfig) -> Vector3<f64> {
+    /// specific force, so that the accelerations of a stride, which sum to nothing, tilt nothing; within a stride, the trunk's
+    /// acceleration by the legs is taken out, which leaves nothing of it but what they get wrong of its speed; not
+    /// until the attitude `is_known`, on which the speed depends. A force that is far from gravity's strength is a blow and says
+    /// nothing.
+    fn tilt_error(
+        &self,
+        sample: &ImuSample,
+        is_known: bool,
+        config: &ProprioceptionConfig,
+    ) -> Vector3<f64> {
         let force = sample.specific_force_mps2;
         if (force.norm() - GRAVITY_MPS2).abs() > config.gravity_gate {
             return Vector3::zeros();
         }
         let up_estimated = self.odometry_from_imu.inverse() * Vector3::z();
-        (force / GRAVITY_MPS2).cross(&up_estimated)
+        let acceleration = if is_known {
+            self.odometry_from_imu.inverse() * sample.acceleration_mps2
+        } else {
+            Vector3::zeros()
+        };
+        ((force - acceleration) / GRAVITY_MPS2).cross(&up_estimated)
     }
 
     fn watch_stillness(
@@ -182,6 +196,7 @@ mod tests {
         ImuSample {
             angular_velocity_radps: rate,
             specific_force_mps2: odometry_from_imu.inverse() * Vector3::z() * GRAVITY_MPS2,
+            acceleration_mps2: Vector3::zeros(),
         }
     }
 
@@ -243,6 +258,26 @@ mod tests {
     }
 
     #[test]
+    fn an_acceleration_that_the_legs_feel_does_not_tilt_the_estimate() {
+        let config = ProprioceptionConfig::default();
+        let mut filter = AttitudeFilter::new(&config);
+        let level = sample(Vector3::zeros(), UnitQuaternion::identity());
+        for _ in 0..400 {
+            filter.update(&level, TICK_S, true, &config);
+        }
+        let acceleration = Vector3::new(1.5, -0.5, 0.0);
+        let stride = ImuSample {
+            specific_force_mps2: level.specific_force_mps2 + acceleration,
+            acceleration_mps2: acceleration,
+            ..level
+        };
+        for _ in 0..30 {
+            filter.update(&stride, TICK_S, false, &config);
+        }
+        assert!(tilt_between(&filter, UnitQuaternion::identity()) < 1e-9);
+    }
+
+    #[test]
     fn a_blow_does_not_tilt_the_estimate() {
         let config = ProprioceptionConfig::default();
         let mut filter = AttitudeFilter::new(&config);
@@ -253,6 +288,7 @@ mod tests {
         let blow = ImuSample {
             angular_velocity_radps: Vector3::zeros(),
             specific_force_mps2: Vector3::new(16.0, 0.0, GRAVITY_MPS2),
+            acceleration_mps2: Vector3::zeros(),
         };
         for _ in 0..10 {
             filter.update(&blow, TICK_S, true, &config);

@@ -10,6 +10,9 @@ use robot::Side;
 use crate::ProprioceptionConfig;
 use crate::contact::Contacts;
 
+/// Time over which the torso's speed is smoothed, s.
+const SPEED_FILTER_S: f64 = 0.05;
+
 /// The legs as they are now.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Legs {
@@ -135,6 +138,31 @@ impl LegOdometry {
                 *anchor = None;
             }
         }
+    }
+}
+
+/// Speed and acceleration of the torso by leg odometry.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct TrunkMotion {
+    torso_m: Option<Vector3<f64>>,
+    velocity_mps: Vector3<f64>,
+    /// Change of the smoothed speed, m/s^2, odometry frame.
+    pub(crate) acceleration_mps2: Vector3<f64>,
+}
+
+impl TrunkMotion {
+    /// Takes in where the torso is. While the robot is being put where it starts, it does not move.
+    pub(crate) fn follow(&mut self, torso_m: &Vector3<f64>, passed_s: f64, starting: bool) {
+        let before_m = self.torso_m.replace(*torso_m);
+        let (Some(before_m), true) = (before_m, passed_s > 0.0 && !starting) else {
+            (self.velocity_mps, self.acceleration_mps2) = (Vector3::zeros(), Vector3::zeros());
+            return;
+        };
+        let measured = (torso_m - before_m) / passed_s;
+        let share = passed_s / (passed_s + SPEED_FILTER_S);
+        let change = (measured - self.velocity_mps) * share;
+        self.velocity_mps += change;
+        self.acceleration_mps2 = change / passed_s;
     }
 }
 

@@ -7,7 +7,7 @@ use sensing::{Observation, ObservationError};
 
 use crate::attitude::{AttitudeFilter, ImuSample};
 use crate::contact::Contacts;
-use crate::leg_odometry::{LegOdometry, Legs, odometry_from_torso};
+use crate::leg_odometry::{LegOdometry, Legs, TrunkMotion, odometry_from_torso};
 use crate::levelling::Levelling;
 use crate::play::Play;
 use crate::{BodyState, ProprioceptionConfig, ProprioceptionError};
@@ -38,6 +38,7 @@ pub struct Proprioception {
     levelling: Levelling,
     contacts: Contacts,
     odometry: LegOdometry,
+    motion: TrunkMotion,
     state: BodyState,
     before_ns: Option<u64>,
     /// Set until the robot has settled on its soles after the first observation.
@@ -56,6 +57,7 @@ impl Proprioception {
             levelling: Levelling::new(),
             contacts: Contacts::new(body.mass_kg() * GRAVITY_MPS2, &config),
             odometry: LegOdometry::new(),
+            motion: TrunkMotion::default(),
             state: BodyState {
                 time_ns: 0,
                 odometry_from_torso_rotation: UnitQuaternion::identity(),
@@ -93,6 +95,7 @@ impl Proprioception {
         let sample = ImuSample {
             angular_velocity_radps: Vector3::from(observation.angular_velocity_radps),
             specific_force_mps2: Vector3::from(observation.specific_force_mps2),
+            acceleration_mps2: self.motion.acceleration_mps2,
         };
         let both_feet = self.contacts.both_hold();
         self.attitude
@@ -129,6 +132,9 @@ impl Proprioception {
         let trunk_rate = self.trunk_rate_radps(&observation.joint_velocities_radps);
         self.state.angular_velocity_radps = torso_from_imu * rate_in_imu - trunk_rate;
         self.fill(observation.time_ns, &legs);
+        let starting = self.starting_since_ns.is_some();
+        self.motion
+            .follow(&self.odometry.torso_m(), passed_s, starting);
         Ok(&self.state)
     }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use geometry::PlanarPose;
-use nalgebra::{Isometry3, Matrix6, Translation3, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{Isometry3, Matrix6, Translation3, UnitQuaternion, Vector2, Vector3, Vector6};
 use robot::{
     Body, CameraMount, Description, Extent, Head, ImuMount, JointDescription, Leg, Legs,
     LinkDescription, LinkPoses, Side, Sole, StereoDescription,
@@ -106,6 +106,7 @@ fn describe(links: Vec<LinkDescription>, left: Leg, right: Leg) -> Body {
             tilt: "waist".to_owned(),
         },
         arms_rest: BTreeMap::new(),
+        arms_raised: BTreeMap::new(),
         imu: ImuMount {
             link: "waist".to_owned(),
             position: [0.0; 3],
@@ -153,7 +154,16 @@ pub(crate) struct Walk {
     pub(crate) truth: Vec<(PlanarPose, f64)>,
     soles: [(PlanarPose, f64); 2],
     torso: Isometry3<f64>,
+    speed_mps: Vector2<f64>,
     joints: Vec<f64>,
+}
+
+/// Ticks in which the load goes from one foot to both.
+const SHIFT_TICKS: u32 = 25;
+
+/// From 0 to 1, at rest at both ends.
+fn smooth(share: f64) -> f64 {
+    share * share * (3.0 - 2.0 * share)
 }
 
 impl Walk {
@@ -172,6 +182,7 @@ impl Walk {
             truth: Vec::new(),
             soles,
             torso: Isometry3::translation(0.0, 0.0, HIP_HEIGHT_M),
+            speed_mps: Vector2::zeros(),
             joints,
         }
     }
@@ -184,13 +195,13 @@ impl Walk {
         self
     }
 
-    /// Moves one foot to a place and a level: 10 ticks of load shift, 20 in the air, 10 of load shift back to the middle.
+    /// Moves one foot to a place and a level: load shift, 20 ticks in the air, load shift back to the middle.
     pub(crate) fn step(mut self, side: Side, to: PlanarPose, level_m: f64) -> Self {
         let from = self.soles;
         let lifted = if side == Side::Left { 1.0 } else { 0.0 };
-        for tick in 1..=10 {
+        for tick in 1..=SHIFT_TICKS {
             self.tick(
-                0.5 + (lifted - 0.5) * f64::from(tick) / 10.0,
+                0.5 + (lifted - 0.5) * smooth(f64::from(tick) / f64::from(SHIFT_TICKS)),
                 from,
                 side.other(),
             );
@@ -211,9 +222,9 @@ impl Walk {
             );
             self.tick(lifted, soles, side.other());
         }
-        for tick in 1..=10 {
+        for tick in 1..=SHIFT_TICKS {
             self.tick(
-                lifted + (0.5 - lifted) * f64::from(tick) / 10.0,
+                lifted + (0.5 - lifted) * smooth(f64::from(tick) / f64::from(SHIFT_TICKS)),
                 self.soles,
                 side.other(),
             );
@@ -282,7 +293,14 @@ impl Walk {
         } else {
             turned.scaled_axis() / 0.01
         };
-        let force = self.torso.rotation.inverse() * Vector3::new(0.0, 0.0, 9.81);
+        let speed = (self.torso.translation.vector - before.translation.vector).xy() / 0.01;
+        let pull = if first {
+            Vector2::zeros()
+        } else {
+            (speed - self.speed_mps) / 0.01
+        };
+        self.speed_mps = speed;
+        let force = self.torso.rotation.inverse() * Vector3::new(pull.x, pull.y, 9.81);
         self.observations.push(Observation {
             time_ns: self.observations.len() as u64 * TICK_NS,
             joint_positions_rad: self.joints.clone(),

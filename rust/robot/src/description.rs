@@ -64,6 +64,9 @@ pub struct Description {
     pub head: Head,
     /// Where the arms are held: joint name to angle, rad.
     pub arms_rest: BTreeMap<String, f64>,
+    /// Where raised arms are held: joint name to angle, rad.
+    #[serde(default)]
+    pub arms_raised: BTreeMap<String, f64>,
     /// The inertial measurement unit.
     pub imu: ImuMount,
     /// The depth camera.

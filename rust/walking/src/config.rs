@@ -80,6 +80,10 @@ pub struct GaitConfig {
     pub probe_speed: f64,
     /// How much deeper than told a foot seeks the ground, m.
     pub probe_depth: f64,
+    /// A listed step's foot that is this far beside its path has met something, m.
+    pub obstructed_distance: f64,
+    /// Time to raise the arms, or to lower them, s.
+    pub arms_time: f64,
     /// Speed up to which the hips are raised and lowered, m/s.
     pub hip_speed: f64,
     /// Largest speed of the head's joints, rad/s.
@@ -124,6 +128,8 @@ impl Default for GaitConfig {
             climb_rise: 0.055,
             probe_speed: 0.08,
             probe_depth: 0.02,
+            obstructed_distance: 0.025,
+            arms_time: 1.5,
             hip_speed: 0.12,
             gaze_speed: 2.0,
         }
@@ -162,7 +168,7 @@ impl GaitConfig {
         self.check_bounds()
     }
 
-    fn positive(&self) -> [(&'static str, f64); 22] {
+    fn positive(&self) -> [(&'static str, f64); 24] {
         [
             ("step_time", self.step_time),
             ("double_support", self.double_support),
@@ -184,6 +190,8 @@ impl GaitConfig {
             ("climb_forward", self.climb_forward),
             ("climb_rise", self.climb_rise),
             ("probe_speed", self.probe_speed),
+            ("obstructed_distance", self.obstructed_distance),
+            ("arms_time", self.arms_time),
             ("hip_speed", self.hip_speed),
             ("gaze_speed", self.gaze_speed),
         ]

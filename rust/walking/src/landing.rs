@@ -4,9 +4,13 @@
 use behaviour::Misstep;
 use nalgebra::Vector3;
 
+use crate::GaitConfig;
 use crate::gait::{FootPose, Gait, Landing, Manner, Phase, Swing};
 use crate::swing::SINKING;
 use crate::task::Task;
+
+/// Share of the time after which a careful foot has left the ground for sure.
+const HIGH: f64 = 0.25;
 
 /// What is known of the ground under a foot in the air.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,7 +31,8 @@ pub struct Felt {
 }
 
 impl Gait {
-    /// What a careful foot does after `passed_s` more.
+    /// What a careful foot does after `passed_s` more. Until it is found on the ground the clock stands when it should have been:
+    /// up to then the weight is where the other foot can keep it.
     pub(crate) fn go_carefully(
         &mut self,
         before_s: f64,
@@ -51,39 +56,39 @@ impl Gait {
             }
             return;
         };
-        *elapsed_s = elapsed_s.min(*duration_s);
+        let swing_s = self.config.climb_swing_time;
         let touches = felt.loads_n[swing.side.index()] > self.config.landing_load;
-        let sinks = before_s > SINKING * self.config.climb_swing_time;
-        let down = before_s >= self.config.climb_swing_time;
-        match &mut swing.landing {
-            Landing::Seeking(_) if sinks && touches => {
-                swing.landing = Landing::Found(swing.foot(before_s, &self.config).z_m);
-            }
-            Landing::Seeking(below_m) if down => {
-                *below_m += self.config.probe_speed * passed_s;
-                if *below_m >= self.config.probe_depth {
-                    let swing = *swing;
-                    self.find_no_ground(&swing, task);
-                }
-            }
-            Landing::Found(_) if over => {
-                let (swing, found_m) = (*swing, felt.soles_m[swing.side.index()].z);
-                let at = FootPose {
-                    z_m: found_m,
-                    ..swing.foot(*elapsed_s, &self.config)
-                };
+        if let Landing::Found(_) = swing.landing {
+            if over {
+                let (swing, at) = (*swing, felt.found(swing, *elapsed_s, &self.config));
                 self.land_carefully(&swing, at, task);
             }
-            _ => {}
+        } else if touches && before_s >= SINKING * swing_s {
+            swing.landing = Landing::Found(swing.foot(before_s, &self.config).z_m);
+        } else if swing.manner == Manner::Careful
+            && felt.obstructs(swing, before_s, touches, &self.config)
+        {
+            self.take_back(Misstep::Obstructed);
+        } else if *elapsed_s >= swing_s {
+            *elapsed_s = swing_s;
+            let below_m = match swing.landing {
+                Landing::Seeking(below_m) => below_m + self.config.probe_speed * passed_s,
+                Landing::Found(_) => 0.0,
+            };
+            swing.landing = Landing::Seeking(below_m);
+            if below_m >= self.config.probe_depth {
+                self.find_no_ground(task);
+            }
         }
     }
 
-    fn find_no_ground(&mut self, swing: &Swing, task: Task<'_>) {
-        if swing.manner == Manner::Back {
+    fn find_no_ground(&mut self, task: Task<'_>) {
+        match self.phase {
             // It stood there before: nothing better is known.
-            self.land_carefully(swing, swing.to, task);
-        } else {
-            self.take_back(Misstep::NoGround);
+            Phase::Single { swing, .. } if swing.manner == Manner::Back => {
+                self.land_carefully(&swing, swing.to, task);
+            }
+            _ => self.take_back(Misstep::NoGround),
         }
     }
 
@@ -91,9 +96,9 @@ impl Gait {
     fn take_back(&mut self, misstep: Misstep) {
         if let Phase::Single {
             elapsed_s, swing, ..
-        } = &self.phase
+        } = self.phase
         {
-            let here = swing.foot(*elapsed_s, &self.config);
+            let here = swing.foot(elapsed_s, &self.config);
             self.listed.misstep = Some(misstep);
             self.phase = Phase::Single {
                 elapsed_s: 0.0,
@@ -111,5 +116,25 @@ impl Gait {
             self.listed.ground_m += error_m;
         }
         self.land(swing, at, task);
+    }
+}
+
+impl Felt {
+    /// Where the foot that has found ground stands: as told, at the height that joints and attitude say.
+    fn found(&self, swing: &Swing, elapsed_s: f64, config: &GaitConfig) -> FootPose {
+        FootPose {
+            z_m: self.soles_m[swing.side.index()].z,
+            ..swing.foot(elapsed_s, config)
+        }
+    }
+
+    /// Whether something is in the foot's way: a load on it while it is high, or a place far from where it should be.
+    fn obstructs(&self, swing: &Swing, elapsed_s: f64, touches: bool, config: &GaitConfig) -> bool {
+        let share = elapsed_s / config.climb_swing_time;
+        let told = swing.foot(elapsed_s, config);
+        let sole = &self.soles_m[swing.side.index()];
+        let off_m = (sole.x - told.planar.x_m).hypot(sole.y - told.planar.y_m);
+        let high = (HIGH..SINKING).contains(&share);
+        (high && touches) || (share > HIGH && off_m > config.obstructed_distance)
     }
 }

@@ -24,9 +24,9 @@ pub fn height_m(share: f64, from_m: f64, top_m: f64, to_m: f64) -> f64 {
 }
 
 /// When a careful foot rises, moves over the ground, and sinks, as shares of its time.
-const RISE: [f64; 2] = [0.0, 0.36];
-const OVER: [f64; 2] = [0.3, 0.7];
-const SINK: [f64; 2] = [0.64, 1.0];
+const RISE: [f64; 2] = [0.0, 0.38];
+const OVER: [f64; 2] = [0.25, 0.75];
+const SINK: [f64; 2] = [0.62, 1.0];
 
 /// Share of the time after which a careful foot comes down on what it is told to land on.
 pub const SINKING: f64 = OVER[1];

@@ -43,7 +43,7 @@ impl StepList {
             self.state = State::Idle;
             return;
         };
-        let done = gait.list_is_done(self.steps.len()) && gait.is_standing();
+        let done = self.is_over(gait) && gait.is_standing();
         let new = match self.state {
             State::Idle => true,
             State::Waiting => false,
@@ -58,6 +58,11 @@ impl StepList {
         if self.state == State::Waiting && gait.is_standing() {
             self.state = State::Begun;
         }
+    }
+
+    /// Whether all steps of the list landed, or it was given up.
+    pub fn is_over(&self, gait: &Gait) -> bool {
+        gait.list_is_done(self.steps.len())
     }
 
     /// What is to be done at this tick for this motion.

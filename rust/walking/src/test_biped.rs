@@ -77,6 +77,7 @@ pub(crate) fn description() -> Description {
     }
     links.push(link("pan", 0, [0.0, 0.0, 0.2], 0.1, Z));
     links.push(link("tilt", 13, [0.0, 0.0, 0.04], 0.4, Y));
+    links.push(link("left_arm", 0, [0.0, 0.1, 0.15], 0.0, Y));
     let names = |side: &str| LEG.map(|(name, _)| format!("{side}_{name}"));
     let leg = |side: &str| Leg {
         joints: names(side),
@@ -92,7 +93,7 @@ pub(crate) fn description() -> Description {
         .filter_map(|link| link.joint.as_ref().map(|joint| joint.name.clone()))
         .collect();
     let bent = [0.0, 0.0, -BEND_RAD, 2.0 * BEND_RAD, -BEND_RAD, 0.0];
-    let stand = [&bent[..], &bent[..], &[0.0, 0.0]].concat();
+    let stand = [&bent[..], &bent[..], &[0.0, 0.0, 0.0]].concat();
     Description {
         name: "biped".to_owned(),
         joints,
@@ -107,6 +108,7 @@ pub(crate) fn description() -> Description {
             tilt: "tilt".to_owned(),
         },
         arms_rest: BTreeMap::new(),
+        arms_raised: BTreeMap::from([("left_arm".to_owned(), -2.0)]),
         imu: imu(),
         camera: camera(),
         body: Extent {
@@ -172,6 +174,8 @@ pub(crate) struct Ideal {
     pub(crate) targets: JointTargets,
     /// Height of the ground at a place, m; where the robot starts it is 0.
     pub(crate) ground_m: fn(f64, f64) -> f64,
+    /// The same for a ground of two levels: from this x on, this height, m.
+    pub(crate) ground_beyond: Option<(f64, f64)>,
     time_ns: u64,
 }
 
@@ -188,6 +192,7 @@ impl Ideal {
             walker,
             targets,
             ground_m: |_, _| 0.0,
+            ground_beyond: None,
             time_ns: 0,
         }
     }
@@ -198,7 +203,11 @@ impl Ideal {
         let mut loads = self.walker.balance().2.share.map(|share| share * weight);
         if let Some(stance) = self.walker.support() {
             let sole = self.sole_beside(stance);
-            let ground_m = (self.ground_m)(sole.x, sole.y);
+            let ground_m = match self.ground_beyond {
+                Some((from_m, height_m)) if sole.x > from_m => height_m,
+                Some(_) => 0.0,
+                None => (self.ground_m)(sole.x, sole.y),
+            };
             if sole.z < ground_m + 1e-4 {
                 loads[stance.other().index()] = 10.0;
             }

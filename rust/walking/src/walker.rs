@@ -6,6 +6,7 @@ use nalgebra::Vector2;
 use robot::{Body, Side};
 use sensing::Observation;
 
+use crate::arms::ArmsControl;
 use crate::balance::{Balance, GRAVITY_MPS2, Sensed};
 use crate::capture::Capture;
 use crate::feet::FeetControl;
@@ -30,6 +31,7 @@ pub struct Walker {
     config: GaitConfig,
     weight_n: f64,
     head: Head,
+    arms: ArmsControl,
     gait: Gait,
     list: StepList,
     balance: Balance,
@@ -59,6 +61,7 @@ impl Walker {
         Ok(Self {
             weight_n: body.mass_kg() * GRAVITY_MPS2,
             head: Head::new(body, config.gaze_speed)?,
+            arms: ArmsControl::new(body, &rest, config.arms_time)?,
             balance: Balance::new(body, omega, config.velocity_blend, com.xy()),
             soles: Soles::new(body, config.sole_margin),
             feet_control: FeetControl::new(&config),
@@ -138,6 +141,9 @@ impl Walker {
         self.posture
             .feed_forward(&moment, &state.links, &self.pressure, torques);
         self.head.turn(&command.gaze, passed_s, &mut self.targets);
+        let standing = self.gait.is_standing();
+        self.arms
+            .turn(command.arms, standing, passed_s, &mut self.targets);
         Ok(&self.targets)
     }
 
@@ -167,6 +173,11 @@ impl Walker {
             Phase::Single { swing, .. } => Some(swing.side.other()),
             Phase::Standing | Phase::Double { .. } => None,
         }
+    }
+
+    /// Whether the list that was given last is behind the robot: all its steps landed, or it was given up.
+    pub fn list_is_over(&self) -> bool {
+        self.list.is_over(&self.gait)
     }
 
     /// Where a foot stands, or left, in the walker's own frame, which drifts against the world's.
@@ -259,3 +270,7 @@ impl Walker {
 #[cfg(test)]
 #[path = "walker_tests.rs"]
 mod tests;
+
+#[cfg(test)]
+#[path = "climbing_tests.rs"]
+mod climbing_tests;

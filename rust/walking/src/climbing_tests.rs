@@ -1,0 +1,275 @@
+//! What the walker promises of listed footsteps, in a world where joints follow their targets at once.
+
+use behaviour::{Footstep, Misstep, Motion};
+use geometry::PlanarPose;
+use proptest::prelude::*;
+
+use super::*;
+use crate::test_biped::{Ideal, config};
+
+const TREAD_M: f64 = 0.12;
+const HALF_SOLE_M: f64 = 0.0525;
+
+fn step(side: Side, x_m: f64, height_m: f64, bearing_m: [f64; 2]) -> Footstep {
+    Footstep {
+        side,
+        pose: PlanarPose::new(x_m, side.sign() * 0.5 * config().stance_width, 0.0),
+        height_m,
+        bearing_m,
+    }
+}
+
+/// Both feet one tread forward.
+fn stair(height_m: f64) -> Vec<Footstep> {
+    Side::BOTH
+        .map(|side| step(side, TREAD_M, height_m, [-0.04, HALF_SOLE_M]))
+        .to_vec()
+}
+
+fn climb(steps: &[Footstep]) -> Command {
+    Command {
+        motion: Motion::Footsteps(steps.to_vec()),
+        ..Command::default()
+    }
+}
+
+/// Ticks until the list is behind the robot and it stands.
+fn run(world: &mut Ideal, command: &Command) {
+    for _ in 0..1500 {
+        world.tick(command);
+        if world.walker.standing() && world.walker.list_is_over() {
+            return;
+        }
+    }
+    panic!("it goes on and on: {:?}", world.walker.stepping());
+}
+
+fn heights(world: &Ideal) -> [f64; 2] {
+    Side::BOTH.map(|side| world.walker.foot_in_plan(side).z_m)
+}
+
+#[test]
+fn it_climbs_stair_after_stair_and_down_again() {
+    let mut world = Ideal::new();
+    world.ground_m = |x_m, _| {
+        let tread = ((x_m + 0.06) / TREAD_M).floor().clamp(0.0, 5.0);
+        [0.0, 0.04, 0.08, 0.08, 0.04, 0.0][tread as usize]
+    };
+    let before = world.walker.steps_taken();
+    for (stairs, height_m) in [(2, 0.04), (1, 0.0), (2, -0.04)] {
+        for _ in 0..stairs {
+            run(&mut world, &climb(&stair(height_m)));
+            world.tick(&Command::default());
+            assert_eq!(world.walker.stepping().landed, 2);
+            assert_eq!(world.walker.stepping().misstep, None);
+        }
+    }
+    assert_eq!(world.walker.steps_taken() - before, 10);
+    for z_m in heights(&world) {
+        assert!(z_m.abs() < 0.004, "{z_m}");
+    }
+}
+
+#[test]
+fn a_step_seen_wrong_is_stood_on_where_it_is() {
+    for found_m in [0.022, 0.038] {
+        let mut world = Ideal::new();
+        world.ground_m = if found_m > 0.03 {
+            |x_m, _| if x_m > 0.06 { 0.038 } else { 0.0 }
+        } else {
+            |x_m, _| if x_m > 0.06 { 0.022 } else { 0.0 }
+        };
+        let command = climb(&stair(0.03));
+        while world.walker.stepping().landed == 0 {
+            world.tick(&command);
+        }
+        let error_m = world.walker.stepping().height_error_m;
+        assert!((error_m - (found_m - 0.03)).abs() < 0.002, "{error_m}");
+        run(&mut world, &command);
+        // The second foot is told the corrected height.
+        assert!(world.walker.stepping().height_error_m.abs() < 0.002);
+        for z_m in heights(&world) {
+            assert!((z_m - found_m).abs() < 0.002, "{z_m}");
+        }
+    }
+}
+
+#[test]
+fn a_foot_that_finds_no_ground_goes_back_and_the_list_is_given_up() {
+    let mut world = Ideal::new();
+    let before = *world.walker.foot_in_plan(Side::Left);
+    let command = climb(&stair(0.05));
+    run(&mut world, &command);
+    let stepping = world.walker.stepping();
+    assert_eq!(
+        (stepping.landed, stepping.misstep),
+        (0, Some(Misstep::NoGround))
+    );
+    let foot = world.walker.foot_in_plan(Side::Left);
+    assert!(foot.planar.distance_m(&before.planar) < 1e-9 && foot.z_m.abs() < 0.002);
+    for _ in 0..100 {
+        world.tick(&command);
+        assert!(world.walker.standing(), "the same list is not begun again");
+    }
+    world.ground_m = |x_m, _| if x_m > 0.06 { 0.03 } else { 0.0 };
+    run(&mut world, &climb(&stair(0.03)));
+    assert_eq!(world.walker.stepping().misstep, None);
+    assert_eq!(world.walker.stepping().landed, 2);
+}
+
+#[test]
+fn a_foot_that_meets_something_on_its_way_goes_back() {
+    let mut world = Ideal::new();
+    world.ground_m = |x_m, _| if x_m > 0.05 { 0.2 } else { 0.0 };
+    run(&mut world, &climb(&stair(0.03)));
+    let stepping = world.walker.stepping();
+    assert_eq!(
+        (stepping.landed, stepping.misstep),
+        (0, Some(Misstep::Obstructed))
+    );
+    assert!(heights(&world).iter().all(|z_m| z_m.abs() < 0.002));
+}
+
+#[test]
+fn a_list_that_is_done_is_not_walked_again_but_a_new_one_is() {
+    let mut world = Ideal::new();
+    let command = climb(&stair(0.0));
+    run(&mut world, &command);
+    for _ in 0..300 {
+        world.tick(&command);
+    }
+    assert_eq!(world.walker.steps_taken(), 2);
+    // Another list, or the same one after something else.
+    run(
+        &mut world,
+        &climb(&[step(Side::Right, 0.05, 0.0, [-HALF_SOLE_M, HALF_SOLE_M])]),
+    );
+    assert_eq!(world.walker.steps_taken(), 3);
+    world.tick(&Command::default());
+    world.tick(&command);
+    run(&mut world, &command);
+    assert_eq!(world.walker.steps_taken(), 5);
+}
+
+#[test]
+fn a_list_that_is_taken_away_ends_with_the_step_under_way() {
+    let mut world = Ideal::new();
+    world.ground_m = |x_m, _| if x_m > 0.06 { 0.03 } else { 0.0 };
+    let command = climb(&stair(0.03));
+    while world.walker.support().is_none() {
+        world.tick(&command);
+    }
+    for _ in 0..400 {
+        world.tick(&Command::default());
+    }
+    assert!(world.walker.standing());
+    let [left_m, right_m] = heights(&world);
+    assert!((left_m - 0.03).abs() < 0.002 && right_m == 0.0);
+}
+
+#[test]
+fn a_list_given_on_a_walk_is_begun_from_a_stand_and_counts_from_where_it_was_given() {
+    let mut world = Ideal::new();
+    let walk = Command {
+        motion: Motion::Walk(behaviour::Velocity {
+            x_mps: 0.08,
+            ..behaviour::Velocity::default()
+        }),
+        ..Command::default()
+    };
+    for _ in 0..230 {
+        world.tick(&walk);
+    }
+    let given = Gait::center_of(&Side::BOTH.map(|side| world.walker.gait.foot(side)));
+    run(&mut world, &climb(&stair(0.0)));
+    let reached = Gait::center_of(&world.walker.gait.feet);
+    let ahead_m = reached.x_m - given.x_m;
+    assert!((ahead_m - TREAD_M).abs() < 0.006, "{ahead_m}");
+}
+
+#[test]
+fn feet_push_only_where_they_bear_also_when_the_robot_then_stands() {
+    let mut world = Ideal::new();
+    world.ground_m = |x_m, _| if x_m > 0.06 { 0.03 } else { 0.0 };
+    let bearing_m = [-0.01, HALF_SOLE_M];
+    let steps = Side::BOTH.map(|side| step(side, TREAD_M, 0.03, bearing_m));
+    run(&mut world, &climb(&steps));
+    for _ in 0..200 {
+        world.tick(&Command::default());
+        for side in Side::BOTH {
+            let foot = world.walker.foot_in_plan(side).planar;
+            let point = world.walker.balance().2.point[side.index()];
+            let (x_m, _) = foot.inverse().apply(point.x, point.y);
+            assert!(x_m > bearing_m[0] && x_m < bearing_m[1], "{x_m}");
+        }
+    }
+    let middle_m = 0.5 * (bearing_m[0] + bearing_m[1]);
+    let com_m = world.walker.balance().1.com.x - TREAD_M;
+    assert!((com_m - middle_m).abs() < 0.003, "{com_m}");
+}
+
+#[test]
+fn arms_are_raised_slowly_and_lowered_again() {
+    let mut world = Ideal::new();
+    let raised = Command {
+        arms: behaviour::Arms::Raised,
+        ..Command::default()
+    };
+    let pan = world.body.joint("test", "left_arm").unwrap();
+    let mut before = world.targets.positions_rad[pan];
+    for _ in 0..300 {
+        world.tick(&raised);
+        let now = world.targets.positions_rad[pan];
+        assert!((now - before).abs() < 0.04);
+        before = now;
+    }
+    assert_eq!(before, -2.0);
+    for _ in 0..300 {
+        world.tick(&Command::default());
+    }
+    assert_eq!(world.targets.positions_rad[pan], 0.0);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn joints_move_without_a_jump_on_any_stair(
+        height_m in -0.05..0.05f64, x_m in 0.0..0.13f64, error_m in -0.008..0.008f64,
+    ) {
+        let mut world = Ideal::new();
+        world.ground_beyond = Some((0.5 * x_m, height_m + error_m));
+        let steps = Side::BOTH.map(|side| step(side, x_m, height_m, [-0.03, 0.04]));
+        let command = climb(&steps);
+        let mut before = world.targets.clone();
+        for tick in 0..600 {
+            world.tick(&command);
+            let now = &world.targets;
+            for (joint, (a, b)) in before.positions_rad.iter().zip(&now.positions_rad).enumerate() {
+                prop_assert!((a - b).abs() < 0.09, "joint {joint} jumps from {a} to {b} at tick {tick}");
+            }
+            before = now.clone();
+        }
+        prop_assert!(world.walker.standing());
+    }
+
+    #[test]
+    fn no_list_brings_a_foot_farther_from_the_other_than_the_gait_allows(
+        x_m in -1.0..1.0f64, y_m in -1.0..1.0f64, yaw_rad in -2.0..2.0f64, height_m in -1.0..1.0f64,
+    ) {
+        let mut world = Ideal::new();
+        let mut wild = step(Side::Left, x_m, height_m, [-0.03, 0.04]);
+        wild.pose = PlanarPose::new(x_m, y_m, yaw_rad);
+        let command = climb(&[wild]);
+        for _ in 0..700 {
+            world.tick(&command);
+            let gait = &world.walker.gait;
+            let [left, right] = Side::BOTH.map(|side| gait.foot(side));
+            let apart = right.planar.relative(&left.planar);
+            let config = config();
+            prop_assert!(apart.x_m.abs() <= config.climb_forward + 1e-9);
+            prop_assert!((left.z_m - right.z_m).abs() <= config.climb_rise + config.climb_clearance + 1e-9);
+        }
+        prop_assert!(world.walker.standing());
+    }
+}
