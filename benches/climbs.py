@@ -54,7 +54,7 @@ class StepError:
 
 @dataclass(frozen=True)
 class Belief:
-    """What was known while both soles stood: the stairs, and the robot's pose believed and true."""
+    """What was known while both soles stood on one level: stairs, the pose believed and true."""
 
     stairs: Sequence[Stair]
     believed: tuple[float, float, float, float]
@@ -88,7 +88,7 @@ class ClimbWatch:
             climbs = pilot.climbs() or []
             self.planned = max(self.planned, sum(len(climb.steps) for climb in climbs))
             stairs = pilot.staircase().stairs
-            if all(touching):
+            if self._is_level():
                 true = judge.frame
                 pose = (true.x, true.y, true.z, true.yaw)
                 self._belief = Belief(stairs, step.estimate.pose, pose)
@@ -100,6 +100,13 @@ class ClimbWatch:
             self._looks[side] = self._looks[side] + 1 if touches else 0
             if self._looks[side] == LOOKS_A_FOOTPRINT:
                 self._footprint(side, sole, 1e-9 * step.time_ns)
+
+    def _is_level(self) -> bool:
+        """Say whether both soles have taken their places, on one level."""
+        left, right = self._prints
+        if left is None or right is None or min(self._looks) < LOOKS_A_FOOTPRINT:
+            return False
+        return abs(left.z - right.z) < LEAST_CHANGE / 2
 
     def _footprint(self, side: int, sole: Sole, time: float) -> None:
         before, other = self._prints[side], self._prints[1 - side]
