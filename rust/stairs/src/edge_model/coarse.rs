@@ -1,18 +1,17 @@
 //! A first look: the best of a grid of places and headings, without what the matching window does.
 
-use super::excerpt::Excerpt;
-use super::render::Area;
+use super::excerpt::{Area, Excerpt};
 use super::sight::{Sight, Step, first_met};
 
 /// The grid: steps to each side of the guess, and their size, m and rad.
-const PLACES: i32 = 6;
-const PLACE_STEP_M: f64 = 0.009;
-const HEADINGS: i32 = 4;
-const HEADING_STEP_RAD: f64 = 0.09;
+const PLACES: i32 = 5;
+const PLACE_STEP_M: f64 = 0.01;
+const HEADINGS: i32 = 3;
+const HEADING_STEP_RAD: f64 = 0.11;
 /// Residuals count up to this, px.
 const LARGEST_PX: f32 = 0.4;
 /// About so many pixels are looked at.
-const SAMPLES: usize = 300;
+const SAMPLES: usize = 200;
 /// Fewest pixels that tell anything.
 const FEWEST: usize = 60;
 
@@ -92,8 +91,7 @@ impl Coarse {
         let stride = excerpt.chosen.len().div_ceil(SAMPLES);
         for &at in excerpt.chosen.iter().step_by(stride) {
             let at = at as usize;
-            let col = (area.cols.0 + at % area.columns()) as f64;
-            let row = (area.rows.0 + at / area.columns()) as f64;
+            let (col, row) = area.pixel(at);
             self.near_px.push(faces.near.at(col, row) as f32);
             self.far_px.push(faces.far.at(col, row) as f32);
             self.x.push(sight.x.at(col, row) as f32);

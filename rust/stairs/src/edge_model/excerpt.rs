@@ -6,12 +6,11 @@ use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
 
 use super::product::Untrusted;
-use super::render::Area;
 use super::sight::{Faces, Sight, Step};
 use crate::Edge;
 
 /// Pixels this far before and behind the edge take part, m; what is behind is less than the shortest tread.
-pub(super) const BEFORE_M: f64 = 0.09;
+pub(super) const BEFORE_M: f64 = 0.07;
 pub(super) const BEHIND_M: f64 = 0.075;
 /// At most so much of an edge is looked at, m, and at least so much of it must be in view.
 const LONGEST_M: f64 = 0.44;
@@ -22,10 +21,31 @@ const END_M: f64 = 0.01;
 const PLACES: usize = 41;
 /// The guess may be so far outside the picture, pixels: it may be off.
 const OUTSIDE_PX: f64 = 5.0;
-/// Above so many pixels every second one takes part: neighbouring windows overlap and tell the same.
-const MANY: usize = 1200;
+/// Of areas with more pixels than this only every second, third ... takes part: neighbouring windows overlap and tell the same.
+const MANY: usize = 1500;
 /// Least disparity of a surface, px: farther away nothing can be told.
 pub(super) const FARTHEST_PX: f32 = 1.5;
+
+/// Columns and rows of a picture, from and up to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Area {
+    pub(super) cols: (usize, usize),
+    pub(super) rows: (usize, usize),
+}
+
+impl Area {
+    pub(super) const fn columns(&self) -> usize {
+        self.cols.1 - self.cols.0
+    }
+
+    /// Column and row of the area's pixel `at`, counted row by row.
+    pub(super) const fn pixel(&self, at: usize) -> (f64, f64) {
+        (
+            (self.cols.0 + at % self.columns()) as f64,
+            (self.rows.0 + at / self.columns()) as f64,
+        )
+    }
+}
 
 /// The pixels around an edge.
 #[derive(Debug, Clone, Default)]
@@ -159,22 +179,19 @@ impl Excerpt {
             return;
         };
         let zone = Zone::new(sight, step, half_m);
+        let columns = area.columns();
+        let thinned = self.observed_px.len().div_ceil(MANY).max(1);
+        self.thinned = thinned as u32;
         self.chosen.clear();
-        for (index, line) in self.observed_px.chunks_exact(area.columns()).enumerate() {
+        for (index, line) in self.observed_px.chunks_exact(columns).enumerate() {
             let row = (area.rows.0 + index) as f64;
-            for (i, &observed) in line.iter().enumerate() {
-                let col = (area.cols.0 + i) as f64;
-                if observed > 0.0 && zone.holds(&faces, col, row) {
-                    self.chosen.push((index * area.columns() + i) as u32);
+            // From row to row by another column: no line of pixels is left out.
+            let first = index * (thinned / 2 + 1) % thinned;
+            for (i, &observed) in line.iter().enumerate().skip(first).step_by(thinned) {
+                if observed > 0.0 && zone.holds(&faces, (area.cols.0 + i) as f64, row) {
+                    self.chosen.push((index * columns + i) as u32);
                 }
             }
-        }
-        self.thinned = 1;
-        if self.chosen.len() > MANY {
-            self.thinned = 2;
-            let columns = area.columns() as u32;
-            self.chosen
-                .retain(|at| (at / columns + at % columns).is_multiple_of(2));
         }
     }
 }

@@ -9,7 +9,6 @@ mod coarse;
 mod excerpt;
 mod product;
 mod refine;
-mod render;
 mod sight;
 #[cfg(test)]
 mod tests;
@@ -23,12 +22,10 @@ use sensing::{Intrinsics, Scan};
 
 use crate::Edge;
 use coarse::Coarse;
-use excerpt::{Excerpt, Stretch, area_of, pixel_m, stretch_in_view};
+use excerpt::{Area, Excerpt, Stretch, area_of, pixel_m, stretch_in_view};
 pub use product::{FittedEdge, Untrusted};
 use refine::Equations;
-use render::{Area, render};
 use sight::{Sight, Step};
-use window::Window;
 
 /// Least change of height that shows, m.
 const LEAST_RISE_M: f64 = 0.008;
@@ -38,6 +35,8 @@ const SLACK_M: f64 = 0.03;
 const ROUNDS: [usize; 2] = [3, 7];
 /// The refinement is at rest below these changes of place (m) and heading (rad).
 const REST: (f64, f64) = (0.0003, 0.002);
+/// What its last step may change at most: pixels that change surfaces keep it moving a little.
+const UNREST: (f64, f64) = (0.0015, 0.015);
 /// Weighs turns (rad) against shifts (m): squared distance of the ends from the middle, m2.
 const LEVER_M2: f64 = 0.01;
 /// Largest change at once.
@@ -57,7 +56,6 @@ pub struct EdgeModel {
     camera: Intrinsics,
     excerpt: Excerpt,
     coarse: Coarse,
-    window: Window,
 }
 
 impl EdgeModel {
@@ -67,7 +65,6 @@ impl EdgeModel {
             camera,
             excerpt: Excerpt::with_room(camera.width * camera.height),
             coarse: Coarse::with_room(),
-            window: Window::with_room(camera.width, camera.height),
         }
     }
 
@@ -147,7 +144,7 @@ impl EdgeModel {
 
     /// Improves `step` until it rests; the equations are those where it does, `None` when it does not.
     fn refine(
-        &mut self,
+        &self,
         sight: &Sight,
         area: &Area,
         start: &Step,
@@ -157,13 +154,11 @@ impl EdgeModel {
         if self.excerpt.chosen.len() < FEWEST / self.excerpt.thinned as usize {
             return Err(Untrusted::OutOfView);
         }
-        self.window
-            .resize(area.columns(), area.pixels() / area.columns());
         let (mut before, mut share) = (Vector4::zeros(), 1.0);
+        let mut last = None;
         for _ in 0..rounds {
-            let faces = step.faces(sight).ok_or(Untrusted::WrongSide)?;
-            render(&faces, area, &self.excerpt.chosen, &mut self.window);
-            let mut equations = Equations::sum(&self.excerpt, &self.window);
+            let mut equations =
+                Equations::sum(&self.excerpt, area, sight, step).ok_or(Untrusted::WrongSide)?;
             equations.hold_heights([
                 start.near_height_m - step.near_height_m,
                 start.far_height_m - step.far_height_m,
@@ -184,16 +179,17 @@ impl EdgeModel {
             {
                 return Err(Untrusted::NotSettled);
             }
-            if at_rest(&change) {
-                return Ok(Some(equations));
+            last = Some(equations);
+            if smaller(&change, REST) {
+                break;
             }
         }
-        Ok(None)
+        Ok(last.filter(|_| smaller(&before, UNREST)))
     }
 }
 
-fn at_rest(change: &Vector4<f64>) -> bool {
-    change[0].abs() < REST.0 && change[1].abs() < REST.1
+fn smaller(change: &Vector4<f64>, than: (f64, f64)) -> bool {
+    change[0].abs() < than.0 && change[1].abs() < than.1
 }
 
 fn product_of(

@@ -2,14 +2,17 @@
 
 use nalgebra::{Matrix4, Vector4};
 
-use super::excerpt::Excerpt;
-use super::window::{WINDOW, Window};
+use super::excerpt::{Area, Excerpt};
+use super::sight::{Faces, Linear, Sight, Step};
+use super::window::{Matcher, PIXELS};
 
 /// Calibrated noise of a disparity, px.
 pub(super) const NOISE_PX: f32 = 0.125;
 /// Residuals count fully up to this, and not at all beyond that, px.
 const HUBER_PX: f32 = 2.0 * NOISE_PX;
-const OUTLIER_PX: f32 = 8.0 * NOISE_PX;
+const OUTLIER_PX: f32 = 16.0 * NOISE_PX;
+/// Finite steps of place (m) and heading (rad) where disparities jump: about half a pixel.
+const TRIAL: (f64, f64) = (0.004, 0.04);
 /// How well the heights are known before, m.
 const HEIGHT_SIGMA_M: f64 = 0.006;
 
@@ -22,16 +25,86 @@ pub(super) struct Equations {
     pub(super) roughness: f64,
 }
 
+/// What a step shows, and what its neighbours in place and heading do.
+struct Model {
+    faces: Faces,
+    matcher: Matcher,
+    /// A little farther, a little nearer; turned a little left, a little right.
+    around: [Matcher; 4],
+}
+
+impl Model {
+    fn new(sight: &Sight, step: &Step) -> Option<Self> {
+        let moved = |place_m: f64, turn_rad: f64| {
+            let moved = Step {
+                place_m: step.place_m + place_m,
+                heading_rad: step.heading_rad + turn_rad,
+                ..*step
+            };
+            moved.faces(sight).map(|faces| Matcher::new(&faces))
+        };
+        let faces = step.faces(sight)?;
+        Some(Self {
+            matcher: Matcher::new(&faces),
+            faces,
+            around: [
+                moved(TRIAL.0, 0.0)?,
+                moved(-TRIAL.0, 0.0)?,
+                moved(0.0, TRIAL.1)?,
+                moved(0.0, -TRIAL.1)?,
+            ],
+        })
+    }
+
+    /// Disparity at a pixel, px, and its change with place, heading, near and far height.
+    fn show(&self, col: f64, row: f64) -> (f32, [f32; 4]) {
+        let (c, r) = (col as f32, row as f32);
+        let seen = self.matcher.look(c, r);
+        let [near, far, riser] = seen.by_face;
+        let faces = &self.faces;
+        let part = |share: f32, change: &Linear| {
+            if share == 0.0 {
+                0.0
+            } else {
+                share * change.at(col, row) as f32
+            }
+        };
+        let (mut by_place, mut by_heading) = (
+            part(riser, &faces.riser_by_place),
+            part(riser, &faces.riser_by_heading),
+        );
+        if seen.jumps && !faces.rising {
+            // The window takes one side or the other: what changes shows in finite steps only.
+            let there = self
+                .around
+                .each_ref()
+                .map(|other| other.look(c, r).value_px);
+            by_place = (there[0] - there[1]) / (2.0 * TRIAL.0 as f32);
+            by_heading = (there[2] - there[3]) / (2.0 * TRIAL.1 as f32);
+        }
+        let changes = [
+            by_place,
+            by_heading,
+            part(near, &faces.near_by_height),
+            part(far, &faces.far_by_height),
+        ];
+        (seen.value_px, changes)
+    }
+}
+
 impl Equations {
-    /// Sums over the chosen pixels of what was seen less what the window shows.
-    pub(super) fn sum(excerpt: &Excerpt, window: &Window) -> Self {
+    /// Sums over the chosen pixels of what was seen less what the step shows; `None` when the camera is on no side of
+    /// the edge from which it could be seen.
+    pub(super) fn sum(excerpt: &Excerpt, area: &Area, sight: &Sight, step: &Step) -> Option<Self> {
+        let model = Model::new(sight, step)?;
         let mut information = [[0.0_f32; 4]; 4];
         let mut product = [0.0_f32; 4];
         let mut size_px = 0.0_f32;
-        let [value, rest @ ..] = &window.matched;
         for &at in &excerpt.chosen {
             let at = at as usize;
-            let miss = excerpt.observed_px[at] - value[at];
+            let (col, row) = area.pixel(at);
+            let (value_px, changes) = model.show(col, row);
+            let miss = excerpt.observed_px[at] - value_px;
             let size = miss.abs();
             size_px += size.min(OUTLIER_PX);
             if size > OUTLIER_PX {
@@ -42,7 +115,6 @@ impl Equations {
             } else {
                 1.0
             };
-            let changes = [rest[0][at], rest[1][at], rest[2][at], rest[3][at]];
             for i in 0..4 {
                 let weighted = weight * changes[i];
                 product[i] += weighted * miss;
@@ -53,14 +125,14 @@ impl Equations {
         }
         // Windows overlap: all pixels of a window together tell as much as one independent one.
         let thinned = f64::from(excerpt.thinned);
-        let share = thinned / (f64::from(NOISE_PX).powi(2) * (WINDOW * WINDOW) as f64);
+        let share = thinned / (f64::from(NOISE_PX).powi(2) * PIXELS as f64);
         let entry = |i: usize, j: usize| f64::from(information[i.min(j)][i.max(j)]) * share;
-        Self {
+        Some(Self {
             information: Matrix4::from_fn(entry),
             product: Vector4::from_fn(|i, _| f64::from(product[i]) * share),
             // The mean size of a normal variable is 0.8 of its sigma.
             roughness: f64::from(size_px / NOISE_PX) / (0.798 * excerpt.chosen.len().max(1) as f64),
-        }
+        })
     }
 
     /// Adds what is known of the heights: they should change by `heights_m` (near, far).

@@ -14,6 +14,7 @@ pub(super) struct Linear {
 
 impl Linear {
     /// The value at a pixel, which may lie outside the picture.
+    #[inline]
     pub(super) fn at(&self, col: f64, row: f64) -> f64 {
         self.origin + self.per_col * col + self.per_row * row
     }
@@ -21,6 +22,11 @@ impl Linear {
     /// Change from column to column.
     pub(super) const fn per_col(&self) -> f64 {
         self.per_col
+    }
+
+    /// Change from row to row.
+    pub(super) const fn per_row(&self) -> f64 {
+        self.per_row
     }
 
     /// Length of the gradient, per pixel.
@@ -158,6 +164,7 @@ impl Step {
 
 impl Faces {
     /// The disparity that the ray of a pixel meets first, px.
+    #[inline]
     pub(super) fn seen(&self, col: f64, row: f64) -> f32 {
         first_met(
             self.rising,
@@ -170,6 +177,7 @@ impl Faces {
 
 /// The first disparity that a ray meets. Going up, the riser hides the far surface's level below it and the near one hides
 /// the riser's below; going down, the near surface hides what is behind its border.
+#[inline]
 pub(super) fn first_met(rising: bool, near: f32, far: f32, riser: f32) -> f32 {
     if rising {
         near.max(far.min(riser))

@@ -132,16 +132,16 @@ proptest! {
         let view = View { front_m, rise_m, yaw_rad, tilt_rad: 0.95 };
         let fitted = view.fit(&view.exact(), &view.guess(shift_m, turn_rad)).unwrap();
         let (place_m, turn_rad) = view.errors(&fitted);
-        prop_assert!(place_m.abs() < 0.001 && turn_rad.abs() < 0.01, "{place_m} {turn_rad}");
+        prop_assert!(place_m.abs() < 0.002 && turn_rad.abs() < 0.02, "{place_m} {turn_rad}");
     }
 
     #[test]
-    fn exact_rays_give_the_edge_of_a_drop_to_half_a_pixel(
+    fn matched_rays_give_the_edge_of_a_drop_to_half_a_pixel(
         front_m in 0.24..0.38f64, drop_m in 0.015..0.05f64, yaw_rad in -0.35..0.35f64,
         shift_m in -0.03..0.03f64, turn_rad in -0.15..0.15f64,
     ) {
         let view = View { front_m, rise_m: -drop_m, yaw_rad, tilt_rad: 0.95 };
-        let fitted = view.fit(&view.exact(), &view.guess(shift_m, turn_rad)).unwrap();
+        let fitted = view.fit(&view.matched(), &view.guess(shift_m, turn_rad)).unwrap();
         let (place_m, turn_rad) = view.errors(&fitted);
         prop_assert!(place_m.abs() < 0.0045 && turn_rad.abs() < 0.03, "{place_m} {turn_rad}");
     }
@@ -149,7 +149,7 @@ proptest! {
 
 #[test]
 fn windows_that_see_both_surfaces_do_not_shift_the_edge() {
-    for rise_m in [0.05, 0.03, 0.015, -0.015, -0.03] {
+    for rise_m in [0.05, 0.03, 0.015, -0.015, -0.03, -0.04, -0.05] {
         for yaw_rad in [0.05, -0.2] {
             let view = View {
                 yaw_rad,
@@ -158,7 +158,7 @@ fn windows_that_see_both_surfaces_do_not_shift_the_edge() {
             let fitted = view.fit(&view.matched(), &view.guess(0.01, 0.05)).unwrap();
             let (place_m, turn_rad) = view.errors(&fitted);
             assert!(
-                place_m.abs() < 0.001 && turn_rad.abs() < 0.01,
+                place_m.abs() < 0.002 && turn_rad.abs() < 0.02,
                 "{rise_m}: {place_m} {turn_rad}"
             );
         }

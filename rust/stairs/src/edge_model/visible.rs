@@ -1,9 +1,8 @@
 //! Whether enough of both surfaces is in view to trust an edge.
 
-use super::excerpt::{Excerpt, FARTHEST_PX};
+use super::excerpt::{Area, Excerpt, FARTHEST_PX};
 use super::product::Untrusted;
 use super::refine::NOISE_PX;
-use super::render::Area;
 use super::sight::{Sight, Step};
 
 /// Slices of the edge that are looked at.
@@ -78,8 +77,7 @@ impl Counts {
             any: [false; SLICES],
         };
         for (at, &observed) in excerpt.observed_px.iter().enumerate() {
-            let col = (area.cols.0 + at % area.columns()) as f64;
-            let row = (area.rows.0 + at / area.columns()) as f64;
+            let (col, row) = area.pixel(at);
             let (near, far) = (
                 faces.near.at(col, row) as f32,
                 faces.far.at(col, row) as f32,

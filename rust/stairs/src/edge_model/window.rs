@@ -3,145 +3,203 @@
 //! Where the disparities inside a window differ by less than the width of the correlation's peak, the match is their
 //! mean; where they differ by more, it is the mean of those around the nearest surface (mean shift with a flat kernel).
 
-/// Pixels from a window's middle to its border.
-pub(super) const REACH: usize = 2;
-/// Width and height of a window, pixels.
-pub(super) const WINDOW: usize = 2 * REACH + 1;
+use super::sight::{Faces, Linear, first_met};
+
+/// Pixels from a window's middle to its border, pixels in a window.
+const REACH: f64 = 2.0;
+const SIDE: usize = 5;
+pub(super) const PIXELS: usize = SIDE * SIDE;
 /// Surfaces closer than this in disparity blend, px: about the half width of a correlation's peak.
 const BANDWIDTH_PX: f32 = 1.0;
-/// Windows whose corners differ by less hold no such jump, px.
-const SUSPECT_PX: f32 = 0.8;
+/// Windows whose disparities differ by more take one side or the other before long, px.
+const SUSPECT_PX: f32 = 0.75;
 /// Steps of the mean shift.
 const SHIFTS: usize = 4;
-/// Images of a rendered step: disparity and its change with each of the four parameters.
-pub(super) const CHANNELS: usize = 5;
 
-/// Images of a step, as rendered with a border of `REACH` pixels around, and as matched.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Window {
-    /// Size of the rendered images, pixels.
-    size: (usize, usize),
-    /// As rendered: one image after the other.
-    pub(super) sharp: [Vec<f32>; CHANNELS],
-    /// As matched, without the border.
-    pub(super) matched: [Vec<f32>; CHANNELS],
-    over_rows: Vec<f32>,
+/// What the window around a pixel gives.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Match {
+    /// Disparity, px.
+    pub(super) value_px: f32,
+    /// Change of the disparity with those of the near surface, the far one and the riser at the pixel.
+    pub(super) by_face: [f32; 3],
+    /// Whether surfaces are so far apart that the window may take one side.
+    pub(super) jumps: bool,
 }
 
-impl Window {
-    /// Makes room for matched images of up to so many columns and rows.
-    pub(super) fn with_room(columns: usize, rows: usize) -> Self {
-        let pixels = (columns + 2 * REACH) * (rows + 2 * REACH);
-        let image = || Vec::with_capacity(pixels);
+/// A plane in the picture, and what it adds to its disparity at each pixel of a window.
+#[derive(Debug, Clone, Copy)]
+struct Plane {
+    origin: f32,
+    per_col: f32,
+    per_row: f32,
+    offsets: [f32; PIXELS],
+}
+
+impl Plane {
+    fn new(linear: &Linear) -> Self {
+        let (origin, per_col, per_row) = (
+            linear.at(0.0, 0.0) as f32,
+            linear.per_col() as f32,
+            linear.per_row() as f32,
+        );
+        let offset = |i: usize| {
+            let (col, row) = ((i % SIDE) as f32, (i / SIDE) as f32);
+            per_col * (col - REACH as f32) + per_row * (row - REACH as f32)
+        };
         Self {
-            size: (0, 0),
-            sharp: std::array::from_fn(|_| image()),
-            matched: std::array::from_fn(|_| image()),
-            over_rows: image(),
+            origin,
+            per_col,
+            per_row,
+            offsets: std::array::from_fn(offset),
         }
     }
 
-    /// Sets the size of the matched images.
-    pub(super) fn resize(&mut self, columns: usize, rows: usize) {
-        self.size = (columns + 2 * REACH, rows + 2 * REACH);
-        for image in &mut self.sharp {
-            image.resize(self.size.0 * self.size.1, 0.0);
-        }
-        for image in &mut self.matched {
-            image.resize(columns * rows, 0.0);
-        }
-        self.over_rows.resize(self.size.0 * rows, 0.0);
-    }
-
-    /// Matches what was rendered.
-    pub(super) fn match_all(&mut self) {
-        let width = self.size.0;
-        for (sharp, matched) in self.sharp.iter().zip(&mut self.matched) {
-            mean(sharp, width, &mut self.over_rows, matched);
-        }
-    }
-
-    /// Puts right those of the wanted pixels whose window holds disparities farther apart than a peak's width.
-    pub(super) fn match_jumps(&mut self, wanted: &[u32]) {
-        let columns = self.size.0 - 2 * REACH;
-        for &at in wanted {
-            let at = at as usize;
-            let corner = at / columns * self.size.0 + at % columns;
-            if self.spread_of_corners_px(corner) < SUSPECT_PX {
-                continue;
-            }
-            let mut inside = [0.0_f32; WINDOW * WINDOW];
-            let (mut least, mut most) = (f32::INFINITY, f32::NEG_INFINITY);
-            for (row, line) in inside.chunks_exact_mut(WINDOW).enumerate() {
-                let from = corner + row * self.size.0;
-                line.copy_from_slice(&self.sharp[0][from..from + WINDOW]);
-                for &value in line.iter() {
-                    least = least.min(value);
-                    most = most.max(value);
-                }
-            }
-            if most - least < BANDWIDTH_PX {
-                continue;
-            }
-            let chosen = near_mode(&inside, most);
-            let count = chosen.iter().filter(|&&near| near).count().max(1) as f32;
-            for (sharp, matched) in self.sharp.iter().zip(&mut self.matched) {
-                let mut sum = 0.0;
-                for (row, chosen) in chosen.chunks_exact(WINDOW).enumerate() {
-                    let from = corner + row * self.size.0;
-                    for (value, &near) in sharp[from..from + WINDOW].iter().zip(chosen) {
-                        sum += if near { *value } else { 0.0 };
-                    }
-                }
-                matched[at] = sum / count;
-            }
-        }
-    }
-
-    /// Largest less smallest disparity at the corners of the window that starts at `corner`, px.
-    fn spread_of_corners_px(&self, corner: usize) -> f32 {
-        let (right, down) = (WINDOW - 1, (WINDOW - 1) * self.size.0);
-        let corners = [corner, corner + right, corner + down, corner + down + right]
-            .map(|at| self.sharp[0][at]);
-        corners.iter().copied().fold(f32::NEG_INFINITY, f32::max)
-            - corners.iter().copied().fold(f32::INFINITY, f32::min)
+    fn at(&self, col: f32, row: f32) -> f32 {
+        self.origin + self.per_col * col + self.per_row * row
     }
 }
 
-/// Which of a window's disparities belong to the mode that mean shift finds from `start`.
-fn near_mode(inside: &[f32; WINDOW * WINDOW], start: f32) -> [bool; WINDOW * WINDOW] {
+/// Matches windows on a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Matcher {
+    near: Plane,
+    far: Plane,
+    riser: Plane,
+    rising: bool,
+    /// How much near less riser, and riser less far, differ at most between a window's middle and its border, px.
+    near_reach_px: f32,
+    far_reach_px: f32,
+    /// Share of the near surface that a pixel gains per pixel of disparity at its border.
+    sharpness: f32,
+}
+
+impl Matcher {
+    pub(super) fn new(faces: &Faces) -> Self {
+        let before = faces.near.mix(1.0, &faces.riser, -1.0);
+        let behind = faces.riser.mix(1.0, &faces.far, -1.0);
+        let reach = |gap: &Linear| (REACH * (gap.per_col().abs() + gap.per_row().abs())) as f32;
+        let steepness = before.steepness().max(1e-6) as f32;
+        Self {
+            near: Plane::new(&faces.near),
+            far: Plane::new(&faces.far),
+            riser: Plane::new(&faces.riser),
+            rising: faces.rising,
+            near_reach_px: reach(&before) + if faces.rising { 0.0 } else { 0.5 * steepness },
+            far_reach_px: reach(&behind),
+            sharpness: 1.0 / steepness,
+        }
+    }
+
+    /// What the window around a pixel gives.
+    #[inline]
+    pub(super) fn look(&self, col: f32, row: f32) -> Match {
+        let faces = [&self.near, &self.far, &self.riser].map(|plane| plane.at(col, row));
+        let [near, far, riser] = faces;
+        // A window on one plane gives that plane at its middle.
+        let alone = if near - riser > self.near_reach_px {
+            Some(0)
+        } else if self.rising {
+            let behind = riser - far > self.far_reach_px;
+            let on_riser = riser - near > self.near_reach_px && far - riser > self.far_reach_px;
+            if behind {
+                Some(1)
+            } else {
+                on_riser.then_some(2)
+            }
+        } else {
+            (riser - near > self.near_reach_px).then_some(1)
+        };
+        if let Some(face) = alone {
+            let mut by_face = [0.0; 3];
+            by_face[face] = 1.0;
+            return Match {
+                value_px: faces[face],
+                by_face,
+                jumps: false,
+            };
+        }
+        self.look_at_all(faces)
+    }
+
+    fn look_at_all(&self, [near, far, riser]: [f32; 3]) -> Match {
+        let mut values = [0.0_f32; PIXELS];
+        let mut shares = [[0.0_f32; PIXELS]; 3];
+        for i in 0..PIXELS {
+            let n = near + self.near.offsets[i];
+            let f = far + self.far.offsets[i];
+            let r = riser + self.riser.offsets[i];
+            if self.rising {
+                let seen = first_met(true, n, f, r);
+                values[i] = seen;
+                shares[0][i] = if seen == n { 1.0 } else { 0.0 };
+                shares[1][i] = if seen == f { 1.0 } else { 0.0 };
+                shares[2][i] = 1.0 - shares[0][i] - shares[1][i];
+            } else {
+                // A pixel at the border sees both: the share of the near surface runs from 0 to 1 over one pixel.
+                let part = (n - r) * self.sharpness + 0.5;
+                let share = part.clamp(0.0, 1.0);
+                values[i] = f + share * (n - f);
+                let turning = if share == part {
+                    self.sharpness * (n - f)
+                } else {
+                    0.0
+                };
+                shares[0][i] = share + turning;
+                shares[1][i] = 1.0 - share;
+                shares[2][i] = -turning;
+            }
+        }
+        let (mut most, mut spread) = most_and_spread(&values);
+        let jumps = spread > SUSPECT_PX;
+        if jumps && !self.rising {
+            // A mixed pixel would be a bridge between the surfaces, and matchers have none.
+            for (i, value) in values.iter_mut().enumerate() {
+                let n = near + self.near.offsets[i];
+                let r = riser + self.riser.offsets[i];
+                *value = if n > r { n } else { far + self.far.offsets[i] };
+            }
+            (most, spread) = most_and_spread(&values);
+        }
+        let chosen = if spread < BANDWIDTH_PX {
+            [1.0; PIXELS]
+        } else {
+            near_mode(&values, most)
+        };
+        let count = chosen.iter().sum::<f32>().max(1.0);
+        let mean =
+            |of: &[f32; PIXELS]| of.iter().zip(&chosen).map(|(a, b)| a * b).sum::<f32>() / count;
+        Match {
+            value_px: mean(&values),
+            by_face: [mean(&shares[0]), mean(&shares[1]), mean(&shares[2])],
+            jumps,
+        }
+    }
+}
+
+/// Largest disparity, and how far below it the smallest is, px.
+fn most_and_spread(values: &[f32; PIXELS]) -> (f32, f32) {
+    let most = values.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    let least = values.iter().copied().fold(f32::INFINITY, f32::min);
+    (most, most - least)
+}
+
+/// Which of a window's disparities (1, else 0) belong to the mode that mean shift finds from `start`.
+fn near_mode(values: &[f32; PIXELS], start: f32) -> [f32; PIXELS] {
     let mut mode = start;
-    let mut chosen = [false; WINDOW * WINDOW];
+    let mut chosen = [0.0; PIXELS];
     for _ in 0..SHIFTS {
         let (mut sum, mut count) = (0.0, 0.0);
-        for (near, value) in chosen.iter_mut().zip(inside) {
-            *near = (value - mode).abs() < BANDWIDTH_PX;
-            sum += if *near { *value } else { 0.0 };
-            count += if *near { 1.0 } else { 0.0 };
+        for (near, value) in chosen.iter_mut().zip(values) {
+            *near = if (value - mode).abs() < BANDWIDTH_PX {
+                1.0
+            } else {
+                0.0
+            };
+            sum += *near * value;
+            count += *near;
         }
         mode = sum / f32::max(count, 1.0);
     }
     chosen
-}
-
-/// Fills `out` with the means over all whole windows of an image `width` pixels wide.
-fn mean(image: &[f32], width: usize, over_rows: &mut [f32], out: &mut [f32]) {
-    let columns = width - 2 * REACH;
-    let count = over_rows.len();
-    let share = 1.0 / (WINDOW * WINDOW) as f32;
-    let row = |i: usize| &image[i * width..i * width + count];
-    let rows = [row(0), row(1), row(2), row(3), row(4)];
-    for (i, sum) in over_rows.iter_mut().enumerate() {
-        *sum = (rows[0][i] + rows[1][i] + rows[2][i] + rows[3][i] + rows[4][i]) * share;
-    }
-    for (line, out) in over_rows
-        .chunks_exact(width)
-        .zip(out.chunks_exact_mut(columns))
-    {
-        let shifted = |i: usize| &line[i..i + columns];
-        let parts = [shifted(0), shifted(1), shifted(2), shifted(3), shifted(4)];
-        for (i, value) in out.iter_mut().enumerate() {
-            *value = parts[0][i] + parts[1][i] + parts[2][i] + parts[3][i] + parts[4][i];
-        }
-    }
 }
