@@ -106,6 +106,8 @@ pub struct StairClimbing {
     walk_plan: Option<Plan>,
     climb_ahead_s: f64,
     inspection: Option<Inspection>,
+    /// Whether the look around at the start is over.
+    looked_around: bool,
     /// Edges of stairs that were looked at from near by, m.
     inspected: Vec<[f64; 2]>,
 }
@@ -196,6 +198,7 @@ impl StairClimbing {
             walk_plan: None,
             climb_ahead_s: 0.0,
             inspection: None,
+            looked_around: false,
             inspected: Vec::new(),
         })
     }
@@ -221,7 +224,7 @@ impl StairClimbing {
         self.state_s += here.passed_s;
         self.phase_s += here.passed_s;
         self.idle_s += here.passed_s;
-        self.flight.lost_s += here.passed_s;
+        self.flight.wait(here.passed_s);
         if here.new_frame && self.state != State::Walk {
             let Situation { plan, stairs, .. } = *here.situation;
             self.flight

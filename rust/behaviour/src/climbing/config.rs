@@ -52,7 +52,7 @@ impl Default for StairClimbingConfig {
             near_tolerance: 0.012,
             aligned: 0.09,
             longest_stride: 0.15,
-            step_forward: 0.055,
+            step_forward: 0.08,
             step_side: 0.03,
             step_turn: 0.2,
             wait: 10.0,

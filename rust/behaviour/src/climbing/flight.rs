@@ -16,12 +16,19 @@ const OUT_OF_VIEW_M: f64 = 0.17;
 /// A step follows another when its front edge is no further than this behind the other's back edge, m.
 const JOINT_M: f64 = 0.06;
 
+/// Steps that neither the plan nor the view has shown for this long are lost, s.
+const LOST_S: f64 = 1.5;
+/// A plan may think of another way for this long, s.
+const UNPLANNED_S: f64 = 4.0;
+
 /// The steps ahead, in their order. In the map, so that the robot's own motion moves none of them.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Flight {
     steps: Vec<Step>,
-    /// How long the plan has not shown the first of them, s.
+    /// How long neither the plan nor the view has shown the first of them, s.
     pub(crate) lost_s: f64,
+    /// How long the plan has not led over it, s.
+    pub(crate) unplanned_s: f64,
 }
 
 impl Flight {
@@ -56,6 +63,7 @@ impl Flight {
         self.steps.clear();
         self.steps.extend_from_slice(steps);
         self.lost_s = 0.0;
+        self.unplanned_s = 0.0;
     }
 
     /// The first step was taken.
@@ -67,6 +75,18 @@ impl Flight {
     pub(crate) fn clear(&mut self) {
         self.steps.clear();
         self.lost_s = 0.0;
+        self.unplanned_s = 0.0;
+    }
+
+    /// Time passes.
+    pub(crate) fn wait(&mut self, passed_s: f64) {
+        self.lost_s += passed_s;
+        self.unplanned_s += passed_s;
+    }
+
+    /// Whether the first step is no longer where the way leads: it is not seen, or the plan has left it for long.
+    pub(crate) fn is_lost(&self) -> bool {
+        self.lost_s > LOST_S || self.unplanned_s > UNPLANNED_S
     }
 
     /// Takes in what is known now: the plan's steps where it shows the memorised one, else the stairs themselves.
@@ -83,6 +103,9 @@ impl Flight {
         if let Some(steps) = plan.and_then(|plan| steps_from(plan, &first)) {
             self.renew(steps, pose);
             return;
+        }
+        if stairs.stairs.iter().any(|stair| is_same(&first, stair)) {
+            self.lost_s = 0.0;
         }
         for step in &mut self.steps {
             if let Some(stair) = stairs.stairs.iter().find(|stair| is_same(step, stair)) {

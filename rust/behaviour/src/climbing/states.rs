@@ -8,8 +8,6 @@ use crate::climbing::footsteps::{Stance, level};
 use crate::climbing::stepper::Stepped;
 use crate::{Motion, Velocity};
 
-/// A climb that the plan has not shown for this long is lost, s.
-const LOST_S: f64 = 1.5;
 /// Seeing nothing for this long is being blind, s;
 const BLIND_AFTER_S: f64 = 2.0;
 /// for this long, it is hopeless, s.
@@ -91,7 +89,7 @@ impl StairClimbing {
         };
         self.head
             .turn_to(here.in_robot(first.crossing_m), here.passed_s);
-        if self.flight.lost_s > LOST_S {
+        if self.flight.is_lost() {
             self.begin_search(here);
             return Motion::Stand;
         }
@@ -147,11 +145,12 @@ impl StairClimbing {
 
     /// After a look at the first edge: go up to it if it is known well enough.
     fn judge_edge(&mut self, here: &Here<'_>, first: &planning::Step) {
-        if self.flight.lost_s > LOST_S {
+        if self.flight.is_lost() {
             self.begin_search(here);
             return;
         }
-        if !self.is_measured(first) {
+        let looked = self.tries.looks >= self.config.tries;
+        if !(self.is_measured(first) || looked && self.is_usable(first)) {
             self.tries.looks += 1;
             self.head.look_at(here.in_robot(first.crossing_m));
             if self.tries.looks > self.config.tries {
@@ -176,6 +175,15 @@ impl StairClimbing {
                     && fit.place_sigma_m <= self.config.edge_sigma
                     && fit.heading_sigma_rad <= self.config.heading_sigma
             })
+    }
+
+    /// Whether it will do when no look tells more: sure enough, if only by few frames.
+    pub(super) fn is_usable(&self, step: &planning::Step) -> bool {
+        const SIGMA: f64 = 1.2;
+        step.stair.front_fit.is_some_and(|fit| {
+            fit.place_sigma_m <= SIGMA * self.config.edge_sigma
+                && fit.heading_sigma_rad <= SIGMA * self.config.heading_sigma
+        })
     }
 
     /// Whether it is known so well that another look would tell little.

@@ -34,6 +34,8 @@ impl StairClimbing {
         let leg = self.leg(here);
         self.idle_s = 0.0;
         let looking = self.walking.is_looking_around();
+        self.looked_around |= !looking;
+        let first_look = looking && !self.looked_around;
         if here.new_frame {
             self.inspection = if leg.is_none() {
                 Inspection::find(here, &self.before(here), &self.inspected)
@@ -66,7 +68,7 @@ impl StairClimbing {
             let decision = self.walking.next(situation)?;
             return Ok(self.unless_stairs_may_help(here, decision));
         }
-        if looking && sure && self.state_s > FIRST_LOOK_S {
+        if first_look && sure && self.state_s > FIRST_LOOK_S {
             self.walking.end_look();
         }
         let mut decision = self.walking.next(&Situation {
@@ -75,7 +77,7 @@ impl StairClimbing {
             ..*situation
         })?;
         decision.goal_passed = false;
-        if looking {
+        if first_look {
             decision.state = State::Search.name();
         }
         Ok(decision)

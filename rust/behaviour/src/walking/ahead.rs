@@ -3,6 +3,7 @@
 use geometry::PlanarPose;
 use mapping::{FloorView, Surface};
 use planning::Path;
+use stairs::Staircase;
 
 use crate::walking::WalkingConfig;
 use crate::walking::track::{Track, length};
@@ -12,6 +13,10 @@ const LOOKED_RADIUS_M: f64 = 0.12;
 const LOOKED_PLACES: usize = 32;
 /// Half the distance between the outer edges of the feet, m, as far as the ground matters.
 const FOOT_SIDE_M: f64 = 0.06;
+/// What is no higher above a stair than this, m,
+const RISER_M: f64 = 0.06;
+/// and no further from its edge than this, m, is the edge.
+const BESIDE_M: f64 = 0.06;
 
 /// The places looked at lately, in a ring.
 #[derive(Debug, Clone, Default)]
@@ -128,6 +133,7 @@ impl Followed {
     pub(crate) fn obstacle_m(
         &self,
         view: &FloorView,
+        stairs: &Staircase,
         robot: &PlanarPose,
         config: &WalkingConfig,
     ) -> Option<[f64; 2]> {
@@ -137,17 +143,27 @@ impl Followed {
         self.points_m
             .iter()
             .filter(near)
-            .find(|place| obstacle_cells(view, **place, config.corridor) >= 2)
+            .find(|place| {
+                let cells = obstacles(view, **place, config.corridor);
+                cells.filter(|cell| !is_edge(stairs, cell)).count() >= 2
+            })
             .copied()
     }
 }
 
 /// Whether no obstacle is known within this distance of a place.
 pub(crate) fn is_roomy(view: &FloorView, place_m: [f64; 2], radius_m: f64) -> bool {
-    obstacle_cells(view, place_m, radius_m) == 0
+    obstacles(view, place_m, radius_m).next().is_none()
 }
 
-fn obstacle_cells(view: &FloorView, [x, y]: [f64; 2], radius_m: f64) -> usize {
+/// An obstacle cell: its middle and its height, m.
+type Obstacle = ([f64; 2], f32);
+
+fn obstacles(
+    view: &FloorView,
+    [x, y]: [f64; 2],
+    radius_m: f64,
+) -> impl Iterator<Item = Obstacle> + '_ {
     let (low, high) = (
         view.lattice.cell_at(x - radius_m, y - radius_m),
         view.lattice.cell_at(x + radius_m, y + radius_m),
@@ -157,12 +173,23 @@ fn obstacle_cells(view: &FloorView, [x, y]: [f64; 2], radius_m: f64) -> usize {
         max: high,
     };
     area.cells()
-        .filter(|&cell| matches!(view.cell(cell), Surface::Obstacle(_)))
-        .filter(|&cell| {
-            let [cx, cy] = view.lattice.center_of(cell);
-            (cx - x).hypot(cy - y) < radius_m
+        .filter_map(|cell| match view.cell(cell) {
+            Surface::Obstacle(top_m) => Some((view.lattice.center_of(cell), top_m)),
+            _ => None,
         })
-        .count()
+        .filter(move |([cx, cy], _)| (cx - x).hypot(cy - y) < radius_m)
+}
+
+/// Whether an obstacle is only the riser of a stair, or what the depth image makes of its edge.
+fn is_edge(stairs: &Staircase, (place_m, top_m): &Obstacle) -> bool {
+    stairs.stairs.iter().any(|stair| {
+        let low = f64::from(*top_m) < stair.height_m() + RISER_M;
+        low && [&stair.front, &stair.back].into_iter().any(|edge| {
+            let middle = edge.middle().inner;
+            let along_m = (place_m[0] - middle.x).hypot(place_m[1] - middle.y);
+            edge.beyond_m(*place_m).abs() < BESIDE_M && along_m < 0.5 * edge.length_m() + BESIDE_M
+        })
+    })
 }
 
 #[cfg(test)]
@@ -227,13 +254,18 @@ mod tests {
         let mut followed = Followed::default();
         followed.keep(&path, 0);
         let robot = PlanarPose::default();
+        let stairs = Staircase::default();
         let mut view = view(Surface::Floor(0.0));
-        assert_eq!(followed.obstacle_m(&view, &robot, &config), None);
+        assert_eq!(followed.obstacle_m(&view, &stairs, &robot, &config), None);
         paint(&mut view, 0.7, 0.8, Surface::Obstacle(0.3));
-        assert_eq!(followed.obstacle_m(&view, &robot, &config), None);
+        assert_eq!(followed.obstacle_m(&view, &stairs, &robot, &config), None);
         let near = PlanarPose::new(0.4, 0.0, 0.0);
-        assert!(followed.obstacle_m(&view, &near, &config).is_some());
+        assert!(
+            followed
+                .obstacle_m(&view, &stairs, &near, &config)
+                .is_some()
+        );
         followed.forget();
-        assert_eq!(followed.obstacle_m(&view, &near, &config), None);
+        assert_eq!(followed.obstacle_m(&view, &stairs, &near, &config), None);
     }
 }

@@ -180,8 +180,10 @@ impl WalkingBehaviour {
     fn check_way(&mut self, moment: &Moment<'_>) -> Option<Motion> {
         let (path, track) = moment.track.as_ref()?;
         if moment.new_frame {
-            let view = moment.situation.view;
-            let obstacle_m = self.followed.obstacle_m(view, &moment.pose, &self.config);
+            let (view, stairs) = (moment.situation.view, moment.situation.stairs);
+            let obstacle_m = self
+                .followed
+                .obstacle_m(view, stairs, &moment.pose, &self.config);
             self.followed.keep(path, track.nearest);
             if obstacle_m.is_some() {
                 self.watched_m = obstacle_m;

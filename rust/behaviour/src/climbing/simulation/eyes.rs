@@ -60,6 +60,14 @@ impl Simulation {
     fn way(&self) -> Result<Path, NoWay> {
         let pose = self.pose();
         let from = self.index_at([pose.x_m, pose.y_m]).map_or(0, |at| at + 1);
+        let goal = self.index_at([self.goal.x_m, self.goal.y_m]);
+        if goal.map_or(0, |at| at + 1) < from {
+            // This planner knows no way back.
+            return Err(NoWay {
+                refusal: Refusal::Drop,
+                sentence: "the goal lies behind".to_owned(),
+            });
+        }
         let mut ground_m = self.ground_m();
         let mut steps = Vec::new();
         for stair in &self.staircase.stairs {
