@@ -1,9 +1,9 @@
 //! Stair merging (003, section IV.C, Fig. 7).
 
-use geometry::{Map, Outline};
+use geometry::Map;
 
 use crate::Edge;
-use crate::tread::{Tread, quadrangle};
+use crate::tread::Tread;
 
 /// Share of the smaller of two treads that must lie in both for them to be one.
 const SHARED: f64 = 0.25;
@@ -43,11 +43,10 @@ fn side_by_side(a: &Tread, b: &Tread) -> bool {
 
 /// Share of the smaller of two treads that lies in both.
 pub(crate) fn shared(a: &Tread, b: &Tread) -> f64 {
-    let outline = |tread: &Tread| -> Option<Outline> { quadrangle(&tread.stair()?) };
-    let (Some(a), Some(b)) = (outline(a), outline(b)) else {
+    let (Some(a), Some(b)) = (a.outline(), b.outline()) else {
         return 0.0;
     };
-    a.shared_area_m2(&b) / a.area_m2().min(b.area_m2())
+    a.shared_area_m2(b) / a.area_m2().min(b.area_m2())
 }
 
 /// Merges overlapping pairs until there are none. The set shrinks with each, so that this ends.
@@ -69,7 +68,7 @@ fn overlapping_pair(treads: &[Tread], similar_height_m: f64) -> Option<(usize, u
 
 #[cfg(test)]
 mod tests {
-    use geometry::{Point, Pose, Robot};
+    use geometry::{Outline, Point, Pose, Robot};
     use nalgebra::Point2;
     use proptest::prelude::*;
 

@@ -30,6 +30,8 @@ pub(crate) struct Tread {
     pub(crate) steps_ago: u32,
     /// Frames in a row in which something lower was seen through it.
     pub(crate) contradicted: u32,
+    // What the sums come to, with the outline between the edges' ends.
+    shape: Option<(Stair<Map>, Outline)>,
 }
 
 impl Tread {
@@ -53,7 +55,7 @@ impl Tread {
             };
             Border::new([&right, &left], weights)
         };
-        Some(Self {
+        let mut tread = Self {
             hull: Outline::hull(&corners).ok()?,
             front: border(&stair.front, seen.front),
             back: border(&stair.back, seen.back),
@@ -63,7 +65,10 @@ impl Tread {
             sightings: 1,
             steps_ago: 0,
             contradicted: 0,
-        })
+            shape: None,
+        };
+        tread.shape();
+        Some(tread)
     }
 
     /// Adds another tread that is the same one.
@@ -94,6 +99,7 @@ impl Tread {
         self.sightings = self.sightings.saturating_add(other.sightings);
         self.steps_ago = self.steps_ago.min(other.steps_ago);
         self.contradicted = 0;
+        self.shape();
     }
 
     /// The robot stepped: what is known is remembered, and counts less against what will be seen.
@@ -107,6 +113,7 @@ impl Tread {
             self.reference *= factor;
             self.worth = REMEMBERED_SIGHTINGS;
         }
+        self.shape();
     }
 
     fn turn_round(&mut self) {
@@ -120,6 +127,7 @@ impl Tread {
         let beyond = |stair: Stair<Map>| stair.back.beyond_m([robot.x, robot.y]) > TURN_ROUND_M;
         if self.stair().is_some_and(beyond) {
             self.turn_round();
+            self.shape();
         }
     }
 
@@ -137,9 +145,25 @@ impl Tread {
         self.reference.z / self.weight
     }
 
+    /// The stair as far as it is known.
+    pub(crate) fn stair(&self) -> Option<Stair<Map>> {
+        self.shape.as_ref().map(|(stair, _)| *stair)
+    }
+
+    /// The stair's outline between the ends of its edges.
+    pub(crate) fn outline(&self) -> Option<&Outline> {
+        self.shape.as_ref().map(|(_, outline)| outline)
+    }
+
+    fn shape(&mut self) {
+        self.shape = self
+            .sum()
+            .and_then(|stair| Some((stair, quadrangle(&stair)?)));
+    }
+
     /// The smallest quadrangle with the directions of the edges around all sightings, but no larger than the ends that
     /// were seen, with the margins that the hull has beyond it.
-    pub(crate) fn stair(&self) -> Option<Stair<Map>> {
+    fn sum(&self) -> Option<Stair<Map>> {
         let reference = self.reference / self.weight;
         let [front, back] = [
             self.front.ends(&self.hull, -1.0)?,
@@ -186,7 +210,7 @@ fn in_map(place: &Point2<f64>, map_from_robot: &Pose<Map, Robot>) -> Point2<f64>
 }
 
 /// The outline of a stair between its edges' ends.
-pub(crate) fn quadrangle<F>(stair: &Stair<F>) -> Option<Outline> {
+fn quadrangle<F>(stair: &Stair<F>) -> Option<Outline> {
     let corners =
         [&stair.front, &stair.back].map(|edge| [edge.left.inner.xy(), edge.right.inner.xy()]);
     Outline::hull(corners.as_flattened()).ok()
