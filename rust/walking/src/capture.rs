@@ -157,11 +157,12 @@ mod tests {
         };
         let feet = [foot(0.0425), foot(-0.0425)];
         let mut gait = Gait::new(&config, planner.clone(), feet);
-        let duration_s = Manner::Walk.single_support_s(&config);
+        let swing = Swing::new(Side::Left, Manner::Walk, feet[0], feet[0]);
+        let duration_s = swing.single_support_s(&config);
         gait.phase = Phase::Single {
             elapsed_s: share * duration_s,
             duration_s,
-            swing: Swing::new(Side::Left, Manner::Walk, feet[0], feet[0]),
+            swing,
         };
         let soles = Soles::new(&body, config.sole_margin);
         (Capture::new(&config, planner), gait, soles)

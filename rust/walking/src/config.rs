@@ -64,7 +64,9 @@ pub struct GaitConfig {
     pub capture_patience: f64,
     /// Share of the measured tilt that the swing foot makes up for.
     pub swing_tilt: f64,
-    /// Time in which the foot of a listed step is in the air, s,
+    /// Speed over the ground that the foot of a long listed step keeps to on average, m/s.
+    pub climb_speed: f64,
+    /// Time in which the foot of a listed step is in the air at least, s,
     pub climb_swing_time: f64,
     /// in which it has to be found on the ground after that, while the other foot still carries everything, s,
     pub climb_landing_time: f64,
@@ -120,6 +122,7 @@ impl Default for GaitConfig {
             capture_hold: 0.01,
             capture_patience: 0.6,
             swing_tilt: 1.0,
+            climb_speed: 0.24,
             climb_swing_time: 0.8,
             climb_landing_time: 0.2,
             climb_double_support: 0.2,
@@ -128,7 +131,7 @@ impl Default for GaitConfig {
             climb_rise: 0.055,
             probe_speed: 0.08,
             probe_depth: 0.02,
-            obstructed_distance: 0.025,
+            obstructed_distance: 0.018,
             arms_time: 1.5,
             hip_speed: 0.12,
             gaze_speed: 2.0,
@@ -168,7 +171,7 @@ impl GaitConfig {
         self.check_bounds()
     }
 
-    fn positive(&self) -> [(&'static str, f64); 24] {
+    fn positive(&self) -> [(&'static str, f64); 25] {
         [
             ("step_time", self.step_time),
             ("double_support", self.double_support),
@@ -184,6 +187,7 @@ impl GaitConfig {
             ("landing_load", self.landing_load),
             ("capture_limit", self.capture_limit),
             ("capture_hold", self.capture_hold),
+            ("climb_speed", self.climb_speed),
             ("climb_swing_time", self.climb_swing_time),
             ("climb_double_support", self.climb_double_support),
             ("climb_clearance", self.climb_clearance),

@@ -102,7 +102,7 @@ impl Gait {
                         None => Phase::Standing,
                         Some(swing) => Phase::Single {
                             elapsed_s: over_s,
-                            duration_s: swing.manner.single_support_s(&self.config),
+                            duration_s: swing.single_support_s(&self.config),
                             swing,
                         },
                     };

@@ -12,6 +12,9 @@ use crate::task::Task;
 /// Share of the time after which a careful foot has left the ground for sure.
 const HIGH: f64 = 0.25;
 
+/// How far a foot may be behind its path, s.
+const LAG_S: f64 = 0.02;
+
 /// What is known of the ground under a foot in the air.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ground {
@@ -56,7 +59,7 @@ impl Gait {
             }
             return;
         };
-        let swing_s = self.config.climb_swing_time;
+        let swing_s = swing.in_air_s(&self.config);
         let touches = felt.loads_n[swing.side.index()] > self.config.landing_load;
         if let Landing::Found(_) = swing.landing {
             if over {
@@ -99,11 +102,12 @@ impl Gait {
         } = self.phase
         {
             let here = swing.foot(elapsed_s, &self.config);
+            let back = Swing::new(swing.side, Manner::Back, here, swing.from);
             self.listed.misstep = Some(misstep);
             self.phase = Phase::Single {
                 elapsed_s: 0.0,
-                duration_s: Manner::Back.single_support_s(&self.config),
-                swing: Swing::new(swing.side, Manner::Back, here, swing.from),
+                duration_s: back.single_support_s(&self.config),
+                swing: back,
             };
         }
     }
@@ -130,11 +134,13 @@ impl Felt {
 
     /// Whether something is in the foot's way: a load on it while it is high, or a place far from where it should be.
     fn obstructs(&self, swing: &Swing, elapsed_s: f64, touches: bool, config: &GaitConfig) -> bool {
-        let share = elapsed_s / config.climb_swing_time;
+        let share = elapsed_s / swing.in_air_s(config);
         let told = swing.foot(elapsed_s, config);
         let sole = &self.soles_m[swing.side.index()];
         let off_m = (sole.x - told.planar.x_m).hypot(sole.y - told.planar.y_m);
+        let ahead = swing.foot(elapsed_s + LAG_S, config);
+        let lag_m = ahead.planar.distance_m(&told.planar);
         let high = (HIGH..SINKING).contains(&share);
-        (high && touches) || (share > HIGH && off_m > config.obstructed_distance)
+        (high && touches) || (share > HIGH && off_m > config.obstructed_distance + lag_m)
     }
 }

@@ -65,14 +65,6 @@ pub enum Manner {
 }
 
 impl Manner {
-    /// Time in which one foot carries, s.
-    pub fn single_support_s(self, config: &GaitConfig) -> f64 {
-        match self {
-            Self::Walk => config.step_time - config.double_support,
-            Self::Careful | Self::Back => config.climb_swing_time + config.climb_landing_time,
-        }
-    }
-
     /// Time on both feet between two steps when the coming one is of this kind, s.
     pub fn double_support_s(self, config: &GaitConfig) -> f64 {
         match self {
@@ -121,19 +113,37 @@ impl Swing {
         }
     }
 
+    /// Time in which the foot is in the air, s; a long careful step takes longer.
+    pub fn in_air_s(&self, config: &GaitConfig) -> f64 {
+        let (from, to) = (&self.from.planar, &self.to.planar);
+        match self.manner {
+            Manner::Walk => config.step_time - config.double_support,
+            Manner::Careful | Manner::Back => {
+                (from.distance_m(to) / config.climb_speed).max(config.climb_swing_time)
+            }
+        }
+    }
+
+    /// Time in which the other foot carries everything, s.
+    pub fn single_support_s(&self, config: &GaitConfig) -> f64 {
+        match self.manner {
+            Manner::Walk => self.in_air_s(config),
+            Manner::Careful | Manner::Back => self.in_air_s(config) + config.climb_landing_time,
+        }
+    }
+
     /// Where the foot is to be after `elapsed_s`.
     pub fn foot(&self, elapsed_s: f64, config: &GaitConfig) -> FootPose {
         let (from, to) = (&self.from, &self.to);
         let higher_m = from.z_m.max(to.z_m);
+        let share = elapsed_s / self.in_air_s(config);
         let (along, mut z_m) = match self.manner {
             Manner::Walk => {
-                let share = elapsed_s / self.manner.single_support_s(config);
                 let top_m = higher_m + config.step_height;
                 let height_m = swing::height_m(share, from.z_m, top_m, to.z_m);
                 (swing::travel(share), height_m)
             }
             Manner::Careful | Manner::Back => {
-                let share = elapsed_s / config.climb_swing_time;
                 let top_m = higher_m + config.climb_clearance;
                 let height_m = swing::careful_height_m(share, from.z_m, top_m, to.z_m);
                 (swing::careful_travel(share), height_m)

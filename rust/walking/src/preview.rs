@@ -68,7 +68,7 @@ impl Gait {
                 let goal = self.shift_goal(next.as_ref());
                 plan.add(self.zmp(), goal, duration_s - elapsed_s);
                 let swing = (*next)?;
-                plan.add(goal, goal, swing.manner.single_support_s(&self.config));
+                plan.add(goal, goal, swing.single_support_s(&self.config));
                 Some(swing)
             }
             Phase::Single {
@@ -95,7 +95,7 @@ impl Gait {
             let stance = next.side.other();
             let point = self.support_point(&feet[stance.index()], stance);
             plan.add(stands, point, next.manner.double_support_s(&self.config));
-            plan.add(point, point, next.manner.single_support_s(&self.config));
+            plan.add(point, point, next.single_support_s(&self.config));
             stands = point;
             swing = next;
         }
