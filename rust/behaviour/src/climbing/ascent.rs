@@ -5,7 +5,7 @@ use planning::Step;
 
 use super::{Here, Pace, Phase, StairClimbing, State};
 use crate::Motion;
-use crate::climbing::flight::{is_same, nearest};
+use crate::climbing::flight::{covers, nearest};
 use crate::climbing::footsteps::{Stance, alternating, leading_side, level};
 use crate::climbing::placement::{Behind, Verdict, reason};
 use crate::climbing::stepper::Stepped;
@@ -71,6 +71,12 @@ impl StairClimbing {
             self.end_climb(here);
             return;
         };
+        if !self.is_usable(&first) {
+            self.look_again(here, || {
+                "lost: the edge of the next step could not be measured".to_owned()
+            });
+            return;
+        }
         let verdict = self.before(here).check(&first, &self.behind(here, &first));
         match verdict {
             Verdict::Go(stance) => {
@@ -84,6 +90,9 @@ impl StairClimbing {
                     self.step(here, &stance);
                 }
             }
+            Verdict::Move(stance) if !self.stays_on(here, &stance) => self.look_again(here, || {
+                "lost: the edge of the next step is not where it can be".to_owned()
+            }),
             Verdict::Move(stance) => {
                 self.tries.moves += 1;
                 if self.tries.moves > self.config.tries {
@@ -105,6 +114,23 @@ impl StairClimbing {
             }),
             Verdict::Refuse(unfit) => self.look_again(here, || reason(&unfit)),
         }
+    }
+
+    /// Whether a move leaves both heels on the stair that the robot stands on, and needs no large turn.
+    fn stays_on(&self, here: &Here<'_>, stance: &Stance) -> bool {
+        const LARGEST_TURN_RAD: f64 = 0.3;
+        const MARGIN_M: f64 = 0.01;
+        let Some(on) = self.on else {
+            return true;
+        };
+        let turn_rad = geometry::angle_between(here.pose.yaw_rad, stance.pose.yaw_rad);
+        let least_m = self.climbing.set_for(on.rise_m).front_x_limit - MARGIN_M;
+        let half_pair_m = 0.5 * self.feet.pair_width_m;
+        turn_rad.abs() < LARGEST_TURN_RAD
+            && [-half_pair_m, half_pair_m].into_iter().all(|aside_m| {
+                let (x_m, y_m) = stance.pose.apply(-0.5 * self.feet.length_m, aside_m);
+                on.stair.front.beyond_m([x_m, y_m]) >= least_m
+            })
     }
 
     /// The step to take now: the memorised one, else what is seen ahead.
@@ -255,5 +281,5 @@ fn is_seen_now(here: &Here<'_>, step: &Step) -> bool {
         .stairs
         .stairs
         .iter()
-        .any(|stair| is_same(step, stair) && stair.steps_ago == 0)
+        .any(|stair| covers(stair, step) && stair.steps_ago == 0)
 }

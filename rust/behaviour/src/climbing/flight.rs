@@ -48,13 +48,21 @@ impl Flight {
     }
 
     /// Takes over the steps of a plan's leg, but for the edges that the robot is too near to see.
-    fn renew(&mut self, steps: &[Step], pose: &PlanarPose) {
+    fn renew(&mut self, steps: &[Step], stairs: &Staircase, pose: &PlanarPose) {
         let before = std::mem::take(&mut self.steps);
         self.adopt(steps);
+        let mut last = None;
         for step in &mut self.steps {
-            if let Some(old) = before.iter().find(|old| is_same(old, &step.stair)) {
-                keep_unseen_edge(step, old, pose);
+            last = before.iter().position(|old| is_same(old, &step.stair));
+            if let Some(at) = last {
+                keep_better_edge(step, &before[at], pose);
             }
+        }
+        // A plan that ends short takes nothing away that is still there.
+        if let Some(last) = last {
+            let there = |old: &&Step| stairs.stairs.iter().any(|stair| covers(stair, old));
+            self.steps
+                .extend(before[last + 1..].iter().take_while(there).copied());
         }
     }
 
@@ -101,10 +109,10 @@ impl Flight {
             return;
         };
         if let Some(steps) = plan.and_then(|plan| steps_from(plan, &first)) {
-            self.renew(steps, pose);
+            self.renew(steps, stairs, pose);
             return;
         }
-        if stairs.stairs.iter().any(|stair| is_same(&first, stair)) {
+        if stairs.stairs.iter().any(|stair| covers(stair, &first)) {
             self.lost_s = 0.0;
         }
         for step in &mut self.steps {
@@ -114,7 +122,7 @@ impl Flight {
                     stair: old,
                     ..*step
                 };
-                keep_unseen_edge(step, &old, pose);
+                keep_better_edge(step, &old, pose);
             }
         }
         while let Some(next) = self
@@ -127,10 +135,16 @@ impl Flight {
     }
 }
 
-/// An edge that is out of view stays where it was measured.
-fn keep_unseen_edge(step: &mut Step, old: &Step, pose: &PlanarPose) {
+/// An edge stays where it was measured while it is out of view, and when what is said of it now is worth less.
+fn keep_better_edge(step: &mut Step, old: &Step, pose: &PlanarPose) {
+    const WORSE: f64 = 2.0;
     let away_m = -old.stair.front.beyond_m([pose.x_m, pose.y_m]);
-    if away_m < OUT_OF_VIEW_M {
+    let worse = match (&old.stair.front_fit, &step.stair.front_fit) {
+        (Some(old), Some(new)) => new.place_sigma_m > WORSE * old.place_sigma_m,
+        (Some(_), None) => true,
+        (None, _) => false,
+    };
+    if away_m < OUT_OF_VIEW_M || worse {
         step.stair.front = old.stair.front;
         step.stair.front_fit = old.stair.front_fit;
         step.stair.left_margin_m = old.stair.left_margin_m;
@@ -138,6 +152,18 @@ fn keep_unseen_edge(step: &mut Step, old: &Step, pose: &PlanarPose) {
         step.crossing_m = old.crossing_m;
         step.rise_m = old.rise_m;
     }
+}
+
+/// Whether a stair is where the feet would come to stand on a step.
+pub(crate) fn covers(stair: &Stair<Map>, step: &Step) -> bool {
+    const ON_IT_M: f64 = 0.05;
+    const MARGIN_M: f64 = 0.02;
+    let (sin, cos) = step.stair.front.heading_rad().sin_cos();
+    let [x_m, y_m] = step.crossing_m;
+    let place_m = [x_m + cos * ON_IT_M, y_m + sin * ON_IT_M];
+    (step.stair.height_m() - stair.height_m()).abs() < SAME_HEIGHT_M
+        && stair.front.beyond_m(place_m) > -MARGIN_M
+        && stair.back.beyond_m(place_m) < MARGIN_M
 }
 
 /// The plan's steps from this one on.
