@@ -9,6 +9,7 @@ mod finish;
 mod flight;
 mod footsteps;
 mod head;
+mod here;
 mod inspection;
 mod leg;
 mod placement;
@@ -25,7 +26,7 @@ mod simulation;
 mod tests;
 
 use geometry::{ConfigError, PlanarPose};
-use planning::{Plan, Refusal, Step};
+use planning::{Plan, Step};
 use stairs::{ClimbingConfig, Feet};
 
 use crate::{
@@ -36,6 +37,7 @@ pub use config::StairClimbingConfig;
 use flight::Flight;
 use footsteps::Stance;
 use head::Head;
+use here::Here;
 use inspection::Inspection;
 use leg::Leg;
 use placement::Before;
@@ -110,57 +112,6 @@ pub struct StairClimbing {
     looked_around: bool,
     /// Edges of stairs that were looked at from near by, m.
     inspected: Vec<[f64; 2]>,
-}
-
-/// What the states read at a tick.
-#[derive(Clone, Copy)]
-struct Here<'a> {
-    situation: &'a Situation<'a>,
-    pose: PlanarPose,
-    ground_m: f64,
-    passed_s: f64,
-    new_frame: bool,
-}
-
-impl Here<'_> {
-    /// A place of the map in the robot's frame, m.
-    fn in_robot(&self, [x_m, y_m]: [f64; 2]) -> [f64; 2] {
-        let (x_m, y_m) = self.pose.inverse().apply(x_m, y_m);
-        [x_m, y_m]
-    }
-
-    /// Why the planner finds no way, in its words.
-    fn no_way(&self) -> Option<String> {
-        let no_way = self.situation.plan?.way.as_ref().err()?;
-        Some(format!("{}: {}", no_way.refusal.word(), no_way.sentence))
-    }
-
-    /// Whether the planner finds no way because of what stairs are like.
-    fn breaks_a_limit(&self) -> bool {
-        let way = self.situation.plan.map(|plan| &plan.way);
-        matches!(way, Some(Err(no_way)) if matches!(
-            no_way.refusal,
-            Refusal::StepTooHigh
-                | Refusal::StepTooLow
-                | Refusal::TreadTooShort
-                | Refusal::GapTooShort
-                | Refusal::Drop
-        ))
-    }
-
-    /// Whether the goal is known to be on another level than the robot.
-    fn goal_is_elsewhere(&self, floor_max_m: f64) -> bool {
-        let height_m = self.situation.goal.height_m;
-        height_m.is_some_and(|height_m| (height_m - self.ground_m).abs() > floor_max_m)
-    }
-
-    /// Seconds since a frame was last taken into the map.
-    fn unseen_s(&self) -> f64 {
-        let now_ns = self.situation.time_ns;
-        self.situation
-            .last_frame_ns
-            .map_or(0.0, |last_ns| now_ns.saturating_sub(last_ns) as f64 * 1e-9)
-    }
 }
 
 impl StairClimbing {

@@ -8,6 +8,8 @@ use stairs::{ClimbingConfig, Stair, Staircase};
 const SAME_HEIGHT_M: f64 = 0.012;
 /// in the place of the front edge, m,
 const SAME_PLACE_M: f64 = 0.05;
+/// where it was measured before; else than this, m,
+const VAGUE_PLACE_M: f64 = 0.09;
 /// and in its heading, rad.
 const SAME_HEADING_RAD: f64 = 0.4;
 /// An edge nearer than this to the robot's middle is out of view: what was measured before is better than what is thought
@@ -181,8 +183,13 @@ fn steps_from<'a>(plan: &'a Plan, first: &Step) -> Option<&'a [Step]> {
 /// Whether a stair is the one of a step.
 pub(crate) fn is_same(step: &Step, stair: &Stair<Map>) -> bool {
     let turned_rad = angle_between(step.stair.front.heading_rad(), stair.front.heading_rad());
+    let same_place_m = if step.stair.front_fit.is_some() {
+        SAME_PLACE_M
+    } else {
+        VAGUE_PLACE_M
+    };
     (step.stair.height_m() - stair.height_m()).abs() < SAME_HEIGHT_M
-        && stair.front.beyond_m(step.crossing_m).abs() < SAME_PLACE_M
+        && stair.front.beyond_m(step.crossing_m).abs() < same_place_m
         && turned_rad.abs() < SAME_HEADING_RAD
 }
 

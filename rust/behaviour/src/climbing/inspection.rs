@@ -86,21 +86,10 @@ impl Inspection {
         self.away_m(pose) < NEAR_M
     }
 
-    /// Places on the straight way there.
-    fn places(&self, from: &PlanarPose) -> impl Iterator<Item = [f64; 2]> + use<> {
-        let (from_m, to_m) = ([from.x_m, from.y_m], [self.pose.x_m, self.pose.y_m]);
-        let count = (distance_m(from_m, to_m) / SPACING_M).ceil().max(1.0) as usize;
-        (0..=count).map(move |i| {
-            let share = i as f64 / count as f64;
-            let at = |axis: usize| from_m[axis] + (to_m[axis] - from_m[axis]) * share;
-            [at(0), at(1)]
-        })
-    }
-
     /// Whether nothing is known to stand on the straight way there, and no other level.
     fn is_free(&self, view: &FloorView, from: &PlanarPose, ground_m: f64) -> bool {
         const LEVEL_M: f64 = 0.012;
-        self.places(from).all(|[x_m, y_m]| {
+        places(from, [self.pose.x_m, self.pose.y_m]).all(|[x_m, y_m]| {
             crate::walking::is_roomy(view, [x_m, y_m], ROOM_M)
                 && match view.at(x_m, y_m) {
                     Surface::Floor(height_m) => (f64::from(height_m) - ground_m).abs() < LEVEL_M,
@@ -112,18 +101,34 @@ impl Inspection {
 
     /// A plan that leads there.
     pub(crate) fn plan(&self, from: &PlanarPose) -> Plan {
-        let points_m: Vec<_> = self.places(from).collect();
-        Plan {
-            way: Ok(Path {
-                unknown: vec![false; points_m.len()],
-                clearance_m: vec![ROOM_M; points_m.len()],
-                climbs: Vec::new(),
-                cost_m: self.away_m(from),
-                points_m,
-            }),
-            replanned: false,
-        }
+        straight_plan(from, [self.pose.x_m, self.pose.y_m])
     }
+}
+
+/// A plan that leads straight to a place.
+pub(crate) fn straight_plan(from: &PlanarPose, to_m: [f64; 2]) -> Plan {
+    let points_m: Vec<_> = places(from, to_m).collect();
+    Plan {
+        way: Ok(Path {
+            unknown: vec![false; points_m.len()],
+            clearance_m: vec![ROOM_M; points_m.len()],
+            climbs: Vec::new(),
+            cost_m: distance_m([from.x_m, from.y_m], to_m),
+            points_m,
+        }),
+        replanned: false,
+    }
+}
+
+/// Places on a straight way.
+fn places(from: &PlanarPose, to_m: [f64; 2]) -> impl Iterator<Item = [f64; 2]> + use<> {
+    let from_m = [from.x_m, from.y_m];
+    let count = (distance_m(from_m, to_m) / SPACING_M).ceil().max(1.0) as usize;
+    (0..=count).map(move |i| {
+        let share = i as f64 / count as f64;
+        let at = |axis: usize| from_m[axis] + (to_m[axis] - from_m[axis]) * share;
+        [at(0), at(1)]
+    })
 }
 
 fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {

@@ -1,7 +1,7 @@
 //! The walk to the next climb, or nearer to stairs of which too little is known (003: search).
 
 use super::{Here, Leg, StairClimbing, State};
-use crate::climbing::inspection::Inspection;
+use crate::climbing::inspection::{self, Inspection};
 use crate::{Behaviour, BehaviourError, Decision, Motion, Outcome, Situation};
 
 /// The first look around may end after this when stairs lie on the way, s: by then all near ground was looked at.
@@ -31,13 +31,13 @@ impl StairClimbing {
     /// A tick of `walking` on the way to the next climb, to stairs that need a closer look, or to the goal.
     pub(super) fn walk(&mut self, here: &Here<'_>) -> Result<Decision, BehaviourError> {
         let situation = here.situation;
-        let leg = self.leg(here);
+        let leg = self.leg(here).filter(|_| !here.is_at_the_goal());
         self.idle_s = 0.0;
         let looking = self.walking.is_looking_around();
         self.looked_around |= !looking;
         let first_look = looking && !self.looked_around;
         if here.new_frame {
-            self.inspection = if leg.is_none() {
+            self.inspection = if leg.is_none() && !here.is_at_the_goal() {
                 Inspection::find(here, &self.before(here), &self.inspected)
             } else {
                 None
@@ -63,6 +63,13 @@ impl StairClimbing {
             if here.new_frame || self.walk_plan.is_none() {
                 self.walk_plan = Some(inspection.plan(&here.pose));
             }
+        } else if here.is_at_the_goal() && !here.has_level_way() {
+            // It stands there already, whatever the planner makes of the surface under its feet.
+            let decision = self.walking.next(&Situation {
+                plan: Some(&inspection::straight_plan(&here.pose, here.goal_m())),
+                ..*situation
+            })?;
+            return Ok(decision);
         } else {
             self.walk_plan = None;
             let decision = self.walking.next(situation)?;
