@@ -74,6 +74,7 @@ class ClimbWatch:
         """Watch this episode."""
         self._episode = episode
         self._belief: Belief | None = None
+        self._measured: list[Stair] = []
         self._looks = [0, 0]
         self._prints: list[Sole | None] = [None, None]
         self.steps: list[StepError] = []
@@ -88,10 +89,11 @@ class ClimbWatch:
             climbs = pilot.climbs() or []
             self.planned = max(self.planned, sum(len(climb.steps) for climb in climbs))
             stairs = pilot.staircase().stairs
+            self._remember(stairs)
             if self._is_level():
                 true = judge.frame
                 pose = (true.x, true.y, true.z, true.yaw)
-                self._belief = Belief(stairs, step.estimate.pose, pose)
+                self._belief = Belief([*self._measured, *stairs], step.estimate.pose, pose)
             if stairs:
                 self.depths = [(*stair.reference, stair.depth) for stair in stairs]
         if judge.soles is None:
@@ -100,6 +102,13 @@ class ClimbWatch:
             self._looks[side] = self._looks[side] + 1 if touches else 0
             if self._looks[side] == LOOKS_A_FOOTPRINT:
                 self._footprint(side, sole, 1e-9 * step.time_ns)
+
+    def _remember(self, stairs: Sequence[Stair]) -> None:
+        """Keep stairs with a fitted front edge: from near by, that edge is out of view."""
+        for stair in stairs:
+            if stair.front_fit is not None:
+                self._measured = [old for old in self._measured if not _is_same(old, stair)]
+                self._measured.append(stair)
 
     def _is_level(self) -> bool:
         """Say whether both soles have taken their places, on one level."""
@@ -151,7 +160,7 @@ def _error(
     x, y = _seen_from(belief.true, edge[0])
     heading = edge[1] - belief.true[3]
     best = StepError(time, rise, math.nan, math.nan, math.nan)
-    nearest = _SAME_STEP_M
+    nearest = (True, _SAME_STEP_M)
     for stair in belief.stairs:
         left, right = (_seen_from(belief.believed, np.array(end[:2])) for end in stair.front)
         believed = math.atan2(-(left[0] - right[0]), left[1] - right[1])
@@ -159,10 +168,19 @@ def _error(
         normal = np.array([math.cos(believed), math.sin(believed)])
         off = float(((left + right) / 2 - (x, y)) @ normal)
         height = stair.height - belief.believed[2] - (level - belief.true[2])
-        if abs(off) < nearest and abs(height) < LEAST_CHANGE and abs(turn) < math.pi / 4:
-            nearest = abs(off)
+        # A measured edge counts before one that is only where the view ended.
+        order = (stair.front_fit is None, abs(off))
+        is_it = abs(off) < _SAME_STEP_M and abs(turn) < math.pi / 4
+        if is_it and abs(height) < LEAST_CHANGE and order < nearest:
+            nearest = order
             best = StepError(time, rise, height, off, turn)
     return best
+
+
+def _is_same(first: Stair, second: Stair) -> bool:
+    """Say whether two sights are of one stair."""
+    apart = np.mean(first.front, axis=0) - np.mean(second.front, axis=0)
+    return bool(np.hypot(*apart[:2]) < _SAME_STEP_M and abs(apart[2]) < LEAST_CHANGE)
 
 
 def _seen_from(pose: tuple[float, float, float, float], point: Floats) -> Floats:
