@@ -180,7 +180,7 @@ def surfaces(
     for element, top, offset in tops:
         # What another top covers is not walked on.
         free = ~_covered(centres, top, offset, tops)
-        cells = usable & free & _whole_cells(top, centres - offset[:2], remembered.cell)
+        cells = _interior(top, centres - offset[:2], remembered.cell, usable & free)
         if not cells.any() and not _is_passed(passed, top, offset, tops):
             continue
         truth = top.height + offset[2]
@@ -199,15 +199,22 @@ def surfaces(
     return entries
 
 
-def _whole_cells(top: Top, centres: Floats, cell: float) -> Bools:
-    """Say for each square cell, by its centre (n, 2), whether all of it lies on the top."""
+def _interior(top: Top, centres: Floats, cell: float, usable: Bools) -> Bools:
+    """Say for each square cell, by its centre (n, 2), whether it counts as inside a top.
+
+    Those do whose circumscribed circle lies on the top, or, on a top too narrow for that as a sill
+    may be, those that lie on it whole: a cell at an edge may have the next surface's height.
+    """
     polygon = top.polygon[:, :2]
+    inner: Bools = usable & (signed_distance(polygon, centres) <= -cell * np.sqrt(0.5))
+    if inner.any():
+        return inner
     edges = np.roll(polygon, -1, axis=0) - polygon
     inward = np.column_stack([-edges[:, 1], edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
     # A square reaches so far from its centre towards each edge.
     reach = cell / 2 * np.abs(inward).sum(axis=1)
     depth = ((centres[:, None, :] - polygon[None]) * inward[None]).sum(axis=-1)
-    whole: Bools = (depth >= reach - 1e-9).all(axis=1)
+    whole: Bools = usable & (depth >= reach - 1e-9).all(axis=1)
     return whole
 
 
