@@ -41,6 +41,8 @@ pub struct AStarConfig {
     pub climb_cost: f64,
     /// A tread deeper than this is not crossed in one stride, but stepped onto and walked on, m.
     pub stride: f64,
+    /// Other levels than the robot's own are believed once it has been this near to them, m.
+    pub judge_range: f64,
     /// Distance between the places where the crossing of a wide edge is considered, m.
     pub lane: f64,
 }
@@ -65,6 +67,7 @@ impl Default for AStarConfig {
             blind: 0.2,
             climb_cost: 0.4,
             stride: 0.15,
+            judge_range: 0.8,
             lane: 0.08,
         }
     }

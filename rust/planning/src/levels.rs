@@ -41,10 +41,10 @@ pub(crate) struct Levels {
 }
 
 impl Levels {
-    /// Heights of the floor that was seen often enough, and of the treads.
+    /// Heights of the floor that was seen often enough and is not in doubt, and of the treads.
     pub(crate) fn read(
         &mut self,
-        view: &FloorView,
+        (view, unknown): (&FloorView, &[bool]),
         treads: &Treads,
         stand: &Stand,
         limits: &Limits,
@@ -52,15 +52,18 @@ impl Levels {
     ) {
         self.height_m.clear();
         let cells = view.cells.values().iter().zip(view.sightings.values());
-        self.height_m.extend(cells.map(|(surface, &sightings)| {
-            if let Surface::Floor(height) = surface
-                && sightings >= config.step_sightings
-            {
-                *height
-            } else {
-                f32::NAN
-            }
-        }));
+        let cells = cells.zip(unknown);
+        self.height_m
+            .extend(cells.map(|((surface, &sightings), &unknown)| {
+                if let Surface::Floor(height) = surface
+                    && !unknown
+                    && sightings >= config.step_sightings
+                {
+                    *height
+                } else {
+                    f32::NAN
+                }
+            }));
         treads.lay(&mut self.height_m);
         self.edge.clear();
         self.edge.resize(self.height_m.len(), false);

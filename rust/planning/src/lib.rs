@@ -5,6 +5,7 @@ mod chains;
 mod config;
 pub mod distance;
 mod faces;
+mod judged;
 mod keep;
 mod legs;
 mod levels;

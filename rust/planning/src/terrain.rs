@@ -6,6 +6,7 @@ use stairs::Staircase;
 
 use crate::AStarConfig;
 use crate::distance::{DistanceField, NOTHING_NEAR};
+use crate::judged::Judged;
 use crate::levels::{Levels, Limits, Stand};
 use crate::specks::Specks;
 use crate::treads::Treads;
@@ -38,6 +39,7 @@ pub(crate) struct Terrain {
     pub(crate) clearance_at_start_m: f64,
     edge_distance: DistanceField,
     treads: Treads,
+    judged: Judged,
     /// What a length costs in a cell: 1 on open known floor, infinite where the robot may not be.
     pub(crate) weights: Vec<f32>,
     specks: Specks,
@@ -64,6 +66,7 @@ impl Terrain {
             levels: Levels::default(),
             edge_distance: DistanceField::default(),
             treads: Treads::default(),
+            judged: Judged::default(),
             weights: Vec::new(),
             specks: Specks::default(),
             by_squared: Vec::new(),
@@ -85,10 +88,15 @@ impl Terrain {
         self.treads.read(view, stairs);
         let (blocked, unknown) = (&mut self.blocked, &mut self.unknown);
         self.treads.read_surfaces(view, blocked, unknown);
+        let floor_m = self.needs.limits.floor_m;
+        self.judged.look(view, stand.at_m, config.judge_range);
+        self.judged
+            .doubt(view, &self.treads, (stand, floor_m), blocked, unknown);
         self.specks
             .clear(blocked, unknown, self.cols, config.speck_cells);
         let limits = &self.needs.limits;
-        self.levels.read(view, &self.treads, stand, limits, config);
+        let seen = (view, self.unknown.as_slice());
+        self.levels.read(seen, &self.treads, stand, limits, config);
         let heights = stairs.stairs.iter().map(stairs::Stair::height_m);
         let lowest_m = heights.chain(goal_m).fold(f64::INFINITY, f64::min);
         if self.levels.raised(stand, lowest_m, config) {

@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 pub struct StairsConfig {
     /// A stair whose front or back edge is shorter is discarded, m (003, section IV.B).
     pub min_edge: f64,
+    /// A surface whose front edge is further away is not taken for a stair yet, m: from afar steps run into each other.
+    pub max_distance: f64,
     /// A stair that is less deep is discarded, m (003, section IV.B).
     pub min_depth: f64,
     /// Surfaces within this of the robot's height are the ground that it stands on, unless something lies between, m.
@@ -29,6 +31,7 @@ impl Default for StairsConfig {
     fn default() -> Self {
         Self {
             min_edge: 0.15,
+            max_distance: 0.9,
             min_depth: 0.07,
             own_height: 0.01,
             similar_height: 0.009,
@@ -46,6 +49,7 @@ impl StairsConfig {
         let key = |name: &str| format!("navigation.stairs.{name}");
         for (name, value) in [
             ("min_edge", self.min_edge),
+            ("max_distance", self.max_distance),
             ("min_depth", self.min_depth),
             ("own_height", self.own_height),
             ("similar_height", self.similar_height),

@@ -59,6 +59,11 @@ impl Extraction {
         for i in 0..self.found.len() {
             self.found[i].own_level = is_own_level(&self.found, i, config);
         }
+        let near = |stair: &Stair<Robot>| {
+            stair.front.middle().inner.coords.xy().norm() <= config.max_distance
+        };
+        self.found
+            .retain(|sighting| sighting.own_level || near(&sighting.stair));
         for sighting in &mut self.found {
             let stair = &sighting.stair;
             let shortest_m = stair.front.length_m().min(stair.back.length_m());

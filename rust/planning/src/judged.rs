@@ -1,0 +1,130 @@
+//! Which cells the robot has been near to. From afar the steps of a staircase run into each other: what is seen there on another
+//! level is not believed before it was seen from near by.
+
+use geometry::{Cell, Lattice};
+use mapping::{FloorView, Surface};
+
+use crate::levels::Stand;
+use crate::treads::Treads;
+
+/// An obstacle that ends lower than this above the robot's feet may be a riser, m.
+const LOW_M: f64 = 0.15;
+
+/// The cells that were near. Goes with the window.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Judged {
+    lattice: Option<Lattice>,
+    cols: usize,
+    near: Vec<bool>,
+    before: Vec<bool>,
+}
+
+impl Judged {
+    /// Takes in where the robot is; moves with the view's window.
+    pub(crate) fn look(&mut self, view: &FloorView, at_m: [f64; 2], range_m: f64) {
+        let (cols, rows) = (view.cells.cols(), view.cells.rows());
+        std::mem::swap(&mut self.near, &mut self.before);
+        self.near.clear();
+        self.near.resize(cols * rows, false);
+        for row in 0..rows {
+            for col in 0..cols {
+                let cell = Cell::new(col as i32, row as i32);
+                let [x, y] = view.lattice.center_of(cell);
+                let near = (x - at_m[0]).hypot(y - at_m[1]) <= range_m;
+                self.near[row * cols + col] = near || self.was_near([x, y]);
+            }
+        }
+        self.lattice = Some(view.lattice);
+        self.cols = cols;
+    }
+
+    fn was_near(&self, [x, y]: [f64; 2]) -> bool {
+        let Some(lattice) = self.lattice else {
+            return false;
+        };
+        let cell = lattice.cell_at(x, y);
+        let inside = cell.row >= 0 && cell.col >= 0 && (cell.col as usize) < self.cols;
+        let index = || cell.row as usize * self.cols + cell.col as usize;
+        inside && self.before.get(index()).copied().unwrap_or(false)
+    }
+
+    /// Makes unknown what lies on another level and was not near yet, unless a recognised stair says what it is.
+    pub(crate) fn doubt(
+        &self,
+        view: &FloorView,
+        treads: &Treads,
+        (stand, floor_m): (&Stand, f64),
+        blocked: &mut [bool],
+        unknown: &mut [bool],
+    ) {
+        for (index, surface) in view.cells.values().iter().enumerate() {
+            if self.near[index] || treads.covers(index) {
+                continue;
+            }
+            let doubtful = match *surface {
+                Surface::Floor(height) => (f64::from(height) - stand.height_m).abs() > floor_m,
+                Surface::Obstacle(top) => f64::from(top) - stand.height_m < LOW_M,
+                Surface::Unknown => false,
+            };
+            if doubtful {
+                blocked[index] = false;
+                unknown[index] = true;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geometry::Grid;
+    use stairs::Staircase;
+
+    fn view(origin_m: f64, surface: Surface) -> FloorView {
+        FloorView {
+            lattice: Lattice {
+                origin_m: [origin_m, -1.0],
+                cell_m: 0.1,
+            },
+            cells: Grid::filled(40, 20, surface),
+            sightings: Grid::filled(40, 20, 9),
+        }
+    }
+
+    /// Whether the place at (x, 0) is unknown for a robot that was at `places` before.
+    fn is_doubted(surface: Surface, places: &[f64], x_m: f64) -> bool {
+        let mut judged = Judged::default();
+        for &place in places {
+            judged.look(&view(place - 2.0, surface), [place, 0.0], 0.8);
+        }
+        let view = view(places[places.len() - 1] - 2.0, surface);
+        let mut treads = Treads::default();
+        treads.read(&view, &Staircase::default());
+        let (mut blocked, mut unknown) = (vec![true; 800], vec![false; 800]);
+        let stand = Stand {
+            at_m: [0.0; 2],
+            height_m: 0.0,
+            heading_rad: 0.0,
+        };
+        judged.doubt(&view, &treads, (&stand, 0.01), &mut blocked, &mut unknown);
+        let cell = view.lattice.cell_at(x_m, 0.05);
+        let index = cell.row as usize * 40 + cell.col as usize;
+        assert_eq!(blocked[index], !unknown[index]);
+        unknown[index]
+    }
+
+    #[test]
+    fn another_level_is_believed_once_it_was_near() {
+        let level = Surface::Floor(0.09);
+        assert!(is_doubted(level, &[0.0], 1.25));
+        assert!(!is_doubted(level, &[0.0], 0.55));
+        assert!(!is_doubted(level, &[1.0, 0.0], 1.25), "it was near before");
+    }
+
+    #[test]
+    fn the_own_level_and_what_is_tall_are_believed_from_afar() {
+        assert!(!is_doubted(Surface::Floor(0.004), &[0.0], 1.25));
+        assert!(!is_doubted(Surface::Obstacle(0.3), &[0.0], 1.25));
+        assert!(is_doubted(Surface::Obstacle(0.1), &[0.0], 1.25));
+    }
+}
