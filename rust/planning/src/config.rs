@@ -41,7 +41,7 @@ pub struct AStarConfig {
     pub climb_cost: f64,
     /// A tread deeper than this is not crossed in one stride, but stepped onto and walked on, m.
     pub stride: f64,
-    /// Other levels than the robot's own are believed once it has been this near to them, m.
+    /// Higher levels than the robot's own are believed once it has been this near to them, m.
     pub judge_range: f64,
     /// Distance between the places where the crossing of a wide edge is considered, m.
     pub lane: f64,

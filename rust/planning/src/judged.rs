@@ -1,5 +1,5 @@
-//! Which cells the robot has been near to. From afar the steps of a staircase run into each other: what is seen there on another
-//! level is not believed before it was seen from near by.
+//! Which cells the robot has been near to. From afar the steps of a staircase run into each other: what is seen there on a higher
+//! level is not believed before it was seen from near by. Drops are believed from anywhere.
 
 use geometry::{Cell, Lattice};
 use mapping::{FloorView, Surface};
@@ -48,7 +48,7 @@ impl Judged {
         inside && self.before.get(index()).copied().unwrap_or(false)
     }
 
-    /// Makes unknown what lies on another level and was not near yet, unless a recognised stair says what it is.
+    /// Makes unknown what lies on a higher level and was not near yet, unless a recognised stair says what it is.
     pub(crate) fn doubt(
         &self,
         view: &FloorView,
@@ -62,7 +62,7 @@ impl Judged {
                 continue;
             }
             let doubtful = match *surface {
-                Surface::Floor(height) => (f64::from(height) - stand.height_m).abs() > floor_m,
+                Surface::Floor(height) => f64::from(height) - stand.height_m > floor_m,
                 Surface::Obstacle(top) => f64::from(top) - stand.height_m < LOW_M,
                 Surface::Unknown => false,
             };
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn another_level_is_believed_once_it_was_near() {
+    fn a_higher_level_is_believed_once_it_was_near() {
         let level = Surface::Floor(0.09);
         assert!(is_doubted(level, &[0.0], 1.25));
         assert!(!is_doubted(level, &[0.0], 0.55));
@@ -122,8 +122,9 @@ mod tests {
     }
 
     #[test]
-    fn the_own_level_and_what_is_tall_are_believed_from_afar() {
+    fn the_own_level_a_drop_and_what_is_tall_are_believed_from_afar() {
         assert!(!is_doubted(Surface::Floor(0.004), &[0.0], 1.25));
+        assert!(!is_doubted(Surface::Floor(-0.09), &[0.0], 1.25));
         assert!(!is_doubted(Surface::Obstacle(0.3), &[0.0], 1.25));
         assert!(is_doubted(Surface::Obstacle(0.1), &[0.0], 1.25));
     }

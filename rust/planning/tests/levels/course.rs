@@ -165,7 +165,11 @@ pub(crate) fn goal_at(x_m: f64, y_m: f64, height_m: f64) -> Goal {
 
 pub(crate) fn planner() -> AStar {
     AStar::new(
-        AStarConfig::default(),
+        // Every level counts as seen from near by.
+        AStarConfig {
+            judge_range: 10.0,
+            ..AStarConfig::default()
+        },
         ClimbingConfig::default(),
         FEET,
         0.14,
