@@ -98,6 +98,8 @@ pub struct StairClimbing {
     stepper: Stepper,
     /// The stances of a climb without stops that is on its way.
     run: Vec<Stance>,
+    /// Whether a climb without stops goes on step by step, after a step of it failed.
+    pauses: bool,
     /// The stair that the robot stands on, once it has climbed one.
     on: Option<Step>,
     /// Where it stood before the last step.
@@ -142,6 +144,7 @@ impl StairClimbing {
             flight: Flight::default(),
             stepper: Stepper::default(),
             run: Vec::new(),
+            pauses: false,
             on: None,
             came_from: None,
             tries: Tries::default(),

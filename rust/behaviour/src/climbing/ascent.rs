@@ -218,7 +218,7 @@ impl StairClimbing {
         let first = leading_side(&here.pose, &stance.pose);
         self.run.clear();
         self.run.push(*stance);
-        if self.pace == Pace::Continuous {
+        if self.pace == Pace::Continuous && !self.pauses {
             let _ = self.lengthen_run(here);
         }
         let holds = if self.run.len() > 1 {

@@ -32,6 +32,7 @@ impl StairClimbing {
             Phase::Wait if self.phase_s > self.config.cheer => {
                 self.on = None;
                 self.came_from = None;
+                self.pauses = false;
                 self.flight.clear();
                 self.tries = super::Tries::default();
                 self.walking.resume(here.situation);

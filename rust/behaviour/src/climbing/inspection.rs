@@ -6,13 +6,14 @@ use planning::{Path, Plan, Step};
 use stairs::Stair;
 
 use crate::climbing::Here;
+use crate::climbing::flight::is_step;
 use crate::climbing::leg::align_pose;
 use crate::climbing::placement::Before;
 
 /// Stairs further away than this are left alone, m.
 const FARTHEST_M: f64 = 1.5;
-/// A change of height above this is no step to look at, m.
-const HIGHEST_M: f64 = 0.1;
+/// A change of height above this is no step to look at, not even to tell that it is too high, m.
+const HIGHEST_M: f64 = 0.075;
 /// Stairs nearer than this to some that were inspected have been looked at, m.
 const INSPECTED_M: f64 = 0.3;
 /// A place counts as reached within this, m.
@@ -47,6 +48,7 @@ impl Inspection {
             .stairs
             .stairs
             .iter()
+            .filter(|stair| no_way || is_inviting(stair, before))
             .filter_map(|stair| Self::of(stair, before))
             .filter(|found| {
                 let away_m = |place: &[f64; 2]| distance_m(*place, found.edge_m);
@@ -103,6 +105,13 @@ impl Inspection {
     pub(crate) fn plan(&self, from: &PlanarPose) -> Plan {
         straight_plan(from, [self.pose.x_m, self.pose.y_m])
     }
+}
+
+/// Whether a stair looks as if it could be stepped on: where the plan has a way, nothing less is worth a detour.
+fn is_inviting(stair: &Stair<Map>, before: &Before<'_>) -> bool {
+    let rise_m = stair.height_m() - before.ground_m;
+    let needed_m = before.feet.pair_width_m + 2.0 * before.climbing.side_room;
+    is_step(rise_m, before.climbing) && stair.front.length_m() >= needed_m
 }
 
 /// A plan that leads straight to a place.

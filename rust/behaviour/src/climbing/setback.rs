@@ -17,7 +17,15 @@ impl StairClimbing {
         };
         let holds = self.stepper.holds().to_vec();
         let missed = holds.get(landed).copied();
-        if landed == 0 {
+        let stands_on = landed.checked_sub(1).and_then(|last| self.run.get(last));
+        if let (Some(stance), Some(missed), true) = (stands_on, missed, self.run.len() > 1) {
+            // Together on the step that the other foot stands on, and on step by step.
+            let beside = stance.foothold(missed.side, self.feet.stance_m);
+            self.run.clear();
+            self.pauses = true;
+            self.stepper.start(vec![beside], &here.pose, here.ground_m);
+            self.phase(Phase::Step);
+        } else if landed == 0 {
             if self.tries.missteps > 1 {
                 self.refuse(format!("blocked: {what}"));
             } else {

@@ -362,3 +362,28 @@ fn without_stops_the_stairs_take_less_time_and_one_foot_a_step() {
         .filter(|(_, foot)| (foot.height_m - 0.06).abs() < 1e-6);
     assert_eq!(on_second.count(), 1);
 }
+
+#[test]
+fn a_climb_without_stops_that_fails_goes_on_step_by_step_or_is_refused_with_the_feet_together() {
+    let mut simulation = Simulation::new(
+        PlanarPose::default(),
+        straight(0.6, &FOUR_UP, 0.33),
+        [1.15, 0.0],
+        Pace::Continuous,
+    );
+    simulation.run_until(60.0, |simulation| {
+        simulation
+            .landings
+            .iter()
+            .any(|(_, foot)| foot.height_m > 0.02)
+    });
+    simulation.sunk_m[2] = 0.03;
+    let (outcome, _) = simulation.run(120.0);
+    assert!(
+        matches!(&outcome, Some(Outcome::Refused(reason)) if reason.starts_with("blocked: ")),
+        "{outcome:?} {:?}",
+        simulation.states
+    );
+    assert_eq!(simulation.feet[0].height_m, simulation.feet[1].height_m);
+    assert!((simulation.ground_m() - 0.06).abs() < 1e-6);
+}
