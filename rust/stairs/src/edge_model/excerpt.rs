@@ -22,7 +22,7 @@ const PLACES: usize = 41;
 /// The guess may be so far outside the picture, pixels: it may be off.
 const OUTSIDE_PX: f64 = 5.0;
 /// Of areas with more pixels than this only every second, third ... takes part: neighbouring windows overlap and tell the same.
-const MANY: usize = 1500;
+const MANY: usize = 1000;
 /// Least disparity of a surface, px: farther away nothing can be told.
 pub(super) const FARTHEST_PX: f32 = 1.5;
 

@@ -32,7 +32,7 @@ const LEAST_RISE_M: f64 = 0.008;
 /// How far the first look goes beyond the pixels that take part in the end, m.
 const SLACK_M: f64 = 0.03;
 /// Steps of the refinement, with another choice of pixels after the first few.
-const ROUNDS: [usize; 2] = [3, 7];
+const ROUNDS: [usize; 2] = [3, 6];
 /// The refinement is at rest below these changes of place (m) and heading (rad).
 const REST: (f64, f64) = (0.0003, 0.002);
 /// What its last step may change at most: pixels that change surfaces keep it moving a little.

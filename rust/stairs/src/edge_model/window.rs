@@ -9,6 +9,10 @@ use super::sight::{Faces, Linear, first_met};
 const REACH: f64 = 2.0;
 const SIDE: usize = 5;
 pub(super) const PIXELS: usize = SIDE * SIDE;
+/// Lanes that are worked on at once, and a window's pixels in whole lanes: the last one is repeated, and counts once.
+const LANES: usize = 8;
+const PADDED: usize = 32;
+type Lot = [f32; PADDED];
 /// Surfaces closer than this in disparity blend, px: about the half width of a correlation's peak.
 const BANDWIDTH_PX: f32 = 1.0;
 /// Windows whose disparities differ by more take one side or the other before long, px.
@@ -33,7 +37,7 @@ struct Plane {
     origin: f32,
     per_col: f32,
     per_row: f32,
-    offsets: [f32; PIXELS],
+    offsets: Lot,
 }
 
 impl Plane {
@@ -44,6 +48,7 @@ impl Plane {
             linear.per_row() as f32,
         );
         let offset = |i: usize| {
+            let i = i.min(PIXELS - 1);
             let (col, row) = ((i % SIDE) as f32, (i / SIDE) as f32);
             per_col * (col - REACH as f32) + per_row * (row - REACH as f32)
         };
@@ -123,9 +128,9 @@ impl Matcher {
     }
 
     fn look_at_all(&self, [near, far, riser]: [f32; 3]) -> Match {
-        let mut values = [0.0_f32; PIXELS];
-        let mut shares = [[0.0_f32; PIXELS]; 3];
-        for i in 0..PIXELS {
+        let mut values = [0.0_f32; PADDED];
+        let mut shares = [[0.0_f32; PADDED]; 3];
+        for i in 0..PADDED {
             let n = near + self.near.offsets[i];
             let f = far + self.far.offsets[i];
             let r = riser + self.riser.offsets[i];
@@ -157,18 +162,18 @@ impl Matcher {
             for (i, value) in values.iter_mut().enumerate() {
                 let n = near + self.near.offsets[i];
                 let r = riser + self.riser.offsets[i];
-                *value = if n > r { n } else { far + self.far.offsets[i] };
+                let f = far + self.far.offsets[i];
+                *value = if n > r { n } else { f };
             }
             (most, spread) = most_and_spread(&values);
         }
         let chosen = if spread < BANDWIDTH_PX {
-            [1.0; PIXELS]
+            counted(|_| true, &values)
         } else {
             near_mode(&values, most)
         };
-        let count = chosen.iter().sum::<f32>().max(1.0);
-        let mean =
-            |of: &[f32; PIXELS]| of.iter().zip(&chosen).map(|(a, b)| a * b).sum::<f32>() / count;
+        let share = 1.0 / sum_of(&chosen, |_| 1.0).max(1.0);
+        let mean = |of: &Lot| share * sum_of(&chosen, |i| of[i]);
         Match {
             value_px: mean(&values),
             by_face: [mean(&shares[0]), mean(&shares[1]), mean(&shares[2])],
@@ -178,28 +183,58 @@ impl Matcher {
 }
 
 /// Largest disparity, and how far below it the smallest is, px.
-fn most_and_spread(values: &[f32; PIXELS]) -> (f32, f32) {
-    let most = values.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-    let least = values.iter().copied().fold(f32::INFINITY, f32::min);
+fn most_and_spread(values: &Lot) -> (f32, f32) {
+    let (mut most, mut least) = ([values[0]; LANES], [values[0]; LANES]);
+    for chunk in values.chunks_exact(LANES) {
+        for lane in 0..LANES {
+            let value = chunk[lane];
+            most[lane] = if value > most[lane] {
+                value
+            } else {
+                most[lane]
+            };
+            least[lane] = if value < least[lane] {
+                value
+            } else {
+                least[lane]
+            };
+        }
+    }
+    let most = most.iter().copied().fold(values[0], f32::max);
+    let least = least.iter().copied().fold(values[0], f32::min);
     (most, most - least)
 }
 
-/// Which of a window's disparities (1, else 0) belong to the mode that mean shift finds from `start`.
-fn near_mode(values: &[f32; PIXELS], start: f32) -> [f32; PIXELS] {
-    let mut mode = start;
-    let mut chosen = [0.0; PIXELS];
-    for _ in 0..SHIFTS {
-        let (mut sum, mut count) = (0.0, 0.0);
-        for (near, value) in chosen.iter_mut().zip(values) {
-            *near = if (value - mode).abs() < BANDWIDTH_PX {
-                1.0
-            } else {
-                0.0
-            };
-            sum += *near * value;
-            count += *near;
+/// Sum over the chosen pixels of a window (1, others 0).
+#[inline]
+fn sum_of(chosen: &Lot, value: impl Fn(usize) -> f32) -> f32 {
+    let mut lanes = [0.0_f32; LANES];
+    for first in (0..PADDED).step_by(LANES) {
+        for lane in 0..LANES {
+            lanes[lane] += chosen[first + lane] * value(first + lane);
         }
-        mode = sum / f32::max(count, 1.0);
+    }
+    lanes.iter().sum()
+}
+
+/// 1 for the pixels of a window whose disparity is wanted, else 0.
+#[inline]
+fn counted(wanted: impl Fn(f32) -> bool, values: &Lot) -> Lot {
+    let mut chosen = [0.0; PADDED];
+    for (chosen, &value) in chosen.iter_mut().zip(values) {
+        *chosen = if wanted(value) { 1.0 } else { 0.0 };
+    }
+    chosen[PIXELS..].fill(0.0);
+    chosen
+}
+
+/// Which of a window's disparities (1, else 0) belong to the mode that mean shift finds from `start`.
+fn near_mode(values: &Lot, start: f32) -> Lot {
+    let mut mode = start;
+    let mut chosen = [0.0; PADDED];
+    for _ in 0..SHIFTS {
+        chosen = counted(|value| (value - mode).abs() < BANDWIDTH_PX, values);
+        mode = sum_of(&chosen, |i| values[i]) / sum_of(&chosen, |_| 1.0).max(1.0);
     }
     chosen
 }
