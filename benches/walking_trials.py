@@ -16,15 +16,15 @@ import json
 import math
 import sys
 import time
-from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import mujoco
 import numpy as np
-from climbing import Climber, Errors, Footstep, Tread, alternating, course, elements, pairs, seen
+from climbing import Errors, elements
 from numpy.typing import NDArray
+from walking_tasks import COURSES, TASKS, Job, Motion, climb
 
 from treadwell._core import Walker
 from treadwell.course.build import build_course
@@ -37,41 +37,6 @@ from treadwell.senses.sensors import Sensors
 
 TICK_S = 0.01
 PUSH_S = 0.1
-STARTS_S = 0.5
-WALKING_MPS = 0.1
-CLIMBS_S = 2.0
-SETTLES_S = 0.5
-STAIR_S = 4.5
-"""Longest time for one stand on the stairs; a climb that takes longer is over."""
-
-Motion = tuple[float, float, float] | list[Footstep] | None
-
-
-@dataclass(frozen=True)
-class Plan:
-    """What one trial does: motions from given times on, pushes (time s, impulse N s), an end."""
-
-    motions: list[tuple[float, Motion]]
-    end_s: float
-    pushes: list[tuple[float, tuple[float, float]]] = field(default_factory=list)
-    climber: Climber | None = None
-
-
-@dataclass(frozen=True)
-class Job:
-    """One trial."""
-
-    task: str
-    seed: int
-    robot: str
-    impulse: float
-    minutes: float
-    gait: dict[str, float]
-    rise: float
-    tread: float
-    steps: int
-    errors: Errors
-    pushed: float
 
 
 @dataclass(frozen=True)
@@ -93,148 +58,6 @@ class Trial:
     stands_missed: int
     seconds_per_stand: float
     ground_error_m: float
-
-
-def straight(_rng: np.random.Generator, _job: Job) -> Plan:
-    return Plan([(STARTS_S, (WALKING_MPS, 0.0, 0.0)), (STARTS_S + 20.5, None)], 23.0)
-
-
-def backward(_rng: np.random.Generator, _job: Job) -> Plan:
-    return Plan([(STARTS_S, (-0.08, 0.0, 0.0)), (STARTS_S + 12.5, None)], 15.0)
-
-
-def turn(rng: np.random.Generator, _job: Job) -> Plan:
-    """Turn on the spot for as long as 90 degrees take at 0.25 rad/s."""
-    rate = 0.25 * rng.choice([-1.0, 1.0])
-    return Plan([(STARTS_S, (0.0, 0.0, rate)), (STARTS_S + math.pi / 2 / 0.25, None)], 10.0)
-
-
-def side(rng: np.random.Generator, _job: Job) -> Plan:
-    speed = 0.1 * rng.choice([-1.0, 1.0])
-    return Plan([(STARTS_S, (0.0, speed, 0.0)), (STARTS_S + 8.0, None)], 11.0)
-
-
-def stop(rng: np.random.Generator, _job: Job) -> Plan:
-    """Walk any way and stop at any phase of a step."""
-    walk = (rng.uniform(-0.08, 0.12), rng.uniform(-0.1, 0.1), rng.uniform(-0.4, 0.4))
-    until = rng.uniform(1.5, 4.0)
-    return Plan([(STARTS_S, walk), (until, None)], until + 4.0)
-
-
-def push(rng: np.random.Generator, job: Job, direction: float) -> Plan:
-    at = rng.uniform(3.0, 4.2)
-    impulse = (job.impulse * math.cos(direction), job.impulse * math.sin(direction))
-    walk = (WALKING_MPS, 0.0, 0.0)
-    return Plan([(STARTS_S, walk), (at + 4.0, None)], at + 7.0, [(at, impulse)])
-
-
-def push_any(rng: np.random.Generator, job: Job) -> Plan:
-    return push(rng, job, rng.uniform(-math.pi, math.pi))
-
-
-def push_sagittal(rng: np.random.Generator, job: Job) -> Plan:
-    return push(rng, job, rng.choice([0.0, math.pi]))
-
-
-def push_sideways(rng: np.random.Generator, job: Job) -> Plan:
-    return push(rng, job, rng.choice([-0.5, 0.5]) * math.pi)
-
-
-def push_standing(rng: np.random.Generator, job: Job) -> Plan:
-    direction = rng.uniform(-math.pi, math.pi)
-    impulse = (job.impulse * math.cos(direction), job.impulse * math.sin(direction))
-    return Plan([], 5.0, [(1.5, impulse)])
-
-
-def wander(rng: np.random.Generator, job: Job) -> Plan:
-    """Random commands and a push every two to five seconds."""
-    end = 60.0 * job.minutes
-    motions: list[tuple[float, Motion]] = []
-    at = STARTS_S
-    while at < end - 3.0:
-        x, y, yaw = rng.uniform(-0.08, 0.12), rng.uniform(-0.1, 0.1), rng.uniform(-0.5, 0.5)
-        kinds: list[Motion] = [
-            (x, y, yaw),
-            (x, 0.0, 0.0),
-            (0.0, 0.0, yaw),
-            (abs(x), 0.0, yaw),
-            None,
-        ]
-        motions.append((at, kinds[rng.integers(len(kinds))]))
-        at += rng.uniform(0.3, 5.0)
-    motions.append((end - 3.0, None))
-    pushes = []
-    at = rng.uniform(2.0, 5.0)
-    while at < end - 3.0:
-        direction = rng.uniform(-math.pi, math.pi)
-        pushes.append((at, (job.impulse * math.cos(direction), job.impulse * math.sin(direction))))
-        at += rng.uniform(2.0, 5.0)
-    return Plan(motions, end, pushes)
-
-
-def stair(_rng: np.random.Generator, job: Job, sign: float) -> list[Tread]:
-    return course([sign * job.rise] * job.steps, [job.tread] * (job.steps - 1))
-
-
-def climb_up(rng: np.random.Generator, job: Job) -> list[Tread]:
-    return stair(rng, job, 1.0)
-
-
-def climb_down(rng: np.random.Generator, job: Job) -> list[Tread]:
-    return stair(rng, job, -1.0)
-
-
-def sill(_rng: np.random.Generator, _job: Job) -> list[Tread]:
-    return course([0.038, -0.038], [0.09])
-
-
-def basin(_rng: np.random.Generator, _job: Job) -> list[Tread]:
-    return course([-0.03, 0.03], [0.13])
-
-
-def random_stairs(rng: np.random.Generator, job: Job) -> list[Tread]:
-    """Up or down, whichever the seed says."""
-    sign = rng.choice([-1.0, 1.0])
-    rises = sign * rng.uniform(0.02, 0.05, job.steps)
-    return course(list(rises), list(rng.uniform(0.11, 0.2, job.steps - 1)))
-
-
-COURSES: dict[str, Callable[[np.random.Generator, Job], list[Tread]]] = {
-    "climb_up": climb_up,
-    "climb_down": climb_down,
-    "sill": sill,
-    "basin": basin,
-    "random_stairs": random_stairs,
-    "continuous_up": climb_up,
-    "continuous_down": climb_down,
-}
-
-
-def climb(rng: np.random.Generator, job: Job, treads: list[Tread]) -> Plan:
-    """Climb the course, and stand for a second."""
-    believed = seen(treads, job.errors, rng)
-    lists = (alternating if job.task.startswith("continuous") else pairs)(believed)
-    end = CLIMBS_S + STAIR_S * (sum(map(len, lists)) + 1)
-    pushes, at = [], CLIMBS_S + rng.uniform(0.0, 4.0)
-    while job.pushed > 0.0 and at < end:
-        direction = rng.uniform(-math.pi, math.pi)
-        pushes.append((at, (job.pushed * math.cos(direction), job.pushed * math.sin(direction))))
-        at += rng.uniform(2.0, 4.0)
-    return Plan([], end, pushes, Climber(lists, SETTLES_S, CLIMBS_S))
-
-
-TASKS: dict[str, Callable[[np.random.Generator, Job], Plan]] = {
-    "straight": straight,
-    "backward": backward,
-    "turn": turn,
-    "side": side,
-    "stop": stop,
-    "push_any": push_any,
-    "push_sagittal": push_sagittal,
-    "push_sideways": push_sideways,
-    "push_standing": push_standing,
-    "wander": wander,
-}
 
 
 class World:

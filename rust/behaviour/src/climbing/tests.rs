@@ -1,3 +1,5 @@
+//! Courses of stairs climbed in a kinematic world: outcomes, bad luck, and laws.
+
 use geometry::PlanarPose;
 use proptest::prelude::*;
 

@@ -132,7 +132,8 @@ proptest! {
             .filter(|(point, height_m)| point[0] < 0.6 && !height_m.is_nan())
             .map(|(point, &height_m)| f64::from(height_m) - steps.height_m(f64::from(point[0])) - off_m)
             .collect();
-        prop_assert!(median(misses).abs() < 0.004);
+        // A single frame: its own error of some millimetres comes on top.
+        prop_assert!(median(misses).abs() < 0.006);
     }
 }
 
