@@ -167,14 +167,11 @@ impl StairClimbing {
 
     /// Whether the front edge of a step is known well enough to step by it.
     pub(super) fn is_measured(&self, step: &planning::Step) -> bool {
-        step.stair
-            .front_fit
-            .map_or(step.stair.support > 400, |fit| {
-                /*HACK*/
-                fit.frames >= self.config.edge_frames
-                    && fit.place_sigma_m <= self.config.edge_sigma
-                    && fit.heading_sigma_rad <= self.config.heading_sigma
-            })
+        step.stair.front_fit.is_some_and(|fit| {
+            fit.frames >= self.config.edge_frames
+                && fit.place_sigma_m <= self.config.edge_sigma
+                && fit.heading_sigma_rad <= self.config.heading_sigma
+        })
     }
 
     /// Whether it will do when no look tells more: sure enough, if only by few frames.
