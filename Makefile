@@ -7,7 +7,7 @@ UV := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
 RUN := $(UV) run --locked --quiet
 DEMO ?= obstacle_course
 
-.PHONY: setup demo test check lint format bench clean
+.PHONY: setup demo test fuzz check lint format bench clean
 
 setup: .venv/.ready ## the environment in .venv, with the command .venv/bin/treadwell
 
@@ -22,12 +22,18 @@ setup: .venv/.ready ## the environment in .venv, with the command .venv/bin/trea
 demo: setup ## one episode: the result, and where its pictures are
 	$(RUN) treadwell run $(DEMO)
 
+# The same cases in every run: what passes for one passes for all. `make fuzz` draws new ones.
+test: export PROPTEST_RNG_SEED ?= 2004
 test: setup lint ## every check and every test
 	$(CARGO_TEST)
 	cargo test --workspace --doc --quiet
 	$(RUN) pytest -q
 
 CARGO_TEST := $(shell cargo nextest --version >/dev/null 2>&1 && echo "cargo nextest run --workspace" || echo "cargo test --workspace --lib --bins --tests")
+
+FUZZ_ROUNDS ?= 10
+fuzz: ## the property tests of the core with new random cases, FUZZ_ROUNDS times
+	for round in $$(seq $(FUZZ_ROUNDS)); do $(CARGO_TEST) || exit 1; done
 
 lint: setup
 	cargo fmt --check

@@ -25,10 +25,24 @@ fn level(course: &Course, [x, y]: [f64; 2]) -> Option<f32> {
     }
 }
 
-/// Blocks of floor of random heights, with stairs of their own where `seen`.
-fn blocks(boxes: &[(f64, f64, f64, f64, bool)]) -> Course {
+/// Lower corner, size, height and whether a stair of it is known.
+type Block = (f64, f64, f64, f64, bool);
+
+/// Whether two blocks, each with a cell around it, share ground.
+fn overlap(a: &Block, b: &Block) -> bool {
+    let apart = |a_low: f64, a_size: f64, b_low: f64, b_size: f64| {
+        a_low > b_low + b_size + 0.04 || b_low > a_low + a_size + 0.04
+    };
+    !apart(a.0, a.2, b.0, b.2) && !apart(a.1, a.2, b.1, b.2)
+}
+
+/// Blocks of floor of random heights, with stairs of their own where `seen`. A block lies over those before it: what a
+/// later one covers is not seen as a stair, since a stair says for certain which floor is there.
+fn blocks(boxes: &[Block]) -> Course {
     let mut course = Course::floor();
-    for &(x, y, size, height_m, seen) in boxes {
+    for (i, block) in boxes.iter().enumerate() {
+        let &(x, y, size, height_m, seen) = block;
+        let seen = seen && !boxes[i + 1..].iter().any(|later| overlap(block, later));
         let nearest = |low: f64| 0.0_f64.clamp(low, low + size);
         if nearest(x).hypot(nearest(y)) < 0.3 {
             continue;
