@@ -14,10 +14,11 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
-from climbs import ClimbWatch, StepError, step_summary
 
 from treadwell.episode import Episode
 from treadwell.errors import TreadwellError
+from treadwell.experiments.stairs import steps_row
+from treadwell.judging.step_watch import StepError, StepWatch
 from treadwell.physics.audit import replay_audit
 
 
@@ -44,7 +45,6 @@ class Run:
     planned_steps: int
     states_s: dict[str, float]
     steps: list[StepError]
-    depths: list[tuple[float, float, float, float]]
 
     def passed(self) -> bool:
         """Whether it did what the scenario expects, without a fall or a collision."""
@@ -56,7 +56,7 @@ def run(job: tuple[str, int, tuple[str, ...], bool]) -> Run:
     scenario, seed, overrides, audited = job
     episode = Episode(scenario, seed=seed, overrides=overrides)
     start, step, problem = time.perf_counter(), None, None
-    watch, states = ClimbWatch(episode), Counter[str]()
+    watch, states = StepWatch(episode), Counter[str]()
     try:
         while episode.verdict is None:
             step = episode.tick()
@@ -94,7 +94,6 @@ def run(job: tuple[str, int, tuple[str, ...], bool]) -> Run:
         watch.planned,
         {state: 0.01 * ticks for state, ticks in states.items()},
         watch.steps,
-        watch.depths,
     )
 
 
@@ -128,7 +127,7 @@ def summary(scenario: str, runs: list[Run]) -> str:
         f"{np.degrees(np.median([one.odometry_error_rad for one in runs])):.2f} degrees, "
         f"median {np.median([one.simulated_s for one in runs]):.1f} s, "
         f"audits {dict(audits)}\n"
-        f"{'':<12} {dict(climbed)}; {step_summary(steps)}\n"
+        f"{'':<12} {dict(climbed)}; {'; '.join(steps_row(scenario, steps)[1:])}\n"
         f"{'':<12} median seconds {', '.join(f'{s} {spent[s]:.1f}' for s in states)}\n"
     )
 

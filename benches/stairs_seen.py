@@ -17,12 +17,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from climbs import EDGE_M, HEADING_RAD, HEIGHT_M
 from episodes import seeds
 from numpy.typing import NDArray
 
 from treadwell._core import Situation
 from treadwell.episode import Episode
+from treadwell.judging.step_watch import EDGE_M, HEADING_RAD, HEIGHT_M
 from treadwell.protocols import Decision
 
 Floats = NDArray[np.float64]

@@ -1,6 +1,7 @@
 """Experiments: which there are, what their tables say of results, and one small one in full."""
 
 import json
+import math
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -15,9 +16,12 @@ from treadwell.errors import InputError
 from treadwell.experiments import conduct as conducting
 from treadwell.experiments.catalogue import EXPERIMENTS, find_experiment
 from treadwell.experiments.conduct import conduct
-from treadwell.experiments.experiment import NOTHING, Experiment, Table, middle, share
-from treadwell.experiments.stairs import CHANGES, PHASES, STAIRS, phase_seconds, stairs_tables
+from treadwell.experiments.experiment import NOTHING, Case, Experiment, Table, middle, share
+from treadwell.experiments.stairs import PHASES, STAIRS, phase_seconds, stairs_tables
+from treadwell.experiments.stairs_cases import CLAIMS
 from treadwell.judging.result import Result, StateEntry, SurfaceEntry
+from treadwell.judging.step_watch import KnownTop, StepError
+from treadwell.runner import Run
 from treadwell.scenario.elements import Stairs
 from treadwell.scenario.loading import load_scenario, scenario_names
 
@@ -53,7 +57,11 @@ def climbed(**changes: object) -> Result:
     return result(MADE, **facts | changes)
 
 
-def table(results: dict[str, list[Result]], number: int) -> dict[str, tuple[str, ...]]:
+def runs(*results: Result, **facts: Any) -> list[Run]:  # noqa: ANN401 - as `Run` takes them
+    return [Run(one, Path("folder"), **facts) for one in results]
+
+
+def table(results: dict[str, list[Run]], number: int) -> dict[str, tuple[str, ...]]:
     """One of the tables, its rows by their first cell."""
     made = stairs_tables(results)[number]
     assert all(len(row) == len(made.header) for row in made.rows)
@@ -62,7 +70,10 @@ def table(results: dict[str, list[Result]], number: int) -> dict[str, tuple[str,
 
 def test_every_experiments_scenarios_are_there() -> None:
     for made in EXPERIMENTS.values():
-        assert set(made.scenarios) <= set(scenario_names())
+        named = {case.scenario for case in made.cases if isinstance(case.scenario, str)}
+        assert named <= set(scenario_names())
+        names = [case.name for case in made.cases]
+        assert len(names) == len(set(names))
         assert made is find_experiment(made.name)
 
 
@@ -85,8 +96,12 @@ def test_options_that_make_no_sense_are_bad_input(
 
 
 def test_as_many_steps_are_expected_as_the_scenarios_have() -> None:
-    for name, (up, down) in CHANGES.items():
-        made = load_scenario(name)
+    for claim in CLAIMS:
+        name = claim.case.scenario
+        if claim.changes is None or not isinstance(name, str):
+            continue
+        up, down = claim.changes
+        made = load_scenario(name, overrides=claim.case.overrides)
         if made.expect.outcome == "refused":
             assert (up, down) == (0, 0), name
             continue
@@ -123,40 +138,65 @@ def test_every_state_of_the_core_counts_for_a_phase() -> None:
 
 
 def test_successes_falls_and_steps_are_counted() -> None:
-    runs = [climbed(), climbed(stairs_climbed=3), climbed(passed=False, outcome="fell", falls=1)]
-    rows = table({"stairs_up": runs}, 0)
-    assert set(rows) == set(CHANGES)
-    assert rows["stairs_up"][1:] == ("2 of 3", "1", "0", "4 up, 0 down", "2 of 3", "44.0")
-    assert rows["sill"][1] == NOTHING
+    fell = climbed(passed=False, outcome="fell", falls=1)
+    rows = table({"stairs_up": runs(climbed(), climbed(stairs_climbed=3), fell)}, 0)
+    assert set(rows) == {claim.case.name for claim in CLAIMS}
+    assert rows["stairs_up"][2:] == ("2 of 3", "1", "0", "4 up, 0 down", "2 of 3", "44.0")
+    assert rows["sill"][2] == NOTHING
 
 
 def test_times_are_of_the_runs_that_went_as_expected() -> None:
     slow = climbed(passed=False, behaviour=lane(climb=100), simulated_seconds=100.0)
-    rows = table({"stairs_up": [climbed(), slow]}, 1)
+    rows = table({"stairs_up": runs(climbed(), slow)}, 1)
     assert rows["climb"][:2] == ("24", "24.0")
     assert rows["climb, a step"][:2] == ("6", "6.0")
-    assert rows["in all"] == ("44", "44.0", NOTHING, NOTHING)
+    assert rows["in all"] == ("44", "44.0", NOTHING, NOTHING, NOTHING)
 
 
 def test_refusals_have_their_words_and_surprises_too() -> None:
-    refused = climbed(outcome="refused", reason="step_too_high: 55 mm")
-    lost = climbed(outcome="refused", reason="lost: gone", passed=False)
-    found = stairs_tables({"stairs_too_high": [refused], "sill": [lost, climbed()]})[2].rows
-    assert found == (
-        ("stairs_too_high", "0", "step_too_high: 55 mm", "yes"),
-        ("sill", "0", "lost: gone", "no"),
+    refused = runs(
+        climbed(outcome="refused", reason="step_too_high: 55 mm"),
+        climbed(outcome="refused", reason="step_too_high: 56 mm", seed=1),
     )
+    lost = climbed(outcome="refused", reason="lost: gone", passed=False, seed=7)
+    found = stairs_tables({"step_55_mm": refused, "sill": runs(lost, climbed())})[4].rows
+    assert found == (
+        ("step_55_mm", "2", "step_too_high: 55 mm", NOTHING),
+        ("sill", "1", "lost: gone", "7"),
+    )
+
+
+def test_what_was_known_of_steps_is_counted_against_what_is_asked() -> None:
+    def step(height: float = 0.0, edge: float = 0.0, heading: float = 0.0) -> StepError:
+        return StepError(1.0, 0.03, height, edge, heading)
+
+    steps = (step(), step(height=0.0031), step(edge=-0.011), step(heading=0.06), step(math.nan))
+    rows = table({"sill": runs(climbed(), steps=steps)}, 2)
+    assert rows["sill"] == rows["all"]
+    assert rows["sill"][0] == "4 of 5"
+    assert rows["sill"][4:] == ("3 of 5", "2 of 5")
+
+
+def test_the_width_of_a_basin_is_that_of_the_surface_in_it() -> None:
+    tops = (
+        KnownTop(0.2, 0.0, 0.0, 0.9),
+        KnownTop(0.66, 0.1, 0.002, 0.124),
+        KnownTop(0.665, 0, 0.03, 1),
+    )
+    rows = table({"basin_130_mm": runs(climbed(), tops=tops)}, 3)
+    assert rows["basin_130_mm"] == ("1", "-6.0 ± 0.0")
+    assert rows["basin_150_mm"] == ("0", NOTHING)
 
 
 def test_heights_of_levels_stand_beside_the_papers() -> None:
     def top(truth: float, estimate: float | None) -> SurfaceEntry:
         return SurfaceEntry(element="x", part="y", truth=truth, estimate=estimate, cells=9)
 
-    runs = [
+    made = runs(
         climbed(surfaces=[top(0.038, 0.037), top(0.122, None)]),
         climbed(surfaces=[top(0.038, 0.0384), top(0.061, 0.0625)]),
-    ]
-    rows = table({"obstacle_course": runs}, 3)
+    )
+    rows = table({"obstacle_course": made}, 5)
     assert rows["sill"] == ("38", "37", "37.7", "37.0 to 38.4", "2")
     assert rows["2nd step"] == ("61", "61", "62.5", "62.5 to 62.5", "1")
     assert rows["platform"] == ("122", "126", NOTHING, NOTHING, "0")
@@ -164,7 +204,6 @@ def test_heights_of_levels_stand_beside_the_papers() -> None:
 
 def test_no_results_at_all_make_tables_too() -> None:
     for made in stairs_tables({}):
-        assert made.rows
         assert made.markdown().startswith("## ")
 
 
@@ -180,7 +219,8 @@ def small(tmp_path: Path) -> Experiment:
     files = [tmp_path / name for name in ("short.toml", "again.toml")]
     for file in files:
         file.write_text(SHORT)
-    return replace(STAIRS, name="small", scenarios=tuple(str(file) for file in files))
+    cases = tuple(Case(file.stem, str(file)) for file in files)
+    return replace(STAIRS, name="small", cases=cases)
 
 
 def test_an_experiment_leaves_its_report_and_the_runs(
@@ -191,7 +231,8 @@ def test_an_experiment_leaves_its_report_and_the_runs(
 ) -> None:
     out = tmp_path / "out"
     monkeypatch.setitem(EXPERIMENTS, "small", small)
-    assert execute(["experiment", "small", "--seeds", "1", "--out", str(out), "--json"]) == 1
+    one = ["experiment", "small", "--seeds", "1", "--workers", "1", "--out", str(out), "--json"]
+    assert execute(one) == 1
     captured = capsys.readouterr()
     document = json.loads(captured.out)
     assert document == json.loads((out / "experiment.json").read_text())
@@ -204,7 +245,7 @@ def test_an_experiment_leaves_its_report_and_the_runs(
         assert (out / run["folder"] / "result.json").is_file()
     assert "## Seconds of each phase" in (out / "experiment.md").read_text()
     with pytest.raises(InputError, match="exists already"):
-        conduct(small, 1, out)
+        conduct(small, range(1), out)
 
 
 def test_an_interrupted_experiment_reports_what_there_is(
@@ -218,12 +259,13 @@ def test_an_interrupted_experiment_reports_what_there_is(
 
     def run(*_: object, **__: object) -> Any:  # noqa: ANN401 - as much of a run as is asked for
         made = climbed(outcome=next(outcomes))
-        return type("Done", (), {"result": made, "outcome": made.outcome})
+        return Run(made, tmp_path)
 
     monkeypatch.setattr(conducting, "run", run)
     out = tmp_path / "out"
     monkeypatch.setitem(EXPERIMENTS, "small", small)
-    assert execute(["experiment", "small", "--seeds", "1", "--out", str(out), "--json"]) == 130
+    one = ["experiment", "small", "--seeds", "1", "--workers", "1", "--out", str(out), "--json"]
+    assert execute(one) == 130
     document = json.loads(capsys.readouterr().out)
     assert document["interrupted"]
     assert not document["passed"]
@@ -239,11 +281,40 @@ def test_the_exit_status_says_how_it_went(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
 ) -> None:  # fmt: skip
     made = climbed(**changes)
-    done = type("Done", (), {"result": made, "outcome": made.outcome})
+    done = Run(made, tmp_path)
     monkeypatch.setitem(EXPERIMENTS, "small", small)
     monkeypatch.setattr(conducting, "run", lambda *_, **__: done)
     out = tmp_path / "out"
-    assert cli_experiment.experiment("small", seeds=1, out=out, as_json=False) == status
+    code = cli_experiment.experiment(
+        "small", only=(), seeds=range(1), workers=1, out=out, as_json=False
+    )
+    assert code == status
     shown = capsys.readouterr()
     assert "Seconds of each phase" in shown.out
     assert "experiment.md" in shown.err
+
+
+def test_processes_side_by_side_give_the_same_report(small: Experiment, tmp_path: Path) -> None:
+    reports = [
+        conduct(small, range(3, 5), tmp_path / str(workers), workers=workers).document()
+        for workers in (1, 2)
+    ]
+    for document in reports:
+        document.pop("folder")
+        document.pop("tables")  # they hold times of the clock
+    assert reports[0] == reports[1]
+    assert [run["seed"] for run in reports[0]["runs"]] == [3, 4, 3, 4]
+
+
+def test_only_some_cases_are_run_and_an_unknown_one_is_bad_input(
+    small: Experiment, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert [case.name for case in small.narrowed(["again"]).cases] == ["again"]
+    assert small.narrowed(()) is small
+    assert execute(["experiment", "stairs", "--only", "stares_up"]) == 2
+    assert "allowed are stairs_up, " in capsys.readouterr().err
+
+
+def test_a_case_may_ask_for_more_seeds_or_fewer() -> None:
+    assert Case("x", "y", share=5.0).seeds(range(20, 40)) == range(20, 120)
+    assert Case("x", "y", share=0.1).seeds(range(20, 23)) == range(20, 21)

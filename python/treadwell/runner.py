@@ -17,6 +17,7 @@ from treadwell.judging.clearance import least_clearance
 from treadwell.judging.map_memory import MapMemory
 from treadwell.judging.result import CollisionEntry, Result, StateEntry
 from treadwell.judging.score import PoseErrors, map_counts, surfaces, timing, true_cells
+from treadwell.judging.step_watch import KnownTop, StepError, StepWatch
 from treadwell.judging.verdict import Verdict
 from treadwell.recording.run_folder import make_run_folder
 from treadwell.recording.stair_memory import StairMemory
@@ -35,11 +36,15 @@ class Run:
         folder: where everything lies.
         least_clearance: m, room between the robot's cylinder and what stood on its way; None
             where nothing did.
+        steps: what was known of each step before it was climbed.
+        tops: the surfaces of steps that the robot knew in the end.
     """
 
     result: Result
     folder: Path
     least_clearance: float | None = None
+    steps: tuple[StepError, ...] = ()
+    tops: tuple[KnownTop, ...] = ()
 
     @property
     def outcome(self) -> str:
@@ -60,8 +65,9 @@ class Run:
 class Scores:
     """Collects what the result says of an episode, one camera frame after the other."""
 
-    def __init__(self) -> None:
+    def __init__(self, episode: Episode) -> None:
         """Begin with nothing."""
+        self.watch = StepWatch(episode)
         self.poses = PoseErrors()
         self.estimate, self.truth = Trajectory(), Trajectory()
         self.memory = MapMemory()
@@ -70,6 +76,7 @@ class Scores:
 
     def tick(self, step: Step) -> None:
         """Take in a control tick."""
+        self.watch.tick(step)
         if not self.states or self.states[-1].state != step.state:
             self.states.append(StateEntry(time=1e-9 * step.time_ns, state=step.state))
 
@@ -118,7 +125,7 @@ def run(
     viewer = open_viewer(episode) if view else None
     folder = make_run_folder(out, made.name, episode.robot.name, made.seed)
     writers = Writers(folder, episode, record=record, viewer=viewer)
-    scores = Scores()
+    scores = Scores(episode)
     begin = perf_counter()
     verdict: Verdict | None = None
     problem: TreadwellError | None = None
@@ -139,7 +146,8 @@ def run(
     if problem is not None:
         raise problem
     way = scores.truth.positions()[:, :2]
-    return Run(result, folder, least_clearance(episode.course, episode.robot, way))
+    clearance = least_clearance(episode.course, episode.robot, way)
+    return Run(result, folder, clearance, tuple(scores.watch.steps), scores.watch.tops)
 
 
 def _loop(

@@ -178,8 +178,19 @@ def experiment(
     name: Annotated[str, typer.Argument(metavar="NAME", help="Which experiment: stairs.")],
     *,
     seeds: Annotated[
-        int, typer.Option("--seeds", metavar="N", min=1, help="Seeds 0 to N-1 of each scenario.")
+        int, typer.Option("--seeds", metavar="N", min=1, help="Seeds of each scenario.")
     ] = 3,
+    first_seed: Annotated[
+        int, typer.Option("--first-seed", metavar="N", min=0, help="The first of them.")
+    ] = 0,
+    only: Annotated[
+        list[str] | None,
+        typer.Option("--only", metavar="CASE", help="Only this case; may be given again."),
+    ] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option("--workers", metavar="N", min=1, help="Episodes at a time; default: cores."),
+    ] = None,
     out: Annotated[
         Path | None,
         typer.Option("--out", metavar="DIR", help="Its folder; default: a new one in runs/."),
@@ -189,7 +200,14 @@ def experiment(
     """Run a paper's experiments, and print its figures with ours beside them."""
     from treadwell.cli import experiment as cli_experiment
 
-    return cli_experiment.experiment(name, seeds=seeds, out=out, as_json=as_json)
+    return cli_experiment.experiment(
+        name,
+        only=only or (),
+        seeds=range(first_seed, first_seed + seeds),
+        workers=workers,
+        out=out,
+        as_json=as_json,
+    )
 
 
 def execute(arguments: Sequence[str]) -> int:

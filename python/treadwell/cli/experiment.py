@@ -1,5 +1,7 @@
 """The verb `experiment`: a paper's tables with ours beside them."""
 
+import os
+from collections.abc import Sequence
 from pathlib import Path
 
 from treadwell.cli.output import (
@@ -15,19 +17,30 @@ from treadwell.experiments.catalogue import find_experiment
 from treadwell.experiments.conduct import Report, conduct
 
 
-def experiment(name: str, *, seeds: int, out: Path | None, as_json: bool) -> int:
+def experiment(
+    name: str,
+    *,
+    only: Sequence[str],
+    seeds: range,
+    workers: int | None,
+    out: Path | None,
+    as_json: bool,
+) -> int:
     """Run an experiment, show its tables, and return the exit status.
 
     Args:
         name: which.
-        seeds: how many; 0 is the first.
+        only: names of its cases that are run; all where there is none.
+        seeds: of each case.
+        workers: processes that run episodes at the same time; None: as many as there are cores.
         out: the folder of the report and of the runs.
         as_json: write the report to standard output as JSON instead of tables.
 
     Raises:
-        InputError: there is no such experiment, or the folder cannot be taken.
+        InputError: there is no such experiment or case, or the folder cannot be taken.
     """
-    report = conduct(find_experiment(name), seeds, out)
+    chosen = find_experiment(name).narrowed(only)
+    report = conduct(chosen, seeds, out, workers=workers or os.cpu_count() or 1)
     if as_json:
         write_json(report.document())
     else:

@@ -1,19 +1,35 @@
-"""Runs an experiment: every scenario with every seed, one after the other, and its report."""
+"""Runs an experiment: every case with every seed, and its report."""
 
 import json
-from collections.abc import Callable
-from dataclasses import dataclass
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import asdict, dataclass
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, Final
 
 from treadwell import __version__
 from treadwell.cli.progress import Progress
-from treadwell.experiments.experiment import Experiment, Table
-from treadwell.judging.result import Result, write_whole
+from treadwell.errors import SimulationError
+from treadwell.experiments.drawn import write_scenario
+from treadwell.experiments.experiment import Case, Experiment, Table
+from treadwell.judging.result import write_whole
 from treadwell.recording.run_folder import make_experiment_folder
-from treadwell.runner import run
+from treadwell.runner import Run, run
 
 SCHEMA: Final = "treadwell.experiment/1"
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """One run to do: a case, a seed, the scenario's name or file, and its folder."""
+
+    case: Case
+    seed: int
+    scenario: str
+    folder: Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,28 +39,28 @@ class Report:
     Attributes:
         experiment: which.
         folder: where its runs and the tables lie.
-        seeds: 0 to this, exclusive.
-        runs: scenario, folder of the run and its result, in the order in which they were run.
+        seeds: that were asked for.
+        runs: name of the case and the run, in the order in which they were to be done.
         tables: the paper's figures with ours beside them.
         interrupted: whether it was, and some runs are missing.
     """
 
     experiment: Experiment
     folder: Path
-    seeds: int
-    runs: tuple[tuple[str, Path, Result], ...]
+    seeds: range
+    runs: tuple[tuple[str, Run], ...]
     tables: tuple[Table, ...]
     interrupted: bool
 
     @property
     def outcomes(self) -> set[str]:
         """The outcomes that there were."""
-        return {result.outcome for _, _, result in self.runs}
+        return {done.outcome for _, done in self.runs}
 
     @property
     def passed(self) -> bool:
         """Whether there is every run, and each met its scenario's expectations."""
-        return not self.interrupted and all(result.passed for _, _, result in self.runs)
+        return not self.interrupted and all(done.passed for _, done in self.runs)
 
     def document(self) -> dict[str, Any]:
         """Return it as plain data."""
@@ -53,67 +69,128 @@ class Report:
             "experiment": self.experiment.name,
             "version": __version__,
             "folder": str(self.folder),
-            "seeds": self.seeds,
+            "seeds": len(self.seeds),
+            "first_seed": self.seeds.start,
             "interrupted": self.interrupted,
             "passed": self.passed,
             "runs": [
                 {
-                    "scenario": scenario,
-                    "seed": result.seed,
-                    "folder": folder.name,
-                    "outcome": result.outcome,
-                    "reason": result.reason,
-                    "passed": result.passed,
-                    "failures": result.failures,
+                    "scenario": case,
+                    "seed": done.result.seed,
+                    "folder": done.folder.name,
+                    "outcome": done.outcome,
+                    "reason": done.result.reason,
+                    "passed": done.passed,
+                    "failures": done.result.failures,
+                    "steps": [asdict(step) for step in done.steps if step.is_known()],
                 }
-                for scenario, folder, result in self.runs
+                for case, done in self.runs
             ],
             "tables": [table.document() for table in self.tables],
         }
 
     def markdown(self) -> str:
         """Return it as Markdown."""
-        head = f"# {self.experiment.description}\n\ntreadwell {__version__}, {self.seeds} seeds\n"
+        extent = f"{len(self.seeds)} seeds from {self.seeds.start} on"
+        head = f"# {self.experiment.description}\n\ntreadwell {__version__}, {extent}\n"
         return "\n".join([head, *(table.markdown() for table in self.tables)])
 
 
 def conduct(
     experiment: Experiment,
-    seeds: int,
+    seeds: range,
     out: Path | None = None,
+    *,
+    workers: int = 1,
     progress: Callable[[str], Progress] = Progress,
 ) -> Report:
     """Run an experiment, write its folder, and return the report. After Ctrl-C: of what there is.
 
     Args:
         experiment: which.
-        seeds: how many; 0 is the first.
+        seeds: of each case; a case may ask for more or fewer, from the first on.
         out: the folder; it must be new or empty.
-        progress: makes what is told how a run gets on, from its title.
+        workers: processes that run episodes at the same time; the results are the same.
+        progress: makes what is told how a run gets on, from its title; for one worker.
 
     Raises:
         InputError: the folder cannot be taken, or a scenario is bad.
         RecordingError: a run cannot be written.
+        SimulationError: a process that runs episodes died.
     """
     folder = make_experiment_folder(out, experiment.name)
-    jobs = [(scenario, seed) for scenario in experiment.scenarios for seed in range(seeds)]
-    runs: list[tuple[str, Path, Result]] = []
-    for number, (scenario, seed) in enumerate(jobs, start=1):
-        title = f"{number} of {len(jobs)}: {Path(scenario).stem} seed {seed}"
-        place = folder / f"{Path(scenario).stem}-{seed}"
-        with progress(title) as shown:
-            done = run(scenario, seed=seed, out=place, record=False, progress=shown)
-        if done.outcome == "interrupted":
-            break
-        runs.append((scenario, place, done.result))
-    results = {
-        scenario: [result for name, _, result in runs if name == scenario]
-        for scenario in experiment.scenarios
+    jobs = [_job(case, seed, folder) for case in experiment.cases for seed in case.seeds(seeds)]
+    results = _one_by_one(jobs, progress) if workers == 1 else _side_by_side(jobs, workers)
+    runs = tuple((job.case.name, done) for job, done in zip(jobs, results, strict=False))
+    by_case = {
+        case.name: [done for name, done in runs if name == case.name] for case in experiment.cases
     }
-    tables = tuple(experiment.tables(results))
+    tables = tuple(experiment.tables(by_case))
     missing = len(runs) < len(jobs)
-    report = Report(experiment, folder, seeds, tuple(runs), tables, interrupted=missing)
+    report = Report(experiment, folder, seeds, runs, tables, interrupted=missing)
     write_whole(folder / "experiment.md", report.markdown())
     document = json.dumps(report.document(), indent=2, allow_nan=False)
     write_whole(folder / "experiment.json", document + "\n")
     return report
+
+
+def _job(case: Case, seed: int, folder: Path) -> Job:
+    """Return a run to do; a scenario that is drawn is written beside it first."""
+    place = folder / f"{case.name}-{seed}"
+    if isinstance(case.scenario, str):
+        return Job(case, seed, case.scenario, place)
+    drawn = write_scenario(place.with_suffix(".toml"), case.scenario(seed))
+    return Job(case, seed, drawn, place)
+
+
+def _done(job: Job, progress: Progress | None = None) -> Run:
+    return run(
+        job.scenario,
+        seed=job.seed,
+        overrides=job.case.overrides,
+        out=job.folder,
+        record=False,
+        progress=progress,
+    )
+
+
+def _one_by_one(jobs: Sequence[Job], progress: Callable[[str], Progress]) -> Iterator[Run]:
+    """Do the runs one after the other, up to the one that is interrupted."""
+    for number, job in enumerate(jobs, start=1):
+        with progress(_title(number, len(jobs), job)) as shown:
+            done = _done(job, shown)
+        if done.outcome == "interrupted":
+            return
+        yield done
+
+
+def _side_by_side(jobs: Sequence[Job], workers: int) -> Iterator[Run]:
+    """Do the runs in processes of their own, in the order of the jobs, up to an interruption."""
+    # A fresh interpreter each: a fork would copy the threads of the simulator's libraries half.
+    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+        futures = [pool.submit(_done, job) for job in jobs]
+        try:
+            for number, (job, future) in enumerate(zip(jobs, futures, strict=True), start=1):
+                done = future.result()
+                if done.outcome == "interrupted":
+                    break
+                told = f"{done.outcome} {done.result.reason or ''}"
+                _tell(f"{_title(number, len(jobs), job)}: {told}")
+                yield done
+        except KeyboardInterrupt:
+            pass
+        except BrokenProcessPool:
+            raise SimulationError(
+                "a process that runs episodes ended by itself (out of memory?): fewer --workers"
+            ) from None
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _title(number: int, of: int, job: Job) -> str:
+    return f"{number} of {of}: {job.case.name} seed {job.seed}"
+
+
+def _tell(line: str) -> None:
+    sys.stderr.write(line.rstrip() + "\n")
+    sys.stderr.flush()

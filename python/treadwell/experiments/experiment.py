@@ -1,17 +1,41 @@
-"""What an experiment is: scenarios to run over seeds, and the tables that its results make."""
+"""What an experiment is: cases to run over seeds, and the tables that their runs make."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from statistics import median
 from typing import Any
 
-from treadwell.judging.result import Result
+from treadwell.errors import InputError
+from treadwell.runner import Run
 
-Results = Mapping[str, Sequence[Result]]
-"""Scenario -> its results in the order of the seeds. A scenario may have none."""
+Draw = Callable[[int], dict[str, Any]]
+"""Makes the scenario of a seed, as its file would be read."""
+Results = Mapping[str, Sequence[Run]]
+"""Name of a case -> its runs in the order of the seeds. A case may have none."""
 
 NOTHING = "-"
 """What a cell holds where nothing was measured or reported."""
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """What is run over the seeds: a scenario, with settings of its own, or one drawn for each.
+
+    Attributes:
+        name: of the case; of its runs' folders.
+        scenario: name or path, or what draws one for a seed.
+        overrides: settings `KEY=VALUE`, as `--set` takes them.
+        share: of the seeds asked for; 5 runs five times as many, 0.5 every second one.
+    """
+
+    name: str
+    scenario: str | Draw
+    overrides: tuple[str, ...] = ()
+    share: float = 1.0
+
+    def seeds(self, asked: range) -> range:
+        """Return the seeds to run where these are asked for; at least one."""
+        return range(asked.start, asked.start + max(1, round(self.share * len(asked))))
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,14 +73,29 @@ class Experiment:
     Attributes:
         name: as the command line has it.
         description: one line, with the paper.
-        scenarios: names of scenarios, in the order in which they are run.
+        cases: in the order in which they are run.
         tables: makes the report of what came out.
     """
 
     name: str
     description: str
-    scenarios: tuple[str, ...]
+    cases: tuple[Case, ...]
     tables: Callable[[Results], Sequence[Table]]
+
+    def narrowed(self, names: Sequence[str]) -> "Experiment":
+        """Return the experiment with these cases alone; as it is where there are none.
+
+        Raises:
+            InputError: it has no such case; the message says which there are.
+        """
+        known = [case.name for case in self.cases]
+        for name in names:
+            if name not in known:
+                raise InputError(
+                    f"--only: {self.name} has no case {name!r}: allowed are {', '.join(known)}"
+                )
+        chosen = tuple(case for case in self.cases if case.name in names)
+        return replace(self, cases=chosen) if names else self
 
 
 def middle(values: Sequence[float], digits: int = 1, unit: str = "") -> str:

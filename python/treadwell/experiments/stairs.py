@@ -1,42 +1,21 @@
 """The stairs of Gutmann, Fukuchi and Fujita (IROS 2004, section VI; ICRA 2005, section V)."""
 
+import math
 from collections.abc import Sequence
+from statistics import fmean, pstdev
 from typing import Final
 
-from treadwell.experiments.experiment import (
-    NOTHING,
-    Experiment,
-    Results,
-    Table,
-    middle,
-    share,
+from treadwell.experiments.experiment import NOTHING, Experiment, Results, Table, middle, share
+from treadwell.experiments.stairs_cases import (
+    BASIN_BEGIN,
+    BASINS_MM,
+    CLAIMS,
+    Claim,
+    basin_name,
 )
 from treadwell.judging.result import Result
-
-CHANGES: Final[dict[str, tuple[int, int]]] = {
-    "stairs_up": (4, 0),
-    "stairs_down": (0, 4),
-    "sill": (1, 1),
-    "basin": (1, 1),
-    "basin_narrow": (0, 0),
-    "stairs_too_high": (0, 0),
-    "stairs_over": (4, 4),
-    "stairs_spiral": (5, 0),
-    "stairs_askew": (4, 0),
-    "obstacle_course": (5, 1),
-}
-"""Scenario -> steps up and down on the way to its goal; none where it has to be refused."""
-
-_PAPER: Final[dict[str, str]] = {
-    "stairs_up": "climbs 4 steps of 30 mm in 44 s",
-    "stairs_down": "descends them",
-    "sill": "steps up and down over 9 cm",
-    "basin": "proceeds through 13 cm",
-    "basin_narrow": "refuses below a threshold",
-    "stairs_too_high": "limit of 50 mm (Table I)",
-    "stairs_spiral": "can be modelled",
-    "obstacle_course": "walks up to the stairs",
-}
+from treadwell.judging.step_watch import EDGE_M, HEADING_RAD, HEIGHT_M, StepError
+from treadwell.runner import Run
 
 PHASES: Final[dict[str, tuple[tuple[str, ...], float]]] = {
     "search": (("look_around", "turn", "search"), 5.0),
@@ -47,7 +26,7 @@ PHASES: Final[dict[str, tuple[tuple[str, ...], float]]] = {
     "other": (("stop", "blind", "refuse"), 0.0),
 }
 """Phase of the paper -> our states that count for it until the last step, and the paper's s."""
-_TIMED: Final = ("stairs_up", "stairs_down", "stairs_askew")
+_TIMED: Final = ("stairs_up", "stairs_up_continuous", "stairs_down", "stairs_askew")
 _STEPS: Final = 4
 """Steps of each of the timed staircases."""
 
@@ -60,30 +39,25 @@ _LEVELS: Final = (
 )
 """Table I of ICRA 2005: level, its true height m, the paper's estimate mm."""
 _SAME_HEIGHT: Final = 0.0015
+_SAME_LEVEL: Final = 0.015
+_SAME_PLACE: Final = 0.06
 
 
 def _outcomes(results: Results) -> Table:
-    rows = []
-    for scenario in CHANGES:
-        runs = results.get(scenario, ())
-        up, down = CHANGES[scenario]
-        right = sum((run.stairs_climbed, run.stairs_descended) == (up, down) for run in runs)
-        went = [run.simulated_seconds for run in runs if run.passed]
-        rows.append(
-            (
-                scenario,
-                _PAPER.get(scenario, NOTHING),
-                share(sum(run.passed for run in runs), len(runs)),
-                str(sum(run.falls for run in runs)),
-                str(sum(len(run.collisions) for run in runs)),
-                f"{up} up, {down} down",
-                share(right, len(runs)),
-                middle(went),
-            )
-        )
+    rows = [_outcome(claim, results.get(claim.case.name, ())) for claim in CLAIMS]
     return Table(
         "What was climbed and what was refused",
-        ("scenario", "the paper", "as expected", "falls", "collisions", "steps", "right", "s"),
+        (
+            "case",
+            "the paper",
+            "wanted",
+            "as expected",
+            "falls",
+            "collisions",
+            "steps",
+            "right",
+            "s",
+        ),
         tuple(rows),
         (
             "As expected: the goal reached, or refused where the scenario has no way that may be "
@@ -91,6 +65,64 @@ def _outcomes(results: Results) -> Table:
             "told to the robot. s: median of the runs that went as expected.",
         ),
     )
+
+
+def _outcome(claim: Claim, runs: Sequence[Run]) -> tuple[str, ...]:
+    results = [run.result for run in runs]
+    steps, right = NOTHING, NOTHING
+    if claim.changes is not None:
+        steps = f"{claim.changes[0]} up, {claim.changes[1]} down"
+        made = [(result.stairs_climbed, result.stairs_descended) for result in results]
+        right = share(sum(one == claim.changes for one in made), len(made))
+    return (
+        claim.case.name,
+        claim.paper,
+        claim.wanted,
+        share(sum(result.passed for result in results), len(results)),
+        str(sum(result.falls for result in results)),
+        str(sum(len(result.collisions) for result in results)),
+        steps,
+        right,
+        middle([result.simulated_seconds for result in results if result.passed]),
+    )
+
+
+def _steps(results: Results) -> Table:
+    """Return what was known of each step before it was climbed."""
+    rows = []
+    together = [one for some in results.values() for one in some]
+    for name, runs in [*results.items(), ("all", together)]:
+        steps = [step for run in runs for step in run.steps]
+        if steps:
+            rows.append(steps_row(name, steps))
+    return Table(
+        "Each step as it was known before a foot left for it",
+        ("case", "known", "height, mm", "edge, mm", "heading, °", "≤ 3 mm", "≤ 10 mm, 3°"),
+        tuple(rows),
+        (
+            "Known minus true, mean and standard deviation, and how many heights and edges (with "
+            "their headings) are as near as asked for. Wanted: 95 of 100.",
+        ),
+    )
+
+
+def steps_row(name: str, steps: Sequence[StepError]) -> tuple[str, ...]:
+    """Return a row on the steps of a case: known, errors, and how many are within what is asked."""
+    known = [step for step in steps if step.is_known()]
+    edge = sum(abs(step.edge) <= EDGE_M and abs(step.heading) <= HEADING_RAD for step in known)
+    return (
+        name,
+        share(len(known), len(steps)),
+        _spread([1e3 * step.height for step in known]),
+        _spread([1e3 * step.edge for step in known]),
+        _spread([math.degrees(step.heading) for step in known]),
+        share(sum(abs(step.height) <= HEIGHT_M for step in known), len(steps)),
+        share(edge, len(steps)),
+    )
+
+
+def _spread(values: Sequence[float]) -> str:
+    return f"{fmean(values):+.1f} ± {pstdev(values):.1f}" if values else NOTHING
 
 
 def phase_seconds(result: Result) -> dict[str, float]:
@@ -112,8 +144,8 @@ def phase_seconds(result: Result) -> dict[str, float]:
 
 def _times(results: Results) -> Table:
     spent = {
-        scenario: [phase_seconds(run) for run in results.get(scenario, ()) if run.passed]
-        for scenario in _TIMED
+        name: [phase_seconds(run.result) for run in results.get(name, ()) if run.passed]
+        for name in _TIMED
     }
 
     def row(name: str, paper: float, times: Sequence[Sequence[float]]) -> tuple[str, ...]:
@@ -140,25 +172,53 @@ def _times(results: Results) -> Table:
     )
 
 
-def _refusals(results: Results) -> Table:
-    rows = tuple(
-        (scenario, str(run.seed), run.reason or NOTHING, "yes" if run.passed else "no")
-        for scenario, runs in results.items()
-        for run in runs
-        if run.outcome == "refused" or not run.passed
-    )
+def _reasons(results: Results) -> Table:
+    rows = []
+    for name, runs in results.items():
+        told = [run.result for run in runs if run.outcome == "refused" or not run.passed]
+        for kind in sorted({_kind(one) for one in told}):
+            alike = [one for one in told if _kind(one) == kind]
+            seeds = ", ".join(str(one.seed) for one in alike if not one.passed)
+            example = alike[0].reason or alike[0].outcome
+            rows.append((name, str(len(alike)), example, seeds or NOTHING))
     return Table(
         "What was refused, and what did not go as expected",
-        ("scenario", "seed", "reason", "as expected"),
-        rows or ((NOTHING,) * 4,),
+        ("case", "runs", "reason of the first", "seeds that were to go otherwise"),
+        tuple(rows) or ((NOTHING,) * 4,),
     )
+
+
+def _kind(result: Result) -> tuple[str, str]:
+    """Return how a run ended, and the word of its reason."""
+    return result.outcome, (result.reason or "").partition(":")[0]
+
+
+def _widths(results: Results) -> Table:
+    rows = []
+    for width_mm in BASINS_MM:
+        name = basin_name(width_mm)
+        measured = [_measured_width(run, 1e-3 * width_mm) for run in results.get(name, ())]
+        errors = [1e3 * width - width_mm for width in measured if width is not None]
+        rows.append((name, str(len(errors)), _spread(errors)))
+    return Table(
+        "The measured width of the basins minus the true one, mm",
+        ("case", "runs that measured it", "error"),
+        tuple(rows),
+    )
+
+
+def _measured_width(run: Run, width: float) -> float | None:
+    """Return how wide the robot believed the basin to be, m; None: it knew none there."""
+    middle_x = BASIN_BEGIN + 0.5 * width
+    near = [(abs(top.x - middle_x), top.depth) for top in run.tops if abs(top.z) < _SAME_LEVEL]
+    return min((one for one in near if one[0] < _SAME_PLACE), default=(0.0, None))[1]
 
 
 def _heights(results: Results) -> Table:
     tops = [
         surface
         for run in results.get("obstacle_course", ())
-        for surface in run.surfaces
+        for surface in run.result.surfaces
         if surface.estimate is not None
     ]
     rows = []
@@ -177,14 +237,37 @@ def _heights(results: Results) -> Table:
     )
 
 
+def _frame_times(results: Results) -> Table:
+    stages = ("segment", "stairs", "behave")
+    runs = [run.result for some in results.values() for run in some]
+    medians = {
+        stage: [run.timing_ms[stage].median for run in runs if stage in run.timing_ms]
+        for stage in stages
+    }
+    return Table(
+        "Segmentation, recognition and behaviour, ms a frame",
+        ("the paper", "wanted", *stages),
+        (("< 30 (400 MHz MIPS)", "1 in all", *(middle(medians[s], 2) for s in stages)),),
+        ("Medians over the runs of each run's median; one core each.",),
+    )
+
+
 def stairs_tables(results: Results) -> list[Table]:
     """Return the tables of what came out."""
-    return [_outcomes(results), _times(results), _refusals(results), _heights(results)]
+    return [
+        _outcomes(results),
+        _times(results),
+        _steps(results),
+        _widths(results),
+        _reasons(results),
+        _heights(results),
+        _frame_times(results),
+    ]
 
 
 STAIRS: Final = Experiment(
     name="stairs",
     description="Stairs seen, understood and climbed (Gutmann, Fukuchi, Fujita 2004 and 2005)",
-    scenarios=tuple(CHANGES),
+    cases=tuple(claim.case for claim in CLAIMS),
     tables=stairs_tables,
 )

@@ -1,6 +1,6 @@
 """What the robot knew of each step before it climbed it, against the truth; and of a basin's width.
 
-Used by `episodes.py` and `random_stairs.py`. The truth is read here alone, never by the core.
+For scoring alone: nothing of it may enter the core.
 """
 
 import math
@@ -42,7 +42,7 @@ class StepError:
     edge: float
     heading: float
 
-    def found(self) -> bool:
+    def is_known(self) -> bool:
         """Whether the robot believed in it at all."""
         return math.isfinite(self.height)
 
@@ -50,6 +50,16 @@ class StepError:
         """Whether height, edge and heading are as near as is asked for."""
         edge = abs(self.edge) <= EDGE_M and abs(self.heading) <= HEADING_RAD
         return abs(self.height) <= HEIGHT_M and edge
+
+
+@dataclass(frozen=True)
+class KnownTop:
+    """A surface that was believed in: a point on it in the map and its depth on the way, m."""
+
+    x: float
+    y: float
+    z: float
+    depth: float
 
 
 @dataclass(frozen=True)
@@ -61,13 +71,13 @@ class Belief:
     true: tuple[float, float, float, float]
 
 
-class ClimbWatch:
+class StepWatch:
     """Watches an episode.
 
     Attributes:
         steps: an entry for each step made.
         planned: most steps that a plan had.
-        depths: m, (x, y, z, depth) of the surfaces believed in at the last frame before the end.
+        tops: surfaces believed in at the last frame that had some.
     """
 
     def __init__(self, episode: Episode) -> None:
@@ -79,7 +89,7 @@ class ClimbWatch:
         self._prints: list[Sole | None] = [None, None]
         self.steps: list[StepError] = []
         self.planned = 0
-        self.depths: list[tuple[float, float, float, float]] = []
+        self.tops: tuple[KnownTop, ...] = ()
 
     def tick(self, step: Step) -> None:
         """Take in a control tick, after the judge has."""
@@ -95,7 +105,7 @@ class ClimbWatch:
                 pose = (true.x, true.y, true.z, true.yaw)
                 self._belief = Belief([*self._measured, *stairs], step.estimate.pose, pose)
             if stairs:
-                self.depths = [(*stair.reference, stair.depth) for stair in stairs]
+                self.tops = tuple(KnownTop(*stair.reference, stair.depth) for stair in stairs)
         if judge.soles is None:
             return
         for side, (sole, touches) in enumerate(zip(judge.soles, touching, strict=True)):
@@ -139,7 +149,7 @@ def true_edge(course: Course, before: Sole, after: Sole) -> tuple[Floats, float]
     if not len(jumps) or jumps.max() < LEAST_CHANGE / 2:
         return None
     crossing = points[int(np.argmax(jumps))]
-    best, heading = math.inf, 0.0
+    best, heading, on_edge = math.inf, 0.0, crossing
     for _, top in course.tops():
         corners = top.polygon[:, :2]
         for begin, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
@@ -151,7 +161,9 @@ def true_edge(course: Course, before: Sole, after: Sole) -> tuple[Floats, float]
                 best = off
                 normal = normal if normal @ way > 0.0 else -normal
                 heading = math.atan2(normal[1], normal[0])
-    return (crossing, heading) if best < 0.005 else None
+                # The samples are a millimetre apart: to the edge itself.
+                on_edge = crossing + way * ((begin - crossing) @ normal) / (way @ normal)
+    return (on_edge, heading) if best < 0.005 else None
 
 
 def _error(
@@ -188,20 +200,3 @@ def _seen_from(pose: tuple[float, float, float, float], point: Floats) -> Floats
     c, s = math.cos(pose[3]), math.sin(pose[3])
     dx, dy = point[0] - pose[0], point[1] - pose[1]
     return np.array([c * dx + s * dy, -s * dx + c * dy])
-
-
-def step_summary(steps: Sequence[StepError]) -> str:
-    """Return one line on what was known of the steps before they were climbed."""
-    found = [step for step in steps if step.found()]
-    if not found:
-        return f"steps {len(steps)}, none known before it was climbed"
-    height = 1e3 * np.array([step.height for step in found])
-    edge = 1e3 * np.array([step.edge for step in found])
-    heading = np.degrees([step.heading for step in found])
-    edges = sum(abs(s.edge) <= EDGE_M and abs(s.heading) <= HEADING_RAD for s in found)
-    return (
-        f"steps {len(steps)}, known {len(found)}; height {np.mean(height):+.1f} sd "
-        f"{np.std(height):.1f} mm, within 3 mm {sum(abs(height) <= 3.0)}; edge "
-        f"{np.mean(edge):+.1f} sd {np.std(edge):.1f} mm, heading sd {np.std(heading):.1f} degrees, "
-        f"within 10 mm and 3 degrees {edges}; both {sum(step.within() for step in found)}"
-    )
