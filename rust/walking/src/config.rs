@@ -66,6 +66,8 @@ pub struct GaitConfig {
     pub swing_tilt: f64,
     /// Speed over the ground that the foot of a long listed step keeps to on average, m/s.
     pub climb_speed: f64,
+    /// Speed at which the foot of a high listed step rises and sinks on average, m/s.
+    pub climb_lift_speed: f64,
     /// Time in which the foot of a listed step is in the air at least, s,
     pub climb_swing_time: f64,
     /// in which it has to be found on the ground after that, while the other foot still carries everything, s,
@@ -122,7 +124,8 @@ impl Default for GaitConfig {
             capture_hold: 0.01,
             capture_patience: 0.6,
             swing_tilt: 1.0,
-            climb_speed: 0.24,
+            climb_speed: 0.195,
+            climb_lift_speed: 0.172,
             climb_swing_time: 0.8,
             climb_landing_time: 0.2,
             climb_double_support: 0.2,
@@ -171,7 +174,7 @@ impl GaitConfig {
         self.check_bounds()
     }
 
-    fn positive(&self) -> [(&'static str, f64); 25] {
+    fn positive(&self) -> [(&'static str, f64); 26] {
         [
             ("step_time", self.step_time),
             ("double_support", self.double_support),
@@ -188,6 +191,7 @@ impl GaitConfig {
             ("capture_limit", self.capture_limit),
             ("capture_hold", self.capture_hold),
             ("climb_speed", self.climb_speed),
+            ("climb_lift_speed", self.climb_lift_speed),
             ("climb_swing_time", self.climb_swing_time),
             ("climb_double_support", self.climb_double_support),
             ("climb_clearance", self.climb_clearance),

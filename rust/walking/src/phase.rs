@@ -113,13 +113,18 @@ impl Swing {
         }
     }
 
-    /// Time in which the foot is in the air, s; a long careful step takes longer.
+    /// Time in which the foot is in the air, s; a long or high careful step takes longer, so that no joint has to turn faster
+    /// than its motor.
     pub fn in_air_s(&self, config: &GaitConfig) -> f64 {
-        let (from, to) = (&self.from.planar, &self.to.planar);
+        let (from, to) = (&self.from, &self.to);
         match self.manner {
             Manner::Walk => config.step_time - config.double_support,
             Manner::Careful | Manner::Back => {
-                (from.distance_m(to) / config.climb_speed).max(config.climb_swing_time)
+                let way_m = from.planar.distance_m(&to.planar);
+                let lift_m = (from.z_m - to.z_m).abs() + config.climb_clearance;
+                (way_m / config.climb_speed)
+                    .max(lift_m / (swing::LIFTING * config.climb_lift_speed))
+                    .max(config.climb_swing_time)
             }
         }
     }

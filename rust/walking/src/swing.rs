@@ -28,6 +28,9 @@ const RISE: [f64; 2] = [0.0, 0.38];
 const OVER: [f64; 2] = [0.25, 0.75];
 const SINK: [f64; 2] = [0.62, 1.0];
 
+/// Share of the time in which a careful foot rises, and in which it sinks.
+pub const LIFTING: f64 = RISE[1] - RISE[0];
+
 /// Share of the time after which a careful foot comes down on what it is told to land on.
 pub const SINKING: f64 = OVER[1];
 

@@ -174,8 +174,8 @@ pub(crate) struct Ideal {
     pub(crate) targets: JointTargets,
     /// Height of the ground at a place, m; where the robot starts it is 0.
     pub(crate) ground_m: fn(f64, f64) -> f64,
-    /// The same for a ground of two levels: from this x on, this height, m.
-    pub(crate) ground_beyond: Option<(f64, f64)>,
+    /// Levels ahead, in their order: from this x on, this height, m.
+    pub(crate) ground_beyond: Vec<(f64, f64)>,
     time_ns: u64,
 }
 
@@ -192,7 +192,7 @@ impl Ideal {
             walker,
             targets,
             ground_m: |_, _| 0.0,
-            ground_beyond: None,
+            ground_beyond: Vec::new(),
             time_ns: 0,
         }
     }
@@ -203,11 +203,14 @@ impl Ideal {
         let mut loads = self.walker.balance().2.share.map(|share| share * weight);
         if let Some(stance) = self.walker.support() {
             let sole = self.sole_beside(stance);
-            let ground_m = match self.ground_beyond {
-                Some((from_m, height_m)) if sole.x > from_m => height_m,
-                Some(_) => 0.0,
-                None => (self.ground_m)(sole.x, sole.y),
-            };
+            let beyond = self
+                .ground_beyond
+                .iter()
+                .rfind(|(from_m, _)| sole.x > *from_m);
+            let ground_m = beyond.map_or_else(
+                || (self.ground_m)(sole.x, sole.y),
+                |(_, height_m)| *height_m,
+            );
             if sole.z < ground_m + 1e-4 {
                 loads[stance.other().index()] = 10.0;
             }

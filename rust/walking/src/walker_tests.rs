@@ -174,13 +174,13 @@ fn listed_footsteps_are_taken_and_then_it_stands() {
         ..Command::default()
     };
     let mut world = Ideal::new();
-    for _ in 0..600 {
+    for _ in 0..400 {
         world.tick(&command);
     }
     assert!(world.walker.standing());
     assert_eq!(world.walker.steps_taken(), 2);
     for (foot, step) in world.walker.gait.feet.iter().zip(&steps) {
-        assert!(foot.planar.distance_m(&step.pose) < 0.002);
+        assert!(foot.planar.distance_m(&step.pose) < 1e-9);
     }
 }
 
