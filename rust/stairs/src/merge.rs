@@ -163,6 +163,31 @@ mod tests {
             }
         }
 
+        /// S-M5.
+        #[test]
+        fn margins_are_never_negative_and_with_the_edges_cover_all_that_was_seen(mut treads in treads()) {
+            let before = treads.clone();
+            merge_all(&mut treads, SIMILAR_M);
+            for tread in &treads {
+                let stair = tread.stair().unwrap();
+                prop_assert!(stair.left_margin_m >= 0.0 && stair.right_margin_m >= 0.0);
+                let along = (stair.front.left.inner - stair.front.right.inner).normalize();
+                let span = |edge: &Edge<Map>| [edge.right, edge.left].map(|end| along.dot(&end.inner.coords));
+                let ([right, left], [right_too, left_too]) = (span(&stair.front), span(&stair.back));
+                let covers = [
+                    right.min(right_too) - stair.right_margin_m - 1e-9,
+                    left.max(left_too) + stair.left_margin_m + 1e-9,
+                ];
+                // Those that lie within it became part of it.
+                for old in before.iter().filter(|old| shared(old, tread) > 0.999) {
+                    let old = old.stair().unwrap();
+                    let level = (old.height_m() - tread.height_m()).abs() < 1e-6;
+                    let [low, high] = span(&old.front);
+                    prop_assert!(!level || covers[0] <= low && high <= covers[1]);
+                }
+            }
+        }
+
         #[test]
         fn overlap_is_symmetric(a in treads(), b in treads()) {
             for (a, b) in a.iter().zip(&b) {
