@@ -4,42 +4,60 @@
 //! with the head, part does not. So the correction has two halves, and a linear filter shares every measurement between
 //! them:
 //!
-//! `robot_from_camera = turn(body half) * robot_from_camera by the joints * turn(head half)`, then shifted in height.
+//! `robot_from_camera = turn(body half) * robot_from_camera by the joints * turn(head half)`, then shifted.
 //!
 //! The body half turns about the robot's x and y. The head half turns about the camera's x (pitch, as the neck's tilt
 //! joint does at any pan and tilt) and z (roll). Turns about the vertical leave the ground as it is and stay unknown.
+//!
+//! The camera's place is wrong in halves, too: the trunk's turn carries it along, and it sits elsewhere in the head. What
+//! lies ahead or above in the head turns into height as the head tilts, and so the ground tells it, and with it how far
+//! ahead the camera really is: by that much every edge would be seen too near or too far. What is to the side stays unknown.
 
 use geometry::{Camera, Pose, Robot};
 use nalgebra::{
-    Isometry3, Matrix2, Matrix2x4, Matrix4, Rotation3, Translation3, UnitQuaternion, Vector2,
-    Vector3, Vector4,
+    Isometry3, Matrix3, Rotation3, RowSVector, SMatrix, SVector, Translation3, UnitQuaternion,
+    Vector2, Vector3,
 };
 
-/// What is believed of each half before anything was seen: sigma, rad. The neck's joint errs more than the trunk's.
-const BODY_HALF_RAD: f64 = 0.035;
+/// What is believed of each half before anything was seen: sigma, rad. The neck's joint errs more than the trunk's, and
+/// nothing but the legs' encoders lets the trunk roll.
+const BODY_ROLL_RAD: f64 = 0.015;
+const BODY_PITCH_RAD: f64 = 0.025;
 const HEAD_HALF_RAD: f64 = 0.09;
-/// What is believed of the height before anything was seen: sigma, m.
+/// The same of the height, and of the camera's place in the head, m.
 const HEIGHT_M: f64 = 0.008;
+const PLACE_M: f64 = 0.005;
+/// The trunk turns about a place this share of the camera's height below it.
+const TRUNK: f64 = 0.45;
 /// How far the halves may wander from frame to frame: sigma, rad, and of the height, m.
 const WANDER_RAD: f64 = 0.0003;
-const WANDER_M: f64 = 0.0005;
-/// How far one frame's attitude is off the filtered one while walking: sigma, rad, and of the height, m.
+const WANDER_M: f64 = 0.0002;
+/// How far one frame's attitude is off the filtered one while walking: sigma, rad, and of the floor's height in the middle
+/// of the picture, m.
 const SWAY_RAD: f64 = 0.01;
 const SWAY_M: f64 = 0.003;
+/// Farthest that the middle of the picture counts as floor, m.
+const FARTHEST_M: f64 = 0.6;
 /// Frames with ground after which a track is settled. Before that the ground is searched as widely as at first, for the
 /// attitude settles in these frames, too, and a first find may be a bad one.
 const SETTLED: u32 = 8;
 /// Frames without ground after which a track that has not settled is given up.
 const YOUNG_MISSES: u32 = 3;
 
+/// Body half about x, y, head half about the camera's x, z, rad; height; ahead and above in the camera's axes, m.
+const STATES: usize = 7;
+const HEIGHT: usize = 4;
+const AHEAD: usize = 5;
+const ABOVE: usize = 6;
+type State = SVector<f64, STATES>;
+
 /// The filtered correction.
 #[derive(Debug, Clone)]
 pub(super) struct Correction {
-    // Body half about x, y; head half about the camera's x, z; rad.
-    halves: Vector4<f64>,
-    covariance: Matrix4<f64>,
-    height_m: f64,
-    height_variance: f64,
+    state: State,
+    covariance: SMatrix<f64, STATES, STATES>,
+    // What the last prediction added to the camera's height, m.
+    raised_m: f64,
     // Frames without any evidence, and frames without evidence of the height.
     missed: Option<u32>,
     missed_height: u32,
@@ -49,12 +67,19 @@ pub(super) struct Correction {
 impl Correction {
     /// Nothing known.
     pub(super) fn new() -> Self {
-        let (body, head) = (BODY_HALF_RAD.powi(2), HEAD_HALF_RAD.powi(2));
+        let sigmas = State::from([
+            BODY_ROLL_RAD,
+            BODY_PITCH_RAD,
+            HEAD_HALF_RAD,
+            HEAD_HALF_RAD,
+            HEIGHT_M,
+            PLACE_M,
+            PLACE_M,
+        ]);
         Self {
-            halves: Vector4::zeros(),
-            covariance: Matrix4::from_diagonal(&Vector4::new(body, body, head, head)),
-            height_m: 0.0,
-            height_variance: HEIGHT_M.powi(2),
+            state: State::zeros(),
+            covariance: SMatrix::from_diagonal(&sigmas.component_mul(&sigmas)),
+            raised_m: 0.0,
             missed: None,
             missed_height: 0,
             found: 0,
@@ -73,22 +98,26 @@ impl Correction {
             && self.missed_height <= height_frames
     }
 
-    /// The height correction, m.
+    /// What the last prediction added to the camera's height, m.
     pub(super) const fn height_m(&self) -> f64 {
-        self.height_m
+        self.raised_m
     }
 
     /// The camera's pose by the joints with what is known put right.
-    pub(super) fn predict(&self, by_joints: &Pose<Robot, Camera>) -> Pose<Robot, Camera> {
-        let body = Rotation3::new(Vector3::new(self.halves.x, self.halves.y, 0.0));
-        let head = Rotation3::new(Vector3::new(self.halves.z, 0.0, self.halves.w));
-        let rotation = UnitQuaternion::from_rotation_matrix(&body)
+    pub(super) fn predict(&mut self, by_joints: &Pose<Robot, Camera>) -> Pose<Robot, Camera> {
+        let turn = Vector3::new(self.state[0], self.state[1], 0.0);
+        let head = Rotation3::new(Vector3::new(self.state[2], 0.0, self.state[3]));
+        let rotation = UnitQuaternion::from_scaled_axis(turn)
             * by_joints.inner.rotation
             * UnitQuaternion::from_rotation_matrix(&head);
-        let mut position = by_joints.inner.translation.vector;
-        position.z += self.height_m;
+        let by_joints_m = by_joints.inner.translation.vector;
+        let on_the_trunk = Vector3::z() * (TRUNK * by_joints_m.z);
+        let in_the_head = Vector3::new(0.0, -self.state[ABOVE], self.state[AHEAD]);
+        let shift_m =
+            turn.cross(&on_the_trunk) + rotation * in_the_head + Vector3::z() * self.state[HEIGHT];
+        self.raised_m = shift_m.z;
         Pose::wrap(Isometry3::from_parts(
-            Translation3::from(position),
+            Translation3::from(by_joints_m + shift_m),
             rotation,
         ))
     }
@@ -101,11 +130,29 @@ impl Correction {
         turn_rad: &Vector2<f64>,
         rise_m: f64,
     ) {
-        self.turned(predicted, turn_rad);
-        self.height_variance += WANDER_M.powi(2);
-        let gain = self.height_variance / (self.height_variance + SWAY_M.powi(2));
-        self.height_m += gain * rise_m;
-        self.height_variance *= 1.0 - gain;
+        self.wander();
+        let axes = predicted.inner.rotation.to_rotation_matrix();
+        let (pitch, roll) = (axes * Vector3::x(), axes * Vector3::z());
+        let about_x = RowSVector::from([1.0, 0.0, pitch.x, roll.x, 0.0, 0.0, 0.0]);
+        let about_y = RowSVector::from([0.0, 1.0, pitch.y, roll.y, 0.0, 0.0, 0.0]);
+        let above = -axes[(2, 1)];
+        let rises = RowSVector::from([0.0, 0.0, 0.0, 0.0, 1.0, axes[(2, 2)], above]);
+        // Tilt and height of one frame err together, so that the floor in the picture is right: its height is measured.
+        let away_m = middle_of_picture_m(&predicted.inner.translation.vector, &roll);
+        let floor_rises = rises + about_x * away_m.y - about_y * away_m.x;
+        let floor_rise_m = rise_m + turn_rad.x * away_m.y - turn_rad.y * away_m.x;
+
+        let measures = SMatrix::<f64, 3, STATES>::from_rows(&[about_x, about_y, floor_rises]);
+        let measured = Vector3::new(turn_rad.x, turn_rad.y, floor_rise_m);
+        let noise = Vector3::new(SWAY_RAD.powi(2), SWAY_RAD.powi(2), SWAY_M.powi(2));
+        let innovation =
+            measures * self.covariance * measures.transpose() + Matrix3::from_diagonal(&noise);
+        if let Some(inverse) = innovation.try_inverse() {
+            let gain = self.covariance * measures.transpose() * inverse;
+            self.state += gain * measured;
+            self.covariance -= gain * measures * self.covariance;
+            self.covariance = (self.covariance + self.covariance.transpose()) / 2.0;
+        }
         self.missed = Some(0);
         self.missed_height = 0;
         self.found = self.found.saturating_add(1);
@@ -114,31 +161,15 @@ impl Correction {
     /// Takes in that surfaces were level as predicted, but of unknown height. Their tilt is not learned: low steps that
     /// are taken for one surface would turn the track into the slope of the stairs little by little.
     pub(super) fn confirmed(&mut self) {
-        self.height_variance += WANDER_M.powi(2);
+        self.covariance[(HEIGHT, HEIGHT)] += WANDER_M.powi(2);
         self.missed = Some(0);
         self.missed_height = self.missed_height.saturating_add(1);
-    }
-
-    fn turned(&mut self, predicted: &Pose<Robot, Camera>, turn_rad: &Vector2<f64>) {
-        let axes = predicted.inner.rotation.to_rotation_matrix();
-        let (pitch, roll) = (axes * Vector3::x(), axes * Vector3::z());
-        let measures = Matrix2x4::new(1.0, 0.0, pitch.x, roll.x, 0.0, 1.0, pitch.y, roll.y);
-        self.covariance += Matrix4::identity() * WANDER_RAD.powi(2);
-        let innovation = measures * self.covariance * measures.transpose()
-            + Matrix2::identity() * SWAY_RAD.powi(2);
-        if let Some(inverse) = innovation.try_inverse() {
-            let gain = self.covariance * measures.transpose() * inverse;
-            self.halves += gain * turn_rad;
-            self.covariance -= gain * measures * self.covariance;
-            self.covariance = (self.covariance + self.covariance.transpose()) / 2.0;
-        }
     }
 
     /// Takes in that a frame showed nothing level; after `forget_frames` of them (a few for a young track) it is searched anew,
     /// from nothing.
     pub(super) fn missed_one(&mut self, forget_frames: u32) {
-        self.covariance += Matrix4::identity() * WANDER_RAD.powi(2);
-        self.height_variance += WANDER_M.powi(2);
+        self.wander();
         self.missed_height = self.missed_height.saturating_add(1);
         let patience = if self.is_settled() {
             forget_frames
@@ -151,6 +182,21 @@ impl Correction {
             None => {}
         }
     }
+
+    /// A frame later what is known is a little less sure.
+    fn wander(&mut self) {
+        for angle in 0..HEIGHT {
+            self.covariance[(angle, angle)] += WANDER_RAD.powi(2);
+        }
+        self.covariance[(HEIGHT, HEIGHT)] += WANDER_M.powi(2);
+    }
+}
+
+/// Where the camera's axis meets the floor, from below the camera, m.
+fn middle_of_picture_m(camera_m: &Vector3<f64>, axis: &Vector3<f64>) -> Vector2<f64> {
+    let level = axis.xy();
+    let away_m = (camera_m.z * level.norm() / (-axis.z).max(1e-3)).min(FARTHEST_M);
+    level.try_normalize(1e-6).unwrap_or_default() * away_m
 }
 
 #[cfg(test)]

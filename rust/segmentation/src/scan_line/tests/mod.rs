@@ -1,5 +1,6 @@
 //! What the segmenter must do as a whole, on synthetic scenes.
 
+mod camera_place;
 mod ground;
 mod products;
 mod surfaces;

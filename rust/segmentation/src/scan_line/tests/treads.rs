@@ -109,13 +109,13 @@ proptest! {
         let steps = STAIRS[which];
         let mut noise = Noise::new(seed);
         let mut segmenter = tracking(&mut noise);
-        let held_m = segmenter.correction.height_m();
+        let held = segmenter.correction.predict(&camera_pose(0.0, 0.75));
         let told = Told { steps, off_m: if up { off_m } else { -off_m } };
         for _ in 0..3 {
             let (planes, _) = see(&mut segmenter, steps, 0.0, &told, &mut noise);
             prop_assert!(planes.reliable && planes.ground.is_none());
         }
-        prop_assert_eq!(segmenter.correction.height_m(), held_m);
+        prop_assert_eq!(segmenter.correction.predict(&camera_pose(0.0, 0.75)), held);
     }
 
     #[test]
@@ -142,7 +142,7 @@ fn on_unknown_treads_the_tracked_correction_is_held_and_the_ground_is_not_search
     for steps in &STAIRS[..2] {
         let mut noise = Noise::new(22);
         let mut segmenter = tracking(&mut noise);
-        let held_m = segmenter.correction.height_m();
+        let held = segmenter.correction.predict(&camera_pose(0.0, 0.75));
         let config = ScanLineConfig::default();
         for frame in 0..config.forget_frames + 10 {
             let (planes, truth) = see(&mut segmenter, *steps, 0.0, &NothingKnown, &mut noise);
@@ -153,7 +153,7 @@ fn on_unknown_treads_the_tracked_correction_is_held_and_the_ground_is_not_search
             );
             assert!(tilt < 0.03, "{steps:?} frame {frame}: {tilt}");
         }
-        assert_eq!(segmenter.correction.height_m(), held_m);
+        assert_eq!(segmenter.correction.predict(&camera_pose(0.0, 0.75)), held);
     }
 }
 
