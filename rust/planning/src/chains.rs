@@ -6,12 +6,14 @@ use stairs::{Footing, Onward, Stair};
 use crate::Step;
 use crate::faces::{After, GROUND_DEPTH_M};
 use crate::line::{Line, ground_behind};
-use crate::portals::{Entry, Landing, Portals, Scene, Stride, Way};
+use crate::portals::{Entry, Fit, Landing, Portals, Scene, Stride, Way};
 use crate::room::{SAME_M, clear, distance_m, range_m, run_to_cell, walk_m, width_m};
 use crate::route::{LEVEL_M, PULL};
 
 /// Heels come to stand this far beyond an edge where no limit says better, m.
 const HEEL_M: f64 = 0.015;
+/// The stair was looked at from where a way to it begins when the robot looked from this near to that, m.
+const LOOKED_M: f64 = 0.25;
 /// Nobody climbs more steps in one go.
 const MOST_STEPS: usize = 32;
 /// What lies behind the last stair is paid for with this, m, and by the height that is missing.
@@ -24,7 +26,7 @@ impl Portals {
         let first = self.strides.len();
         let (mut stair, mut face, mut offset_m) = (entry.stair, entry.face, entry.offset_m);
         let (mut level_m, mut at_m) = (entry.level_m, entry.enter_m);
-        let (mut fixed, mut fits, mut cost_m) = (entry.fixed, true, 0.0);
+        let (mut fixed, mut fit, mut cost_m) = (entry.fixed, Fit::Holds, 0.0);
         for _ in 0..MOST_STEPS {
             let line = Line::of(&stair.front);
             let crossing_m = line.at(offset_m, 0.0);
@@ -39,7 +41,8 @@ impl Portals {
             {
                 break;
             }
-            fits &= stride.limit.is_none();
+            let told = entry.level_seen || self.strides.len() > first;
+            fit = fit.max(fit_of(scene, entry, &stride, told));
             cost_m += walk_m(at_m, stride.from_m) + walk_m(stride.from_m, stride.to_m);
             cost_m += scene.config.climb_cost;
             at_m = stride.to_m;
@@ -49,7 +52,7 @@ impl Portals {
                 end: self.strides.len(),
                 enter_m: entry.enter_m,
                 leave_m: None,
-                fits,
+                fit,
                 at_goal: false,
             };
             self.end(scene, entry, way, &Landing { stair, face, after }, cost_m);
@@ -162,5 +165,29 @@ impl Portals {
         let cost = cost_m / scene.terrain.lattice.cell_m;
         let _ = self.links.add(from, to, cost);
         self.ways.push(way);
+    }
+}
+
+/// Whether a step can be taken; `level_known`: whether the level before it was seen. A limit is sure where the edge was
+/// measured, or looked at from near by.
+fn fit_of(scene: &Scene<'_>, entry: &Entry, stride: &Stride, level_known: bool) -> Fit {
+    if stride.limit.is_none() {
+        return Fit::Holds;
+    }
+    let measured = level_known && stride.step.stair.front_fit.is_some();
+    // From either side: its height is the same.
+    let Stair { front, back, .. } = &stride.step.stair;
+    let middles = [front.middle().inner, back.middle().inner].map(|middle| [middle.x, middle.y]);
+    let places = [stride.step.crossing_m, middles[0], middles[1]];
+    let nearest_m = places.map(|place_m| scene.terrain.judged.nearest_m(place_m));
+    let nearest_m = nearest_m.into_iter().fold(f64::INFINITY, f64::min);
+    let mut looked = scene.looked_m.iter();
+    if measured
+        || nearest_m <= scene.config.limit_range
+        || looked.any(|&from_m| distance_m(from_m, entry.enter_m) <= LOOKED_M)
+    {
+        Fit::Broken
+    } else {
+        Fit::Doubtful
     }
 }

@@ -43,6 +43,9 @@ pub struct AStarConfig {
     pub stride: f64,
     /// Higher levels than the robot's own are believed once it has been this near to them, m.
     pub judge_range: f64,
+    /// What a stair is like is a reason to refuse once its edge was measured, or the robot has been this near to it, m: from
+    /// further away steps run into each other.
+    pub limit_range: f64,
     /// Distance between the places where the crossing of a wide edge is considered, m.
     pub lane: f64,
 }
@@ -68,6 +71,7 @@ impl Default for AStarConfig {
             climb_cost: 0.4,
             stride: 0.15,
             judge_range: 0.8,
+            limit_range: 0.5,
             lane: 0.08,
         }
     }
@@ -94,6 +98,7 @@ impl AStarConfig {
             ("blind", self.blind),
             ("climb_cost", self.climb_cost),
             ("stride", self.stride),
+            ("limit_range", self.limit_range),
         ];
         for (key, value) in not_negative {
             let key = format!("navigation.a_star.{key}");

@@ -1,4 +1,4 @@
-//! Which cells the robot has been near to. From afar the steps of a staircase run into each other: what is seen there on a higher
+//! How near the robot has been to each cell. From afar the steps of a staircase run into each other: what is seen there on a higher
 //! level is not believed before it was seen from near by. Drops are believed from anywhere.
 
 use geometry::{Cell, Lattice};
@@ -10,55 +10,63 @@ use crate::treads::Treads;
 /// An obstacle that ends lower than this above the robot's feet may be a riser, m.
 const LOW_M: f64 = 0.15;
 
-/// The cells that were near. Goes with the window.
+/// How near the cells were. Goes with the window.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Judged {
     lattice: Option<Lattice>,
     cols: usize,
-    near: Vec<bool>,
-    before: Vec<bool>,
+    /// Least distance of each cell to the robot so far, m.
+    nearest_m: Vec<f32>,
+    before_m: Vec<f32>,
 }
 
 impl Judged {
     /// Takes in where the robot is; moves with the view's window.
-    pub(crate) fn look(&mut self, view: &FloorView, at_m: [f64; 2], range_m: f64) {
+    pub(crate) fn look(&mut self, view: &FloorView, at_m: [f64; 2]) {
         let (cols, rows) = (view.cells.cols(), view.cells.rows());
-        std::mem::swap(&mut self.near, &mut self.before);
-        self.near.clear();
-        self.near.resize(cols * rows, false);
+        std::mem::swap(&mut self.nearest_m, &mut self.before_m);
+        self.nearest_m.clear();
         for row in 0..rows {
             for col in 0..cols {
                 let cell = Cell::new(col as i32, row as i32);
                 let [x, y] = view.lattice.center_of(cell);
-                let near = (x - at_m[0]).hypot(y - at_m[1]) <= range_m;
-                self.near[row * cols + col] = near || self.was_near([x, y]);
+                let away_m = (x - at_m[0]).hypot(y - at_m[1]) as f32;
+                let before_m = self.read(&self.before_m, [x, y]);
+                self.nearest_m.push(away_m.min(before_m));
             }
         }
         self.lattice = Some(view.lattice);
         self.cols = cols;
     }
 
-    fn was_near(&self, [x, y]: [f64; 2]) -> bool {
+    /// How near the robot has been to a place, m; infinite where it was never looked at.
+    pub(crate) fn nearest_m(&self, place_m: [f64; 2]) -> f64 {
+        f64::from(self.read(&self.nearest_m, place_m))
+    }
+
+    fn read(&self, distances_m: &[f32], [x, y]: [f64; 2]) -> f32 {
         let Some(lattice) = self.lattice else {
-            return false;
+            return f32::INFINITY;
         };
         let cell = lattice.cell_at(x, y);
         let inside = cell.row >= 0 && cell.col >= 0 && (cell.col as usize) < self.cols;
         let index = || cell.row as usize * self.cols + cell.col as usize;
-        inside && self.before.get(index()).copied().unwrap_or(false)
+        let known_m = distances_m.get(if inside { index() } else { usize::MAX });
+        known_m.copied().unwrap_or(f32::INFINITY)
     }
 
-    /// Makes unknown what lies on a higher level and was not near yet, unless a recognised stair says what it is.
+    /// Makes unknown what lies on a higher level and was never as near as `range_m`, unless a recognised stair says what it
+    /// is.
     pub(crate) fn doubt(
         &self,
-        view: &FloorView,
-        treads: &Treads,
+        (view, treads): (&FloorView, &Treads),
+        range_m: f64,
         (stand, floor_m): (&Stand, f64),
         blocked: &mut [bool],
         unknown: &mut [bool],
     ) {
         for (index, surface) in view.cells.values().iter().enumerate() {
-            if self.near[index] || treads.covers(index) {
+            if f64::from(self.nearest_m[index]) <= range_m || treads.covers(index) {
                 continue;
             }
             let doubtful = match *surface {
@@ -95,7 +103,7 @@ mod tests {
     fn is_doubted(surface: Surface, places: &[f64], x_m: f64) -> bool {
         let mut judged = Judged::default();
         for &place in places {
-            judged.look(&view(place - 2.0, surface), [place, 0.0], 0.8);
+            judged.look(&view(place - 2.0, surface), [place, 0.0]);
         }
         let view = view(places[places.len() - 1] - 2.0, surface);
         let mut treads = Treads::default();
@@ -106,7 +114,8 @@ mod tests {
             height_m: 0.0,
             heading_rad: 0.0,
         };
-        judged.doubt(&view, &treads, (&stand, 0.01), &mut blocked, &mut unknown);
+        let seen = (&view, &treads);
+        judged.doubt(seen, 0.8, (&stand, 0.01), &mut blocked, &mut unknown);
         let cell = view.lattice.cell_at(x_m, 0.05);
         let index = cell.row as usize * 40 + cell.col as usize;
         assert_eq!(blocked[index], !unknown[index]);

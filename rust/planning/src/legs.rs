@@ -1,6 +1,6 @@
 //! From a route to a path: legs that are walked and legs that are climbed.
 
-use crate::portals::{Portals, Stride, Way};
+use crate::portals::{Fit, Portals, Stride, Way};
 use crate::search::Route;
 use crate::shortcut::{lay, walk};
 use crate::terrain::Terrain;
@@ -19,11 +19,12 @@ pub(crate) struct Draft {
 }
 
 impl Draft {
-    /// The path of a route from `start_m` that ends at `end_m`, where it ends in a cell.
+    /// The path of a route over ways up to `worst`, from `start_m`, that ends at `end_m` where it ends in a cell. It ends
+    /// where a way begins that is in doubt.
     pub(crate) fn of(
         terrain: &Terrain,
         portals: &Portals,
-        route: &Route,
+        (route, worst): (&Route, Fit),
         start_m: [f64; 2],
         end_m: impl Fn(usize) -> [f64; 2],
     ) -> Self {
@@ -33,10 +34,13 @@ impl Draft {
         };
         let mut first = 0;
         for (i, pair) in route.cells.windows(2).enumerate() {
-            let Some(way) = link_between(terrain, portals, pair[0], pair[1], false) else {
+            let Some(way) = link_between(terrain, portals, pair[0], pair[1], worst) else {
                 continue;
             };
             draft.walk(terrain, &route.cells[first..=i], way.enter_m);
+            if way.fit != Fit::Holds {
+                return draft;
+            }
             draft.climb(terrain, portals.strides(way), way);
             first = i + 1;
         }
@@ -133,14 +137,14 @@ impl Draft {
     }
 }
 
-/// The link that leads from one node of a route to the next, if they are not neighbouring cells: the cheapest, of those
-/// within the limits unless these are `lifted`.
+/// The link that leads from one node of a route to the next, if they are not neighbouring cells: the cheapest of those that
+/// fit as well as `worst`.
 pub(crate) fn link_between<'a>(
     terrain: &Terrain,
     portals: &'a Portals,
     from: u32,
     to: u32,
-    lifted: bool,
+    worst: Fit,
 ) -> Option<&'a Way> {
     let cols = terrain.cols;
     let place = |cell: u32| (cell as usize % cols, cell as usize / cols);
@@ -150,8 +154,7 @@ pub(crate) fn link_between<'a>(
         return None;
     }
     let links = portals.links.from(from as usize);
-    let joining =
-        links.filter(|&(index, link)| link.to == to && (lifted || portals.way(index).fits));
+    let joining = links.filter(|&(index, link)| link.to == to && portals.way(index).fit <= worst);
     let best = joining.min_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
     best.map(|(index, _)| portals.way(index))
 }

@@ -171,37 +171,4 @@ impl Levels {
                 .count()
                 >= LOWER_CELLS
     }
-
-    /// Around a level that lies higher than others, what was not seen is no ground: the cells `free` are the robot's own.
-    pub(crate) fn mark_verge(
-        &mut self,
-        unknown: &[bool],
-        cols: usize,
-        stand: &Stand,
-        max_step: f64,
-        free: impl Fn(usize) -> bool,
-    ) {
-        let level = |height: f32| (f64::from(height) - stand.height_m).abs() <= 2.0 * max_step;
-        for (index, &unknown) in unknown.iter().enumerate() {
-            if unknown && self.height_m[index].is_nan() && !self.edge[index] && free(index) {
-                self.height_m[index] = stand.height_m as f32;
-            }
-        }
-        for index in 0..unknown.len() {
-            if !level(self.height_m[index]) {
-                continue;
-            }
-            let (col, row) = (index % cols, index / cols);
-            for r in row.saturating_sub(1)..(row + 2).min(unknown.len() / cols) {
-                for c in col.saturating_sub(1)..(col + 2).min(cols) {
-                    let next = r * cols + c;
-                    if unknown[next] && self.height_m[next].is_nan() {
-                        self.edge[next] = true;
-                        self.open[next] = true;
-                        self.any = true;
-                    }
-                }
-            }
-        }
-    }
 }

@@ -2,9 +2,11 @@
 
 mod a_star;
 mod chains;
+mod choice;
 mod config;
 pub mod distance;
 mod faces;
+mod find;
 mod judged;
 mod keep;
 mod legs;
@@ -22,6 +24,7 @@ mod shortcut;
 mod specks;
 mod terrain;
 mod treads;
+mod verge;
 
 pub use a_star::AStar;
 pub use config::AStarConfig;

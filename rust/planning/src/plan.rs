@@ -74,8 +74,6 @@ pub enum Refusal {
     TooNarrow,
     /// Steps lead there, but one is too high.
     StepTooHigh,
-    /// Steps lead there, but one is too low to be a step and too high to be floor.
-    StepTooLow,
     /// Steps lead there, but one is too short for a sole.
     TreadTooShort,
     /// The ground between a way down and a way up is too short for a sole.
@@ -93,7 +91,6 @@ impl Refusal {
             Self::Blocked => "blocked",
             Self::TooNarrow => "too_narrow",
             Self::StepTooHigh => "step_too_high",
-            Self::StepTooLow => "step_too_low",
             Self::TreadTooShort => "tread_too_short",
             Self::GapTooShort => "gap_too_short",
             Self::Drop => "drop",

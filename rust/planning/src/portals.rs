@@ -29,6 +29,8 @@ pub(crate) struct Scene<'a> {
     pub(crate) config: &'a AStarConfig,
     pub(crate) stand: Stand,
     pub(crate) goal: Goal,
+    /// Places from which the robot has looked on purpose, m.
+    pub(crate) looked_m: &'a [[f64; 2]],
 }
 
 /// One step of a way, with where the robot stands before and after it, m.
@@ -41,6 +43,17 @@ pub(crate) struct Stride {
     pub(crate) limit: Option<Unfit>,
 }
 
+/// Whether a way can be taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Fit {
+    /// Every step of it is within the limits.
+    Holds,
+    /// One is not, as far as can be told from afar.
+    Doubtful,
+    /// One is not.
+    Broken,
+}
+
 /// A link over stairs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Way {
@@ -50,8 +63,7 @@ pub(crate) struct Way {
     pub(crate) enter_m: [f64; 2],
     /// Where it ends, in its last cell, m; `None` where it ends on the last stair.
     pub(crate) leave_m: Option<[f64; 2]>,
-    /// Whether every step of it is within the limits.
-    pub(crate) fits: bool,
+    pub(crate) fit: Fit,
     /// Whether it ends at the goal; otherwise what comes behind its last stair is not known.
     pub(crate) at_goal: bool,
 }
@@ -69,8 +81,10 @@ pub(crate) struct Portals {
 pub(crate) struct Entry {
     pub(crate) stair: Stair<Map>,
     pub(crate) face: Option<usize>,
-    /// Height of the ground before it, m.
+    /// Height of the ground before it, m,
     pub(crate) level_m: f64,
+    /// and whether that was seen there: else it is taken to be the robot's own.
+    pub(crate) level_seen: bool,
     pub(crate) offset_m: f64,
     pub(crate) cell: usize,
     pub(crate) enter_m: [f64; 2],
@@ -119,8 +133,7 @@ impl Portals {
         let range_m = range_m(scene, &face.front);
         for offset_m in lanes(range_m, scene.config.lane) {
             let before = level_before(scene.terrain, &face.front, offset_m);
-            let level_m = before.unwrap_or(scene.stand.height_m);
-            self.enter(scene, face.stair, Some(index), level_m, offset_m);
+            self.enter(scene, face.stair, Some(index), before, offset_m);
         }
         self.enter_from_start(scene, face.stair, Some(index));
     }
@@ -149,7 +162,8 @@ impl Portals {
         };
         for offset_m in lanes(range_m, scene.config.lane) {
             if let Some(ground) = ground_at(&self.faces, offset_m) {
-                self.enter(scene, ground, None, face.stair.height_m(), offset_m);
+                let level_m = Some(face.stair.height_m());
+                self.enter(scene, ground, None, level_m, offset_m);
             }
         }
         let offset_m = face.back.offset_m(scene.stand.at_m);
@@ -164,9 +178,10 @@ impl Portals {
         scene: &Scene<'_>,
         stair: Stair<Map>,
         face: Option<usize>,
-        level_m: f64,
+        before: Option<f64>,
         offset_m: f64,
     ) {
+        let level_m = before.unwrap_or(scene.stand.height_m);
         let rise_m = stair.height_m() - level_m;
         if !differs(scene.climbing, rise_m) {
             return;
@@ -182,6 +197,7 @@ impl Portals {
                 stair,
                 face,
                 level_m,
+                level_seen: before.is_some(),
                 offset_m,
                 cell,
                 enter_m,
@@ -229,6 +245,7 @@ impl Portals {
             stair,
             face,
             level_m: stand.height_m,
+            level_seen: true,
             offset_m: offset_m.clamp(-range_m, range_m),
             cell,
             enter_m: stand.at_m,

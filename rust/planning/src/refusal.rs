@@ -6,7 +6,7 @@ use std::collections::BinaryHeap;
 use stairs::{ClimbingConfig, Unfit};
 
 use crate::legs::link_between;
-use crate::portals::Portals;
+use crate::portals::{Fit, Portals};
 use crate::route::Ends;
 use crate::search::{Route, Search, for_each_neighbour};
 use crate::terrain::Terrain;
@@ -18,18 +18,20 @@ const CRACK_M: f64 = 0.1;
 /// A way down of more than this is a drop, no step, m.
 const DROP_M: f64 = 0.1;
 
-/// The first limit that a route breaks which was found as if there were none.
+/// The first limit that a route breaks which was found as if there were none, and how many steps come before.
 pub(crate) fn first_limit(
     terrain: &Terrain,
     portals: &Portals,
     climbing: &ClimbingConfig,
     route: &Route,
-) -> Option<NoWay> {
+) -> Option<(NoWay, usize)> {
     let pairs = route.cells.windows(2);
-    let ways = pairs.filter_map(|pair| link_between(terrain, portals, pair[0], pair[1], true));
-    let mut strides = ways.flat_map(|way| portals.strides(way));
-    let limit = strides.find_map(|stride| stride.limit)?;
-    Some(unfit(climbing, limit))
+    let ways =
+        pairs.filter_map(|pair| link_between(terrain, portals, pair[0], pair[1], Fit::Broken));
+    let strides = ways.flat_map(|way| portals.strides(way)).enumerate();
+    let mut limits = strides.filter_map(|(before, stride)| Some((stride.limit?, before)));
+    let (limit, before) = limits.next()?;
+    Some((unfit(climbing, limit), before))
 }
 
 /// The word and sentence for a step that is not taken.
@@ -60,11 +62,8 @@ fn unfit(climbing: &ClimbingConfig, limit: Unfit) -> NoWay {
             (Refusal::StepTooHigh, sentence)
         }
         Unfit::TooLow(rise_m) => (
-            Refusal::StepTooLow,
-            format!(
-                "the step is {} mm high, too much for floor and too little for a step",
-                mm(rise_m)
-            ),
+            Refusal::NoPath,
+            format!("what is {} mm high is floor and no step", mm(rise_m)),
         ),
         Unfit::TreadTooShort(depth_m, needed_m) => (
             Refusal::TreadTooShort,
@@ -105,8 +104,8 @@ pub(crate) fn explain(
     let needed_m = terrain.needs.body_m;
     let widest = widest_way(terrain, ends, start);
     let gap_m = 2.0 * widest.clearance_m;
-    if gap_m >= CRACK_M {
-        let needed = 2.0 * needed_m;
+    let needed = 2.0 * needed_m;
+    if gap_m >= CRACK_M && gap_m < needed {
         return NoWay {
             refusal: Refusal::TooNarrow,
             sentence: format!("the widest gap is {gap_m:.2} m, {needed:.2} m are needed"),

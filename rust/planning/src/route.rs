@@ -3,7 +3,7 @@
 use crate::Goal;
 use crate::keep::End;
 use crate::legs::link_between;
-use crate::portals::Portals;
+use crate::portals::{Fit, Portals};
 use crate::search::{Graph, Route, Search, octile};
 use crate::terrain::Terrain;
 
@@ -115,14 +115,14 @@ impl<'a> Ends<'a> {
     }
 }
 
-/// The cheapest route to the goal; `lifted`: as if there were no limits to what is climbed.
+/// The cheapest route to the goal over ways that fit as well as `worst`.
 pub(crate) fn run(
     search: &mut Search,
     terrain: &Terrain,
     portals: &Portals,
     ends: &Ends<'_>,
     start: usize,
-    lifted: bool,
+    worst: Fit,
 ) -> Option<Route> {
     let graph = Graph {
         weights: &terrain.weights,
@@ -131,7 +131,7 @@ pub(crate) fn run(
     };
     search.run_linked(
         graph,
-        |link| lifted || portals.way(link).fits,
+        |link| portals.way(link).fit <= worst,
         start,
         |cell| ends.cost(cell),
         |cell| ends.remaining(cell),
@@ -141,7 +141,7 @@ pub(crate) fn run(
 /// Where a route ends.
 pub(crate) fn end_of(route: &Route, terrain: &Terrain, portals: &Portals, ends: &Ends<'_>) -> End {
     let last_way = match route.cells[..] {
-        [.., from, to] => link_between(terrain, portals, from, to, false),
+        [.., from, to] => link_between(terrain, portals, from, to, Fit::Holds),
         _ => None,
     };
     let climbed = last_way.filter(|way| way.leave_m.is_none());

@@ -1,7 +1,7 @@
 //! Where to go and look when no known way leads to the goal: unseen ground, edges of levels that nothing is known to join.
 
 use crate::Goal;
-use crate::portals::Portals;
+use crate::portals::{Fit, Portals};
 use crate::route::Ends;
 use crate::search::{Graph, Route, Search};
 use crate::terrain::Terrain;
@@ -54,6 +54,11 @@ impl Seek {
         }
     }
 
+    /// The places that were looked from, m.
+    pub(crate) fn looked_m(&self) -> &[[f64; 2]] {
+        &self.looked_m
+    }
+
     /// The way to the best place to look from.
     pub(crate) fn route(
         &mut self,
@@ -70,7 +75,10 @@ impl Seek {
             links: Some(&portals.links),
         };
         // What ends a climb with nothing known behind it was no way to the goal: it has no place here.
-        let open = |link: usize| portals.way(link).fits && portals.way(link).leave_m.is_some();
+        let open = |link: usize| {
+            let way = portals.way(link);
+            way.fit == Fit::Holds && way.leave_m.is_some()
+        };
         let ending = |cell: usize| self.cost(ends, cell);
         search.run_linked(graph, open, start, ending, |cell| ends.remaining(cell))
     }

@@ -10,6 +10,7 @@ use crate::judged::Judged;
 use crate::levels::{Levels, Limits, Stand};
 use crate::specks::Specks;
 use crate::treads::Treads;
+use crate::verge::{Seen, Verge};
 
 /// Room that the robot needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +40,8 @@ pub(crate) struct Terrain {
     pub(crate) clearance_at_start_m: f64,
     edge_distance: DistanceField,
     treads: Treads,
-    judged: Judged,
+    pub(crate) judged: Judged,
+    verge: Verge,
     /// What a length costs in a cell: 1 on open known floor, infinite where the robot may not be.
     pub(crate) weights: Vec<f32>,
     specks: Specks,
@@ -67,6 +69,7 @@ impl Terrain {
             edge_distance: DistanceField::default(),
             treads: Treads::default(),
             judged: Judged::default(),
+            verge: Verge::default(),
             weights: Vec::new(),
             specks: Specks::default(),
             by_squared: Vec::new(),
@@ -89,9 +92,10 @@ impl Terrain {
         let (blocked, unknown) = (&mut self.blocked, &mut self.unknown);
         self.treads.read_surfaces(view, blocked, unknown);
         let floor_m = self.needs.limits.floor_m;
-        self.judged.look(view, stand.at_m, config.judge_range);
+        self.judged.look(view, stand.at_m);
+        let (seen, range_m) = ((view, &self.treads), config.judge_range);
         self.judged
-            .doubt(view, &self.treads, (stand, floor_m), blocked, unknown);
+            .doubt(seen, range_m, (stand, floor_m), blocked, unknown);
         self.specks
             .clear(blocked, unknown, self.cols, config.speck_cells);
         let limits = &self.needs.limits;
@@ -100,7 +104,17 @@ impl Terrain {
         let heights = stairs.stairs.iter().map(stairs::Stair::height_m);
         let lowest_m = heights.chain(goal_m).fold(f64::INFINITY, f64::min);
         if self.levels.raised(stand, lowest_m, config) {
-            self.bound(stand, config);
+            let on_tread = self
+                .index_at(stand.at_m)
+                .is_some_and(|start| self.treads.covers(start));
+            let blind_m = if on_tread { 0.0 } else { config.blind };
+            let seen = Seen {
+                view,
+                blocked: &self.blocked,
+                unknown: &self.unknown,
+            };
+            self.verge
+                .mark(&mut self.levels, &seen, stand, config.max_step, blind_m);
         }
         self.block_tall(stand);
         self.distance.compute(&self.blocked, self.cols);
@@ -108,22 +122,6 @@ impl Terrain {
             self.edge_distance.compute(&self.levels.edge, self.cols);
         }
         self.weigh(stand.at_m, config);
-    }
-
-    /// On a raised level, unseen ground ends it, but for what the robot cannot see around its own feet.
-    fn bound(&mut self, stand: &Stand, config: &AStarConfig) {
-        let (lattice, cols, at_m) = (self.lattice, self.cols, stand.at_m);
-        let on_tread = self
-            .index_at(at_m)
-            .is_some_and(|start| self.treads.covers(start));
-        let blind_m = if on_tread { 0.0 } else { config.blind };
-        let free = |index: usize| {
-            let cell = Cell::new((index % cols) as i32, (index / cols) as i32);
-            let [x, y] = lattice.center_of(cell);
-            (x - at_m[0]).hypot(y - at_m[1]) <= blind_m
-        };
-        self.levels
-            .mark_verge(&self.unknown, cols, stand, config.max_step, free);
     }
 
     /// What ends higher above the robot's feet than a step is an obstacle to its body, flat as its top may be.

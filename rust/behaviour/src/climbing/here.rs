@@ -34,7 +34,6 @@ impl Here<'_> {
         matches!(way, Some(Err(no_way)) if matches!(
             no_way.refusal,
             Refusal::StepTooHigh
-                | Refusal::StepTooLow
                 | Refusal::TreadTooShort
                 | Refusal::GapTooShort
                 | Refusal::Drop

@@ -116,6 +116,29 @@ fn steps_of_55_and_65_mm_are_refused_with_figures_and_avoided_where_one_can() {
 }
 
 #[test]
+fn a_limit_that_was_seen_from_afar_is_looked_at_from_near_before_it_is_a_reason() {
+    let mut course = Course::staircase(2, 0.091, 0.33);
+    for stair in &mut course.stairs.stairs {
+        (stair.front_fit, stair.back_fit) = (None, None);
+    }
+    let to = goal_at(1.2, 0.0, 0.182);
+    let (mut planner, mut at) = (planner(), [0.0, 0.0, 0.0]);
+    let path = plan(&mut planner, &course, at, 0.0, &to).way.unwrap();
+    assert!(path.climbs.is_empty());
+    let end = path.points_m.last().unwrap();
+    assert!((0.55..0.95).contains(&end[0]), "{end:?}");
+    let no_way = loop {
+        at[0] += 0.02;
+        assert!(at[0] < end[0] + 0.02, "it never makes up its mind");
+        if let Err(no_way) = plan(&mut planner, &course, at, 0.0, &to).way {
+            break no_way;
+        }
+    };
+    assert!(at[0] > 0.45, "{at:?}");
+    assert_eq!(no_way.refusal, Refusal::StepTooHigh);
+}
+
+#[test]
 fn a_basin_is_entered_from_125_mm_on_and_refused_below() {
     for (depth_m, fits) in [
         (0.08, false),

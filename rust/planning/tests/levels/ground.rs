@@ -44,7 +44,13 @@ fn blocks(boxes: &[Block]) -> Course {
         let &(x, y, size, height_m, seen) = block;
         let seen = seen && !boxes[i + 1..].iter().any(|later| overlap(block, later));
         let nearest = |low: f64| 0.0_f64.clamp(low, low + size);
-        if nearest(x).hypot(nearest(y)) < 0.3 {
+        // Nothing lies on a stair that is seen: the view and the stairs tell the same.
+        let covers = |stair: &stairs::Stair<geometry::Map>| {
+            let (low, high) = (stair.front.right.inner, stair.back.left.inner);
+            x < high.x && x + size > low.x && y < high.y && y + size > low.y
+        };
+        let covered = course.stairs.stairs.iter().any(covers);
+        if covered || nearest(x).hypot(nearest(y)) < 0.3 {
             continue;
         }
         let height = Surface::Floor(height_m as f32);
@@ -134,6 +140,32 @@ fn on_a_platform_unseen_ground_is_no_ground() {
     let first = path.climbs.first().map(|climb| climb.from_point).unwrap();
     for [x, y] in &path.points_m[..first] {
         assert!(y.abs() < 0.1 && *x < 1.62, "{x} {y}");
+    }
+}
+
+#[test]
+fn on_a_platform_what_was_seen_too_rarely_is_no_ground_and_a_missed_pixel_is() {
+    let mut course = Course::floor();
+    course.paint([-0.4, -0.4], [1.2, 0.4], Surface::Floor(0.1));
+    let view = &mut course.view;
+    // A column across the way that the camera missed.
+    let missed = view.lattice.cell_at(0.5, 0.0).col;
+    // Beyond the left side it once saw floor a little lower.
+    for cell in view.cells.area().cells() {
+        let [x, y] = view.lattice.center_of(cell);
+        if cell.col == missed {
+            *view.cells.get_mut(cell).unwrap() = Surface::Unknown;
+        } else if y > 0.4 {
+            *view.cells.get_mut(cell).unwrap() = Surface::Floor(0.07);
+            *view.sightings.get_mut(cell).unwrap() = u16::from(x > -1.0);
+        }
+    }
+    let start = [0.0, 0.0, 0.1];
+    let path = way_from(&course, start, 0.0, &goal(0.9, 0.0));
+    assert!(path.points_m.iter().all(|point| point[1].abs() < 0.1));
+    let over = plan(&mut planner(), &course, start, 0.0, &goal(0.0, 1.2));
+    if let Ok(path) = over.way {
+        assert!(path.points_m.iter().all(|point| point[1] < 0.4));
     }
 }
 

@@ -138,7 +138,7 @@ fn check(steps: &[Step]) -> Result<(), NoWay> {
         let width_m = step.stair.front.length_m();
         if let Err(unfit) = Footing::on_stair(&config, &FEET, step.rise_m, width_m, onward) {
             let refusal = match unfit {
-                Unfit::TooLow(_) => Refusal::StepTooLow,
+                Unfit::TooLow(_) => Refusal::NoPath,
                 Unfit::TooHigh(_) => Refusal::StepTooHigh,
                 Unfit::TreadTooShort(..) => Refusal::TreadTooShort,
                 Unfit::GapTooShort(..) => Refusal::GapTooShort,

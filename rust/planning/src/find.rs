@@ -1,0 +1,97 @@
+//! A new path: to the goal, to stairs of which a limit is in doubt, or to a place to look from.
+
+use crate::keep::{End, Kept};
+use crate::legs::Draft;
+use crate::levels::Stand;
+use crate::portals::Fit;
+use crate::refusal::{explain, first_limit};
+use crate::route::{Ends, end_of, run};
+use crate::search::Route;
+use crate::{AStar, Goal, NoWay, Refusal};
+
+/// A route and what it is for.
+struct Found {
+    route: Route,
+    /// Ways up to this one are part of it.
+    worst: Fit,
+    end: End,
+}
+
+impl AStar {
+    /// A new path over the terrain.
+    pub(crate) fn find(&mut self, stand: &Stand, goal: &Goal) -> Result<Kept, NoWay> {
+        let outside = || NoWay {
+            refusal: Refusal::NoPath,
+            sentence: "the robot stands outside of its map".into(),
+        };
+        let start = self.terrain.index_at(stand.at_m).ok_or_else(outside)?;
+        let found = self.route(stand, start, goal)?;
+        let (terrain, portals) = (&self.terrain, &self.portals);
+        let end_m = |last: usize| {
+            let middle = [goal.x_m, goal.y_m];
+            if terrain.index_at(middle) == Some(last) {
+                middle
+            } else {
+                terrain.center_m(last)
+            }
+        };
+        let route = (&found.route, found.worst);
+        Ok(Kept {
+            draft: Draft::of(terrain, portals, route, stand.at_m, end_m),
+            goal: *goal,
+            end: found.end,
+            unknown: 0,
+        })
+    }
+
+    /// The cheapest route to the goal. Where there is none, or none that is more than a hope: to the stairs that would lead
+    /// there if they were other than they look from afar; else to where more is to be seen.
+    fn route(&mut self, stand: &Stand, start: usize, goal: &Goal) -> Result<Found, NoWay> {
+        let (terrain, portals) = (&self.terrain, &self.portals);
+        let ends = Ends::new(terrain, goal, stand.height_m, self.config.climb_cost);
+        let search = &mut self.search;
+        let known = run(search, terrain, portals, &ends, start, Fit::Holds);
+        let hoped = |route: &Route| {
+            let last = route.cells.last();
+            last.is_some_and(|&cell| ends.is_blind(cell as usize))
+        };
+        let mut limit = None;
+        if known.as_ref().is_none_or(hoped) {
+            let cheaper =
+                |route: &Route| known.as_ref().is_none_or(|known| route.cost < known.cost);
+            let doubtful = run(search, terrain, portals, &ends, start, Fit::Doubtful);
+            if let Some(route) = doubtful.filter(cheaper) {
+                return Ok(Found {
+                    route,
+                    worst: Fit::Doubtful,
+                    end: End::Look,
+                });
+            }
+            let lifted = run(search, terrain, portals, &ends, start, Fit::Broken).filter(cheaper);
+            limit = lifted.and_then(|route| first_limit(terrain, portals, &self.climbing, &route));
+        }
+        // From where the robot stands stairs may lead down elsewhere; what is too high or too short stays so.
+        let here =
+            |(no_way, before): &(NoWay, usize)| no_way.refusal == Refusal::Drop && *before == 0;
+        if let Some((no_way, _)) = limit.take_if(|limit| !here(limit)) {
+            return Err(no_way);
+        }
+        let (route, end) = if let Some(route) = known {
+            let end = end_of(&route, terrain, portals, &ends);
+            (route, end)
+        } else {
+            let levels = terrain.levels.any || ends.on_another_level();
+            let route = levels.then(|| self.seek.route(search, terrain, portals, &ends, start));
+            let no_way = || match limit {
+                Some((no_way, _)) => no_way,
+                None => explain(terrain, &self.climbing, &ends, start, goal),
+            };
+            (route.flatten().ok_or_else(no_way)?, End::Look)
+        };
+        Ok(Found {
+            route,
+            worst: Fit::Holds,
+            end,
+        })
+    }
+}
