@@ -125,6 +125,12 @@ impl PyStair {
         self.0.steps_ago
     }
 
+    /// From how near it was seen: the least distance of its front edge's middle, m.
+    #[getter]
+    fn seen_from(&self) -> f64 {
+        self.0.seen_from_m
+    }
+
     /// (frames, standard deviation across itself m, of its heading rad) of the fitted front edge, or None.
     #[getter]
     fn front_fit(&self) -> Option<FlatFit> {

@@ -68,6 +68,7 @@ fn stairs() -> (FloorView, Staircase) {
             seen_ends: Sides::default(),
             front_fit: None,
             back_fit: None,
+            seen_from_m: front_m,
             steps_ago: 0,
         });
     }

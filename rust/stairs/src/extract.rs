@@ -59,9 +59,7 @@ impl Extraction {
         for i in 0..self.found.len() {
             self.found[i].own_level = is_own_level(&self.found, i, config);
         }
-        let near = |stair: &Stair<Robot>| {
-            stair.front.middle().inner.coords.xy().norm() <= config.max_distance
-        };
+        let near = |stair: &Stair<Robot>| stair.seen_from_m <= config.max_distance;
         self.found
             .retain(|sighting| sighting.own_level || near(&sighting.stair));
         for sighting in &mut self.found {
@@ -105,6 +103,7 @@ impl Extraction {
             seen_ends: Sides::default(),
             front_fit: None,
             back_fit: None,
+            seen_from_m: front.middle().inner.coords.xy().norm(),
             steps_ago: 0,
         };
         if !is_solid(&stair, view) {
@@ -275,6 +274,7 @@ mod tests {
             seen_ends: Sides::default(),
             front_fit: None,
             back_fit: None,
+            seen_from_m: 0.5,
             steps_ago: 0,
         }
     }

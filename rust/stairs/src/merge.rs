@@ -99,6 +99,7 @@ mod tests {
                 seen_ends: Sides::default(),
                 front_fit: None,
                 back_fit: None,
+                seen_from_m: x_m,
                 steps_ago: 0,
             },
             hull: Outline::hull(&corners).unwrap(),
@@ -186,6 +187,17 @@ mod tests {
                     prop_assert!(!level || covers[0] <= low && high <= covers[1]);
                 }
             }
+        }
+
+        #[test]
+        fn what_is_merged_was_seen_from_as_near_as_the_nearest_of_its_parts(mut treads in treads()) {
+            let nearest_m = |treads: &[Tread]| {
+                let seen_from_m = treads.iter().map(|tread| tread.stair().unwrap().seen_from_m);
+                seen_from_m.fold(f64::INFINITY, f64::min)
+            };
+            let before_m = nearest_m(&treads);
+            merge_all(&mut treads, SIMILAR_M);
+            prop_assert_eq!(nearest_m(&treads), before_m);
         }
 
         #[test]

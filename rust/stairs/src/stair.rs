@@ -60,6 +60,8 @@ pub struct Stair<Frame> {
     pub front_fit: Option<EdgeFit>,
     /// How surely the back edge was found; `None` when it is only the hull's.
     pub back_fit: Option<EdgeFit>,
+    /// From how near it was seen: the least distance of its front edge's middle, m. From afar treads run into each other.
+    pub seen_from_m: f64,
     /// Steps taken since it was last seen.
     pub steps_ago: u32,
 }
@@ -186,6 +188,7 @@ impl<F> Stair<F> {
             seen_ends: self.seen_ends,
             front_fit: self.front_fit,
             back_fit: self.back_fit,
+            seen_from_m: self.seen_from_m,
             steps_ago: self.steps_ago,
         }
     }

@@ -26,6 +26,8 @@ pub(crate) struct Tread {
     worth: f64,
     /// Sightings in all.
     pub(crate) sightings: u32,
+    /// From how near it was seen, m.
+    seen_from_m: f64,
     /// Steps since the last of them.
     pub(crate) steps_ago: u32,
     /// Frames in a row in which something lower was seen through it.
@@ -63,6 +65,7 @@ impl Tread {
             reference: stair.reference.inner.coords * weight,
             worth: 1.0,
             sightings: 1,
+            seen_from_m: stair.seen_from_m,
             steps_ago: 0,
             contradicted: 0,
             shape: None,
@@ -97,6 +100,7 @@ impl Tread {
         self.reference += other.reference;
         self.worth += other.worth;
         self.sightings = self.sightings.saturating_add(other.sightings);
+        self.seen_from_m = self.seen_from_m.min(other.seen_from_m);
         self.steps_ago = self.steps_ago.min(other.steps_ago);
         self.contradicted = 0;
         self.shape();
@@ -198,6 +202,7 @@ impl Tread {
             },
             front_fit: None,
             back_fit: None,
+            seen_from_m: self.seen_from_m,
             steps_ago: self.steps_ago,
         })
     }

@@ -138,6 +138,7 @@ pub(crate) fn stair(x_m: f64, depth_m: f64, height_m: f64, width_m: f64) -> Stai
         },
         front_fit: SURE,
         back_fit: SURE,
+        seen_from_m: 0.3,
         steps_ago: 0,
     }
 }

@@ -37,6 +37,7 @@ pub(crate) fn stair(front: [f64; 3], back: [f64; 3], z_m: f64, width_m: f64) -> 
         seen_ends: Sides::default(),
         front_fit: None,
         back_fit: None,
+        seen_from_m: 0.3,
         steps_ago: 0,
     }
 }
