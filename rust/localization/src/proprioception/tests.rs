@@ -65,13 +65,13 @@ fn a_step_up_and_down_is_taken_from_the_kinematics() {
         .stand(10);
     let height = |states: &[BodyState]| states.last().unwrap().odometry_from_robot.origin().inner.z;
     let climbed_m = height(&run(&walk));
-    assert!((climbed_m - 0.03).abs() < 1e-3, "{climbed_m}");
+    assert!((climbed_m - 0.03).abs() < 1e-4, "{climbed_m}");
     let walk = walk
         .step(Side::Left, PlanarPose::new(0.08, 0.0425, 0.0), 0.0)
         .step(Side::Right, PlanarPose::new(0.08, -0.0425, 0.0), 0.0)
         .stand(10);
     let left_m = height(&run(&walk));
-    assert!(left_m.abs() < 1e-3, "{left_m}");
+    assert!(left_m.abs() < 1e-4, "{left_m}");
 }
 
 #[test]
