@@ -28,6 +28,9 @@ pub struct ScanLineConfig {
     pub min_ground: usize,
     /// Smallest ground when it is searched without a track, as a share of the image.
     pub open_floor: f64,
+    /// When the ground is searched without a track, it is what is seen up to this distance from the robot, m: it stands on
+    /// the floor beside its feet, what is further away may be the slope of a staircase.
+    pub search_reach: f64,
     /// Widest error of roll and of pitch when the ground is searched, rad (the paper: 7 degrees; the attitude adds).
     pub search_tilt: f64,
     /// Widest error of roll and pitch together while the ground is tracked, rad.
@@ -61,6 +64,7 @@ impl Default for ScanLineConfig {
             min_region: 80,
             min_ground: 150,
             open_floor: 0.12,
+            search_reach: 0.45,
             search_tilt: 0.15,
             track_tilt: 0.044,
             ground_height: 0.02,
@@ -83,6 +87,7 @@ impl ScanLineConfig {
             ("segment_price", self.segment_price),
             ("join", self.join),
             ("accept", self.accept),
+            ("search_reach", self.search_reach),
             ("ground_height", self.ground_height),
             ("track_height", self.track_height),
             ("known_height", self.known_height),

@@ -43,6 +43,9 @@ const FARTHEST_M: f64 = 0.6;
 const SETTLED: u32 = 8;
 /// Frames without ground after which a track that has not settled is given up.
 const YOUNG_MISSES: u32 = 3;
+/// Finds of a young track contradict each other when they are this far apart, rad and m: one of them was no ground.
+const CONTRADICTS_RAD: f64 = 0.05;
+const CONTRADICTS_M: f64 = 0.012;
 
 /// Body half about x, y, head half about the camera's x, z, rad; height; ahead and above in the camera's axes, m.
 const STATES: usize = 7;
@@ -123,7 +126,7 @@ impl Correction {
     }
 
     /// Takes in what a found ground says: a further turn about the robot's x and y (rad) and a rise (m) of the predicted
-    /// camera.
+    /// camera. A young track that it contradicts is given up.
     pub(super) fn found(
         &mut self,
         predicted: &Pose<Robot, Camera>,
@@ -141,7 +144,11 @@ impl Correction {
         let away_m = middle_of_picture_m(&predicted.inner.translation.vector, &roll);
         let floor_rises = rises + about_x * away_m.y - about_y * away_m.x;
         let floor_rise_m = rise_m + turn_rad.x * away_m.y - turn_rad.y * away_m.x;
-
+        let contradicts = turn_rad.norm() > CONTRADICTS_RAD || floor_rise_m.abs() > CONTRADICTS_M;
+        if contradicts && self.found > 0 && !self.is_settled() {
+            *self = Self::new();
+            return;
+        }
         let measures = SMatrix::<f64, 3, STATES>::from_rows(&[about_x, about_y, floor_rises]);
         let measured = Vector3::new(turn_rad.x, turn_rad.y, floor_rise_m);
         let noise = Vector3::new(SWAY_RAD.powi(2), SWAY_RAD.powi(2), SWAY_M.powi(2));
@@ -264,6 +271,21 @@ mod tests {
             }
             let predicted = correction.predict(&looking(1.0, 0.7));
             assert!(tilt_between(&predicted, &truth(1.0)).norm() < 0.044);
+        }
+    }
+
+    #[test]
+    fn a_young_track_that_is_contradicted_begins_anew_and_a_settled_one_does_not() {
+        for (turn_rad, rise_m) in [(0.08, 0.0), (-0.08, 0.0), (0.0, 0.015), (0.0, -0.015)] {
+            let far_off = Vector2::new(0.0, turn_rad);
+            for finds in 1..2 * SETTLED {
+                let mut correction = Correction::new();
+                for _ in 0..finds {
+                    correction.found(&looking(0.0, 0.7), &Vector2::zeros(), 0.0);
+                }
+                correction.found(&looking(0.0, 0.7), &far_off, rise_m);
+                assert_eq!(correction.missed.is_none(), finds < SETTLED);
+            }
         }
     }
 

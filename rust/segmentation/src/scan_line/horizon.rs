@@ -23,6 +23,9 @@ pub(super) struct SearchArea {
     pub(super) last_step_rad: f64,
     /// Depths below the camera that count, m.
     pub(super) below_m: (f64, f64),
+    /// Points further than a radius from a place count less, by the fourth power of the distance; from the camera, m:
+    /// forward, to the left, and the radius.
+    pub(super) around_m: [f32; 3],
 }
 
 /// Searches the tilt. Keeps its buffer.
@@ -50,12 +53,11 @@ impl HorizonSearch {
                 }
                 let g = picture.g[row * picture.width + col];
                 let sigma = picture.sigma_px[row * picture.width + col];
-                self.samples.push([
-                    g / d,
-                    view.x.at(col, row) / d,
-                    view.y.at(col, row) / d,
-                    d / sigma,
-                ]);
+                let (x, y) = (view.x.at(col, row) / d, view.y.at(col, row) / d);
+                let [around_x, around_y, radius] = area.around_m;
+                let nearness = radius / (x - around_x).hypot(y - around_y).max(radius);
+                self.samples
+                    .push([g / d, x, y, d / sigma * nearness.powi(4)]);
             }
         }
         let steps = (area.tilt_rad / area.step_rad).round() as i32;

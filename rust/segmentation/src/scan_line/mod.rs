@@ -134,7 +134,8 @@ impl ScanLine {
     }
 
     fn guess_tilt(&mut self, level: &Levelled) -> Vector2<f64> {
-        let height_m = level.predicted.inner.translation.z;
+        let camera_m = level.predicted.inner.translation.vector;
+        let height_m = camera_m.z;
         let area = if self.searching() {
             let slack = 2.0 * self.config.ground_height;
             SearchArea {
@@ -142,6 +143,8 @@ impl ScanLine {
                 step_rad: self.config.search_tilt / 6.0,
                 last_step_rad: LAST_STEP_RAD,
                 below_m: (height_m - slack, height_m + slack),
+                around_m: [-camera_m.x, -camera_m.y, self.config.search_reach]
+                    .map(|value| value as f32),
             }
         } else {
             SearchArea {
@@ -149,6 +152,7 @@ impl ScanLine {
                 step_rad: TRACK_STEP_RAD,
                 last_step_rad: TRACK_STEP_RAD,
                 below_m: (0.15, height_m + 0.2),
+                around_m: [0.0, 0.0, f32::MAX],
             }
         };
         let picture = self.surfaces.picture(&level.view);

@@ -53,9 +53,34 @@ impl ScanLine {
                     && off_the_joints_m.abs() < config.ground_height
                     && surfaces.is_level(i)
                     && !self.known.is_elsewhere(i, height_m, config.known_height)
-                    && (!self.searching() || surfaces.fits[i].roughness() < SMOOTH)
+                    && (!self.searching()
+                        || surfaces.fits[i].roughness() < SMOOTH && self.is_underfoot(levelled, i))
             })
             .max_by_key(|&i| (surfaces.regions[i].support, std::cmp::Reverse(i)))
+    }
+
+    /// Whether most of what is seen near the feet belongs to a region.
+    fn is_underfoot(&self, levelled: &Levelled, index: usize) -> bool {
+        let surfaces = &self.surfaces;
+        let (view, camera_m) = (&levelled.view, levelled.predicted.inner.translation.vector);
+        let width = self.camera.width;
+        let (mut near, mut own) = (0, 0);
+        for (at, (&d, &label)) in surfaces
+            .disparity_px
+            .iter()
+            .zip(&surfaces.labels)
+            .enumerate()
+        {
+            let (col, row) = (at % width, at / width);
+            let x_m = camera_m.x + f64::from(view.x.at(col, row) / d);
+            let y_m = camera_m.y + f64::from(view.y.at(col, row) / d);
+            // Also false where nothing was seen.
+            if x_m.hypot(y_m) < self.config.search_reach {
+                near += 1;
+                own += usize::from(usize::from(label) == index + 1);
+            }
+        }
+        own >= self.config.min_region && 2 * own > near
     }
 
     /// Whether another level surface lies so little above or below a region that one could be taken for the other.

@@ -122,3 +122,33 @@ fn a_lost_ground_stays_reliable_for_a_while_and_is_found_again() {
     assert!(planes.ground.is_some());
     assert!(pose_error(&planes, &truth).0 < 0.02);
 }
+
+/// The start in front of stairs: the head goes from looking ahead to looking down at the feet, and aside.
+#[test]
+fn stairs_that_fill_the_view_at_the_start_are_never_taken_for_the_ground() {
+    for (front_m, rise_m) in [(0.4, 0.03), (0.5, 0.03), (0.4, 0.045)] {
+        for seed in 0..6 {
+            let mut noise = Noise::new(seed);
+            let (mut segmenter, mut planes) = (segmenter(), planes());
+            let turn = Vector3::new(noise.within(0.07), 0.0, noise.within(0.03));
+            let scene = Scene::stairs(front_m, rise_m, 0.12, 5);
+            for frame in 0..45 {
+                let down = 1.0 - 0.07 * f64::from((14_i32 - frame).max(0));
+                let aside = 0.07 * f64::from((frame - 20).max(0)).min(14.0);
+                let truth = camera_pose(aside, down - 0.15 * aside);
+                let mut believed = truth;
+                believed.inner.rotation *= UnitQuaternion::new(turn);
+                believed.inner.translation.vector.z += 0.004;
+                let scan = scene.scan(&truth, believed, SIGMA, &mut noise);
+                segmenter.segment(&scan, &mut planes).unwrap();
+                let (tilt, height) = pose_error(&planes, &truth);
+                let told = format!("{front_m} {rise_m} {seed} frame {frame}: {tilt} {height}");
+                assert!(
+                    !planes.reliable || tilt < 0.035 && height.abs() < 0.008,
+                    "{told}"
+                );
+                assert!(planes.reliable || frame < 30, "{told}");
+            }
+        }
+    }
+}
