@@ -133,11 +133,17 @@ impl Border {
     }
 
     /// The edge, right end first. Where it was never seen it is drawn outside of all of the hull, on the side that
-    /// `outward` says: 1 for the back, -1 for the front.
+    /// `outward` says: 1 for the back, -1 for the front. Sightings that did not see it count against it only where they go
+    /// on beyond it: from near by, only what lies behind a front is in view.
     pub(crate) fn ends(&self, hull: &Outline, outward: f64) -> Option<[Point2<f64>; 2]> {
         let all = self.seen.weight() + self.unseen.weight();
-        let believed = self.seen.weight() > BELIEVED * all;
-        let seen = self.seen.line().filter(|_| believed);
+        let mostly_seen = self.seen.weight() > BELIEVED * all;
+        let goes_on = |seen: &Line| {
+            let unseen = self.unseen.line();
+            unseen.is_some_and(|unseen| outward * seen.offset_m(&unseen.at) > AGREES_M)
+        };
+        let seen = self.seen.line();
+        let seen = seen.filter(|seen| mostly_seen || !goes_on(seen));
         let line = seen.or_else(|| {
             let mut line: Line = self.unseen.line()?;
             let out = |p: &Point2<f64>| outward * line.offset_m(p);
@@ -149,5 +155,54 @@ impl Border {
             line.nearest(&self.right.place(all)?),
             line.nearest(&self.left.place(all)?),
         ])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Edges across the way: one that `seen` sightings saw at 0.4 m, and where the view of `unseen` others ended.
+    fn front_m(seen: u32, unseen: u32, unseen_at_m: f64, hull_from_m: f64) -> f64 {
+        let at = |x_m: f64, y_m: f64| Point2::new(x_m, y_m);
+        let sighting = |x_m: f64, edge: f64| {
+            let weights = Weights {
+                all: 100.0,
+                edge,
+                left: 100.0,
+                right: 100.0,
+            };
+            Border::new([&at(x_m, -0.2), &at(x_m, 0.2)], weights)
+        };
+        let mut border = sighting(0.4, 12.0);
+        for _ in 1..seen {
+            border.add_border(&sighting(0.4, 12.0));
+        }
+        for _ in 0..unseen {
+            border.add_border(&sighting(unseen_at_m, 0.0));
+        }
+        let corners = [at(hull_from_m, 0.0), at(0.5, -0.2), at(0.5, 0.2)];
+        let [right, left] = border
+            .ends(&Outline::hull(&corners).unwrap(), -1.0)
+            .unwrap();
+        nalgebra::center(&right, &left).x
+    }
+
+    proptest! {
+        #[test]
+        fn sightings_of_what_lies_behind_a_front_leave_it_where_it_was_seen(
+            seen in 1..20u32, unseen in 0..200u32, at_m in 0.4..0.48f64, hull_from_m in 0.25..0.4f64,
+        ) {
+            prop_assert!((front_m(seen, unseen, at_m, hull_from_m) - 0.4).abs() < 1e-9);
+        }
+
+        #[test]
+        fn sightings_that_go_on_beyond_a_front_that_few_saw_move_it_outside_of_all(
+            unseen in 4..200u32, at_m in 0.3..0.375f64, hull_from_m in 0.25..0.3f64,
+        ) {
+            prop_assert!((front_m(1, unseen, at_m, hull_from_m) - hull_from_m).abs() < 1e-9);
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! What is kept while the robot walks and steps.
 
+use super::prisms::{Prism, frame};
 use super::*;
 use crate::Stair;
 
@@ -147,4 +148,46 @@ fn a_pose_that_is_no_number_is_refused_and_changes_nothing() {
         .update(&Scan::new(CAMERA), &looker.planes, &nowhere, 9);
     assert_eq!(refused.unwrap_err(), crate::StairsError::PoseNotFinite);
     assert_eq!(looker.recognizer.staircase(), &before);
+}
+
+/// Edges leave the picture at its lower border, askew where the head is turned: what is left of a tread then ends there.
+#[test]
+fn edges_that_were_fitted_stay_where_they_are_when_they_leave_the_view() {
+    let fronts_m = [0.45, 0.57, 0.69];
+    let mut prisms: Vec<_> = fronts_m
+        .iter()
+        .zip([0.03, 0.06, 0.09])
+        .map(|(&from_m, top_m)| {
+            let to_m: f64 = from_m + if top_m > 0.08 { 0.6 } else { 0.12 };
+            let corners = [[from_m, -0.4], [to_m, -0.4], [to_m, 0.4], [from_m, 0.4]];
+            Prism::new(&corners, top_m)
+        })
+        .collect();
+    prisms.push(Prism::new(
+        &[[-3.0, -3.0], [5.0, -3.0], [5.0, 3.0], [-3.0, 3.0]],
+        0.0,
+    ));
+    let mut recognizer = Recognizer::new(StairsConfig::default(), CAMERA).unwrap();
+    for i in 0..240 {
+        let way_m = 0.08 * f64::from(i / 40);
+        let pose: Pose<Map, Robot> = Pose::from_yaw(way_m, 0.0, 0.0, 0.0);
+        let camera = camera_pose(
+            0.3 * (0.7 * f64::from(i)).sin(),
+            0.9 + 0.04 * f64::from(i / 40),
+        );
+        let (scan, planes) = frame(&prisms, &pose, &camera);
+        let steps = u64::try_from(i / 40).unwrap();
+        let staircase = recognizer.update(&scan, &planes, &pose, steps).unwrap();
+        for (level, front_m) in (1..).zip(fronts_m) {
+            let same =
+                |stair: &&Stair<Map>| (stair.height_m() - 0.03 * f64::from(level)).abs() < 0.005;
+            let told = format!("frame {i} step {level}: {:?}", staircase.stairs);
+            if i >= 40 && level < 3 {
+                let stair = staircase.stairs.iter().find(same).expect(&told);
+                assert!(stair.front_fit.is_some(), "{told}");
+                assert!(stair.front.beyond_m([front_m, 0.0]).abs() < 0.01, "{told}");
+                assert!(stair.front.heading_rad().abs() < 0.05, "{told}");
+            }
+        }
+    }
 }
