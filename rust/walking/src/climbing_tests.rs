@@ -7,10 +7,10 @@ use proptest::prelude::*;
 use super::*;
 use crate::test_biped::{Ideal, config};
 
-const TREAD_M: f64 = 0.12;
-const HALF_SOLE_M: f64 = 0.0525;
+pub(super) const TREAD_M: f64 = 0.12;
+pub(super) const HALF_SOLE_M: f64 = 0.0525;
 
-fn step(side: Side, x_m: f64, height_m: f64, bearing_m: [f64; 2]) -> Footstep {
+pub(super) fn step(side: Side, x_m: f64, height_m: f64, bearing_m: [f64; 2]) -> Footstep {
     Footstep {
         side,
         pose: PlanarPose::new(x_m, side.sign() * 0.5 * config().stance_width, 0.0),
@@ -20,13 +20,13 @@ fn step(side: Side, x_m: f64, height_m: f64, bearing_m: [f64; 2]) -> Footstep {
 }
 
 /// Both feet one tread forward.
-fn stair(height_m: f64) -> Vec<Footstep> {
+pub(super) fn stair(height_m: f64) -> Vec<Footstep> {
     Side::BOTH
         .map(|side| step(side, TREAD_M, height_m, [-0.04, HALF_SOLE_M]))
         .to_vec()
 }
 
-fn climb(steps: &[Footstep]) -> Command {
+pub(super) fn climb(steps: &[Footstep]) -> Command {
     Command {
         motion: Motion::Footsteps(steps.to_vec()),
         ..Command::default()
@@ -34,7 +34,7 @@ fn climb(steps: &[Footstep]) -> Command {
 }
 
 /// Ticks until the list is behind the robot and it stands.
-fn run(world: &mut Ideal, command: &Command) {
+pub(super) fn run(world: &mut Ideal, command: &Command) {
     for _ in 0..1500 {
         world.tick(command);
         if world.walker.standing() && world.walker.list_is_over() {
@@ -57,7 +57,7 @@ fn fastest_radps(world: &mut Ideal, command: &Command) -> f64 {
     fastest_radps
 }
 
-fn heights(world: &Ideal) -> [f64; 2] {
+pub(super) fn heights(world: &Ideal) -> [f64; 2] {
     Side::BOTH.map(|side| world.walker.foot_in_plan(side).z_m)
 }
 
@@ -144,63 +144,6 @@ fn a_foot_that_meets_something_on_its_way_goes_back() {
 }
 
 #[test]
-fn a_list_that_is_done_is_not_walked_again_but_a_new_one_is() {
-    let mut world = Ideal::new();
-    let command = climb(&stair(0.0));
-    run(&mut world, &command);
-    for _ in 0..300 {
-        world.tick(&command);
-    }
-    assert_eq!(world.walker.steps_taken(), 2);
-    // Another list, or the same one after something else.
-    run(
-        &mut world,
-        &climb(&[step(Side::Right, 0.05, 0.0, [-HALF_SOLE_M, HALF_SOLE_M])]),
-    );
-    assert_eq!(world.walker.steps_taken(), 3);
-    world.tick(&Command::default());
-    world.tick(&command);
-    run(&mut world, &command);
-    assert_eq!(world.walker.steps_taken(), 5);
-}
-
-#[test]
-fn a_list_that_is_taken_away_ends_with_the_step_under_way() {
-    let mut world = Ideal::new();
-    world.ground_m = |x_m, _| if x_m > 0.06 { 0.03 } else { 0.0 };
-    let command = climb(&stair(0.03));
-    while world.walker.support().is_none() {
-        world.tick(&command);
-    }
-    for _ in 0..400 {
-        world.tick(&Command::default());
-    }
-    assert!(world.walker.standing());
-    let [left_m, right_m] = heights(&world);
-    assert!((left_m - 0.03).abs() < 0.002 && right_m == 0.0);
-}
-
-#[test]
-fn a_list_given_on_a_walk_is_begun_from_a_stand_and_counts_from_where_it_was_given() {
-    let mut world = Ideal::new();
-    let walk = Command {
-        motion: Motion::Walk(behaviour::Velocity {
-            x_mps: 0.08,
-            ..behaviour::Velocity::default()
-        }),
-        ..Command::default()
-    };
-    for _ in 0..230 {
-        world.tick(&walk);
-    }
-    let given = Gait::center_of(&Side::BOTH.map(|side| world.walker.gait.foot(side)));
-    run(&mut world, &climb(&stair(0.0)));
-    let reached = Gait::center_of(&world.walker.gait.feet);
-    let ahead_m = reached.x_m - given.x_m;
-    assert!((ahead_m - TREAD_M).abs() < 0.006, "{ahead_m}");
-}
-
-#[test]
 fn feet_push_only_where_they_bear_also_when_the_robot_then_stands() {
     let mut world = Ideal::new();
     world.ground_m = |x_m, _| if x_m > 0.06 { 0.03 } else { 0.0 };
@@ -219,6 +162,31 @@ fn feet_push_only_where_they_bear_also_when_the_robot_then_stands() {
     let middle_m = 0.5 * (bearing_m[0] + bearing_m[1]);
     let com_m = world.walker.balance().1.com.x - TREAD_M;
     assert!((com_m - middle_m).abs() < 0.003, "{com_m}");
+}
+
+#[test]
+fn a_foot_above_the_other_one_carries_further_forward() {
+    let mut world = Ideal::new();
+    world.ground_m = |x_m, _| if x_m > 0.06 { 0.05 } else { 0.0 };
+    let command = climb(&stair(0.05));
+    let forward_m = |world: &Ideal, side| {
+        let point = world.walker.gait.stance_point(side);
+        let foot = world.walker.foot_in_plan(side).planar;
+        foot.inverse().apply(point.x, point.y).0
+    };
+    while world.walker.stepping().landed == 0 {
+        world.tick(&command);
+    }
+    let [left_m, right_m] = Side::BOTH.map(|side| world.walker.foot_in_plan(side).z_m);
+    let middle_m = 0.5 * (HALF_SOLE_M - 0.04);
+    let wanted_m = middle_m + config().support_forward * (left_m - right_m);
+    assert!(wanted_m > middle_m + 0.005);
+    assert!((forward_m(&world, Side::Left) - wanted_m).abs() < 1e-9);
+    assert!(forward_m(&world, Side::Right).abs() < 1e-9);
+    run(&mut world, &command);
+    for side in Side::BOTH {
+        assert!((forward_m(&world, side) - middle_m).abs() < 0.001);
+    }
 }
 
 #[test]

@@ -36,6 +36,8 @@ pub struct GaitConfig {
     pub max_extension: f64,
     /// Where the foot carries: this far from the sole's middle towards the other foot, m.
     pub support_inward: f64,
+    /// A foot that stands higher than the other one carries further forward, by this share of the difference.
+    pub support_forward: f64,
     /// The centre of pressure keeps this far from the sole's edges, m.
     pub sole_margin: f64,
     /// Gain from the error of the divergent component of motion to the centre of pressure; stable above 1.
@@ -110,6 +112,7 @@ impl Default for GaitConfig {
             hip_height: 0.0,
             max_extension: 0.985,
             support_inward: 0.0,
+            support_forward: 0.2,
             sole_margin: 0.006,
             dcm_gain: 3.0,
             velocity_blend: 0.5,
@@ -205,9 +208,10 @@ impl GaitConfig {
         ]
     }
 
-    fn not_negative(&self) -> [(&'static str, f64); 11] {
+    fn not_negative(&self) -> [(&'static str, f64); 12] {
         [
             ("foot_gap", self.foot_gap),
+            ("support_forward", self.support_forward),
             ("sole_margin", self.sole_margin),
             ("reference_pull", self.reference_pull),
             ("load_gain", self.load_gain),

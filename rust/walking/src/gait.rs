@@ -46,13 +46,19 @@ impl Gait {
         self.phase == Phase::Standing
     }
 
-    /// Point under a foot where it is to carry: the middle of what bears, towards the other foot by `support_inward`.
-    pub fn support_point(&self, foot: &FootPose, side: Side) -> Vector2<f64> {
+    /// Point under one of `feet` where it is to carry: the middle of what bears, towards the other foot by `support_inward`, and
+    /// forward by `support_forward` where it stands higher than the other one: the knee that lifts the body bears less so.
+    pub fn support_point(&self, feet: &[FootPose; 2], side: Side) -> Vector2<f64> {
+        let (foot, other) = (&feet[side.index()], &feet[side.other().index()]);
         let [rear, front] = foot
             .bearing
             .on_sole_m(0.5 * self.planner.sole_length_m(), 0.0);
+        let middle = 0.5 * (rear + front);
+        let forward = self.config.support_forward * (foot.z_m - other.z_m).max(0.0);
         let inward = -side.sign() * self.config.support_inward;
-        let (x, y) = foot.planar.apply(0.5 * (rear + front), inward);
+        let (x, y) = foot
+            .planar
+            .apply(middle + forward.min(0.5 * (front - middle)), inward);
         Vector2::new(x, y)
     }
 
@@ -133,10 +139,10 @@ impl Gait {
 
     /// Puts the foot down at `at` and goes on to the next step.
     pub(crate) fn land(&mut self, swing: &Swing, at: FootPose, task: Task<'_>) {
+        let zmp = self.zmp();
         self.feet[swing.side.index()] = at;
         self.steps_taken += 1;
         self.last = (swing.side, swing.manner);
-        let zmp = self.stance_point(swing.side.other());
         let next = self.next_swing(&self.feet, swing.side, task, 0);
         let duration_s = next.map_or(self.config.shift_time, |next| {
             next.manner.double_support_s(&self.config)
@@ -229,7 +235,7 @@ impl Gait {
     }
 
     pub(crate) fn stance_point(&self, side: Side) -> Vector2<f64> {
-        self.support_point(&self.feet[side.index()], side)
+        self.support_point(&self.feet, side)
     }
 
     pub(crate) fn shift_goal(&self, next: Option<&Swing>) -> Vector2<f64> {

@@ -93,14 +93,14 @@ impl Gait {
                 break;
             };
             let stance = next.side.other();
-            let point = self.support_point(&feet[stance.index()], stance);
+            let point = self.support_point(&feet, stance);
             plan.add(stands, point, next.manner.double_support_s(&self.config));
             plan.add(point, point, next.single_support_s(&self.config));
             stands = point;
             swing = next;
         }
         feet[swing.side.index()] = swing.to;
-        let points = Side::BOTH.map(|side| self.support_point(&feet[side.index()], side));
+        let points = Side::BOTH.map(|side| self.support_point(&feet, side));
         plan.add(
             stands,
             0.5 * (points[0] + points[1]),

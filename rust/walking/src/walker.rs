@@ -261,7 +261,7 @@ impl Walker {
         if let Some(stance) = self.support() {
             soles.on_one(&gait.feet, stance, &wanted)
         } else {
-            let carry = Side::BOTH.map(|side| gait.support_point(&gait.feet[side.index()], side));
+            let carry = Side::BOTH.map(|side| gait.support_point(&gait.feet, side));
             soles.on_both(&gait.feet, &carry, &wanted)
         }
     }
@@ -274,3 +274,7 @@ mod tests;
 #[cfg(test)]
 #[path = "climbing_tests.rs"]
 mod climbing_tests;
+
+#[cfg(test)]
+#[path = "list_tests.rs"]
+mod list_tests;
