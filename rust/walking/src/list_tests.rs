@@ -28,6 +28,41 @@ fn a_list_that_is_done_is_not_walked_again_but_a_new_one_is() {
 }
 
 #[test]
+fn a_list_grows_while_it_is_walked_but_takes_no_other_steps() {
+    let on = |side, stair: f64| step(side, stair * TREAD_M, 0.0, [-0.04, HALF_SOLE_M]);
+    let short = [on(Side::Left, 1.0), on(Side::Right, 1.0)];
+    let long = [
+        on(Side::Left, 1.0),
+        on(Side::Right, 2.0),
+        on(Side::Left, 2.0),
+    ];
+    let other = [
+        on(Side::Left, 0.5),
+        on(Side::Right, 0.5),
+        on(Side::Left, 1.0),
+    ];
+    for (given, steps) in [(&long, 3), (&other, 2)] {
+        let mut world = Ideal::new();
+        while world.walker.support().is_none() {
+            world.tick(&climb(&short));
+        }
+        while !world.walker.standing() {
+            world.tick(&climb(given));
+        }
+        assert_eq!(world.walker.stepping().landed, steps);
+    }
+    // Too late: the last foot is on its way.
+    let mut world = Ideal::new();
+    while world.walker.stepping().landed == 0 {
+        world.tick(&climb(&short));
+    }
+    while !world.walker.standing() {
+        world.tick(&climb(&long));
+    }
+    assert_eq!(world.walker.stepping().landed, 2);
+}
+
+#[test]
 fn a_list_that_is_taken_away_ends_with_the_step_under_way() {
     let mut world = Ideal::new();
     world.ground_m = |x_m, _| if x_m > 0.06 { 0.03 } else { 0.0 };

@@ -18,7 +18,8 @@ pub enum Task<'a> {
 /// The list of footsteps that was given last.
 ///
 /// A list is new when it is not that of the tick before: after any other motion, or, once the one before is done and the robot
-/// stands, when it differs from it. What is given in the midst of a list is left alone until then.
+/// stands, when it differs from it. In the midst of a list another one takes its place when it begins with the same steps, up to the
+/// one that a foot is on its way to; any other is left alone until then.
 #[derive(Debug, Clone, Default)]
 pub struct StepList {
     steps: Vec<Footstep>,
@@ -54,10 +55,20 @@ impl StepList {
             self.steps.extend_from_slice(steps);
             self.state = State::Waiting;
             gait.begin_list(robot.planar, robot.ground_m);
+        } else if self.state == State::Begun && !done && self.may_become(steps, gait) {
+            self.steps.clear();
+            self.steps.extend_from_slice(steps);
         }
         if self.state == State::Waiting && gait.is_standing() {
             self.state = State::Begun;
         }
+    }
+
+    /// Whether these steps begin with those that are taken or on their way.
+    fn may_become(&self, steps: &[Footstep], gait: &Gait) -> bool {
+        let begun = gait.stepping().landed + 1;
+        let same = |steps: &[Footstep]| steps.get(..begun) == self.steps.get(..begun);
+        self.steps.len() > begun && same(steps) && steps.iter().all(is_finite)
     }
 
     /// Whether all steps of the list landed, or it was given up.

@@ -26,6 +26,9 @@ pub struct StairClimbingConfig {
     pub aligned: f64,
     /// Longest way of the robot's middle in one step onto a stair, m.
     pub longest_stride: f64,
+    /// Highest step, up or down, that is climbed without a stop: a knee that lifts the body from far below the next step bears no
+    /// more than this, m.
+    pub run_rise: f64,
     /// Most that a careful step on the level moves a foot ahead of the other, m;
     pub step_forward: f64,
     /// to the side, m;
@@ -52,6 +55,7 @@ impl Default for StairClimbingConfig {
             near_tolerance: 0.012,
             aligned: 0.09,
             longest_stride: 0.15,
+            run_rise: 0.042,
             step_forward: 0.08,
             step_side: 0.03,
             step_turn: 0.2,
@@ -73,6 +77,7 @@ impl StairClimbingConfig {
             ("near_tolerance", self.near_tolerance),
             ("aligned", self.aligned),
             ("longest_stride", self.longest_stride),
+            ("run_rise", self.run_rise),
             ("step_forward", self.step_forward),
             ("step_side", self.step_side),
             ("step_turn", self.step_turn),

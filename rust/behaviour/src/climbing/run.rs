@@ -17,6 +17,10 @@ impl StairClimbing {
             else {
                 break;
             };
+            let most_m = self.config.run_rise;
+            if steps[..=next].iter().any(|step| step.rise_m.abs() > most_m) {
+                break;
+            }
             let mut stand = self.before(here);
             stand.pose = last.pose;
             stand.ground_m = last.height_m;
@@ -39,8 +43,8 @@ impl StairClimbing {
     /// While the run is on its way: puts further steps where both feet would have come to stand.
     pub(super) fn go_on_without_a_stop(&mut self, here: &Here<'_>) {
         let holds = self.stepper.holds();
-        // The walker looks ahead by one step.
-        let in_time = here.situation.stepping.landed + 2 < holds.len();
+        // The last step can be changed until the one before it has landed.
+        let in_time = here.situation.stepping.landed + 1 < holds.len();
         let Some(first) = holds.first().map(|hold| hold.side) else {
             return;
         };
@@ -55,3 +59,7 @@ impl StairClimbing {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "run_tests.rs"]
+mod tests;
