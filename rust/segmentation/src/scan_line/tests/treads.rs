@@ -118,6 +118,8 @@ proptest! {
         prop_assert_eq!(segmenter.correction.predict(&camera_pose(0.0, 0.75)), held);
     }
 
+    /// One frame's tilt errs by half a degree, 4 mm at half a metre, so that a single frame now and then sees a known level
+    /// beyond the gate; the frames together do not.
     #[test]
     fn a_level_close_to_where_it_is_known_is_taken(
         which in 0..4usize, off_m in -0.004..0.004f64, seed in 0..1000u64,
@@ -126,14 +128,18 @@ proptest! {
         let mut noise = Noise::new(seed);
         let mut segmenter = tracking(&mut noise);
         let told = Told { steps, off_m };
-        let (planes, _) = see(&mut segmenter, steps, 0.0, &told, &mut noise);
-        let near = planes.points_in_robot_m.iter().zip(&planes.floor_height_m);
-        let misses: Vec<_> = near
-            .filter(|(point, height_m)| point[0] < 0.6 && !height_m.is_nan())
-            .map(|(point, &height_m)| f64::from(height_m) - steps.height_m(f64::from(point[0])) - off_m)
+        let misses_m: Vec<_> = (0..9)
+            .map(|_| {
+                let (planes, _) = see(&mut segmenter, steps, 0.0, &told, &mut noise);
+                let near = planes.points_in_robot_m.iter().zip(&planes.floor_height_m);
+                median(
+                    near.filter(|(point, height_m)| point[0] < 0.6 && !height_m.is_nan())
+                        .map(|(point, &height_m)| f64::from(height_m) - steps.height_m(f64::from(point[0])) - off_m)
+                        .collect(),
+                )
+            })
             .collect();
-        // A single frame: its own error of some millimetres comes on top.
-        prop_assert!(median(misses).abs() < 0.006);
+        prop_assert!(median(misses_m.clone()).abs() < 0.004, "{misses_m:?}");
     }
 }
 
