@@ -7,7 +7,11 @@ use crate::portals::Fit;
 use crate::refusal::{explain, first_limit};
 use crate::route::{Ends, end_of, run};
 use crate::search::Route;
+use crate::terrain::Terrain;
 use crate::{AStar, Goal, NoWay, Refusal};
+
+/// A route over more unseen ground than this is but a guess, m.
+const GUESS_M: f64 = 1.0;
 
 /// A route and what it is for.
 struct Found {
@@ -53,7 +57,8 @@ impl AStar {
         let known = run(search, terrain, portals, &ends, start, Fit::Holds);
         let hoped = |route: &Route| {
             let last = route.cells.last();
-            last.is_some_and(|&cell| ends.is_blind(cell as usize))
+            let blind = last.is_some_and(|&cell| ends.is_blind(cell as usize));
+            blind || unseen_m(terrain, route) > GUESS_M
         };
         let mut limit = None;
         if known.as_ref().is_none_or(hoped) {
@@ -94,4 +99,10 @@ impl AStar {
             end,
         })
     }
+}
+
+/// How far a route leads over ground that was not seen, m.
+fn unseen_m(terrain: &Terrain, route: &Route) -> f64 {
+    let unseen = |&&cell: &&u32| terrain.unknown.get(cell as usize) == Some(&true);
+    route.cells.iter().filter(unseen).count() as f64 * terrain.lattice.cell_m
 }

@@ -2,7 +2,7 @@
 
 use geometry::{Map, PlanarPose, angle_between};
 use planning::{Plan, Step};
-use stairs::{ClimbingConfig, Stair, Staircase};
+use stairs::{ClimbingConfig, Edge, Stair, Staircase};
 
 /// Two sights of one stair differ by less than this in height, m,
 const SAME_HEIGHT_M: f64 = 0.012;
@@ -49,10 +49,13 @@ impl Flight {
         &self.steps
     }
 
-    /// Takes over the steps of a plan's leg, but for the edges that the robot is too near to see.
+    /// Takes over the steps of a plan's leg, but for the edges that the robot is too near to see, and where it crosses them.
     fn renew(&mut self, steps: &[Step], stairs: &Staircase, pose: &PlanarPose) {
         let before = std::mem::take(&mut self.steps);
         self.adopt(steps);
+        if let Some(first) = before.first() {
+            keep_lane(&mut self.steps, first);
+        }
         let mut last = None;
         for step in &mut self.steps {
             last = before.iter().position(|old| is_same(old, &step.stair));
@@ -134,6 +137,22 @@ impl Flight {
         {
             self.steps.push(next);
         }
+    }
+}
+
+/// Where the first step is crossed stays: a plan may cross a wide edge anywhere, and the robot would follow to and fro.
+fn keep_lane(steps: &mut [Step], before: &Step) {
+    let left_m = |edge: &Edge<Map>, [x_m, y_m]: [f64; 2], from_m: [f64; 2]| {
+        let (sin, cos) = edge.heading_rad().sin_cos();
+        (y_m - from_m[1]) * cos - (x_m - from_m[0]) * sin
+    };
+    let aside_m = steps.first().map_or(0.0, |first| {
+        left_m(&first.stair.front, before.crossing_m, first.crossing_m)
+    });
+    for step in steps {
+        let (sin, cos) = step.stair.front.heading_rad().sin_cos();
+        step.crossing_m[0] -= aside_m * sin;
+        step.crossing_m[1] += aside_m * cos;
     }
 }
 
@@ -261,3 +280,6 @@ fn ahead(stair: &Stair<Map>, [x_m, y_m]: [f64; 2], heading_rad: f64) -> Option<(
     let aside_m = (crossing_m[0] - middle.x).hypot(crossing_m[1] - middle.y);
     (aside_m < 0.5 * edge.length_m()).then_some((away_m, crossing_m))
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,8 +1,11 @@
-//! Whether the next stair may be stepped on from here, and where the feet go: the conditions of 003, section V.C, Fig. 9.
+//! Whether the next stair may be stepped on from here ([`stairs::conditions`]: 003, section V.C, Fig. 9), and where the feet
+//! go.
 
-use geometry::{PlanarPose, angle_between};
+use geometry::{Map, PlanarPose, Point, angle_between};
 use planning::Step;
-use stairs::{ClimbingConfig, Feet, Footing, Onward, Unfit};
+use stairs::{
+    Ahead, ClimbingConfig, Feet, Footing, Onward, Stand, Tolerance, Unfit, Unready, conditions,
+};
 
 use crate::climbing::StairClimbingConfig;
 use crate::climbing::footsteps::Stance;
@@ -67,39 +70,43 @@ impl Before<'_> {
             },
             Behind::Unseen(depth_m) => return Verdict::Look(depth_m),
         };
-        let footing =
-            match Footing::on_stair(self.climbing, self.feet, next.rise_m, width_m(next), onward) {
-                Ok(footing) => footing,
-                Err(unfit) => return Verdict::Refuse(unfit),
-            };
-        if !self.is_placed(next) {
-            return Verdict::Move(self.start_stance(next));
-        }
-        match self.stance_on(next, behind, &footing, onward) {
-            Ok(stance) => Verdict::Go(stance),
-            Err(unfit) => Verdict::Refuse(unfit),
+        let ahead = Ahead {
+            rise_m: next.rise_m,
+            onward,
+        };
+        let tolerance = Tolerance {
+            toes_m: self.config.near_tolerance,
+            askew_rad: self.config.aligned,
+        };
+        let stand = self.stand(next);
+        let on_the_way = self.aside_m(next).abs() <= self.config.step_side;
+        match conditions(self.climbing, self.feet, &ahead, &stand, &tolerance) {
+            Err(Unready::Unfit(unfit)) => Verdict::Refuse(unfit),
+            Ok(footing) if on_the_way => match self.stance_on(next, behind, &footing, onward) {
+                Ok(stance) => Verdict::Go(stance),
+                Err(unfit) => Verdict::Refuse(unfit),
+            },
+            Ok(_) | Err(_) => Verdict::Move(self.start_stance(next)),
         }
     }
 
-    /// How far the toes are past the front edge of the step, m, and how far the robot is turned against it, rad.
-    fn toes(&self, next: &Step) -> (f64, f64) {
+    /// How the robot stands before the step.
+    fn stand(&self, next: &Step) -> Stand {
         let edge = &next.stair.front;
-        let turned_rad = angle_between(edge.heading_rad(), self.pose.yaw_rad);
+        let askew_rad = angle_between(edge.heading_rad(), self.pose.yaw_rad);
         let middle_m = edge.beyond_m([self.pose.x_m, self.pose.y_m]);
-        (
-            middle_m + 0.5 * self.feet.length_m * turned_rad.cos(),
-            turned_rad,
-        )
+        Stand {
+            toes_m: middle_m + 0.5 * self.feet.length_m * askew_rad.cos(),
+            askew_rad,
+            left_m: self.left_m(next, &edge.left) + next.stair.left_margin_m,
+            right_m: next.stair.right_margin_m - self.left_m(next, &edge.right),
+        }
     }
 
-    /// Near enough and aligned, with room left and right.
-    fn is_placed(&self, next: &Step) -> bool {
-        let (toes_m, turned_rad) = self.toes(next);
-        let off_m = toes_m - self.climbing.set_for(next.rise_m).approach_x;
-        let aside_m = self.aside_m(next, [self.pose.x_m, self.pose.y_m]);
-        off_m.abs() <= self.config.near_tolerance
-            && turned_rad.abs() <= self.config.aligned
-            && aside_m.abs() <= self.config.step_side
+    /// How far to the left of the robot a place lies, along the front edge of a step, m.
+    fn left_m(&self, next: &Step, place: &Point<Map>) -> f64 {
+        let (sin, cos) = next.stair.front.heading_rad().sin_cos();
+        (place.inner.y - self.pose.y_m) * cos - (place.inner.x - self.pose.x_m) * sin
     }
 
     /// Where to stand before the step is taken.
@@ -122,7 +129,7 @@ impl Before<'_> {
         let square_rad = edge.heading_rad();
         let (sin, cos) = square_rad.sin_cos();
         let forward_m = middle_m - edge.beyond_m(here);
-        let aside_m = self.aside_m(next, here);
+        let aside_m = self.aside_m(next);
         PlanarPose::new(
             here[0] + cos * forward_m - sin * aside_m,
             here[1] + sin * forward_m + cos * aside_m,
@@ -130,18 +137,16 @@ impl Before<'_> {
         )
     }
 
-    /// How far to the left a place must move to have room on both sides of the step and not to be far from where the way
-    /// crosses its edge, m.
-    fn aside_m(&self, next: &Step, [x_m, y_m]: [f64; 2]) -> f64 {
+    /// How far to the left the robot must move to have room on both sides of the step, with some to spare, and not to be far
+    /// from where the way crosses its edge, m.
+    fn aside_m(&self, next: &Step) -> f64 {
         const OFF_THE_WAY_M: f64 = 0.04;
-        let edge = &next.stair.front;
-        let (sin, cos) = edge.heading_rad().sin_cos();
-        let left_m = |[px, py]: [f64; 2]| (py - y_m) * cos - (px - x_m) * sin;
-        let of = |point: &geometry::Point<geometry::Map>| left_m([point.inner.x, point.inner.y]);
-        let room_m = 0.5 * self.feet.pair_width_m + self.climbing.side_room;
-        let most_m = of(&edge.left) + next.stair.left_margin_m - room_m;
-        let least_m = of(&edge.right) - next.stair.right_margin_m + room_m;
-        let crossing_m = left_m(next.crossing_m);
+        const SPARE_M: f64 = 0.015;
+        let room_m = 0.5 * self.feet.pair_width_m + self.climbing.side_room + SPARE_M;
+        let stand = self.stand(next);
+        let (most_m, least_m) = (stand.left_m - room_m, room_m - stand.right_m);
+        let [x_m, y_m] = next.crossing_m;
+        let crossing_m = self.left_m(next, &Point::new(x_m, y_m, 0.0));
         let wanted_m = 0.0_f64.clamp(crossing_m - OFF_THE_WAY_M, crossing_m + OFF_THE_WAY_M);
         if least_m < most_m {
             wanted_m.clamp(least_m, most_m)
@@ -207,7 +212,7 @@ impl Before<'_> {
     }
 }
 
-fn middle_of(edge: &stairs::Edge<geometry::Map>) -> [f64; 2] {
+fn middle_of(edge: &stairs::Edge<Map>) -> [f64; 2] {
     let middle = edge.middle().inner;
     [middle.x, middle.y]
 }
@@ -215,11 +220,6 @@ fn middle_of(edge: &stairs::Edge<geometry::Map>) -> [f64; 2] {
 /// From the front edge of a step to that of the next one, along the way, m.
 pub(crate) fn depth_m(next: &Step, after: &Step) -> f64 {
     next.stair.front.beyond_m(after.crossing_m)
-}
-
-fn width_m(next: &Step) -> f64 {
-    let stair = &next.stair;
-    stair.front.length_m() + stair.left_margin_m + stair.right_margin_m
 }
 
 /// The refusal of a step, with figures.
