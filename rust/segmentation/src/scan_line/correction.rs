@@ -36,6 +36,9 @@ const WANDER_M: f64 = 0.0002;
 /// of the picture, m.
 const SWAY_RAD: f64 = 0.01;
 const SWAY_M: f64 = 0.003;
+/// Frames from one direction err alike, so that each tells less than the one before it. Cosine of the turn from which on a
+/// direction is another one: two pixels.
+const OTHER_DIRECTION: f64 = 0.9998;
 /// Farthest that the middle of the picture counts as floor, m.
 const FARTHEST_M: f64 = 0.6;
 /// Frames with ground after which a track is settled. Before that the ground is searched as widely as at first, for the
@@ -59,6 +62,9 @@ type State = SVector<f64, STATES>;
 pub(super) struct Correction {
     state: State,
     covariance: SMatrix<f64, STATES, STATES>,
+    // The direction that was looked in last, and the frames since it is that.
+    axis: Vector3<f64>,
+    alike: u32,
     // What the last prediction added to the camera's height, m.
     raised_m: f64,
     // Frames without any evidence, and frames without evidence of the height.
@@ -82,6 +88,8 @@ impl Correction {
         Self {
             state: State::zeros(),
             covariance: SMatrix::from_diagonal(&sigmas.component_mul(&sigmas)),
+            axis: Vector3::zeros(),
+            alike: 0,
             raised_m: 0.0,
             missed: None,
             missed_height: 0,
@@ -152,6 +160,7 @@ impl Correction {
         let measures = SMatrix::<f64, 3, STATES>::from_rows(&[about_x, about_y, floor_rises]);
         let measured = Vector3::new(turn_rad.x, turn_rad.y, floor_rise_m);
         let noise = Vector3::new(SWAY_RAD.powi(2), SWAY_RAD.powi(2), SWAY_M.powi(2));
+        let noise = noise * f64::from(self.count_alike(&roll));
         let innovation =
             measures * self.covariance * measures.transpose() + Matrix3::from_diagonal(&noise);
         if let Some(inverse) = innovation.try_inverse() {
@@ -190,6 +199,16 @@ impl Correction {
         }
     }
 
+    /// Frames in a row that looked in the direction `axis`.
+    fn count_alike(&mut self, axis: &Vector3<f64>) -> u32 {
+        if self.axis.dot(axis) > OTHER_DIRECTION {
+            self.alike = self.alike.saturating_add(1);
+        } else {
+            (self.axis, self.alike) = (*axis, 1);
+        }
+        self.alike
+    }
+
     /// A frame later what is known is a little less sure.
     fn wander(&mut self) {
         for angle in 0..HEIGHT {
@@ -207,102 +226,4 @@ fn middle_of_picture_m(camera_m: &Vector3<f64>, axis: &Vector3<f64>) -> Vector2<
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn looking(pan: f64, tilt: f64) -> Pose<Robot, Camera> {
-        let optical = Rotation3::from_matrix_unchecked(nalgebra::Matrix3::new(
-            0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0,
-        ));
-        let rotation = Rotation3::from_axis_angle(&Vector3::z_axis(), pan)
-            * Rotation3::from_axis_angle(&Vector3::y_axis(), tilt)
-            * optical;
-        Pose::wrap(Isometry3::from_parts(
-            Translation3::new(0.04, 0.0, 0.5),
-            UnitQuaternion::from_rotation_matrix(&rotation),
-        ))
-    }
-
-    fn tilt_between(predicted: &Pose<Robot, Camera>, truth: &Pose<Robot, Camera>) -> Vector2<f64> {
-        let turn = (truth.inner.rotation * predicted.inner.rotation.inverse()).scaled_axis();
-        Vector2::new(turn.x, turn.y)
-    }
-
-    #[test]
-    fn an_error_of_the_head_is_right_at_every_gaze_after_it_was_learned_at_two() {
-        let error = UnitQuaternion::new(Vector3::new(0.11, 0.0, -0.09));
-        let truth = |pan, tilt| {
-            let by_joints = looking(pan, tilt);
-            Pose::wrap(Isometry3::from_parts(
-                by_joints.inner.translation,
-                by_joints.inner.rotation * error,
-            ))
-        };
-        let mut correction = Correction::new();
-        let gazes = [(0.0, 0.7), (0.5, 0.7), (-0.5, 0.9), (0.0, 0.7), (1.0, 0.6)];
-        for gaze in gazes.iter().flat_map(|gaze| [gaze; 10]) {
-            let predicted = correction.predict(&looking(gaze.0, gaze.1));
-            let turn = tilt_between(&predicted, &truth(gaze.0, gaze.1));
-            correction.found(&predicted, &turn, 0.0);
-        }
-        for gaze in [(-1.2, 0.7), (1.2, 0.5), (0.3, 0.3)] {
-            let predicted = correction.predict(&looking(gaze.0, gaze.1));
-            let left = tilt_between(&predicted, &truth(gaze.0, gaze.1)).norm();
-            assert!(left < 0.02, "{gaze:?}: {left}");
-        }
-    }
-
-    #[test]
-    fn learned_at_one_gaze_it_stays_within_the_tracking_gate_at_others() {
-        for (pitch, roll) in [(0.12, 0.12), (-0.12, 0.12), (0.12, -0.12)] {
-            let error = UnitQuaternion::new(Vector3::new(pitch, 0.0, roll));
-            let truth = |pan: f64| {
-                let by_joints = looking(pan, 0.7).inner;
-                Pose::wrap(Isometry3::from_parts(
-                    by_joints.translation,
-                    by_joints.rotation * error,
-                ))
-            };
-            let mut correction = Correction::new();
-            for _ in 0..10 {
-                let predicted = correction.predict(&looking(0.0, 0.7));
-                let turn = tilt_between(&predicted, &truth(0.0));
-                correction.found(&predicted, &turn, 0.0);
-            }
-            let predicted = correction.predict(&looking(1.0, 0.7));
-            assert!(tilt_between(&predicted, &truth(1.0)).norm() < 0.044);
-        }
-    }
-
-    #[test]
-    fn a_young_track_that_is_contradicted_begins_anew_and_a_settled_one_does_not() {
-        for (turn_rad, rise_m) in [(0.08, 0.0), (-0.08, 0.0), (0.0, 0.015), (0.0, -0.015)] {
-            let far_off = Vector2::new(0.0, turn_rad);
-            for finds in 1..2 * SETTLED {
-                let mut correction = Correction::new();
-                for _ in 0..finds {
-                    correction.found(&looking(0.0, 0.7), &Vector2::zeros(), 0.0);
-                }
-                correction.found(&looking(0.0, 0.7), &far_off, rise_m);
-                assert_eq!(correction.missed.is_none(), finds < SETTLED);
-            }
-        }
-    }
-
-    #[test]
-    fn it_forgets_after_so_many_frames_without_ground() {
-        let mut correction = Correction::new();
-        for _ in 0..SETTLED {
-            assert!(!correction.is_settled());
-            correction.found(&looking(0.0, 0.7), &Vector2::new(0.05, 0.0), 0.004);
-        }
-        assert!(correction.is_settled());
-        for _ in 0..10 {
-            correction.missed_one(10);
-        }
-        assert!(correction.is_settled() && !correction.holds(9, 20));
-        correction.missed_one(10);
-        assert!(!correction.is_settled());
-        assert_eq!(correction.height_m(), 0.0);
-    }
-}
+mod tests;
