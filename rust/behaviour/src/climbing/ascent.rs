@@ -41,10 +41,7 @@ impl StairClimbing {
                 let known = self.phase == Phase::Look
                     && self.tries.missteps == 0
                     && self.tries.looks == 0
-                    && self
-                        .flight
-                        .second()
-                        .is_some_and(|second| self.is_well_measured(second));
+                    && self.knows_enough(here);
                 if self.look(here, known) {
                     self.decide(here);
                 }
@@ -63,6 +60,14 @@ impl StairClimbing {
             }
         }
         self.stepper.motion()
+    }
+
+    /// Whether a glance will do: the step behind the next one was well measured, or the way leads on without a step.
+    fn knows_enough(&self, here: &Here<'_>) -> bool {
+        match (self.flight.first(), self.flight.second()) {
+            (None, _) => here.has_level_way(),
+            (Some(_), second) => second.is_some_and(|second| self.is_well_measured(second)),
+        }
     }
 
     /// After a look: what to do about the next step.

@@ -56,7 +56,7 @@ impl Default for StairClimbingConfig {
             aligned: 0.09,
             longest_stride: 0.15,
             run_rise: 0.042,
-            step_forward: 0.08,
+            step_forward: 0.09,
             step_side: 0.03,
             step_turn: 0.2,
             wait: 10.0,

@@ -1,15 +1,24 @@
 //! The walk to the next climb, or nearer to stairs of which too little is known (003: search).
 
-use super::{Here, Leg, StairClimbing, State};
+use super::{Here, Leg, Pace, StairClimbing, State};
 use crate::climbing::inspection::{self, Inspection};
 use crate::{Behaviour, BehaviourError, Decision, Motion, Outcome, Situation};
 
-/// The first look around may end after this when stairs lie on the way, s: by then all near ground was looked at.
+/// The first look around may end after this when stairs lie on the way, s: by then all near ground was looked at;
 const FIRST_LOOK_S: f64 = 3.8;
+/// without stops, the ground on the way to them was.
+const FIRST_GLANCE_S: f64 = 1.8;
 /// A climb must be on the plan this long to be counted on, s.
 pub(super) const SURE_S: f64 = 0.4;
 
 impl StairClimbing {
+    const fn first_look_s(&self) -> f64 {
+        match self.pace {
+            Pace::StepByStep => FIRST_LOOK_S,
+            Pace::Continuous => FIRST_GLANCE_S,
+        }
+    }
+
     /// The next climb of the plan.
     pub(super) fn leg<'a>(&self, here: &Here<'a>) -> Option<Leg<'a>> {
         Leg::next(
@@ -75,7 +84,7 @@ impl StairClimbing {
             let decision = self.walking.next(situation)?;
             return Ok(self.unless_stairs_may_help(here, decision));
         }
-        if first_look && sure && self.state_s > FIRST_LOOK_S {
+        if first_look && sure && self.state_s > self.first_look_s() {
             self.walking.end_look();
         }
         let mut decision = self.walking.next(&Situation {
