@@ -1,25 +1,15 @@
 //! Takes the border off regions: there the matching window saw two surfaces at once.
 
-/// Value of pixels that say nothing: not seen, or a hole inside one region.
-const NEUTRAL: u16 = 0;
-/// Value of windows that hold more than one region, or a seen pixel of none.
-const MIXED: u16 = u16::MAX;
+/// Lowest and highest label that a pixel stands for. Of one that says nothing (not seen, or a hole inside one region): none.
+const NEUTRAL: (i16, i16) = (i16::MAX, 0);
+/// And of a seen pixel without a region: all.
+const MIXED: (i16, i16) = (0, i16::MAX);
 
-const fn both(a: u16, b: u16) -> u16 {
-    if a == b || b == NEUTRAL {
-        a
-    } else if a == NEUTRAL {
-        b
-    } else {
-        MIXED
-    }
-}
-
-/// Erodes label images. Keeps its buffer.
+/// Erodes label images. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Erosion {
-    marks: Vec<u16>,
-    over_cols: Vec<u16>,
+    lowest: WindowExtreme,
+    highest: WindowExtreme,
 }
 
 impl Erosion {
@@ -33,46 +23,61 @@ impl Erosion {
         reach: (usize, usize),
         eroded: &mut [u16],
     ) {
-        let height = labels.len() / width;
-        self.marks.clear();
-        self.marks.extend((0..labels.len()).map(|at| {
-            if labels[at] > 0 {
-                labels[at]
-            } else if disparity_px[at].is_nan() || is_hole(labels, width, at) {
+        self.lowest.marks.clear();
+        self.highest.marks.clear();
+        for (at, (&label, d)) in labels.iter().zip(disparity_px).enumerate() {
+            let (low, high) = if label > 0 {
+                (label.cast_signed(), label.cast_signed())
+            } else if d.is_nan() || is_hole(labels, width, at) {
                 NEUTRAL
             } else {
                 MIXED
-            }
-        }));
-        self.over_cols.clear();
-        self.over_cols.extend_from_slice(&self.marks);
-        for step in 1..=reach.0 {
-            for row in 0..height {
-                let line = row * width..(row + 1) * width;
-                let (out, marks) = (&mut self.over_cols[line.clone()], &self.marks[line]);
-                for (out, &mark) in out.iter_mut().zip(&marks[step.min(width)..]) {
-                    *out = both(*out, mark);
-                }
-                for (out, &mark) in out.iter_mut().skip(step).zip(marks) {
-                    *out = both(*out, mark);
-                }
+            };
+            self.lowest.marks.push(low);
+            self.highest.marks.push(high);
+        }
+        self.lowest.spread(width, reach, i16::min);
+        self.highest.spread(width, reach, i16::max);
+        let windows = self.lowest.over_both.iter().zip(&self.highest.over_both);
+        for ((out, &label), (&low, &high)) in eroded.iter_mut().zip(labels).zip(windows) {
+            let own = label.cast_signed();
+            *out = if low == own && high == own { label } else { 0 };
+        }
+    }
+}
+
+/// The lowest or the highest mark in a window around each pixel: first along the rows, then along the columns.
+#[derive(Debug, Clone, Default)]
+struct WindowExtreme {
+    marks: Vec<i16>,
+    over_cols: Vec<i16>,
+    over_both: Vec<i16>,
+}
+
+impl WindowExtreme {
+    fn spread(&mut self, width: usize, reach: (usize, usize), pick: impl Fn(i16, i16) -> i16) {
+        self.over_cols.clone_from(&self.marks);
+        let rows = self.over_cols.chunks_exact_mut(width);
+        for (out, marks) in rows.zip(self.marks.chunks_exact(width)) {
+            for step in 1..=reach.0.min(width) {
+                pick_shifted(out, marks, step, &pick);
             }
         }
-        eroded.copy_from_slice(&self.over_cols);
+        self.over_both.clone_from(&self.over_cols);
         for step in 1..=reach.1 {
-            let shift = (step * width).min(labels.len());
-            for (out, &mark) in eroded.iter_mut().zip(&self.over_cols[shift..]) {
-                *out = both(*out, mark);
-            }
-            for (out, &mark) in eroded.iter_mut().skip(shift).zip(&self.over_cols) {
-                *out = both(*out, mark);
-            }
+            let shift = (step * width).min(self.over_cols.len());
+            pick_shifted(&mut self.over_both, &self.over_cols, shift, &pick);
         }
-        for (out, &label) in eroded.iter_mut().zip(labels) {
-            if *out != label {
-                *out = 0;
-            }
-        }
+    }
+}
+
+/// Picks between each value and those of `marks` that lie `shift` before and behind it.
+fn pick_shifted(out: &mut [i16], marks: &[i16], shift: usize, pick: &impl Fn(i16, i16) -> i16) {
+    for (out, &mark) in out.iter_mut().zip(&marks[shift..]) {
+        *out = pick(*out, mark);
+    }
+    for (out, &mark) in out[shift..].iter_mut().zip(marks) {
+        *out = pick(*out, mark);
     }
 }
 
