@@ -38,6 +38,7 @@ pub(crate) struct Levels {
     pub(crate) open: Vec<bool>,
     /// Whether there is any edge.
     pub(crate) any: bool,
+    gaps: Vec<(usize, f32)>,
 }
 
 impl Levels {
@@ -65,6 +66,7 @@ impl Levels {
                 }
             }));
         treads.lay(&mut self.height_m);
+        self.close_gaps(view.cells.cols(), limits.floor_m);
         self.edge.clear();
         self.edge.resize(self.height_m.len(), false);
         self.any = false;
@@ -74,6 +76,30 @@ impl Levels {
         self.mark_rims(cols, treads, stand.height_m, limits.floor_m);
         self.mark_differences(cols, limits);
         self.mark_shadows(cols, limits);
+    }
+
+    /// Gives single cells that were not seen the height of the ground on both sides of them. Else a line of cells that the
+    /// camera missed before a box looks like the shadow below an edge.
+    fn close_gaps(&mut self, cols: usize, max_step: f64) {
+        self.gaps.clear();
+        for index in cols..self.height_m.len().saturating_sub(cols) {
+            let inside = index % cols > 0 && index % cols + 1 < cols;
+            if !inside || !self.height_m[index].is_nan() {
+                continue;
+            }
+            let between = |[a, b]: [usize; 2]| {
+                let [a, b] = [self.height_m[a], self.height_m[b]];
+                // Not a number: unknown, no ground.
+                (f64::from((a - b).abs()) <= max_step).then_some(0.5 * (a + b))
+            };
+            let closed = between([index - 1, index + 1]);
+            if let Some(height) = closed.or_else(|| between([index - cols, index + cols])) {
+                self.gaps.push((index, height));
+            }
+        }
+        for &(index, height) in &self.gaps {
+            self.height_m[index] = height;
+        }
     }
 
     /// The cells of a stair on another level beside what was not seen: it is stepped on over its edges only.

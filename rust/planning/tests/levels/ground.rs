@@ -181,6 +181,16 @@ fn a_box_whose_top_is_flat_is_kept_clear_of_by_the_body() {
 }
 
 #[test]
+fn a_line_of_cells_that_was_not_seen_before_a_box_is_no_shadow_below_an_edge() {
+    let mut course = Course::floor();
+    course.paint([0.9, -2.0], [1.3, -0.25], Surface::Floor(0.12));
+    course.paint([0.9, 0.14], [1.3, 2.0], Surface::Obstacle(0.3));
+    course.forget([1.08, -0.25], [1.12, -0.12]);
+    let path = way(&course, 0.0, &goal(1.8, 0.0));
+    assert!(path.cost_m < 2.5, "{}", path.cost_m);
+}
+
+#[test]
 fn what_the_robot_cannot_see_around_its_feet_is_free_to_leave() {
     let mut course = Course::floor();
     course.paint([-2.0, -2.0], [1.0, 2.0], Surface::Floor(0.1));
