@@ -22,7 +22,7 @@ const PLACES: usize = 41;
 /// The guess may be so far outside the picture, pixels: it may be off.
 const OUTSIDE_PX: f64 = 5.0;
 /// Of areas with more pixels than this only every second, third ... takes part: neighbouring windows overlap and tell the same.
-const MANY: usize = 1000;
+const MANY: usize = 500;
 /// Least disparity of a surface, px: farther away nothing can be told.
 pub(super) const FARTHEST_PX: f32 = 1.5;
 
@@ -186,7 +186,7 @@ impl Excerpt {
         for (index, line) in self.observed_px.chunks_exact(columns).enumerate() {
             let row = (area.rows.0 + index) as f64;
             // From row to row by another column: no line of pixels is left out.
-            let first = index * (thinned / 2 + 1) % thinned;
+            let first = index * (thinned - 1) % thinned;
             for (i, &observed) in line.iter().enumerate().skip(first).step_by(thinned) {
                 if observed > 0.0 && zone.holds(&faces, (area.cols.0 + i) as f64, row) {
                     self.chosen.push((index * columns + i) as u32);
