@@ -134,9 +134,21 @@ impl LegOdometry {
                     }
                     *anchor = Some(landed);
                 }
-            } else if other.is_some() && contacts.holds(side.other()) {
-                *anchor = None;
+            } else if let Some(other) = other.filter(|_| contacts.holds(side.other())) {
+                let own = anchor.take();
+                if let Some(own) = own.filter(|own| (own.z - other.z).abs() >= config.level_band) {
+                    self.measure_level_again(legs, side, own.z, other.z);
+                }
             }
+        }
+    }
+
+    /// As the foot `side` lets go of its level, that of the other foot is measured once more. When it landed, the load was on the
+    /// first one, and a leg that carries is a little shorter than its encoders say: the mean of both is right.
+    fn measure_level_again(&mut self, legs: &Legs, side: Side, own_m: f64, other_m: f64) {
+        let again_m = own_m + legs.reach_m(side.other()).z - legs.reach_m(side).z;
+        if let Some(anchor) = &mut self.anchors_m[side.other().index()] {
+            anchor.z = f64::midpoint(other_m, again_m);
         }
     }
 }
@@ -172,4 +184,42 @@ pub(crate) fn odometry_from_torso(
     torso_m: Vector3<f64>,
 ) -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::from(torso_m), rotation)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_level_is_right_though_legs_give_way_under_load() {
+        const SAG_M: f64 = 0.001;
+        const RISE_M: f64 = 0.03;
+        let config = ProprioceptionConfig::default();
+        let mut contacts = Contacts::new(65.0, &config);
+        let mut odometry = LegOdometry::new();
+        let legs = |soles_m: [f64; 2], left: f64| Legs {
+            odometry_from_torso_rotation: UnitQuaternion::identity(),
+            torso_from_sole: [(0.04, left), (-0.04, 1.0 - left)].map(|(y_m, share)| {
+                let sole_m = if y_m > 0.0 { soles_m[0] } else { soles_m[1] };
+                Isometry3::translation(0.0, y_m, sole_m - 0.2 - SAG_M * share)
+            }),
+        };
+        odometry.start(&legs([0.0; 2], 0.5));
+        let mut level_m = 0.0;
+        // Onto the right foot, the left one up, onto it, the right one up, and onto both.
+        for (soles_m, from, to) in [
+            ([0.0, 0.0], 0.5, 0.0),
+            ([RISE_M, 0.0], 0.0, 1.0),
+            ([RISE_M, RISE_M], 1.0, 0.5),
+        ] {
+            for tick in 0..=100 {
+                let left = from + (to - from) * f64::from(tick) / 100.0;
+                let loads = [left, 1.0 - left].map(|share| [0.25 * 65.0 * share; 4]);
+                contacts.update(&loads, &config);
+                let robot = odometry.update(&legs(soles_m, left), &contacts, &config);
+                level_m = robot.origin().inner.z;
+            }
+        }
+        assert!((level_m - RISE_M).abs() < 2e-4, "{level_m}");
+    }
 }
