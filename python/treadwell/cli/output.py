@@ -37,8 +37,9 @@ def write_table(title: str, header: Sequence[str], rows: Sequence[Sequence[objec
     from rich.text import Text
 
     table = Table(title=Text(title, style="bold"), box=SIMPLE_HEAD, title_justify="left")
-    for name in header:
-        table.add_column(name)
+    for number, name in enumerate(header):
+        # Names are what one types next: never cut.
+        table.add_column(name, no_wrap=number == 0)
     for row in rows:
         # Text and not markup: names and descriptions are the user's.
         table.add_row(*(Text(str(cell)) for cell in row))
