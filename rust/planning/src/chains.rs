@@ -1,7 +1,7 @@
 //! From stair to stair: the steps of a climb, and where it ends.
 
 use geometry::Map;
-use stairs::{Footing, Onward, Stair};
+use stairs::{Footing, Onward, Stair, Unfit};
 
 use crate::Step;
 use crate::faces::{After, GROUND_DEPTH_M};
@@ -27,6 +27,7 @@ impl Portals {
         let (mut stair, mut face, mut offset_m) = (entry.stair, entry.face, entry.offset_m);
         let (mut level_m, mut at_m) = (entry.level_m, entry.enter_m);
         let (mut fixed, mut fit, mut cost_m) = (entry.fixed, Fit::Holds, 0.0);
+        let mut before: Option<(Way, Landing, f64)> = None;
         for _ in 0..MOST_STEPS {
             let line = Line::of(&stair.front);
             let crossing_m = line.at(offset_m, 0.0);
@@ -42,9 +43,16 @@ impl Portals {
                 break;
             }
             let told = entry.level_seen || self.strides.len() > first;
-            fit = fit.max(fit_of(scene, entry, &stride, told));
+            let doubt = doubt_of(scene, entry, &stride, told);
+            if let (Doubt::Looked, Some((way, landing, cost_m))) = (doubt, &before) {
+                self.hope(scene, entry, *way, landing, *cost_m);
+            }
+            fit = fit.max(doubt.fit());
             cost_m += walk_m(at_m, stride.from_m) + walk_m(stride.from_m, stride.to_m);
-            cost_m += scene.config.climb_cost;
+            // What is higher than a step may turn out to be several.
+            let steps = (stride.step.rise_m.abs() / RISE_M).max(1.0);
+            let steps = if stride.limit.is_some() { steps } else { 1.0 };
+            cost_m += scene.config.climb_cost * steps;
             at_m = stride.to_m;
             self.strides.push(stride);
             let way = Way {
@@ -55,7 +63,9 @@ impl Portals {
                 fit,
                 at_goal: false,
             };
-            self.end(scene, entry, way, &Landing { stair, face, after }, cost_m);
+            let landing = Landing { stair, face, after };
+            self.end(scene, entry, way, &landing, cost_m);
+            before = Some((way, landing, cost_m));
             level_m = stair.height_m();
             let depth_m;
             (stair, face, depth_m) = match after {
@@ -151,12 +161,21 @@ impl Portals {
         // Floor that is too short to walk on may be a stair that is not known as one yet.
         let short = on.face.is_none() && on.after == After::Level && run.is_none();
         if on.after == After::Unknown || short {
-            let remaining_m = walk_m(at_m, [goal.x_m, goal.y_m]);
-            let ahead_m = (1.0 + scene.config.unknown_cost) * remaining_m + HOPE_M;
-            let missing_m = goal.height_m.map_or(0.0, |h| (h - stair.height_m()).abs());
-            let rises_m = scene.config.climb_cost * missing_m / RISE_M;
-            self.add(scene, entry.cell, None, cost_m + ahead_m + rises_m, way);
+            self.hope(scene, entry, way, on, cost_m);
         }
+    }
+
+    /// Adds a link that ends on a stair behind which the way may go on.
+    fn hope(&mut self, scene: &Scene<'_>, entry: &Entry, way: Way, on: &Landing, cost_m: f64) {
+        let (goal, stair) = (&scene.goal, &on.stair);
+        let Some(at_m) = self.strides[..way.end].last().map(|stride| stride.to_m) else {
+            return;
+        };
+        let remaining_m = walk_m(at_m, [goal.x_m, goal.y_m]);
+        let ahead_m = (1.0 + scene.config.unknown_cost) * remaining_m + HOPE_M;
+        let missing_m = goal.height_m.map_or(0.0, |h| (h - stair.height_m()).abs());
+        let rises_m = scene.config.climb_cost * missing_m / RISE_M;
+        self.add(scene, entry.cell, None, cost_m + ahead_m + rises_m, way);
     }
 
     /// Adds a link to a cell, or to a node of its own.
@@ -168,26 +187,47 @@ impl Portals {
     }
 }
 
-/// Whether a step can be taken; `level_known`: whether the level before it was seen. A limit is sure where the edge was
-/// measured, or looked at from near by.
-fn fit_of(scene: &Scene<'_>, entry: &Entry, stride: &Stride, level_known: bool) -> Fit {
-    if stride.limit.is_none() {
-        return Fit::Holds;
+/// What is thought of the limit that a step breaks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Doubt {
+    /// It breaks none.
+    Fits,
+    /// It was not seen from near by yet.
+    Afar,
+    /// It was looked at as far as it can be from before the first step: the steps before it can be climbed to see more.
+    Looked,
+    /// None: it was measured, or seen from near by.
+    Sure,
+}
+
+impl Doubt {
+    const fn fit(self) -> Fit {
+        match self {
+            Self::Fits => Fit::Holds,
+            Self::Afar => Fit::Doubtful,
+            Self::Looked | Self::Sure => Fit::Broken,
+        }
     }
-    let measured = level_known && stride.step.stair.front_fit.is_some();
-    // From either side: its height is the same.
-    let Stair { front, back, .. } = &stride.step.stair;
-    let middles = [front.middle().inner, back.middle().inner].map(|middle| [middle.x, middle.y]);
-    let places = [stride.step.crossing_m, middles[0], middles[1]];
-    let nearest_m = places.map(|place_m| scene.terrain.judged.nearest_m(place_m));
-    let nearest_m = nearest_m.into_iter().fold(f64::INFINITY, f64::min);
+}
+
+/// How sure it is that a step cannot be taken; `level_known`: whether the level before it was seen.
+fn doubt_of(scene: &Scene<'_>, entry: &Entry, stride: &Stride, level_known: bool) -> Doubt {
+    let stair = &stride.step.stair;
+    let measured = match stride.limit {
+        None => return Doubt::Fits,
+        Some(Unfit::TooHigh(_) | Unfit::TooLow(_)) => level_known && stair.front_fit.is_some(),
+        Some(_) => stair.front_fit.is_some() && stair.back_fit.is_some(),
+    };
+    let near = |place_m| scene.terrain.judged.nearest_m(place_m) <= scene.config.limit_range;
+    // A tread may have been seen from its other side; wide floor has no other side that says anything of this one.
+    let behind = stair.back.middle().inner;
+    let other_side = stair.depth_m() <= scene.config.limit_range && near([behind.x, behind.y]);
     let mut looked = scene.looked_m.iter();
-    if measured
-        || nearest_m <= scene.config.limit_range
-        || looked.any(|&from_m| distance_m(from_m, entry.enter_m) <= LOOKED_M)
-    {
-        Fit::Broken
+    if measured || near(stride.step.crossing_m) || other_side {
+        Doubt::Sure
+    } else if looked.any(|&from_m| distance_m(from_m, entry.enter_m) <= LOOKED_M) {
+        Doubt::Looked
     } else {
-        Fit::Doubtful
+        Doubt::Afar
     }
 }

@@ -171,10 +171,14 @@ impl StairClimbing {
         }
     }
 
-    /// Looks once more; gives up for this reason when that was done too often.
+    /// Looks once more; when that was done too often, walks on where there is room, and else gives up for this reason.
     fn look_again(&mut self, here: &Here<'_>, reason: impl FnOnce() -> String) {
         self.tries.looks += 1;
         if self.tries.looks > self.config.tries {
+            if self.on.is_some_and(|step| step.stair.depth_m() >= ROOMY_M) {
+                self.enter(State::Finish);
+                return;
+            }
             self.refuse(reason());
         } else {
             self.begin_look(here);

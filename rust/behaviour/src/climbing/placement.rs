@@ -167,9 +167,7 @@ impl Before<'_> {
         let half_pair_m = 0.5 * self.feet.pair_width_m;
         // Between two edges that are turned against each other the feet stand half way (a spiral).
         let turn_rad = match behind {
-            Behind::Step(after) => {
-                0.5 * angle_between(edge_rad, after.stair.front.heading_rad()).clamp(-0.3, 0.3)
-            }
+            Behind::Step(after) => half_turn_rad(edge_rad, after.stair.front.heading_rad()),
             _ => 0.0,
         };
         let slack_m = half_pair_m * turn_rad.sin().abs();
@@ -209,6 +207,18 @@ impl Before<'_> {
         } else {
             Behind::Unseen(depth_m)
         }
+    }
+}
+
+/// Half of the turn from one edge to the next. What their headings may be wrong by is no turn.
+fn half_turn_rad(from_rad: f64, to_rad: f64) -> f64 {
+    const UNSURE_RAD: f64 = 0.05;
+    const MOST_RAD: f64 = 0.3;
+    let turn_rad = angle_between(from_rad, to_rad);
+    if turn_rad.abs() < UNSURE_RAD {
+        0.0
+    } else {
+        0.5 * turn_rad.clamp(-MOST_RAD, MOST_RAD)
     }
 }
 
