@@ -95,6 +95,17 @@ def test_each_limit_counts(height: float, edge: float, heading: float) -> None:
     assert not StepError(0.0, 0.03, height, edge, heading).within()
 
 
+def test_who_climbs_on_without_a_stand_is_not_judged_by_what_was_known_before() -> None:
+    walk = Walk(stair(0.7, 0.03))
+    assert len(walk.climb()) == 1
+    walk.judge.touch.right = False
+    walk.stand()
+    walk.judge.soles = (sole(0.8, 0.03), sole(0.8, 0.07))
+    walk.judge.touch.right = True
+    walk.stand()
+    assert len(walk.watch.steps) == 1
+
+
 def test_an_edge_is_where_the_foot_crossed_it_and_walking_on_crosses_none() -> None:
     course = world(STEP).course
     found = true_edge(course, sole(0.5, 0.0, 0.1), sole(0.8, 0.03, 0.1))

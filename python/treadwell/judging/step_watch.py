@@ -75,7 +75,7 @@ class StepWatch:
     """Watches an episode.
 
     Attributes:
-        steps: an entry for each step made.
+        steps: an entry for each step made from a stand of both soles on one level.
         planned: most steps that a plan had.
         tops: surfaces believed in at the last frame that had some.
     """
@@ -139,6 +139,8 @@ class StepWatch:
         edge = true_edge(self._episode.course, before, sole)
         if edge is not None:
             self.steps.append(_error(self._belief, edge, sole.z, rise, time))
+            # The next step is judged by what is known on this one: who does not stop on it is not.
+            self._belief = None
 
 
 def true_edge(course: Course, before: Sole, after: Sole) -> tuple[Floats, float] | None:
