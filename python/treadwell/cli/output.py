@@ -29,6 +29,10 @@ def write_message(text: str) -> None:
     sys.stderr.flush()
 
 
+_WIDTH_OF_A_FILE: Final = 160
+"""Columns."""
+
+
 def write_table(title: str, header: Sequence[str], rows: Sequence[Sequence[object]]) -> None:
     """Write a table to standard output."""
     from rich.box import SIMPLE_HEAD
@@ -43,7 +47,8 @@ def write_table(title: str, header: Sequence[str], rows: Sequence[Sequence[objec
     for row in rows:
         # Text and not markup: names and descriptions are the user's.
         table.add_row(*(Text(str(cell)) for cell in row))
-    Console().print(table)
+    # Into a file or a pipe nothing has to be broken into short lines.
+    Console(width=None if sys.stdout.isatty() else _WIDTH_OF_A_FILE).print(table)
 
 
 def guarded(command: Callable[[], Any], *, as_json: bool) -> int:
