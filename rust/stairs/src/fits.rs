@@ -14,8 +14,9 @@ use crate::{Edge, EdgeFit, EdgeModel, Stair, StairsConfig};
 const FITTED: usize = 2;
 /// Edges that are kept.
 const KEPT: usize = 16;
-/// Levels of one edge may differ by this from what was fitted before, m.
-const SAME_LEVEL_M: f64 = 0.012;
+/// Levels of one edge may differ by this from those that it was fitted with, m: less than half of the lowest step. An edge
+/// that was fitted from afar between levels that turn out to be others lies elsewhere, by more than that.
+const SAME_LEVEL_M: f64 = 0.007;
 /// Errors of the place (m) and the heading (rad) of an edge between two regions of labels.
 const SURE: (f64, f64) = (0.006, 0.06);
 /// Largest change of height that is fitted, m.
@@ -87,6 +88,7 @@ impl Fits {
             };
             if let Some(known) = self.edges.iter_mut().find(|known| same(known)) {
                 known.add(&fitted, &edge, &map_from_camera);
+                known.heights_m = heights_m;
                 continue;
             }
             if self.edges.len() == KEPT {
@@ -101,28 +103,40 @@ impl Fits {
     pub(crate) fn apply(&self, stairs: &mut [Stair<Map>]) {
         for stair in stairs {
             let height_m = stair.height_m();
-            for fused in self.edges.iter().filter(|fused| is_sure(&fused.fit())) {
-                let levels = fused
-                    .heights_m
-                    .map(|level_m| (level_m - height_m).abs() < SAME_LEVEL_M);
-                for (edge, [near, far]) in [
-                    (*fused.edge(), levels),
-                    (fused.edge().reversed(), [levels[1], levels[0]]),
-                ] {
-                    let Some(line) = Line::along(&edge) else {
-                        continue;
-                    };
-                    if far && apart_m(&stair.front, &edge).is_some() {
-                        stair.front = stair.front.onto(&line);
-                        stair.front_fit = Some(fused.fit());
-                    }
-                    if near && apart_m(&stair.back, &edge).is_some() {
-                        stair.back = stair.back.onto(&line);
-                        stair.back_fit = Some(fused.fit());
-                    }
-                }
+            let front = self.surest(&stair.front, |[near, far]| [far, near], height_m);
+            let back = self.surest(&stair.back, |levels| levels, height_m);
+            if let Some((line, fit)) = front {
+                stair.front = stair.front.onto(&line);
+                stair.front_fit = Some(fit);
+            }
+            if let Some((line, fit)) = back {
+                stair.back = stair.back.onto(&line);
+                stair.back_fit = Some(fit);
             }
         }
+    }
+
+    /// The surest of the fitted edges that may be `edge`; one that was fitted from afar may lie beside it. Of the levels
+    /// before and behind, `order` puts the stair's first.
+    fn surest(
+        &self,
+        edge: &Edge<Map>,
+        order: impl Fn([f64; 2]) -> [f64; 2],
+        height_m: f64,
+    ) -> Option<(Line, EdgeFit)> {
+        let sure = self.edges.iter().filter(|fused| is_sure(&fused.fit()));
+        let same = sure.filter_map(|fused| {
+            let [one_way, other_way] = order(fused.heights_m);
+            let ways = [
+                (*fused.edge(), one_way),
+                (fused.edge().reversed(), other_way),
+            ];
+            let (fitted, _) = ways.into_iter().find(|(fitted, level_m)| {
+                (level_m - height_m).abs() < SAME_LEVEL_M && apart_m(edge, fitted).is_some()
+            })?;
+            Some((Line::along(&fitted)?, fused.fit()))
+        });
+        same.min_by(|(_, a), (_, b)| a.place_sigma_m.total_cmp(&b.place_sigma_m))
     }
 }
 
@@ -158,4 +172,88 @@ fn wanted(
         })
     };
     (0..stairs.len()).filter_map(one).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use geometry::{Camera, Point};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::{FittedEdge, Sides};
+
+    /// A step of 30 mm whose front was labelled 1 cm too far, and whose edge was fitted between levels that are off.
+    fn front_fit(off_m: f64) -> Option<EdgeFit> {
+        let stair = stair_with(&[(0.5, off_m, 0.003)]);
+        let at_m = if stair.front_fit.is_some() { 0.5 } else { 0.51 };
+        assert!(stair.front.beyond_m([at_m, 0.0]).abs() < 1e-9);
+        stair.front_fit
+    }
+
+    /// The same after edges were fitted at these places, with these errors of the levels and these sigmas, m.
+    fn stair_with(edges: &[(f64, f64, f64)]) -> Stair<Map> {
+        let edge = |x_m: f64, z_m: f64| Edge {
+            left: Point::<Map>::new(x_m, 0.2, z_m),
+            right: Point::<Map>::new(x_m, -0.2, z_m),
+        };
+        let camera = Pose::<Map, Camera>::identity();
+        let mut fits = Fits::new(crate::synthetic::CAMERA);
+        for &(x_m, off_m, place_sigma_m) in edges {
+            let at = edge(x_m, 0.03);
+            let heights_m = [off_m, 0.03 + off_m];
+            let fitted = FittedEdge {
+                edge: at.transformed(&Pose::<Robot, Map>::identity()),
+                place_sigma_m,
+                heading_sigma_rad: 0.02,
+                near_height_m: heights_m[0],
+                far_height_m: heights_m[1],
+            };
+            fits.edges
+                .push(FusedEdge::new(&fitted, &at, heights_m, &camera));
+        }
+        let mut stairs = [Stair {
+            front: edge(0.51, 0.03),
+            back: edge(0.63, 0.03),
+            reference: Point::new(0.57, 0.0, 0.03),
+            left_margin_m: 0.0,
+            right_margin_m: 0.0,
+            support: 300,
+            seen_ends: Sides::default(),
+            front_fit: None,
+            back_fit: None,
+            seen_from_m: 0.5,
+            steps_ago: 0,
+        }];
+        fits.apply(&mut stairs);
+        let [stair] = stairs;
+        stair
+    }
+
+    #[test]
+    fn of_two_fits_of_one_edge_the_surer_counts_whichever_came_first() {
+        let (near, far) = ((0.5, 0.0, 0.002), (0.53, 0.006, 0.0055));
+        for edges in [[near, far], [far, near]] {
+            let stair = stair_with(&edges);
+            assert!(stair.front.beyond_m([0.5, 0.0]).abs() < 1e-9, "{stair:?}");
+            assert!(
+                stair
+                    .front_fit
+                    .is_some_and(|fit| fit.place_sigma_m < 0.0025)
+            );
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn an_edge_that_was_fitted_between_other_levels_is_none_of_a_stairs(
+            off_m in 0.0075..0.03f64, low in any::<bool>(),
+        ) {
+            prop_assert_eq!(front_fit(if low { -off_m } else { off_m }), None);
+        }
+
+        #[test]
+        fn an_edge_that_was_fitted_between_the_same_levels_is(off_m in -0.0065..0.0065f64) {
+            prop_assert!(front_fit(off_m).is_some());
+        }
+    }
 }
