@@ -21,7 +21,7 @@ mod stepper;
 mod walk;
 
 #[cfg(test)]
-mod simulation;
+pub(crate) mod simulation;
 #[cfg(test)]
 mod tests;
 

@@ -20,8 +20,8 @@ use geometry::{ConfigError, PlanarPose};
 use planning::{Goal, Path};
 
 use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Outcome, Situation};
-pub(crate) use ahead::is_roomy;
 use ahead::{Followed, Looked};
+pub(crate) use ahead::{is_edge, is_roomy};
 pub use config::WalkingConfig;
 use gaze::{Gazer, Sweep};
 use progress::Progress;

@@ -9,6 +9,7 @@ use crate::climbing::flight::{covers, nearest};
 use crate::climbing::footsteps::{Stance, alternating, leading_side, level};
 use crate::climbing::placement::{Behind, Verdict, reason};
 use crate::climbing::stepper::Stepped;
+use crate::walking::is_edge;
 
 /// A robot on a stair deeper than this has room to turn and to walk, m.
 const ROOMY_M: f64 = 0.22;
@@ -185,7 +186,7 @@ impl StairClimbing {
         }
     }
 
-    /// Whether something stands where the feet shall go.
+    /// Whether something stands where the feet shall go: not the riser behind the heels or before the toes.
     pub(super) fn is_occupied(&self, here: &Here<'_>, stance: &Stance) -> bool {
         const RASTER: i32 = 4;
         let view = here.situation.view;
@@ -195,10 +196,13 @@ impl StairClimbing {
         for (i, j) in (-RASTER..=RASTER).flat_map(|i| (-RASTER..=RASTER).map(move |j| (i, j))) {
             let share = |k: i32| f64::from(k) / f64::from(RASTER);
             let (x_m, y_m) = stance.pose.apply(share(i) * half[0], share(j) * half[1]);
-            let stands =
-                matches!(view.at(x_m, y_m), Surface::Obstacle(height_m) if height_m > top_m);
+            let Surface::Obstacle(height_m) = view.at(x_m, y_m) else {
+                continue;
+            };
             let cell = view.lattice.cell_at(x_m, y_m);
-            if stands && !cells.contains(&cell) {
+            let obstacle = (view.lattice.center_of(cell), height_m);
+            let riser = is_edge(here.situation.stairs, &obstacle);
+            if height_m > top_m && !riser && !cells.contains(&cell) {
                 cells.push(cell);
             }
         }

@@ -157,7 +157,7 @@ pub(crate) fn is_roomy(view: &FloorView, place_m: [f64; 2], radius_m: f64) -> bo
 }
 
 /// An obstacle cell: its middle and its height, m.
-type Obstacle = ([f64; 2], f32);
+pub(crate) type Obstacle = ([f64; 2], f32);
 
 fn obstacles(
     view: &FloorView,
@@ -181,7 +181,7 @@ fn obstacles(
 }
 
 /// Whether an obstacle is only the riser of a stair, or what the depth image makes of its edge.
-fn is_edge(stairs: &Staircase, (place_m, top_m): &Obstacle) -> bool {
+pub(crate) fn is_edge(stairs: &Staircase, (place_m, top_m): &Obstacle) -> bool {
     stairs.stairs.iter().any(|stair| {
         let low = f64::from(*top_m) < stair.height_m() + RISER_M;
         low && [&stair.front, &stair.back].into_iter().any(|edge| {
@@ -195,6 +195,7 @@ fn is_edge(stairs: &Staircase, (place_m, top_m): &Obstacle) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::climbing::simulation::stair as stair_at;
     use crate::walking::track::tests::straight;
     use geometry::{Grid, Lattice};
 
@@ -267,5 +268,28 @@ mod tests {
         );
         followed.forget();
         assert_eq!(followed.obstacle_m(&view, &stairs, &near, &config), None);
+    }
+
+    #[test]
+    fn a_riser_is_no_obstacle_and_what_stands_on_a_stair_is() {
+        let stair = |x_m: f64, height_m: f64| {
+            let back_m = x_m + 0.12;
+            stair_at([x_m, 0.0, 0.0], [back_m, 0.0, 0.0], height_m, 0.5)
+        };
+        let stairs = Staircase {
+            stairs: vec![stair(0.5, 0.05), stair(0.62, 0.1)],
+            ..Staircase::default()
+        };
+        // The riser before the toes, one behind the heels, and boxes at the edge, on the tread and beside the stair.
+        for (place_m, top_m, edge) in [
+            ([0.63, 0.1], 0.11, true),
+            ([0.48, -0.1], 0.06, true),
+            ([0.62, 0.0], 0.25, false),
+            ([0.69, 0.0], 0.15, true),
+            ([0.8, 0.0], 0.15, false),
+            ([0.62, 0.4], 0.11, false),
+        ] {
+            assert_eq!(is_edge(&stairs, &(place_m, top_m)), edge, "{place_m:?}");
+        }
     }
 }
