@@ -14,15 +14,23 @@ pytestmark = pytest.mark.scenario
 CLIMBED = {
     "stairs_up": (4, 0),
     "stairs_down": (0, 4),
+    "stairs_over": (4, 4),
     "stairs_spiral": (5, 0),
+    "stairs_uneven": (4, 0),
     "sill": (1, 1),
     "basin": (1, 1),
     "stair_lifted": (4, 0),
+    "stair_blind": (4, 0),
+    "obstacle_course": (5, 1),
 }
 """Name -> steps up and down that both feet make."""
 REFUSED = {
     "basin_narrow": {"gap_too_short"},
-    "stair_removed": {"drop", "lost", "step_too_high", "blocked"},
+    "stairs_too_high": {"step_too_high"},
+    "stairs_in_air": {"step_too_high", "drop"},
+    "stair_removed": {"blocked", "drop"},
+    "stair_blind_long": {"lost"},
+    "stairs_blank": {"blocked"},
 }
 """Name -> words with which it may be refused."""
 SEED = 0
