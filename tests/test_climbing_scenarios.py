@@ -27,7 +27,6 @@ CLIMBED = {
 REFUSED = {
     "basin_narrow": {"gap_too_short"},
     "stairs_too_high": {"step_too_high"},
-    "stairs_in_air": {"step_too_high", "drop"},
     "stair_removed": {"blocked", "drop"},
     "stair_blind_long": {"lost"},
     "stairs_blank": {"blocked"},

@@ -41,9 +41,9 @@ impl Default for Progress {
 }
 
 impl Progress {
-    /// Times without headway so far.
-    pub(crate) const fn tries(&self) -> u32 {
-        self.tries
+    /// Since when the robot has not been nearer to the goal than ever, s.
+    pub(crate) const fn without_headway_s(&self) -> f64 {
+        self.waited_ever_s
     }
 
     /// One tick. `detour` says that the way was planned anew: it may be longer than the old one.

@@ -200,9 +200,9 @@ impl WalkingBehaviour {
             Headway::Fine => return None,
             Headway::Stuck => self.look(Sweep::around(&self.config)),
             Headway::Hopeless => {
-                let (tries, patience_s) = (self.progress.tries(), self.config.patience);
+                let waited_s = self.progress.without_headway_s();
                 self.refuse(format!(
-                    "blocked: no headway in {tries} tries of {patience_s:.0} s, {remaining_m:.2} m before the goal"
+                    "blocked: no headway for {waited_s:.0} s, {remaining_m:.2} m before the goal"
                 ));
             }
         }

@@ -50,7 +50,7 @@ proptest! {
             let by_joints = camera_pose(0.0, down);
             let predicted = segmenter.correction.predict(&by_joints).inner.translation;
             let off_m = truth(&by_joints).inner.translation.vector - predicted.vector;
-            prop_assert!(off_m.x.abs() < 0.003 && off_m.z.abs() < 0.002, "{} at {}", off_m, down);
+            prop_assert!(off_m.x.abs() < 0.005 && off_m.z.abs() < 0.002, "{} at {}", off_m, down);
         }
     }
 }
