@@ -5,7 +5,7 @@ use planning::Step;
 
 use super::{Here, Pace, Phase, StairClimbing, State};
 use crate::Motion;
-use crate::climbing::flight::{covers, nearest};
+use crate::climbing::flight::{SAME_HEIGHT_M, covers, nearest};
 use crate::climbing::footsteps::{Stance, alternating, leading_side, level};
 use crate::climbing::placement::{Behind, Verdict, reason};
 use crate::climbing::stepper::Stepped;
@@ -176,7 +176,7 @@ impl StairClimbing {
     fn look_again(&mut self, here: &Here<'_>, reason: impl FnOnce() -> String) {
         self.tries.looks += 1;
         if self.tries.looks > self.config.tries {
-            if self.on.is_some_and(|step| step.stair.depth_m() >= ROOMY_M) {
+            if self.on.is_some() && self.has_room(here) {
                 self.enter(State::Finish);
                 return;
             }
@@ -274,10 +274,22 @@ impl StairClimbing {
         }
     }
 
+    /// Whether what the robot stands on, as it is known by now, has room to turn and to walk.
+    fn has_room(&self, here: &Here<'_>) -> bool {
+        let at = [here.pose.x_m, here.pose.y_m];
+        let roomy = |stair: &stairs::Stair<geometry::Map>| stair.depth_m() >= ROOMY_M;
+        let stands_on = |stair: &&stairs::Stair<geometry::Map>| {
+            (stair.height_m() - here.ground_m).abs() < SAME_HEIGHT_M
+                && stair.front.beyond_m(at) > 0.0
+                && stair.back.beyond_m(at) < 0.0
+        };
+        let mut known_now = here.situation.stairs.stairs.iter().filter(stands_on);
+        self.on.is_none_or(|step| roomy(&step.stair)) || known_now.any(roomy)
+    }
+
     /// No step is left.
     fn end_climb(&mut self, here: &Here<'_>) {
-        let roomy = self.on.is_none_or(|step| step.stair.depth_m() >= ROOMY_M);
-        if roomy {
+        if self.has_room(here) {
             self.enter(State::Finish);
             return;
         }

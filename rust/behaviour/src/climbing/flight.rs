@@ -5,7 +5,7 @@ use planning::{Plan, Step};
 use stairs::{ClimbingConfig, Edge, Stair, Staircase};
 
 /// Two sights of one stair differ by less than this in height, m,
-const SAME_HEIGHT_M: f64 = 0.012;
+pub(crate) const SAME_HEIGHT_M: f64 = 0.012;
 /// in the place of the front edge, m,
 const SAME_PLACE_M: f64 = 0.05;
 /// where it was measured before; else than this, m,

@@ -29,6 +29,7 @@ impl StairClimbing {
             if self.tries.missteps > 1 {
                 self.refuse(format!("blocked: {what}"));
             } else {
+                self.pauses = true;
                 self.begin_look(here);
             }
         } else if self.tries.missteps == 1 && missed.is_some() {
