@@ -189,8 +189,10 @@ impl Portals {
         let line = Line::of(&stair.front);
         let toes_m = scene.climbing.set_for(rise_m).approach_x;
         let before_m = toes_m - 0.5 * scene.feet.length_m;
+        // Unseen ground may be of the robot's own level: it is no way up to another one.
+        let own = (level_m - scene.stand.height_m).abs() <= SAME_M;
         let run = run_to_cell(scene, &line, offset_m, before_m, -1.0, |height| {
-            height.is_none_or(|height_m| (height_m - level_m).abs() <= SAME_M)
+            height.map_or(own, |height_m| (height_m - level_m).abs() <= SAME_M)
         });
         if let Some((cell, enter_m)) = run {
             let entry = Entry {

@@ -7,14 +7,19 @@ use crate::climbing::footsteps::Foothold;
 use crate::climbing::stepper::Stepped;
 use crate::{Misstep, Motion};
 
+/// What a misstep says of the world.
+pub(super) const fn told(misstep: Misstep) -> &'static str {
+    match misstep {
+        Misstep::NoGround => "the next step is not where it was seen",
+        Misstep::Obstructed => "something is in the way of the foot",
+    }
+}
+
 impl StairClimbing {
     /// A step was taken back: look again, let the other foot try again, or give up.
     pub(super) fn after_misstep(&mut self, here: &Here<'_>, misstep: Misstep, landed: usize) {
         self.tries.missteps += 1;
-        let what = match misstep {
-            Misstep::NoGround => "the next step is not where it was seen",
-            Misstep::Obstructed => "something is in the way of the foot",
-        };
+        let what = told(misstep);
         let holds = self.stepper.holds().to_vec();
         let missed = holds.get(landed).copied();
         let stands_on = landed.checked_sub(1).and_then(|last| self.run.get(last));

@@ -5,6 +5,7 @@ use geometry::angle_between;
 use super::walk::SURE_S;
 use super::{Here, Phase, StairClimbing, State};
 use crate::climbing::footsteps::{Stance, level};
+use crate::climbing::setback::told;
 use crate::climbing::stepper::Stepped;
 use crate::{Motion, Velocity};
 
@@ -14,6 +15,8 @@ const BLIND_AFTER_S: f64 = 2.0;
 const BLIND_LIMIT_S: f64 = 12.0;
 /// Without a step or a walk for this long the robot gives up, s.
 const LONGEST_IDLE_S: f64 = 60.0;
+/// Why a robot gives up that looked at an edge often enough.
+const NOT_MEASURED: &str = "lost: the edge of the step could not be measured";
 /// Aligning ends after this, however well, s.
 const LONGEST_ALIGN_S: f64 = 10.0;
 
@@ -125,9 +128,9 @@ impl StairClimbing {
             .turn_to(here.in_robot(first.crossing_m), here.passed_s);
         match self.stepper.advance(here.situation, here.passed_s) {
             Stepped::Running => {}
-            Stepped::Missed(..) => {
+            Stepped::Missed(misstep, _) => {
                 self.tries.missteps += 1;
-                self.retreat(here);
+                self.retreat(here, format!("blocked: {}", told(misstep)));
             }
             Stepped::Idle | Stepped::Done | Stepped::Stuck => self.begin_climb(here),
         }
@@ -154,7 +157,7 @@ impl StairClimbing {
             self.tries.looks += 1;
             self.head.look_at(here.in_robot(first.crossing_m));
             if self.tries.looks > self.config.tries {
-                self.retreat(here);
+                self.retreat(here, NOT_MEASURED.to_owned());
             }
             return;
         }
@@ -194,15 +197,16 @@ impl StairClimbing {
         })
     }
 
-    /// Back on the level to look again; gives up when that was done too often.
-    pub(super) fn retreat(&mut self, here: &Here<'_>) {
+    /// Back on the level to look again; gives up for this reason when that was done too often.
+    pub(super) fn retreat(&mut self, here: &Here<'_>, reason: String) {
         self.tries.looks = 0;
         self.tries.searches += 1;
         if self.tries.searches.max(self.tries.missteps) > self.config.tries {
-            self.refuse("lost: the edge of the step could not be measured".to_owned());
+            self.refuse(reason);
             return;
         }
         self.enter(State::StepBack);
+        self.refusal = reason;
         let back = self.flight.first().map_or(here.pose, |first| {
             super::leg::align_pose(first, &self.config, &self.climbing, &self.feet)
         });
