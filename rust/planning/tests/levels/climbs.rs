@@ -90,6 +90,17 @@ fn a_sill_across_the_stage_is_crossed_where_the_path_comes() {
 }
 
 #[test]
+fn over_ground_that_was_not_seen_no_way_leads_onto_a_sill() {
+    for unseen_m in [0.04, 0.08, 0.12, 0.16, 0.2] {
+        let mut course = Course::stage();
+        course.sill(0.8, 0.09, 0.038, 1.0);
+        course.forget([0.8 - unseen_m, -0.5], [0.8, 0.5]);
+        let path = way(&course, 0.0, &goal(1.6, 0.0));
+        assert_eq!(rises_mm(&path), [38, -38], "{unseen_m}");
+    }
+}
+
+#[test]
 fn a_short_way_around_a_sill_is_preferred_and_a_long_one_is_not() {
     let mut short = Course::floor();
     short.sill(0.8, 0.09, 0.038, 0.5);
