@@ -36,8 +36,8 @@ def pilot(**navigation: object) -> Pilot:
 
 
 @cache
-def observations(seconds: float = 1.2) -> tuple[Observation, ...]:
-    """What a robot's senses told it while it stood and looked around."""
+def observations(seconds: float = 2.0) -> tuple[Observation, ...]:
+    """What a robot's senses told it while it looked around; it sees its feet after 0.7 s."""
     episode = Episode("slalom", seed=1)
     return tuple(copied(episode.tick().observation) for _ in range(round(seconds / 0.01)))
 

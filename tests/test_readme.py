@@ -8,6 +8,7 @@ import pytest
 
 import treadwell
 from treadwell.cli.app import execute
+from treadwell.experiments.catalogue import EXPERIMENTS
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = [ROOT / "README.md", ROOT / "ARCHITECTURE.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -84,4 +85,5 @@ def test_the_tests_and_scenarios_that_the_results_name_exist() -> None:
     code = "\n".join(path.read_text() for path in sources)
     tests = set(re.findall(r"\b(?:fn|def) (\w+)", code))
     scenarios = {path.stem for path in (ROOT / "scenarios").glob("*.toml")}
-    assert named <= tests | scenarios, named - tests - scenarios
+    cases = {case.name for made in EXPERIMENTS.values() for case in made.cases}
+    assert named <= tests | scenarios | cases, named - tests - scenarios - cases
