@@ -145,13 +145,17 @@ impl StairClimbing {
             let reach_m = 0.5 * self.feet.length_m + 0.06;
             let stairs = here.situation.stairs;
             let (pose, ground_m) = (&here.pose, here.ground_m);
+            let beyond_m = |step: &Step| step.stair.front.beyond_m([pose.x_m, pose.y_m]);
             if here.no_way().is_none()
                 && let Some(path) = here.situation.plan.and_then(|plan| plan.way.as_ref().ok())
-                && let Some(climb) = path.climbs.first()
-                && let Some(first) = climb.steps.first()
-                && first.stair.front.beyond_m([pose.x_m, pose.y_m]) > -2.0 * reach_m
+                && let Some(steps) = path.climbs.iter().find_map(|climb| {
+                    // The plan may not have noticed yet that a step was taken.
+                    let ahead = climb.steps.iter().position(|step| beyond_m(step) <= 0.0)?;
+                    Some(&climb.steps[ahead..])
+                })
+                && beyond_m(&steps[0]) > -2.0 * reach_m
             {
-                self.flight.adopt(&climb.steps);
+                self.flight.adopt(steps);
             } else if here.situation.plan.is_none()
                 && let Some(step) = nearest(stairs, pose, ground_m, reach_m, &self.climbing)
             {
