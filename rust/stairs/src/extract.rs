@@ -10,7 +10,7 @@ use crate::outer_points::{OuterPoints, Rows};
 use crate::shared_edges::{SharedEdge, SharedEdges};
 use crate::view::View;
 use crate::visible::{is_solid, seen_ends};
-use crate::{Edge, Sides, Stair, StairsConfig};
+use crate::{Edge, Stair, StairsConfig};
 
 /// Front and back may differ by this much in heading before the back is doubted, cosine.
 const OPPOSITE: f64 = 0.9;
@@ -93,19 +93,8 @@ impl Extraction {
                 .parallel(view, (index, Rows::Highest), &front)?,
         };
         let reference = surface.reference;
-        let mut stair = Stair {
-            front,
-            back,
-            reference: Point::new(reference.x, reference.y, surface.height_m),
-            left_margin_m: 0.0,
-            right_margin_m: 0.0,
-            support: view.region(index).support,
-            seen_ends: Sides::default(),
-            front_fit: None,
-            back_fit: None,
-            seen_from_m: front.middle().inner.coords.xy().norm(),
-            steps_ago: 0,
-        };
+        let reference = Point::new(reference.x, reference.y, surface.height_m);
+        let mut stair = Stair::seen(front, back, reference, view.region(index).support);
         if !is_solid(&stair, view) {
             return None;
         }
@@ -264,19 +253,13 @@ mod tests {
             let half_m = 0.5 * length_m;
             level_edge([Point2::new(x_m, -half_m), Point2::new(x_m, half_m)], 0.03)
         };
-        Stair {
-            front: edge(0.5, front_m),
-            back: edge(0.5 + depth_m, back_m),
-            reference: Point::new(0.5 + 0.5 * depth_m, 0.0, 0.03),
-            left_margin_m: 0.0,
-            right_margin_m: 0.0,
-            support: 100,
-            seen_ends: Sides::default(),
-            front_fit: None,
-            back_fit: None,
-            seen_from_m: 0.5,
-            steps_ago: 0,
-        }
+        let reference = Point::new(0.5 + 0.5 * depth_m, 0.0, 0.03);
+        Stair::seen(
+            edge(0.5, front_m),
+            edge(0.5 + depth_m, back_m),
+            reference,
+            100,
+        )
     }
 
     /// S-M6.

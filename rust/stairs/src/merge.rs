@@ -73,8 +73,8 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::Stair;
     use crate::extract::{Sighting, level_edge};
-    use crate::{Sides, Stair};
 
     const SIMILAR_M: f64 = 0.009;
 
@@ -89,19 +89,12 @@ mod tests {
             corner(near, left),
         ];
         let sighting = Sighting {
-            stair: Stair {
-                front: level_edge([corners[0], corners[3]], height_m),
-                back: level_edge([corners[1], corners[2]], height_m),
-                reference: Point::<Robot>::new(x_m + depth_m / 2.0, y_m, height_m),
-                left_margin_m: 0.0,
-                right_margin_m: 0.0,
-                support: 100,
-                seen_ends: Sides::default(),
-                front_fit: None,
-                back_fit: None,
-                seen_from_m: x_m,
-                steps_ago: 0,
-            },
+            stair: Stair::seen(
+                level_edge([corners[0], corners[3]], height_m),
+                level_edge([corners[1], corners[2]], height_m),
+                Point::<Robot>::new(x_m + depth_m / 2.0, y_m, height_m),
+                100,
+            ),
             hull: Outline::hull(&corners).unwrap(),
             own_level: false,
             large_enough: true,

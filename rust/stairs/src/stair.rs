@@ -1,6 +1,6 @@
 //! What a stair is (003, section IV.A, Fig. 5), and the product of the recognizer.
 
-use geometry::{Map, Point, Pose};
+use geometry::{Map, Point, Pose, Robot};
 use nalgebra::Vector2;
 
 use crate::line::Line;
@@ -149,6 +149,30 @@ impl<F> Edge<F> {
         Edge {
             left: *target_from_frame * self.left,
             right: *target_from_frame * self.right,
+        }
+    }
+}
+
+impl Stair<Robot> {
+    /// A stair as one frame shows it: no margins, no end seen for certain, no edge fitted.
+    pub(crate) fn seen(
+        front: Edge<Robot>,
+        back: Edge<Robot>,
+        reference: Point<Robot>,
+        support: usize,
+    ) -> Self {
+        Self {
+            front,
+            back,
+            reference,
+            left_margin_m: 0.0,
+            right_margin_m: 0.0,
+            support,
+            seen_ends: Sides::default(),
+            front_fit: None,
+            back_fit: None,
+            seen_from_m: front.middle().inner.coords.xy().norm(),
+            steps_ago: 0,
         }
     }
 }
