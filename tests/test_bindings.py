@@ -49,6 +49,7 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
         ({"walking": {"no": 1}}, r"navigation\.walking\.no: unknown field `no`"),
         ({"odometry": {"no": 1}}, r"navigation\.odometry\.no: unknown field `no`"),
         ({"proprioception": {"no": 1}}, r"navigation\.proprioception\.no: unknown field `no`"),
+        ({"ground": {"track_tilt": 0}}, r"navigation\.ground\.track_tilt must be > 0 and < 0\.5"),
         ({"self_filter": {"no": 1}}, r"navigation\.self_filter\.no: unknown field `no`"),
         ({"stairs": {"min_edge": 0}}, r"navigation\.stairs\.min_edge must be > 0, got 0"),
         ({"stairs": {"no": 1}}, r"navigation\.stairs\.no: unknown field `no`"),

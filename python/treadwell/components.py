@@ -25,7 +25,7 @@ COMPONENTS: Final[dict[str, dict[str, str]]] = {
 }
 """Slot of `[navigation]` -> name -> description."""
 
-STAGES: Final[tuple[str, ...]] = ("proprioception", "self_filter", "stairs", "climbing")
+STAGES: Final[tuple[str, ...]] = ("proprioception", "self_filter", "ground", "stairs", "climbing")
 """Stages of the core with parameters (`[navigation.self_filter]`) that are not chosen by name."""
 
 CLASS_NAME: Final = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*", re.ASCII)

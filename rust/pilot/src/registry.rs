@@ -45,7 +45,8 @@ pub(crate) fn segmenter(
     let tables = &settings.navigation.tables;
     match settings.navigation.segmenter.as_str() {
         "scan_line" => Ok(Box::new(ScanLine::new(
-            table(tables, "scan_line")?,
+            &table(tables, "scan_line")?,
+            table(tables, "ground")?,
             camera,
         )?)),
         other => Err(unknown("segmenter", other, "scan_line")),

@@ -8,7 +8,7 @@ mod synthetic;
 
 use std::time::Instant;
 
-use segmentation::{Planes, ScanLine, ScanLineConfig, Segmenter};
+use segmentation::{GroundConfig, Planes, ScanLine, ScanLineConfig, Segmenter};
 use synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
 
 const FRAMES: usize = 400;
@@ -33,7 +33,8 @@ fn main() {
     ] {
         let mut noise = Noise::new(1);
         let mut segmenter =
-            ScanLine::new(ScanLineConfig::default(), CAMERA).expect("the defaults are allowed");
+            ScanLine::new(&ScanLineConfig::default(), GroundConfig::default(), CAMERA)
+                .expect("the defaults are allowed");
         let mut planes = Planes::new(CAMERA.width * CAMERA.height);
         let pose = camera_pose(0.0, 0.75);
         let floor = Scene::floor().scan(&pose, pose, 0.125, &mut noise);

@@ -9,7 +9,7 @@ mod synthetic;
 use std::time::Instant;
 
 use geometry::Pose;
-use segmentation::{Planes, ScanLine, ScanLineConfig, Segmenter};
+use segmentation::{GroundConfig, Planes, ScanLine, ScanLineConfig, Segmenter};
 use stairs::{EdgeModel, Recognizer, StairsConfig};
 use synthetic::{CAMERA, Noise, Scene, camera_pose};
 
@@ -17,7 +17,8 @@ const FRAMES: usize = 400;
 
 fn main() {
     let mut noise = Noise::new(1);
-    let mut segmenter = ScanLine::new(ScanLineConfig::default(), CAMERA).expect("allowed");
+    let mut segmenter = ScanLine::new(&ScanLineConfig::default(), GroundConfig::default(), CAMERA)
+        .expect("allowed");
     let mut planes = Planes::new(CAMERA.width * CAMERA.height);
     let floor_pose = camera_pose(0.0, 0.75);
     for _ in 0..10 {

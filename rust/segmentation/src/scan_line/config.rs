@@ -3,15 +3,12 @@
 use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
 
+use super::strips::MAX_STRIP;
+
 /// Settings of [`super::ScanLine`]. Thresholds in disparity are multiples of the local noise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ScanLineConfig {
-    /// Smallest noise of a disparity that is believed, px. Matching windows overlap, so that neighbours differ less
-    /// than they err: what is measured in the image can only raise this calibrated figure.
-    pub noise_floor: f64,
-    /// Largest noise that the thresholds follow, as a multiple of `noise_floor`.
-    pub noise_ceiling: f64,
     /// Columns that are averaged before lines are fitted, pixels.
     pub strip: usize,
     /// Price of one more line on a strip, in squared noise; higher joins more.
@@ -22,58 +19,16 @@ pub struct ScanLineConfig {
     pub join: f64,
     /// A pixel belongs to a surface when closer than this, in noise.
     pub accept: f64,
-    /// Smallest region, pixels.
-    pub min_region: usize,
-    /// Smallest ground, pixels; a third of them must be left when its border is taken off.
-    pub min_ground: usize,
-    /// Smallest ground when it is searched without a track, as a share of the image.
-    pub open_floor: f64,
-    /// When the ground is searched without a track, it is what is seen up to this distance from the robot, m: it stands on
-    /// the floor beside its feet, what is further away may be the slope of a staircase.
-    pub search_reach: f64,
-    /// Widest error of roll and of pitch when the ground is searched, rad (the paper: 7 degrees; the attitude adds).
-    pub search_tilt: f64,
-    /// Widest error of roll and pitch together while the ground is tracked, rad.
-    pub track_tilt: f64,
-    /// Largest distance of the ground from where the joints have it, m.
-    pub ground_height: f64,
-    /// Largest distance of the ground from where it is tracked, m.
-    pub track_height: f64,
-    /// Largest distance of a level surface from where it is known to lie, m: less than half of the lowest step.
-    pub known_height: f64,
-    /// Frames without any level surface for which the correction is still trusted.
-    pub hold_frames: u32,
-    /// Frames for which it is trusted when level surfaces are seen, but neither the ground nor one of known height.
-    pub hold_level_frames: u32,
-    /// Frames without any level surface after which it is searched anew, as at the start.
-    pub forget_frames: u32,
-    /// A surface tilted by more than this against the ground is no floor, rad.
-    pub floor_tilt: f64,
 }
 
 impl Default for ScanLineConfig {
     fn default() -> Self {
         Self {
-            noise_floor: 0.125,
-            noise_ceiling: 4.0,
             strip: 8,
             segment_price: 25.0,
             min_segment: 4,
             join: 1.2,
             accept: 2.5,
-            min_region: 80,
-            min_ground: 150,
-            open_floor: 0.12,
-            search_reach: 0.45,
-            search_tilt: 0.15,
-            track_tilt: 0.044,
-            ground_height: 0.02,
-            track_height: 0.012,
-            known_height: 0.007,
-            hold_frames: 40,
-            hold_level_frames: 400,
-            forget_frames: 75,
-            floor_tilt: 0.07,
         }
     }
 }
@@ -83,14 +38,9 @@ impl ScanLineConfig {
     pub fn check(&self) -> Result<(), ConfigError> {
         let key = |name: &str| format!("navigation.scan_line.{name}");
         for (name, value) in [
-            ("noise_floor", self.noise_floor),
             ("segment_price", self.segment_price),
             ("join", self.join),
             ("accept", self.accept),
-            ("search_reach", self.search_reach),
-            ("ground_height", self.ground_height),
-            ("track_height", self.track_height),
-            ("known_height", self.known_height),
         ] {
             require(
                 value.is_finite() && value > 0.0,
@@ -99,44 +49,17 @@ impl ScanLineConfig {
                 value,
             )?;
         }
-        for (name, value) in [
-            ("search_tilt", self.search_tilt),
-            ("track_tilt", self.track_tilt),
-            ("floor_tilt", self.floor_tilt),
-        ] {
-            require(
-                value > 0.0 && value < 0.5,
-                &key(name),
-                "> 0 and < 0.5 rad",
-                value,
-            )?;
-        }
-        for (name, value) in [
-            ("strip", self.strip),
-            ("min_segment", self.min_segment),
-            ("min_region", self.min_region),
-            ("min_ground", self.min_ground),
-        ] {
-            require(value > 0, &key(name), "> 0", value)?;
-        }
         require(
-            self.noise_ceiling.is_finite() && self.noise_ceiling >= 1.0,
-            &key("noise_ceiling"),
-            "finite and >= 1",
-            self.noise_ceiling,
+            (1..=MAX_STRIP).contains(&self.strip),
+            &key("strip"),
+            "> 0 and <= 32 pixels",
+            self.strip,
         )?;
         require(
-            (0.0..=1.0).contains(&self.open_floor),
-            &key("open_floor"),
-            "within 0 and 1",
-            self.open_floor,
-        )?;
-        require(self.strip <= 32, &key("strip"), "<= 32 pixels", self.strip)?;
-        require(
-            self.forget_frames >= self.hold_frames,
-            &key("forget_frames"),
-            ">= navigation.scan_line.hold_frames",
-            self.forget_frames,
+            self.min_segment > 0,
+            &key("min_segment"),
+            "> 0",
+            self.min_segment,
         )
     }
 }
@@ -153,15 +76,15 @@ mod tests {
     #[test]
     fn a_bad_value_is_refused_by_its_key() {
         let config = ScanLineConfig {
-            noise_floor: 0.0,
+            join: 0.0,
             ..ScanLineConfig::default()
         };
         assert_eq!(
             config.check().unwrap_err().to_string(),
-            "navigation.scan_line.noise_floor must be finite and > 0, got 0"
+            "navigation.scan_line.join must be finite and > 0, got 0"
         );
         let config = ScanLineConfig {
-            hold_frames: 100,
+            strip: MAX_STRIP + 1,
             ..ScanLineConfig::default()
         };
         assert!(config.check().is_err());

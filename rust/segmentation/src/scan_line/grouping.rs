@@ -1,24 +1,12 @@
 //! Region growing: segments of neighbouring strips that show one surface, then pixels, then regions of equal height.
 
-use super::strips::{Picture, Segment};
+use super::strips::Segment;
+use crate::grounded::{MAX_REGIONS, Picture, Region};
 
-/// Most regions that are told apart in one frame; smaller ones are left out.
-pub(super) const MAX_REGIONS: usize = 63;
 /// Pixels below which a region is small: some ten matching windows.
 const SMALL_PIECE: usize = 250;
 /// How much further a small piece may lie from the surface beside it.
 pub(super) const SMALL_JOIN: f64 = 1.35;
-
-/// A horizontal region while it grows.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Region {
-    /// Disparity over `g`, 1/m.
-    pub(super) q: f32,
-    /// Pixels.
-    pub(super) support: usize,
-    /// Pixels that the erosion leaves.
-    pub(super) core: usize,
-}
 
 /// Thresholds of the growth, in noise, and sizes.
 #[derive(Debug, Clone, Copy)]

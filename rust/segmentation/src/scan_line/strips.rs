@@ -2,6 +2,7 @@
 //! one parameter a line instead of two, and the best partition instead of a recursive split).
 
 use super::steep::LineSums;
+use crate::grounded::Picture;
 
 /// Rays that fall less than this (as a share of `f B`) see nothing horizontal worth having.
 const MIN_FALL: f32 = 0.05;
@@ -42,19 +43,6 @@ pub(super) struct StripRules {
     pub(super) min_segment: usize,
     /// `f B`, m px.
     pub(super) scale: f32,
-}
-
-/// The pictures that the cutting reads, row by row.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Picture<'a> {
-    /// Columns.
-    pub(super) width: usize,
-    /// Disparities, px; NaN where nothing was seen.
-    pub(super) disparity_px: &'a [f32],
-    /// `g` of each pixel, m px.
-    pub(super) g: &'a [f32],
-    /// Local noise, px.
-    pub(super) sigma_px: &'a [f32],
 }
 
 /// Cuts strips into segments. Keeps its buffers.

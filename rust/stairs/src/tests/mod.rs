@@ -6,7 +6,7 @@ mod prisms;
 mod remembered;
 
 use geometry::{Camera, Map, Pose, Robot};
-use segmentation::{Planes, ScanLine, ScanLineConfig, Segmenter};
+use segmentation::{GroundConfig, Planes, ScanLine, ScanLineConfig, Segmenter};
 use sensing::Scan;
 
 use crate::synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
@@ -28,7 +28,8 @@ impl Looker {
     /// Has seen open floor, and tracks the ground.
     fn new(seed: u64, sigma_px: f64) -> Self {
         let mut looker = Self {
-            segmenter: ScanLine::new(ScanLineConfig::default(), CAMERA).unwrap(),
+            segmenter: ScanLine::new(&ScanLineConfig::default(), GroundConfig::default(), CAMERA)
+                .unwrap(),
             recognizer: Recognizer::new(StairsConfig::default(), CAMERA).unwrap(),
             planes: Planes::new(CAMERA.width * CAMERA.height),
             noise: Noise::new(seed),

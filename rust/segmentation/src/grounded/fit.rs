@@ -6,8 +6,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::grouping::Region;
-use super::strips::Picture;
+use super::finder::{Picture, Region};
 use super::view::View;
 
 /// Every so many columns a pixel is looked at: neighbours tell the same.

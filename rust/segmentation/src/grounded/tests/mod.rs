@@ -10,13 +10,14 @@ use nalgebra::{UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
 use super::*;
+use crate::scan_line::{ScanLine, ScanLineConfig};
 use crate::synthetic::{Block, CAMERA, GROUND, NOTHING, Noise, Scene, camera_pose};
 
 /// The sensor's noise, px.
 const SIGMA: f64 = 0.125;
 
 fn segmenter() -> ScanLine {
-    ScanLine::new(ScanLineConfig::default(), CAMERA).unwrap()
+    ScanLine::new(&ScanLineConfig::default(), GroundConfig::default(), CAMERA).unwrap()
 }
 
 fn planes() -> Planes {

@@ -5,18 +5,18 @@ use sensing::Intrinsics;
 
 /// A function of the pixel that is linear in column and row.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Linear {
+pub struct Linear {
     /// Value at column 0, row 0.
-    pub(super) origin: f32,
+    pub origin: f32,
     /// Change per column.
-    pub(super) per_col: f32,
+    pub per_col: f32,
     /// Change per row.
-    pub(super) per_row: f32,
+    pub per_row: f32,
 }
 
 impl Linear {
     /// The value at a pixel.
-    pub(super) fn at(&self, col: usize, row: usize) -> f32 {
+    pub fn at(&self, col: usize, row: usize) -> f32 {
         self.origin + self.per_col * col as f32 + self.per_row * row as f32
     }
 }
@@ -27,18 +27,18 @@ impl Linear {
 /// A horizontal surface a height `c` below the camera shows the disparity `d = g / c`: the ray meets it at the depth
 /// `c / -ray_z`, and disparity is `f B` over depth. So `q = d / g = 1 / c` is the same all over the surface.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct View {
+pub struct View {
     /// `f B` times the ray's x in the robot's axes.
-    pub(super) x: Linear,
+    pub x: Linear,
     /// `f B` times the ray's y in the robot's axes.
-    pub(super) y: Linear,
+    pub y: Linear,
     /// `g`: `f B` times the ray's fall; positive below the horizon.
-    pub(super) g: Linear,
+    pub g: Linear,
 }
 
 impl View {
     /// The view of a camera with this orientation in the robot's frame.
-    pub(super) fn new(camera: &Intrinsics, robot_from_camera: &Rotation3<f64>) -> Self {
+    pub fn new(camera: &Intrinsics, robot_from_camera: &Rotation3<f64>) -> Self {
         let (cx, cy) = camera.principal_point_px();
         let baseline = camera.baseline_m;
         let scale = camera.focal_px * baseline;
@@ -61,7 +61,7 @@ impl View {
     }
 
     /// Fills `out` with `g` of every pixel, row by row.
-    pub(super) fn fill(&self, width: usize, out: &mut [f32]) {
+    pub fn fill(&self, width: usize, out: &mut [f32]) {
         for (row, line) in out.chunks_exact_mut(width).enumerate() {
             let start = self.g.at(0, row);
             for (col, value) in line.iter_mut().enumerate() {

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::finder::Finder;
 use super::surfaces::Surfaces;
 use super::view::View;
 use crate::KnownFloor;
@@ -47,7 +48,7 @@ impl KnownLevels {
     /// Looks up the known heights where the level regions of `surfaces` lie, seen from `camera_m` (robot frame).
     pub(super) fn compare(
         &mut self,
-        surfaces: &Surfaces,
+        surfaces: &Surfaces<impl Finder>,
         view: &View,
         camera_m: &Vector3<f64>,
         known: &dyn KnownFloor,

@@ -125,16 +125,17 @@ fn the_top_of_a_low_box_is_a_floor_of_its_own_height() {
 fn thresholds_follow_the_noise() {
     let share = |noise_ceiling: f64| {
         let mut noise = Noise::new(11);
-        let config = ScanLineConfig {
+        let config = GroundConfig {
             noise_ceiling,
-            ..ScanLineConfig::default()
+            ..GroundConfig::default()
         };
         let mut share = 0.0;
         for _ in 0..5 {
             let pose = camera_pose(0.0, 0.75);
             let scan = Scene::floor().scan(&pose, pose, 3.0 * SIGMA, &mut noise);
             let mut planes = planes();
-            let mut segmenter = ScanLine::new(config.clone(), CAMERA).unwrap();
+            let mut segmenter =
+                ScanLine::new(&ScanLineConfig::default(), config.clone(), CAMERA).unwrap();
             segmenter.segment(&scan, &mut planes).unwrap();
             let largest = planes.regions.iter().map(|region| region.support).max();
             share += largest.unwrap_or(0) as f64 / scan.valid as f64 / 5.0;

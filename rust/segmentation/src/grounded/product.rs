@@ -4,7 +4,7 @@ use geometry::{Outline, Plane, Point, Pose, Robot};
 use nalgebra::{Isometry3, Point2, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::steps::mark_steps;
-use super::{Levelled, ScanLine};
+use super::{Finder, Grounded, Levelled};
 use crate::{PlaneRegion, Planes};
 
 /// Corners that are kept while outlines are made.
@@ -14,7 +14,7 @@ pub(super) struct ProductBuffers {
     numbers: Vec<u16>,
 }
 
-impl ScanLine {
+impl<F: Finder> Grounded<F> {
     /// Fills regions, labels, points and floor heights. `rise_m` is what the ground adds to the camera's height.
     pub(super) fn fill_product(&mut self, levelled: &Levelled, rise_m: f64, planes: &mut Planes) {
         let predicted = levelled.predicted.inner;

@@ -105,7 +105,7 @@ fn heights_are_trusted_once_the_ground_was_seen_for_eight_frames() {
 fn a_lost_ground_stays_reliable_for_a_while_and_is_found_again() {
     let mut noise = Noise::new(10);
     let mut segmenter = tracking(&mut noise);
-    let config = ScanLineConfig::default();
+    let config = GroundConfig::default();
     let truth = camera_pose(0.0, 0.3);
     let close = Scene::with(&[wall(0.2)]);
     for frame in 1..=config.forget_frames + 2 {

@@ -1,6 +1,6 @@
 //! What a frame is levelled and lifted by: the ground, or on stairs the other treads that are known.
 
-use super::{Levelled, ScanLine};
+use super::{Finder, Grounded, Levelled};
 use crate::KnownFloor;
 
 /// Roughest ground that is accepted in a search, in noise: a plane laid through several steps is rougher.
@@ -27,7 +27,7 @@ pub(super) enum Reference {
     None,
 }
 
-impl ScanLine {
+impl<F: Finder> Grounded<F> {
     /// The ground among the regions: the largest level one close to where the ground is expected, but none where another
     /// level is known to lie.
     fn find_ground(&self, levelled: &Levelled) -> Option<usize> {

@@ -1,16 +1,15 @@
-//! The horizontal surfaces of one frame: picture, lines, regions and their fits, with all buffers.
+//! The horizontal surfaces of one frame: picture, regions and their fits, with all buffers.
 
 use nalgebra::Vector2;
 use sensing::{Intrinsics, Scan};
 
-use super::ScanLineConfig;
+use super::GroundConfig;
 use super::erosion::Erosion;
+use super::finder::{Finder, Look, MAX_REGIONS, Picture, Region};
 use super::fit::{RegionFit, fit_regions};
-use super::grouping::{Grouping, GrowthRules, MAX_REGIONS, Region, SMALL_JOIN};
 use super::median::Median;
 use super::noise::NoiseMap;
 use super::slivers::Slivers;
-use super::strips::{Picture, Segment, StripRules, Strips};
 use super::view::View;
 
 /// Columns and rows to each side that are taken off a region before a fit: half a window of 5 and one more (7x5).
@@ -26,9 +25,8 @@ const STEEP_SURE: f64 = 3.5;
 
 /// Finds the horizontal surfaces that a scan shows under a given view. Keeps its buffers.
 #[derive(Debug, Clone)]
-pub(super) struct Surfaces {
-    strip_rules: StripRules,
-    growth_rules: GrowthRules,
+pub(super) struct Surfaces<F> {
+    finder: F,
     floor_tilt_rad: f64,
     width: usize,
     median: Median,
@@ -46,32 +44,17 @@ pub(super) struct Surfaces {
     pub(super) fits: Vec<RegionFit>,
     g: Vec<f32>,
     eroded: Vec<u16>,
-    segments: Vec<Segment>,
     checks: Vec<RegionFit>,
-    strips: Strips,
-    grouping: Grouping,
     erosion: Erosion,
     slivers: Slivers,
 }
 
-impl Surfaces {
+impl<F: Finder> Surfaces<F> {
     /// Buffers for this camera.
-    pub(super) fn new(config: &ScanLineConfig, camera: &Intrinsics) -> Self {
+    pub(super) fn new(finder: F, config: &GroundConfig, camera: &Intrinsics) -> Self {
         let pixels = camera.width * camera.height;
         Self {
-            strip_rules: StripRules {
-                strip: config.strip,
-                price: config.segment_price as f32,
-                min_segment: config.min_segment,
-                scale: (camera.focal_px * camera.baseline_m) as f32,
-            },
-            growth_rules: GrowthRules {
-                strip: config.strip,
-                join: config.join as f32,
-                join_small: (SMALL_JOIN * config.join) as f32,
-                accept: config.accept as f32,
-                min_region: config.min_region,
-            },
+            finder,
             floor_tilt_rad: config.floor_tilt,
             width: camera.width,
             median: Median::default(),
@@ -89,10 +72,7 @@ impl Surfaces {
             fits: Vec::new(),
             g: vec![0.0; pixels],
             eroded: vec![0; pixels],
-            segments: Vec::new(),
             checks: Vec::new(),
-            strips: Strips::default(),
-            grouping: Grouping::default(),
             erosion: Erosion::default(),
             slivers: Slivers::default(),
         }
@@ -125,8 +105,8 @@ impl Surfaces {
         }
     }
 
-    /// Finds the regions in the view; `whole` also lets them take in pixels and join.
-    pub(super) fn grow(&mut self, view: &View, whole: bool) {
+    /// Finds the regions in the view, and fits them.
+    pub(super) fn find(&mut self, view: &View, look: Look) {
         view.fill(self.width, &mut self.g);
         let picture = Picture {
             width: self.width,
@@ -134,16 +114,8 @@ impl Surfaces {
             g: &self.g,
             sigma_px: &self.sigma_px,
         };
-        let (rules, regions, labels) = (self.growth_rules, &mut self.regions, &mut self.labels);
-        self.segments.clear();
-        self.strips
-            .cut(picture, self.strip_rules, &mut self.segments);
-        self.grouping
-            .group(picture, &self.segments, rules, regions, labels);
-        if whole {
-            self.grouping.grow(picture, rules, regions, labels);
-            self.grouping.merge(picture, rules, regions, labels);
-        }
+        let (regions, labels) = (&mut self.regions, &mut self.labels);
+        self.finder.find(picture, view, look, regions, labels);
         self.erosion.erode(
             labels,
             picture.disparity_px,

@@ -149,7 +149,7 @@ fn on_unknown_treads_the_tracked_correction_is_held_and_the_ground_is_not_search
         let mut noise = Noise::new(22);
         let mut segmenter = tracking(&mut noise);
         let held = segmenter.correction.predict(&camera_pose(0.0, 0.75));
-        let config = ScanLineConfig::default();
+        let config = GroundConfig::default();
         for frame in 0..config.forget_frames + 10 {
             let (planes, truth) = see(&mut segmenter, *steps, 0.0, &NothingKnown, &mut noise);
             let (tilt, _) = pose_error(&planes, &truth);

@@ -1,7 +1,7 @@
 //! Slivers along the edges of steps: where the matching window sees two treads at once, the disparities in between may
 //! look like a thin surface of a height in between.
 
-use super::grouping::Region;
+use super::finder::Region;
 use super::view::View;
 
 /// A surface between two others is no tread when it is less deep than this on average, m.

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::strips::Picture;
+use super::finder::Picture;
 use super::view::View;
 
 /// Every so many columns and rows one pixel is looked at.

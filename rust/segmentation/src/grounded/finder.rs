@@ -1,0 +1,53 @@
+//! What makes one segmenter differ from the others: how it finds surfaces in a picture.
+
+use super::view::View;
+
+/// Most regions that are told apart in one frame; smaller ones are left out.
+pub(crate) const MAX_REGIONS: usize = 63;
+
+/// What a finder sees, row by row.
+#[derive(Debug, Clone, Copy)]
+pub struct Picture<'a> {
+    /// Columns.
+    pub width: usize,
+    /// Disparities, px; NaN where nothing was seen.
+    pub disparity_px: &'a [f32],
+    /// `g` of each pixel, m px.
+    pub g: &'a [f32],
+    /// Local noise, px.
+    pub sigma_px: &'a [f32],
+}
+
+/// A horizontal region.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Region {
+    /// Disparity over `g`, 1/m.
+    pub q: f32,
+    /// Pixels.
+    pub support: usize,
+    /// Pixels that the erosion leaves.
+    pub core: usize,
+}
+
+/// How often a picture was looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Look {
+    /// For the first time, under a view that is a guess.
+    First,
+    /// Again, under a better view.
+    Again,
+}
+
+/// Finds horizontal surfaces.
+pub trait Finder: Send + Sync {
+    /// Fills `regions` with what `picture` shows under `view`, and `labels` with their pixels (0: none, i + 1: region i).
+    /// Before another look both still hold what the last one left.
+    fn find(
+        &mut self,
+        picture: Picture<'_>,
+        view: &View,
+        look: Look,
+        regions: &mut Vec<Region>,
+        labels: &mut [u16],
+    );
+}
