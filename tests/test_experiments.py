@@ -267,7 +267,7 @@ def test_an_interrupted_experiment_reports_what_there_is(
         made = climbed(outcome=next(outcomes))
         return Run(made, tmp_path)
 
-    monkeypatch.setattr(conducting, "run", run)
+    monkeypatch.setattr(conducting, "run_episode", run)
     out = tmp_path / "out"
     monkeypatch.setitem(EXPERIMENTS, "small", small)
     one = ["experiment", "small", "--seeds", "1", "--workers", "1", "--out", str(out), "--json"]
@@ -289,7 +289,7 @@ def test_the_exit_status_says_how_it_went(
     made = climbed(**changes)
     done = Run(made, tmp_path)
     monkeypatch.setitem(EXPERIMENTS, "small", small)
-    monkeypatch.setattr(conducting, "run", lambda *_, **__: done)
+    monkeypatch.setattr(conducting, "run_episode", lambda *_, **__: done)
     out = tmp_path / "out"
     code = cli_experiment.experiment(
         "small", only=(), seeds=range(1), workers=1, out=out, as_json=False

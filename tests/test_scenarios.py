@@ -43,8 +43,10 @@ NOT_CLIMBED = (
     "stair_removed",
     "stair_blind_long",
 )
+LOOKED_AT = ("box_removed", "box_moved")
 EXPECTED = {
     **WALKED,
+    **dict.fromkeys(LOOKED_AT, "goal_reached"),
     **dict.fromkeys(CLIMBED, "goal_reached"),
     **dict.fromkeys(NOT_CLIMBED, "refused"),
 }

@@ -19,6 +19,7 @@ from treadwell.judging.result import CollisionEntry, Result, StateEntry
 from treadwell.judging.score import PoseErrors, map_counts, surfaces, timing, true_cells
 from treadwell.judging.step_watch import KnownTop, StepError, StepWatch
 from treadwell.judging.verdict import Verdict
+from treadwell.judging.watch import Watch
 from treadwell.recording.run_folder import make_run_folder
 from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.trace import Trace
@@ -38,6 +39,7 @@ class Run:
             where nothing did.
         steps: what was known of each step before it was climbed.
         tops: the surfaces of steps that the robot knew in the end.
+        findings: of the watch that was asked for; None without one.
     """
 
     result: Result
@@ -45,6 +47,7 @@ class Run:
     least_clearance: float | None = None
     steps: tuple[StepError, ...] = ()
     tops: tuple[KnownTop, ...] = ()
+    findings: Any = None
 
     @property
     def outcome(self) -> str:
@@ -65,9 +68,10 @@ class Run:
 class Scores:
     """Collects what the result says of an episode, one camera frame after the other."""
 
-    def __init__(self, episode: Episode) -> None:
+    def __init__(self, episode: Episode, watch: type[Watch] | None = None) -> None:
         """Begin with nothing."""
-        self.watch = StepWatch(episode)
+        self.steps = StepWatch(episode)
+        self.watch = None if watch is None else watch(episode)
         self.poses = PoseErrors()
         self.estimate, self.truth = Trajectory(), Trajectory()
         self.memory = MapMemory()
@@ -76,7 +80,7 @@ class Scores:
 
     def tick(self, step: Step) -> None:
         """Take in a control tick."""
-        self.watch.tick(step)
+        self.steps.tick(step)
         if not self.states or self.states[-1].state != step.state:
             self.states.append(StateEntry(time=1e-9 * step.time_ns, state=step.state))
 
@@ -89,6 +93,8 @@ class Scores:
         self.memory.update(
             trace.view_origin, trace.view_cell, trace.view_kind, trace.view_height, trace.sightings
         )
+        if self.watch is not None:
+            self.watch.frame(trace)
 
 
 def run(
@@ -121,11 +127,37 @@ def run(
         RecordingError: the recording cannot be written; what was written stays readable.
     """
     episode = Episode(scenario, robot=robot, seed=seed, overrides=tuple(overrides), **components)
+    return run_episode(episode, out=out, record=record, view=view, progress=progress)
+
+
+def run_episode(
+    episode: Episode,
+    *,
+    out: Path | None = None,
+    record: bool = True,
+    view: bool = False,
+    progress: Progress | None = None,
+    watch: type[Watch] | None = None,
+) -> Run:
+    """Run an episode that has not begun, and write its folder.
+
+    Args:
+        episode: made, not yet stepped.
+        out: the folder; it must be new or empty.
+        record: False leaves out the recording and the observations.
+        view: show the physics in a window; needs the extra `view`.
+        progress: is told how the run gets on.
+        watch: looks at every camera frame; what it found is the run's `findings`.
+
+    Raises:
+        InputError: the folder cannot be taken; nothing was written.
+        RecordingError: the recording cannot be written; what was written stays readable.
+    """
     made = episode.scenario
     viewer = open_viewer(episode) if view else None
     folder = make_run_folder(out, made.name, episode.robot.name, made.seed)
     writers = Writers(folder, episode, record=record, viewer=viewer)
-    scores = Scores(episode)
+    scores = Scores(episode, watch)
     begin = perf_counter()
     verdict: Verdict | None = None
     problem: TreadwellError | None = None
@@ -147,7 +179,8 @@ def run(
         raise problem
     way = scores.truth.positions()[:, :2]
     clearance = least_clearance(episode.course, episode.robot, way)
-    return Run(result, folder, clearance, tuple(scores.watch.steps), scores.watch.tops)
+    findings = None if scores.watch is None else scores.watch.findings()
+    return Run(result, folder, clearance, tuple(scores.steps.steps), scores.steps.tops, findings)
 
 
 def _loop(

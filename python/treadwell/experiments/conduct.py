@@ -12,12 +12,13 @@ from typing import Any, Final
 
 from treadwell import __version__
 from treadwell.cli.progress import Progress
+from treadwell.episode import Episode
 from treadwell.errors import SimulationError
 from treadwell.experiments.drawn import write_scenario
 from treadwell.experiments.experiment import Case, Experiment, Table
 from treadwell.judging.result import write_whole
 from treadwell.recording.run_folder import make_experiment_folder
-from treadwell.runner import Run, run
+from treadwell.runner import Run, run_episode
 
 SCHEMA: Final = "treadwell.experiment/1"
 
@@ -144,13 +145,9 @@ def _job(case: Case, seed: int, folder: Path) -> Job:
 
 
 def _done(job: Job, progress: Progress | None = None) -> Run:
-    return run(
-        job.scenario,
-        seed=job.seed,
-        overrides=job.case.overrides,
-        out=job.folder,
-        record=False,
-        progress=progress,
+    episode = Episode(job.scenario, seed=job.seed, overrides=job.case.overrides)
+    return run_episode(
+        episode, out=job.folder, record=False, progress=progress, watch=job.case.watch
     )
 
 

@@ -6,6 +6,7 @@ from statistics import median
 from typing import Any
 
 from treadwell.errors import InputError
+from treadwell.judging.watch import Watch
 from treadwell.runner import Run
 
 Draw = Callable[[int], dict[str, Any]]
@@ -26,12 +27,14 @@ class Case:
         scenario: name or path, or what draws one for a seed.
         overrides: settings `KEY=VALUE`, as `--set` takes them.
         share: of the seeds asked for; 5 runs five times as many, 0.5 every second one.
+        watch: what looks at each camera frame of its runs.
     """
 
     name: str
     scenario: str | Draw
     overrides: tuple[str, ...] = ()
     share: float = 1.0
+    watch: type[Watch] | None = None
 
     def seeds(self, asked: range) -> range:
         """Return the seeds to run where these are asked for; at least one."""

@@ -93,6 +93,7 @@ def compare_regions(
     true_sizes, found_sizes = shared.sum(axis=1)[true_ids > 0], shared.sum(axis=0)[found_ids > 0]
     shared = shared[np.ix_(true_ids > 0, found_ids > 0)]
     chosen = _without_conflicts(_instances(shared, true_sizes, found_sizes, tolerance))
+    found_list = found_sizes.tolist()
     explained = {index for one in chosen for index in one.true}
     used = {index for one in chosen for index in one.found}
     return RegionCounts(
@@ -102,7 +103,7 @@ def compare_regions(
         under=sum(one.kind == "under" for one in chosen),
         merged=sum(len(one.true) for one in chosen if one.kind == "under"),
         missed=len(true_sizes) - len(explained),
-        noise=sum(size >= least_found and i not in used for i, size in enumerate(found_sizes)),
+        noise=sum(size >= least_found and i not in used for i, size in enumerate(found_list)),
     )
 
 

@@ -14,7 +14,11 @@ Floats = NDArray[np.float64]
 
 
 class DepthSensor:
-    """Exposes at every multiple of its period; a frame arrives a fixed time after its exposure."""
+    """Exposes at every multiple of its period; a frame arrives a fixed time after its exposure.
+
+    Attributes:
+        camera: where the rays start.
+    """
 
     def __init__(
         self,
@@ -42,7 +46,7 @@ class DepthSensor:
         if len(texture) != model.ngeom:
             raise ValueError(f"texture: {model.ngeom} geoms, got {len(texture)} values")
         self._texture = texture
-        self._camera = camera
+        self.camera = camera
         self._stereo = stereo
         self._period_ns = period_ns
         self._latency_ns = latency_ns
@@ -73,7 +77,7 @@ class DepthSensor:
 
     def _expose(self, data: mujoco.MjData) -> NDArray[np.float32]:
         """Return the depth image (h, w) of the present state."""
-        cast = self._camera.cast(data)
+        cast = self.camera.cast(data)
         if self._stereo is None:
             return cast.depth.astype(np.float32)
         return self._stereo.see(cast, self._texture)

@@ -104,6 +104,11 @@ class Sensors:
         """
         return self._encoders.offsets
 
+    @property
+    def camera(self) -> DepthCamera:
+        """The depth camera where it really sits; for scoring alone."""
+        return self._depth.camera
+
     def observe(
         self, data: mujoco.MjData, time_ns: int, motors: MotorSide | None = None
     ) -> Observation:
