@@ -4,13 +4,11 @@ use geometry::{Map, Pose, Robot};
 use nalgebra::Point2;
 
 use crate::extract::Sighting;
-use crate::merge::{merge_all, overlap, shared};
+use crate::merge::{merge_all, overlap, replaces};
 use crate::tread::Tread;
 use crate::view::{Shows, View};
 use crate::{Stair, StairsConfig};
 
-/// Share of two treads of different heights in one place from which on they contradict each other.
-const CONTRADICT: f64 = 0.5;
 /// Places of a tread that must be seen to tell that it is not there.
 const LOOKED_AT: usize = 6;
 /// Share of them that must show something lower.
@@ -108,7 +106,7 @@ impl Memory {
         let mut index = 0;
         while index < self.treads.len() {
             let tread = &self.treads[index];
-            let better = |other: &Tread| shared(other, tread) > CONTRADICT;
+            let better = |other: &Tread| replaces(other, tread);
             if tread.steps_ago > 0 && self.treads[..index].iter().any(better) {
                 let _ = self.treads.remove(index);
             } else {
@@ -122,7 +120,7 @@ impl Memory {
         stairs.clear();
         for (index, tread) in self.treads.iter().enumerate() {
             let known = |tread: &Tread| tread.sightings >= config.min_frames;
-            let better = |other: &Tread| known(other) && shared(other, tread) > CONTRADICT;
+            let better = |other: &Tread| known(other) && replaces(other, tread);
             if known(tread) && !self.treads[..index].iter().any(better) {
                 stairs.extend(tread.stair());
             }

@@ -1,12 +1,15 @@
 //! Stair merging (003, section IV.C, Fig. 7).
 
-use geometry::Map;
+use geometry::{Map, Outline};
 
 use crate::Edge;
 use crate::tread::Tread;
 
 /// Share of the smaller of two treads that must lie in both for them to be one.
 const SHARED: f64 = 0.25;
+
+/// Share of a tread from which on what lies there stands in its place.
+const REPLACED: f64 = 0.5;
 
 /// Edges of one stair that was seen in two pieces lie on one line, within this, m, and no further apart than this.
 const ONE_LINE_M: f64 = 0.03;
@@ -49,6 +52,17 @@ pub(crate) fn shared(a: &Tread, b: &Tread) -> f64 {
     a.shared_area_m2(b) / a.area_m2().min(b.area_m2())
 }
 
+/// Whether a tread stands in another one's place, at another height: it takes most of that place, and is not lower and
+/// much larger. What is lower and much larger lies around the other one: hulls close over what stands on a floor.
+pub(crate) fn replaces(a: &Tread, b: &Tread) -> bool {
+    let (Some(of_a), Some(of_b)) = (a.outline(), b.outline()) else {
+        return false;
+    };
+    let shared_m2 = of_a.shared_area_m2(of_b);
+    let covers_most = |outline: &Outline| shared_m2 > REPLACED * outline.area_m2();
+    covers_most(of_b) && (a.height_m() > b.height_m() || covers_most(of_a))
+}
+
 /// Merges overlapping pairs until there are none. The set shrinks with each, so that this ends.
 pub(crate) fn merge_all(treads: &mut Vec<Tread>, similar_height_m: f64) {
     while let Some((kept, gone)) = overlapping_pair(treads, similar_height_m) {
@@ -68,7 +82,7 @@ fn overlapping_pair(treads: &[Tread], similar_height_m: f64) -> Option<(usize, u
 
 #[cfg(test)]
 mod tests {
-    use geometry::{Outline, Point, Pose, Robot};
+    use geometry::{Point, Pose, Robot};
     use nalgebra::Point2;
     use proptest::prelude::*;
 
@@ -191,6 +205,19 @@ mod tests {
             let before_m = nearest_m(&treads);
             merge_all(&mut treads, SIMILAR_M);
             prop_assert_eq!(nearest_m(&treads), before_m);
+        }
+
+        /// A staircase on a floor whose hull is as large as this.
+        #[test]
+        fn a_floor_around_a_tread_stands_not_in_its_place_and_a_tread_as_large_does(
+            x in 0.3..1.5f64, depth in 0.08..0.3f64, low in 0.01..0.1f64, wider in 2.1..20.0f64,
+        ) {
+            let step = tread(x, 0.0, depth, 0.0);
+            let around = tread(x - 0.05, 0.0, wider * depth + 0.05, -low);
+            prop_assert!(!replaces(&around, &step));
+            prop_assert!(!replaces(&step, &around));
+            let other = tread(x, 0.0, depth, -low);
+            prop_assert!(replaces(&other, &step) && replaces(&step, &other));
         }
 
         #[test]
