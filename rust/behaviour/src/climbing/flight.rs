@@ -50,6 +50,7 @@ impl Flight {
     }
 
     /// Takes over the steps of a plan's leg, but for the edges that the robot is too near to see, and where it crosses them.
+    /// A plan that ends short takes nothing away that is still there.
     fn renew(&mut self, steps: &[Step], stairs: &Staircase, pose: &PlanarPose) {
         let before = std::mem::take(&mut self.steps);
         self.adopt(steps);
@@ -63,11 +64,12 @@ impl Flight {
                 keep_better_edge(step, &before[at], pose);
             }
         }
-        // A plan that ends short takes nothing away that is still there.
         if let Some(last) = last {
+            let planned = self.steps.len();
             let there = |old: &&Step| stairs.stairs.iter().any(|stair| covers(stair, old));
             self.steps
                 .extend(before[last + 1..].iter().take_while(there).copied());
+            look_up(&mut self.steps[planned..], stairs, pose);
         }
     }
 
@@ -120,22 +122,24 @@ impl Flight {
         if stairs.stairs.iter().any(|stair| covers(stair, &first)) {
             self.lost_s = 0.0;
         }
-        for step in &mut self.steps {
-            if let Some(stair) = stairs.stairs.iter().find(|stair| is_same(step, stair)) {
-                let old = std::mem::replace(&mut step.stair, *stair);
-                let old = Step {
-                    stair: old,
-                    ..*step
-                };
-                keep_better_edge(step, &old, pose);
-            }
-        }
+        look_up(&mut self.steps, stairs, pose);
         while let Some(next) = self
             .steps
             .last()
             .and_then(|last| following(last, stairs, config))
         {
             self.steps.push(next);
+        }
+    }
+}
+
+/// Gives each step the stair that it is by now.
+fn look_up(steps: &mut [Step], stairs: &Staircase, pose: &PlanarPose) {
+    for step in steps {
+        if let Some(stair) = stairs.stairs.iter().find(|stair| is_same(step, stair)) {
+            let old = *step;
+            step.stair = *stair;
+            keep_better_edge(step, &old, pose);
         }
     }
 }
@@ -156,16 +160,19 @@ fn keep_lane(steps: &mut [Step], before: &Step) {
     }
 }
 
-/// An edge stays where it was measured while it is out of view, and when what is said of it now is worth less.
+/// An edge stays where it was measured while it is out of view, and when what is said of it now is worth less. One that was
+/// not measured goes where it is measured.
 fn keep_better_edge(step: &mut Step, old: &Step, pose: &PlanarPose) {
     const WORSE: f64 = 2.0;
     let away_m = -old.stair.front.beyond_m([pose.x_m, pose.y_m]);
-    let worse = match (&old.stair.front_fit, &step.stair.front_fit) {
-        (Some(old), Some(new)) => new.place_sigma_m > WORSE * old.place_sigma_m,
+    let out_of_view = away_m < OUT_OF_VIEW_M;
+    let stays = match (&old.stair.front_fit, &step.stair.front_fit) {
+        (Some(old), Some(new)) => out_of_view || new.place_sigma_m > WORSE * old.place_sigma_m,
         (Some(_), None) => true,
-        (None, _) => false,
+        (None, Some(_)) => false,
+        (None, None) => out_of_view,
     };
-    if away_m < OUT_OF_VIEW_M || worse {
+    if stays {
         step.stair.front = old.stair.front;
         step.stair.front_fit = old.stair.front_fit;
         step.stair.left_margin_m = old.stair.left_margin_m;

@@ -3,6 +3,7 @@
 use super::*;
 use crate::climbing::simulation::stair;
 use planning::{Climb, Path};
+use stairs::EdgeFit;
 
 /// Two steps that are crossed along x at this offset to the left.
 fn plan(aside_m: f64) -> Plan {
@@ -40,4 +41,53 @@ fn a_plan_that_crosses_a_wide_edge_elsewhere_does_not_move_the_lane() {
             assert!((step.crossing_m[1] - 0.1).abs() < 1e-9, "{step:?}");
         }
     }
+}
+
+/// The stairs of the plan's steps after their fronts were measured, further on by this much than they were thought.
+fn measured(plan: &Plan, further_m: f64) -> Staircase {
+    let steps = &plan.way.as_ref().unwrap().climbs[0].steps;
+    let stairs = steps.iter().map(|step| {
+        let [x_m, _] = step.crossing_m;
+        let from_m = [x_m + further_m, 0.0, 0.0];
+        let mut stair = stair(from_m, [x_m + 0.12, 0.0, 0.0], step.stair.height_m(), 1.0);
+        stair.front_fit = Some(EdgeFit {
+            place_sigma_m: 0.002,
+            heading_sigma_rad: 0.01,
+            frames: 9,
+        });
+        stair
+    });
+    Staircase {
+        stairs: stairs.collect(),
+        ..Staircase::default()
+    }
+}
+
+#[test]
+fn a_step_behind_those_of_the_plan_is_looked_up_among_the_stairs() {
+    let mut flight = Flight::default();
+    let mut short = plan(0.0);
+    flight.adopt(&short.way.as_ref().unwrap().climbs[0].steps);
+    let stairs = measured(&short, 0.02);
+    short.way.as_mut().unwrap().climbs[0].steps.truncate(1);
+    let config = ClimbingConfig::default();
+    flight.refresh(Some(&short), &stairs, &PlanarPose::default(), &config);
+    let second = flight.second().unwrap();
+    assert!(second.stair.front_fit.is_some(), "{second:?}");
+    assert!(second.stair.front.beyond_m([0.64, 0.0]).abs() < 1e-9);
+}
+
+#[test]
+fn an_edge_that_was_never_measured_goes_where_it_is_measured_however_near_it_is() {
+    let mut flight = Flight::default();
+    let plan = plan(0.0);
+    flight.adopt(&plan.way.as_ref().unwrap().climbs[0].steps);
+    let at_the_edge = PlanarPose::new(0.45, 0.0, 0.0);
+    let config = ClimbingConfig::default();
+    flight.refresh(None, &measured(&plan, 0.02), &at_the_edge, &config);
+    let first = *flight.first().unwrap();
+    assert!(first.stair.front_fit.is_some(), "{first:?}");
+    // From here it is out of view: what is said of it later is worth nothing.
+    flight.refresh(None, &measured(&plan, 0.0), &at_the_edge, &config);
+    assert_eq!(flight.first().unwrap().stair.front, first.stair.front);
 }
