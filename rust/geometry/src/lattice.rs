@@ -78,6 +78,14 @@ impl CellArea {
         self.max = Cell::new(self.max.col.max(cell.col), self.max.row.max(cell.row));
     }
 
+    /// Grows to hold `other`.
+    pub fn join(&mut self, other: Self) {
+        if !other.is_empty() {
+            self.include(other.min);
+            self.include(other.max);
+        }
+    }
+
     /// Whether it holds `cell`.
     pub const fn contains(&self, cell: Cell) -> bool {
         cell.col >= self.min.col
@@ -220,6 +228,22 @@ mod tests {
                 prop_assert_eq!(grid.get(cell).copied(), Some(expected));
             }
         }
+    }
+
+    #[test]
+    fn joined_areas_hold_both_and_an_empty_one_adds_nothing() {
+        let area = |a: [i32; 4]| CellArea {
+            min: Cell::new(a[0], a[1]),
+            max: Cell::new(a[2], a[3]),
+        };
+        let mut joined = CellArea::EMPTY;
+        joined.join(CellArea::EMPTY);
+        assert!(joined.is_empty());
+        joined.join(area([2, 3, 4, 5]));
+        joined.join(CellArea::EMPTY);
+        assert_eq!(joined, area([2, 3, 4, 5]));
+        joined.join(area([0, 4, 3, 9]));
+        assert_eq!(joined, area([0, 3, 4, 9]));
     }
 
     #[test]

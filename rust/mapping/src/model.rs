@@ -38,6 +38,30 @@ pub struct FloorView {
 }
 
 impl FloorView {
+    /// A square window of which nothing is known.
+    pub(crate) fn unknown(lattice: Lattice, cells: usize) -> Self {
+        Self {
+            lattice,
+            cells: Grid::filled(cells, cells, Surface::Unknown),
+            sightings: Grid::filled(cells, cells, 0),
+        }
+    }
+
+    /// Moves the window by whole cells to where `lattice` lies.
+    pub(crate) fn shift(&mut self, cols: i32, rows: i32, lattice: Lattice) {
+        self.cells.shift(cols, rows, &Surface::Unknown);
+        self.sightings.shift(cols, rows, &0);
+        self.lattice = lattice;
+    }
+
+    /// Sets what is in a cell, and how often it was seen.
+    pub(crate) fn set(&mut self, cell: Cell, surface: Surface, sightings: u16) {
+        if let (Some(slot), Some(count)) = (self.cells.get_mut(cell), self.sightings.get_mut(cell))
+        {
+            (*slot, *count) = (surface, sightings);
+        }
+    }
+
     /// What is at a point of the map frame; unknown outside the window.
     pub fn at(&self, x_m: f64, y_m: f64) -> Surface {
         self.cells

@@ -1,10 +1,11 @@
 //! The floor and obstacle grid of Gutmann, Fukuchi and Fujita 2005 (000): equations (5), (10), (11) and the order of an update.
 
-use geometry::{Cell, CellArea, ConfigError, Grid, Map, Pose, Robot};
+use geometry::{Cell, CellArea, ConfigError, Map, Pose, Robot};
 use segmentation::Planes;
 
-use super::window::Window;
-use super::{FloorGrid, FogConfig, LabelledFrame, height_shift};
+use super::stood::Stood;
+use super::window::{Layers, Window};
+use super::{FloorGrid, FogConfig, LabelledFrame, LabelledPoint, check_poses, height_shift};
 use crate::volume::{OccupancyGrid, Placement, ProbabilityTable, Size};
 use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
 
@@ -13,10 +14,10 @@ use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
 pub struct Fog {
     config: FogConfig,
     window: Window,
+    layers: Layers,
     occupancy: OccupancyGrid,
     floor: FloorGrid,
-    /// Height of the ground where the robot stood, m; NaN where it did not.
-    stood: Grid<f32>,
+    stood: Stood,
     view: FloorView,
     frame: LabelledFrame,
 }
@@ -28,13 +29,14 @@ impl Fog {
     /// A map of which nothing is known, around the map's origin.
     pub fn new(config: FogConfig) -> Result<Self, ConfigError> {
         config.check()?;
-        let window = Window::new();
-        let lattice = window.lattice(&config);
         let n = config.cells;
+        let window = Window::new(config.cell, n);
+        let layers = Layers::new(&config);
+        let lattice = window.lattice();
         let table = ProbabilityTable::new(config.p_sense, config.p_occ, config.p_min, config.p_max);
         let placement = Placement {
             lattice,
-            bottom_m: window.bottom_m(&config),
+            bottom_m: layers.bottom_m(),
             layer_m: config.layer,
         };
         let size = Size {
@@ -45,14 +47,11 @@ impl Fog {
         Ok(Self {
             occupancy: OccupancyGrid::new(size, placement, table),
             floor: FloorGrid::new(lattice, &config),
-            stood: Grid::filled(n, n, f32::NAN),
-            view: FloorView {
-                lattice,
-                cells: Grid::filled(n, n, Surface::Unknown),
-                sightings: Grid::filled(n, n, 0),
-            },
+            stood: Stood::new(n, config.footprint),
+            view: FloorView::unknown(lattice, n),
             frame: LabelledFrame::default(),
             window,
+            layers,
             config,
         })
     }
@@ -75,28 +74,26 @@ impl Fog {
         match (obstacle, floor) {
             (Some(top), _) if top > limit => Surface::Obstacle(top as f32),
             (_, Some(height)) => Surface::Floor(height),
-            _ => match self.stood.get(cell) {
-                Some(&height) if !height.is_nan() => Surface::Floor(height),
-                _ => Surface::Unknown,
-            },
+            _ => self
+                .stood
+                .height(cell)
+                .map_or(Surface::Unknown, Surface::Floor),
         }
     }
 
     /// Moves the window to the robot; the cells of the view that this may have changed.
     fn follow(&mut self, robot_m: [f64; 3]) -> CellArea {
-        let [cols, rows, layers] = self.window.follow(robot_m, &self.config);
+        let [cols, rows] = self.window.follow(robot_m);
+        let layers = self.layers.follow(robot_m[2]);
         if [cols, rows, layers] == [0; 3] {
             return CellArea::EMPTY;
         }
-        let lattice = self.window.lattice(&self.config);
+        let lattice = self.window.lattice();
         self.occupancy.shift(cols, rows, layers);
-        self.occupancy
-            .place(lattice, self.window.bottom_m(&self.config));
+        self.occupancy.place(lattice, self.layers.bottom_m());
         self.floor.shift(cols, rows, lattice);
-        self.stood.shift(cols, rows, &f32::NAN);
-        self.view.cells.shift(cols, rows, &Surface::Unknown);
-        self.view.sightings.shift(cols, rows, &0);
-        self.view.lattice = lattice;
+        self.stood.shift(cols, rows);
+        self.view.shift(cols, rows, lattice);
         let all = self.view.cells.area();
         if layers != 0 {
             self.floor.verify(&self.occupancy, all);
@@ -105,39 +102,12 @@ impl Fog {
         all
     }
 
-    /// Remembers the ground under the robot: it cannot see where it stands.
-    fn stand(&mut self, robot_m: [f64; 3]) -> CellArea {
-        let mut area = CellArea::EMPTY;
-        let lattice = self.view.lattice;
-        let [x, y, z] = robot_m;
-        let reach = self.config.footprint;
-        let window = CellArea {
-            min: lattice.cell_at(x - reach, y - reach),
-            max: lattice.cell_at(x + reach, y + reach),
-        };
-        for cell in window.cells() {
-            let [cx, cy] = lattice.center_of(cell);
-            if (cx - x).hypot(cy - y) <= reach
-                && let Some(height) = self.stood.get_mut(cell)
-            {
-                *height = z as f32;
-                area.include(cell);
-            }
-        }
-        area
-    }
-
     /// Brings the view up to date in an area.
     fn refresh(&mut self, area: CellArea) {
         for cell in area.cells() {
             let surface = self.surface(cell);
             let seen = self.floor.sightings(cell);
-            if let Some(slot) = self.view.cells.get_mut(cell) {
-                *slot = surface;
-            }
-            if let Some(slot) = self.view.sightings.get_mut(cell) {
-                *slot = seen;
-            }
+            self.view.set(cell, surface, seen);
         }
     }
 }
@@ -148,28 +118,20 @@ impl WorldModel for Fog {
         planes: &Planes,
         map_from_robot: &Pose<Map, Robot>,
     ) -> Result<Insertion, MapError> {
-        let finite =
-            |pose: &nalgebra::Isometry3<f64>| pose.to_matrix().iter().all(|v| v.is_finite());
-        if !finite(&map_from_robot.inner) {
-            return Err(MapError::PoseNotFinite);
-        }
-        if !finite(&planes.robot_from_camera.inner) {
-            return Err(MapError::Failed("the camera's pose must be finite".into()));
-        }
+        check_poses(planes, map_from_robot)?;
         let at = map_from_robot.inner.translation.vector;
         let robot_m = [at.x, at.y, at.z];
         let mut changed = self.follow(robot_m);
-        join(&mut changed, self.stand(robot_m));
+        changed.join(self.stood.stand(robot_m, &self.view.lattice));
 
         let config = &self.config;
         self.frame
             .read(planes, map_from_robot, config.snap, config.max_range);
-        let shift = height_shift(
-            &self.frame,
-            &self.floor,
-            config.match_gate,
-            config.min_pairs,
-        );
+        let residual_m = |point: &LabelledPoint| {
+            let [x, y, _] = point.position_m;
+            Some(self.floor.height_at(x, y)? - point.floor_height_m)
+        };
+        let shift = height_shift(&self.frame, residual_m, config.match_gate, config.min_pairs);
         let used = planes.reliable || shift.is_some();
         if used {
             self.frame.raise(shift.unwrap_or(0.0));
@@ -180,7 +142,7 @@ impl WorldModel for Fog {
             self.floor.verify(&self.occupancy, touched);
             self.floor
                 .update(&self.frame, &self.occupancy, config.update);
-            join(&mut changed, touched);
+            changed.join(touched);
         }
         self.refresh(changed);
         Ok(Insertion {
@@ -192,13 +154,5 @@ impl WorldModel for Fog {
 
     fn view(&self) -> &FloorView {
         &self.view
-    }
-}
-
-/// Grows `area` to hold `other`.
-fn join(area: &mut CellArea, other: CellArea) {
-    if !other.is_empty() {
-        area.include(other.min);
-        area.include(other.max);
     }
 }

@@ -4,7 +4,23 @@ use geometry::{Map, Pose, Robot};
 use nalgebra::Point3;
 use segmentation::Planes;
 
+use crate::MapError;
 use crate::volume::Ray;
+
+/// Refuses poses that are no numbers, before anything is changed by them.
+pub(crate) fn check_poses(
+    planes: &Planes,
+    map_from_robot: &Pose<Map, Robot>,
+) -> Result<(), MapError> {
+    let finite = |pose: &nalgebra::Isometry3<f64>| pose.to_matrix().iter().all(|v| v.is_finite());
+    if !finite(&map_from_robot.inner) {
+        return Err(MapError::PoseNotFinite);
+    }
+    if !finite(&planes.robot_from_camera.inner) {
+        return Err(MapError::Failed("the camera's pose must be finite".into()));
+    }
+    Ok(())
+}
 
 /// A point with the height of the floor that it belongs to.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,27 +1,25 @@
 //! Fitting a frame to the floor that is known: 000, section IV.
 
-use super::{FloorGrid, LabelledFrame};
+use super::{LabelledFrame, LabelledPoint};
 
 /// Bins of the search, over twice the gate.
 const BINS: usize = 40;
 
-/// The shift in height, m, that brings the frame's floor points onto the known floor: the least sum of squared
-/// distances among the pairs that agree. `None` with fewer than `min_pairs` of them.
+/// The shift in height, m, that brings the frame's points onto the known surface: the least sum of squared distances
+/// among the pairs that agree. `None` with fewer than `min_pairs` of them. `residual_m` is how far that surface lies above a
+/// point; none or NaN where there is nothing to compare.
 ///
 /// Points and floors further apart than `gate_m` are different surfaces. Where several shifts fit, the one that most
 /// pairs agree on wins; pairs agree within a quarter of the gate.
 pub fn height_shift(
     frame: &LabelledFrame,
-    floor: &FloorGrid,
+    residual_m: impl Fn(&LabelledPoint) -> Option<f64>,
     gate_m: f64,
     min_pairs: usize,
 ) -> Option<f64> {
     let residuals = || {
-        frame.points.iter().filter_map(|point| {
-            let [x, y, _] = point.position_m;
-            let residual = floor.height_at(x, y)? - point.floor_height_m;
-            (residual.abs() <= gate_m).then_some(residual)
-        })
+        let all = frame.points.iter().filter_map(&residual_m);
+        all.filter(|residual| residual.abs() <= gate_m)
     };
     if gate_m == 0.0 {
         return (residuals().count() >= min_pairs).then_some(0.0);

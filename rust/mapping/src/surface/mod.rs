@@ -5,10 +5,12 @@ mod floor;
 mod fog;
 mod frame;
 mod matching;
+mod stood;
 mod window;
 
 pub use config::{FogConfig, Update};
 pub use floor::{FloorGrid, INVALID, merge_height};
 pub use fog::Fog;
+pub(crate) use frame::check_poses;
 pub use frame::{LabelledFrame, LabelledPoint};
 pub use matching::height_shift;

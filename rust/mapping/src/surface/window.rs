@@ -8,53 +8,97 @@ use super::FogConfig;
 /// a border would move it to and fro.
 const SLACK: f64 = 0.75;
 
-/// The window's place in whole cells and layers from the map's origin.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Window {
-    /// Cell borders nearest to the robot, along x and y, and layer border nearest to its ground.
-    center: [i64; 3],
+/// Where a window lies along one axis, in whole units from the map's origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Axis {
+    unit_m: f64,
+    units: usize,
+    /// Border between units that is nearest to the robot.
+    center: i64,
+}
+
+impl Axis {
+    const fn new(unit_m: f64, units: usize) -> Self {
+        Self {
+            unit_m,
+            units,
+            center: 0,
+        }
+    }
+
+    /// Follows the robot; the whole units moved.
+    fn follow(&mut self, robot_m: f64) -> i32 {
+        let at = robot_m / self.unit_m;
+        if (at - self.center as f64).abs() <= SLACK {
+            return 0;
+        }
+        let target = at.round() as i64;
+        let moved = target.saturating_sub(self.center);
+        self.center = target;
+        // Beyond the window nothing is kept, however far it went.
+        moved.clamp(-(self.units as i64), self.units as i64) as i32
+    }
+}
+
+/// The cells of a map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Window {
+    axes: [Axis; 2],
 }
 
 impl Window {
-    pub(super) const fn new() -> Self {
-        Self { center: [0; 3] }
-    }
-
-    /// Follows the robot; the whole cells and layers moved.
-    pub(super) fn follow(&mut self, robot_m: [f64; 3], config: &FogConfig) -> [i32; 3] {
-        let unit = [config.cell, config.cell, config.layer];
-        let most = [config.cells, config.cells, config.layers];
-        std::array::from_fn(|a| {
-            let at = robot_m[a] / unit[a];
-            let stays = (at - self.center[a] as f64).abs() <= SLACK;
-            if stays || (a == 2 && !config.follow_height) {
-                return 0;
-            }
-            let target = at.round() as i64;
-            let moved = target.saturating_sub(self.center[a]);
-            self.center[a] = target;
-            // Beyond the window nothing is kept, however far it went.
-            moved.clamp(-(most[a] as i64), most[a] as i64) as i32
-        })
-    }
-
-    pub(super) fn lattice(&self, config: &FogConfig) -> Lattice {
-        let half = (config.cells / 2) as i64;
-        let border = |center: i64| (center as f64 - half as f64) * config.cell;
-        Lattice {
-            origin_m: [border(self.center[0]), border(self.center[1])],
-            cell_m: config.cell,
+    /// So many cells along each side, around the map's origin.
+    pub(crate) const fn new(cell_m: f64, cells: usize) -> Self {
+        Self {
+            axes: [Axis::new(cell_m, cells); 2],
         }
+    }
+
+    /// Follows the robot; the whole columns and rows moved.
+    pub(crate) fn follow(&mut self, [x_m, y_m, _]: [f64; 3]) -> [i32; 2] {
+        let [cols, rows] = &mut self.axes;
+        [cols.follow(x_m), rows.follow(y_m)]
+    }
+
+    pub(crate) fn lattice(&self) -> Lattice {
+        let half = |axis: &Axis| (axis.units / 2) as i64;
+        let border = |axis: Axis| (axis.center as f64 - half(&axis) as f64) * axis.unit_m;
+        Lattice {
+            origin_m: self.axes.map(border),
+            cell_m: self.axes[0].unit_m,
+        }
+    }
+}
+
+/// The layers of an occupancy grid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Layers {
+    axis: Axis,
+    origin_m: f64,
+    /// Layers below the robot's, where they follow it.
+    below: Option<usize>,
+}
+
+impl Layers {
+    pub(super) fn new(config: &FogConfig) -> Self {
+        Self {
+            axis: Axis::new(config.layer, config.layers),
+            origin_m: config.layer_origin,
+            below: config.follow_height.then_some(config.layers_below),
+        }
+    }
+
+    /// Follows the robot's height; the whole layers moved.
+    pub(super) fn follow(&mut self, robot_z_m: f64) -> i32 {
+        self.below.map_or(0, |_| self.axis.follow(robot_z_m))
     }
 
     /// Lower bound of the lowest layer, m.
-    pub(super) fn bottom_m(&self, config: &FogConfig) -> f64 {
-        if config.follow_height {
-            let layers = self.center[2] as f64 - config.layers_below as f64;
-            config.layer_origin + layers * config.layer
-        } else {
-            config.layer_origin
-        }
+    pub(super) fn bottom_m(&self) -> f64 {
+        let layers = self
+            .below
+            .map_or(0.0, |below| self.axis.center as f64 - below as f64);
+        self.origin_m + layers * self.axis.unit_m
     }
 }
 
@@ -66,20 +110,21 @@ mod tests {
     proptest! {
         #[test]
         fn the_robot_stays_near_the_middle(steps in prop::collection::vec(prop::array::uniform3(-0.2..0.2f64), 1..30)) {
-            let config = FogConfig::default();
-            let mut window = Window::new();
+            let mut window = Window::new(0.04, 100);
+            let mut layers = Layers::new(&FogConfig::default());
             let mut robot = [0.0; 3];
-            let mut total = [0_i32; 3];
+            let mut total = [0_i32; 2];
             for step in steps {
                 for a in 0..3 { robot[a] += step[a]; }
-                let moved = window.follow(robot, &config);
-                for a in 0..3 { total[a] += moved[a]; }
-                let origin = window.lattice(&config).origin_m;
+                let moved = window.follow(robot);
+                let _ = layers.follow(robot[2]);
+                for a in 0..2 { total[a] += moved[a]; }
+                let origin = window.lattice().origin_m;
                 for a in 0..2 {
                     prop_assert!((origin[a] + 2.0 - robot[a]).abs() <= 0.75 * 0.04 + 1e-9);
                     prop_assert!((origin[a] - (f64::from(total[a]) * 0.04 - 2.0)).abs() < 1e-9);
                 }
-                let ground_layer = window.bottom_m(&config) + 8.0 * 0.04 + 0.02;
+                let ground_layer = layers.bottom_m() + 8.0 * 0.04 + 0.02;
                 prop_assert!((ground_layer - robot[2]).abs() <= 0.75 * 0.04 + 1e-9);
             }
         }
@@ -87,14 +132,12 @@ mod tests {
 
     #[test]
     fn swaying_over_a_border_moves_nothing() {
-        let config = FogConfig::default();
-        let mut window = Window::new();
-        let _ = window.follow([0.1, 0.1, 0.0], &config);
+        let mut window = Window::new(0.04, 100);
+        let mut layers = Layers::new(&FogConfig::default());
+        let _ = window.follow([0.1, 0.1, 0.0]);
         for sway in [0.005, -0.005, 0.01, -0.01] {
-            assert_eq!(
-                window.follow([0.1 + sway, 0.1 - sway, sway], &config),
-                [0; 3]
-            );
+            assert_eq!(window.follow([0.1 + sway, 0.1 - sway, sway]), [0; 2]);
+            assert_eq!(layers.follow(sway), 0);
         }
     }
 }

@@ -1,0 +1,54 @@
+//! The ground under the robot: it cannot see where it stands.
+
+use geometry::{Cell, CellArea, Grid, Lattice};
+
+/// Height of the ground where the robot stood, cell by cell.
+#[derive(Debug, Clone)]
+pub(crate) struct Stood {
+    /// NaN where it did not, m.
+    heights: Grid<f32>,
+    reach_m: f64,
+}
+
+impl Stood {
+    /// It stood nowhere yet. Standing it covers the cells up to `reach_m` from its middle.
+    pub(crate) fn new(cells: usize, reach_m: f64) -> Self {
+        Self {
+            heights: Grid::filled(cells, cells, f32::NAN),
+            reach_m,
+        }
+    }
+
+    /// Moves the window by whole cells.
+    pub(crate) fn shift(&mut self, cols: i32, rows: i32) {
+        self.heights.shift(cols, rows, &f32::NAN);
+    }
+
+    /// Remembers that it stands here (map frame); the cells that it covers.
+    pub(crate) fn stand(&mut self, [x, y, z]: [f64; 3], lattice: &Lattice) -> CellArea {
+        let mut area = CellArea::EMPTY;
+        let reach = self.reach_m;
+        let window = CellArea {
+            min: lattice.cell_at(x - reach, y - reach),
+            max: lattice.cell_at(x + reach, y + reach),
+        };
+        for cell in window.cells() {
+            let [cx, cy] = lattice.center_of(cell);
+            if (cx - x).hypot(cy - y) <= reach
+                && let Some(height) = self.heights.get_mut(cell)
+            {
+                *height = z as f32;
+                area.include(cell);
+            }
+        }
+        area
+    }
+
+    /// Height of the ground of a cell, m, where the robot stood on it.
+    pub(crate) fn height(&self, cell: Cell) -> Option<f32> {
+        self.heights
+            .get(cell)
+            .copied()
+            .filter(|height| !height.is_nan())
+    }
+}
