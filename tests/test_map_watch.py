@@ -34,7 +34,7 @@ class Scene:
 
     def __init__(self) -> None:
         self.place = np.zeros(3)
-        self.events = SimpleNamespace(present={"box"}, place=lambda *_: self.place)
+        self.events = SimpleNamespace(present={"box"}, place=lambda *_: self.place, fired=[])
         episode: Any = SimpleNamespace(
             course=WORLD.course, simulation=WORLD.simulation, events=self.events
         )
@@ -47,7 +47,7 @@ class Scene:
     def see(self) -> MapFrame:
         made = trace(WORLD, 0, view_kind=self.kind, view_height=self.height)
         self.watch.frame(made)
-        last: MapFrame = self.watch.findings()[-1]
+        last: MapFrame = self.watch.findings().frames[-1]
         return last
 
 
@@ -98,4 +98,16 @@ def test_cells_keep_their_place_when_the_window_moves() -> None:
         WORLD, 0, view_kind=scene.kind, view_height=scene.height, view_origin=(-0.72, -0.84)
     )
     scene.watch.frame(moved)
-    assert scene.watch.findings()[-1].left == SIDE**2
+    assert scene.watch.findings().frames[-1].left == SIDE**2
+
+
+def test_the_map_is_kept_as_it_was_before_each_event_and_in_the_end() -> None:
+    scene = Scene()
+    scene.see()
+    scene.height = np.full_like(scene.height, 0.01)
+    scene.see()
+    scene.events.fired.append((1.0, "remove"))
+    scene.height = np.full_like(scene.height, 0.02)
+    scene.see()
+    before, end = scene.watch.findings().pictures
+    assert (before.height.max(), end.height.max()) == (np.float32(0.01), np.float32(0.02))

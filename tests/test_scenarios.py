@@ -43,7 +43,7 @@ NOT_CLIMBED = (
     "stair_removed",
     "stair_blind_long",
 )
-LOOKED_AT = ("box_removed", "box_moved")
+LOOKED_AT = ("box_removed", "box_moved", "three_levels", "stairs_seen")
 EXPECTED = {
     **WALKED,
     **dict.fromkeys(LOOKED_AT, "goal_reached"),

@@ -6,6 +6,7 @@ from statistics import fmean, pstdev
 from typing import Final
 
 from treadwell.experiments.experiment import NOTHING, Experiment, Results, Table, middle, share
+from treadwell.experiments.level_heights import level_heights
 from treadwell.experiments.stairs_cases import (
     BASIN_BEGIN,
     BASINS_MM,
@@ -30,15 +31,6 @@ _TIMED: Final = ("stairs_up", "stairs_up_continuous", "stairs_down", "stairs_ask
 _STEPS: Final = 4
 """Steps of each of the timed staircases."""
 
-_LEVELS: Final = (
-    ("sill", 0.038, 37.0),
-    ("1st step", 0.031, 31.0),
-    ("2nd step", 0.061, 61.0),
-    ("3rd step", 0.092, 94.0),
-    ("platform", 0.122, 126.0),
-)
-"""Table I of ICRA 2005: level, its true height m, the paper's estimate mm."""
-_SAME_HEIGHT: Final = 0.0015
 _SAME_LEVEL: Final = 0.015
 _SAME_PLACE: Final = 0.06
 
@@ -207,29 +199,6 @@ def _measured_width(run: Run, width: float) -> float | None:
     return min((one for one in near if one[0] < _SAME_PLACE), default=(0.0, None))[1]
 
 
-def _heights(results: Results) -> Table:
-    tops = [
-        surface
-        for run in results.get("obstacle_course", ())
-        for surface in run.result.surfaces
-        if surface.estimate is not None
-    ]
-    rows = []
-    for name, truth, paper in _LEVELS:
-        found = [
-            1e3 * (top.estimate or 0.0) for top in tops if abs(top.truth - truth) < _SAME_HEIGHT
-        ]
-        spread = f"{min(found):.1f} to {max(found):.1f}" if found else NOTHING
-        cells = (f"{1e3 * truth:.0f}", f"{paper:.0f}", middle(found), spread, str(len(found)))
-        rows.append((name, *cells))
-    return Table(
-        "Heights of the levels in the map of obstacle_course, mm",
-        ("level", "true", "the paper", "median", "range", "runs"),
-        tuple(rows) if tops else (),
-        ("The paper: ICRA 2005, Table I. Ours: what the map had in the end.",),
-    )
-
-
 def _frame_times(results: Results) -> Table:
     stages = ("segment", "stairs", "behave")
     runs = [run.result for some in results.values() for run in some]
@@ -255,7 +224,7 @@ def stairs_tables(results: Results) -> list[Table]:
         _steps(results),
         _widths(results),
         _reasons(results),
-        _heights(results),
+        level_heights(results.get("obstacle_course", ())),
         _frame_times(results),
     ]
     return [table for table in made if table.rows]

@@ -13,7 +13,7 @@ from treadwell.course.build import CourseElement
 from treadwell.course.levels import surface_height
 from treadwell.course.outlines import signed_distance
 from treadwell.episode import Episode
-from treadwell.judging.map_memory import FLOOR, OBSTACLE
+from treadwell.judging.map_memory import FLOOR, OBSTACLE, RememberedMap
 from treadwell.recording.trace import Trace
 
 Floats = NDArray[np.float64]
@@ -46,6 +46,19 @@ class MapFrame:
     between: int
 
 
+@dataclass(frozen=True, slots=True)
+class MapHistory:
+    """What the map had frame by frame, and the whole map now and then.
+
+    Attributes:
+        frames: an entry a camera frame.
+        pictures: the map as it was before each event that happened, and in the end.
+    """
+
+    frames: tuple[MapFrame, ...]
+    pictures: tuple[RememberedMap, ...]
+
+
 class MapWatch:
     """Watches the cells that movable elements cover or have covered."""
 
@@ -57,9 +70,17 @@ class MapWatch:
         self._fixed = [top for e in elements if e.mocap_id is None for top in e.tops]
         self._visited: dict[tuple[int, int], float] = {}
         self._frames: list[MapFrame] = []
+        self._fired = 0
+        self._pictures: list[RememberedMap] = []
+        self._last: RememberedMap | None = None
 
     def frame(self, trace: Trace) -> None:
         """Take in a camera frame."""
+        fired = len(self._episode.events.fired)
+        if fired > self._fired and self._last is not None:
+            self._pictures.append(self._last)
+        self._fired = fired
+        self._last = _picture(trace)
         centres, cells = _lattice(trace)
         top_now = np.full(len(centres), -np.inf)
         for element in self._movable:
@@ -76,9 +97,16 @@ class MapWatch:
         floor = surface_height(self._fixed, centres)
         self._frames.append(_sorted(trace, covered, top_now, left, floor, highest))
 
-    def findings(self) -> tuple[MapFrame, ...]:
-        """Return an entry a frame."""
-        return tuple(self._frames)
+    def findings(self) -> MapHistory:
+        """Return what was seen so far."""
+        last = () if self._last is None else (self._last,)
+        return MapHistory(tuple(self._frames), (*self._pictures, *last))
+
+
+def _picture(trace: Trace) -> RememberedMap:
+    """Return the window of one frame."""
+    arrays = (trace.view_kind, trace.view_height, trace.sightings)
+    return RememberedMap(trace.view_origin, trace.view_cell, *arrays)
 
 
 def _sorted(
