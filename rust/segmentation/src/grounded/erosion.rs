@@ -23,25 +23,33 @@ impl Erosion {
         reach: (usize, usize),
         eroded: &mut [u16],
     ) {
-        self.lowest.marks.clear();
-        self.highest.marks.clear();
-        for (at, (&label, d)) in labels.iter().zip(disparity_px).enumerate() {
-            let (low, high) = if label > 0 {
-                (label.cast_signed(), label.cast_signed())
-            } else if d.is_nan() || is_hole(labels, width, at) {
-                NEUTRAL
-            } else {
-                MIXED
-            };
-            self.lowest.marks.push(low);
-            self.highest.marks.push(high);
-        }
+        self.mark(labels, disparity_px, width);
         self.lowest.spread(width, reach, i16::min);
         self.highest.spread(width, reach, i16::max);
         let windows = self.lowest.over_both.iter().zip(&self.highest.over_both);
         for ((out, &label), (&low, &high)) in eroded.iter_mut().zip(labels).zip(windows) {
             let own = label.cast_signed();
             *out = if low == own && high == own { label } else { 0 };
+        }
+    }
+
+    /// Marks what each pixel stands for.
+    fn mark(&mut self, labels: &[u16], disparity_px: &[f32], width: usize) {
+        self.lowest.marks.clear();
+        self.highest.marks.clear();
+        let pixels = || labels.iter().zip(disparity_px);
+        let mark = |label: u16, d: f32, (neutral, mixed): (i16, i16)| {
+            let none = if d.is_nan() { neutral } else { mixed };
+            if label > 0 { label.cast_signed() } else { none }
+        };
+        let low = pixels().map(|(&label, &d)| mark(label, d, (NEUTRAL.0, MIXED.0)));
+        self.lowest.marks.extend(low);
+        let high = pixels().map(|(&label, &d)| mark(label, d, (NEUTRAL.1, MIXED.1)));
+        self.highest.marks.extend(high);
+        for at in 0..labels.len() {
+            if self.lowest.marks[at] == MIXED.0 && is_hole(labels, width, at) {
+                (self.lowest.marks[at], self.highest.marks[at]) = NEUTRAL;
+            }
         }
     }
 }

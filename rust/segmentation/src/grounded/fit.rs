@@ -43,6 +43,32 @@ impl RegionFit {
         self.ee += e * e;
     }
 
+    /// Adds `count` pixels of a row from a column on, every [`STEP`]-th.
+    fn add_run(&mut self, picture: Picture<'_>, view: &View, [col, row]: [usize; 2], count: usize) {
+        // Summed up in registers.
+        let mut sums = *self;
+        let q = sums.q as f32;
+        let first = row * picture.width + col;
+        let pixels = first..first + (count - 1) * STEP + 1;
+        let pictures = picture.disparity_px[pixels.clone()]
+            .iter()
+            .zip(&picture.g[pixels.clone()])
+            .zip(&picture.sigma_px[pixels]);
+        for (i, ((&d, &g), &sigma)) in pictures.enumerate().step_by(STEP) {
+            let precision = 1.0 / sigma;
+            let miss = (d - q * g) * precision;
+            // Also false where nothing was seen.
+            if miss.abs() < OUTLIER {
+                let tilt = Vector2::new(
+                    f64::from(-q * view.x.at(col + i, row) * precision),
+                    f64::from(-q * view.y.at(col + i, row) * precision),
+                );
+                sums.add(f64::from(g * precision), tilt, f64::from(miss));
+            }
+        }
+        *self = sums;
+    }
+
     /// What the region tells of the tilt once its own height is eliminated: information and its product with the tilt.
     fn tilt_equation(&self) -> (Matrix2<f64>, Vector2<f64>) {
         if self.gg <= 0.0 {
@@ -100,24 +126,16 @@ pub(super) fn fit_regions(
         q: f64::from(region.q),
         ..RegionFit::default()
     }));
-    let width = picture.width;
-    for (row, line) in labels.chunks_exact(width).enumerate() {
-        for (col, &label) in line.iter().enumerate().skip(row % STEP).step_by(STEP) {
-            if label == 0 {
-                continue;
+    for (row, line) in labels.chunks_exact(picture.width).enumerate() {
+        let mut col = row % STEP;
+        while col < line.len() {
+            let label = line[col];
+            let same = |other: &&u16| **other == label;
+            let count = line[col..].iter().step_by(STEP).take_while(same).count();
+            if label > 0 {
+                fits[usize::from(label) - 1].add_run(picture, view, [col, row], count);
             }
-            let (at, index) = (row * width + col, usize::from(label) - 1);
-            let (g, q) = (picture.g[at], regions[index].q);
-            let precision = 1.0 / picture.sigma_px[at];
-            let miss = (picture.disparity_px[at] - q * g) * precision;
-            // Also false where nothing was seen.
-            if miss.abs() < OUTLIER {
-                let tilt = Vector2::new(
-                    f64::from(-q * view.x.at(col, row) * precision),
-                    f64::from(-q * view.y.at(col, row) * precision),
-                );
-                fits[index].add(f64::from(g * precision), tilt, f64::from(miss));
-            }
+            col += count * STEP;
         }
     }
 }

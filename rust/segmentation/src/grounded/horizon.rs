@@ -11,6 +11,8 @@ const STRIDE: (usize, usize) = (2, 3);
 const BIN_M: f32 = 0.006;
 /// Number of bins.
 const BINS: usize = 96;
+/// Tilts that are tried together.
+const TOGETHER: usize = 3;
 
 /// Where the search looks.
 #[derive(Debug, Clone, Copy)]
@@ -28,11 +30,13 @@ pub(super) struct SearchArea {
     pub(super) around_m: [f32; 3],
 }
 
-/// Searches the tilt. Keeps its buffer.
+/// Searches the tilt. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct HorizonSearch {
     // g, X, Y over the disparity: the depth below the camera is their combination; and a weight.
     samples: Vec<[f32; 4]>,
+    // The tilts to be tried, in the order in which they count among equals.
+    tilts: Vec<Vector2<f64>>,
 }
 
 impl HorizonSearch {
@@ -72,48 +76,58 @@ impl HorizonSearch {
 
     /// The best of a square of tilts around `center`; of equals, the one nearest to it.
     fn sharpest(
-        &self,
+        &mut self,
         center: &Vector2<f64>,
         step: f64,
         steps: i32,
         area: SearchArea,
     ) -> Vector2<f64> {
-        let mut best = *center;
-        let mut most = self.sharpness(center, area);
+        self.tilts.clear();
+        self.tilts.push(*center);
         for i in -steps..=steps {
             for j in -steps..=steps {
-                if i == 0 && j == 0 {
-                    continue;
+                if (i, j) != (0, 0) {
+                    let off = Vector2::new(f64::from(i), f64::from(j)) * step;
+                    self.tilts.push(center + off);
                 }
-                let tilt = center + Vector2::new(f64::from(i), f64::from(j)) * step;
-                let sharpness = self.sharpness(&tilt, area);
+            }
+        }
+        let mut best = *center;
+        let mut most = f32::NEG_INFINITY;
+        for tilts in self.tilts.chunks(TOGETHER) {
+            // A chunk that is not full ends with its last tilt again, which changes nothing.
+            let tilts: [_; TOGETHER] = std::array::from_fn(|i| tilts[i.min(tilts.len() - 1)]);
+            for (tilt, sharpness) in tilts.iter().zip(self.sharpness(&tilts, area)) {
                 if sharpness > most {
                     most = sharpness;
-                    best = tilt;
+                    best = *tilt;
                 }
             }
         }
         best
     }
 
-    /// Sum of squares of the histogram of depths below the camera.
-    fn sharpness(&self, tilt: &Vector2<f64>, area: SearchArea) -> f32 {
-        let mut histogram = [0.0_f32; BINS + 1];
-        let (a, b) = (tilt.x as f32, tilt.y as f32);
+    /// Sum of squares of the histogram of depths below the camera, for each of some tilts: histograms that do not wait for
+    /// each other.
+    fn sharpness(&self, tilts: &[Vector2<f64>; TOGETHER], area: SearchArea) -> [f32; TOGETHER] {
+        let mut histograms = [[0.0_f32; BINS + 1]; TOGETHER];
+        let tilts = tilts.map(|tilt| (tilt.x as f32, tilt.y as f32));
         let lowest = area.below_m.0 as f32;
         let span = ((area.below_m.1 - area.below_m.0) as f32 / BIN_M).min(BINS as f32 - 1.0);
         for [g, x, y, weight] in &self.samples {
-            let bin = (g - a * x - b * y - lowest) / BIN_M;
-            if bin >= 0.0 && bin < span {
-                let index = bin as usize;
-                let part = bin - index as f32;
-                histogram[index] += weight * (1.0 - part);
-                histogram[index + 1] += weight * part;
+            for (histogram, (a, b)) in histograms.iter_mut().zip(tilts) {
+                let bin = (g - a * x - b * y - lowest) / BIN_M;
+                if bin >= 0.0 && bin < span {
+                    let index = bin as usize;
+                    let part = bin - index as f32;
+                    histogram[index] += weight * (1.0 - part);
+                    histogram[index + 1] += weight * part;
+                }
             }
         }
-        histogram
-            .windows(2)
-            .map(|pair| (pair[0] + pair[1]).powi(2))
-            .sum()
+        histograms.map(|histogram| {
+            let pairs = histogram.windows(2);
+            pairs.map(|pair| (pair[0] + pair[1]).powi(2)).sum()
+        })
     }
 }

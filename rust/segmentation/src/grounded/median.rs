@@ -1,7 +1,7 @@
 //! A 3x3 median over the pixels that were seen: takes single mismatches out before anything is fitted.
 
 /// Fewest pixels of the nine that must be seen for the middle one to count.
-const MIN_SEEN: usize = 5;
+const MIN_SEEN: f32 = 5.0;
 
 /// The smaller one; of no use with NaN.
 const fn lower(a: f32, b: f32) -> f32 {
@@ -17,34 +17,13 @@ const fn middle(a: f32, b: f32, c: f32) -> f32 {
     upper(lower(a, b), lower(upper(a, b), c))
 }
 
-fn median_of_seen(values: &[f32; 9]) -> f32 {
-    let mut seen = [0.0_f32; 9];
-    let mut count = 0;
-    for &value in values {
-        if value.is_nan() {
-            continue;
-        }
-        let mut at = count;
-        while at > 0 && seen[at - 1] > value {
-            seen[at] = seen[at - 1];
-            at -= 1;
-        }
-        seen[at] = value;
-        count += 1;
-    }
-    if count < MIN_SEEN {
-        f32::NAN
-    } else {
-        f32::midpoint(seen[(count - 1) / 2], seen[count / 2])
-    }
-}
-
-/// Takes medians. Keeps its buffers: the sorted columns of three pixels.
+/// Takes medians. Keeps its buffers: the sorted columns of three pixels, and how many of the three were seen.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Median {
     low: Vec<f32>,
     middle: Vec<f32>,
     high: Vec<f32>,
+    seen: Vec<f32>,
 }
 
 impl Median {
@@ -62,54 +41,82 @@ impl Median {
             let below = &source[(row + 1) * width..(row + 2) * width];
             self.sort_columns(above, here, below);
             let out = &mut target[row * width + 1..(row + 1) * width - 1];
-            self.medians_of_sorted(out);
-            for (col, value) in out.iter_mut().enumerate() {
-                // The middle one of nine seen pixels, or NaN where one of the nine is NaN.
-                if !value.is_nan() || here[col + 1].is_nan() {
-                    continue;
-                }
-                let [a, b, c] =
-                    [above, here, below].map(|line| [line[col], line[col + 1], line[col + 2]]);
-                *value = median_of_seen(&[a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]]);
-            }
+            self.medians_of_sorted(&here[1..], out);
         }
     }
 
-    /// Sorts each column of three; all three are NaN where one of them is.
+    /// Sorts each column of three; what was not seen counts as farther than all.
     fn sort_columns(&mut self, above: &[f32], here: &[f32], below: &[f32]) {
-        self.low.resize(here.len(), 0.0);
-        self.middle.resize(here.len(), 0.0);
-        self.high.resize(here.len(), 0.0);
+        for buffer in [
+            &mut self.low,
+            &mut self.middle,
+            &mut self.high,
+            &mut self.seen,
+        ] {
+            buffer.resize(here.len(), 0.0);
+        }
         let sorted = self
             .low
             .iter_mut()
             .zip(&mut self.middle)
             .zip(&mut self.high);
-        for (((low, mid), high), ((&a, &b), &c)) in sorted.zip(above.iter().zip(here).zip(below)) {
-            // Zero, or NaN where one of the three is.
-            let unseen = (a + b + c) * 0.0;
-            *low = lower(lower(a, b), c) + unseen;
-            *mid = middle(a, b, c) + unseen;
-            *high = upper(upper(a, b), c) + unseen;
+        let columns = above.iter().zip(here).zip(below);
+        for ((sorted, seen), ((&a, &b), &c)) in sorted.zip(&mut self.seen).zip(columns) {
+            let ((low, mid), high) = sorted;
+            let [a, b, c] = [a, b, c].map(|d| if d.is_nan() { f32::INFINITY } else { d });
+            *seen = one_if_seen(a) + one_if_seen(b) + one_if_seen(c);
+            *low = lower(lower(a, b), c);
+            *mid = middle(a, b, c);
+            *high = upper(upper(a, b), c);
         }
     }
 
-    /// The median of nine is the middle one of the largest low, the middle middle and the smallest high.
-    fn medians_of_sorted(&self, out: &mut [f32]) {
-        let windows = self
-            .low
-            .windows(3)
-            .zip(self.middle.windows(3))
-            .zip(self.high.windows(3));
-        for (value, ((low, mid), high)) in out.iter_mut().zip(windows) {
-            let unseen = (low[0] + low[1] + low[2]) * 0.0;
-            *value = middle(
-                upper(upper(low[0], low[1]), low[2]),
-                middle(mid[0], mid[1], mid[2]),
-                lower(lower(high[0], high[1]), high[2]),
-            ) + unseen;
+    /// The median of those that were seen among three columns. With the lows, middles and highs sorted, too, the third to
+    /// the fifth of the nine can only be the largest two lows, the smaller two middles and the smallest high.
+    fn medians_of_sorted(&self, here: &[f32], out: &mut [f32]) {
+        let columns = self.low.windows(3).zip(self.middle.windows(3));
+        let columns = columns.zip(self.high.windows(3)).zip(self.seen.windows(3));
+        for ((value, &own), (((low, mid), high), seen)) in out.iter_mut().zip(here).zip(columns) {
+            let largest_low = upper(upper(low[0], low[1]), low[2]);
+            let middle_low = middle(low[0], low[1], low[2]);
+            let smallest_middle = lower(lower(mid[0], mid[1]), mid[2]);
+            let middle_middle = middle(mid[0], mid[1], mid[2]);
+            let smallest_high = lower(lower(high[0], high[1]), high[2]);
+            let (a, b) = (
+                upper(middle_low, smallest_middle),
+                lower(largest_low, smallest_high),
+            );
+            let third = lower(a, b);
+            let fourth = lower(upper(a, b), middle_middle);
+            let fifth = middle(largest_low, middle_middle, smallest_high);
+            let seen = seen[0] + seen[1] + seen[2];
+            let below = if seen > 8.0 {
+                fifth
+            } else if seen > 6.0 {
+                fourth
+            } else {
+                third
+            };
+            let above = if seen > 7.0 {
+                fifth
+            } else if seen > 5.0 {
+                fourth
+            } else {
+                third
+            };
+            let counts = seen >= MIN_SEEN && !own.is_nan();
+            *value = if counts {
+                0.5 * (below + above)
+            } else {
+                f32::NAN
+            };
         }
     }
+}
+
+/// 1 for what was seen, 0 for what counts as farther than all.
+const fn one_if_seen(d: f32) -> f32 {
+    if d < f32::INFINITY { 1.0 } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -125,7 +132,6 @@ mod tests {
             let mut target = vec![0.0; 9];
             Median::default().filter(&values, 3, &mut target);
             prop_assert_eq!(target[4], sorted[4]);
-            prop_assert_eq!(median_of_seen(&values), sorted[4]);
         }
 
         #[test]
@@ -143,7 +149,7 @@ mod tests {
                         .collect();
                     seen.sort_by(f32::total_cmp);
                     let found = target[row * 8 + col];
-                    if seen.len() < MIN_SEEN || source[row * 8 + col].is_nan() {
+                    if seen.len() < 5 || source[row * 8 + col].is_nan() {
                         prop_assert!(found.is_nan());
                     } else {
                         prop_assert_eq!(found, f32::midpoint(seen[(seen.len() - 1) / 2], seen[seen.len() / 2]));

@@ -1,5 +1,7 @@
 //! The local noise of the disparities, for thresholds that adapt to it (003, section III).
 
+use std::ops::Range;
+
 /// Pixels between the three disparities that are compared: more than a matching window, so that they err independently.
 const REACH: usize = 6;
 /// Blocks across and down the image that have a noise of their own.
@@ -12,7 +14,10 @@ const QUARTILE: f32 = 0.318_64;
 /// Fewest differences that tell anything.
 const MIN_SAMPLES: u32 = 60;
 
-/// A noise for each block of the image.
+/// The bin of what was not seen.
+const UNSEEN: usize = BINS + 1;
+
+/// A noise for each block of the image. Keeps its buffer.
 #[derive(Debug, Clone)]
 pub(super) struct NoiseMap {
     width: usize,
@@ -20,6 +25,8 @@ pub(super) struct NoiseMap {
     floor_px: f32,
     ceiling_px: f32,
     sigma_px: [f32; BLOCKS.0 * BLOCKS.1],
+    // Bin of the difference at each pixel of a line.
+    bins: Vec<u8>,
 }
 
 impl NoiseMap {
@@ -30,6 +37,7 @@ impl NoiseMap {
             floor_px: floor_px as f32,
             ceiling_px: (floor_px * ceiling) as f32,
             sigma_px: [floor_px as f32; BLOCKS.0 * BLOCKS.1],
+            bins: Vec::with_capacity(width),
         }
     }
 
@@ -56,36 +64,29 @@ impl NoiseMap {
     }
 
     fn quartile(
-        &self,
+        &mut self,
         disparity_px: &[f32],
         cols: (usize, usize),
         rows: (usize, usize),
         reach: (usize, usize),
     ) -> Option<f32> {
-        let mut counts = [0_u32; BINS + 1];
+        let mut counts = [0_u32; UNSEEN + 1];
         let offset = reach.1 * self.width + reach.0;
-        let per_bin = 1.0 / (BIN * self.floor_px);
-        let mut total = 0;
         for row in rows.0.max(reach.1)..rows.1.min(self.height.saturating_sub(reach.1)) {
             let from = row * self.width + cols.0.max(reach.0);
             let to = row * self.width + cols.1.min(self.width.saturating_sub(reach.0));
-            for at in (from..to).step_by(2) {
-                let bend =
-                    disparity_px[at - offset] - 2.0 * disparity_px[at] + disparity_px[at + offset];
-                if !bend.is_nan() {
-                    // Three independent values with weights 1, -2, 1 have sqrt(6) times the noise of one.
-                    let bin = (bend.abs() * per_bin * 0.408_25) as usize;
-                    counts[bin.min(BINS)] += 1;
-                    total += 1;
-                }
+            self.find_bins(disparity_px, from..to, offset);
+            for &bin in self.bins.iter().step_by(2) {
+                counts[usize::from(bin)] += 1;
             }
         }
+        let total: u32 = counts[..UNSEEN].iter().sum();
         if total < MIN_SAMPLES {
             return None;
         }
         let mut below = 0.0;
         let wanted = total as f32 / 4.0;
-        for (bin, &count) in counts.iter().enumerate() {
+        for (bin, &count) in counts[..UNSEEN].iter().enumerate() {
             let count = count as f32;
             if below + count >= wanted {
                 let part = (wanted - below) / count;
@@ -94,6 +95,27 @@ impl NoiseMap {
             below += count;
         }
         None
+    }
+
+    /// Fills `bins` with those of the second differences of these pixels, `offset` to both sides.
+    fn find_bins(&mut self, disparity_px: &[f32], pixels: Range<usize>, offset: usize) {
+        let per_bin = 1.0 / (BIN * self.floor_px);
+        let [before, here, behind] = [pixels.start - offset, pixels.start, pixels.start + offset]
+            .map(|start| &disparity_px[start..start + pixels.len()]);
+        let values = before.iter().zip(here).zip(behind);
+        self.bins.clear();
+        self.bins.extend(values.map(|((&a, &b), &c)| {
+            let bend = a - 2.0 * b + c;
+            // Three independent values with weights 1, -2, 1 have sqrt(6) times the noise of one.
+            let bin = bend.abs() * per_bin * 0.408_25;
+            // Of no bin where one of the three was not seen.
+            let bin = if bin < BINS as f32 { bin } else { BINS as f32 };
+            if bend.is_nan() {
+                UNSEEN as u8
+            } else {
+                bin as u8
+            }
+        }));
     }
 
     /// Fills `image` with the noise at every pixel, px, row by row.

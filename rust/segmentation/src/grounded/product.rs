@@ -1,17 +1,29 @@
 //! From regions in disparity to planes, points and floor heights in the robot's frame.
 
+use std::ops::Range;
+
 use geometry::{Outline, Plane, Point, Pose, Robot};
 use nalgebra::{Isometry3, Point2, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::steps::mark_steps;
+use super::steps::StepMarks;
 use super::{Finder, Grounded, Levelled};
 use crate::{PlaneRegion, Planes};
 
-/// Corners that are kept while outlines are made.
+/// Pixels of one region that lie side by side.
+#[derive(Debug, Clone)]
+struct Run {
+    label: u16,
+    row: usize,
+    cols: Range<usize>,
+}
+
+/// What is kept while regions are described.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ProductBuffers {
+    runs: Vec<Run>,
     corners: Vec<Point2<f64>>,
     numbers: Vec<u16>,
+    step_marks: StepMarks,
 }
 
 impl<F: Finder> Grounded<F> {
@@ -47,7 +59,7 @@ impl<F: Finder> Grounded<F> {
             planes,
         );
         planes.labels.copy_from_slice(&self.surfaces.labels);
-        mark_steps(self.camera.width, planes);
+        self.product.step_marks.mark(self.camera.width, planes);
     }
 
     /// Every pixel's point: `position + f B / d * ray`.
@@ -83,6 +95,7 @@ impl<F: Finder> Grounded<F> {
     ) {
         planes.regions.clear();
         self.product.numbers.clear();
+        self.find_runs();
         let ground = planes.ground;
         for index in 0..self.surfaces.regions.len() {
             if !self.surfaces.is_level(index) {
@@ -113,6 +126,27 @@ impl<F: Finder> Grounded<F> {
         }
     }
 
+    /// Lists the runs of all labels, row by row.
+    fn find_runs(&mut self) {
+        let runs = &mut self.product.runs;
+        runs.clear();
+        let lines = self.surfaces.labels.chunks_exact(self.camera.width);
+        for (row, line) in lines.enumerate() {
+            let mut first = 0;
+            for run in line.chunk_by(|a, b| a == b) {
+                let cols = first..first + run.len();
+                first = cols.end;
+                if run[0] > 0 {
+                    runs.push(Run {
+                        label: run[0],
+                        row,
+                        cols,
+                    });
+                }
+            }
+        }
+    }
+
     /// Collects where the outermost pixels of each row meet the region's plane; returns the number of pixels and the mean
     /// of where they all do.
     fn outline_corners(
@@ -122,30 +156,33 @@ impl<F: Finder> Grounded<F> {
         position: &Vector3<f64>,
         height_m: f64,
     ) -> (usize, Point3<f64>) {
-        let width = self.camera.width;
         let view = &levelled.view;
         let label = index as u16 + 1;
         let below_m = position.z - height_m;
-        let corners = &mut self.product.corners;
+        let place = |col: usize, row: usize| {
+            let nearness = below_m / f64::from(view.g.at(col, row));
+            Point2::new(
+                position.x + f64::from(view.x.at(col, row)) * nearness,
+                position.y + f64::from(view.y.at(col, row)) * nearness,
+            )
+        };
+        let ProductBuffers { runs, corners, .. } = &mut self.product;
+        let mut row_before = None;
         corners.clear();
         let (mut support, mut sum) = (0, [0.0, 0.0]);
-        for (row, labels) in self.surfaces.labels.chunks_exact(width).enumerate() {
-            let mut ends: Option<(Point2<f64>, Point2<f64>)> = None;
-            for (col, _) in labels.iter().enumerate().filter(|(_, l)| **l == label) {
-                let nearness = below_m / f64::from(view.g.at(col, row));
-                let point = Point2::new(
-                    position.x + f64::from(view.x.at(col, row)) * nearness,
-                    position.y + f64::from(view.y.at(col, row)) * nearness,
-                );
-                support += 1;
+        for run in runs.iter().filter(|run| run.label == label) {
+            support += run.cols.len();
+            for col in run.cols.clone() {
+                let point = place(col, run.row);
                 sum[0] += point.x;
                 sum[1] += point.y;
-                ends = Some((ends.map_or(point, |(first, _)| first), point));
             }
-            if let Some((first, last)) = ends {
-                corners.push(first);
-                corners.push(last);
+            let last = place(run.cols.end - 1, run.row);
+            match corners.last_mut() {
+                Some(end) if row_before == Some(run.row) => *end = last,
+                _ => corners.extend([place(run.cols.start, run.row), last]),
             }
+            row_before = Some(run.row);
         }
         let count = support.max(1) as f64;
         (

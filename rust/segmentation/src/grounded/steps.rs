@@ -1,5 +1,7 @@
 //! Pixels beside the edges of steps: they belong to neither of the two surfaces.
 
+use std::ops::Range;
+
 use crate::Planes;
 
 /// Columns and rows to each side of an edge that a matching window of 5 spoils.
@@ -9,36 +11,67 @@ const RISER: usize = 6;
 /// Surfaces nearer than this to each other are one, and further apart they are no step, m.
 const STEP_M: (f32, f32) = (0.008, 0.07);
 
-/// Marks in `planes.at_step` the pixels beside edges, going down the columns and along the rows.
-pub(super) fn mark_steps(width: usize, planes: &mut Planes) {
-    planes.at_step.fill(false);
-    let height = planes.labels.len() / width.max(1);
-    for col in 0..width {
-        mark_line(planes, col, width, height, SPOILED.1);
+/// Where a line of pixels last had a level surface, and how high, m.
+#[derive(Debug, Clone, Copy)]
+struct Last {
+    at: usize,
+    height_m: f32,
+}
+
+impl Last {
+    /// Nothing yet: from no height is it a step to another.
+    const NONE: Self = Self {
+        at: 0,
+        height_m: f32::NAN,
+    };
+
+    /// Whether a step lies between here and a place further along the line.
+    fn is_step(self, to: Self) -> bool {
+        let apart_m = (to.height_m - self.height_m).abs();
+        apart_m > STEP_M.0 && apart_m < STEP_M.1 && to.at - self.at <= RISER + 1
     }
-    for row in 0..height {
-        mark_line(planes, row * width, 1, width, SPOILED.0);
+
+    /// The pixels of a line of `count` that a step from here to there spoils.
+    fn spoiled(self, to: Self, reach: usize, count: usize) -> Range<usize> {
+        (self.at + 1).saturating_sub(reach)..(to.at + reach).min(count)
     }
 }
 
-/// Marks along one line of pixels: `count` of them, `stride` apart.
-fn mark_line(planes: &mut Planes, first: usize, stride: usize, count: usize, spoiled: usize) {
-    let mut before: Option<(usize, f32)> = None;
-    for i in 0..count {
-        let height_m = planes.floor_height_m[first + i * stride];
-        if height_m.is_nan() {
-            continue;
-        }
-        if let Some((last, other_m)) = before {
-            let apart_m = (height_m - other_m).abs();
-            if apart_m > STEP_M.0 && apart_m < STEP_M.1 && i - last <= RISER + 1 {
-                let begin = (last + 1).saturating_sub(spoiled);
-                for j in begin..(i + spoiled).min(count) {
-                    planes.at_step[first + j * stride] = true;
+/// Marks pixels beside edges. Keeps its buffer.
+#[derive(Debug, Clone, Default)]
+pub(super) struct StepMarks {
+    // The last level pixel of each column.
+    above: Vec<Last>,
+}
+
+impl StepMarks {
+    /// Marks in `planes.at_step` the pixels beside edges, down the columns and along the rows.
+    pub(super) fn mark(&mut self, width: usize, planes: &mut Planes) {
+        planes.at_step.fill(false);
+        let height = planes.floor_height_m.len() / width.max(1);
+        self.above.clear();
+        self.above.resize(width, Last::NONE);
+        for (row, heights_m) in planes.floor_height_m.chunks_exact(width).enumerate() {
+            let mut left = Last::NONE;
+            for ((col, &height_m), above) in heights_m.iter().enumerate().zip(&mut self.above) {
+                if height_m.is_nan() {
+                    continue;
                 }
+                let from_left = Last { at: col, height_m };
+                if left.is_step(from_left) {
+                    let cols = left.spoiled(from_left, SPOILED.0, width);
+                    planes.at_step[row * width..][cols].fill(true);
+                }
+                left = from_left;
+                let from_above = Last { at: row, height_m };
+                if above.is_step(from_above) {
+                    for row in above.spoiled(from_above, SPOILED.1, height) {
+                        planes.at_step[row * width + col] = true;
+                    }
+                }
+                *above = from_above;
             }
         }
-        before = Some((i, height_m));
     }
 }
 
@@ -51,7 +84,7 @@ mod tests {
         let mut planes = Planes::new(heights_m.len());
         planes.floor_height_m = heights_m.to_vec();
         planes.labels = vec![1; heights_m.len()];
-        mark_steps(1, &mut planes);
+        StepMarks::default().mark(1, &mut planes);
         planes.at_step
     }
 

@@ -124,13 +124,13 @@ impl<F: Finder> Surfaces<F> {
             &mut self.eroded,
         );
         let mut left = [0_u32; MAX_REGIONS + 1];
-        for &label in &self.eroded {
-            left[usize::from(label)] += 1;
+        for run in self.eroded.chunk_by(|a, b| a == b) {
+            left[usize::from(run[0])] += run.len() as u32;
         }
         for (region, &left) in regions.iter_mut().zip(&left[1..]) {
             region.core = left as usize;
         }
-        keep_where(labels, &mut self.eroded, |label| left[label] < MIN_FIT);
+        keep_where(labels, &mut self.eroded, &left.map(|left| left < MIN_FIT));
         fit_regions(picture, view, regions, &self.eroded, &mut self.fits);
     }
 
@@ -182,10 +182,10 @@ impl<F: Finder> Surfaces<F> {
     }
 }
 
-/// Gives back to `eroded` the whole of those regions for which `wanted` holds.
-fn keep_where(labels: &[u16], eroded: &mut [u16], wanted: impl Fn(usize) -> bool) {
+/// Gives back to `eroded` the whole of those regions whose labels are wanted.
+fn keep_where(labels: &[u16], eroded: &mut [u16], wanted: &[bool; MAX_REGIONS + 1]) {
     for (eroded, &label) in eroded.iter_mut().zip(labels) {
-        if label > 0 && wanted(usize::from(label)) {
+        if wanted[usize::from(label)] {
             *eroded = label;
         }
     }

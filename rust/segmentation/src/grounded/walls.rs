@@ -12,7 +12,7 @@ use crate::{PlaneRegion, Planes};
 /// Side of a block, pixels.
 const BLOCK: usize = 8;
 /// Fewest free pixels of a block that is fitted, and fewest of a plane.
-const MIN_BLOCK: f64 = 36.0;
+const MIN_BLOCK: usize = 36;
 const MIN_PIXELS: usize = 120;
 /// Roughest block, in noise.
 const SMOOTH: f64 = 1.3;
@@ -103,14 +103,16 @@ impl Walls {
         self.blocks.clear();
         for block in 0..image.across * image.down {
             let mut sums = Sums::default();
-            for (col, row) in image.pixels(block) {
-                let at = row * image.camera.width + col;
-                let d = image.disparity_px[at];
-                if labels[at] == 0 && !d.is_nan() {
-                    sums.add(image.camera.ray(col, row), f64::from(d));
+            if image.free_pixels(block, labels) >= MIN_BLOCK {
+                for (col, row) in image.pixels(block) {
+                    let at = row * image.camera.width + col;
+                    let d = image.disparity_px[at];
+                    if labels[at] == 0 && !d.is_nan() {
+                        sums.add(image.camera.ray(col, row), f64::from(d));
+                    }
                 }
             }
-            let plane = (sums.count() >= MIN_BLOCK)
+            let plane = (sums.count() >= MIN_BLOCK as f64)
                 .then(|| sums.plane())
                 .flatten()
                 .filter(|plane| sums.roughness_px(plane) < SMOOTH * image.block_sigma_px(block));
@@ -208,6 +210,22 @@ impl Image<'_> {
     fn pixels(&self, block: usize) -> impl Iterator<Item = (usize, usize)> {
         let (left, top) = (block % self.across * BLOCK, block / self.across * BLOCK);
         (top..top + BLOCK).flat_map(move |row| (left..left + BLOCK).map(move |col| (col, row)))
+    }
+
+    /// Seen pixels of a block that no region took.
+    fn free_pixels(&self, block: usize, labels: &[u16]) -> usize {
+        let (left, top) = (block % self.across * BLOCK, block / self.across * BLOCK);
+        let mut free = 0;
+        for row in top..top + BLOCK {
+            let pixels = row * self.camera.width + left..row * self.camera.width + left + BLOCK;
+            let pixels = labels[pixels.clone()]
+                .iter()
+                .zip(&self.disparity_px[pixels]);
+            free += pixels
+                .filter(|(label, d)| **label == 0 && !d.is_nan())
+                .count();
+        }
+        free
     }
 
     fn block_sigma_px(&self, block: usize) -> f64 {

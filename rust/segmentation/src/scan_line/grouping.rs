@@ -29,6 +29,8 @@ pub(super) struct Grouping {
     parent: Vec<usize>,
     region_of: Vec<u16>,
     queue: Vec<usize>,
+    // Not zero where a pixel's neighbours have other labels.
+    differs: Vec<u16>,
     contacts: Vec<(u32, f32)>,
 }
 
@@ -78,11 +80,13 @@ impl Grouping {
             let end = (first + rules.strip).min(picture.width);
             for row in segment.first..segment.end {
                 let line = row * picture.width + first..row * picture.width + end;
-                for (at, target) in line.clone().zip(&mut labels[line]) {
-                    let limit = rules.accept * picture.sigma_px[at];
-                    if (picture.disparity_px[at] - q * picture.g[at]).abs() < limit {
-                        *target = label;
-                    }
+                let pixels = picture.disparity_px[line.clone()]
+                    .iter()
+                    .zip(&picture.g[line.clone()])
+                    .zip(&picture.sigma_px[line.clone()]);
+                for (target, ((d, g), sigma)) in labels[line].iter_mut().zip(pixels) {
+                    let close = (d - q * g).abs() < rules.accept * sigma;
+                    *target = if close { label } else { *target };
                 }
             }
         }
@@ -134,14 +138,7 @@ impl Grouping {
             let col = at % width;
             col > 0 && col + 1 < width && at >= width && at + width < pixels
         };
-        self.queue.clear();
-        self.queue.extend((0..labels.len()).filter(|&at| {
-            labels[at] > 0
-                && inner(at)
-                && [at - 1, at + 1, at - width, at + width]
-                    .iter()
-                    .any(|&beside| labels[beside] != labels[at])
-        }));
+        self.find_borders(width, labels);
         let mut next = 0;
         while next < self.queue.len() {
             let at = self.queue[next];
@@ -169,6 +166,30 @@ impl Grouping {
                     }
                 }
             }
+        }
+    }
+
+    /// Queues the pixels of regions that have other pixels beside them; not those at the image's border.
+    fn find_borders(&mut self, width: usize, labels: &[u16]) {
+        self.queue.clear();
+        for row in 1..(labels.len() / width).saturating_sub(1) {
+            let first = row * width;
+            let [above, here, below] =
+                [first - width, first, first + width].map(|first| &labels[first..first + width]);
+            self.differs.clear();
+            let beside = here.windows(3).zip(&above[1..]).zip(&below[1..]);
+            self.differs.extend(beside.map(|((line, &above), &below)| {
+                let label = line[1];
+                let others =
+                    (line[0] ^ label) | (line[2] ^ label) | (above ^ label) | (below ^ label);
+                if label > 0 { others } else { 0 }
+            }));
+            let differs = self.differs.iter().enumerate();
+            self.queue.extend(
+                differs
+                    .filter(|(_, differs)| **differs > 0)
+                    .map(|(col, _)| first + col + 1),
+            );
         }
     }
 
@@ -206,8 +227,8 @@ impl Grouping {
         for region in regions.iter_mut() {
             region.support = 0;
         }
-        for &label in labels.iter().filter(|&&label| label > 0) {
-            regions[usize::from(label) - 1].support += 1;
+        for run in labels.chunk_by(|a, b| a == b).filter(|run| run[0] > 0) {
+            regions[usize::from(run[0]) - 1].support += run.len();
         }
         for i in 0..count {
             let to = root(&self.parent, i);
@@ -243,18 +264,23 @@ impl Grouping {
         let width = picture.width;
         self.contacts.clear();
         self.contacts.resize(count * count, (0, 0.0));
-        for at in 0..labels.len() {
-            let label = usize::from(labels[at]);
-            if label == 0 {
+        let steps = [1, 2, width, 2 * width];
+        self.differs.clear();
+        self.differs.resize(labels.len(), 0);
+        for step in steps {
+            let beside = labels.get(step..).unwrap_or_default();
+            for ((differs, label), other) in self.differs.iter_mut().zip(labels).zip(beside) {
+                *differs |= if *other > 0 { label ^ other } else { 0 };
+            }
+        }
+        for (at, &label) in labels.iter().enumerate() {
+            if label == 0 || self.differs[at] == 0 {
                 continue;
             }
-            for step in [1, 2, width, 2 * width] {
-                let Some(&other) = labels.get(at + step) else {
-                    continue;
-                };
-                let other = usize::from(other);
+            for other in steps.map(|step| labels.get(at + step).copied().unwrap_or_default()) {
                 if other != 0 && other != label {
-                    let (i, j) = (label.min(other) - 1, label.max(other) - 1);
+                    let (low, high) = (label.min(other), label.max(other));
+                    let (i, j) = (usize::from(low) - 1, usize::from(high) - 1);
                     let contact = &mut self.contacts[i * count + j];
                     contact.0 += 1;
                     contact.1 += picture.sigma_px[at] / picture.g[at];

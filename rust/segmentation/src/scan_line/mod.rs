@@ -5,7 +5,9 @@
 
 mod config;
 mod grouping;
+mod partition;
 mod steep;
+mod strip_rows;
 mod strips;
 
 use geometry::ConfigError;

@@ -1,14 +1,14 @@
 //! Scan lines: strips of a few columns, cut into the pieces on which `q = d / g` is constant (Jiang and Bunke 1994, with
 //! one parameter a line instead of two, and the best partition instead of a recursive split).
 
+use super::partition::Partition;
 use super::steep::LineSums;
+use super::strip_rows::StripRows;
 use crate::grounded::Picture;
 
-/// Rays that fall less than this (as a share of `f B`) see nothing horizontal worth having.
-const MIN_FALL: f32 = 0.05;
 /// Rows without a measurement that a line may bridge.
 const MAX_GAP: usize = 3;
-/// Widest strip, pixels.
+/// Widest strip, pixels: to sort its pixels takes the square of their number.
 pub(super) const MAX_STRIP: usize = 32;
 
 /// Price of a steep line on a strip, in squared noise.
@@ -48,15 +48,15 @@ pub(super) struct StripRules {
 /// Cuts strips into segments. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Strips {
+    strip_rows: StripRows,
+    // Of the run of rows that is being collected: which they are, and their partition.
     rows: Vec<usize>,
-    // Sums over the strip's rows so far: weight, weight q, weight q^2.
-    sums: Vec<[f64; 3]>,
+    partition: Partition,
+    // Sums over the run's rows so far for lines in row and disparity.
+    lines: Vec<LineSums>,
+    // By position among the cuts: the lowest cost so far, and where a steep run began, `LEVEL` or `DROPPED`.
     best: Vec<f64>,
     from: Vec<usize>,
-    // Sums over the strip's rows so far for lines in row and disparity.
-    lines: Vec<LineSums>,
-    // Where the segments of the partition start, as positions among the strip's rows.
-    cuts: Vec<usize>,
 }
 
 impl Strips {
@@ -67,25 +67,25 @@ impl Strips {
         rules: StripRules,
         segments: &mut Vec<Segment>,
     ) {
+        self.strip_rows.read(picture, rules);
         let strips = picture.width.div_ceil(rules.strip);
         let height = picture.disparity_px.len() / picture.width;
         for strip in 0..strips {
-            self.rows.clear();
             self.start_run();
             for row in 0..height {
-                let Some((q, weight)) = strip_row(picture, rules, strip, row) else {
+                let lane = row * strips + strip;
+                let weight = f64::from(self.strip_rows.weight[lane]);
+                if weight == 0.0 {
                     continue;
-                };
+                }
                 if let Some(&last) = self.rows.last()
                     && row - last > MAX_GAP + 1
                 {
                     self.cut_run(strip, rules, segments);
                 }
+                let q = f64::from(self.strip_rows.q[lane]);
                 self.rows.push(row);
-                let [w, wq, wqq] = self.sums[self.sums.len() - 1];
-                let (q, weight) = (f64::from(q), f64::from(weight));
-                self.sums
-                    .push([w + weight, wq + weight * q, wqq + weight * q * q]);
+                self.partition.push(q, weight);
                 let line = self.lines[self.lines.len() - 1];
                 let at = row * picture.width + strip * rules.strip;
                 let sigma = f64::from(picture.sigma_px[at]);
@@ -97,43 +97,12 @@ impl Strips {
         }
     }
 
-    /// The cheapest partition of the rows collected (dynamic programming); empties the collection.
+    /// Cuts the rows collected; empties the collection.
     fn cut_run(&mut self, strip: usize, rules: StripRules, segments: &mut Vec<Segment>) {
-        let count = self.rows.len();
-        if count >= rules.min_segment {
-            self.best.clear();
-            self.from.clear();
-            self.best.resize(count + 1, f64::INFINITY);
-            self.from.resize(count + 1, 0);
-            self.best[0] = 0.0;
-            for end in rules.min_segment..=count {
-                let [w, wq, wqq] = self.sums[end];
-                let mut least = f64::INFINITY;
-                let mut start_of_least = 0;
-                for (start, (sum, best)) in self.sums[..=end - rules.min_segment]
-                    .iter()
-                    .zip(&self.best)
-                    .enumerate()
-                {
-                    let (dw, dwq) = (w - sum[0], wq - sum[1]);
-                    let cost = best + (wqq - sum[2]) - dwq * dwq / dw;
-                    if cost < least {
-                        least = cost;
-                        start_of_least = start;
-                    }
-                }
-                self.best[end] = least + f64::from(rules.price);
-                self.from[end] = start_of_least;
-            }
-            self.cuts.clear();
-            let mut end = count;
-            while end > 0 {
-                self.cuts.push(end);
-                end = self.from[end];
-            }
-            self.cuts.push(0);
-            self.cuts.reverse();
-            self.drop_walls(f64::from(rules.price));
+        if self.rows.len() >= rules.min_segment {
+            let price = f64::from(rules.price);
+            self.partition.solve(price, rules.min_segment);
+            self.drop_walls(price);
             self.append(strip, segments);
         }
         self.start_run();
@@ -141,33 +110,36 @@ impl Strips {
 
     fn start_run(&mut self) {
         self.rows.clear();
-        self.sums.clear();
-        self.sums.push([0.0; 3]);
+        self.partition.clear();
         self.lines.clear();
         self.lines.push(LineSums::default());
     }
 
     /// A wall is cut into slices, too. Drops the runs of segments that one steep line explains at a lower price, by dynamic
-    /// programming over the segments: `from` then holds, by position among the cuts, where a run began or `LEVEL`.
+    /// programming over the segments.
     fn drop_walls(&mut self, price: f64) {
-        self.best[0] = 0.0;
-        for j in 1..self.cuts.len() {
-            let (start, end) = (self.cuts[j - 1], self.cuts[j]);
-            let mut least = self.best[j - 1] + self.level_cost(start, end) + price;
+        let cuts = &self.partition.cuts;
+        self.best.clear();
+        self.best.push(0.0);
+        self.from.clear();
+        self.from.push(LEVEL);
+        for j in 1..cuts.len() {
+            let (start, end) = (cuts[j - 1], cuts[j]);
+            let mut least = self.best[j - 1] + self.partition.cost(start, end) + price;
             let mut choice = LEVEL;
-            for i in 0..j {
-                let cost = self.lines[end].steep_cost(&self.lines[self.cuts[i]]);
-                if let Some(cost) = cost.map(|cost| self.best[i] + cost + STEEP_PRICE)
+            for (i, (&cut, best)) in cuts[..j].iter().zip(&self.best).enumerate() {
+                let cost = self.lines[end].steep_cost(&self.lines[cut]);
+                if let Some(cost) = cost.map(|cost| best + cost + STEEP_PRICE)
                     && cost < least
                 {
                     least = cost;
                     choice = i;
                 }
             }
-            self.best[j] = least;
-            self.from[j] = choice;
+            self.best.push(least);
+            self.from.push(choice);
         }
-        let mut j = self.cuts.len() - 1;
+        let mut j = self.from.len() - 1;
         while j > 0 {
             let run = self.from[j];
             if run == LEVEL {
@@ -179,76 +151,22 @@ impl Strips {
         }
     }
 
-    fn level_cost(&self, start: usize, end: usize) -> f64 {
-        let (a, b) = (self.sums[start], self.sums[end]);
-        let weighted = b[1] - a[1];
-        b[2] - a[2] - weighted * weighted / (b[0] - a[0])
-    }
-
     fn append(&self, strip: usize, segments: &mut Vec<Segment>) {
-        for (pair, choice) in self.cuts.windows(2).zip(&self.from[1..]) {
+        for (pair, choice) in self.partition.cuts.windows(2).zip(&self.from[1..]) {
             let (start, end) = (pair[0], pair[1]);
             if *choice == DROPPED {
                 continue;
             }
-            let (a, b) = (self.sums[start], self.sums[end]);
+            let (q, weight) = self.partition.mean(start, end);
             segments.push(Segment {
                 strip,
                 first: self.rows[start],
                 end: self.rows[end - 1] + 1,
-                q: ((b[1] - a[1]) / (b[0] - a[0])) as f32,
-                weight: (b[0] - a[0]) as f32,
+                q: q as f32,
+                weight: weight as f32,
             });
         }
     }
-}
-
-/// `q` of one row of a strip and its weight: the mean over the pixels that agree with the middle one, where at least
-/// half of them do.
-fn strip_row(
-    picture: Picture<'_>,
-    rules: StripRules,
-    strip: usize,
-    row: usize,
-) -> Option<(f32, f32)> {
-    let first = strip * rules.strip;
-    let end = (first + rules.strip).min(picture.width);
-    let line = row * picture.width;
-    let (disparity, g) = (
-        &picture.disparity_px[line + first..line + end],
-        &picture.g[line + first..line + end],
-    );
-    let sigma = picture.sigma_px[line + usize::midpoint(first, end)];
-    let least_fall = MIN_FALL * rules.scale;
-    let mut sorted = [0.0_f32; MAX_STRIP];
-    let mut count = 0;
-    for (&d, &g) in disparity.iter().zip(g) {
-        if d.is_nan() || g < least_fall {
-            continue;
-        }
-        let q = d / g;
-        let mut at = count;
-        while at > 0 && sorted[at - 1] > q {
-            sorted[at] = sorted[at - 1];
-            at -= 1;
-        }
-        sorted[at] = q;
-        count += 1;
-    }
-    let half = (end - first).div_ceil(2);
-    if count < half {
-        return None;
-    }
-    let middle = sorted[count / 2];
-    let (mut dg, mut gg, mut agree) = (0.0, 0.0, 0);
-    for (&d, &g) in disparity.iter().zip(g) {
-        if (d - middle * g).abs() < 3.0 * sigma && g >= least_fall {
-            dg += d * g;
-            gg += g * g;
-            agree += 1;
-        }
-    }
-    (agree >= half).then(|| (dg / gg, gg / agree as f32 / (sigma * sigma)))
 }
 
 #[cfg(test)]

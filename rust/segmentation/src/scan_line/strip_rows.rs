@@ -1,0 +1,151 @@
+//! The rows of strips: of the few pixels of each, the mean over those that agree with the middle one.
+
+use super::strips::StripRules;
+use crate::grounded::Picture;
+
+/// Rays that fall less than this (as a share of `f B`) see nothing horizontal worth having.
+const MIN_FALL: f32 = 0.05;
+/// A pixel further from the middle one than this does not count, in noise.
+const AGREE: f32 = 3.0;
+
+/// All rows of all strips. The loops run over the rows, so that pixel `k` of every row is taken at once: *lanes*, row by
+/// row and in each row strip by strip. Keeps its buffers.
+#[derive(Debug, Clone, Default)]
+pub(super) struct StripRows {
+    /// `q` of each lane; of no use where the weight is 0.
+    pub(super) q: Vec<f32>,
+    /// Weight of each lane, `(g / sigma)^2`; 0 where fewer than half of its pixels agree.
+    pub(super) weight: Vec<f32>,
+    // Pixel by pixel of the strips: disparity, g, and q in order, without what was not seen.
+    disparity_px: Vec<f32>,
+    g: Vec<f32>,
+    sorted: Vec<f32>,
+    // One value a lane: noise, pixels seen, the middle q, those that agree with it, and their sum of g^2.
+    sigma_px: Vec<f32>,
+    seen: Vec<f32>,
+    middle: Vec<f32>,
+    agree: Vec<f32>,
+}
+
+impl StripRows {
+    /// Takes in a picture.
+    pub(super) fn read(&mut self, picture: Picture<'_>, rules: StripRules) {
+        let strips = picture.width.div_ceil(rules.strip);
+        let lanes = picture.disparity_px.len() / picture.width * strips;
+        self.spread(picture, rules.strip, lanes);
+        self.sort(rules, lanes);
+        self.find_middles(rules.strip, lanes);
+        self.average(rules, lanes);
+        for row in 0..lanes / strips {
+            for strip in 0..strips {
+                let columns = rules.strip.min(picture.width - strip * rules.strip);
+                let lane = row * strips + strip;
+                if self.agree[lane] < columns.div_ceil(2) as f32 {
+                    self.weight[lane] = 0.0;
+                }
+            }
+        }
+    }
+
+    /// Brings the pictures into lanes; what the last strip lacks is not seen.
+    fn spread(&mut self, picture: Picture<'_>, strip: usize, lanes: usize) {
+        self.disparity_px.clear();
+        self.disparity_px.resize(strip * lanes, f32::NAN);
+        self.g.resize(strip * lanes, 0.0);
+        self.sigma_px.clear();
+        let lines = picture.disparity_px.chunks_exact(picture.width);
+        let lines = lines.zip(picture.g.chunks_exact(picture.width));
+        let lines = lines.zip(picture.sigma_px.chunks_exact(picture.width));
+        let mut lane = 0;
+        for ((disparity_px, g), sigma_px) in lines {
+            let pieces = disparity_px.chunks(strip).zip(g.chunks(strip));
+            for ((disparity_px, g), sigma_px) in pieces.zip(sigma_px.chunks(strip)) {
+                for (k, (&d, &g)) in disparity_px.iter().zip(g).enumerate() {
+                    self.disparity_px[k * lanes + lane] = d;
+                    self.g[k * lanes + lane] = g;
+                }
+                self.sigma_px.push(sigma_px[sigma_px.len() / 2]);
+                lane += 1;
+            }
+        }
+    }
+
+    /// Sorts the `q` of each lane, what was not seen at the end, and counts those that were.
+    fn sort(&mut self, rules: StripRules, lanes: usize) {
+        let least_fall = MIN_FALL * rules.scale;
+        self.seen.clear();
+        self.seen.resize(lanes, 0.0);
+        self.sorted.clear();
+        let pixels = self.disparity_px.iter().zip(&self.g);
+        self.sorted.extend(pixels.map(|(&d, &g)| {
+            let q = d / g;
+            let usable = g >= least_fall && !q.is_nan();
+            if usable { q } else { f32::INFINITY }
+        }));
+        for values in self.sorted.chunks_exact(lanes) {
+            for (seen, &q) in self.seen.iter_mut().zip(values) {
+                *seen += if q < f32::INFINITY { 1.0 } else { 0.0 };
+            }
+        }
+        // By exchange of neighbours: the same steps in all lanes.
+        for unsorted in (2..=rules.strip).rev() {
+            for k in 1..unsorted {
+                let (before, here) = self.sorted[(k - 1) * lanes..].split_at_mut(lanes);
+                for (a, b) in before.iter_mut().zip(here) {
+                    let (low, high) =
+                        (if *a < *b { *a } else { *b }, if *b > *a { *b } else { *a });
+                    (*a, *b) = (low, high);
+                }
+            }
+        }
+    }
+
+    /// The upper one of the two middle ones, or the middle one.
+    fn find_middles(&mut self, strip: usize, lanes: usize) {
+        self.middle.clear();
+        self.middle.resize(lanes, f32::INFINITY);
+        for (k, values) in self
+            .sorted
+            .chunks_exact(lanes)
+            .enumerate()
+            .take(strip / 2 + 1)
+        {
+            let (least, below) = ((2 * k) as f32, (2 * k + 2) as f32);
+            for ((middle, &q), &seen) in self.middle.iter_mut().zip(values).zip(&self.seen) {
+                *middle = if seen >= least && seen < below {
+                    q
+                } else {
+                    *middle
+                };
+            }
+        }
+    }
+
+    /// Least squares over the pixels that agree with the middle one.
+    fn average(&mut self, rules: StripRules, lanes: usize) {
+        let least_fall = MIN_FALL * rules.scale;
+        for sums in [&mut self.q, &mut self.weight, &mut self.agree] {
+            sums.clear();
+            sums.resize(lanes, 0.0);
+        }
+        let pixels = self.disparity_px.chunks_exact(lanes);
+        for (disparity_px, g) in pixels.zip(self.g.chunks_exact(lanes)) {
+            let sums = self.q.iter_mut().zip(&mut self.weight).zip(&mut self.agree);
+            let middles = self.middle.iter().zip(&self.sigma_px);
+            for (((sums, &d), &g), (&middle, &sigma)) in sums.zip(disparity_px).zip(g).zip(middles)
+            {
+                let ((dg, gg), agree) = sums;
+                // False where it was not seen.
+                let agrees = (d - middle * g).abs() < AGREE * sigma && g >= least_fall;
+                *dg += if agrees { d * g } else { 0.0 };
+                *gg += if agrees { g * g } else { 0.0 };
+                *agree += if agrees { 1.0 } else { 0.0 };
+            }
+        }
+        let sums = self.q.iter_mut().zip(&mut self.weight);
+        for (((q, weight), &agree), &sigma) in sums.zip(&self.agree).zip(&self.sigma_px) {
+            *q /= *weight;
+            *weight = *weight / agree / (sigma * sigma);
+        }
+    }
+}
