@@ -50,6 +50,10 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
         ({"odometry": {"no": 1}}, r"navigation\.odometry\.no: unknown field `no`"),
         ({"proprioception": {"no": 1}}, r"navigation\.proprioception\.no: unknown field `no`"),
         ({"ground": {"track_tilt": 0}}, r"navigation\.ground\.track_tilt must be > 0 and < 0\.5"),
+        (
+            {"averaging": {"rise": 0}, "world_model": "averaging"},
+            r"averaging\.rise must be > 0, got 0",
+        ),
         ({"self_filter": {"no": 1}}, r"navigation\.self_filter\.no: unknown field `no`"),
         ({"stairs": {"min_edge": 0}}, r"navigation\.stairs\.min_edge must be > 0, got 0"),
         ({"stairs": {"no": 1}}, r"navigation\.stairs\.no: unknown field `no`"),
@@ -66,7 +70,10 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
             r"climbing\.descend\.step_max_z must be < 0",
         ),
         ({"planner": "b_star"}, r"navigation\.planner must be one of a_star, got b_star"),
-        ({"world_model": "haze"}, r"navigation\.world_model must be one of fog, got haze"),
+        (
+            {"world_model": "haze"},
+            r"navigation\.world_model must be one of fog, averaging, got haze",
+        ),
         ({"segmenter": "x"}, r"navigation\.segmenter must be one of scan_line, got x"),
         ({"localizer": "truth"}, r"navigation\.localizer must be one of odometry, got truth"),
         (

@@ -6,6 +6,7 @@ from typing import Final
 COMPONENTS: Final[dict[str, dict[str, str]]] = {
     "world_model": {
         "fog": "floor and obstacle grid over an 8-bit occupancy grid, moves with the robot",
+        "averaging": "mean height of each cell's points (Kagami 2003); what fog is compared with",
     },
     "segmenter": {
         "scan_line": "planes by scan-line grouping, thresholds follow the local noise",

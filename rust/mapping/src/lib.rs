@@ -1,8 +1,10 @@
 //! World models: what the robot knows of the ground around it.
 
+mod averaging;
 mod model;
 pub mod surface;
 pub mod volume;
 
+pub use averaging::{Averaging, AveragingConfig};
 pub use model::{FloorView, Insertion, MapError, Surface, WorldModel};
 pub use surface::{Fog, FogConfig, Update};

@@ -3,7 +3,7 @@
 use behaviour::{Behaviour, Pace, StairClimbing, WalkingBehaviour};
 use geometry::ConfigError;
 use localization::{Localizer, OdometryLocalizer};
-use mapping::{Fog, WorldModel};
+use mapping::{Averaging, Fog, WorldModel};
 use planning::{AStar, Planner};
 use robot::{Body, Side};
 use segmentation::{ScanLine, Segmenter};
@@ -57,7 +57,8 @@ pub(crate) fn world_model(settings: &Settings) -> Result<Box<dyn WorldModel>, Pi
     let tables = &settings.navigation.tables;
     match settings.navigation.world_model.as_str() {
         "fog" => Ok(Box::new(Fog::new(table(tables, "fog")?)?)),
-        other => Err(unknown("world_model", other, "fog")),
+        "averaging" => Ok(Box::new(Averaging::new(table(tables, "averaging")?)?)),
+        other => Err(unknown("world_model", other, "fog, averaging")),
     }
 }
 

@@ -14,3 +14,5 @@ pub use fog::Fog;
 pub(crate) use frame::check_poses;
 pub use frame::{LabelledFrame, LabelledPoint};
 pub use matching::height_shift;
+pub(crate) use stood::Stood;
+pub(crate) use window::Window;
