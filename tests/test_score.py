@@ -52,6 +52,27 @@ def test_wrong_cells_are_counted_as_what_they_are_called() -> None:
     assert counts.floor_cells_right == pytest.approx(1 - 2 / counts.floor_cells)
 
 
+def test_a_floor_at_the_height_of_a_boxes_lid_is_right_and_at_any_other_is_not() -> None:
+    remembered, _, truth = perfect(BOX)
+    remembered.kind[truth.obstacle] = FLOOR
+    for height, wrong in ((0.3, 0.0), (0.31, 0.0), (0.28, 1.0), (0.0, 1.0)):
+        remembered.height[truth.obstacle] = height
+        counts = map_counts(remembered, truth)
+        assert counts.obstacle_called_floor == wrong
+        assert counts.obstacle_cells_right == 1.0 - wrong
+
+
+def test_rubble_has_no_lid() -> None:
+    rubble = (
+        '[[course]]\nkind = "rubble"\nposition = [0.5, 0.0]\nsize = [0.3, 0.3]\namplitude = 0.1'
+    )
+    remembered, _, truth = perfect(rubble)
+    remembered.kind[truth.obstacle] = FLOOR
+    for height in (0.02, 0.05, 0.1):
+        remembered.height[truth.obstacle] = height
+        assert map_counts(remembered, truth).obstacle_called_floor == 1.0
+
+
 def test_what_was_seen_twice_only_does_not_count() -> None:
     remembered, _, truth = perfect(BOX)
     remembered.sightings[:] = 2

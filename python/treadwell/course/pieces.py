@@ -58,7 +58,13 @@ class Piece:
     @property
     def is_upright(self) -> bool:
         """Whether it is a box with a level top."""
-        return self.shape == "box" and bool(np.abs(self.quaternion[1:3]).max() < 1e-9)
+        return self.shape == "box" and self.has_level_top
+
+    @property
+    def has_level_top(self) -> bool:
+        """Whether it is a box or a cylinder that stands upright."""
+        level = bool(np.abs(self.quaternion[1:3]).max() < 1e-9)
+        return self.shape in {"box", "cylinder"} and level
 
 
 @dataclass(frozen=True)

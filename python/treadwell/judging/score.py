@@ -86,11 +86,14 @@ class TrueCells:
         floor: the whole cell lies on one walkable surface, clear of everything else.
         height: m, of that surface.
         obstacle: the cell's centre lies in an obstacle that the robot could run into.
+        lid: m, height of that obstacle's level top, NaN where it has none: a floor at that height
+            is what a box's top is to Gutmann 2005 (section III), whoever may stand on it.
     """
 
     floor: Bools
     height: Floats
     obstacle: Bools
+    lid: Floats
 
 
 def true_cells(
@@ -120,19 +123,25 @@ def true_cells(
             level = top.height_at(points) + offset[2]
             height = np.where((distance <= 0.0) & (level > height), level, height)
     obstacle = np.zeros(len(centres), dtype=bool)
+    lid = np.full(len(centres), np.nan)
     for element, offset in elements:
         if element.walkable:
             continue
+        has_lid = len(element.pieces) == 1 and element.pieces[0].has_level_top
         for piece in element.pieces:
             bottom = float(piece.vertices[:, 2].min() + offset[2])
             top_z = float(piece.vertices[:, 2].max() + offset[2])
             distance = signed_distance(piece.outline, centres - offset[:2])
             matters = (bottom < height + headroom) & (top_z > height + 1e-6)
-            obstacle |= matters & (distance <= 0.0)
+            inside = matters & (distance <= 0.0)
+            obstacle |= inside
+            lid[inside] = np.fmax(lid[inside], top_z) if has_lid else lid[inside]
             clear &= ~matters | (distance >= half_diagonal)
     shape = remembered.kind.shape
     floor = clear & ~obstacle
-    return TrueCells(floor.reshape(shape), height.reshape(shape), obstacle.reshape(shape))
+    return TrueCells(
+        floor.reshape(shape), height.reshape(shape), obstacle.reshape(shape), lid.reshape(shape)
+    )
 
 
 def map_counts(remembered: RememberedMap, truth: TrueCells) -> MapCounts:
@@ -146,13 +155,16 @@ def map_counts(remembered: RememberedMap, truth: TrueCells) -> MapCounts:
     obstacle = truth.obstacle & ((kind == OBSTACLE) | ((kind == FLOOR) & seen))
     off = np.abs(np.nan_to_num(remembered.height, nan=np.inf) - truth.height)
     right = floor & (kind == FLOOR) & (off <= HEIGHT_TOLERANCE)
+    with np.errstate(invalid="ignore"):
+        on_lid = (kind == FLOOR) & (np.abs(remembered.height - truth.lid) <= HEIGHT_TOLERANCE)
+    called_floor = obstacle & (kind == FLOOR) & ~on_lid
     return MapCounts(
         floor_cells=int(floor.sum()),
         floor_cells_right=_share(right, floor),
         obstacle_cells=int(obstacle.sum()),
-        obstacle_cells_right=_share(obstacle & (kind == OBSTACLE), obstacle),
+        obstacle_cells_right=_share(obstacle & ~called_floor, obstacle),
         floor_called_obstacle=_share(floor & (kind == OBSTACLE), floor),
-        obstacle_called_floor=_share(obstacle & (kind == FLOOR), obstacle),
+        obstacle_called_floor=_share(called_floor, obstacle),
     )
 
 
