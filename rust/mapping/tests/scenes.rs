@@ -221,6 +221,27 @@ fn a_frame_at_the_wrong_height_is_matched_to_the_floor() {
 }
 
 #[test]
+fn a_patch_that_some_frames_got_wrong_does_not_pull_up_the_floor_beside_it() {
+    let mut fog = Fog::new(FogConfig::default()).unwrap();
+    let here = at(0.0, 0.0);
+    for _ in 0..20 {
+        let planes = look(&[], &here, camera(0.5, 0.6, 0.0));
+        let _ = fog.insert(&planes, &here).unwrap();
+    }
+    let aside = look(&[], &here, camera(0.5, 0.6, 1.3));
+    let too_high = Pose::from_yaw(0.0, 0.0, 0.016, 0.0);
+    let insertion = fog.insert(&aside, &too_high).unwrap();
+    assert_eq!(insertion.height_shift_m, None);
+    for _ in 0..3 {
+        let _ = fog.insert(&aside, &too_high).unwrap();
+    }
+    // More of this one lies on the patch than on what was seen often.
+    let between = look(&[], &here, camera(0.5, 0.6, 0.8));
+    let shift_m = fog.insert(&between, &here).unwrap().height_shift_m.unwrap();
+    assert!(shift_m.abs() < 1e-6, "{shift_m}");
+}
+
+#[test]
 fn a_frame_without_ground_is_withdrawn_unless_it_fits_the_floor() {
     let eye = camera(0.5, 0.6, 0.0);
     let mut planes = look(&[], &at(0.0, 0.0), eye);

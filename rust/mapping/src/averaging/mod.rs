@@ -14,7 +14,9 @@ mod means;
 use geometry::{Cell, CellArea, ConfigError, Map, Pose, Robot};
 use segmentation::Planes;
 
-use crate::surface::{LabelledFrame, LabelledPoint, Stood, Window, check_poses, height_shift};
+use crate::surface::{
+    LabelledFrame, LabelledPoint, Pair, Stood, Window, check_poses, height_shift,
+};
 use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
 pub use config::AveragingConfig;
 use means::MeanHeights;
@@ -136,12 +138,16 @@ impl WorldModel for Averaging {
         let config = &self.config;
         self.frame
             .read(planes, map_from_robot, false, config.max_range);
-        let residual_m = |point: &LabelledPoint| {
+        let pair = |point: &LabelledPoint| {
             let [x, y, z] = point.position_m;
             let known_m = self.means.height(self.view.lattice.cell_at(x, y))?;
-            point.hit.then_some(known_m - z)
+            let residual_m = known_m - z;
+            point.hit.then_some(Pair {
+                residual_m,
+                weight: 1,
+            })
         };
-        let shift = height_shift(&self.frame, residual_m, config.match_gate, config.min_pairs);
+        let shift = height_shift(&self.frame, pair, config.match_gate, config.min_pairs);
         let used = planes.reliable || shift.is_some();
         if used {
             self.frame.raise(shift.unwrap_or(0.0));

@@ -61,9 +61,11 @@ impl FloorGrid {
             .filter(|&height| height != INVALID)
     }
 
-    /// Height of the floor at a place of the map frame, m.
-    pub fn height_at(&self, x_m: f64, y_m: f64) -> Option<f64> {
-        self.height(self.lattice.cell_at(x_m, y_m)).map(f64::from)
+    /// Height of the floor at a place of the map frame, m, and how many frames saw it.
+    pub fn known_at(&self, x_m: f64, y_m: f64) -> Option<(f64, u16)> {
+        let cell = self.lattice.cell_at(x_m, y_m);
+        let height = self.height(cell)?;
+        Some((f64::from(height), self.sightings(cell)))
     }
 
     /// All heights; [`INVALID`] where there is none.

@@ -5,7 +5,7 @@ use segmentation::Planes;
 
 use super::stood::Stood;
 use super::window::{Layers, Window};
-use super::{FloorGrid, FogConfig, LabelledFrame, LabelledPoint, check_poses, height_shift};
+use super::{FloorGrid, FogConfig, LabelledFrame, LabelledPoint, Pair, check_poses, height_shift};
 use crate::volume::{OccupancyGrid, Placement, ProbabilityTable, Size};
 use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
 
@@ -127,11 +127,16 @@ impl WorldModel for Fog {
         let config = &self.config;
         self.frame
             .read(planes, map_from_robot, config.snap, config.max_range);
-        let residual_m = |point: &LabelledPoint| {
+        // A patch that a few frames got wrong does not pull up what it borders on.
+        let pair = |point: &LabelledPoint| {
             let [x, y, _] = point.position_m;
-            Some(self.floor.height_at(x, y)? - point.floor_height_m)
+            let (height_m, sightings) = self.floor.known_at(x, y)?;
+            Some(Pair {
+                residual_m: height_m - point.floor_height_m,
+                weight: u64::from(sightings),
+            })
         };
-        let shift = height_shift(&self.frame, residual_m, config.match_gate, config.min_pairs);
+        let shift = height_shift(&self.frame, pair, config.match_gate, config.min_pairs);
         let used = planes.reliable || shift.is_some();
         if used {
             self.frame.raise(shift.unwrap_or(0.0));

@@ -13,6 +13,6 @@ pub use floor::{FloorGrid, INVALID, merge_height};
 pub use fog::Fog;
 pub(crate) use frame::check_poses;
 pub use frame::{LabelledFrame, LabelledPoint};
-pub use matching::height_shift;
+pub use matching::{Pair, height_shift};
 pub(crate) use stood::Stood;
 pub(crate) use window::Window;
