@@ -20,8 +20,12 @@ pub(crate) struct Leg<'a> {
 
 /// A walk ends this near to the place where the robot aligns, m.
 const NEAR_M: f64 = 0.14;
-/// A robot that is no further to the side than this walks straight on to the edge, m.
+/// A robot that is no further to the side than this walks straight on to the edge, m;
 const ASIDE_M: f64 = 0.12;
+/// one that heads for the edge, from no further to the side than this, must stop before it, m.
+const STOPS_ASIDE_M: f64 = 0.25;
+/// It heads for the edge from this cosine on.
+const HEADS_FOR_IT: f64 = 0.7;
 
 impl<'a> Leg<'a> {
     /// The first climb of a plan, if it has one.
@@ -45,7 +49,12 @@ impl<'a> Leg<'a> {
     /// Whether a robot here may go on by the climb's own states.
     pub(crate) fn is_reached(&self, pose: &PlanarPose) -> bool {
         let way = self.align.relative(pose);
-        self.align.distance_m(pose) < NEAR_M || (way.x_m > -NEAR_M && way.y_m.abs() < ASIDE_M)
+        let aside_m = if way.yaw_rad.cos() > HEADS_FOR_IT {
+            STOPS_ASIDE_M
+        } else {
+            ASIDE_M
+        };
+        self.align.distance_m(pose) < NEAR_M || (way.x_m > -NEAR_M && way.y_m.abs() < aside_m)
     }
 
     /// The same plan for one who walks: its path ends where the robot aligns.
@@ -100,4 +109,31 @@ pub(crate) fn align_pose(
         first.crossing_m[1] - sin * back_m,
         heading_rad,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::climbing::simulation::{FEET, stair};
+
+    proptest! {
+        /// A robot that walks at 10 cm/s comes to stand within 14 cm.
+        #[test]
+        fn who_heads_for_the_edge_is_stopped_in_time(
+            aside_m in -0.25..0.25f64, yaw_rad in -0.7..0.7f64, x_m in 0.0..0.4f64, rise_m in -0.05..0.05f64,
+        ) {
+            let first = Step {
+                stair: stair([0.6, 0.0, 0.0], [0.9, 0.0, 0.0], rise_m, 1.0),
+                rise_m,
+                crossing_m: [0.6, 0.0],
+            };
+            let (config, climbing) = (StairClimbingConfig::default(), ClimbingConfig::default());
+            let align = align_pose(&first, &config, &climbing, &FEET);
+            let leg = Leg { steps: &[], first: &first, align, from_point: 0 };
+            let toes_m = 0.5 * FEET.length_m + 0.14 + 0.01;
+            prop_assert!(leg.is_reached(&PlanarPose::new(x_m, aside_m, yaw_rad)) || x_m + toes_m < 0.6);
+        }
+    }
 }

@@ -238,6 +238,11 @@ impl Simulation {
         assert!(met(self), "{:?}", self.states);
     }
 
+    /// Where the head looks.
+    pub(crate) const fn gaze(&self) -> Gaze {
+        self.gaze
+    }
+
     pub(crate) fn now_s(&self) -> f64 {
         self.time_ns as f64 * 1e-9
     }

@@ -220,8 +220,16 @@ impl StairClimbing {
         self.phase(Phase::Step);
     }
 
+    /// Stands and looks down and around: from where the head points now perhaps nothing can be told.
     fn wait_for_sight(&mut self, here: &Here<'_>) -> Motion {
         let lost = here.situation.estimate.lost;
+        if self.phase == Phase::Look {
+            self.head.search(0.0);
+            self.phase(Phase::Wait);
+        }
+        if self.head.advance(here.situation.frames_used, here.passed_s) {
+            self.phase(Phase::Look);
+        }
         if !lost && here.unseen_s() < BLIND_AFTER_S {
             if self.on.is_some() {
                 self.begin_look(here);

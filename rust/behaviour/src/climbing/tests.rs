@@ -233,6 +233,10 @@ fn who_is_blind_on_the_stairs_stands_and_is_lost_in_the_end_or_goes_on_when_it_s
         let blind_at_s = simulation.now_s();
         simulation.run_until(60.0, |simulation| simulation.was_in("blind"));
         let held = simulation.pose();
+        // It looks to both sides for something that can be seen.
+        for side in [1.0, -1.0] {
+            simulation.run_until(60.0, |simulation| side * simulation.gaze().pan_rad > 0.4);
+        }
         if comes_back {
             simulation.run_until(90.0, |simulation| simulation.now_s() > blind_at_s + 8.0);
             assert_eq!(simulation.pose(), held);
