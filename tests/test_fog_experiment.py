@@ -66,11 +66,11 @@ def test_cells_of_the_course_and_of_the_levels_stand_beside_what_is_wanted() -> 
     counts = MapCounts(floor_cells_right=0.97, floor_called_obstacle=0.01, obstacle_cells_right=1.0)
     top = SurfaceEntry(element="low", part="top", truth=0.04, estimate=0.0385, cells=9)
     runs = [Run(result(MADE, map=counts, surfaces=[top]), Path("folder"))]
-    rows = table({cases.COURSE: runs}, "Cells of")
+    rows = table({cases.course("fog"): runs}, "Cells of")
     assert rows["floor called obstacle, %"] == ("0.5", "1.00", "1.00")
     assert rows["floor at the wrong height, %"][1:] == ("2.00", "2.00")
-    rows = table({cases.LEVELS: runs}, "Three levels")
-    assert rows[cases.LEVELS] == ("97.00", "100.00", "1.50", "1.50")
+    rows = table({cases.levels("fog"): runs}, "Three levels")
+    assert rows[cases.levels("fog")] == ("97.00", "100.00", "1.50", "1.50")
 
 
 def test_of_what_was_not_run_there_is_no_table() -> None:
@@ -87,6 +87,9 @@ def test_a_removed_box_vanishes_from_the_map_of_a_robot_that_stands(tmp_path: Pa
     before, end = seen.pictures
     assert isinstance(before, RememberedMap)
     assert np.nanmax(before.height) > 0.05 > np.nanmax(end.height)
+    pictures = FOG.pictures({case.name: [done]}, tmp_path)
+    assert [one.path.name for one in pictures] == ["removed.png"]
+    assert pictures[0].path.read_bytes().startswith(b"\x89PNG")
     rows = table({case.name: [done]}, "A box is removed")
     assert rows["fog"][1:3] == ("0", "0 of 1")
     assert max(one.stale for one in seen.frames) > 0

@@ -14,7 +14,7 @@ from treadwell.episode import Episode, Step
 from treadwell.errors import CoreError, SimulationError, TreadwellError
 from treadwell.interruption import Interruption
 from treadwell.judging.clearance import least_clearance
-from treadwell.judging.map_memory import MapMemory
+from treadwell.judging.map_memory import MapMemory, RememberedMap
 from treadwell.judging.result import CollisionEntry, Result, StateEntry
 from treadwell.judging.score import PoseErrors, map_counts, surfaces, timing, true_cells
 from treadwell.judging.step_watch import KnownTop, StepError, StepWatch
@@ -39,6 +39,7 @@ class Run:
             where nothing did.
         steps: what was known of each step before it was climbed.
         tops: the surfaces of steps that the robot knew in the end.
+        remembered: what the map last said of every cell.
         findings: of the watch that was asked for; None without one.
     """
 
@@ -47,6 +48,7 @@ class Run:
     least_clearance: float | None = None
     steps: tuple[StepError, ...] = ()
     tops: tuple[KnownTop, ...] = ()
+    remembered: RememberedMap | None = None
     findings: Any = None
 
     @property
@@ -180,7 +182,15 @@ def run_episode(
     way = scores.truth.positions()[:, :2]
     clearance = least_clearance(episode.course, episode.robot, way)
     findings = None if scores.watch is None else scores.watch.findings()
-    return Run(result, folder, clearance, tuple(scores.steps.steps), scores.steps.tops, findings)
+    return Run(
+        result,
+        folder,
+        clearance,
+        tuple(scores.steps.steps),
+        scores.steps.tops,
+        scores.memory.map(),
+        findings,
+    )
 
 
 def _loop(

@@ -15,7 +15,7 @@ from treadwell.cli.progress import Progress
 from treadwell.episode import Episode
 from treadwell.errors import SimulationError
 from treadwell.experiments.drawn import write_scenario
-from treadwell.experiments.experiment import Case, Experiment, Table
+from treadwell.experiments.experiment import Case, Experiment, Picture, Table
 from treadwell.judging.result import write_whole
 from treadwell.recording.run_folder import make_experiment_folder
 from treadwell.runner import Run, run_episode
@@ -43,6 +43,7 @@ class Report:
         seeds: that were asked for.
         runs: name of the case and the run, in the order in which they were to be done.
         tables: the paper's figures with ours beside them.
+        pictures: of the same, in the folder.
         interrupted: whether it was, and some runs are missing.
     """
 
@@ -51,6 +52,7 @@ class Report:
     seeds: range
     runs: tuple[tuple[str, Run], ...]
     tables: tuple[Table, ...]
+    pictures: tuple[Picture, ...]
     interrupted: bool
 
     @property
@@ -88,13 +90,15 @@ class Report:
                 for case, done in self.runs
             ],
             "tables": [table.document() for table in self.tables],
+            "pictures": [picture.path.name for picture in self.pictures],
         }
 
     def markdown(self) -> str:
         """Return it as Markdown."""
         extent = f"{len(self.seeds)} seeds from {self.seeds.start} on"
         head = f"# {self.experiment.description}\n\ntreadwell {__version__}, {extent}\n"
-        return "\n".join([head, *(table.markdown() for table in self.tables)])
+        tables = (table.markdown() for table in self.tables)
+        return "\n".join([head, *tables, *(picture.markdown() for picture in self.pictures)])
 
 
 def conduct(
@@ -128,7 +132,8 @@ def conduct(
     }
     tables = tuple(experiment.tables(by_case))
     missing = len(runs) < len(jobs)
-    report = Report(experiment, folder, seeds, runs, tables, interrupted=missing)
+    pictures = tuple(experiment.pictures(by_case, folder))
+    report = Report(experiment, folder, seeds, runs, tables, pictures, interrupted=missing)
     write_whole(folder / "experiment.md", report.markdown())
     document = json.dumps(report.document(), indent=2, allow_nan=False)
     write_whole(folder / "experiment.json", document + "\n")

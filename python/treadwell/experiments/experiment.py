@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 from statistics import median
 from typing import Any
 
@@ -70,6 +71,22 @@ class Table:
 
 
 @dataclass(frozen=True, slots=True)
+class Picture:
+    """A picture of the report: its title, one line, and its file."""
+
+    title: str
+    path: Path
+
+    def markdown(self) -> str:
+        """Return it as Markdown, for a file in the same folder."""
+        return f"## {self.title}\n\n![{self.title}]({self.path.name})\n"
+
+
+def _no_pictures(_results: Results, _folder: Path) -> Sequence[Picture]:
+    return ()
+
+
+@dataclass(frozen=True, slots=True)
 class Experiment:
     """A paper's experiment.
 
@@ -78,12 +95,14 @@ class Experiment:
         description: one line, with the paper.
         cases: in the order in which they are run.
         tables: makes the report of what came out.
+        pictures: draws files into a folder, and returns title and path of each.
     """
 
     name: str
     description: str
     cases: tuple[Case, ...]
     tables: Callable[[Results], Sequence[Table]]
+    pictures: Callable[[Results, Path], Sequence[Picture]] = _no_pictures
 
     def narrowed(self, names: Sequence[str]) -> "Experiment":
         """Return the experiment with these cases alone; as it is where there are none.

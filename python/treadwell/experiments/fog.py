@@ -6,6 +6,7 @@ from typing import Final
 
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.experiment import NOTHING, Experiment, Results, Table, middle, share
+from treadwell.experiments.fog_pictures import fog_pictures
 from treadwell.experiments.level_heights import level_heights
 from treadwell.judging.map_watch import MapFrame, MapHistory
 from treadwell.judging.regions import RegionCounts
@@ -30,11 +31,11 @@ def _three_levels(results: Results) -> Table:
             f"{max(errors):.2f}" if errors else NOTHING,
         )
 
-    names = [name for name in (cases.LEVELS_IDEAL, cases.LEVELS) if results.get(name)]
+    names = (cases.LEVELS_IDEAL, *(cases.levels(model) for model in cases.WORLD_MODELS))
     return Table(
         "Three levels and two obstacles with rough tops (Fig. 3)",
         ("case", "floor right, %", "obstacle right, %", "median height error, mm", "worst, mm"),
-        tuple(row(name) for name in names),
+        tuple(row(name) for name in names if results.get(name)),
         ("The paper: all right with a perfect sensor. Wanted with stereo noise: 99 %, 3 mm.",),
     )
 
@@ -147,7 +148,7 @@ def _shares(counts: RegionCounts) -> tuple[str, ...]:
 
 
 def _course(results: Results) -> Table:
-    runs: Sequence[Run] = results.get(cases.COURSE, ())
+    runs: Sequence[Run] = results.get(cases.course(cases.FOG), ())
     maps = [run.result.map for run in runs]
 
     def row(what: str, wanted: str, values: Sequence[float]) -> tuple[str, ...]:
@@ -179,7 +180,7 @@ def fog_tables(results: Results) -> list[Table]:
         _three_levels(results),
         _removed(results),
         _moved(results),
-        level_heights(results.get(cases.COURSE, ())),
+        level_heights(results.get(cases.course(cases.FOG), ())),
         _course(results),
         _segmenters(results),
     ]
@@ -191,4 +192,5 @@ FOG: Final = Experiment(
     description="The floor and obstacle height map (Gutmann, Fukuchi, Fujita 2005)",
     cases=cases.CASES,
     tables=fog_tables,
+    pictures=fog_pictures,
 )

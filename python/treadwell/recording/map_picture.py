@@ -63,7 +63,7 @@ def draw_map(
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
     axes.set_facecolor(_UNKNOWN)
-    colours = _draw_cells(axes, remembered)
+    colours = draw_cells(axes, remembered, height_span(remembered))
     _draw_course(axes, course)
     _draw_stairs(axes, stairs.stairs)
     _draw_ways(axes, estimate, truth, np.array(stairs.climbing, dtype=bool))
@@ -124,19 +124,31 @@ def _bounds(
     return float(low[0]), float(high[0]), float(low[1]), float(high[1])
 
 
-def _draw_cells(axes: Axes, remembered: RememberedMap) -> ScalarMappable:
-    """Draw floors by height, obstacles and the unknown; return what the colour bar shows."""
-    floor = remembered.kind == FLOOR
-    heights = 1e3 * remembered.height[floor]
+def height_span(*maps: RememberedMap) -> tuple[float, float]:
+    """Return the lowest and the highest floor that colours have to tell apart, mm."""
+    heights = np.concatenate([1e3 * one.height[one.kind == FLOOR] for one in maps])
     low, high = (0.0, 0.0) if not heights.size else np.percentile(heights, [0.5, 99.5])
     middle = (low + high) / 2
     half = max((high - low) / 2, 1e3 * _LEAST_SPAN)
-    colours = ScalarMappable(Normalize(middle - half, middle + half), cmap="viridis")
+    return float(middle - half), float(middle + half)
+
+
+def height_colours(span_mm: tuple[float, float]) -> ScalarMappable:
+    """Return the colours of floors between two heights."""
+    return ScalarMappable(Normalize(*span_mm), cmap="viridis")
+
+
+def draw_cells(
+    axes: Axes, remembered: RememberedMap, span_mm: tuple[float, float]
+) -> ScalarMappable:
+    """Draw floors by height, obstacles and the unknown; return what a colour bar shows."""
+    floor = remembered.kind == FLOOR
+    colours = height_colours(span_mm)
     rows, cols = remembered.kind.shape
     if not rows:
         return colours
     picture = np.full((rows, cols, 3), _UNKNOWN)
-    picture[floor] = colours.to_rgba(heights)[:, :3]
+    picture[floor] = colours.to_rgba(1e3 * remembered.height[floor])[:, :3]
     picture[remembered.kind == OBSTACLE] = _OBSTACLE
     x, y = remembered.origin
     axes.imshow(

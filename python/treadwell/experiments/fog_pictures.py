@@ -1,0 +1,116 @@
+"""The maps of Gutmann 2005, Figs 3, 5 and 7, by each world model side by side."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Final
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from treadwell.errors import RecordingError
+from treadwell.experiments import fog_cases as cases
+from treadwell.experiments.experiment import Picture, Results
+from treadwell.judging.map_memory import RememberedMap
+from treadwell.judging.map_watch import MapHistory
+from treadwell.recording.map_picture import draw_cells, height_colours, height_span
+
+Panel = tuple[str, RememberedMap]
+Bounds = tuple[float, float, float, float]
+"""West, east, south and north, m."""
+
+_IN_FRONT: Final = (0.0, 1.2, -0.6, 0.6)
+_AROUND: Final = (-0.4, 1.6, -1.0, 1.0)
+_STAGE: Final = (0.0, 4.0, -0.6, 0.6)
+
+
+def fog_pictures(results: Results, folder: Path) -> list[Picture]:
+    """Draw what was run into a folder; of each case its first run.
+
+    Raises:
+        RecordingError: a file cannot be written.
+    """
+    made = (
+        ("Three levels, two rough obstacles (Fig. 3)", "levels.png", _levels(results), _AROUND),
+        ("A box, and after it was removed (Fig. 5)", "removed.png", _removed(results), _IN_FRONT),
+        ("A box at the end of its way", "moved.png", _moved(results), _IN_FRONT),
+        ("The obstacle course (Fig. 7)", "course.png", _course(results), _STAGE),
+    )
+    pictures = []
+    for title, name, panels, bounds in made:
+        if panels:
+            draw_panels(folder / name, panels, bounds)
+            pictures.append(Picture(title, folder / name))
+    return pictures
+
+
+def _levels(results: Results) -> list[Panel]:
+    return _remembered(results, cases.levels)
+
+
+def _course(results: Results) -> list[Panel]:
+    return _remembered(results, cases.course)
+
+
+def _remembered(results: Results, name: cases.Naming) -> list[Panel]:
+    firsts = {model: results.get(name(model), ())[:1] for model in cases.WORLD_MODELS}
+    return [
+        (model, run.remembered) for model, runs in firsts.items() for run in runs if run.remembered
+    ]
+
+
+def _removed(results: Results) -> list[Panel]:
+    panels = []
+    for model in cases.WORLD_MODELS:
+        for run in results.get(cases.removed(model), ())[:1]:
+            history: MapHistory = run.findings
+            told = (f"{model}, the box there", f"{model}, removed")
+            panels += list(zip(told, history.pictures, strict=False))
+    return panels
+
+
+def _moved(results: Results) -> list[Panel]:
+    return [
+        (model, run.findings.pictures[-1])
+        for model in cases.WORLD_MODELS
+        for run in results.get(cases.moved(model), ())[:1]
+    ]
+
+
+def draw_panels(path: Path, panels: Sequence[Panel], bounds: Bounds) -> None:
+    """Draw maps side by side, two in a row, with one scale of colours.
+
+    Args:
+        path: of the PNG file.
+        panels: title and map of each, one or more.
+        bounds: what is shown.
+
+    Raises:
+        RecordingError: the file cannot be written.
+    """
+    west, east, south, north = bounds
+    cols = min(2, len(panels))
+    rows = -(-len(panels) // cols)
+    height = 4.0 * (north - south) / (east - west) + 0.6
+    figure = Figure(figsize=(4.4 * cols + 1.0, height * rows), dpi=150, layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.subplots(rows, cols, squeeze=False)
+    span = height_span(*(remembered for _, remembered in panels))
+    for place, (title, remembered) in zip(axes.flat, panels, strict=False):
+        draw_cells(place, remembered, span)
+        place.set_title(title, fontsize=9, loc="left")
+        place.set_xlim(west, east)
+        place.set_ylim(south, north)
+        place.set_facecolor("#ccccd1")
+        place.set_aspect("equal")
+        place.tick_params(labelsize=7)
+        for spine in place.spines.values():
+            spine.set_visible(False)
+    for place in axes.flat[len(panels) :]:
+        place.set_axis_off()
+    bar = figure.colorbar(height_colours(span), ax=axes, shrink=0.8, aspect=30)
+    bar.set_label("floor height (mm); obstacles black, unknown grey", fontsize=8)
+    bar.outline.set_visible(False)
+    try:
+        figure.savefig(path, facecolor="white", metadata={"Software": None})
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be written: {error.strerror or error}") from error
