@@ -4,6 +4,8 @@
 const NEUTRAL: (i16, i16) = (i16::MAX, 0);
 /// And of a seen pixel without a region: all.
 const MIXED: (i16, i16) = (0, i16::MAX);
+/// Pixels that are searched for holes together.
+const CHUNK: usize = 32;
 
 /// Erodes label images. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
@@ -46,9 +48,17 @@ impl Erosion {
         self.lowest.marks.extend(low);
         let high = pixels().map(|(&label, &d)| mark(label, d, (NEUTRAL.1, MIXED.1)));
         self.highest.marks.extend(high);
-        for at in 0..labels.len() {
-            if self.lowest.marks[at] == MIXED.0 && is_hole(labels, width, at) {
-                (self.lowest.marks[at], self.highest.marks[at]) = NEUTRAL;
+        for first in (0..labels.len()).step_by(CHUNK) {
+            let chunk = first..(first + CHUNK).min(labels.len());
+            // Marks are not negative, so that most chunks are seen to have none.
+            let lowest = self.lowest.marks[chunk.clone()].iter().copied().min();
+            if lowest != Some(MIXED.0) {
+                continue;
+            }
+            for at in chunk {
+                if self.lowest.marks[at] == MIXED.0 && is_hole(labels, width, at) {
+                    (self.lowest.marks[at], self.highest.marks[at]) = NEUTRAL;
+                }
             }
         }
     }

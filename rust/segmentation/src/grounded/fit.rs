@@ -24,23 +24,39 @@ pub(super) struct RegionFit {
     // Pixels that took part.
     count: u32,
     q: f64,
-    gg: f64,
-    gt: Vector2<f64>,
-    tt: Matrix2<f64>,
-    ge: f64,
-    te: Vector2<f64>,
-    ee: f64,
+    // Sums of the products of any two of: g, the change with the tilt's two components, e.
+    moments: [[f64; 4]; 4],
 }
 
 impl RegionFit {
-    fn add(&mut self, g: f64, tilt: Vector2<f64>, e: f64) {
+    const fn gg(&self) -> f64 {
+        self.moments[0][0]
+    }
+
+    const fn ge(&self) -> f64 {
+        self.moments[0][3]
+    }
+
+    const fn gt(&self) -> Vector2<f64> {
+        Vector2::new(self.moments[0][1], self.moments[0][2])
+    }
+
+    const fn te(&self) -> Vector2<f64> {
+        Vector2::new(self.moments[1][3], self.moments[2][3])
+    }
+
+    const fn tt(&self) -> Matrix2<f64> {
+        let [_, [_, xx, xy, _], [_, yx, yy, _], _] = self.moments;
+        Matrix2::new(xx, xy, yx, yy)
+    }
+
+    fn add(&mut self, values: [f64; 4]) {
         self.count += 1;
-        self.gg += g * g;
-        self.gt += tilt * g;
-        self.tt += tilt * tilt.transpose();
-        self.ge += g * e;
-        self.te += tilt * e;
-        self.ee += e * e;
+        for (sums, a) in self.moments.iter_mut().zip(values) {
+            for (sum, b) in sums.iter_mut().zip(values) {
+                *sum += a * b;
+            }
+        }
     }
 
     /// Adds `count` pixels of a row from a column on, every [`STEP`]-th.
@@ -59,11 +75,9 @@ impl RegionFit {
             let miss = (d - q * g) * precision;
             // Also false where nothing was seen.
             if miss.abs() < OUTLIER {
-                let tilt = Vector2::new(
-                    f64::from(-q * view.x.at(col + i, row) * precision),
-                    f64::from(-q * view.y.at(col + i, row) * precision),
-                );
-                sums.add(f64::from(g * precision), tilt, f64::from(miss));
+                let (x, y) = (view.x.at(col + i, row), view.y.at(col + i, row));
+                let values = [g * precision, -q * x * precision, -q * y * precision, miss];
+                sums.add(values.map(f64::from));
             }
         }
         *self = sums;
@@ -71,12 +85,12 @@ impl RegionFit {
 
     /// What the region tells of the tilt once its own height is eliminated: information and its product with the tilt.
     fn tilt_equation(&self) -> (Matrix2<f64>, Vector2<f64>) {
-        if self.gg <= 0.0 {
+        if self.gg() <= 0.0 {
             return (Matrix2::zeros(), Vector2::zeros());
         }
         (
-            (self.tt - self.gt * self.gt.transpose() / self.gg) / SHARED_BY,
-            (self.te - self.gt * (self.ge / self.gg)) / SHARED_BY,
+            (self.tt() - self.gt() * self.gt().transpose() / self.gg()) / SHARED_BY,
+            (self.te() - self.gt() * (self.ge() / self.gg())) / SHARED_BY,
         )
     }
 
@@ -98,18 +112,19 @@ impl RegionFit {
 
     /// `q` when the camera is tilted by `tilt`.
     pub(super) fn q(&self, tilt: &Vector2<f64>) -> f64 {
-        if self.gg <= 0.0 {
+        if self.gg() <= 0.0 {
             return self.q;
         }
-        self.q + (self.ge - self.gt.dot(tilt)) / self.gg
+        self.q + (self.ge() - self.gt().dot(tilt)) / self.gg()
     }
 
     /// Root mean square residual in noises, at the best `q`.
     pub(super) fn roughness(&self) -> f64 {
-        if self.count == 0 || self.gg <= 0.0 {
+        if self.count == 0 || self.gg() <= 0.0 {
             return f64::INFINITY;
         }
-        ((self.ee - self.ge * self.ge / self.gg).max(0.0) / f64::from(self.count)).sqrt()
+        ((self.moments[3][3] - self.ge() * self.ge() / self.gg()).max(0.0) / f64::from(self.count))
+            .sqrt()
     }
 }
 

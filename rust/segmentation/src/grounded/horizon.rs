@@ -59,7 +59,8 @@ impl HorizonSearch {
                 let sigma = picture.sigma_px[row * picture.width + col];
                 let (x, y) = (view.x.at(col, row) / d, view.y.at(col, row) / d);
                 let [around_x, around_y, radius] = area.around_m;
-                let nearness = radius / (x - around_x).hypot(y - around_y).max(radius);
+                let (dx, dy) = (x - around_x, y - around_y);
+                let nearness = radius / (dx * dx + dy * dy).sqrt().max(radius);
                 self.samples
                     .push([g / d, x, y, d / sigma * nearness.powi(4)]);
             }

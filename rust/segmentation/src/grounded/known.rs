@@ -67,7 +67,7 @@ impl KnownLevels {
             let x_m = camera_m.x + f64::from(view.x.at(col, row)) * depth;
             let y_m = camera_m.y + f64::from(view.y.at(col, row)) * depth;
             self.near[region].1 += 1;
-            if x_m.hypot(y_m) > NEAR_M {
+            if x_m * x_m + y_m * y_m > NEAR_M * NEAR_M {
                 continue;
             }
             self.near[region].0 += 1;

@@ -1,6 +1,6 @@
 //! A first look: the best of a grid of places and headings, without what the matching window does.
 
-use super::excerpt::{Area, Excerpt};
+use super::excerpt::Excerpt;
 use super::sight::{Sight, Step, first_met};
 
 /// The grid: steps to each side of the guess, and their size, m and rad.
@@ -14,6 +14,8 @@ const LARGEST_PX: f32 = 0.4;
 const SAMPLES: usize = 200;
 /// Fewest pixels that tell anything.
 const FEWEST: usize = 60;
+/// Samples that are worked on at once.
+const LANES: usize = 4;
 
 /// Samples of the excerpt, one quantity a list.
 #[derive(Debug, Clone, Default)]
@@ -41,11 +43,10 @@ impl Coarse {
     pub(super) fn search(
         &mut self,
         excerpt: &Excerpt,
-        area: &Area,
         sight: &Sight,
         guess: &Step,
     ) -> Option<Step> {
-        self.sample(excerpt, area, sight, guess)?;
+        self.sample(excerpt, sight, guess)?;
         let mut best: Option<(f32, Step)> = None;
         for i in -HEADINGS..=HEADINGS {
             for j in -PLACES..=PLACES {
@@ -67,13 +68,7 @@ impl Coarse {
         best.map(|(_, step)| step)
     }
 
-    fn sample(
-        &mut self,
-        excerpt: &Excerpt,
-        area: &Area,
-        sight: &Sight,
-        guess: &Step,
-    ) -> Option<()> {
+    fn sample(&mut self, excerpt: &Excerpt, sight: &Sight, guess: &Step) -> Option<()> {
         let faces = guess.faces(sight)?;
         for list in [
             &mut self.near_px,
@@ -89,14 +84,24 @@ impl Coarse {
         }
         // An odd stride that shares no factor with usual widths spreads the samples over rows and columns.
         let stride = excerpt.chosen.len().div_ceil(SAMPLES);
-        for &at in excerpt.chosen.iter().step_by(stride) {
-            let at = at as usize;
-            let (col, row) = area.pixel(at);
+        for pixel in excerpt.chosen.iter().step_by(stride) {
+            let (col, row) = (pixel.col, pixel.row);
             self.near_px.push(faces.near.at(col, row) as f32);
             self.far_px.push(faces.far.at(col, row) as f32);
             self.x.push(sight.x.at(col, row) as f32);
             self.y.push(sight.y.at(col, row) as f32);
-            self.observed_px.push(excerpt.observed_px[at]);
+            self.observed_px.push(pixel.observed_px);
+        }
+        // Whole lanes: a pixel that shows what it should adds nothing.
+        let lacking = self.x.len().next_multiple_of(LANES) - self.x.len();
+        for list in [
+            &mut self.near_px,
+            &mut self.far_px,
+            &mut self.x,
+            &mut self.y,
+            &mut self.observed_px,
+        ] {
+            list.resize(list.len() + lacking, 0.0);
         }
         Some(())
     }
@@ -105,16 +110,21 @@ impl Coarse {
         let normal = step.normal() / ahead_m;
         let (nx, ny) = (normal.x as f32, normal.y as f32);
         let is_rising = step.far_height_m > step.near_height_m;
-        let surfaces = self.near_px.iter().zip(&self.far_px);
-        let rays = self.x.iter().zip(&self.y);
-        let mut sums = [0.0_f32; 4];
-        for (i, (((near, far), (x, y)), observed)) in
-            surfaces.zip(rays).zip(&self.observed_px).enumerate()
-        {
-            let riser = nx * x + ny * y;
-            let seen = first_met(is_rising, *near, *far, riser);
-            let miss = (observed - seen).abs().min(LARGEST_PX);
-            sums[i % 4] += miss * miss;
+        let mut sums = [0.0_f32; LANES];
+        let surfaces = self
+            .near_px
+            .chunks_exact(LANES)
+            .zip(self.far_px.chunks_exact(LANES));
+        let rays = self.x.chunks_exact(LANES).zip(self.y.chunks_exact(LANES));
+        let observed = self.observed_px.chunks_exact(LANES);
+        for (((near, far), (x, y)), observed) in surfaces.zip(rays).zip(observed) {
+            for (lane, sum) in sums.iter_mut().enumerate() {
+                let riser = nx * x[lane] + ny * y[lane];
+                let seen = first_met(is_rising, near[lane], far[lane], riser);
+                let miss = (observed[lane] - seen).abs();
+                let miss = if miss < LARGEST_PX { miss } else { LARGEST_PX };
+                *sum += miss * miss;
+            }
         }
         sums.iter().sum()
     }

@@ -37,23 +37,24 @@ impl Area {
     pub(super) const fn columns(&self) -> usize {
         self.cols.1 - self.cols.0
     }
+}
 
-    /// Column and row of the area's pixel `at`, counted row by row.
-    pub(super) const fn pixel(&self, at: usize) -> (f64, f64) {
-        (
-            (self.cols.0 + at % self.columns()) as f64,
-            (self.rows.0 + at / self.columns()) as f64,
-        )
-    }
+/// A pixel that takes part.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pixel {
+    pub(super) col: f64,
+    pub(super) row: f64,
+    /// Its disparity, px.
+    pub(super) observed_px: f32,
 }
 
 /// The pixels around an edge.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Excerpt {
     /// Disparities in `area`, row by row, px; NaN where nothing was seen.
-    pub(super) observed_px: Vec<f32>,
-    /// Which of them take part.
-    pub(super) chosen: Vec<u32>,
+    observed_px: Vec<f32>,
+    /// Those of them that take part.
+    pub(super) chosen: Vec<Pixel>,
     /// Every so many of those that could take part does.
     pub(super) thinned: u32,
 }
@@ -187,12 +188,24 @@ impl Excerpt {
             let row = (area.rows.0 + index) as f64;
             // From row to row by another column: no line of pixels is left out.
             let first = index * (thinned - 1) % thinned;
-            for (i, &observed) in line.iter().enumerate().skip(first).step_by(thinned) {
-                if observed > 0.0 && zone.holds(&faces, (area.cols.0 + i) as f64, row) {
-                    self.chosen.push((index * columns + i) as u32);
+            for (i, &observed_px) in line.iter().enumerate().skip(first).step_by(thinned) {
+                let col = (area.cols.0 + i) as f64;
+                if observed_px > 0.0 && zone.holds(&faces, col, row) {
+                    self.chosen.push(Pixel {
+                        col,
+                        row,
+                        observed_px,
+                    });
                 }
             }
         }
+    }
+
+    /// Row by row: the row, and its disparities from the area's first column on.
+    pub(super) fn lines(&self, area: &Area) -> impl Iterator<Item = (f64, &[f32])> {
+        let top = area.rows.0;
+        let lines = self.observed_px.chunks_exact(area.columns()).enumerate();
+        lines.map(move |(index, line)| ((top + index) as f64, line))
     }
 }
 

@@ -22,7 +22,7 @@ use sensing::{Intrinsics, Scan};
 
 use crate::Edge;
 use coarse::Coarse;
-use excerpt::{Area, Excerpt, Stretch, area_of, pixel_m, stretch_in_view};
+use excerpt::{Excerpt, Stretch, area_of, pixel_m, stretch_in_view};
 pub use product::{FittedEdge, Untrusted};
 use refine::Equations;
 use sight::{Sight, Step};
@@ -95,13 +95,13 @@ impl EdgeModel {
         self.excerpt.choose(&sight, &start, half_m, &area);
         let found = self
             .coarse
-            .search(&self.excerpt, &area, &sight, &start)
+            .search(&self.excerpt, &sight, &start)
             .ok_or(Untrusted::OutOfView)?;
         let mut step = found;
         let mut equations = None;
         for round in ROUNDS {
             self.excerpt.choose(&sight, &step, half_m, &area);
-            equations = self.refine(&sight, &area, &start, &mut step, round)?;
+            equations = self.refine(&sight, &start, &mut step, round)?;
         }
         let equations = equations.ok_or(Untrusted::NotSettled)?;
         let middle = (step.anchor_m + step.normal() * step.place_m).push(near_height_m);
@@ -146,7 +146,6 @@ impl EdgeModel {
     fn refine(
         &self,
         sight: &Sight,
-        area: &Area,
         start: &Step,
         step: &mut Step,
         rounds: usize,
@@ -158,7 +157,7 @@ impl EdgeModel {
         let mut last = None;
         for _ in 0..rounds {
             let mut equations =
-                Equations::sum(&self.excerpt, area, sight, step).ok_or(Untrusted::WrongSide)?;
+                Equations::sum(&self.excerpt, sight, step).ok_or(Untrusted::WrongSide)?;
             equations.hold_heights([
                 start.near_height_m - step.near_height_m,
                 start.far_height_m - step.far_height_m,

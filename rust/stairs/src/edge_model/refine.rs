@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix4, Vector4};
 
-use super::excerpt::{Area, Excerpt};
+use super::excerpt::Excerpt;
 use super::sight::{Faces, Linear, Sight, Step};
 use super::window::{Matcher, PIXELS};
 
@@ -75,10 +75,7 @@ impl Model {
         );
         if seen.jumps && !faces.rising {
             // The window takes one side or the other: what changes shows in finite steps only.
-            let there = self
-                .around
-                .each_ref()
-                .map(|other| other.look(c, r).value_px);
+            let there = self.around.each_ref().map(|other| other.value_px(c, r));
             by_place = (there[0] - there[1]) / (2.0 * TRIAL.0 as f32);
             by_heading = (there[2] - there[3]) / (2.0 * TRIAL.1 as f32);
         }
@@ -95,16 +92,14 @@ impl Model {
 impl Equations {
     /// Sums over the chosen pixels of what was seen less what the step shows; `None` when the camera is on no side of
     /// the edge from which it could be seen.
-    pub(super) fn sum(excerpt: &Excerpt, area: &Area, sight: &Sight, step: &Step) -> Option<Self> {
+    pub(super) fn sum(excerpt: &Excerpt, sight: &Sight, step: &Step) -> Option<Self> {
         let model = Model::new(sight, step)?;
         let mut information = [[0.0_f32; 4]; 4];
         let mut product = [0.0_f32; 4];
         let mut size_px = 0.0_f32;
-        for &at in &excerpt.chosen {
-            let at = at as usize;
-            let (col, row) = area.pixel(at);
-            let (value_px, changes) = model.show(col, row);
-            let miss = excerpt.observed_px[at] - value_px;
+        for pixel in &excerpt.chosen {
+            let (value_px, changes) = model.show(pixel.col, pixel.row);
+            let miss = pixel.observed_px - value_px;
             let size = miss.abs();
             size_px += size.min(OUTLIER_PX);
             if size > OUTLIER_PX {

@@ -180,7 +180,8 @@ impl Faces {
 #[inline]
 pub(super) fn first_met(rising: bool, near: f32, far: f32, riser: f32) -> f32 {
     if rising {
-        near.max(far.min(riser))
+        let behind = if far < riser { far } else { riser };
+        if near > behind { near } else { behind }
     } else if near > riser {
         near
     } else {

@@ -76,26 +76,28 @@ impl Counts {
             far: [0; SLICES],
             any: [false; SLICES],
         };
-        for (at, &observed) in excerpt.observed_px.iter().enumerate() {
-            let (col, row) = area.pixel(at);
-            let (near, far) = (
-                faces.near.at(col, row) as f32,
-                faces.far.at(col, row) as f32,
-            );
-            if observed.is_nan() || near.min(far) < FARTHEST_PX {
-                continue;
-            }
-            let place_m = aside_m + along.at(col, row) / f64::from(faces.seen(col, row));
-            let slice = (place_m + half_m) / (2.0 * half_m) * slices as f64;
-            if !(0.0..slices as f64).contains(&slice) {
-                continue;
-            }
-            let slice = slice as usize;
-            counts.any[slice] = true;
-            if before.at(col, row) > away_px[0] {
-                counts.near[slice] += u16::from((observed - near).abs() < CLOSE_PX);
-            } else if behind.at(col, row) > away_px[1] {
-                counts.far[slice] += u16::from((observed - far).abs() < CLOSE_PX);
+        for (row, line) in excerpt.lines(area) {
+            for (col, &observed) in line.iter().enumerate() {
+                let col = (area.cols.0 + col) as f64;
+                let (near, far) = (
+                    faces.near.at(col, row) as f32,
+                    faces.far.at(col, row) as f32,
+                );
+                if observed.is_nan() || near.min(far) < FARTHEST_PX {
+                    continue;
+                }
+                let place_m = aside_m + along.at(col, row) / f64::from(faces.seen(col, row));
+                let slice = (place_m + half_m) / (2.0 * half_m) * slices as f64;
+                if !(0.0..slices as f64).contains(&slice) {
+                    continue;
+                }
+                let slice = slice as usize;
+                counts.any[slice] = true;
+                if before.at(col, row) > away_px[0] {
+                    counts.near[slice] += u16::from((observed - near).abs() < CLOSE_PX);
+                } else if behind.at(col, row) > away_px[1] {
+                    counts.far[slice] += u16::from((observed - far).abs() < CLOSE_PX);
+                }
             }
         }
         Some(counts)

@@ -99,23 +99,8 @@ impl Matcher {
     /// What the window around a pixel gives.
     #[inline]
     pub(super) fn look(&self, col: f32, row: f32) -> Match {
-        let faces = [&self.near, &self.far, &self.riser].map(|plane| plane.at(col, row));
-        let [near, far, riser] = faces;
-        // A window on one plane gives that plane at its middle.
-        let alone = if near - riser > self.near_reach_px {
-            Some(0)
-        } else if self.rising {
-            let behind = riser - far > self.far_reach_px;
-            let on_riser = riser - near > self.near_reach_px && far - riser > self.far_reach_px;
-            if behind {
-                Some(1)
-            } else {
-                on_riser.then_some(2)
-            }
-        } else {
-            (riser - near > self.near_reach_px).then_some(1)
-        };
-        if let Some(face) = alone {
+        let faces = self.faces(col, row);
+        if let Some(face) = self.alone(faces) {
             let mut by_face = [0.0; 3];
             by_face[face] = 1.0;
             return Match {
@@ -127,33 +112,86 @@ impl Matcher {
         self.look_at_all(faces)
     }
 
-    fn look_at_all(&self, [near, far, riser]: [f32; 3]) -> Match {
-        let mut values = [0.0_f32; PADDED];
-        let mut shares = [[0.0_f32; PADDED]; 3];
+    /// The disparity that the window around a pixel gives, px.
+    #[inline]
+    pub(super) fn value_px(&self, col: f32, row: f32) -> f32 {
+        let faces = self.faces(col, row);
+        self.alone(faces)
+            .map_or_else(|| self.window(faces).mean_px(), |face| faces[face])
+    }
+
+    /// Disparities of near surface, far one and riser at a pixel, px.
+    fn faces(&self, col: f32, row: f32) -> [f32; 3] {
+        [&self.near, &self.far, &self.riser].map(|plane| plane.at(col, row))
+    }
+
+    /// Which of the three planes is all that the window shows: it gives that plane at its middle.
+    fn alone(&self, [near, far, riser]: [f32; 3]) -> Option<usize> {
+        if near - riser > self.near_reach_px {
+            Some(0)
+        } else if self.rising {
+            let behind = riser - far > self.far_reach_px;
+            let on_riser = riser - near > self.near_reach_px && far - riser > self.far_reach_px;
+            if behind {
+                Some(1)
+            } else {
+                on_riser.then_some(2)
+            }
+        } else {
+            (riser - near > self.near_reach_px).then_some(1)
+        }
+    }
+
+    fn look_at_all(&self, faces: [f32; 3]) -> Match {
+        let window = self.window(faces);
+        let [near, far, riser] = faces;
+        let (mut by_near, mut by_far, mut by_riser) = ([0.0; PADDED], [0.0; PADDED], [0.0; PADDED]);
         for i in 0..PADDED {
             let n = near + self.near.offsets[i];
             let f = far + self.far.offsets[i];
             let r = riser + self.riser.offsets[i];
             if self.rising {
                 let seen = first_met(true, n, f, r);
-                values[i] = seen;
-                shares[0][i] = if seen == n { 1.0 } else { 0.0 };
-                shares[1][i] = if seen == f { 1.0 } else { 0.0 };
-                shares[2][i] = 1.0 - shares[0][i] - shares[1][i];
+                by_near[i] = if seen == n { 1.0 } else { 0.0 };
+                by_far[i] = if seen == f { 1.0 } else { 0.0 };
+                by_riser[i] = 1.0 - by_near[i] - by_far[i];
             } else {
-                // A pixel at the border sees both: the share of the near surface runs from 0 to 1 over one pixel.
-                let part = (n - r) * self.sharpness + 0.5;
+                let part = self.near_part(n, r);
                 let share = part.clamp(0.0, 1.0);
-                values[i] = f + share * (n - f);
                 let turning = if share == part {
                     self.sharpness * (n - f)
                 } else {
                     0.0
                 };
-                shares[0][i] = share + turning;
-                shares[1][i] = 1.0 - share;
-                shares[2][i] = -turning;
+                by_near[i] = share + turning;
+                by_far[i] = 1.0 - share;
+                by_riser[i] = -turning;
             }
+        }
+        Match {
+            value_px: window.mean_px(),
+            by_face: [&by_near, &by_far, &by_riser].map(|shares| window.mean(shares)),
+            jumps: window.jumps,
+        }
+    }
+
+    /// A pixel at the border sees both: the share of the near surface runs from 0 to 1 over one pixel.
+    fn near_part(&self, near: f32, riser: f32) -> f32 {
+        (near - riser) * self.sharpness + 0.5
+    }
+
+    /// The disparities around a pixel where more than one plane shows.
+    fn window(&self, [near, far, riser]: [f32; 3]) -> Window {
+        let mut values = [0.0_f32; PADDED];
+        for (i, value) in values.iter_mut().enumerate() {
+            let n = near + self.near.offsets[i];
+            let f = far + self.far.offsets[i];
+            let r = riser + self.riser.offsets[i];
+            *value = if self.rising {
+                first_met(true, n, f, r)
+            } else {
+                f + self.near_part(n, r).clamp(0.0, 1.0) * (n - f)
+            };
         }
         let (mut most, mut spread) = most_and_spread(&values);
         let jumps = spread > SUSPECT_PX;
@@ -172,37 +210,53 @@ impl Matcher {
         } else {
             near_mode(&values, most)
         };
-        let share = 1.0 / sum_of(&chosen, |_| 1.0).max(1.0);
-        let mean = |of: &Lot| share * sum_of(&chosen, |i| of[i]);
-        Match {
-            value_px: mean(&values),
-            by_face: [mean(&shares[0]), mean(&shares[1]), mean(&shares[2])],
+        Window {
+            values,
+            share: 1.0 / sum_of(&chosen, |_| 1.0).max(1.0),
+            chosen,
             jumps,
         }
     }
 }
 
+/// What a window sees, and which of it the match is made of.
+struct Window {
+    values: Lot,
+    /// 1 for those that count, else 0; and one through their number.
+    chosen: Lot,
+    share: f32,
+    jumps: bool,
+}
+
+impl Window {
+    fn mean(&self, of: &Lot) -> f32 {
+        self.share * sum_of(&self.chosen, |i| of[i])
+    }
+
+    fn mean_px(&self) -> f32 {
+        self.mean(&self.values)
+    }
+}
+
 /// Largest disparity, and how far below it the smallest is, px.
 fn most_and_spread(values: &Lot) -> (f32, f32) {
-    let (mut most, mut least) = ([values[0]; LANES], [values[0]; LANES]);
-    for chunk in values.chunks_exact(LANES) {
-        for lane in 0..LANES {
-            let value = chunk[lane];
-            most[lane] = if value > most[lane] {
-                value
-            } else {
-                most[lane]
-            };
-            least[lane] = if value < least[lane] {
-                value
-            } else {
-                least[lane]
-            };
-        }
-    }
-    let most = most.iter().copied().fold(values[0], f32::max);
-    let least = least.iter().copied().fold(values[0], f32::min);
+    let most = extreme(values, |a, b| if a > b { a } else { b });
+    let least = extreme(values, |a, b| if a < b { a } else { b });
     (most, most - least)
+}
+
+/// The value that is picked of all: halves against each other.
+#[inline]
+fn extreme(values: &Lot, pick: impl Fn(f32, f32) -> f32) -> f32 {
+    let mut left = *values;
+    let mut half = PADDED / 2;
+    while half > 0 {
+        for i in 0..half {
+            left[i] = pick(left[i], left[i + half]);
+        }
+        half /= 2;
+    }
+    left[0]
 }
 
 /// Sum over the chosen pixels of a window (1, others 0).
@@ -234,7 +288,11 @@ fn near_mode(values: &Lot, start: f32) -> Lot {
     let mut chosen = [0.0; PADDED];
     for _ in 0..SHIFTS {
         chosen = counted(|value| (value - mode).abs() < BANDWIDTH_PX, values);
+        let before = mode;
         mode = sum_of(&chosen, |i| values[i]) / sum_of(&chosen, |_| 1.0).max(1.0);
+        if mode == before {
+            break;
+        }
     }
     chosen
 }
