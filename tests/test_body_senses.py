@@ -8,25 +8,25 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from treadwell.random_streams import stream
-from treadwell.senses.body import Encoders, FootForces, Imu, ImuNoise
+from treadwell.senses.body import Encoders, FootForces, Imu, ImuNoise, SensedSole
 
 QUANTUM = np.radians(0.088)
 TICK = 10_000_000
-TOUCH = (("a", "b", "c", "d"), ("d", "c", "b", "a"))
+SOLES = (
+    SensedSole("forces", "body", (0.0, 0.0, -0.1), (0.2, 0.2)),
+    SensedSole("forces", "body", (0.0, 0.0, -0.1), (0.2, 0.2)),
+)
 MODEL = mujoco.MjModel.from_xml_string("""
 <mujoco><option timestep="0.002"/>
-<default><site type="box" size="0.05 0.05 0.02"/></default>
 <worldbody><geom type="plane" size="5 5 1"/>
   <body name="body" pos="0 0 0.1"><freejoint/><geom type="box" size="0.1 0.1 0.1" mass="2"/>
     <site name="imu" type="sphere" size="0.01" pos="0.03 0 0.02" euler="90 0 0"/>
-    <site name="a" pos="0.05 0.05 -0.1"/><site name="b" pos="0.05 -0.05 -0.1"/>
-    <site name="c" pos="-0.05 0.05 -0.1"/><site name="d" pos="-0.05 -0.05 -0.1"/>
     <body pos="0 0 0.2"><joint name="one" axis="0 1 0"/><geom size="0.01" mass="0.01"/>
       <body pos="0 0 0.1"><joint name="two"/><geom size="0.01" mass="0.01"/></body></body>
   </body>
 </worldbody>
-<sensor><touch name="a" site="a"/><touch name="b" site="b"/><touch name="c" site="c"/>
-  <touch name="d" site="d"/></sensor></mujoco>
+<sensor><contact name="forces" body1="body" num="1" reduce="netforce" data="force pos"/></sensor>
+</mujoco>
 """)
 
 
@@ -172,17 +172,32 @@ def standing() -> mujoco.MjData:
 
 
 def test_the_feet_carry_the_weight() -> None:
-    feet = FootForces(MODEL, TOUCH, 0.0, 0.0, stream(0, "f"))
+    feet = FootForces(MODEL, SOLES, 0.0, 0.0, stream(0, "f"))
     forces = feet.read(standing())
     assert forces.shape == (2, 4)
     assert forces[0].sum() == pytest.approx(2.02 * 9.81, rel=0.01)
-    np.testing.assert_array_equal(forces[0], forces[1][::-1])
+    np.testing.assert_array_equal(forces[0], forces[1])
+
+
+@given(x=st.floats(-0.1, 0.1), y=st.floats(-0.1, 0.1), yaw=st.floats(-3.1, 3.1))
+def test_a_sole_shares_a_force_as_a_stiff_plate_does(x: float, y: float, yaw: float) -> None:
+    data = state()
+    data.qpos[:7] = [0.3, -0.2, 0.1, np.cos(yaw / 2), 0.0, 0.0, np.sin(yaw / 2)]
+    mujoco.mj_kinematics(MODEL, data)
+    body = data.body("body")
+    data.sensordata[:3] = [0.0, 0.0, -20.0]
+    data.sensordata[3:] = body.xpos + body.xmat.reshape(3, 3) @ [x, y, -0.1]
+    forces = FootForces(MODEL, SOLES, 0.0, 0.0, stream(0, "f")).read(data)[0]
+    corners = np.array([[0.1, 0.1], [0.1, -0.1], [-0.1, 0.1], [-0.1, -0.1]])
+    assert forces.min() >= 0.0
+    assert forces.sum() == pytest.approx(20.0)
+    assert forces @ corners / 20.0 == pytest.approx([x, y], abs=1e-9)
 
 
 def test_foot_forces_are_noisy_and_never_pull() -> None:
     data = standing()
-    exact = FootForces(MODEL, TOUCH, 0.0, 0.0, stream(0, "f")).read(data)
-    feet = FootForces(MODEL, TOUCH, 0.02, 0.1, stream(0, "f"))
+    exact = FootForces(MODEL, SOLES, 0.0, 0.0, stream(0, "f")).read(data)
+    feet = FootForces(MODEL, SOLES, 0.02, 0.1, stream(0, "f"))
     found = np.array([feet.read(data) for _ in range(2000)])
     expected = np.sqrt((0.02 * exact) ** 2 + 0.1**2)
     np.testing.assert_allclose(found.std(axis=0), expected, rtol=0.1)

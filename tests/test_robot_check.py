@@ -87,6 +87,18 @@ BROKEN = [
         'pan = "left_hip_yaw"',
         "head.pan.*does not move the camera",
     ),
+    (
+        "robot.toml",
+        'forces = "left_sole_forces"',
+        'forces = "gyro"',
+        "legs.left.forces.*must be a <contact>",
+    ),
+    (
+        "qrio.xml",
+        'reduce="netforce" data="force pos"',
+        'reduce="netforce" data="force"',
+        "legs.left.forces.*must have num 1 and data 'force pos'",
+    ),
     ("robot.toml", 'gyro = "gyro"', 'gyro = "accelerometer"', "imu.gyro.*must be a <gyro>"),
     (
         "robot.toml",

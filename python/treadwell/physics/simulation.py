@@ -43,7 +43,7 @@ class Simulation:
 
     After the constructor, `advance` and `set`, all that follows from positions and velocities
     (link and camera poses, contacts, the gyro) is up to date in `data`; forces and accelerations
-    (contact forces, touch sensors, the accelerometer) are those of the last physics step. Readers
+    (contact forces, the accelerometer) are those of the last physics step. Readers
     must call nothing that writes to `data`; `mj_forward` would break the audit.
 
     Attributes:

@@ -14,6 +14,8 @@ PHYSICS_STEP = 0.002
 """The physics step that the harness is built on, s."""
 SQUARE_PIXELS = 0.02
 """How far the focal lengths of the two fields of view may differ, as a share."""
+FORCE_AND_PLACE = 6
+"""Numbers of a contact sensor that tells a force and where it acts."""
 FLAT = 1e-3
 """How far the soles may be from the ground in the keyframe, m, and from level, rad."""
 
@@ -172,8 +174,7 @@ class _Checker:
             self._fail(
                 f"{key}.sole.link", f"must be the leg's last, {end!r}, got {leg.sole.link!r}"
             )
-        for name in leg.touch:
-            self._check_sensor(f"{key}.touch", name, mujoco.mjtSensor.mjSENS_TOUCH, "touch", None)
+        self._check_forces(f"{key}.forces", leg)
         data = mujoco.MjData(model)
         mujoco.mj_resetDataKeyframe(model, data, model.key("stand").id)
         mujoco.mj_kinematics(model, data)
@@ -185,6 +186,12 @@ class _Checker:
                 f"must lie flat on the ground in the keyframe 'stand' of {self.mjcf.name}, "
                 f"its centre is {1e3 * height:.1f} mm above it",
             )
+
+    def _check_forces(self, key: str, leg: LegTable) -> None:
+        kind = mujoco.mjtSensor.mjSENS_CONTACT
+        sensor = self._check_sensor(key, leg.forces, kind, "contact", None)
+        if self.model.sensor_dim[sensor] != FORCE_AND_PLACE:
+            self._fail(key, f"sensor {leg.forces!r} must have num 1 and data 'force pos'")
 
     def _check_stand(self) -> None:
         model = self.model
@@ -209,12 +216,13 @@ class _Checker:
 
     def _check_sensor(
         self, key: str, name: str, kind: mujoco.mjtSensor, word: str, site: int | None
-    ) -> None:
+    ) -> int:
         sensor = self._find(key, name, self.sensors, "sensor")
         if self.model.sensor_type[sensor] != kind:
             self._fail(key, f"sensor {name!r} of {self.mjcf.name} must be a <{word}>")
         if site is not None and self.model.sensor_objid[sensor] != site:
             self._fail(key, f"sensor {name!r} of {self.mjcf.name} must sit on the site imu.site")
+        return sensor
 
     def _check_camera(self) -> None:
         file, model = self.file, self.model

@@ -59,11 +59,11 @@ class SoleTable(Table):
 class LegTable(Table):
     """`[legs.*]`: joints from the hip down (yaw, roll, pitch, knee, ankle pitch, ankle roll).
 
-    `touch` names the force sensors front left, front right, rear left, rear right.
+    `forces` names the contact sensor of the sole: its net force, and where that acts.
     """
 
     joints: tuple[Name, Name, Name, Name, Name, Name]
-    touch: tuple[Name, Name, Name, Name]
+    forces: Name
     sole: SoleTable
 
 

@@ -162,40 +162,73 @@ def rotation_vector(rotation: Floats) -> Floats:
     return axis * (angle / sine)
 
 
+@dataclass(frozen=True, slots=True)
+class SensedSole:
+    """A stiff sole on four force sensors, one under each corner.
+
+    Attributes:
+        sensor: name of its contact sensor: net force and where it acts, in the world.
+        link: the link that carries it.
+        center: m, its centre in the link's frame.
+        size: m, its length and width.
+    """
+
+    sensor: str
+    link: str
+    center: tuple[float, float, float]
+    size: tuple[float, float]
+
+
 class FootForces:
-    """The force sensors under the soles: they push, they never pull."""
+    """The force sensors under the soles: they push, they never pull.
+
+    They share a foot's force as a stiff plate does: by how near to each corner it acts.
+    """
 
     def __init__(
         self,
         model: mujoco.MjModel,
-        sensors: Sequence[Sequence[str]],
+        soles: Sequence[SensedSole],
         noise: float,
         noise_absolute: float,
         rng: np.random.Generator,
     ) -> None:
-        """Find the touch sensors.
+        """Find the contact sensors.
 
         Args:
             model: the compiled world with the robot.
-            sensors: the names, left foot and right foot, each front left, front right, rear left,
-                rear right.
+            soles: left and right.
             noise: sigma of each sample as a share of the force; both 0 for ideal sensors.
             noise_absolute: N, sigma of what is added to each sample besides.
             rng: the noise.
         """
         self._at = np.array(
-            [[int(model.sensor(name).adr[0]) for name in foot] for foot in sensors], np.intp
+            [np.arange(6) + int(model.sensor(sole.sensor).adr[0]) for sole in soles], np.intp
         )
+        self._links = [int(model.body(sole.link).id) for sole in soles]
+        self._centers = np.array([sole.center for sole in soles])
+        self._sizes = np.array([sole.size for sole in soles])
         self._noise = noise
         self._noise_absolute = noise_absolute
         self._exact = noise == 0.0 and noise_absolute == 0.0
         self._rng = rng
 
     def read(self, data: mujoco.MjData) -> Floats:
-        """Return the forces (2, 4) N."""
-        forces = np.asarray(data.sensordata[self._at], np.float64)
+        """Return the forces (2, 4) N: front left, front right, rear left, rear right."""
+        forces = self._shared(data)
         if not self._exact:
             share, added = self._rng.standard_normal((2, *forces.shape))
             forces += self._noise * share * forces + self._noise_absolute * added
             np.maximum(forces, 0.0, out=forces)
         return forces
+
+    def _shared(self, data: mujoco.MjData) -> Floats:
+        """Return what each sensor truly carries, (2, 4) N."""
+        force, place = np.split(data.sensordata[self._at], 2, axis=1)
+        rotations = data.xmat[self._links].reshape(-1, 3, 3)
+        in_link = np.einsum("kji,kj->ki", rotations, place - data.xpos[self._links])
+        share = np.clip(0.5 + (in_link - self._centers)[:, :2] / self._sizes, 0.0, 1.0)
+        along = np.stack([share[:, 0], 1.0 - share[:, 0]], axis=1)
+        across = np.stack([share[:, 1], 1.0 - share[:, 1]], axis=1)
+        corners = (along[:, :, None] * across[:, None, :]).reshape(-1, 4)
+        return np.asarray(np.linalg.norm(force, axis=1)[:, None] * corners, np.float64)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from treadwell.observation import Observation
 from treadwell.robot.description import focal_length
 from treadwell.robot.file import RobotFile
-from treadwell.senses.body import Encoders, FootForces, Imu, ImuNoise, MotorSide
+from treadwell.senses.body import Encoders, FootForces, Imu, ImuNoise, MotorSide, SensedSole
 from treadwell.senses.camera_error import CameraError, CameraErrorBounds, draw_camera_error
 from treadwell.senses.depth import DepthCamera, Mount, Pinhole
 from treadwell.senses.depth_sensor import DepthSensor
@@ -202,8 +202,11 @@ def _feet(
     share, absolute = 0.0, 0.0
     if settings.feet != "ideal":
         share, absolute = file.feet.force_noise, file.feet.force_noise_absolute
-    names = (file.legs.left.touch, file.legs.right.touch)
-    return FootForces(model, names, share, absolute, streams("sensors.feet"))
+    soles = [
+        SensedSole(leg.forces, leg.sole.link, leg.sole.position, (leg.sole.length, leg.sole.width))
+        for leg in (file.legs.left, file.legs.right)
+    ]
+    return FootForces(model, soles, share, absolute, streams("sensors.feet"))
 
 
 def _depth(
