@@ -11,6 +11,8 @@ STARTS_S = 0.5
 WALKING_MPS = 0.1
 CLIMBS_S = 2.0
 SETTLES_S = 0.5
+PLATE_M = 6.0
+"""Length and width of a plate."""
 STAIR_S = 4.5
 """Longest time for one stand on the stairs; a climb that takes longer is over."""
 
@@ -46,6 +48,11 @@ class Job:
 
 def straight(_rng: np.random.Generator, _job: Job) -> Plan:
     return Plan([(STARTS_S, (WALKING_MPS, 0.0, 0.0)), (STARTS_S + 20.5, None)], 23.0)
+
+
+def across(_rng: np.random.Generator, _job: Job) -> Plan:
+    """Walk on until the edge is behind the robot."""
+    return Plan([(STARTS_S, (WALKING_MPS, 0.0, 0.0)), (STARTS_S + 11.0, None)], 14.0)
 
 
 def backward(_rng: np.random.Generator, _job: Job) -> Plan:
@@ -172,6 +179,26 @@ def climb(rng: np.random.Generator, job: Job, treads: list[Tread]) -> Plan:
     return Plan([], end, pushes, Climber(lists, SETTLES_S, CLIMBS_S))
 
 
+def edge(rng: np.random.Generator, job: Job) -> list[dict[str, object]]:
+    """A plate of one rise, its edge at any angle across the way onto it or off it."""
+    angle, ahead = rng.uniform(-math.pi / 3, math.pi / 3), rng.uniform(0.3, 0.7)
+    half = PLATE_M / 2 if job.task == "edge_up" else -PLATE_M / 2
+    return [
+        {
+            "kind": "platform",
+            "name": "plate",
+            "position": [ahead + half * math.cos(angle), half * math.sin(angle)],
+            "yaw": angle,
+            "size": [PLATE_M, PLATE_M, job.rise],
+        }
+    ]
+
+
+EDGES: dict[str, Callable[[np.random.Generator, Job], list[dict[str, object]]]] = {
+    "edge_up": edge,
+    "edge_down": edge,
+}
+
 TASKS: dict[str, Callable[[np.random.Generator, Job], Plan]] = {
     "straight": straight,
     "backward": backward,
@@ -183,4 +210,6 @@ TASKS: dict[str, Callable[[np.random.Generator, Job], Plan]] = {
     "push_sideways": push_sideways,
     "push_standing": push_standing,
     "wander": wander,
+    "edge_up": across,
+    "edge_down": across,
 }

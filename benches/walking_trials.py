@@ -24,7 +24,7 @@ import mujoco
 import numpy as np
 from climbing import Errors, elements
 from numpy.typing import NDArray
-from walking_tasks import COURSES, TASKS, Job, Motion, climb
+from walking_tasks import COURSES, EDGES, TASKS, Job, Motion, climb
 
 from treadwell._core import Walker
 from treadwell.course.build import build_course
@@ -67,6 +67,9 @@ class World:
         streams = RandomStreams(job.seed)
         rng = streams("trial")
         self.treads = COURSES[job.task](streams("course"), job) if job.task in COURSES else []
+        course = elements(self.treads)
+        if job.task in EDGES:
+            course = EDGES[job.task](streams("course"), job)
         scenario = Scenario.model_validate(
             {
                 "schema": 1,
@@ -75,7 +78,7 @@ class World:
                 "seed": job.seed,
                 "start": {"position": [0.0, 0.0]},
                 "goal": {"position": [50.0, 0.0]},
-                "course": elements(self.treads),
+                "course": course,
                 "physics": {
                     "friction": float(rng.uniform(0.6, 1.0)),
                     "mass_scale": float(rng.uniform(0.9, 1.1)),

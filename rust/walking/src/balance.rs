@@ -5,6 +5,7 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 use robot::{Body, Side};
 
 use crate::gait::FootPose;
+use crate::support::sole_corners;
 
 /// Standard gravity, m/s^2.
 pub const GRAVITY_MPS2: f64 = 9.81;
@@ -51,20 +52,10 @@ pub struct Sensed<'a> {
 impl Balance {
     /// At rest over `com`. `blend`: share of the measured speed that a tick takes over.
     pub fn new(body: &Body, omega: f64, blend: f64, com: Vector2<f64>) -> Self {
-        let corners = Side::BOTH.map(|side| {
-            let sole = &body.description().legs.get(side).sole;
-            let (x, y) = (0.5 * sole.length, 0.5 * sole.width);
-            [
-                Vector2::new(x, y),
-                Vector2::new(x, -y),
-                Vector2::new(-x, y),
-                Vector2::new(-x, -y),
-            ]
-        });
         Self {
             omega,
             blend,
-            corners,
+            corners: sole_corners(body),
             arms: [Vector2::zeros(); 2],
             started: false,
             plan_from_torso: Isometry3::identity(),

@@ -54,6 +54,10 @@ pub struct GaitConfig {
     pub load_limit: f64,
     /// Load at which a foot counts as landed before its time, N.
     pub landing_load: f64,
+    /// Speed at which a walking foot goes on down that is not on the ground at its time, m/s,
+    pub late_speed: f64,
+    /// and how far, m.
+    pub late_depth: f64,
     /// Errors at landing up to this are left to the ankles, m; above, the step is moved.
     pub capture_deadband: f64,
     /// The farthest that a step is moved to catch a push, m.
@@ -64,6 +68,16 @@ pub struct GaitConfig {
     pub capture_hold: f64,
     /// Longest time that the clock is held in a phase, s.
     pub capture_patience: f64,
+    /// Speed at which an ankle yields, rad/s per metre that the centre of pressure is beside where it is to be,
+    pub ankle_gain: f64,
+    /// beyond this distance, m,
+    pub ankle_deadband: f64,
+    /// at most this fast, rad/s,
+    pub ankle_speed: f64,
+    /// and this far, rad.
+    pub ankle_limit: f64,
+    /// How fast an ankle that has yielded gets level again, 1/s.
+    pub ankle_leak: f64,
     /// Share of the measured tilt that the swing foot makes up for.
     pub swing_tilt: f64,
     /// Speed over the ground that the foot of a long listed step keeps to on average, m/s.
@@ -121,11 +135,18 @@ impl Default for GaitConfig {
             load_leak: 0.5,
             load_limit: 0.012,
             landing_load: 6.0,
+            late_speed: 0.15,
+            late_depth: 0.015,
             capture_deadband: 0.01,
             capture_limit: 0.08,
             capture_hurry: 1.0,
             capture_hold: 0.01,
             capture_patience: 0.6,
+            ankle_gain: 30.0,
+            ankle_deadband: 0.012,
+            ankle_speed: 1.0,
+            ankle_limit: 0.2,
+            ankle_leak: 0.5,
             swing_tilt: 1.0,
             climb_speed: 0.195,
             climb_lift_speed: 0.172,
@@ -208,7 +229,7 @@ impl GaitConfig {
         ]
     }
 
-    fn not_negative(&self) -> [(&'static str, f64); 12] {
+    fn not_negative(&self) -> [(&'static str, f64); 19] {
         [
             ("foot_gap", self.foot_gap),
             ("support_forward", self.support_forward),
@@ -219,7 +240,14 @@ impl GaitConfig {
             ("load_limit", self.load_limit),
             ("capture_deadband", self.capture_deadband),
             ("capture_patience", self.capture_patience),
+            ("late_speed", self.late_speed),
+            ("late_depth", self.late_depth),
             ("swing_tilt", self.swing_tilt),
+            ("ankle_gain", self.ankle_gain),
+            ("ankle_deadband", self.ankle_deadband),
+            ("ankle_speed", self.ankle_speed),
+            ("ankle_limit", self.ankle_limit),
+            ("ankle_leak", self.ankle_leak),
             ("climb_landing_time", self.climb_landing_time),
             ("probe_depth", self.probe_depth),
         ]

@@ -1,4 +1,4 @@
-//! Small corrections of the feet's heights: sharing the load while both stand, yielding to an early landing.
+//! Small corrections of the feet's heights: sharing the load while both stand, yielding to an early landing, reaching for a late one.
 
 use robot::Side;
 
@@ -15,6 +15,8 @@ pub struct FeetControl {
     tilt_m: f64,
     landed: [f64; 2],
     held: Option<Held>,
+    /// The foot that came down last, until it has found the ground.
+    seeks: Option<Side>,
     flying: Option<(Side, f64)>,
 }
 
@@ -33,6 +35,7 @@ impl FeetControl {
             tilt_m: 0.0,
             landed: [0.0; 2],
             held: None,
+            seeks: None,
             flying: None,
         }
     }
@@ -68,12 +71,29 @@ impl FeetControl {
                     height_m: None,
                 });
             }
+            self.seeks =
+                (swing.manner == Manner::Walk && self.held.is_none()).then_some(swing.side);
             return;
         }
         self.held = None;
         let error = 0.5 * ((loads_n[0] - loads_n[1]) - (share[0] - share[1]) * weight_n);
         self.tilt_m = (self.tilt_m + config.load_gain * error * passed_s)
             .clamp(-config.load_limit, config.load_limit);
+        self.seek(loads_n, passed_s);
+    }
+
+    /// Lowers a foot that should have landed until it carries something.
+    fn seek(&mut self, loads_n: &[f64; 2], passed_s: f64) {
+        let Some(index) = self.seeks.map(Side::index) else {
+            return;
+        };
+        let config = &self.config;
+        let lower_m = self.landed[index] - config.late_speed * passed_s;
+        if loads_n[index] > config.landing_load || lower_m < -config.late_depth {
+            self.seeks = None;
+        } else {
+            self.landed[index] = lower_m;
+        }
     }
 
     /// The foot's place with the corrections. A careful landing takes over where the foot was found; what it was told until then
@@ -122,6 +142,34 @@ mod tests {
         });
         assert!(left > 0.0 && right < 0.0);
         assert!(left - right <= config().load_limit);
+    }
+
+    #[test]
+    fn a_foot_that_finds_no_ground_goes_on_down_until_it_carries() {
+        let mut control = FeetControl::new(&config());
+        let place = FootPose::default();
+        let swing = Swing::new(Side::Left, Manner::Walk, place, place);
+        let comes_down = Phase::Single {
+            elapsed_s: 0.44,
+            duration_s: 0.45,
+            swing,
+        };
+        control.update(&comes_down, &[0.0, 1.0], &[0.0, 70.0], 70.0, 0.01);
+        let both = Phase::Double {
+            elapsed_s: 0.0,
+            duration_s: 0.15,
+            from: nalgebra::Vector2::zeros(),
+            next: None,
+        };
+        let mut height_m = |load_n: f64| {
+            control.update(&both, &[0.0, 1.0], &[load_n, 70.0 - load_n], 70.0, 0.01);
+            control.place(&both, place, Side::Left).z_m
+        };
+        let heights: Vec<f64> = (0..7).map(|_| height_m(0.0)).collect();
+        assert!(heights.is_sorted_by(|before, after| after < before));
+        assert!(heights[6] < -0.008, "{heights:?}");
+        let found = height_m(20.0);
+        assert!((0..20).all(|_| height_m(10.0) >= found));
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! [`balance`] measures how far the robot is from it, [`support`] says where the feet have to push, [`capture`] moves a step when
 //! pushing is not enough, and [`leg`] turns all of it into joint angles.
 
+mod ankles;
 mod arms;
 pub mod balance;
 pub mod capture;

@@ -4,6 +4,7 @@ use geometry::PlanarPose;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use robot::{Body, LinkPoses, Side};
 
+use crate::ankles::Ankles;
 use crate::balance::{Balance, GRAVITY_MPS2};
 use crate::gait::{FootPose, Gait, Phase};
 use crate::leg::Leg;
@@ -27,6 +28,8 @@ pub(crate) struct Moment<'a> {
     pub(crate) course: Course<'a>,
     /// The measured balance.
     pub(crate) balance: &'a Balance,
+    /// How the soles are turned.
+    pub(crate) ankles: &'a Ankles,
     /// Time since the last tick, s.
     pub(crate) passed_s: f64,
 }
@@ -91,7 +94,8 @@ impl Posture {
             let lean = self.lean(moment, &plan_from_torso, side);
             let sole = plan_from_sole(&feet[side.index()]);
             let leg = &self.legs[side.index()];
-            let solution = leg.solve(&(torso_from_plan * lean * sole));
+            let solution =
+                leg.solve(&(torso_from_plan * lean * sole * moment.ankles.level_from_sole(side)));
             for (&joint, &angle) in leg.joints().iter().zip(&solution.angles_rad) {
                 let before = targets.positions_rad[joint];
                 targets.velocities_radps[joint] = (angle - before) / passed_s;

@@ -88,6 +88,15 @@ impl Soles {
     }
 }
 
+/// Where the force sensors are on each sole: front left, front right, rear left, rear right, m.
+pub(crate) fn sole_corners(body: &Body) -> [[Vector2<f64>; 4]; 2] {
+    Side::BOTH.map(|side| {
+        let sole = &body.description().legs.get(side).sole;
+        let (x, y) = (0.5 * sole.length, 0.5 * sole.width);
+        [(x, y), (x, -y), (-x, y), (-x, -y)].map(|(x, y)| Vector2::new(x, y))
+    })
+}
+
 fn center(foot: &FootPose) -> Vector2<f64> {
     Vector2::new(foot.planar.x_m, foot.planar.y_m)
 }

@@ -221,7 +221,7 @@ impl Ideal {
             joint_velocities_radps: vec![0.0; self.body.joint_count()],
             angular_velocity_radps: [0.0; 3],
             specific_force_mps2: [0.0, 0.0, 9.81],
-            foot_forces_n: loads.map(|load| [0.25 * load; 4]),
+            foot_forces_n: Side::BOTH.map(|side| self.corner_forces_n(side, loads[side.index()])),
             depth: None,
         };
         let state = BodyState {
@@ -241,6 +241,18 @@ impl Ideal {
             .step(command, &observation, &state)
             .unwrap()
             .clone();
+    }
+
+    /// How a stiff sole shares a load that acts where the walker pushes: front left, front right, rear left, rear right, N.
+    fn corner_forces_n(&self, side: Side, load_n: f64) -> [f64; 4] {
+        let sole = &self.body.description().legs.get(side).sole;
+        let point = self.walker.balance().2.point[side.index()];
+        let place = self.walker.foot_in_plan(side).planar.inverse();
+        let (x_m, y_m) = place.apply(point.x, point.y);
+        let front = (0.5 + x_m / sole.length).clamp(0.0, 1.0);
+        let left = (0.5 + y_m / sole.width).clamp(0.0, 1.0);
+        let (rear, right) = (1.0 - front, 1.0 - left);
+        [front * left, front * right, rear * left, rear * right].map(|share| share * load_n)
     }
 
     /// Centre of the sole of the foot that does not stand, in the walker's plan, m.

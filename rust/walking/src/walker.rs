@@ -6,6 +6,7 @@ use nalgebra::Vector2;
 use robot::{Body, Side};
 use sensing::Observation;
 
+use crate::ankles::Ankles;
 use crate::arms::ArmsControl;
 use crate::balance::{Balance, GRAVITY_MPS2, Sensed};
 use crate::capture::Capture;
@@ -37,6 +38,7 @@ pub struct Walker {
     balance: Balance,
     soles: Soles,
     feet_control: FeetControl,
+    ankles: Ankles,
     capture: Capture,
     posture: Posture,
     com: Vector2<f64>,
@@ -65,6 +67,7 @@ impl Walker {
             balance: Balance::new(body, omega, config.velocity_blend, com.xy()),
             soles: Soles::new(body, config.sole_margin),
             feet_control: FeetControl::new(&config),
+            ankles: Ankles::new(&config, body),
             capture: Capture::new(&config, planner),
             posture: Posture::new(body, &config)?,
             targets: JointTargets {
@@ -75,7 +78,7 @@ impl Walker {
             com: middle,
             pressure: Pressure {
                 share: [0.5; 2],
-                point: [middle; 2],
+                point: Side::BOTH.map(|side| gait.stance_point(side)),
                 zmp: middle,
             },
             reference: Reference {
@@ -133,6 +136,7 @@ impl Walker {
                 com: self.com,
             },
             balance: &self.balance,
+            ankles: &self.ankles,
             passed_s,
         };
         let targets = &mut self.targets;
@@ -228,6 +232,13 @@ impl Walker {
             passed_s,
         };
         self.balance.update(&sensed, &self.pressure.zmp);
+        self.ankles.update(
+            &self.gait.phase,
+            &self.gait.feet,
+            &self.pressure,
+            &observation.foot_forces_n,
+            passed_s,
+        );
     }
 
     /// What the feet feel.
