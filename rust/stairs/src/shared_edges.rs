@@ -78,10 +78,13 @@ impl SharedEdges {
         let (mut run, mut run_start, mut run_length) = (0, 0, 0);
         for row in (0..planes.labels.len() / width).rev() {
             let (label, row) = (planes.labels[row * width + col], row as u16);
-            if label == 0 || level_m(label - 1).is_none() {
+            if label == 0 {
                 continue;
             }
             if label != run {
+                if level_m(label - 1).is_none() {
+                    continue;
+                }
                 (run, run_start, run_length) = (label, row, 0);
             }
             run_length += 1;

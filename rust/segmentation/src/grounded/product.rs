@@ -9,6 +9,9 @@ use super::steps::StepMarks;
 use super::{Finder, Grounded, Levelled};
 use crate::{PlaneRegion, Planes};
 
+/// What a pixel without a level region has.
+const NO_FLOOR: (u16, f32) = (0, f32::NAN);
+
 /// Pixels of one region that lie side by side.
 #[derive(Debug, Clone)]
 struct Run {
@@ -22,7 +25,8 @@ struct Run {
 pub(super) struct ProductBuffers {
     runs: Vec<Run>,
     corners: Vec<Point2<f64>>,
-    numbers: Vec<u16>,
+    // By label: the number of the region in the product plus one, 0 for none; and its height, m, NaN for none.
+    floors: Vec<(u16, f32)>,
     step_marks: StepMarks,
 }
 
@@ -39,17 +43,9 @@ impl<F: Finder> Grounded<F> {
         ));
         self.place_points(levelled, &position, planes);
         self.describe_level_regions(levelled, &position, planes);
-        planes.floor_height_m.fill(f32::NAN);
-        for (at, label) in self.surfaces.labels.iter_mut().enumerate() {
-            *label = match *label {
-                0 => 0,
-                label => self.product.numbers[usize::from(label) - 1],
-            };
-            if *label > 0
-                && let Some(height_m) = planes.regions[usize::from(*label) - 1].floor_height_m
-            {
-                planes.floor_height_m[at] = height_m as f32;
-            }
+        let pixels = self.surfaces.labels.iter_mut();
+        for (label, height_m) in pixels.zip(&mut planes.floor_height_m) {
+            (*label, *height_m) = self.product.floors[usize::from(*label)];
         }
         self.walls.find(
             &self.surfaces.disparity_px,
@@ -94,13 +90,14 @@ impl<F: Finder> Grounded<F> {
         planes: &mut Planes,
     ) {
         planes.regions.clear();
-        self.product.numbers.clear();
+        self.product.floors.clear();
+        self.product.floors.push(NO_FLOOR);
         self.find_runs();
         let ground = planes.ground;
         for index in 0..self.surfaces.regions.len() {
             if !self.surfaces.is_level(index) {
                 // Slices of walls and of slopes: what is left for generic planes.
-                self.product.numbers.push(0);
+                self.product.floors.push(NO_FLOOR);
                 continue;
             }
             let height_m = if ground == Some(index) {
@@ -112,7 +109,8 @@ impl<F: Finder> Grounded<F> {
                 planes.ground = Some(planes.regions.len());
             }
             let (support, mean) = self.outline_corners(index, levelled, position, height_m);
-            self.product.numbers.push(planes.regions.len() as u16 + 1);
+            let number = planes.regions.len() as u16 + 1;
+            self.product.floors.push((number, height_m as f32));
             planes.regions.push(PlaneRegion {
                 support,
                 mean: Point::<Robot>::wrap(mean),

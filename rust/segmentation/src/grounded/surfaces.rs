@@ -130,7 +130,10 @@ impl<F: Finder> Surfaces<F> {
         for (region, &left) in regions.iter_mut().zip(&left[1..]) {
             region.core = left as usize;
         }
-        keep_where(labels, &mut self.eroded, &left.map(|left| left < MIN_FIT));
+        let small = left.map(|left| left < MIN_FIT);
+        if small[1..=regions.len()].contains(&true) {
+            keep_where(labels, &mut self.eroded, &small);
+        }
         fit_regions(picture, view, regions, &self.eroded, &mut self.fits);
     }
 

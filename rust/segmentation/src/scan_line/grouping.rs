@@ -254,8 +254,10 @@ impl Grouping {
             self.region_of[i] = self.region_of[root(&self.parent, i)];
         }
         regions.truncate(kept);
-        for label in labels.iter_mut().filter(|label| **label > 0) {
-            *label = self.region_of[usize::from(*label) - 1];
+        // Pixels without a region keep their 0.
+        self.region_of.insert(0, 0);
+        for label in labels {
+            *label = self.region_of[usize::from(*label)];
         }
     }
 
@@ -274,7 +276,7 @@ impl Grouping {
             }
         }
         for (at, &label) in labels.iter().enumerate() {
-            if label == 0 || self.differs[at] == 0 {
+            if self.differs[at] == 0 || label == 0 {
                 continue;
             }
             for other in steps.map(|step| labels.get(at + step).copied().unwrap_or_default()) {

@@ -1,7 +1,7 @@
 //! The cheapest cut of a run of rows into pieces of constant `q`, each piece at a price (dynamic programming).
 
 /// Starts whose lowest cost is kept together, to be passed over together.
-const BLOCK: usize = 8;
+const BLOCK: usize = 4;
 /// Costs that differ by less may differ by rounding alone, in squared noise.
 const ROUNDING: f64 = 1e-6;
 

@@ -20,8 +20,9 @@ pub(super) struct StripRows {
     disparity_px: Vec<f32>,
     g: Vec<f32>,
     sorted: Vec<f32>,
-    // One value a lane: noise, pixels seen, the middle q, those that agree with it, and their sum of g^2.
+    // One value a lane: noise, pixels that must agree, those that were seen, the middle q, and those that agree with it.
     sigma_px: Vec<f32>,
+    needed: Vec<f32>,
     seen: Vec<f32>,
     middle: Vec<f32>,
     agree: Vec<f32>,
@@ -36,15 +37,6 @@ impl StripRows {
         self.sort(rules, lanes);
         self.find_middles(rules.strip, lanes);
         self.average(rules, lanes);
-        for row in 0..lanes / strips {
-            for strip in 0..strips {
-                let columns = rules.strip.min(picture.width - strip * rules.strip);
-                let lane = row * strips + strip;
-                if self.agree[lane] < columns.div_ceil(2) as f32 {
-                    self.weight[lane] = 0.0;
-                }
-            }
-        }
     }
 
     /// Brings the pictures into lanes; what the last strip lacks is not seen.
@@ -53,6 +45,7 @@ impl StripRows {
         self.disparity_px.resize(strip * lanes, f32::NAN);
         self.g.resize(strip * lanes, 0.0);
         self.sigma_px.clear();
+        self.needed.clear();
         let lines = picture.disparity_px.chunks_exact(picture.width);
         let lines = lines.zip(picture.g.chunks_exact(picture.width));
         let lines = lines.zip(picture.sigma_px.chunks_exact(picture.width));
@@ -65,6 +58,7 @@ impl StripRows {
                     self.g[k * lanes + lane] = g;
                 }
                 self.sigma_px.push(sigma_px[sigma_px.len() / 2]);
+                self.needed.push(sigma_px.len().div_ceil(2) as f32);
                 lane += 1;
             }
         }
@@ -143,9 +137,11 @@ impl StripRows {
             }
         }
         let sums = self.q.iter_mut().zip(&mut self.weight);
-        for (((q, weight), &agree), &sigma) in sums.zip(&self.agree).zip(&self.sigma_px) {
+        let counts = self.agree.iter().zip(&self.needed);
+        for (((q, weight), (&agree, &needed)), &sigma) in sums.zip(counts).zip(&self.sigma_px) {
             *q /= *weight;
-            *weight = *weight / agree / (sigma * sigma);
+            let mean = *weight / agree / (sigma * sigma);
+            *weight = if agree < needed { 0.0 } else { mean };
         }
     }
 }
