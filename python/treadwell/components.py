@@ -10,6 +10,10 @@ COMPONENTS: Final[dict[str, dict[str, str]]] = {
     },
     "segmenter": {
         "scan_line": "planes by scan-line grouping, thresholds follow the local noise",
+        "scan_line_1994": "scan-line grouping as published: straight lines, fixed thresholds",
+        "hough": "planes in any direction by a randomised Hough transform",
+        "ransac": "planes in any direction by repeated random samples",
+        "histogram": "level surfaces by the peaks of a histogram of heights",
     },
     "localizer": {
         "odometry": "legs' odometry from encoders, gyro and foot contact",

@@ -6,7 +6,7 @@ use localization::{Localizer, OdometryLocalizer};
 use mapping::{Averaging, Fog, WorldModel};
 use planning::{AStar, Planner};
 use robot::{Body, Side};
-use segmentation::{ScanLine, Segmenter};
+use segmentation::{Histogram, Hough, Ransac, ScanLine, ScanLine1994, Segmenter};
 use sensing::Intrinsics;
 use stairs::{Feet, Recognizer};
 use walking::Walker;
@@ -43,13 +43,34 @@ pub(crate) fn segmenter(
     camera: Intrinsics,
 ) -> Result<Box<dyn Segmenter>, PilotError> {
     let tables = &settings.navigation.tables;
+    let ground = table(tables, "ground")?;
     match settings.navigation.segmenter.as_str() {
-        "scan_line" => Ok(Box::new(ScanLine::new(
-            &table(tables, "scan_line")?,
-            table(tables, "ground")?,
+        name @ "scan_line" => Ok(Box::new(ScanLine::new(
+            &table(tables, name)?,
+            ground,
             camera,
         )?)),
-        other => Err(unknown("segmenter", other, "scan_line")),
+        name @ "scan_line_1994" => Ok(Box::new(ScanLine1994::new(
+            &table(tables, name)?,
+            ground,
+            camera,
+        )?)),
+        name @ "hough" => Ok(Box::new(Hough::new(&table(tables, name)?, ground, camera)?)),
+        name @ "ransac" => Ok(Box::new(Ransac::new(
+            &table(tables, name)?,
+            ground,
+            camera,
+        )?)),
+        name @ "histogram" => Ok(Box::new(Histogram::new(
+            &table(tables, name)?,
+            ground,
+            camera,
+        )?)),
+        other => Err(unknown(
+            "segmenter",
+            other,
+            "scan_line, scan_line_1994, hough, ransac, histogram",
+        )),
     }
 }
 

@@ -1,6 +1,6 @@
 //! What makes one segmenter differ from the others: how it finds surfaces in a picture.
 
-use super::view::View;
+use super::view::{Linear, View};
 
 /// Most regions that are told apart in one frame; smaller ones are left out.
 pub(crate) const MAX_REGIONS: usize = 63;
@@ -18,15 +18,17 @@ pub struct Picture<'a> {
     pub sigma_px: &'a [f32],
 }
 
-/// A horizontal region.
+/// A region of one surface.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Region {
-    /// Disparity over `g`, 1/m.
+    /// Disparity over `g`, 1/m; 0 of a surface that is not horizontal.
     pub q: f32,
     /// Pixels.
     pub support: usize,
     /// Pixels that the erosion leaves.
     pub core: usize,
+    /// The disparities of its plane, px, from finders that find planes in any direction.
+    pub plane: Option<Linear>,
 }
 
 /// How often a picture was looked at.
@@ -38,8 +40,11 @@ pub enum Look {
     Again,
 }
 
-/// Finds horizontal surfaces.
+/// Finds surfaces.
 pub trait Finder: Send + Sync {
+    /// Whether it finds planes in any direction, not horizontal ones only.
+    const ANY_DIRECTION: bool;
+
     /// Fills `regions` with what `picture` shows under `view`, and `labels` with their pixels (0: none, i + 1: region i).
     /// Before another look both still hold what the last one left.
     fn find(

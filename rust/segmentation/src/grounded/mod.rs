@@ -19,6 +19,7 @@ mod steps;
 mod surfaces;
 #[cfg(test)]
 mod tests;
+mod tilted;
 mod view;
 mod walls;
 
@@ -36,8 +37,9 @@ use known::KnownLevels;
 use product::ProductBuffers;
 use reference::Reference;
 use surfaces::Surfaces;
-pub(crate) use view::View;
+pub(crate) use tilted::PlaneSums;
 use view::levelling;
+pub(crate) use view::{Linear, View};
 use walls::Walls;
 
 /// How far a tilt may be from the predicted one: sigma, rad, while tracked and while searched.

@@ -6,11 +6,12 @@ use geometry::{Outline, Plane, Point, Pose, Robot};
 use nalgebra::{Isometry3, Point2, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::steps::StepMarks;
+use super::tilted::{TiltedRecord, over_rays};
 use super::{Finder, Grounded, Levelled};
 use crate::{PlaneRegion, Planes};
 
-/// What a pixel without a level region has.
-const NO_FLOOR: (u16, f32) = (0, f32::NAN);
+/// What a pixel without a region has.
+const NO_REGION: (u16, f32) = (0, f32::NAN);
 
 /// Pixels of one region that lie side by side.
 #[derive(Debug, Clone)]
@@ -42,18 +43,20 @@ impl<F: Finder> Grounded<F> {
             rotation,
         ));
         self.place_points(levelled, &position, planes);
-        self.describe_level_regions(levelled, &position, planes);
+        self.describe_regions(levelled, &position, planes);
         let pixels = self.surfaces.labels.iter_mut();
         for (label, height_m) in pixels.zip(&mut planes.floor_height_m) {
             (*label, *height_m) = self.product.floors[usize::from(*label)];
         }
-        self.walls.find(
-            &self.surfaces.disparity_px,
-            &self.camera,
-            &self.surfaces.sigma_px,
-            &mut self.surfaces.labels,
-            planes,
-        );
+        if !F::ANY_DIRECTION {
+            self.walls.find(
+                &self.surfaces.disparity_px,
+                &self.camera,
+                &self.surfaces.sigma_px,
+                &mut self.surfaces.labels,
+                planes,
+            );
+        }
         planes.labels.copy_from_slice(&self.surfaces.labels);
         self.product.step_marks.mark(self.camera.width, planes);
     }
@@ -82,8 +85,8 @@ impl<F: Finder> Grounded<F> {
         }
     }
 
-    /// Describes each region that was grown as horizontal; those that turn out tilted get no floor height.
-    fn describe_level_regions(
+    /// Describes each region that was found; those that are tilted get no floor height.
+    fn describe_regions(
         &mut self,
         levelled: &Levelled,
         position: &Vector3<f64>,
@@ -91,13 +94,16 @@ impl<F: Finder> Grounded<F> {
     ) {
         planes.regions.clear();
         self.product.floors.clear();
-        self.product.floors.push(NO_FLOOR);
+        self.product.floors.push(NO_REGION);
         self.find_runs();
         let ground = planes.ground;
         for index in 0..self.surfaces.regions.len() {
             if !self.surfaces.is_level(index) {
-                // Slices of walls and of slopes: what is left for generic planes.
-                self.product.floors.push(NO_FLOOR);
+                let record = self.describe_tilted_region(index, planes);
+                // Slices of walls and of slopes have none: they are left for generic planes.
+                let number = record.as_ref().map_or(0, |_| planes.regions.len() + 1);
+                self.product.floors.push((number as u16, f32::NAN));
+                planes.regions.extend(record);
                 continue;
             }
             let height_m = if ground == Some(index) {
@@ -143,6 +149,22 @@ impl<F: Finder> Grounded<F> {
                 }
             }
         }
+    }
+
+    /// Describes a region whose plane the finder gave.
+    fn describe_tilted_region(&mut self, index: usize, planes: &Planes) -> Option<PlaneRegion> {
+        let in_camera = over_rays(&self.surfaces.regions[index].plane?, &self.camera);
+        let pose = planes.robot_from_camera.inner;
+        let corners = &mut self.product.corners;
+        let mut record = TiltedRecord::new(&self.camera, pose, in_camera, corners);
+        for (at, &label) in self.surfaces.labels.iter().enumerate() {
+            if usize::from(label) == index + 1 {
+                let (col, row) = (at % self.camera.width, at / self.camera.width);
+                let ray = Vector3::from(self.camera.ray(col, row));
+                record.add(&ray, in_camera.dot(&ray));
+            }
+        }
+        record.finish()
     }
 
     /// Collects where the outermost pixels of each row meet the region's plane; returns the number of pixels and the mean

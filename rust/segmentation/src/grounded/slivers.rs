@@ -44,6 +44,9 @@ impl Slivers {
                 let Some(region) = usize::from(label).checked_sub(1) else {
                     continue;
                 };
+                if regions[region].q == 0.0 {
+                    continue;
+                }
                 match &mut here {
                     Some(run) if run.region == region => run.last = row,
                     _ => {

@@ -179,6 +179,9 @@ impl<F: Finder> Surfaces<F> {
 
     /// Whether a region is horizontal, as far as it tells: no slope, no slice of a wall, no sliver at an edge.
     pub(super) fn is_level(&self, index: usize) -> bool {
+        if self.regions[index].q == 0.0 {
+            return false;
+        }
         let (tilt, certainty) = self.checks[index].own_tilt();
         let steep = tilt.norm() > STEEP_RAD && certainty > STEEP_SURE;
         self.fits[index].is_level(self.floor_tilt_rad) && !steep && !self.slivers.contains(index)

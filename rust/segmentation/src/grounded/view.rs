@@ -1,10 +1,10 @@
 //! How a level camera pose shows horizontal surfaces: on each of them disparity over `g` is one number.
 
-use nalgebra::Rotation3;
+use nalgebra::{Matrix3, Rotation3, Vector3};
 use sensing::Intrinsics;
 
 /// A function of the pixel that is linear in column and row.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Linear {
     /// Value at column 0, row 0.
     pub origin: f32,
@@ -15,6 +15,20 @@ pub struct Linear {
 }
 
 impl Linear {
+    /// The function `c` of `c.x * col + c.y * row + c.z`.
+    pub(crate) fn new(c: &Vector3<f64>) -> Self {
+        Self {
+            origin: c.z as f32,
+            per_col: c.x as f32,
+            per_row: c.y as f32,
+        }
+    }
+
+    /// `(per_col, per_row, origin)`.
+    pub(crate) fn coefficients(&self) -> Vector3<f64> {
+        Vector3::new(self.per_col, self.per_row, self.origin).map(f64::from)
+    }
+
     /// The value at a pixel.
     pub fn at(&self, col: usize, row: usize) -> f32 {
         self.origin + self.per_col * col as f32 + self.per_row * row as f32
@@ -58,6 +72,18 @@ impl View {
             y: row(1, 1.0),
             g: row(2, -1.0),
         }
+    }
+
+    /// Turns a plane's disparities `(per_col, per_row, origin)` into what they are made of: `(a, b, q)` with
+    /// `d = a X + b Y + q g`. `(-a, -b, q)` is the plane's normal in the levelled axes, towards the camera, over its
+    /// distance from the camera, 1/m; a horizontal plane has no `a`, `b`.
+    pub(crate) fn parts_of_planes(&self) -> Option<Matrix3<f64>> {
+        Matrix3::from_columns(&[
+            self.x.coefficients(),
+            self.y.coefficients(),
+            self.g.coefficients(),
+        ])
+        .try_inverse()
     }
 
     /// Fills `out` with `g` of every pixel, row by row.

@@ -1,12 +1,11 @@
 //! Planes in any direction among the pixels that no horizontal surface took: walls, sides of boxes, slopes.
 //!
-//! In disparity such a plane is linear in the pixel, `d = a x + b y + c` with `x`, `y` the ray of the pixel, and
-//! `(a, b, c)` is its normal in the camera's frame. Blocks of pixels are fitted, then grown together as long as they agree.
+//! Blocks of pixels are fitted, then grown together as long as they agree.
 
-use geometry::{Outline, Plane, Point};
-use nalgebra::{Matrix3, Point2, Point3, Unit, Vector3};
+use nalgebra::{Point2, Vector3};
 use sensing::Intrinsics;
 
+use super::tilted::{PlaneSums, TiltedRecord};
 use crate::{PlaneRegion, Planes};
 
 /// Side of a block, pixels.
@@ -20,41 +19,10 @@ const SMOOTH: f64 = 1.3;
 const AGREE: f64 = 2.5;
 /// A pixel belongs to a plane when closer than this, in noise.
 const ACCEPT: f64 = 2.5;
-/// Planes steeper than this are a line from above: cosine of 80 degrees.
-const STEEP: f64 = 0.174;
-
-#[derive(Debug, Clone, Copy, Default)]
-struct Sums {
-    moments: Matrix3<f64>,
-    products: Vector3<f64>,
-    squares: f64,
-}
-
-impl Sums {
-    fn add(&mut self, ray: [f64; 3], d: f64) {
-        let ray = Vector3::from(ray);
-        self.moments += ray * ray.transpose();
-        self.products += ray * d;
-        self.squares += d * d;
-    }
-
-    fn count(&self) -> f64 {
-        self.moments[(2, 2)]
-    }
-
-    fn plane(&self) -> Option<Vector3<f64>> {
-        let plane = self.moments.try_inverse()? * self.products;
-        plane.iter().all(|value| value.is_finite()).then_some(plane)
-    }
-
-    fn roughness_px(&self, plane: &Vector3<f64>) -> f64 {
-        ((self.squares - self.products.dot(plane)).max(0.0) / self.count()).sqrt()
-    }
-}
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Block {
-    sums: Sums,
+    sums: PlaneSums,
     plane: Option<Vector3<f64>>,
     taken: bool,
 }
@@ -102,7 +70,7 @@ impl Walls {
     fn fit_blocks(&mut self, image: &Image<'_>, labels: &[u16]) {
         self.blocks.clear();
         for block in 0..image.across * image.down {
-            let mut sums = Sums::default();
+            let mut sums = PlaneSums::default();
             if image.free_pixels(block, labels) >= MIN_BLOCK {
                 for (col, row) in image.pixels(block) {
                     let at = row * image.camera.width + col;
@@ -143,9 +111,7 @@ impl Walls {
                 if image.apart_px(beside, &plane, &other) < AGREE * image.block_sigma_px(beside) {
                     self.blocks[beside].taken = true;
                     self.members.push(beside);
-                    sums.moments += block.sums.moments;
-                    sums.products += block.sums.products;
-                    sums.squares += block.sums.squares;
+                    sums.join(&block.sums);
                     plane = sums.plane()?;
                 }
             }
@@ -162,14 +128,7 @@ impl Walls {
         planes: &Planes,
     ) -> Option<PlaneRegion> {
         let pose = planes.robot_from_camera.inner;
-        let scale = image.camera.focal_px * image.camera.baseline_m;
-        let normal = Unit::new_normalize(pose.rotation * -in_camera);
-        let plane = Plane {
-            normal,
-            distance_m: normal.dot(&pose.translation.vector) - scale / in_camera.norm(),
-        };
-        let (mut support, mut sum) = (0_usize, Vector3::zeros());
-        self.corners.clear();
+        let mut record = TiltedRecord::new(image.camera, pose, *in_camera, &mut self.corners);
         for &block in &self.members {
             for (col, row) in image.pixels(block) {
                 let at = row * image.camera.width + col;
@@ -179,22 +138,11 @@ impl Walls {
                 let close = miss.abs() < ACCEPT * f64::from(image.sigma_px[at]);
                 if labels[at] == 0 && close && there > 0.0 {
                     labels[at] = label;
-                    support += 1;
-                    let point = pose * Point3::from(ray * (scale / there));
-                    sum += point.coords;
-                    self.corners.push(point.xy());
+                    record.add(&ray, there);
                 }
             }
         }
-        (support > 0).then(|| PlaneRegion {
-            support,
-            mean: Point::wrap(Point3::from(sum / support as f64)),
-            plane,
-            boundary: (normal.z.abs() > STEEP)
-                .then(|| Outline::hull(&self.corners).ok())
-                .flatten(),
-            floor_height_m: None,
-        })
+        record.finish()
     }
 }
 

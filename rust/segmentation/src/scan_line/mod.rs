@@ -67,6 +67,8 @@ impl ScanLines {
 }
 
 impl Finder for ScanLines {
+    const ANY_DIRECTION: bool = false;
+
     /// At the first look lines are joined; later ones let the regions take in pixels and join, too.
     fn find(
         &mut self,

@@ -1,0 +1,103 @@
+//! Repeated random sample consensus: the segmenter `ransac`.
+//!
+//! After Fischler and Bolles (1981): of many planes through three pixels anywhere in the picture the one that most pixels lie
+//! on, refined by least squares; its pixels are taken away, and so on. Planes are free: where steps are lower than the
+//! noise allows, the one through their edges has the most pixels.
+
+mod config;
+
+use geometry::ConfigError;
+use sensing::Intrinsics;
+
+use crate::free_planes::{Draws, FreePlanes, Remaining, through};
+use crate::grounded::{Finder, GroundConfig, Grounded, Linear, Look, Picture, Region, View};
+pub use config::RansacConfig;
+
+/// Every so many pixels one is asked whether it lies on a plane that is tried.
+const STRIDE: usize = 4;
+
+/// The segmenter of free planes by random samples.
+pub type Ransac = Grounded<Consensus>;
+
+impl Ransac {
+    /// A segmenter for this camera that knows nothing of the camera's errors yet.
+    pub fn new(
+        config: &RansacConfig,
+        ground: GroundConfig,
+        camera: Intrinsics,
+    ) -> Result<Self, ConfigError> {
+        config.check()?;
+        let finder = Consensus {
+            samples: config.samples,
+            accept_px: config.accept as f32,
+            min_plane: config.min_plane,
+            planes: FreePlanes::default(),
+            remaining: Remaining::default(),
+        };
+        Self::around(finder, ground, camera)
+    }
+}
+
+/// Finds planes by random samples. Keeps its buffers.
+#[derive(Debug, Clone)]
+pub struct Consensus {
+    samples: usize,
+    accept_px: f32,
+    min_plane: usize,
+    planes: FreePlanes,
+    remaining: Remaining,
+}
+
+impl Consensus {
+    /// Of the planes that are tried, the one that most of the remaining pixels lie on; of equals the first.
+    fn best(&self, draws: &mut Draws) -> Option<Linear> {
+        let mut best: Option<(usize, Linear)> = None;
+        for _ in 0..self.samples {
+            let triple = std::array::from_fn(|_| self.remaining.draw(draws));
+            let Some(plane) = through(triple) else {
+                continue;
+            };
+            let count = self.remaining.on(&plane, self.accept_px, STRIDE);
+            if best.is_none_or(|(most, _)| count > most) {
+                best = Some((count, plane));
+            }
+        }
+        best.map(|(_, plane)| plane)
+    }
+
+    fn find_planes(&mut self, picture: Picture<'_>, labels: &mut [u16]) {
+        let mut draws = Draws::of_frame(picture.disparity_px);
+        self.remaining.read(picture);
+        self.planes.clear();
+        labels.fill(0);
+        while self.remaining.count() >= self.min_plane && !self.planes.is_full() {
+            let Some(guess) = self.best(&mut draws) else {
+                return;
+            };
+            let plane = self.remaining.refine(guess, self.accept_px);
+            if self.remaining.on(&plane, self.accept_px, 1) < self.min_plane {
+                return;
+            }
+            let label = self.planes.add(plane);
+            self.remaining.take(&plane, self.accept_px, label, labels);
+        }
+    }
+}
+
+impl Finder for Consensus {
+    const ANY_DIRECTION: bool = true;
+
+    fn find(
+        &mut self,
+        picture: Picture<'_>,
+        view: &View,
+        look: Look,
+        regions: &mut Vec<Region>,
+        labels: &mut [u16],
+    ) {
+        if look == Look::First {
+            self.find_planes(picture, labels);
+        }
+        self.planes.show(view, labels, regions);
+    }
+}
