@@ -136,7 +136,13 @@ impl WorldModel for Fog {
                 weight: u64::from(sightings),
             })
         };
-        let shift = height_shift(&self.frame, pair, config.match_gate, config.min_pairs);
+        // The ground that the robot stands on tells a frame's height best. To fit that frame to floor that was seen from far before
+        // would carry the errors of that from level to level.
+        let shift = if planes.ground.is_some() {
+            None
+        } else {
+            height_shift(&self.frame, pair, config.match_gate, config.min_pairs)
+        };
         let used = planes.reliable || shift.is_some();
         if used {
             self.frame.raise(shift.unwrap_or(0.0));
