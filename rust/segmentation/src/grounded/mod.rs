@@ -42,8 +42,9 @@ use view::levelling;
 pub(crate) use view::{Linear, View};
 use walls::Walls;
 
-/// How far a tilt may be from the predicted one: sigma, rad, while tracked and while searched.
-const TRACKED_RAD: f64 = 0.008;
+/// How far a tilt may be from the predicted one: sigma, rad, while tracked and while searched. Attitude and joints err by a
+/// tenth of a degree from frame to frame, what one frame shows by two to five.
+const TRACKED_RAD: f64 = 0.002;
 const SEARCHED_RAD: f64 = 0.1;
 /// Step of the search for the tilt while tracked, and last step of the search from nothing, rad.
 const TRACK_STEP_RAD: f64 = 0.012;
