@@ -8,7 +8,7 @@ use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use robot::{Body, Side};
 
 use crate::GaitConfig;
-use crate::gait::{FootPose, Phase};
+use crate::gait::{FootPose, Manner, Phase};
 use crate::support::{Pressure, sole_corners};
 
 /// Smoothing of the measured forces, s.
@@ -60,7 +60,10 @@ impl Ankles {
             let arms = self.corners[index].map(|corner| corner - Vector2::new(x, y));
             sole.feel(&arms, &forces_n[index], passed_s);
             if sole.load_n > self.config.landing_load {
-                sole.give_way(&self.config, passed_s);
+                sole.forget(self.config.ankle_leak, passed_s);
+                if !on_listed_steps(phase) {
+                    sole.give_way(&self.config, passed_s);
+                }
             } else if matches!(phase, Phase::Single { swing, .. } if swing.side == side) {
                 sole.forget(LEVEL_RATE, passed_s);
             }
@@ -72,6 +75,18 @@ impl Ankles {
         let tilt = &self.soles[side.index()].tilt_rad;
         UnitQuaternion::from_scaled_axis(Vector3::new(tilt.y, -tilt.x, 0.0))
     }
+}
+
+/// Whether a step of a list comes or is under way: the list says what bears, and there the ankles only hold.
+fn on_listed_steps(phase: &Phase) -> bool {
+    let (Phase::Double {
+        next: Some(swing), ..
+    }
+    | Phase::Single { swing, .. }) = phase
+    else {
+        return false;
+    };
+    swing.manner != Manner::Walk
 }
 
 impl Sole {
@@ -91,7 +106,6 @@ impl Sole {
 
     /// Turns the side up that carries too much.
     fn give_way(&mut self, config: &GaitConfig, passed_s: f64) {
-        self.forget(config.ankle_leak, passed_s);
         let error = self.excess_nm / self.load_n;
         let (dead, fastest, most) = (
             config.ankle_deadband,
@@ -109,7 +123,7 @@ impl Sole {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gait::{Manner, Swing};
+    use crate::gait::Swing;
     use crate::test_biped::{biped, config};
     use proptest::prelude::*;
 
