@@ -33,6 +33,19 @@ def test_every_slot_has_a_protocol_with_the_methods_that_are_asked_for() -> None
         assert own == set(methods)
 
 
+@pytest.mark.parametrize(
+    ("slot", "name"), [(slot, name) for slot, names in COMPONENTS.items() for name in names]
+)
+def test_every_component_of_the_list_takes_its_slot(slot: str, name: str) -> None:
+    choice = f"navigation.{slot}={name}"
+    episode = treadwell.Episode("slalom", seed=2, overrides=("time_limit=1.6", choice))
+    for _ in episode:
+        pass
+    assert episode.pilot.frames_used > 0
+    assert (episode.pilot.view().kind == 1).sum() > 100
+    assert episode.pilot.planes().ground is not None
+
+
 def test_a_planner_is_given_map_stairs_pose_and_goal_and_its_path_is_taken() -> None:
     part = Straight(points=7)
     episode = run(planner=part)
