@@ -194,6 +194,16 @@ def test_a_sole_shares_a_force_as_a_stiff_plate_does(x: float, y: float, yaw: fl
     assert forces @ corners / 20.0 == pytest.approx([x, y], abs=1e-9)
 
 
+@pytest.mark.parametrize("force", [[15.0, 0.0, 0.0], [0.0, -15.0, 0.0], [0.0, 0.0, 15.0]])
+def test_what_pushes_along_a_sole_or_pulls_at_it_is_not_felt(force: list[float]) -> None:
+    data = state()
+    mujoco.mj_kinematics(MODEL, data)
+    data.sensordata[:3] = data.body("body").xmat.reshape(3, 3) @ force
+    data.sensordata[3:] = data.body("body").xpos + np.array([0.05, 0.0, -0.1])
+    forces = FootForces(MODEL, SOLES, 0.0, 0.0, stream(0, "f")).read(data)
+    assert np.abs(forces).max() < 1e-12
+
+
 def test_foot_forces_are_noisy_and_never_pull() -> None:
     data = standing()
     exact = FootForces(MODEL, SOLES, 0.0, 0.0, stream(0, "f")).read(data)

@@ -226,9 +226,11 @@ class FootForces:
         """Return what each sensor truly carries, (2, 4) N."""
         force, place = np.split(data.sensordata[self._at], 2, axis=1)
         rotations = data.xmat[self._links].reshape(-1, 3, 3)
+        # What pushes along the sole, as a riser at the toe does, no sensor under it feels.
+        pressing = np.maximum(-np.einsum("kj,kj->k", rotations[:, :, 2], force), 0.0)
         in_link = np.einsum("kji,kj->ki", rotations, place - data.xpos[self._links])
         share = np.clip(0.5 + (in_link - self._centers)[:, :2] / self._sizes, 0.0, 1.0)
         along = np.stack([share[:, 0], 1.0 - share[:, 0]], axis=1)
         across = np.stack([share[:, 1], 1.0 - share[:, 1]], axis=1)
         corners = (along[:, :, None] * across[:, None, :]).reshape(-1, 4)
-        return np.asarray(np.linalg.norm(force, axis=1)[:, None] * corners, np.float64)
+        return np.asarray(pressing[:, None] * corners, np.float64)
