@@ -57,18 +57,6 @@ const AHEAD: usize = 5;
 const ABOVE: usize = 6;
 type State = SVector<f64, STATES>;
 
-/// What one frame's ground says of the predicted camera.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Evidence {
-    /// A further turn about the robot's x and y as the frame alone shows it, rad: what is learned of many frames must not be
-    /// drawn to what is believed already.
-    pub(super) turn_rad: Vector2<f64>,
-    /// The same, drawn to the prediction: the turn with which the frame is shown, and its rise was found.
-    pub(super) shown_rad: Vector2<f64>,
-    /// A rise, m.
-    pub(super) rise_m: f64,
-}
-
 /// The filtered correction.
 #[derive(Debug, Clone)]
 pub(super) struct Correction {
@@ -145,13 +133,14 @@ impl Correction {
         ))
     }
 
-    /// Takes in what a found ground says of the predicted camera. A young track that it contradicts is given up.
-    pub(super) fn found(&mut self, predicted: &Pose<Robot, Camera>, evidence: &Evidence) {
-        let Evidence {
-            turn_rad,
-            shown_rad,
-            rise_m,
-        } = evidence;
+    /// Takes in what a found ground says: a further turn about the robot's x and y (rad) and a rise (m) of the predicted
+    /// camera. A young track that it contradicts is given up.
+    pub(super) fn found(
+        &mut self,
+        predicted: &Pose<Robot, Camera>,
+        turn_rad: &Vector2<f64>,
+        rise_m: f64,
+    ) {
         self.wander();
         let axes = predicted.inner.rotation.to_rotation_matrix();
         let (pitch, roll) = (axes * Vector3::x(), axes * Vector3::z());
@@ -162,7 +151,7 @@ impl Correction {
         // Tilt and height of one frame err together, so that the floor in the picture is right: its height is measured.
         let away_m = middle_of_picture_m(&predicted.inner.translation.vector, &roll);
         let floor_rises = rises + about_x * away_m.y - about_y * away_m.x;
-        let floor_rise_m = rise_m + shown_rad.x * away_m.y - shown_rad.y * away_m.x;
+        let floor_rise_m = rise_m + turn_rad.x * away_m.y - turn_rad.y * away_m.x;
         let contradicts = turn_rad.norm() > CONTRADICTS_RAD || floor_rise_m.abs() > CONTRADICTS_M;
         if contradicts && self.found > 0 && !self.is_settled() {
             *self = Self::new();

@@ -29,7 +29,7 @@ use sensing::{Intrinsics, Scan};
 
 use crate::{KnownFloor, NothingKnown, Planes, SegmentError, Segmenter};
 pub use config::GroundConfig;
-use correction::{Correction, Evidence};
+use correction::Correction;
 pub(crate) use finder::{Finder, Look, MAX_REGIONS, Picture, Region};
 use fit::shared_tilt;
 use horizon::{HorizonSearch, SearchArea};
@@ -42,11 +42,8 @@ use view::levelling;
 pub(crate) use view::{Linear, View};
 use walls::Walls;
 
-/// How far a tilt may be from the predicted one: sigma, rad, while tracked and while searched. Attitude and joints err by a
-/// tenth of a degree from frame to frame, what one frame shows by two to five.
-const TRACKED_RAD: f64 = 0.002;
-/// The same for what the correction learns from.
-const LEARNED_RAD: f64 = 0.008;
+/// How far a tilt may be from the predicted one: sigma, rad, while tracked and while searched.
+const TRACKED_RAD: f64 = 0.008;
 const SEARCHED_RAD: f64 = 0.1;
 /// Step of the search for the tilt while tracked, and last step of the search from nothing, rad.
 const TRACK_STEP_RAD: f64 = 0.012;
@@ -70,8 +67,6 @@ pub struct Grounded<F> {
 struct Levelled {
     predicted: Pose<Robot, Camera>,
     tilt: Vector2<f64>,
-    /// The tilt by this frame with hardly any regard to the prediction.
-    measured: Vector2<f64>,
     view: View,
 }
 
@@ -81,7 +76,6 @@ impl Levelled {
         Self {
             predicted,
             tilt,
-            measured: tilt,
             view: View::new(camera, &rotation),
         }
     }
@@ -89,17 +83,6 @@ impl Levelled {
     /// The turn from the predicted camera to the levelled one, robot's axes.
     fn turn(&self) -> Rotation3<f64> {
         levelling(self.tilt.x, self.tilt.y)
-    }
-
-    /// What the frame says of the predicted camera, which its ground wants so much higher.
-    fn evidence(&self, rise_m: f64) -> Evidence {
-        Evidence {
-            turn_rad: levelling(self.measured.x, self.measured.y)
-                .scaled_axis()
-                .xy(),
-            shown_rad: self.turn().scaled_axis().xy(),
-            rise_m,
-        }
     }
 
     /// The tilt on top of the prediction after a further one was found in the levelled axes.
@@ -137,10 +120,10 @@ impl<F: Finder> Grounded<F> {
     /// Finds the camera's tilt against the prediction and the regions that are seen with it.
     fn level(&mut self, predicted: Pose<Robot, Camera>) -> Levelled {
         let searching = self.searching();
-        let (shown_rad, learned_rad, level_rad) = if searching {
-            (SEARCHED_RAD, SEARCHED_RAD, 1.3 * self.config.floor_tilt)
+        let (sigma, level_rad) = if searching {
+            (SEARCHED_RAD, 1.3 * self.config.floor_tilt)
         } else {
-            (TRACKED_RAD, LEARNED_RAD, self.config.floor_tilt)
+            (TRACKED_RAD, self.config.floor_tilt)
         };
         let mut levelled = Levelled::new(&self.camera, predicted, Vector2::zeros());
         let guess = self.guess_tilt(&levelled);
@@ -148,14 +131,8 @@ impl<F: Finder> Grounded<F> {
         for look in [Look::First, Look::Again] {
             self.surfaces.find(&levelled.view, look);
             let expected = -levelled.tilt;
-            let [tilt, measured] = [shown_rad, learned_rad].map(|sigma_rad| {
-                let fits = &self.surfaces.fits;
-                levelled.further(&shared_tilt(fits, level_rad, &expected, sigma_rad))
-            });
-            levelled = Levelled {
-                measured,
-                ..Levelled::new(&self.camera, predicted, tilt)
-            };
+            let tilt = shared_tilt(&self.surfaces.fits, level_rad, &expected, sigma);
+            levelled = Levelled::new(&self.camera, predicted, levelled.further(&tilt));
         }
         self.surfaces.refit(&levelled.view);
         levelled
@@ -209,6 +186,7 @@ impl<F: Finder> Segmenter for Grounded<F> {
         let predicted = self.correction.predict(&scan.robot_from_camera);
         let mut levelled = self.level(predicted);
         let reference = self.find_reference(&levelled, known);
+        let turn = levelled.turn().scaled_axis().xy();
         let (mut ground, mut rise_m) = (None, 0.0);
         match reference {
             Reference::Ground {
@@ -216,13 +194,11 @@ impl<F: Finder> Segmenter for Grounded<F> {
                 rise_m: rise,
             } => {
                 (ground, rise_m) = (Some(region), rise);
-                self.correction
-                    .found(&predicted, &levelled.evidence(rise_m));
+                self.correction.found(&predicted, &turn, rise_m);
             }
             Reference::Known { rise_m: rise } => {
                 rise_m = rise;
-                self.correction
-                    .found(&predicted, &levelled.evidence(rise_m));
+                self.correction.found(&predicted, &turn, rise_m);
             }
             Reference::Level => self.correction.confirmed(),
             Reference::None => {

@@ -12,11 +12,8 @@ use super::noise::NoiseMap;
 use super::slivers::Slivers;
 use super::view::View;
 
-/// Columns and rows to each side that are taken off a region before its height is fitted: half a window of 5 and one more (7x5).
+/// Columns and rows to each side that are taken off a region before a fit: half a window of 5 and one more (7x5).
 const EROSION: (usize, usize) = (2, 3);
-/// The same before its tilt is. Up to three rows of what meets it at a crease, a riser or a wall, lie within the noise of its
-/// plane and count as its own: they bend its far end up and its near end down, always the same way.
-const TILT_EROSION: (usize, usize) = (2, 6);
 /// The same for the check for slices of walls: thin regions, of which 7x5 leaves too little.
 const LIGHT_EROSION: (usize, usize) = (1, 1);
 /// Pixels that must be left for a fit; else all of the region's count.
@@ -108,7 +105,7 @@ impl<F: Finder> Surfaces<F> {
         }
     }
 
-    /// Finds the regions in the view, and fits their tilt.
+    /// Finds the regions in the view, and fits them.
     pub(super) fn find(&mut self, view: &View, look: Look) {
         view.fill(self.width, &mut self.g);
         let picture = Picture {
@@ -123,13 +120,24 @@ impl<F: Finder> Surfaces<F> {
             labels,
             picture.disparity_px,
             self.width,
-            TILT_EROSION,
+            EROSION,
             &mut self.eroded,
         );
+        let mut left = [0_u32; MAX_REGIONS + 1];
+        for run in self.eroded.chunk_by(|a, b| a == b) {
+            left[usize::from(run[0])] += run.len() as u32;
+        }
+        for (region, &left) in regions.iter_mut().zip(&left[1..]) {
+            region.core = left as usize;
+        }
+        let small = left.map(|left| left < MIN_FIT);
+        if small[1..=regions.len()].contains(&true) {
+            keep_where(labels, &mut self.eroded, &small);
+        }
         fit_regions(picture, view, regions, &self.eroded, &mut self.fits);
     }
 
-    /// Fits the regions' heights after a small turn of the view, and checks the thin ones over more of their pixels.
+    /// Fits the regions anew after a small turn of the view, and checks the thin ones over more of their pixels.
     pub(super) fn refit(&mut self, view: &View) {
         view.fill(self.width, &mut self.g);
         let picture = Picture {
@@ -138,24 +146,6 @@ impl<F: Finder> Surfaces<F> {
             g: &self.g,
             sigma_px: &self.sigma_px,
         };
-        self.erosion.erode(
-            &self.labels,
-            picture.disparity_px,
-            self.width,
-            EROSION,
-            &mut self.eroded,
-        );
-        let mut left = [0_u32; MAX_REGIONS + 1];
-        for run in self.eroded.chunk_by(|a, b| a == b) {
-            left[usize::from(run[0])] += run.len() as u32;
-        }
-        for (region, &left) in self.regions.iter_mut().zip(&left[1..]) {
-            region.core = left as usize;
-        }
-        let small = left.map(|left| left < MIN_FIT);
-        if small[1..=self.regions.len()].contains(&true) {
-            keep_where(&self.labels, &mut self.eroded, &small);
-        }
         fit_regions(picture, view, &self.regions, &self.eroded, &mut self.fits);
         for (region, fit) in self.regions.iter_mut().zip(&self.fits) {
             region.q = fit.q(&Vector2::zeros()) as f32;
