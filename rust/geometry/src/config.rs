@@ -30,9 +30,25 @@ pub fn require(
     }
 }
 
+/// `Ok` where `value` can be a length, a time, a weight: finite and above 0.
+pub fn require_positive(key: &str, value: f64) -> Result<(), ConfigError> {
+    let usable = value.is_finite() && value > 0.0;
+    require(usable, key, "finite and > 0", value)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_not_positive_or_no_number_is_refused() {
+        for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let error = require_positive("a.key", value).unwrap_err();
+            let said = format!("a.key must be finite and > 0, got {value}");
+            assert_eq!(error.to_string(), said);
+        }
+        assert_eq!(require_positive("a.key", 1e-9), Ok(()));
+    }
 
     #[test]
     fn the_message_names_key_limit_and_value() {

@@ -28,7 +28,7 @@ mod plane;
 mod pose;
 
 pub use angle::{angle_between, wrap_angle};
-pub use config::{ConfigError, require};
+pub use config::{ConfigError, require, require_positive};
 pub use frames::{Camera, LeftSole, Map, Odometry, RightSole, Robot, Torso, World};
 pub use lattice::{Cell, CellArea, Grid, Lattice};
 pub use outline::{Cut, Outline, OutlineError};

@@ -1,6 +1,6 @@
 //! Settings that all segmenters share: `[navigation.ground]`.
 
-use geometry::{ConfigError, require};
+use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
 
 /// The noise of the disparities, the smallest region, and how the ground is found and followed.
@@ -74,12 +74,7 @@ impl GroundConfig {
             ("track_height", self.track_height),
             ("known_height", self.known_height),
         ] {
-            require(
-                value.is_finite() && value > 0.0,
-                &key(name),
-                "finite and > 0",
-                value,
-            )?;
+            require_positive(&key(name), value)?;
         }
         for (name, value) in [
             ("search_tilt", self.search_tilt),

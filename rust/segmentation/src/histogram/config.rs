@@ -1,6 +1,6 @@
 //! Settings of the segmenter `histogram`.
 
-use geometry::{ConfigError, require};
+use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
 
 /// Settings of [`super::Histogram`]: `[navigation.histogram]`.
@@ -37,8 +37,7 @@ impl HistogramConfig {
             self.bin,
         )?;
         for (name, value) in [("apart", self.apart), ("accept", self.accept)] {
-            let usable = value > 0.0 && value.is_finite();
-            require(usable, &key(name), "finite and > 0", value)?;
+            require_positive(&key(name), value)?;
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Settings of the segmenter `hough`.
 
-use geometry::{ConfigError, require};
+use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
 
 /// Settings of [`super::Hough`]: `[navigation.hough]`.
@@ -53,8 +53,7 @@ impl HoughConfig {
             let allowed = format!("{least} to {most}");
             require((least..=most).contains(&value), &key(name), &allowed, value)?;
         }
-        let usable = self.accept > 0.0 && self.accept.is_finite();
-        require(usable, &key("accept"), "finite and > 0", self.accept)?;
+        require_positive(&key("accept"), self.accept)?;
         let least = self.min_plane;
         require(least >= 3, &key("min_plane"), ">= 3 pixels", least)
     }

@@ -1,6 +1,6 @@
 //! Settings of the segmenter `ransac`.
 
-use geometry::{ConfigError, require};
+use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
 
 /// Settings of [`super::Ransac`]: `[navigation.ransac]`.
@@ -37,8 +37,7 @@ impl RansacConfig {
             allowed,
             samples,
         )?;
-        let usable = accept > 0.0 && accept.is_finite();
-        require(usable, &key("accept"), "finite and > 0", accept)?;
+        require_positive(&key("accept"), accept)?;
         require(least >= 3, &key("min_plane"), ">= 3 pixels", least)
     }
 }

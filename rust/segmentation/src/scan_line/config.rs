@@ -1,6 +1,6 @@
 //! Settings of the scan-line segmenter: `[navigation.scan_line]`.
 
-use geometry::{ConfigError, require};
+use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
 
 use super::strips::MAX_STRIP;
@@ -42,12 +42,7 @@ impl ScanLineConfig {
             ("join", self.join),
             ("accept", self.accept),
         ] {
-            require(
-                value.is_finite() && value > 0.0,
-                &key(name),
-                "finite and > 0",
-                value,
-            )?;
+            require_positive(&key(name), value)?;
         }
         require(
             (1..=MAX_STRIP).contains(&self.strip),

@@ -1,6 +1,6 @@
 //! Settings of the segmenter `scan_line_1994`.
 
-use geometry::{ConfigError, require};
+use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
 
 /// Settings of [`super::ScanLine1994`]: `[navigation.scan_line_1994]`. The thresholds are fixed, whatever the local noise;
@@ -41,8 +41,7 @@ impl ScanLine1994Config {
             strip,
         )?;
         for (name, value) in [("split", self.split), ("accept", self.accept)] {
-            let usable = value > 0.0 && value.is_finite();
-            require(usable, &key(name), "finite and > 0", value)?;
+            require_positive(&key(name), value)?;
         }
         require(least >= 2, &key("min_segment"), ">= 2 pixels", least)
     }
