@@ -1,10 +1,12 @@
 //! Planes in any direction: what the finders share that look for them all over the picture.
 
 mod draws;
+mod peeling;
 mod remaining;
 
 use crate::grounded::{Linear, MAX_REGIONS, Picture, Region, View};
 pub(crate) use draws::Draws;
+pub(crate) use peeling::Peeling;
 pub(crate) use remaining::{Pixel, Remaining, through};
 
 /// A plane that is tilted by more than this is none to stand on, rad; half of the slope of a staircase. What is tilted by less

@@ -11,8 +11,8 @@ use geometry::ConfigError;
 use nalgebra::{Matrix3, Vector3};
 use sensing::Intrinsics;
 
-use crate::free_planes::{Draws, FreePlanes, Pixel, Remaining, through};
-use crate::grounded::{Finder, GroundConfig, Grounded, Look, Picture, Region, View};
+use crate::free_planes::{Draws, Peeling, Pixel, Remaining, through};
+use crate::grounded::{Finder, GroundConfig, Grounded, Linear, Look, Picture, Region, View};
 use accumulator::Accumulator;
 pub use config::HoughConfig;
 
@@ -28,13 +28,12 @@ impl Hough {
     ) -> Result<Self, ConfigError> {
         config.check()?;
         let finder = Votes {
-            accumulator: Accumulator::new(config.angle, config.distance),
-            samples: config.samples,
-            window: config.window,
-            accept_px: config.accept as f32,
-            min_plane: config.min_plane,
-            planes: FreePlanes::default(),
-            remaining: Remaining::default(),
+            ballot: Ballot {
+                accumulator: Accumulator::new(config.angle, config.distance),
+                samples: config.samples,
+                window: config.window,
+            },
+            peeling: Peeling::new(config.accept as f32, config.min_plane),
         };
         Self::around(finder, ground, camera)
     }
@@ -43,27 +42,30 @@ impl Hough {
 /// Finds planes by votes. Keeps its buffers.
 #[derive(Debug, Clone)]
 pub struct Votes {
-    samples: usize,
-    window: usize,
-    accept_px: f32,
-    min_plane: usize,
-    accumulator: Accumulator,
-    planes: FreePlanes,
-    remaining: Remaining,
+    ballot: Ballot,
+    peeling: Peeling,
 }
 
-impl Votes {
-    /// Lets triples of the remaining pixels vote.
-    fn vote(
+#[derive(Debug, Clone)]
+struct Ballot {
+    samples: usize,
+    window: usize,
+    accumulator: Accumulator,
+}
+
+impl Ballot {
+    /// The plane that most triples of the remaining pixels vote for.
+    fn elect(
         &mut self,
         picture: Picture<'_>,
-        labels: &[u16],
         parts_of: &Matrix3<f64>,
+        remaining: &Remaining,
+        labels: &[u16],
         draws: &mut Draws,
-    ) {
+    ) -> Option<Linear> {
         self.accumulator.clear();
         for _ in 0..self.samples {
-            let first = self.remaining.draw(draws);
+            let first = remaining.draw(draws);
             let beside = [(); 2].map(|()| near(picture, labels, first, self.window, draws));
             let [Some(second), Some(third)] = beside else {
                 continue;
@@ -74,28 +76,7 @@ impl Votes {
                 self.accumulator.vote(plane, &normal);
             }
         }
-    }
-
-    fn find_planes(&mut self, picture: Picture<'_>, view: &View, labels: &mut [u16]) {
-        let mut draws = Draws::of_frame(picture.disparity_px);
-        self.remaining.read(picture);
-        self.planes.clear();
-        labels.fill(0);
-        let Some(parts_of) = view.parts_of_planes() else {
-            return;
-        };
-        while self.remaining.count() >= self.min_plane && !self.planes.is_full() {
-            self.vote(picture, labels, &parts_of, &mut draws);
-            let Some(peak) = self.accumulator.peak() else {
-                return;
-            };
-            let plane = self.remaining.refine(peak, self.accept_px);
-            if self.remaining.on(&plane, self.accept_px, 1) < self.min_plane {
-                return;
-            }
-            let label = self.planes.add(plane);
-            self.remaining.take(&plane, self.accept_px, label, labels);
-        }
+        self.accumulator.peak()
     }
 }
 
@@ -127,8 +108,12 @@ impl Finder for Votes {
         labels: &mut [u16],
     ) {
         if look == Look::First {
-            self.find_planes(picture, view, labels);
+            let (ballot, parts_of) = (&mut self.ballot, view.parts_of_planes());
+            self.peeling
+                .peel(picture, labels, |remaining, labels, draws| {
+                    ballot.elect(picture, &parts_of?, remaining, labels, draws)
+                });
         }
-        self.planes.show(view, labels, regions);
+        self.peeling.show(view, labels, regions);
     }
 }

@@ -9,7 +9,7 @@ mod config;
 use geometry::ConfigError;
 use sensing::Intrinsics;
 
-use crate::free_planes::{Draws, FreePlanes, Remaining, through};
+use crate::free_planes::{Draws, Peeling, Remaining, through};
 use crate::grounded::{Finder, GroundConfig, Grounded, Linear, Look, Picture, Region, View};
 pub use config::RansacConfig;
 
@@ -27,12 +27,11 @@ impl Ransac {
         camera: Intrinsics,
     ) -> Result<Self, ConfigError> {
         config.check()?;
+        let accept_px = config.accept as f32;
         let finder = Consensus {
             samples: config.samples,
-            accept_px: config.accept as f32,
-            min_plane: config.min_plane,
-            planes: FreePlanes::default(),
-            remaining: Remaining::default(),
+            accept_px,
+            peeling: Peeling::new(accept_px, config.min_plane),
         };
         Self::around(finder, ground, camera)
     }
@@ -43,45 +42,28 @@ impl Ransac {
 pub struct Consensus {
     samples: usize,
     accept_px: f32,
-    min_plane: usize,
-    planes: FreePlanes,
-    remaining: Remaining,
+    peeling: Peeling,
 }
 
-impl Consensus {
-    /// Of the planes that are tried, the one that most of the remaining pixels lie on; of equals the first.
-    fn best(&self, draws: &mut Draws) -> Option<Linear> {
-        let mut best: Option<(usize, Linear)> = None;
-        for _ in 0..self.samples {
-            let triple = std::array::from_fn(|_| self.remaining.draw(draws));
-            let Some(plane) = through(triple) else {
-                continue;
-            };
-            let count = self.remaining.on(&plane, self.accept_px, STRIDE);
-            if best.is_none_or(|(most, _)| count > most) {
-                best = Some((count, plane));
-            }
-        }
-        best.map(|(_, plane)| plane)
-    }
-
-    fn find_planes(&mut self, picture: Picture<'_>, labels: &mut [u16]) {
-        let mut draws = Draws::of_frame(picture.disparity_px);
-        self.remaining.read(picture);
-        self.planes.clear();
-        labels.fill(0);
-        while self.remaining.count() >= self.min_plane && !self.planes.is_full() {
-            let Some(guess) = self.best(&mut draws) else {
-                return;
-            };
-            let plane = self.remaining.refine(guess, self.accept_px);
-            if self.remaining.on(&plane, self.accept_px, 1) < self.min_plane {
-                return;
-            }
-            let label = self.planes.add(plane);
-            self.remaining.take(&plane, self.accept_px, label, labels);
+/// Of `samples` planes that are tried, the one that most of the remaining pixels lie on; of equals the first.
+fn best(
+    samples: usize,
+    accept_px: f32,
+    remaining: &Remaining,
+    draws: &mut Draws,
+) -> Option<Linear> {
+    let mut best: Option<(usize, Linear)> = None;
+    for _ in 0..samples {
+        let triple = std::array::from_fn(|_| remaining.draw(draws));
+        let Some(plane) = through(triple) else {
+            continue;
+        };
+        let count = remaining.on(&plane, accept_px, STRIDE);
+        if best.is_none_or(|(most, _)| count > most) {
+            best = Some((count, plane));
         }
     }
+    best.map(|(_, plane)| plane)
 }
 
 impl Finder for Consensus {
@@ -96,8 +78,11 @@ impl Finder for Consensus {
         labels: &mut [u16],
     ) {
         if look == Look::First {
-            self.find_planes(picture, labels);
+            let (samples, accept_px) = (self.samples, self.accept_px);
+            self.peeling.peel(picture, labels, |remaining, _, draws| {
+                best(samples, accept_px, remaining, draws)
+            });
         }
-        self.planes.show(view, labels, regions);
+        self.peeling.show(view, labels, regions);
     }
 }
