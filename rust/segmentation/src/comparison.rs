@@ -7,6 +7,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use proptest::prelude::*;
 use sensing::Scan;
 
+use crate::arbitrary::blocks;
 use crate::synthetic::{Block, CAMERA, GROUND, Noise, Scene, camera_pose};
 use crate::{
     GroundConfig, Histogram, HistogramConfig, Hough, HoughConfig, Planes, Ransac, RansacConfig,
@@ -302,14 +303,9 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
     #[test]
     fn every_product_of_each_is_consistent(
-        blocks in prop::collection::vec(
-            (0.25..1.2f64, -0.6..0.6f64, 0.05..0.4f64, 0.05..0.4f64, 0.01..0.5f64, 0.0..0.3f64), 0..4),
+        blocks in blocks(),
         pan in -0.6..0.6f64, tilt in 0.2..1.0f64, seed in 0..1000u64,
     ) {
-        let blocks: Vec<_> = blocks.iter().map(|&(x, y, dx, dy, dz, base)| Block {
-            low_m: [x, y, base],
-            high_m: [x + dx, y + dy, base + dz],
-        }).collect();
         let truth = camera_pose(pan, tilt);
         each!(|name, segmenter| {
             let mut tracked = tracking(segmenter);

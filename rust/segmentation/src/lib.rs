@@ -1,6 +1,8 @@
 //! Planes in a scan: several ways to find them, the ground plane, labelled points.
 
 #[cfg(test)]
+mod arbitrary;
+#[cfg(test)]
 mod comparison;
 mod free_planes;
 mod grounded;

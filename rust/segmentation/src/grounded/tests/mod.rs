@@ -10,6 +10,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
 use super::*;
+use crate::arbitrary::blocks;
 use crate::scan_line::{ScanLine, ScanLineConfig};
 use crate::synthetic::{Block, CAMERA, GROUND, NOTHING, Noise, Scene, camera_pose};
 
