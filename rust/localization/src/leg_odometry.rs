@@ -28,6 +28,14 @@ impl Legs {
         self.odometry_from_torso_rotation * self.torso_from_sole[side.index()].translation.vector
     }
 
+    /// How far one sole is above the other along the torso's axis, m: whatever the attitude is believed to be.
+    pub(crate) fn sole_above_other_m(&self) -> f64 {
+        let [left, right] = self
+            .torso_from_sole
+            .map(|torso_from_sole| torso_from_sole.translation.vector.z);
+        (left - right).abs()
+    }
+
     /// Mean heading of the feet, rad.
     pub(crate) fn heading_rad(&self) -> f64 {
         let [left, right] = self.torso_from_sole.map(|torso_from_sole| {

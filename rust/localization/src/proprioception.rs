@@ -18,6 +18,8 @@ const JOINT_SPEED_FLOOR_RADPS: f64 = 0.1;
 
 /// The start is over after this, settled or not, ns.
 const LONGEST_START_NS: u64 = 4_000_000_000;
+/// A sole that the legs hold this much above the other one was lifted, m; play in their gears moves it by a millimetre.
+const LIFTED_M: f64 = 0.004;
 
 /// A joint between the root and the inertial measurement unit.
 #[derive(Debug, Clone, Copy)]
@@ -120,8 +122,8 @@ impl Proprioception {
                 * torso_from_imu.inverse(),
             torso_from_sole,
         };
-        self.watch_start(observation.time_ns);
-        if self.starting_since_ns.is_some() {
+        self.watch_start(observation.time_ns, &legs);
+        if self.starting_since_ns.is_some() && (self.contacts.both_hold() || !self.stood) {
             let heading_rad = legs.heading_rad();
             self.attitude.turn_odometry(-heading_rad);
             legs.odometry_from_torso_rotation =
@@ -184,10 +186,10 @@ impl Proprioception {
     }
 
     /// Until the robot stands still for the first time, or lifts a foot, it is where it was put: what moves is the joints'
-    /// play, the ground under the soles settling, a torso that finds its balance.
-    fn watch_start(&mut self, time_ns: u64) {
+    /// play, the ground under the soles settling, a torso that rocks until it finds its balance, maybe from foot to foot.
+    fn watch_start(&mut self, time_ns: u64, legs: &Legs) {
         let both_feet = self.contacts.both_hold();
-        let lifted = self.stood && !both_feet;
+        let lifted = self.stood && !both_feet && legs.sole_above_other_m() > LIFTED_M;
         self.stood |= both_feet;
         let over = self
             .starting_since_ns

@@ -75,6 +75,27 @@ fn a_step_up_and_down_is_taken_from_the_kinematics() {
 }
 
 #[test]
+fn a_robot_that_rocks_as_it_is_put_down_stays_where_it_was_put() {
+    let mut walk = Walk::new().stand(100);
+    for (tick, observation) in walk.observations.iter_mut().enumerate().take(40).skip(2) {
+        // All the load goes to one foot, then to the other, while the attitude is not known yet.
+        let (load_n, roll_rad) = if tick < 20 {
+            ([20.0, 0.0], 0.3)
+        } else {
+            ([0.0, 20.0], -0.3)
+        };
+        observation.foot_forces_n = load_n.map(|corner_n| [corner_n; 4]);
+        let tilted = UnitQuaternion::from_euler_angles(roll_rad, 0.0, 0.0);
+        let felt = tilted * Vector3::from(observation.specific_force_mps2);
+        observation.specific_force_mps2 = felt.into();
+    }
+    for state in run(&walk) {
+        let height_m = state.odometry_from_robot.origin().inner.z;
+        assert!(height_m.abs() < 1e-4, "{height_m} at {}", state.time_ns);
+    }
+}
+
+#[test]
 fn a_trunk_encoder_that_is_off_neither_bends_the_way_nor_lets_it_climb() {
     let mut walk = Walk::new().stand(200).walk(30, 0.04, 0.0);
     for observation in &mut walk.observations {
