@@ -11,6 +11,7 @@ COMPONENTS: Final[dict[str, dict[str, str]]] = {
     "segmenter": {
         "scan_line": "planes by scan-line grouping, thresholds follow the local noise",
         "scan_line_1994": "scan-line grouping as published: straight lines, fixed thresholds",
+        "scan_line_adaptive": "the same for planes in any direction, each with a noise of its own",
         "hough": "planes in any direction by a randomised Hough transform",
         "ransac": "planes in any direction by repeated random samples",
         "histogram": "level surfaces by the peaks of a histogram of heights",

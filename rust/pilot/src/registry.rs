@@ -1,13 +1,16 @@
 //! Which component a name stands for: the one place where a new one is added.
 
+use std::collections::BTreeMap;
+
 use behaviour::{Behaviour, Pace, StairClimbing, WalkingBehaviour};
 use geometry::ConfigError;
 use localization::{Localizer, OdometryLocalizer};
 use mapping::{Averaging, Fog, WorldModel};
 use planning::{AStar, Planner};
 use robot::{Body, Side};
-use segmentation::{Histogram, Hough, Ransac, ScanLine, ScanLine1994, Segmenter};
+use segmentation::{Histogram, Hough, Ransac, ScanLine, ScanLine1994, ScanLineAdaptive, Segmenter};
 use sensing::Intrinsics;
+use serde_json::Value;
 use stairs::{Feet, Recognizer};
 use walking::Walker;
 
@@ -38,19 +41,25 @@ fn unknown(slot: &str, name: &str, known: &str) -> PilotError {
     .into()
 }
 
-pub(crate) fn segmenter(
-    settings: &Settings,
+/// The segmenter of a name, for a camera, with what `[navigation.<name>]` and `[navigation.ground]` say.
+pub fn segmenter(
+    name: &str,
+    tables: &BTreeMap<String, Value>,
     camera: Intrinsics,
 ) -> Result<Box<dyn Segmenter>, PilotError> {
-    let tables = &settings.navigation.tables;
     let ground = table(tables, "ground")?;
-    match settings.navigation.segmenter.as_str() {
+    match name {
         name @ "scan_line" => Ok(Box::new(ScanLine::new(
             &table(tables, name)?,
             ground,
             camera,
         )?)),
         name @ "scan_line_1994" => Ok(Box::new(ScanLine1994::new(
+            &table(tables, name)?,
+            ground,
+            camera,
+        )?)),
+        name @ "scan_line_adaptive" => Ok(Box::new(ScanLineAdaptive::new(
             &table(tables, name)?,
             ground,
             camera,
@@ -69,7 +78,7 @@ pub(crate) fn segmenter(
         other => Err(unknown(
             "segmenter",
             other,
-            "scan_line, scan_line_1994, hough, ransac, histogram",
+            "scan_line, scan_line_1994, scan_line_adaptive, hough, ransac, histogram",
         )),
     }
 }

@@ -55,9 +55,10 @@ impl Pilot {
         let feet = registry::feet(&body, &walker);
         let camera = Intrinsics::from(&body.description().camera);
         let tables = &settings.navigation.tables;
-        let segmenter = given
-            .segmenter
-            .map_or_else(|| registry::segmenter(settings, camera), Ok)?;
+        let segmenter = given.segmenter.map_or_else(
+            || registry::segmenter(&settings.navigation.segmenter, tables, camera),
+            Ok,
+        )?;
         let self_filter = SelfFilter::new(&body, &table(tables, "self_filter")?)?;
         let world_model = given
             .world_model

@@ -11,7 +11,8 @@ use crate::arbitrary::blocks;
 use crate::synthetic::{Block, CAMERA, GROUND, Noise, Scene, camera_pose};
 use crate::{
     GroundConfig, Histogram, HistogramConfig, Hough, HoughConfig, Planes, Ransac, RansacConfig,
-    ScanLine, ScanLine1994, ScanLine1994Config, ScanLineConfig, Segmenter,
+    ScanLine, ScanLine1994, ScanLine1994Config, ScanLineAdaptive, ScanLineAdaptiveConfig,
+    ScanLineConfig, Segmenter,
 };
 
 /// The sensor's noise, px.
@@ -26,6 +27,7 @@ macro_rules! each {
     (|$name:ident, $segmenter:ident| $body:expr) => {{
         each!(@ "scan_line", ScanLine, ScanLineConfig, $name, $segmenter, $body);
         each!(@ "scan_line_1994", ScanLine1994, ScanLine1994Config, $name, $segmenter, $body);
+        each!(@ "scan_line_adaptive", ScanLineAdaptive, ScanLineAdaptiveConfig, $name, $segmenter, $body);
         each!(@ "hough", Hough, HoughConfig, $name, $segmenter, $body);
         each!(@ "ransac", Ransac, RansacConfig, $name, $segmenter, $body);
         each!(@ "histogram", Histogram, HistogramConfig, $name, $segmenter, $body);
@@ -151,7 +153,7 @@ fn of_all_that_look_for_planes_ours_merges_least_and_finds_most_treads() {
         assert!(ours.surfaces >= 4 * FRAMES);
         assert_eq!((ours.merged, ours.under), (0, 0), "{ours:?}");
         assert!(10 * ours.correct >= 9 * ours.surfaces, "{ours:?}");
-        for name in ["scan_line_1994", "hough", "ransac"] {
+        for name in ["scan_line_1994", "scan_line_adaptive", "hough", "ransac"] {
             let other = scores[name];
             assert_eq!(other.surfaces, ours.surfaces);
             assert!(other.merged > 0, "{name} at {rise_m} m: {other:?}");

@@ -12,6 +12,7 @@ mod planes;
 mod ransac;
 mod scan_line;
 mod scan_line_1994;
+mod scan_line_adaptive;
 #[cfg(test)]
 mod synthetic;
 
@@ -22,3 +23,4 @@ pub use planes::{KnownFloor, NothingKnown, PlaneRegion, Planes, SegmentError, Se
 pub use ransac::{Ransac, RansacConfig};
 pub use scan_line::{ScanLine, ScanLineConfig};
 pub use scan_line_1994::{ScanLine1994, ScanLine1994Config};
+pub use scan_line_adaptive::{ScanLineAdaptive, ScanLineAdaptiveConfig};
