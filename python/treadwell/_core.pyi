@@ -5,8 +5,8 @@ from typing import ClassVar, final
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell import protocols
 from treadwell.observation import Observation
-from treadwell.protocols import Behaviour, Localizer, Planner, Segmenter, WorldModel
 
 __all__ = [
     "BodyState",
@@ -16,6 +16,7 @@ __all__ = [
     "Pilot",
     "Planes",
     "Scan",
+    "Segmenter",
     "Situation",
     "Stair",
     "Staircase",
@@ -66,11 +67,11 @@ class Pilot:
         cls,
         settings: str,
         *,
-        segmenter: Segmenter | None = None,
-        world_model: WorldModel | None = None,
-        localizer: Localizer | None = None,
-        planner: Planner | None = None,
-        behaviour: Behaviour | None = None,
+        segmenter: protocols.Segmenter | None = None,
+        world_model: protocols.WorldModel | None = None,
+        localizer: protocols.Localizer | None = None,
+        planner: protocols.Planner | None = None,
+        behaviour: protocols.Behaviour | None = None,
     ) -> Pilot: ...
     def tick(self, observation: Observation) -> Tick: ...
     def planes(self) -> Planes: ...
@@ -124,6 +125,22 @@ class Planes:
     def regions(
         self,
     ) -> list[tuple[int, list[float], list[float], float, float | None]]: ...
+
+@final
+class Segmenter:
+    def __new__(
+        cls,
+        name: str,
+        *,
+        width: int,
+        height: int,
+        focal: float,
+        baseline: float,
+        settings: str = "{}",
+    ) -> Segmenter: ...
+    def segment(
+        self, depth: NDArray[np.float32], robot_from_camera: NDArray[np.float64]
+    ) -> Planes: ...
 
 @final
 class FloorView:

@@ -5,7 +5,9 @@ mod components;
 mod error;
 mod observation;
 mod pilot;
+mod pose;
 mod products;
+mod segmenter;
 mod situation;
 mod stairs;
 mod walker;
@@ -22,6 +24,8 @@ mod _core {
     use super::pilot::{PyPilot, PyTick};
     #[pymodule_export]
     use super::products::{PyBodyState, PyFloorView, PyPlanes};
+    #[pymodule_export]
+    use super::segmenter::PySegmenter;
     #[pymodule_export]
     use super::situation::{PyGoal, PyScan, PySituation};
     #[pymodule_export]

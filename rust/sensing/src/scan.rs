@@ -50,17 +50,27 @@ impl Scan {
         frame: &Frame,
         robot_from_camera: Pose<Robot, Camera>,
     ) -> Result<(), ScanError> {
-        if frame.depth_m.len() != self.disparity_px.len() {
+        self.read_depths(frame.depth_m.iter().copied(), robot_from_camera)?;
+        self.exposure_ns = frame.exposure_ns;
+        Ok(())
+    }
+
+    /// The same from the depths alone, metres, row by row.
+    pub fn read_depths(
+        &mut self,
+        depths_m: impl ExactSizeIterator<Item = f32>,
+        robot_from_camera: Pose<Robot, Camera>,
+    ) -> Result<(), ScanError> {
+        if depths_m.len() != self.disparity_px.len() {
             return Err(ScanError::WrongSize {
                 expected: self.disparity_px.len(),
-                found: frame.depth_m.len(),
+                found: depths_m.len(),
             });
         }
-        self.exposure_ns = frame.exposure_ns;
         self.robot_from_camera = robot_from_camera;
         self.valid = 0;
         let scale = (self.camera.focal_px * self.camera.baseline_m) as f32;
-        for (disparity, &depth) in self.disparity_px.iter_mut().zip(&frame.depth_m) {
+        for (disparity, depth) in self.disparity_px.iter_mut().zip(depths_m) {
             let seen = depth.is_finite() && depth > 0.0;
             *disparity = if seen { scale / depth } else { f32::NAN };
             self.valid += usize::from(seen);

@@ -1,9 +1,7 @@
 //! A segmenter of the user's: it labels pixels and corrects the camera's pose; planes are fitted here.
 
-use geometry::{Plane, Point, Pose};
-use nalgebra::{
-    Isometry3, Matrix3, Matrix4, Point3, Rotation3, SymmetricEigen, Unit, UnitQuaternion, Vector3,
-};
+use geometry::{Plane, Point};
+use nalgebra::{Matrix3, Point3, SymmetricEigen, Unit, Vector3};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::intern;
@@ -12,6 +10,7 @@ use segmentation::{PlaneRegion, Planes, SegmentError, Segmenter};
 use sensing::Scan;
 
 use super::sentence;
+use crate::pose::rigid;
 use crate::situation::PyScan;
 
 struct PythonSegmenter(Py<PyAny>);
@@ -59,7 +58,7 @@ fn read_segmentation(answer: &Bound<'_, PyAny>, scan: &Scan, planes: &mut Planes
             "labels must be at most {most}, got {label}"
         )));
     }
-    planes.robot_from_camera = Pose::wrap(rigid(&pose)?);
+    planes.robot_from_camera = rigid(&pose)?;
     planes.exposure_ns = scan.exposure_ns;
     planes.ground = ground.filter(|&ground| ground < heights.len());
     planes.reliable = answer.getattr(intern!(py, "reliable"))?.extract()?;
@@ -72,22 +71,6 @@ fn read_segmentation(answer: &Bound<'_, PyAny>, scan: &Scan, planes: &mut Planes
         planes.regions.push(fit(planes, index as u16 + 1, *height));
     }
     Ok(())
-}
-
-fn rigid(pose: &PyReadonlyArray2<'_, f64>) -> PyResult<Isometry3<f64>> {
-    let array = pose.as_array();
-    if array.dim() != (4, 4) || array.iter().any(|value| !value.is_finite()) {
-        return Err(PyValueError::new_err(
-            "robot_from_camera must be a finite (4, 4) matrix",
-        ));
-    }
-    let matrix = Matrix4::from_fn(|row, col| array[(row, col)]);
-    let rotation = Rotation3::from_matrix(&Matrix3::from(matrix.fixed_view::<3, 3>(0, 0)));
-    let translation = Vector3::from(matrix.fixed_view::<3, 1>(0, 3));
-    Ok(Isometry3::from_parts(
-        translation.into(),
-        UnitQuaternion::from_rotation_matrix(&rotation),
-    ))
 }
 
 fn place_points(scan: &Scan, heights: &[Option<f64>], planes: &mut Planes) {

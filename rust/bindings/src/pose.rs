@@ -1,0 +1,24 @@
+//! Poses that Python gives.
+
+use geometry::Pose;
+use nalgebra::{Isometry3, Matrix3, Matrix4, Rotation3, UnitQuaternion, Vector3};
+use numpy::PyReadonlyArray2;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// The pose of a (4, 4) matrix; its rotation is the nearest one.
+pub(crate) fn rigid<T, S>(pose: &PyReadonlyArray2<'_, f64>) -> PyResult<Pose<T, S>> {
+    let array = pose.as_array();
+    if array.dim() != (4, 4) || array.iter().any(|value| !value.is_finite()) {
+        return Err(PyValueError::new_err(
+            "robot_from_camera must be a finite (4, 4) matrix",
+        ));
+    }
+    let matrix = Matrix4::from_fn(|row, col| array[(row, col)]);
+    let rotation = Rotation3::from_matrix(&Matrix3::from(matrix.fixed_view::<3, 3>(0, 0)));
+    let translation = Vector3::from(matrix.fixed_view::<3, 1>(0, 3));
+    Ok(Pose::wrap(Isometry3::from_parts(
+        translation.into(),
+        UnitQuaternion::from_rotation_matrix(&rotation),
+    )))
+}
