@@ -66,7 +66,7 @@ impl Gait {
                 let (swing, at) = (*swing, felt.found(swing, *elapsed_s, &self.config));
                 self.land_carefully(&swing, at, task);
             }
-        } else if touches && before_s >= SINKING * swing_s {
+        } else if touches && swing.comes_down(before_s, &self.config) {
             swing.landing = Landing::Found(swing.foot(before_s, &self.config).z_m);
         } else if swing.manner == Manner::Careful
             && felt.obstructs(swing, before_s, touches, &self.config)
@@ -123,6 +123,15 @@ impl Gait {
     }
 }
 
+impl Swing {
+    /// Whether a load means the ground: not on the way there, nor on another level that the foot comes down on.
+    fn comes_down(&self, elapsed_s: f64, config: &GaitConfig) -> bool {
+        let above_m = self.foot(elapsed_s, config).z_m - self.to.z_m;
+        let level = self.manner == Manner::Back || above_m <= config.obstructed_height;
+        level && elapsed_s >= SINKING * self.in_air_s(config)
+    }
+}
+
 impl Felt {
     /// Where the foot that has found ground stands: as told, at the height that joints and attitude say.
     fn found(&self, swing: &Swing, elapsed_s: f64, config: &GaitConfig) -> FootPose {
@@ -132,7 +141,8 @@ impl Felt {
         }
     }
 
-    /// Whether something is in the foot's way: a load on it while it is high, or a place far from where it should be.
+    /// Whether something is in the foot's way: a load on it before it comes down where it should, or a place far from where it
+    /// should be.
     fn obstructs(&self, swing: &Swing, elapsed_s: f64, touches: bool, config: &GaitConfig) -> bool {
         let share = elapsed_s / swing.in_air_s(config);
         let told = swing.foot(elapsed_s, config);
@@ -140,7 +150,6 @@ impl Felt {
         let off_m = (sole.x - told.planar.x_m).hypot(sole.y - told.planar.y_m);
         let ahead = swing.foot(elapsed_s + LAG_S, config);
         let lag_m = ahead.planar.distance_m(&told.planar);
-        let high = (HIGH..SINKING).contains(&share);
-        (high && touches) || (share > HIGH && off_m > config.obstructed_distance + lag_m)
+        share >= HIGH && (touches || off_m > config.obstructed_distance + lag_m)
     }
 }
