@@ -17,6 +17,8 @@ const FOOT_SIDE_M: f64 = 0.06;
 const RISER_M: f64 = 0.06;
 /// and no further from its edge than this, m, is the edge.
 const BESIDE_M: f64 = 0.06;
+/// What ends further than this below the ground that the robot walks on does not stand in its way, m.
+const BELOW_M: f64 = 0.015;
 
 /// The places looked at lately, in a ring.
 #[derive(Debug, Clone, Default)]
@@ -129,12 +131,12 @@ impl Followed {
         self.points_m.clear();
     }
 
-    /// A place within the stopping distance where an obstacle now stands on the way, m.
+    /// A place within the stopping distance where an obstacle now stands on the way of a robot on this ground, m.
     pub(crate) fn obstacle_m(
         &self,
         view: &FloorView,
         stairs: &Staircase,
-        robot: &PlanarPose,
+        (robot, ground_m): (&PlanarPose, f64),
         config: &WalkingConfig,
     ) -> Option<[f64; 2]> {
         let near = |place: &&[f64; 2]| {
@@ -145,7 +147,11 @@ impl Followed {
             .filter(near)
             .find(|place| {
                 let cells = obstacles(view, **place, config.corridor);
-                cells.filter(|cell| !is_edge(stairs, cell)).count() >= 2
+                let above = |cell: &Obstacle| f64::from(cell.1) > ground_m - BELOW_M;
+                cells
+                    .filter(|cell| above(cell) && !is_edge(stairs, cell))
+                    .count()
+                    >= 2
             })
             .copied()
     }
@@ -255,19 +261,31 @@ mod tests {
         let mut followed = Followed::default();
         followed.keep(&path, 0);
         let robot = PlanarPose::default();
-        let stairs = Staircase::default();
+        let found = |followed: &Followed, view: &FloorView, robot: &PlanarPose| {
+            followed.obstacle_m(view, &Staircase::default(), (robot, 0.0), &config)
+        };
         let mut view = view(Surface::Floor(0.0));
-        assert_eq!(followed.obstacle_m(&view, &stairs, &robot, &config), None);
+        assert_eq!(found(&followed, &view, &robot), None);
         paint(&mut view, 0.7, 0.8, Surface::Obstacle(0.3));
-        assert_eq!(followed.obstacle_m(&view, &stairs, &robot, &config), None);
+        assert_eq!(found(&followed, &view, &robot), None);
         let near = PlanarPose::new(0.4, 0.0, 0.0);
-        assert!(
-            followed
-                .obstacle_m(&view, &stairs, &near, &config)
-                .is_some()
-        );
+        assert!(found(&followed, &view, &near).is_some());
         followed.forget();
-        assert_eq!(followed.obstacle_m(&view, &stairs, &near, &config), None);
+        assert_eq!(found(&followed, &view, &near), None);
+    }
+
+    #[test]
+    fn what_ends_below_the_ground_that_the_robot_walks_on_is_no_obstacle() {
+        let config = WalkingConfig::default();
+        let mut followed = Followed::default();
+        followed.keep(&straight([0.0, 0.0], [1.0, 0.0]), 0);
+        let (robot, stairs) = (PlanarPose::default(), Staircase::default());
+        let mut view = view(Surface::Floor(0.03));
+        paint(&mut view, 0.2, 0.3, Surface::Obstacle(0.0));
+        for (ground_m, stands) in [(0.03, false), (0.0, true), (-0.03, true)] {
+            let found = followed.obstacle_m(&view, &stairs, (&robot, ground_m), &config);
+            assert_eq!(found.is_some(), stands, "{ground_m}");
+        }
     }
 
     #[test]

@@ -181,9 +181,9 @@ impl WalkingBehaviour {
         let (path, track) = moment.track.as_ref()?;
         if moment.new_frame {
             let (view, stairs) = (moment.situation.view, moment.situation.stairs);
-            let obstacle_m = self
-                .followed
-                .obstacle_m(view, stairs, &moment.pose, &self.config);
+            let ground_m = moment.situation.estimate.map_from_robot.origin().inner.z;
+            let robot = (&moment.pose, ground_m);
+            let obstacle_m = self.followed.obstacle_m(view, stairs, robot, &self.config);
             self.followed.keep(path, track.nearest);
             if obstacle_m.is_some() {
                 self.watched_m = obstacle_m;
