@@ -162,6 +162,13 @@ impl PyPilot {
             .ok()
     }
 
+    /// (rows, cols) float32 m: where what hangs above each cell's floor begins; NaN where nothing does, None without a ceiling map.
+    fn ceilings<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray2<f32>>> {
+        let ceilings = self.pilot.perception().ceilings()?;
+        let flat = ceilings.values().to_pyarray(py);
+        flat.reshape([ceilings.rows(), ceilings.cols()]).ok()
+    }
+
     /// Via points passed so far.
     #[getter]
     fn goals_passed(&self) -> usize {

@@ -209,6 +209,25 @@ proptest! {
     }
 
     #[test]
+    fn what_hangs_above_a_height_is_the_lowest_occupied_voxel_there(
+        ends in prop::collection::vec(point(), 1..60), height in -0.1..0.6f64,
+    ) {
+        let mut grid = grid();
+        for _ in 0..3 { let _ = insert(&mut grid, &ends, Update::PerFrame); }
+        let mut lowest = std::collections::BTreeMap::new();
+        for (cell, at) in centers().filter(|&(_, at)| grid.is_occupied(at) && at[2] > height) {
+            let _ = lowest.entry(cell).and_modify(|low: &mut f64| *low = low.min(at[2])).or_insert(at[2]);
+        }
+        for (cell, _) in centers() {
+            match (grid.lowest_above_m(cell, height), lowest.get(&cell)) {
+                (None, None) => {}
+                (Some(found), Some(&wanted)) => prop_assert!((found - wanted).abs() < 1e-9),
+                other => prop_assert!(false, "{:?}", other),
+            }
+        }
+    }
+
+    #[test]
     fn only_the_affected_area_changes_and_it_is_no_larger_than_needed(ends in prop::collection::vec(point(), 1..20)) {
         let mut grid = grid();
         let area = insert(&mut grid, &ends, Update::PerFrame);
@@ -257,13 +276,14 @@ proptest! {
     #[test]
     fn equation_11_in_the_affected_area_equals_all_over(steps in prop::collection::vec(
         (-0.2..0.2f64, -0.2..0.2f64, -0.05..0.05f64, -1.0..1.0f64, 0.2..0.9f64, -0.8..0.8f64), 1..12,
-    )) {
+    ), headroom in prop::option::of(0.1..0.5f64)) {
         let blocks = [
             Block::new([0.4, -0.2, 0.0], [0.6, 0.1, 0.06], true),
             Block::new([0.5, 0.3, 0.0], [0.6, 0.5, 0.3], false),
             Block::new([-0.7, -0.3, 0.3], [-0.5, 0.5, 0.5], false),
         ];
-        let mut fog = Fog::new(FogConfig { cells: 50, max_range: 1.5, ..FogConfig::default() }).unwrap();
+        let config = FogConfig { cells: 50, max_range: 1.5, headroom, ..FogConfig::default() };
+        let mut fog = Fog::new(config).unwrap();
         let (mut x, mut y, mut z, mut yaw) = (0.0, 0.0, 0.0, 0.0);
         for (dx, dy, dz, turn, pitch, pan) in steps {
             (x, y, z, yaw) = (x + dx, y + dy, z + dz, yaw + turn);
@@ -275,6 +295,8 @@ proptest! {
                 let surface = view.cell(cell);
                 prop_assert_eq!(surface, fog.surface(cell));
                 prop_assert_eq!(view.sightings.get(cell).copied(), Some(fog.floor().sightings(cell)));
+                let ceiling_m = fog.ceilings().unwrap().get(cell).copied().unwrap();
+                prop_assert_eq!((!ceiling_m.is_nan()).then_some(ceiling_m), fog.ceiling_m(cell).map(|m| m as f32));
                 match surface {
                     Surface::Floor(h) | Surface::Obstacle(h) => prop_assert!(h.is_finite()),
                     Surface::Unknown => {}

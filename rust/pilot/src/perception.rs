@@ -1,6 +1,6 @@
 //! What a depth frame sets off: scan, planes, pose, map.
 
-use geometry::{Camera, Map, Pose, Robot};
+use geometry::{Camera, Grid, Map, Pose, Robot};
 use localization::{BodyState, Localizer};
 use mapping::{FloorView, Insertion, Surface, WorldModel};
 use robot::Body;
@@ -149,6 +149,11 @@ impl Perception {
     /// The map's view.
     pub fn view(&self) -> &mapping::FloorView {
         self.world_model.view()
+    }
+
+    /// Where what hangs above the view's cells begins, m, where the map keeps it.
+    pub fn ceilings(&self) -> Option<&Grid<f32>> {
+        self.world_model.ceilings()
     }
 
     /// The stairs that are seen or remembered.

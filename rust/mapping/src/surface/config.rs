@@ -47,6 +47,9 @@ pub struct FogConfig {
     pub nu: f64,
     /// Equation (11): what rises less than this above a floor is no obstacle, m.
     pub delta: f64,
+    /// Room that the robot needs above a floor, m: what begins higher is a ceiling to pass under. None: whatever rises above a
+    /// floor is an obstacle, as the paper has it.
+    pub headroom: Option<f64>,
     /// How often a frame may change a voxel: `per_frame` or `per_point`.
     pub update: Update,
     /// Whether points of a horizontal plane are moved along their ray to the plane's height.
@@ -78,6 +81,7 @@ impl Default for FogConfig {
             epsilon: 0.015,
             nu: 0.9,
             delta: 0.028,
+            headroom: None,
             update: Update::PerFrame,
             snap: true,
             max_range: 4.0,
@@ -142,6 +146,9 @@ impl FogConfig {
             self.nu,
         )?;
         not_negative("delta", self.delta)?;
+        if let Some(headroom) = self.headroom {
+            positive("headroom", headroom)?;
+        }
         positive("max_range", self.max_range)?;
         not_negative("match_gate", self.match_gate)?;
         require(
@@ -199,6 +206,13 @@ mod tests {
                 ..base()
             })
             .contains("< 0.95")
+        );
+        assert!(
+            refused(FogConfig {
+                headroom: Some(-0.6),
+                ..base()
+            })
+            .contains("navigation.fog.headroom")
         );
         assert!(
             refused(FogConfig {

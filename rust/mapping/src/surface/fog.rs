@@ -1,6 +1,7 @@
-//! The floor and obstacle grid of Gutmann, Fukuchi and Fujita 2005 (000): equations (5), (10), (11) and the order of an update.
+//! The floor and obstacle grid of Gutmann, Fukuchi and Fujita 2005 (000): equations (5), (10), (11), the order of an update, and
+//! the ceiling map that its section VI proposes.
 
-use geometry::{Cell, CellArea, ConfigError, Map, Pose, Robot};
+use geometry::{Cell, CellArea, ConfigError, Grid, Map, Pose, Robot};
 use segmentation::Planes;
 
 use super::stood::Stood;
@@ -19,6 +20,8 @@ pub struct Fog {
     floor: FloorGrid,
     stood: Stood,
     view: FloorView,
+    /// [`Fog::ceiling_m`] of each cell; NaN where there is none.
+    ceilings: Grid<f32>,
     frame: LabelledFrame,
 }
 
@@ -49,6 +52,7 @@ impl Fog {
             floor: FloorGrid::new(lattice, &config),
             stood: Stood::new(n, config.footprint),
             view: FloorView::unknown(lattice, n),
+            ceilings: Grid::filled(n, n, f32::NAN),
             frame: LabelledFrame::default(),
             window,
             layers,
@@ -66,12 +70,33 @@ impl Fog {
         &self.floor
     }
 
-    /// Equation (11) of a cell; where that is unknown and the robot stood there, the floor that it stood on.
+    /// Section VI: height of the centre of the lowest occupied voxel above a cell's floor, m. `None` where there is no such
+    /// voxel, or no floor.
+    pub fn ceiling_m(&self, cell: Cell) -> Option<f64> {
+        let floor_m = f64::from(self.floor.height(cell)?);
+        self.occupancy
+            .lowest_above_m(cell, floor_m + self.config.delta)
+    }
+
+    /// Whether all that is above a cell's floor begins so high that the robot passes under it.
+    fn is_passed_under(&self, cell: Cell) -> bool {
+        let (Some(headroom_m), Some(floor_m)) = (self.config.headroom, self.floor.height(cell))
+        else {
+            return false;
+        };
+        let half_layer_m = 0.5 * self.config.layer;
+        self.ceiling_m(cell)
+            .is_some_and(|center_m| center_m - half_layer_m >= f64::from(floor_m) + headroom_m)
+    }
+
+    /// Equation (11) of a cell, but that a ceiling which is high enough is no obstacle; where it is unknown and the robot stood
+    /// there, the floor that it stood on.
     pub fn surface(&self, cell: Cell) -> Surface {
         let floor = self.floor.height(cell);
         let obstacle = self.occupancy.obstacle_height_m(cell);
         let limit = floor.map_or(f64::NEG_INFINITY, |h| f64::from(h) + self.config.delta);
         match (obstacle, floor) {
+            (_, Some(height)) if self.is_passed_under(cell) => Surface::Floor(height),
             (Some(top), _) if top > limit => Surface::Obstacle(top as f32),
             (_, Some(height)) => Surface::Floor(height),
             _ => self
@@ -94,6 +119,7 @@ impl Fog {
         self.floor.shift(cols, rows, lattice);
         self.stood.shift(cols, rows);
         self.view.shift(cols, rows, lattice);
+        self.ceilings.shift(cols, rows, &f32::NAN);
         let all = self.view.cells.area();
         if layers != 0 {
             self.floor.verify(&self.occupancy, all);
@@ -108,6 +134,12 @@ impl Fog {
             let surface = self.surface(cell);
             let seen = self.floor.sightings(cell);
             self.view.set(cell, surface, seen);
+            let ceiling_m = self
+                .ceiling_m(cell)
+                .map_or(f32::NAN, |height| height as f32);
+            if let Some(slot) = self.ceilings.get_mut(cell) {
+                *slot = ceiling_m;
+            }
         }
     }
 }
@@ -165,5 +197,9 @@ impl WorldModel for Fog {
 
     fn view(&self) -> &FloorView {
         &self.view
+    }
+
+    fn ceilings(&self) -> Option<&Grid<f32>> {
+        Some(&self.ceilings)
     }
 }

@@ -104,9 +104,21 @@ impl OccupancyGrid {
     /// Equation (10): height of the centre of the highest occupied voxel of a cell, m; `None` is *invalid*.
     pub fn obstacle_height_m(&self, cell: Cell) -> Option<f64> {
         let mask = self.occupied[self.cell_index(cell)?];
-        mask.checked_ilog2().map(|layer| {
-            self.placement.bottom_m + (f64::from(layer) + 0.5) * self.placement.layer_m
-        })
+        mask.checked_ilog2()
+            .map(|layer| self.center_m(layer as usize))
+    }
+
+    /// The other way round: height of the centre of the lowest occupied voxel of a cell whose centre lies above a height, m.
+    pub fn lowest_above_m(&self, cell: Cell, height_m: f64) -> Option<f64> {
+        let mask = self.occupied[self.cell_index(cell)?];
+        bits(mask)
+            .map(|layer| self.center_m(layer))
+            .find(|&center_m| center_m > height_m)
+    }
+
+    /// Height of the centre of a layer, m.
+    fn center_m(&self, layer: usize) -> f64 {
+        self.placement.bottom_m + (layer as f64 + 0.5) * self.placement.layer_m
     }
 
     /// Takes in the rays of one frame, all from `eye_m`, and says which cells they touched (the affected area).

@@ -1,0 +1,122 @@
+//! The ceiling map of 000, section VI: the robot passes under what hangs high enough above the floor there.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+mod common;
+
+use common::{Block, camera, look};
+use geometry::{Map, Pose, Robot};
+use mapping::{Fog, FogConfig, Surface, WorldModel};
+use proptest::prelude::*;
+
+/// What the robot needs to walk upright, m.
+const HEADROOM_M: f64 = 0.6;
+/// A place under the middle of [`bar`], m.
+const UNDER: [f64; 2] = [0.82, 0.02];
+
+/// A map that holds what hangs higher than the robot's head.
+fn fog(headroom: Option<f64>) -> Fog {
+    let config = FogConfig {
+        layers: 32,
+        headroom,
+        ..FogConfig::default()
+    };
+    Fog::new(config).unwrap()
+}
+
+/// Across the way, its underside at this height, m.
+fn bar(underside_m: f64) -> Block {
+    Block::new(
+        [0.8, -0.4, underside_m],
+        [0.84, 0.4, underside_m + 0.3],
+        false,
+    )
+}
+
+/// Looks ahead and down until everything in view was seen several times.
+fn look_ahead(fog: &mut Fog, blocks: &[Block], map_from_robot: &Pose<Map, Robot>) {
+    for _ in 0..3 {
+        for pitch in [-0.1, 0.2, 0.6] {
+            let planes = look(blocks, map_from_robot, camera(0.5, pitch, 0.0));
+            let _ = fog.insert(&planes, map_from_robot).unwrap();
+        }
+    }
+}
+
+fn at(height_m: f64) -> Pose<Map, Robot> {
+    Pose::from_yaw(0.0, 0.0, height_m, 0.0)
+}
+
+fn ceiling_m(fog: &Fog) -> Option<f64> {
+    let [x, y] = UNDER;
+    fog.ceiling_m(fog.view().lattice.cell_at(x, y))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+    #[test]
+    fn a_bar_is_found_to_40_mm_and_passed_under_where_it_is_high_enough(underside_m in 0.2..0.75f64) {
+        let mut fog = fog(Some(HEADROOM_M));
+        look_ahead(&mut fog, &[bar(underside_m)], &at(0.0));
+        let found_m = ceiling_m(&fog).unwrap();
+        prop_assert!((found_m - underside_m).abs() <= 0.04, "{} at {}", found_m, underside_m);
+        let surface = fog.view().at(UNDER[0], UNDER[1]);
+        // In between the layers' height decides.
+        if underside_m >= HEADROOM_M + 0.04 {
+            prop_assert!(matches!(surface, Surface::Floor(h) if h.abs() < 1e-4), "{:?} at {}", surface, underside_m);
+        } else if underside_m < HEADROOM_M {
+            prop_assert!(matches!(surface, Surface::Obstacle(_)), "{:?} at {}", surface, underside_m);
+        }
+    }
+}
+
+#[test]
+fn without_a_headroom_whatever_hangs_is_an_obstacle() {
+    let mut fog = fog(None);
+    look_ahead(&mut fog, &[bar(0.7)], &at(0.0));
+    assert!(ceiling_m(&fog).is_some(), "it is mapped all the same");
+    assert!(matches!(
+        fog.view().at(UNDER[0], UNDER[1]),
+        Surface::Obstacle(_)
+    ));
+}
+
+#[test]
+fn the_room_is_measured_from_the_floor_below_not_from_the_robot() {
+    // From a landing it sees a bar over the ground before it, and from the ground one over a landing.
+    let landing = |behind| {
+        let (from, to) = if behind { (0.7, 2.0) } else { (-1.0, 0.3) };
+        Block::new([from, -1.0, 0.0], [to, 1.0, 0.12], true)
+    };
+    for (behind, robot_m, passes) in [(false, 0.12, true), (true, 0.0, false)] {
+        let mut fog = fog(Some(HEADROOM_M));
+        look_ahead(&mut fog, &[landing(behind), bar(0.66)], &at(robot_m));
+        let surface = fog.view().at(UNDER[0], UNDER[1]);
+        let free = matches!(surface, Surface::Floor(_));
+        assert_eq!(free, passes, "{surface:?} seen from {robot_m} m");
+    }
+}
+
+#[test]
+fn what_stands_under_a_high_ceiling_is_an_obstacle() {
+    let stool = Block::new([0.7, -0.2, 0.0], [0.95, 0.2, 0.2], false);
+    let mut fog = fog(Some(HEADROOM_M));
+    look_ahead(&mut fog, &[], &at(0.0));
+    look_ahead(&mut fog, &[stool, bar(0.7)], &at(0.0));
+    let surface = fog.view().at(0.78, 0.02);
+    assert!(matches!(surface, Surface::Obstacle(_)), "{surface:?}");
+}
+
+#[test]
+fn where_no_floor_was_seen_there_is_no_ceiling_to_pass_under() {
+    let mut fog = fog(Some(HEADROOM_M));
+    let pose = at(0.0);
+    for _ in 0..4 {
+        // Level: the floor at the bar is below what the camera sees.
+        let planes = look(&[bar(0.66)], &pose, camera(0.5, -0.3, 0.0));
+        let _ = fog.insert(&planes, &pose).unwrap();
+    }
+    assert_eq!(ceiling_m(&fog), None);
+    let surface = fog.view().at(UNDER[0], UNDER[1]);
+    assert!(matches!(surface, Surface::Obstacle(_)), "{surface:?}");
+}
