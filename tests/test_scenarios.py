@@ -21,6 +21,8 @@ WALKED = {
     "visitor": "goal_reached",
     "push": "goal_reached",
     "boxed_in": "refused",
+    "beam_high": "goal_reached",
+    "beam_low": "refused",
 }
 CLIMBED = (
     "stairs_up",
@@ -32,6 +34,7 @@ CLIMBED = (
     "sill",
     "basin",
     "obstacle_course",
+    "levels_walked",
     "stair_blind",
     "stair_lifted",
 )
@@ -43,7 +46,15 @@ NOT_CLIMBED = (
     "stair_removed",
     "stair_blind_long",
 )
-LOOKED_AT = ("box_removed", "box_moved", "three_levels", "stairs_seen")
+LOOKED_AT = (
+    "box_removed",
+    "box_moved",
+    "three_levels",
+    "stairs_seen",
+    "slope_seen",
+    "over_each_other",
+    "turns",
+)
 EXPECTED = {
     **WALKED,
     **dict.fromkeys(LOOKED_AT, "goal_reached"),

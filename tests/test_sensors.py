@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import mujoco
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from treadwell.observation import Observation
 from treadwell.physics.motors import JointTargets
@@ -24,6 +25,9 @@ class Settings:
     imu: str = "noisy"
     feet: str = "noisy"
     latency: float = 0.0
+    camera_roll_pitch_error: float | None = None
+    camera_position_error: float | None = None
+    mismatch_rate: float | None = None
 
 
 IDEAL = Settings("ideal", "ideal", "ideal", "ideal")
@@ -209,3 +213,34 @@ def test_a_robot_without_errors_in_its_file_has_exact_noisy_senses() -> None:
     one = Sensors(world.model, exact, Settings(), RandomStreams(0)).observe(world.data, 0)
     other = senses(world, IDEAL).observe(world.data, 0)
     assert flat(one)[:6] == flat(other)[:6]
+
+
+def test_a_scenario_can_make_the_camera_more_wrong_than_the_robots_own() -> None:
+    world = simulation()
+    own, wider = senses(world), senses(world, Settings(camera_roll_pitch_error=0.244))
+    tilt = ROBOT.joints.index("neck_tilt")
+    assert own.encoder_offsets[tilt] != 0.0
+    ratio = wider.encoder_offsets[tilt] / own.encoder_offsets[tilt]
+    assert ratio == pytest.approx(0.244 / 0.122, rel=0.05)
+    legs = [ROBOT.joints.index(joint) for joint in ROBOT.file.legs.left.joints]
+    assert np.array_equal(own.encoder_offsets[legs], wider.encoder_offsets[legs])
+
+
+def test_a_scenario_can_make_stereo_mismatch_more_often() -> None:
+    world = simulation()
+    mujoco.mj_forward(world.model, world.data)
+
+    def depth(settings: Settings) -> NDArray[np.float32]:
+        frame = senses(world, settings).observe(world.data, 0).depth
+        assert frame is not None
+        return frame.depth
+
+    true = depth(IDEAL)
+
+    def grossly_wrong(rate: float | None) -> float:
+        seen = depth(Settings(encoders="ideal", mismatch_rate=rate))
+        return float(np.mean(np.abs(seen / true - 1.0)[np.isfinite(seen + true)] > 0.3))
+
+    never, own, often = grossly_wrong(0.0), grossly_wrong(None), grossly_wrong(0.1)
+    assert never < own < never + 0.02
+    assert never + 0.04 < often < never + 0.12

@@ -6,7 +6,10 @@ from typing import Final
 
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.experiment import NOTHING, Experiment, Results, Table, middle, share
+from treadwell.experiments.fog_drift import height_drift, turning
 from treadwell.experiments.fog_pictures import fog_pictures
+from treadwell.experiments.fog_robustness import worse_senses
+from treadwell.experiments.fog_surfaces import ceilings, surfaces
 from treadwell.experiments.level_heights import level_heights
 from treadwell.judging.map_watch import MapFrame, MapHistory
 from treadwell.judging.regions import RegionCounts
@@ -183,6 +186,11 @@ def fog_tables(results: Results) -> list[Table]:
         level_heights(results.get(cases.course(cases.FOG), ())),
         _course(results),
         _segmenters(results),
+        worse_senses(results),
+        height_drift(results),
+        turning(results),
+        surfaces(results),
+        ceilings(results),
     ]
     return [table for table in made if table.rows]
 

@@ -5,7 +5,10 @@ from typing import Final
 
 from treadwell.components import COMPONENTS
 from treadwell.experiments.experiment import Case
+from treadwell.judging.ceiling_watch import CeilingWatch
+from treadwell.judging.element_watch import ElementWatch
 from treadwell.judging.map_watch import MapWatch
+from treadwell.judging.pose_watch import PoseWatch
 from treadwell.judging.segmentation_watch import SegmentationWatch
 from treadwell.judging.watch import Watch
 
@@ -19,6 +22,15 @@ Naming = Callable[[str], str]
 """Name of a component -> name of the case."""
 
 LEVELS_IDEAL: Final = "three_levels_ideal"
+BEAM_HIGH: Final = "beam_high"
+BEAM_LOW: Final = "beam_low"
+BEAM_BY_THE_PAPER: Final = "beam_high_by_the_paper"
+BEAMS: Final = (BEAM_HIGH, BEAM_LOW, BEAM_BY_THE_PAPER)
+WALKED_FILTERED: Final = "levels_walked"
+WALKED_UNFILTERED: Final = "levels_walked_unfiltered"
+TURNS: Final = "turns"
+SLOPE: Final = "slope_seen"
+OVER: Final = "over_each_other"
 
 
 def levels(model: str) -> str:
@@ -66,6 +78,44 @@ def _for_each_model(
     ]
 
 
+def _worse(what: str, *overrides: str) -> Case:
+    """Return a case of three levels that makes it harder for the map."""
+    return Case(f"three_levels_{what}", "three_levels", overrides)
+
+
+_WRONG_CAMERA: Final = (
+    "sensors.camera_roll_pitch_error=0.1745",
+    "sensors.camera_position_error=0.02",
+)
+_UNCORRECTED: Final = ("navigation.ground.correct=false",)
+_UNMATCHED: Final = ("navigation.fog.match_gate=0.0",)
+
+WORSE: Final = (
+    _worse("10_degrees_20_mm", *_WRONG_CAMERA),
+    _worse("unmatched", *_UNMATCHED),
+    _worse("uncorrected", *_UNCORRECTED),
+    _worse("uncorrected_unmatched", *_UNCORRECTED, *_UNMATCHED),
+    *(
+        _worse(f"{share}_percent_outliers", f"sensors.mismatch_rate={share}e-2")
+        for share in (2, 5, 10)
+    ),
+)
+"""Three levels with a camera that is more wrong than the robot's, without what puts it right, and
+with pixels that are grossly wrong."""
+
+_BEAMS: Final = (
+    Case(BEAM_HIGH, "beam_high", watch=CeilingWatch),
+    Case(BEAM_LOW, "beam_low", watch=CeilingWatch),
+    # More room than any beam leaves: as where there is no ceiling map.
+    Case(
+        BEAM_BY_THE_PAPER,
+        "beam_high",
+        ("navigation.fog.headroom=9.0", "expect.outcome=refused"),
+        share=0.34,
+        watch=CeilingWatch,
+    ),
+)
+
 CASES: Final = (
     Case(LEVELS_IDEAL, "three_levels", _IDEAL),
     *_for_each_model(levels, "three_levels"),
@@ -74,6 +124,18 @@ CASES: Final = (
     *(
         Case(seen(name), "stairs_seen", _with("segmenter", name), watch=SegmentationWatch)
         for name in SEGMENTERS
+    ),
+    *WORSE,
+    *_BEAMS,
+    Case(SLOPE, "slope_seen", watch=ElementWatch),
+    Case(OVER, "over_each_other", watch=ElementWatch),
+    Case(TURNS, "turns", watch=PoseWatch),
+    Case(WALKED_FILTERED, "levels_walked", watch=PoseWatch),
+    Case(
+        WALKED_UNFILTERED,
+        "levels_walked",
+        ("navigation.odometry.height_gain=0.0",),
+        watch=PoseWatch,
     ),
     # Where another map leads the robot is not asked; one run shows what it looks like.
     *_for_each_model(course, "obstacle_course", share_of_others=0.0),

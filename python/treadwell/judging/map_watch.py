@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from treadwell.course.build import CourseElement
 from treadwell.course.levels import surface_height
-from treadwell.course.outlines import signed_distance
 from treadwell.episode import Episode
+from treadwell.judging.cells import covered_by, lattice
 from treadwell.judging.map_memory import FLOOR, OBSTACLE, RememberedMap
 from treadwell.recording.trace import Trace
 
@@ -81,12 +81,12 @@ class MapWatch:
             self._pictures.append(self._last)
         self._fired = fired
         self._last = _picture(trace)
-        centres, cells = _lattice(trace)
+        centres, cells = lattice(trace)
         top_now = np.full(len(centres), -np.inf)
         for element in self._movable:
             if element.name in self._episode.events.present:
                 place = self._episode.events.place(element, self._episode.simulation.data)
-                inside = _inside(element, centres - place[:2])
+                inside = covered_by(element, centres - place[:2])
                 top_now[inside] = np.maximum(top_now[inside], _top(element) + place[2])
         covered = np.isfinite(top_now)
         for index in np.flatnonzero(covered):
@@ -123,25 +123,6 @@ def _sorted(
     stale = left & (wrong | (kind == OBSTACLE))
     counts = (covered, found, left, stale, known, between)
     return MapFrame(1e-9 * trace.time_ns, *(int(cells.sum()) for cells in counts))
-
-
-def _lattice(trace: Trace) -> tuple[Floats, list[tuple[int, int]]]:
-    """Return the cells' centres, (n, 2) m, and their places in the map, row by row."""
-    rows, cols = trace.view_kind.shape
-    cell, (x, y) = trace.view_cell, trace.view_origin
-    first_row, first_col = round(y / cell), round(x / cell)
-    indices = np.indices((rows, cols)).reshape(2, -1).T
-    centres = (indices[:, ::-1] + 0.5) * cell + np.array([x, y])
-    places = indices + np.array([first_row, first_col])
-    return centres, [(int(row), int(col)) for row, col in places]
-
-
-def _inside(element: CourseElement, points: Floats) -> Bools:
-    """Say for each point (n, 2) whether a piece of the element lies over or under it."""
-    inside = np.zeros(len(points), dtype=bool)
-    for piece in element.pieces:
-        inside |= signed_distance(piece.outline, points) <= 0.0
-    return inside
 
 
 def _top(element: CourseElement) -> float:

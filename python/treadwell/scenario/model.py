@@ -74,6 +74,12 @@ class Sensors(Table):
     feet: Literal["noisy", "ideal"] = "noisy"
     latency: Annotated[float, Field(ge=0.0, le=2.0)] = 0.0
     """Seconds from exposure to arrival of a depth image."""
+    camera_roll_pitch_error: Annotated[float, Field(ge=0.0, le=0.5)] | None = None
+    """Bound of the camera's error in roll and pitch, rad, instead of the robot's own."""
+    camera_position_error: Annotated[float, Field(ge=0.0, le=0.1)] | None = None
+    """Bound of the error of the camera's place, m, instead of the robot's own."""
+    mismatch_rate: Annotated[float, Field(ge=0.0, le=1.0)] | None = None
+    """Share of pixels that stereo gets grossly wrong, instead of the robot's own."""
 
 
 class Navigation(Table):

@@ -46,6 +46,18 @@ class SensorSettings(Protocol):
     def latency(self) -> float:
         """Seconds from a depth image's exposure to its arrival."""
 
+    @property
+    def camera_roll_pitch_error(self) -> float | None:
+        """Bound of the camera's error in roll and pitch, rad; None: the robot's own."""
+
+    @property
+    def camera_position_error(self) -> float | None:
+        """Bound of the error of the camera's place, m; None: the robot's own."""
+
+    @property
+    def mismatch_rate(self) -> float | None:
+        """Share of pixels that stereo gets grossly wrong; None: the robot's own."""
+
 
 class SensedRobot(Protocol):
     """What the senses need to know of a robot."""
@@ -88,7 +100,7 @@ class Sensors:
             texture: for each geom id, how well stereo sees it, 0 (blank) to 1; default: all 1.
         """
         file = robot.file
-        error = _camera_error(robot.nominal, file, streams("sensors.camera"))
+        error = _camera_error(robot.nominal, file, settings, streams("sensors.camera"))
         self._joint_order = {name: i for i, name in enumerate(robot.joints)}
         self._encoders = self._build_encoders(model, robot, settings, streams, error)
         self._drawn_offsets = self._encoders.offsets.copy()
@@ -174,14 +186,23 @@ def _camera_joints(file: RobotFile) -> tuple[str, ...]:
     return (*file.trunk.joints, file.head.pan, file.head.tilt)
 
 
-def _camera_error(model: mujoco.MjModel, file: RobotFile, rng: np.random.Generator) -> CameraError:
+def _camera_error(
+    model: mujoco.MjModel, file: RobotFile, settings: SensorSettings, rng: np.random.Generator
+) -> CameraError:
     weights = [TRUNK_WEIGHT] * len(file.trunk.joints) + [1.0, 1.0]
     table = file.encoders
     bounds = CameraErrorBounds(
-        table.camera_roll_pitch_error, table.camera_yaw_error, table.camera_position_error
+        _either(settings.camera_roll_pitch_error, table.camera_roll_pitch_error),
+        table.camera_yaw_error,
+        _either(settings.camera_position_error, table.camera_position_error),
     )
     joints = _camera_joints(file)
     return draw_camera_error(model, file.camera.name, joints, weights, bounds, rng)
+
+
+def _either(asked: float | None, own: float) -> float:
+    """Return what the scenario asks for, or the robot's own where it does not say."""
+    return own if asked is None else asked
 
 
 def _imu(model: mujoco.MjModel, file: RobotFile, settings: SensorSettings, streams: Streams) -> Imu:
@@ -225,6 +246,7 @@ def _depth(
     else:
         values = table.stereo.model_dump()
         values["valid_textured"] = 1.0 - values.pop("dropout_rate")
+        values["mismatch_rate"] = _either(settings.mismatch_rate, values["mismatch_rate"])
         pattern, noise = streams("sensors.depth.pattern"), streams("sensors.depth.noise")
         stereo = StereoModel(StereoConfig(**values), pinhole, pattern, noise)
     return DepthSensor(

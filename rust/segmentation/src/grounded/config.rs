@@ -7,6 +7,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct GroundConfig {
+    /// Whether what is seen of the ground corrects the camera's pose; false, to compare: surfaces are shown where the joints have
+    /// them.
+    pub correct: bool,
     /// Smallest noise of a disparity that is believed, px. Matching windows overlap, so that neighbours differ less
     /// than they err: what is measured in the image can only raise this calibrated figure.
     pub noise_floor: f64,
@@ -44,6 +47,7 @@ pub struct GroundConfig {
 impl Default for GroundConfig {
     fn default() -> Self {
         Self {
+            correct: true,
             noise_floor: 0.125,
             noise_ceiling: 4.0,
             min_region: 80,

@@ -163,6 +163,18 @@ impl<F: Finder> Grounded<F> {
         let picture = self.surfaces.picture(&level.view);
         self.search.search(picture, &level.view, area)
     }
+
+    /// Shows the surfaces of the picture that was read as if the joints had the camera's pose right.
+    fn show_uncorrected(&mut self, scan: &Scan, planes: &mut Planes) {
+        let by_joints = Levelled::new(&self.camera, scan.robot_from_camera, Vector2::zeros());
+        for look in [Look::First, Look::Again] {
+            self.surfaces.find(&by_joints.view, look);
+        }
+        self.surfaces.refit(&by_joints.view);
+        planes.exposure_ns = scan.exposure_ns;
+        (planes.ground, planes.reliable) = (None, true);
+        self.fill_product(&by_joints, 0.0, planes);
+    }
 }
 
 impl<F: Finder> Segmenter for Grounded<F> {
@@ -183,6 +195,10 @@ impl<F: Finder> Segmenter for Grounded<F> {
             }
         }
         self.surfaces.read(scan);
+        if !self.config.correct {
+            self.show_uncorrected(scan, planes);
+            return Ok(());
+        }
         let predicted = self.correction.predict(&scan.robot_from_camera);
         let mut levelled = self.level(predicted);
         let reference = self.find_reference(&levelled, known);

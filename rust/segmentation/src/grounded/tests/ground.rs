@@ -152,3 +152,30 @@ fn stairs_that_fill_the_view_at_the_start_are_never_taken_for_the_ground() {
         }
     }
 }
+
+#[test]
+fn uncorrected_the_camera_stays_where_the_joints_have_it() {
+    let config = GroundConfig {
+        correct: false,
+        ..GroundConfig::default()
+    };
+    let mut segmenter = ScanLine::new(&ScanLineConfig::default(), config, CAMERA).unwrap();
+    let (mut noise, mut planes) = (Noise::new(3), planes());
+    let truth = camera_pose(0.0, 0.75);
+    let off = UnitQuaternion::from_scaled_axis(Vector3::new(0.0, 0.03, 0.0));
+    for (by_joints, height_m) in [
+        (truth, 0.0),
+        (
+            Pose::wrap(off * truth.inner),
+            f64::NAN, // tilted, the floor has no one height
+        ),
+    ] {
+        let scan = Scene::floor().scan(&truth, by_joints, SIGMA, &mut noise);
+        segmenter.segment(&scan, &mut planes).unwrap();
+        assert_eq!(planes.robot_from_camera, by_joints);
+        assert!(planes.reliable && planes.ground.is_none());
+        let heights = planes.floor_height_m.iter().filter(|h| !h.is_nan());
+        let found: Vec<_> = heights.map(|&h| f64::from(h)).collect();
+        assert!(height_m.is_nan() || (median(found) - height_m).abs() < 0.003);
+    }
+}

@@ -1,0 +1,71 @@
+"""Slopes, and surfaces above each other: their tables of the experiment `fog`."""
+
+import math
+from collections.abc import Iterable
+
+from treadwell.experiments import fog_cases as cases
+from treadwell.experiments.experiment import NOTHING, Results, Table, middle, share
+from treadwell.judging.ceiling_watch import CeilingErrors
+from treadwell.judging.element_watch import ElementCells
+
+
+def ceilings(results: Results) -> Table:
+    """Return the table of beams over the way: found where they are, and passed or not."""
+    rows = []
+    for name in cases.BEAMS:
+        runs = results.get(name, ())
+        found: list[CeilingErrors] = [run.findings for run in runs]
+        errors = [1e3 * error for one in found for error in one.errors]
+        if runs:
+            rows.append(
+                (
+                    name,
+                    share(sum(run.passed for run in runs), len(runs)),
+                    str(len(errors)),
+                    middle([abs(error) for error in errors]),
+                    f"{max(map(abs, errors)):.0f}" if errors else NOTHING,
+                )
+            )
+    return Table(
+        "A beam across the way (section VI)",
+        ("case", "decided right", "cells with a ceiling", "median error, mm", "worst, mm"),
+        tuple(rows),
+        (
+            "A beam that is high enough is to be walked under, a low one refused. The paper "
+            "proposes a ceiling map and has none: by its own rule (the last row) every beam that "
+            "the grid holds is an obstacle, and refused. Wanted: always right, 40 mm.",
+        ),
+    )
+
+
+def surfaces(results: Results) -> Table:
+    """Return the table of what the map has of a slope and of what lies above each other."""
+    elements: dict[str, list[ElementCells]] = {}
+    for name in (cases.SLOPE, cases.OVER):
+        for run in results.get(name, ()):
+            for one in run.findings:
+                elements.setdefault(one.name, []).append(one)
+    return Table(
+        "A slope of 5 to 10 degrees; a curtain; a table with a box below it (sections III, VI)",
+        ("element", "cells", "floor, %", "obstacle, %", "floor off its top, mm", "tilt, degrees"),
+        tuple((name, *_shares(some)) for name, some in elements.items()),
+        (
+            "Of cells in the end. The paper: a slope is no floor, a curtain is an obstacle, of two "
+            "surfaces the higher one is kept and what lies below is ignored, so that the box's "
+            "cells have the table's height.",
+        ),
+    )
+
+
+def _shares(some: Iterable[ElementCells]) -> tuple[str, ...]:
+    counted = list(some)
+    cells = sum(one.cells for one in counted)
+    errors = [1e3 * error for one in counted for error in one.errors]
+    tilts = [math.degrees(one.tilt_error) for one in counted if one.tilt_error is not None]
+    return (
+        str(cells),
+        f"{100 * sum(one.floor for one in counted) / max(cells, 1):.1f}",
+        f"{100 * sum(one.obstacle for one in counted) / max(cells, 1):.1f}",
+        middle(errors),
+        middle(tilts, 2),
+    )
