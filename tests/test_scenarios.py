@@ -54,6 +54,7 @@ LOOKED_AT = (
     "slope_seen",
     "over_each_other",
     "turns",
+    "beam_seen",
 )
 EXPECTED = {
     **WALKED,

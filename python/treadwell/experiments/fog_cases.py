@@ -24,8 +24,10 @@ Naming = Callable[[str], str]
 LEVELS_IDEAL: Final = "three_levels_ideal"
 BEAM_HIGH: Final = "beam_high"
 BEAM_LOW: Final = "beam_low"
-BEAM_BY_THE_PAPER: Final = "beam_high_by_the_paper"
-BEAMS: Final = (BEAM_HIGH, BEAM_LOW, BEAM_BY_THE_PAPER)
+BEAM_SEEN: Final = "beam_seen"
+BEAM_SEEN_LOW: Final = "beam_seen_low"
+BEAM_BY_THE_PAPER: Final = "beam_seen_by_the_paper"
+BEAMS: Final = (BEAM_SEEN, BEAM_SEEN_LOW, BEAM_BY_THE_PAPER, BEAM_HIGH, BEAM_LOW)
 WALKED_FILTERED: Final = "levels_walked"
 WALKED_UNFILTERED: Final = "levels_walked_unfiltered"
 TURNS: Final = "turns"
@@ -104,16 +106,12 @@ WORSE: Final = (
 with pixels that are grossly wrong."""
 
 _BEAMS: Final = (
+    Case(BEAM_SEEN, "beam_seen", watch=CeilingWatch),
+    Case(BEAM_SEEN_LOW, "beam_seen", ("course.beam.base=0.5",), watch=CeilingWatch),
+    # More room than any beam leaves: as where there is no ceiling map.
+    Case(BEAM_BY_THE_PAPER, "beam_seen", ("navigation.fog.headroom=9.0",), watch=CeilingWatch),
     Case(BEAM_HIGH, "beam_high", watch=CeilingWatch),
     Case(BEAM_LOW, "beam_low", watch=CeilingWatch),
-    # More room than any beam leaves: as where there is no ceiling map.
-    Case(
-        BEAM_BY_THE_PAPER,
-        "beam_high",
-        ("navigation.fog.headroom=9.0", "expect.outcome=refused"),
-        share=0.34,
-        watch=CeilingWatch,
-    ),
 )
 
 CASES: Final = (

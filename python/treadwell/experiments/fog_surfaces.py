@@ -24,16 +24,18 @@ def ceilings(results: Results) -> Table:
                     str(len(errors)),
                     middle([abs(error) for error in errors]),
                     f"{max(map(abs, errors)):.0f}" if errors else NOTHING,
+                    f"{100 * sum(one.free for one in found) / max(len(errors), 1):.1f}",
                 )
             )
     return Table(
-        "A beam across the way (section VI)",
-        ("case", "decided right", "cells with a ceiling", "median error, mm", "worst, mm"),
+        "A beam over the way (section VI)",
+        ("case", "as expected", "cells with a ceiling", "median error, mm", "worst", "free, %"),
         tuple(rows),
         (
-            "A beam that is high enough is to be walked under, a low one refused. The paper "
-            "proposes a ceiling map and has none: by its own rule (the last row) every beam that "
-            "the grid holds is an obstacle, and refused. Wanted: always right, 40 mm.",
+            "beam_seen: from where the robot stands, 0.65 to 0.7 m above the floor, and at 0.5 m; "
+            "all its cells are to be free, and none. By the paper: it proposes a ceiling map and "
+            "has none, so that every beam is an obstacle. beam_high and beam_low: walked under "
+            "and refused. Wanted: 40 mm; always right.",
         ),
     )
 

@@ -7,6 +7,7 @@ import numpy as np
 from treadwell.course.build import CourseElement
 from treadwell.episode import Episode
 from treadwell.judging.cells import covered_by, lattice
+from treadwell.judging.map_memory import FLOOR
 from treadwell.recording.trace import Trace
 
 
@@ -16,11 +17,14 @@ class CeilingErrors:
 
     Attributes:
         cells: that something hangs over, floor below it; of those that the map ever had in view.
-        errors: m, map minus truth, an entry for each of them for which the map last had a ceiling.
+        errors: m, map minus truth, an entry for each of them for which the map had a ceiling: the
+            last one that it had.
+        free: how many of those were floor to the map then, with room to pass under.
     """
 
     cells: int
     errors: tuple[float, ...]
+    free: int
 
 
 class CeilingWatch:
@@ -31,6 +35,7 @@ class CeilingWatch:
         self._pilot = episode.pilot
         self._hanging = [one for one in episode.course.elements if _underside(one) > 0.0]
         self._errors: dict[tuple[int, int], float] = {}
+        self._free: set[tuple[int, int]] = set()
 
     def frame(self, trace: Trace) -> None:
         """Take in a camera frame."""
@@ -38,17 +43,19 @@ class CeilingWatch:
         if ceilings is None:
             return
         centres, cells = lattice(trace)
-        found = ceilings.ravel().astype(np.float64)
+        found, kind = ceilings.ravel().astype(np.float64), trace.view_kind.ravel()
         for element in self._hanging:
             for index in np.flatnonzero(covered_by(element, centres)):
-                error = found[index] - _underside(element)
-                known = self._errors.get(cells[index], np.nan)
-                self._errors[cells[index]] = error if np.isfinite(error) else known
+                cell, error = cells[index], found[index] - _underside(element)
+                self._errors.setdefault(cell, np.nan)
+                if np.isfinite(error):
+                    self._errors[cell] = error
+                    (self._free.add if kind[index] == FLOOR else self._free.discard)(cell)
 
     def findings(self) -> CeilingErrors:
         """Return what the map had last."""
         known = tuple(float(error) for error in self._errors.values() if np.isfinite(error))
-        return CeilingErrors(len(self._errors), known)
+        return CeilingErrors(len(self._errors), known, len(self._free))
 
 
 def _underside(element: CourseElement) -> float:
