@@ -139,8 +139,13 @@ impl StairClimbing {
             })
     }
 
-    /// The step to take now: the memorised one, else what is seen ahead.
+    /// The step to take now: the memorised one, else what is seen ahead. None where the climb has led to a place from which the
+    /// way goes on level, whatever stairs there are beyond it.
     fn next_step(&mut self, here: &Here<'_>) -> Option<Step> {
+        if self.on.is_some() && here.has_level_way() && self.has_room(here) {
+            self.flight.clear();
+            return None;
+        }
         if self.flight.first().is_none() {
             let reach_m = 0.5 * self.feet.length_m + 0.06;
             let stairs = here.situation.stairs;
