@@ -13,6 +13,7 @@ from hypothesis.extra.numpy import arrays
 from treadwell.judging.regions import RegionCounts
 from treadwell.judging.segmentation_watch import SegmentationWatch, connected
 from treadwell.random_streams import RandomStreams
+from treadwell.scenario.model import Sensors as Senses
 from treadwell.senses.sensors import Sensors
 
 STEP = """
@@ -36,8 +37,7 @@ class Scene:
         self.world = world(STEP)
         data, model = self.world.simulation.data, self.world.model
         data.joint("neck_tilt").qpos[:] = 0.8
-        ideal: Any = SimpleNamespace(depth="ideal", encoders="ideal", imu="ideal", feet="ideal")
-        ideal.latency = 0.0
+        ideal = Senses(depth="ideal", encoders="ideal", imu="ideal", feet="ideal")
         sensors = Sensors(model, qrio(), ideal, RandomStreams(0))
         place = np.zeros(3)
         episode: Any = SimpleNamespace(
