@@ -144,6 +144,28 @@ fn a_foot_that_meets_something_on_its_way_goes_back() {
 }
 
 #[test]
+fn a_foot_that_brushes_the_next_riser_comes_down_before_it() {
+    let mut world = Ideal::new();
+    world.ground_m = |x_m, _| match x_m {
+        // The centre of the sole cannot come nearer to its place than 4 mm.
+        x_m if x_m > TREAD_M - 0.004 => 0.2,
+        x_m if x_m > 0.06 => 0.03,
+        _ => 0.0,
+    };
+    run(&mut world, &climb(&stair(0.03)));
+    let stepping = world.walker.stepping();
+    assert_eq!((stepping.landed, stepping.misstep), (2, None));
+    for side in Side::BOTH {
+        let foot = world.walker.foot_in_plan(side);
+        let short_m = TREAD_M - foot.planar.x_m;
+        assert!(
+            (0.0..=0.01).contains(&short_m) && (foot.z_m - 0.03).abs() < 0.002,
+            "{foot:?}"
+        );
+    }
+}
+
+#[test]
 fn a_foot_that_goes_down_and_comes_to_stand_on_the_next_riser_goes_back() {
     let mut world = Ideal::new();
     // A basin too short for the foot: it is told the bottom and meets the far side's level.

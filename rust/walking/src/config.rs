@@ -102,6 +102,8 @@ pub struct GaitConfig {
     pub probe_depth: f64,
     /// A listed step's foot that is this far beside its path has met something, m.
     pub obstructed_distance: f64,
+    /// One that meets the next riser this near to its place comes down where it is, m: what lies behind its bearing part.
+    pub brush_distance: f64,
     /// One that comes down on something this far above where it was told to land has met another level, m.
     pub obstructed_height: f64,
     /// Time to raise the arms, or to lower them, s.
@@ -161,6 +163,7 @@ impl Default for GaitConfig {
             probe_speed: 0.08,
             probe_depth: 0.02,
             obstructed_distance: 0.018,
+            brush_distance: 0.01,
             obstructed_height: 0.015,
             arms_time: 1.5,
             hip_speed: 0.12,
@@ -201,7 +204,7 @@ impl GaitConfig {
         self.check_bounds()
     }
 
-    fn positive(&self) -> [(&'static str, f64); 27] {
+    fn positive(&self) -> [(&'static str, f64); 28] {
         [
             ("step_time", self.step_time),
             ("double_support", self.double_support),
@@ -226,6 +229,7 @@ impl GaitConfig {
             ("climb_rise", self.climb_rise),
             ("probe_speed", self.probe_speed),
             ("obstructed_distance", self.obstructed_distance),
+            ("brush_distance", self.brush_distance),
             ("obstructed_height", self.obstructed_height),
             ("arms_time", self.arms_time),
             ("hip_speed", self.hip_speed),

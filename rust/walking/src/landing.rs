@@ -2,6 +2,7 @@
 //! there is none or something is in its way.
 
 use behaviour::Misstep;
+use geometry::PlanarPose;
 use nalgebra::Vector3;
 
 use crate::GaitConfig;
@@ -14,6 +15,9 @@ const HIGH: f64 = 0.25;
 
 /// How far a foot may be behind its path, s.
 const LAG_S: f64 = 0.02;
+
+/// How far before what it met a foot then comes down, m.
+const CLEAR_M: f64 = 0.003;
 
 /// What is known of the ground under a foot in the air.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,7 +75,9 @@ impl Gait {
         } else if swing.manner == Manner::Careful
             && felt.obstructs(swing, before_s, touches, &self.config)
         {
-            self.take_back(Misstep::Obstructed);
+            if !(touches && swing.stops_short(before_s, &self.config)) {
+                self.take_back(Misstep::Obstructed);
+            }
         } else if *elapsed_s >= swing_s {
             *elapsed_s = swing_s;
             let below_m = match swing.landing {
@@ -129,6 +135,23 @@ impl Swing {
         let above_m = self.foot(elapsed_s, config).z_m - self.to.z_m;
         let level = self.manner == Manner::Back || above_m <= config.obstructed_height;
         level && elapsed_s >= SINKING * self.in_air_s(config)
+    }
+
+    /// Lets a foot that meets the next riser as it arrives land just before it, when that is near enough to where it was told.
+    fn stops_short(&mut self, elapsed_s: f64, config: &GaitConfig) -> bool {
+        let here = self.foot(elapsed_s, config).planar;
+        let arrives = here.distance_m(&self.planned.planar) <= config.brush_distance
+            && elapsed_s < SINKING * self.in_air_s(config);
+        if arrives {
+            let way_m = here.distance_m(&self.from.planar);
+            let back = CLEAR_M / way_m.max(CLEAR_M);
+            self.to.planar = PlanarPose {
+                x_m: here.x_m + (self.from.planar.x_m - here.x_m) * back,
+                y_m: here.y_m + (self.from.planar.y_m - here.y_m) * back,
+                ..here
+            };
+        }
+        arrives
     }
 }
 
