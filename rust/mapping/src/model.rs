@@ -100,8 +100,8 @@ pub trait WorldModel: Send + Sync {
     fn view(&self) -> &FloorView;
 
     /// For each cell of the view the height at which what hangs above its floor begins, m in the map frame, as coarse as the
-    /// model is; NaN where nothing is known to. `None` from a model that keeps no ceilings.
-    fn ceilings(&self) -> Option<&Grid<f32>> {
+    /// model is; NaN where nothing is known to. `None` from a model that keeps no ceilings. Made anew at each call.
+    fn ceilings(&self) -> Option<Grid<f32>> {
         None
     }
 }

@@ -290,12 +290,12 @@ proptest! {
             let pose = Pose::<Map, Robot>::from_yaw(x, y, z, yaw);
             let before = fog.view().clone();
             let insertion = fog.insert(&look(&blocks, &pose, camera(0.5, pitch, pan)), &pose).unwrap();
-            let view = fog.view();
+            let (view, ceilings) = (fog.view(), fog.ceilings().unwrap());
             for cell in view.cells.area().cells() {
                 let surface = view.cell(cell);
                 prop_assert_eq!(surface, fog.surface(cell));
                 prop_assert_eq!(view.sightings.get(cell).copied(), Some(fog.floor().sightings(cell)));
-                let ceiling_m = fog.ceilings().unwrap().get(cell).copied().unwrap();
+                let ceiling_m = ceilings.get(cell).copied().unwrap();
                 prop_assert_eq!((!ceiling_m.is_nan()).then_some(ceiling_m), fog.ceiling_m(cell).map(|m| m as f32));
                 match surface {
                     Surface::Floor(h) | Surface::Obstacle(h) => prop_assert!(h.is_finite()),

@@ -152,7 +152,7 @@ impl Perception {
     }
 
     /// Where what hangs above the view's cells begins, m, where the map keeps it.
-    pub fn ceilings(&self) -> Option<&Grid<f32>> {
+    pub fn ceilings(&self) -> Option<Grid<f32>> {
         self.world_model.ceilings()
     }
 

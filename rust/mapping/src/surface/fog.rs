@@ -20,8 +20,6 @@ pub struct Fog {
     floor: FloorGrid,
     stood: Stood,
     view: FloorView,
-    /// [`Fog::ceiling_m`] of each cell; NaN where there is none.
-    ceilings: Grid<f32>,
     frame: LabelledFrame,
 }
 
@@ -52,7 +50,6 @@ impl Fog {
             floor: FloorGrid::new(lattice, &config),
             stood: Stood::new(n, config.footprint),
             view: FloorView::unknown(lattice, n),
-            ceilings: Grid::filled(n, n, f32::NAN),
             frame: LabelledFrame::default(),
             window,
             layers,
@@ -119,7 +116,6 @@ impl Fog {
         self.floor.shift(cols, rows, lattice);
         self.stood.shift(cols, rows);
         self.view.shift(cols, rows, lattice);
-        self.ceilings.shift(cols, rows, &f32::NAN);
         let all = self.view.cells.area();
         if layers != 0 {
             self.floor.verify(&self.occupancy, all);
@@ -134,12 +130,6 @@ impl Fog {
             let surface = self.surface(cell);
             let seen = self.floor.sightings(cell);
             self.view.set(cell, surface, seen);
-            let ceiling_m = self
-                .ceiling_m(cell)
-                .map_or(f32::NAN, |height| height as f32);
-            if let Some(slot) = self.ceilings.get_mut(cell) {
-                *slot = ceiling_m;
-            }
         }
     }
 }
@@ -199,7 +189,13 @@ impl WorldModel for Fog {
         &self.view
     }
 
-    fn ceilings(&self) -> Option<&Grid<f32>> {
-        Some(&self.ceilings)
+    fn ceilings(&self) -> Option<Grid<f32>> {
+        let mut ceilings = Grid::filled(self.config.cells, self.config.cells, f32::NAN);
+        for cell in ceilings.area().cells() {
+            if let (Some(height_m), Some(slot)) = (self.ceiling_m(cell), ceilings.get_mut(cell)) {
+                *slot = height_m as f32;
+            }
+        }
+        Some(ceilings)
     }
 }
