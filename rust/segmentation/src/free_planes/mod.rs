@@ -1,11 +1,13 @@
 //! Planes in any direction: what the finders share that look for them all over the picture.
 
 mod draws;
+mod flood;
 mod peeling;
 mod remaining;
 
 use crate::grounded::{Linear, MAX_REGIONS, Picture, Region, View};
 pub(crate) use draws::Draws;
+pub(crate) use flood::{flood, neighbours};
 pub(crate) use peeling::Peeling;
 pub(crate) use remaining::{Pixel, Remaining, through};
 
@@ -42,34 +44,11 @@ impl FreePlanes {
         labels: &mut [u16],
         queue: &mut Vec<usize>,
     ) {
-        let width = picture.width;
-        queue.clear();
-        queue.extend((0..labels.len()).filter(|&at| labels[at] > 0));
-        let mut next = 0;
-        while next < queue.len() {
-            let at = queue[next];
-            next += 1;
-            let label = labels[at];
-            let plane = &self.planes[usize::from(label) - 1];
-            let col = at % width;
-            let (left, right) = (col > 0, col + 1 < width);
-            let beside = [
-                left.then(|| at - 1),
-                right.then_some(at + 1),
-                at.checked_sub(width),
-                Some(at + width),
-            ];
-            for beside in beside.into_iter().flatten() {
-                let there = plane.at(beside % width, beside / width);
-                let Some(target) = labels.get_mut(beside).filter(|label| **label == 0) else {
-                    continue;
-                };
-                if there > 0.0 && (picture.disparity_px[beside] - there).abs() < accept_px {
-                    *target = label;
-                    queue.push(beside);
-                }
-            }
-        }
+        flood(labels, picture.width, queue, |label, at| {
+            let there =
+                self.planes[usize::from(label) - 1].at(at % picture.width, at / picture.width);
+            there > 0.0 && (picture.disparity_px[at] - there).abs() < accept_px
+        });
     }
 
     /// Fills `regions` with the planes as a view shows them: those that are level in it are horizontal.

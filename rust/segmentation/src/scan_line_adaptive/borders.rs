@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::free_planes::{flood, neighbours};
 use crate::grounded::{Linear, Picture};
 
 /// How often the borders are looked over.
@@ -57,19 +58,9 @@ pub(super) fn settle_borders(
             *label = 0;
         }
     }
-    queue.clear();
-    queue.extend((0..labels.len()).filter(|&at| labels[at] > 0));
-    let mut next = 0;
-    while next < queue.len() {
-        let at = queue[next];
-        next += 1;
-        for beside in neighbours(at, picture.width, labels.len()) {
-            if labels[beside] == 0 && misfit(labels[at], beside).is_some() {
-                labels[beside] = labels[at];
-                queue.push(beside);
-            }
-        }
-    }
+    flood(labels, picture.width, queue, |label, at| {
+        misfit(label, at).is_some()
+    });
     for _ in 0..ROUNDS {
         for at in 0..labels.len() {
             let Some(mut least) = misfit(labels[at], at) else {
@@ -86,19 +77,6 @@ pub(super) fn settle_borders(
             }
         }
     }
-}
-
-/// The four pixels beside one.
-fn neighbours(at: usize, width: usize, pixels: usize) -> impl Iterator<Item = usize> {
-    let col = at % width;
-    [
-        (col > 0).then(|| at - 1),
-        (col + 1 < width).then_some(at + 1),
-        at.checked_sub(width),
-        (at + width < pixels).then_some(at + width),
-    ]
-    .into_iter()
-    .flatten()
 }
 
 #[cfg(test)]
