@@ -75,7 +75,7 @@ impl Gait {
         } else if swing.manner == Manner::Careful
             && felt.obstructs(swing, before_s, touches, &self.config)
         {
-            if !(touches && swing.stops_short(before_s, &self.config)) {
+            if !(touches && swing.stop_short(before_s, &self.config)) {
                 self.take_back(Misstep::Obstructed);
             }
         } else if *elapsed_s >= swing_s {
@@ -137,17 +137,18 @@ impl Swing {
         level && elapsed_s >= SINKING * self.in_air_s(config)
     }
 
-    /// Lets a foot that meets the next riser as it arrives land just before it, when that is near enough to where it was told.
-    fn stops_short(&mut self, elapsed_s: f64, config: &GaitConfig) -> bool {
+    /// Lets a foot that meets the next riser as it arrives land just before it, and says whether it may: whether that is near
+    /// enough to where it was told.
+    fn stop_short(&mut self, elapsed_s: f64, config: &GaitConfig) -> bool {
         let here = self.foot(elapsed_s, config).planar;
         let arrives = here.distance_m(&self.planned.planar) <= config.brush_distance
             && elapsed_s < SINKING * self.in_air_s(config);
         if arrives {
             let way_m = here.distance_m(&self.from.planar);
-            let back = CLEAR_M / way_m.max(CLEAR_M);
+            let back_share = CLEAR_M / way_m.max(CLEAR_M);
             self.to.planar = PlanarPose {
-                x_m: here.x_m + (self.from.planar.x_m - here.x_m) * back,
-                y_m: here.y_m + (self.from.planar.y_m - here.y_m) * back,
+                x_m: here.x_m + (self.from.planar.x_m - here.x_m) * back_share,
+                y_m: here.y_m + (self.from.planar.y_m - here.y_m) * back_share,
                 ..here
             };
         }
