@@ -79,6 +79,20 @@ fn four_steps_are_descended() {
 }
 
 #[test]
+fn a_goal_on_the_landing_is_not_left_down_the_step_behind_it() {
+    let course = straight(0.6, &[(0.02, 0.13), (0.02, 0.4), (-0.04, 0.6)], 0.4);
+    let mut simulation =
+        Simulation::new(PlanarPose::default(), course, [0.93, 0.0], Pace::StepByStep);
+    assert_on_top(&mut simulation, 0.04, 60.0);
+    let furthest_m = simulation.landings.iter().map(|(_, foot)| foot.pose.x_m);
+    assert!(
+        furthest_m.fold(0.0, f64::max) < 1.13,
+        "{:?}",
+        simulation.landings
+    );
+}
+
+#[test]
 fn a_sill_of_9_cm_is_crossed_with_both_feet_on_it() {
     let sill = [(0.038, 0.09), (-0.038, 1.5)];
     let mut simulation = Simulation::new(

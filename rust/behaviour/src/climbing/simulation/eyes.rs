@@ -72,7 +72,9 @@ impl Simulation {
         let mut steps = Vec::new();
         for stair in &self.staircase.stairs {
             let middle = stair.front.middle().inner;
+            let goal_m = [self.goal.x_m, self.goal.y_m];
             if stair.front.beyond_m([pose.x_m, pose.y_m]) >= 0.0
+                || stair.front.beyond_m(goal_m) < 0.0
                 || steps.len() + from >= self.steps.len()
             {
                 continue;
