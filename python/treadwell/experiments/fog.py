@@ -7,40 +7,13 @@ from typing import Final
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.experiment import NOTHING, Experiment, Results, Table, middle, share
 from treadwell.experiments.fog_drift import height_drift, turning
+from treadwell.experiments.fog_levels import three_levels, worse_senses
 from treadwell.experiments.fog_pictures import fog_pictures
-from treadwell.experiments.fog_robustness import worse_senses
 from treadwell.experiments.fog_surfaces import ceilings, surfaces
 from treadwell.experiments.level_heights import level_heights
 from treadwell.judging.map_watch import MapFrame, MapHistory
 from treadwell.judging.regions import RegionCounts
 from treadwell.runner import Run
-
-
-def _three_levels(results: Results) -> Table:
-    def row(name: str) -> tuple[str, ...]:
-        runs = results.get(name, ())
-        maps = [run.result.map for run in runs]
-        errors = [
-            1e3 * abs(surface.estimate - surface.truth)
-            for run in runs
-            for surface in run.result.surfaces
-            if surface.estimate is not None
-        ]
-        return (
-            name,
-            middle([100 * one.floor_cells_right for one in maps], 2),
-            middle([100 * one.obstacle_cells_right for one in maps], 2),
-            middle(errors, 2),
-            f"{max(errors):.2f}" if errors else NOTHING,
-        )
-
-    names = (cases.LEVELS_IDEAL, *(cases.levels(model) for model in cases.WORLD_MODELS))
-    return Table(
-        "Three levels and two obstacles with rough tops (Fig. 3)",
-        ("case", "floor right, %", "obstacle right, %", "median height error, mm", "worst, mm"),
-        tuple(row(name) for name in names if results.get(name)),
-        ("The paper: all right with a perfect sensor. Wanted with stereo noise: 99 %, 3 mm.",),
-    )
 
 
 def _removed(results: Results) -> Table:
@@ -180,7 +153,7 @@ def _wrong_height(run: Run) -> float:
 def fog_tables(results: Results) -> list[Table]:
     """Return the tables of what came out; of what was not run there is none."""
     made = [
-        _three_levels(results),
+        three_levels(results),
         _removed(results),
         _moved(results),
         level_heights(results.get(cases.course(cases.FOG), ())),
