@@ -6,7 +6,7 @@ mod common;
 use common::{Block, camera, look};
 use criterion::{Criterion, criterion_group, criterion_main};
 use geometry::{Map, Pose, Robot};
-use mapping::{Fog, FogConfig, Update, WorldModel};
+use mapping::{Clearing, Fog, FogConfig, Update, WorldModel};
 
 /// A sill, steps and boxes seen while walking 8 mm a frame and sweeping the head.
 fn insert(criterion: &mut Criterion) {
@@ -29,6 +29,13 @@ fn insert(criterion: &mut Criterion) {
         (
             "fog insert 88x72, 24 layers, per frame",
             FogConfig::default(),
+        ),
+        (
+            "fog insert 88x72, 24 layers, every ray",
+            FogConfig {
+                clearing: Clearing::EveryRay,
+                ..FogConfig::default()
+            },
         ),
         ("fog insert 88x72, 16 layers, per frame", FogConfig::paper()),
         (

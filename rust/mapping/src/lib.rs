@@ -7,4 +7,4 @@ pub mod volume;
 
 pub use averaging::{Averaging, AveragingConfig};
 pub use model::{FloorView, Insertion, MapError, Surface, WorldModel};
-pub use surface::{Fog, FogConfig, Update};
+pub use surface::{Clearing, Fog, FogConfig, Update};

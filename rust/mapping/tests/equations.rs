@@ -6,7 +6,7 @@ use common::{Block, camera, look};
 use geometry::{Cell, CellArea, Lattice, Map, Pose, Robot};
 use mapping::surface::{FloorGrid, LabelledFrame, LabelledPoint};
 use mapping::volume::{OccupancyGrid, Placement, ProbabilityTable, Ray, Size};
-use mapping::{Fog, FogConfig, Surface, Update, WorldModel};
+use mapping::{Clearing, Fog, FogConfig, Surface, Update, WorldModel};
 use proptest::prelude::*;
 
 const EYE: [f64; 3] = [0.0, 0.0, 0.5];
@@ -41,7 +41,7 @@ fn grid() -> OccupancyGrid {
 
 fn insert(grid: &mut OccupancyGrid, ends: &[[f64; 3]], update: Update) -> CellArea {
     let rays = ends.iter().map(|&end_m| Ray { end_m, hit: true });
-    grid.insert(EYE, rays, update)
+    grid.insert(EYE, rays, update, Clearing::EveryRay)
 }
 
 fn frame_of(point: [f64; 3], height: f64) -> LabelledFrame {

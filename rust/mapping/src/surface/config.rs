@@ -14,6 +14,17 @@ pub enum Update {
     PerPoint,
 }
 
+/// How a frame's rays are followed, once for all of them. The map is the same to the last bit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Default)]
+#[serde(rename_all = "snake_case")]
+pub enum Clearing {
+    /// Where neighbours can only pass what is marked or as free as can be, none of them is followed.
+    #[default]
+    Shared,
+    /// Each by itself: what `Shared` is compared with.
+    EveryRay,
+}
+
 /// Parameters of the floor and obstacle grid: `[navigation.fog]`. The paper names them without values, except for the
 /// grid's size; the defaults were tried on scenes with stairs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -52,6 +63,8 @@ pub struct FogConfig {
     pub headroom: Option<f64>,
     /// How often a frame may change a voxel: `per_frame` or `per_point`.
     pub update: Update,
+    /// How rays are followed with `per_frame`: `shared` or `every_ray` (slower; the same map).
+    pub clearing: Clearing,
     /// Whether points of a horizontal plane are moved along their ray to the plane's height.
     pub snap: bool,
     /// Points further away than this are only used to clear the way up to it, m.
@@ -83,6 +96,7 @@ impl Default for FogConfig {
             delta: 0.028,
             headroom: None,
             update: Update::PerFrame,
+            clearing: Clearing::Shared,
             snap: true,
             max_range: 4.0,
             match_gate: 0.02,

@@ -169,9 +169,9 @@ impl WorldModel for Fog {
         if used {
             self.frame.raise(shift.unwrap_or(0.0));
             let eye_m = self.frame.eye_m;
-            let touched = self
-                .occupancy
-                .insert(eye_m, self.frame.rays(), config.update);
+            let touched =
+                self.occupancy
+                    .insert(eye_m, self.frame.rays(), config.update, config.clearing);
             self.floor.verify(&self.occupancy, touched);
             self.floor
                 .update(&self.frame, &self.occupancy, config.update);

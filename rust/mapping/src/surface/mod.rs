@@ -8,7 +8,7 @@ mod matching;
 mod stood;
 mod window;
 
-pub use config::{FogConfig, Update};
+pub use config::{Clearing, FogConfig, Update};
 pub use floor::{FloorGrid, INVALID, merge_height};
 pub use fog::Fog;
 pub(crate) use frame::check_poses;

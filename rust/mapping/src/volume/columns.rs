@@ -1,87 +1,180 @@
 //! The same exact traversal as [`super::VoxelWalk`], many voxels at a time: for every cell that a segment passes, seen from
 //! above, the run of layers that it passes there.
 
+use super::ray::Part;
+
 /// Fraction bits of the fixed-point coordinates: 2^-44 of a voxel, and room for half a million voxels.
-const BITS: u32 = 44;
+pub(super) const BITS: u32 = 44;
 const ONE: i64 = 1 << BITS;
 /// Fraction bits of the slope of height over the lesser axis.
 const SLOPE_BITS: u32 = 32;
 
-/// Calls `visit(index, layers)` for every cell that the segment passes: `index` is `row * cols + col`, `layers` has one
-/// bit for every layer. Both ends must lie inside the grid (in voxels); `first` and `last` are their voxels.
-///
-/// The segment is cut at every border of the axis along which it goes further. Within such a slab it crosses at most one
-/// border of the other axis. No error adds up beyond 2^-37 of a voxel.
-#[inline]
-pub(super) fn for_each_column(
-    from: [f64; 3],
-    to: [f64; 3],
-    first: [i32; 3],
-    last: [i32; 3],
-    cols: usize,
-    mut visit: impl FnMut(usize, u64),
-) {
-    // u is the axis along which the segment goes further, v the other one.
-    let along_x = (to[0] - from[0]).abs() >= (to[1] - from[1]).abs();
-    let (u, v) = if along_x { (0, 1) } else { (1, 0) };
-    let stride = |axis: usize| if axis == 0 { 1 } else { cols as i64 };
-    let (du, dv, dz) = (to[u] - from[u], to[v] - from[v], to[2] - from[2]);
-    let slabs = (last[u] - first[u]).abs();
-    let forward = du >= 0.0;
-    let u_stride = if forward { stride(u) } else { -stride(u) };
-    let v_stride = stride(v);
-    let mut u_index = i64::from(first[u]) * stride(u);
+/// More layers than a grid has.
+const MOST_LAYERS: i64 = 65 * ONE;
 
-    let per_slab = if slabs > 0 { 1.0 / du.abs() } else { 0.0 };
-    let border = f64::from(first[u] + i32::from(forward));
-    let to_border = (border - from[u]).abs() * per_slab;
-    let v_step = fixed(dv * per_slab).clamp(1 - ONE, ONE - 1);
-    let z_step = fixed(dz * per_slab);
-    let slope = if dv == 0.0 {
-        0
-    } else {
-        (dz / dv * f64::from(2.0_f32.powi(SLOPE_BITS as i32))) as i64
-    };
-    let (v_low, v_high) = (first[v].min(last[v]).into(), first[v].max(last[v]).into());
-    let (z_low, z_high) = (first[2].min(last[2]).into(), first[2].max(last[2]).into());
-    let cell = |fixed: i64| (fixed >> BITS).clamp(v_low, v_high);
-    let layer = |fixed: i64| (fixed >> BITS).clamp(z_low, z_high);
+/// A segment within the grid, cut at every border of the axis along which it goes further: u. Within such a slab it
+/// crosses at most one border of the other axis, v. No error adds up beyond 2^-37 of a voxel.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Slabs {
+    /// Whether u is x.
+    pub(super) along_x: bool,
+    /// Whether it goes towards higher u.
+    pub(super) forward: bool,
+    /// Slabs after the first.
+    pub(super) count: i32,
+    /// How far it goes along u, in voxels.
+    pub(super) length: f64,
+    /// v and height where it starts, at the first border, and from border to border; fixed point.
+    pub(super) start: [i64; 2],
+    pub(super) at_border: [i64; 2],
+    pub(super) step: [i64; 2],
+    first: [i64; 2],
+    last: [i64; 2],
+    /// Height over v.
+    slope: i64,
+    u_index: i64,
+    u_stride: i64,
+    v_stride: i64,
+}
 
-    let (mut v_in, mut z_in) = (fixed(from[v]), fixed(from[2]));
-    let (mut v0, mut z0) = (i64::from(first[v]), i64::from(first[2]));
-    let mut v_out = fixed(from[v] + to_border * dv);
-    let mut z_out = fixed(from[2] + to_border * dz);
-    for slab in 0..=slabs {
-        let (v1, z1) = if slab == slabs {
-            (i64::from(last[v]), i64::from(last[2]))
+impl Slabs {
+    /// The segment of a part of a ray, in a grid of so many columns.
+    #[inline]
+    pub(super) fn new(part: &Part, cols: usize) -> Self {
+        let Part {
+            from,
+            to,
+            first,
+            last,
+            ..
+        } = *part;
+        let along_x = (to[0] - from[0]).abs() >= (to[1] - from[1]).abs();
+        let (u, v) = if along_x { (0, 1) } else { (1, 0) };
+        let stride = |axis: usize| if axis == 0 { 1 } else { cols as i64 };
+        let (du, dv, dz) = (to[u] - from[u], to[v] - from[v], to[2] - from[2]);
+        let count = (last[u] - first[u]).abs();
+        let forward = du >= 0.0;
+        let per_slab = if count > 0 { 1.0 / du.abs() } else { 0.0 };
+        let border = f64::from(first[u] + i32::from(forward));
+        let to_border = (border - from[u]).abs() * per_slab;
+        let slope = if dv == 0.0 {
+            0
         } else {
-            (cell(v_out), layer(z_out))
+            (dz / dv * f64::from(2.0_f32.powi(SLOPE_BITS as i32))) as i64
         };
-        let here = u_index + v0 * v_stride;
-        if v0 == v1 {
-            visit(here as usize, run(z0, z1));
-        } else {
-            let v_border = v0.max(v1) << BITS;
-            let rise = (i128::from(v_border - v_in) * i128::from(slope)) >> SLOPE_BITS;
-            let middle = layer(z_in + rise as i64);
-            visit(here as usize, run(z0, middle));
-            visit((u_index + v1 * v_stride) as usize, run(middle, z1));
+        Self {
+            along_x,
+            forward,
+            count,
+            length: du.abs(),
+            start: [fixed(from[v]), fixed(from[2])],
+            at_border: [
+                fixed(from[v] + to_border * dv),
+                fixed(from[2] + to_border * dz),
+            ],
+            step: [
+                fixed(dv * per_slab).clamp(1 - ONE, ONE - 1),
+                // More is never used: a segment that leaves the slab that it starts in stays within the layers.
+                fixed(dz * per_slab).clamp(-MOST_LAYERS, MOST_LAYERS),
+            ],
+            first: [first[v].into(), first[2].into()],
+            last: [last[v].into(), last[2].into()],
+            slope,
+            u_index: i64::from(first[u]) * stride(u),
+            u_stride: if forward { stride(u) } else { -stride(u) },
+            v_stride: stride(v),
         }
-        u_index += u_stride;
-        (v_in, z_in, v0, z0) = (v_out, z_out, v1, z1);
-        v_out += v_step;
-        z_out += z_step;
+    }
+
+    /// Storage index of the cell at v in a slab.
+    #[inline]
+    pub(super) const fn index(&self, slab: i32, v: i64) -> usize {
+        (self.u_index + slab as i64 * self.u_stride + v * self.v_stride) as usize
+    }
+
+    /// Calls `visit(index, layers)` for every cell that the segment passes in slabs `from` to before `end`: `index` is
+    /// `row * cols + col`, `layers` has one bit for every layer.
+    #[inline]
+    pub(super) fn visit(&self, from: i32, end: i32, visit: impl FnMut(usize, u64)) {
+        // What is inside at the first border and at the last one is inside at all of them.
+        let behind = i64::from(self.count - 1);
+        let within = |axis: usize| {
+            let (first, last) = (self.first[axis], self.last[axis]);
+            let at = |border: i64| self.at_border[axis] + border * self.step[axis];
+            let inside =
+                |fixed: i64| (first.min(last)..=first.max(last)).contains(&(fixed >> BITS));
+            self.count == 0 || inside(at(0)) && inside(at(behind))
+        };
+        if within(0) && within(1) {
+            self.visit_at(from, end, |_, fixed| fixed >> BITS, visit);
+        } else {
+            self.visit_at(from, end, |axis, fixed| self.unit(axis, fixed), visit);
+        }
+    }
+
+    /// The cell along v (axis 0) or the layer (axis 1) at a coordinate that rounding may have put beyond the ends.
+    #[inline]
+    fn unit(&self, axis: usize, fixed: i64) -> i64 {
+        let (first, last) = (self.first[axis], self.last[axis]);
+        (fixed >> BITS).clamp(first.min(last), first.max(last))
+    }
+
+    /// [`Self::visit`] with the units at borders found by `unit(axis, coordinate)`.
+    #[inline]
+    fn visit_at(
+        &self,
+        from: i32,
+        end: i32,
+        unit: impl Fn(usize, i64) -> i64,
+        mut visit: impl FnMut(usize, u64),
+    ) {
+        let [v_step, z_step] = self.step;
+        let mut u_index = self.u_index + i64::from(from) * self.u_stride;
+        let ([mut v_in, mut z_in], [mut v0, mut z0]) = (self.start, self.first);
+        if from > 0 {
+            v_in = self.at_border[0] + i64::from(from - 1) * v_step;
+            z_in = self.at_border[1] + i64::from(from - 1) * z_step;
+            (v0, z0) = (unit(0, v_in), unit(1, z_in));
+        }
+        let mut v_out = self.at_border[0] + i64::from(from) * v_step;
+        let mut z_out = self.at_border[1] + i64::from(from) * z_step;
+        let mut pass =
+            |u_index: i64, [v_in, z_in]: [i64; 2], [v0, z0]: [i64; 2], [v1, z1]: [i64; 2]| {
+                let here = u_index + v0 * self.v_stride;
+                if v0 == v1 {
+                    visit(here as usize, run(z0, z1));
+                } else {
+                    let v_border = v0.max(v1) << BITS;
+                    let rise = (i128::from(v_border - v_in) * i128::from(self.slope)) >> SLOPE_BITS;
+                    let middle = self.unit(1, z_in + rise as i64);
+                    visit(here as usize, run(z0, middle));
+                    visit((u_index + v1 * self.v_stride) as usize, run(middle, z1));
+                }
+            };
+        for _ in from..end.min(self.count) {
+            let (v1, z1) = (unit(0, v_out), unit(1, z_out));
+            pass(u_index, [v_in, z_in], [v0, z0], [v1, z1]);
+            u_index += self.u_stride;
+            (v_in, z_in, v0, z0) = (v_out, z_out, v1, z1);
+            v_out += v_step;
+            z_out += z_step;
+        }
+        if from <= self.count && end > self.count {
+            pass(u_index, [v_in, z_in], [v0, z0], self.last);
+        }
     }
 }
 
+#[inline]
 const fn fixed(value: f64) -> i64 {
     (value * ONE as f64) as i64
 }
 
 /// Bits from one layer to the other, both included.
-const fn run(a: i64, b: i64) -> u64 {
+#[inline]
+pub(super) const fn run(a: i64, b: i64) -> u64 {
     let (low, high) = if a < b { (a, b) } else { (b, a) };
-    (u64::MAX >> (63 - high)) & (u64::MAX << low)
+    (2_u64 << high).wrapping_sub(1 << low)
 }
 
 #[cfg(test)]
@@ -98,11 +191,9 @@ mod tests {
     }
 
     fn marks(from: [f64; 3], to: [f64; 3]) -> Vec<u64> {
-        let floor = |p: [f64; 3]| p.map(|v| v.floor() as i32);
+        let part = Part::inside(from, to, SIZE).unwrap();
         let mut marks = vec![0; 100 * 100];
-        for_each_column(from, to, floor(from), floor(to), 100, |index, layers| {
-            marks[index] |= layers;
-        });
+        Slabs::new(&part, 100).visit(0, i32::MAX, |index, layers| marks[index] |= layers);
         marks
     }
 

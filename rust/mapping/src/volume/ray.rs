@@ -40,6 +40,7 @@ impl Part {
     }
 }
 
+#[inline]
 fn contains(size: [i32; 3], at: [f64; 3]) -> bool {
     (0..3).all(|a| at[a] >= 0.0 && at[a] < f64::from(size[a]))
 }

@@ -1,0 +1,236 @@
+//! What the rays of one frame hit and passed, voxel by voxel: each counts once, however many rays touched it.
+
+use geometry::{Cell, CellArea};
+
+use super::columns::Slabs;
+use super::occupancy::Size;
+use super::ray::Part;
+use super::strip::{Gaps, RAYS};
+use crate::surface::Clearing;
+
+/// From so many rays on it pays to look for what neighbours have in common before they are walked.
+const DENSE: usize = 16_000;
+
+/// Marks of the frame that is being inserted. Empty between frames.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Marks {
+    size: Size,
+    /// One bit a layer: hit, or passed, by a ray.
+    hits: Vec<u64>,
+    passed: Vec<u64>,
+    /// Ends of the rays that meet the grid, in voxels.
+    ends: Vec<[f64; 3]>,
+    gaps: Gaps,
+}
+
+impl Marks {
+    /// No marks on a grid of this size.
+    pub(super) fn new(size: Size) -> Self {
+        let cells = size.cols * size.rows;
+        Self {
+            size,
+            hits: vec![0; cells],
+            passed: vec![0; cells],
+            ends: Vec::new(),
+            gaps: Gaps::default(),
+        }
+    }
+
+    /// Marks what the rays from `eye` hit and passed, and says which cells they touched. Ends are in voxels, with whether
+    /// something was seen there; `settled` has one bit for each layer of a cell that a miss does not change.
+    pub(super) fn mark(
+        &mut self,
+        eye: [f64; 3],
+        rays: impl Iterator<Item = ([f64; 3], bool)>,
+        clearing: Clearing,
+        settled: &[u64],
+    ) -> CellArea {
+        let size = self.size.voxels();
+        let mut area = CellArea::EMPTY;
+        for (end, hit) in rays {
+            let Some(part) = Part::inside(eye, end, size) else {
+                continue;
+            };
+            area.include(Cell::new(part.first[0], part.first[1]));
+            area.include(Cell::new(part.last[0], part.last[1]));
+            if hit && part.ends_inside {
+                let cell = part.last[1] as usize * self.size.cols + part.last[0] as usize;
+                self.hits[cell] |= 1 << part.last[2];
+            }
+            self.ends.push(end);
+        }
+        self.walk(eye, clearing, settled);
+        self.ends.clear();
+        area
+    }
+
+    /// Marks every voxel that a ray passes, except for some that are settled or hit.
+    fn walk(&mut self, eye: [f64; 3], clearing: Clearing, settled: &[u64]) {
+        let (size, hits, passed) = (self.size.voxels(), &self.hits, &mut self.passed);
+        let cols = self.size.cols;
+        let mut strip = [Slabs::default(); RAYS];
+        let alone = clearing == Clearing::EveryRay || self.ends.len() < DENSE;
+        let together = if alone { 1 } else { RAYS };
+        for ends in self.ends.chunks(together) {
+            let mut count = 0;
+            for (slot, &end) in strip.iter_mut().zip(ends) {
+                if let Some(part) = Part::inside(eye, end, size) {
+                    *slot = Slabs::new(&part, cols);
+                    count += 1;
+                }
+            }
+            let known = |cell: usize| hits[cell] | passed[cell] | settled[cell];
+            self.gaps.find(&strip[..count], known, self.size);
+            for ray in &strip[..count] {
+                for &[from, end] in self.gaps.spans() {
+                    ray.visit(from, end, |cell, layers| passed[cell] |= layers);
+                }
+            }
+        }
+        self.gaps.clear();
+    }
+
+    /// Takes the layers of a cell that were hit, and those that were only passed.
+    pub(super) fn take(&mut self, cell: usize) -> [u64; 2] {
+        let hits = std::mem::take(&mut self.hits[cell]);
+        [hits, std::mem::take(&mut self.passed[cell]) & !hits]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const SIZE: Size = Size {
+        cols: 60,
+        rows: 50,
+        layers: 20,
+    };
+
+    const CELLS: usize = SIZE.cols * SIZE.rows;
+
+    /// Ends of a picture's rays: from the eye into a box-shaped room with a pillar, row by row.
+    fn picture(eye: [f64; 3], [heading, pitch]: [f64; 2], width: usize) -> Vec<([f64; 3], bool)> {
+        let height = width * 3 / 4;
+        let focal = width as f64;
+        let mut ends = Vec::new();
+        for index in 0..width * height {
+            let u = ((index % width) as f64 - 0.5 * width as f64) / focal;
+            let v = ((index / width) as f64 - 0.5 * height as f64) / focal;
+            let (level, z) = (pitch.cos() + v * pitch.sin(), pitch.sin() - v * pitch.cos());
+            let along = [
+                level * heading.cos() + u * heading.sin(),
+                level * heading.sin() - u * heading.cos(),
+                z,
+            ];
+            let to = |low: [f64; 3], high: [f64; 3], far: bool| {
+                let bound = |a: usize| {
+                    let t = [low[a], high[a]].map(|border| (border - eye[a]) / along[a]);
+                    [t[0].min(t[1]), t[0].max(t[1])]
+                };
+                let [x, y, z] = [bound(0), bound(1), bound(2)];
+                let (enter, leave) = (x[0].max(y[0]).max(z[0]), x[1].min(y[1]).min(z[1]));
+                if far {
+                    leave
+                } else if enter < leave && enter > 0.0 {
+                    enter
+                } else {
+                    f64::INFINITY
+                }
+            };
+            let wall = to([-5.0, -5.0, 2.5], [70.0, 45.5, 30.0], true);
+            let pillar = to([40.0, 20.0, 2.5], [43.0, 26.0, 9.0], false);
+            let far = wall.min(pillar).min(70.0);
+            ends.push((std::array::from_fn(|a| eye[a] + far * along[a]), far < 70.0));
+        }
+        ends
+    }
+
+    fn marked(eye: [f64; 3], rays: &[([f64; 3], bool)], settled: &[u64]) -> Vec<[u64; 2]> {
+        let mut marks = Marks::new(SIZE);
+        let _area = marks.mark(eye, rays.iter().copied(), Clearing::Shared, settled);
+        let found = (0..CELLS).map(|cell| marks.take(cell)).collect();
+        assert_eq!(
+            marks,
+            Marks::new(SIZE),
+            "nothing is left for the next frame"
+        );
+        found
+    }
+
+    /// Ray by ray, without what neighbours have in common.
+    fn walked(eye: [f64; 3], rays: &[([f64; 3], bool)]) -> Vec<[u64; 2]> {
+        let mut marks = Marks::new(SIZE);
+        for &(end, hit) in rays {
+            let Some(part) = Part::inside(eye, end, SIZE.voxels()) else {
+                continue;
+            };
+            Slabs::new(&part, SIZE.cols).visit(0, i32::MAX, |cell, layers| {
+                marks.passed[cell] |= layers;
+            });
+            if hit && part.ends_inside {
+                marks.hits[part.last[1] as usize * SIZE.cols + part.last[0] as usize] |=
+                    1 << part.last[2];
+            }
+        }
+        (0..CELLS).map(|cell| marks.take(cell)).collect()
+    }
+
+    /// Most eyes are inside of the grid, on a voxel's border or not.
+    fn eye() -> impl Strategy<Value = [f64; 3]> {
+        let axis = |low: f64, high: f64| prop_oneof![4 => low..high, 1 => Just(high - 4.0)];
+        (axis(-3.0, 35.0), axis(2.0, 40.0), axis(3.0, 18.0)).prop_map(|(x, y, z)| [x, y, z])
+    }
+
+    fn view() -> impl Strategy<Value = [f64; 2]> {
+        (-0.9..0.9_f64, -1.5..0.3_f64).prop_map(|(heading, pitch)| [heading, pitch])
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(40))]
+        #[test]
+        fn what_neighbours_have_in_common_changes_no_mark(eye in eye(), view in view()) {
+            let rays = picture(eye, view, 160);
+            prop_assert!(rays.len() >= DENSE);
+            prop_assert_eq!(marked(eye, &rays, &vec![0; CELLS]), walked(eye, &rays));
+        }
+
+        #[test]
+        fn what_is_settled_hides_nothing_else(
+            eye in eye(),
+            view in view(),
+            [col, row] in [0..SIZE.cols, 0..SIZE.rows],
+            layers in any::<u64>(),
+        ) {
+            let rays = picture(eye, view, 160);
+            // All up to a corner, as if a part of the room had been seen long enough.
+            let settled: Vec<u64> = (0..CELLS)
+                .map(|cell| {
+                    let here = cell % SIZE.cols < col && cell / SIZE.cols < row;
+                    if here { u64::MAX } else { layers }
+                })
+                .collect();
+            let found = marked(eye, &rays, &settled);
+            let marks = found.into_iter().zip(walked(eye, &rays)).zip(settled);
+            for (([hits, passed], [all_hits, all_passed]), settled) in marks {
+                prop_assert_eq!(hits, all_hits);
+                prop_assert_eq!(passed & !settled, all_passed & !settled);
+            }
+        }
+    }
+
+    #[test]
+    fn rays_that_are_no_picture_are_followed_too() {
+        let eye = [10.5, 10.5, 10.5];
+        for rays in [
+            vec![],
+            vec![([30.5, 10.5, 10.5], true)],
+            vec![(eye, true); DENSE],
+            vec![([10.5, 10.5, 2.5], true); DENSE],
+            vec![([90.5, 12.5, 8.5], false); DENSE],
+        ] {
+            assert_eq!(marked(eye, &rays, &vec![0; CELLS]), walked(eye, &rays));
+        }
+    }
+}
