@@ -13,6 +13,7 @@ __all__ = [
     "Climb",
     "FloorView",
     "Goal",
+    "OccupancyGrid",
     "Pilot",
     "Planes",
     "Scan",
@@ -24,6 +25,7 @@ __all__ = [
     "Stepping",
     "Tick",
     "Walker",
+    "WorldModel",
     "swept_clearance",
     "version",
 ]
@@ -142,6 +144,28 @@ class Segmenter:
     def segment(
         self, depth: NDArray[np.float32], robot_from_camera: NDArray[np.float64]
     ) -> Planes: ...
+
+@final
+class WorldModel:
+    def __new__(cls, name: str, *, settings: str = "{}") -> WorldModel: ...
+    def insert(self, planes: Planes, pose: tuple[float, float, float, float]) -> bool: ...
+    def view(self) -> FloorView: ...
+    @property
+    def seconds(self) -> float: ...
+
+@final
+class OccupancyGrid:
+    def __new__(
+        cls,
+        size: tuple[int, int, int],
+        corner: tuple[float, float, float],
+        *,
+        settings: str = "{}",
+    ) -> OccupancyGrid: ...
+    def insert(self, points: NDArray[np.float64], eye: tuple[float, float, float]) -> None: ...
+    def probability(self) -> NDArray[np.float32]: ...
+    @property
+    def seconds(self) -> float: ...
 
 @final
 class FloorView:

@@ -210,6 +210,30 @@ def experiment(
     )
 
 
+@app.command(epilog="Example: treadwell bench occupancy --frames frames/f320.bin")
+def bench(
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[NAME]...", help="Which: occupancy, step; all without it."),
+    ] = None,
+    *,
+    frames: Annotated[
+        str | None,
+        typer.Option("--frames", metavar="PATH|N", help="Depth frames; or how many are made."),
+    ] = None,
+    as_json: JsonOption = False,
+) -> int:
+    """Time the core on a fixed workload, and beside it following every ray by itself."""
+    from treadwell.cli import bench as cli_bench
+
+    document = cli_bench.bench(names or [], frames)
+    if as_json:
+        write_json(document)
+    else:
+        cli_bench.show(document)
+    return PASSED
+
+
 def execute(arguments: Sequence[str]) -> int:
     """Run the command line and return its exit status.
 

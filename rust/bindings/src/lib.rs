@@ -11,6 +11,7 @@ mod segmenter;
 mod situation;
 mod stairs;
 mod walker;
+mod world_model;
 
 use pyo3::prelude::*;
 
@@ -32,6 +33,8 @@ mod _core {
     use super::stairs::{PyClimb, PyStair, PyStaircase, PyStep, PyStepping};
     #[pymodule_export]
     use super::walker::PyWalker;
+    #[pymodule_export]
+    use super::world_model::{PyOccupancyGrid, PyWorldModel};
 
     /// Version of the core; equal to the package's.
     #[pyfunction]

@@ -11,7 +11,7 @@ mod timing;
 
 pub use error::PilotError;
 pub use perception::Perception;
-pub use registry::{Components, segmenter};
+pub use registry::{Components, segmenter, world_model};
 pub use settings::{GoalSettings, Navigation, Settings, StartSettings};
 pub use tick::{Pilot, Tick};
 pub use timing::{STAGES, Timing};

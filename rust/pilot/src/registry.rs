@@ -83,9 +83,12 @@ pub fn segmenter(
     }
 }
 
-pub(crate) fn world_model(settings: &Settings) -> Result<Box<dyn WorldModel>, PilotError> {
-    let tables = &settings.navigation.tables;
-    match settings.navigation.world_model.as_str() {
+/// The world model of a name, with what `[navigation.<name>]` says.
+pub fn world_model(
+    name: &str,
+    tables: &BTreeMap<String, Value>,
+) -> Result<Box<dyn WorldModel>, PilotError> {
+    match name {
         "fog" => Ok(Box::new(Fog::new(table(tables, "fog")?)?)),
         "averaging" => Ok(Box::new(Averaging::new(table(tables, "averaging")?)?)),
         other => Err(unknown("world_model", other, "fog, averaging")),

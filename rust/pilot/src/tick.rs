@@ -60,9 +60,10 @@ impl Pilot {
             Ok,
         )?;
         let self_filter = SelfFilter::new(&body, &table(tables, "self_filter")?)?;
-        let world_model = given
-            .world_model
-            .map_or_else(|| registry::world_model(settings), Ok)?;
+        let world_model = given.world_model.map_or_else(
+            || registry::world_model(&settings.navigation.world_model, tables),
+            Ok,
+        )?;
         Ok(Self {
             map_from_odometry_at_start: Pose::wrap(Pose::<Map, Robot>::from(settings.start).inner),
             proprioception: Proprioception::new(&body, table(tables, "proprioception")?)?,

@@ -1,0 +1,94 @@
+"""OctoMap's occupancy update beside the core's, on the same frames, in one run.
+
+python benches/peers/occupancy.py [--frames PATH|N]   needs: pip install pyoctomap
+"""
+
+import argparse
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from time import process_time
+
+import numpy as np
+import pyoctomap
+from numpy.typing import NDArray
+
+from treadwell.timing.benches import grids
+from treadwell.timing.frames import Frames, read_frames
+from treadwell.timing.room import CAMERAS, room
+
+CELL = 0.04
+RANGE = 4.0
+ROUNDS = 3
+
+Insert = Callable[[NDArray[np.float64], NDArray[np.float64]], object]
+
+
+def octomap(*, discretize: bool) -> Insert:
+    """Return how a new tree takes in a frame."""
+    tree = pyoctomap.OcTree(CELL)
+
+    def insert(points: NDArray[np.float64], eye: NDArray[np.float64]) -> object:
+        return tree.insertPointCloud(points, eye, max_range=RANGE, discretize=discretize)
+
+    return insert
+
+
+def core(clouds: list[NDArray[np.float64]], mode: str) -> Insert:
+    """Return how a new grid of the core takes in a frame."""
+    grid = grids(clouds)[mode]
+
+    def insert(points: NDArray[np.float64], eye: NDArray[np.float64]) -> object:
+        return grid.insert(points, (float(eye[0]), float(eye[1]), float(eye[2])))
+
+    return insert
+
+
+def compare(frames: Frames) -> None:
+    """Print a row each: milliseconds of processor time a frame, and ratios to OctoMap's."""
+    clouds = [frames.points(index) for index in range(len(frames.depth))]
+    makers: dict[str, Callable[[], Insert]] = {
+        "OctoMap exact": lambda: octomap(discretize=False),
+        "OctoMap discretized": lambda: octomap(discretize=True),
+        "exact": lambda: core(clouds, "exact"),
+        "fast": lambda: core(clouds, "fast"),
+    }
+    spent = {name: np.zeros((ROUNDS, len(clouds))) for name in makers}
+    for turn in range(ROUNDS):
+        inserts = {name: make() for name, make in makers.items()}
+        for index, (points, eye) in enumerate(zip(clouds, frames.position, strict=True)):
+            for name, insert in inserts.items():
+                started = process_time()
+                insert(points, eye)
+                spent[name][turn, index] = 1e3 * (process_time() - started)
+    best = {name: rows.min(axis=0) for name, rows in spent.items()}
+    sys.stdout.write(f"{frames.name} {frames.shape}, {len(clouds)} frames, {1e3 * CELL:.0f} mm\n")
+    for name, rows in best.items():
+        ratio = "".join(
+            f"  {np.median(best[peer] / rows):6.1f} times faster than {peer}"
+            for peer in ("OctoMap exact", "OctoMap discretized")
+            if not name.startswith("OctoMap")
+        )
+        sys.stdout.write(
+            f"  {name:20} p50 {np.median(rows):8.3f}  p95 {np.percentile(rows, 95):8.3f}  "
+            f"worst {rows.max():8.3f} ms{ratio}\n"
+        )
+    sys.stdout.flush()
+
+
+def main() -> None:
+    """Compare on the frames of a file, or on those of the bench."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--frames", default="40")
+    given = parser.parse_args().frames
+    workloads = (
+        [room(camera, int(given)) for camera in CAMERAS]
+        if given.isdecimal()
+        else [read_frames(Path(given))]
+    )
+    for frames in workloads:
+        compare(frames)
+
+
+if __name__ == "__main__":
+    main()

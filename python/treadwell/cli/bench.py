@@ -1,0 +1,72 @@
+"""The verb `bench`: times of the core on a fixed workload."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Final
+
+from treadwell.cli.output import write_message, write_table
+from treadwell.errors import InputError
+from treadwell.timing.benches import BENCHES
+from treadwell.timing.frames import Frames, read_frames
+from treadwell.timing.room import CAMERAS, room
+
+_COUNT: Final = 40
+
+
+def bench(names: Sequence[str], frames: str | None) -> dict[str, Any]:
+    """Run benches and return what they found, as plain data.
+
+    Args:
+        names: which; all where there is none.
+        frames: a file of depth frames, or how many to make of the room.
+
+    Raises:
+        InputError: there is no such bench or file.
+    """
+    for name in names:
+        if name not in BENCHES:
+            raise InputError(f"there is no bench {name!r}; there are {', '.join(BENCHES)}")
+    chosen = [name for name in BENCHES if not names or name in names]
+    rows = []
+    for workload in _workloads(frames):
+        for name in chosen:
+            write_message(f"{name}: {workload.name} {workload.shape}")
+            rows.append(BENCHES[name](workload))
+    return {"schema": "treadwell.bench/1", "unit": "ms", "benches": rows}
+
+
+def _workloads(frames: str | None) -> list[Frames]:
+    if frames is None or frames.isdecimal():
+        count = _COUNT if frames is None else int(frames)
+        if count < 1:
+            raise InputError(f"--frames must be 1 or more, or a file, got {frames}")
+        return [room(camera, count) for camera in CAMERAS]
+    return [read_frames(Path(frames))]
+
+
+def show(document: Mapping[str, Any]) -> None:
+    """Write what `bench` returned as a table."""
+    rows = []
+    for row in document["benches"]:
+        agrees = row["agreement"]
+        told = ", ".join(
+            f"{value} {key}" if isinstance(value, int) else f"{key} {100 * value:.1f} %"
+            for key, value in agrees.items()
+        )
+        for mode in ("exact", "fast"):
+            found = row[mode]
+            rows.append(
+                (
+                    row["bench"],
+                    row["frames"],
+                    mode,
+                    f"{found['p50']:.3f}",
+                    f"{found['p95']:.3f}",
+                    f"{found['worst']:.3f}",
+                    f"{100 * found['bindings_share']:.1f} %",
+                    f"{row['ratio']:.1f}" if mode == "fast" else "",
+                    told if mode == "fast" else "",
+                )
+            )
+    header = ("bench", "frames", "mode", "p50", "p95", "worst", "bindings", "faster", "agreement")
+    write_table("the core, milliseconds a frame", header, rows)

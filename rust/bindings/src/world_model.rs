@@ -1,0 +1,174 @@
+//! World models alone: for frames that come from elsewhere than from an episode.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use geometry::{Lattice, Map, Pose, Robot};
+use mapping::volume::{OccupancyGrid, Placement, ProbabilityTable, Ray, Size};
+use mapping::{FogConfig, WorldModel};
+use numpy::{IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::error::{bad_setting, failed, unpanicked};
+use crate::products::{FlatPose, PyFloorView, PyPlanes};
+
+/// Keeps a map of the planes of frames, as the pilot's world model of that name does.
+#[pyclass(name = "WorldModel", module = "treadwell._core")]
+pub(crate) struct PyWorldModel {
+    model: Box<dyn WorldModel>,
+    /// Time that the core itself took for the last frame, s.
+    #[pyo3(get)]
+    seconds: f64,
+}
+
+#[pymethods]
+impl PyWorldModel {
+    /// A world model of the list. `settings` is JSON, a table a name: `{"fog": {"cell": 0.02}}`.
+    #[new]
+    #[pyo3(signature = (name, *, settings="{}"))]
+    fn new(py: Python<'_>, name: &str, settings: &str) -> PyResult<Self> {
+        let tables: BTreeMap<String, serde_json::Value> =
+            serde_json::from_str(settings).map_err(|error| bad_setting(py, &error))?;
+        let model = pilot::world_model(name, &tables).map_err(|error| bad_setting(py, &error))?;
+        Ok(Self {
+            model,
+            seconds: 0.0,
+        })
+    }
+
+    /// Takes in a frame, seen by a robot at `pose`: x, y, z in metres and yaw in the map; whether it was used.
+    fn insert(&mut self, py: Python<'_>, planes: &PyPlanes, pose: FlatPose) -> PyResult<bool> {
+        let (x, y, z, yaw) = pose;
+        let map_from_robot = Pose::<Map, Robot>::from_yaw(x, y, z, yaw);
+        let (model, planes) = (&mut self.model, &planes.0);
+        let started = Instant::now();
+        let insertion = py
+            .detach(|| unpanicked(|| model.insert(planes, &map_from_robot)))
+            .map_err(|error| failed(py, &error))?
+            .map_err(|error| failed(py, &error))?;
+        self.seconds = started.elapsed().as_secs_f64();
+        Ok(insertion.used)
+    }
+
+    /// The map's view; a copy.
+    fn view(&self) -> PyFloorView {
+        PyFloorView(self.model.view().clone())
+    }
+}
+
+/// The occupancy grid of the world model `fog`, without floors.
+#[pyclass(name = "OccupancyGrid", module = "treadwell._core")]
+pub(crate) struct PyOccupancyGrid {
+    grid: OccupancyGrid,
+    config: FogConfig,
+    size: Size,
+    /// Time that the core itself took for the last frame, s.
+    #[pyo3(get)]
+    seconds: f64,
+}
+
+#[pymethods]
+impl PyOccupancyGrid {
+    /// A grid of (columns, rows, layers) whose lowest corner is at `corner`, m. `settings` is JSON, as `[navigation.fog]`.
+    #[new]
+    #[pyo3(signature = (size, corner, *, settings="{}"))]
+    fn new(
+        py: Python<'_>,
+        size: (usize, usize, usize),
+        corner: [f64; 3],
+        settings: &str,
+    ) -> PyResult<Self> {
+        let config: FogConfig =
+            serde_json::from_str(settings).map_err(|error| bad_setting(py, &error))?;
+        config.check().map_err(|error| bad_setting(py, &error))?;
+        let (cols, rows, layers) = size;
+        let holds = [cols, rows].iter().all(|n| (1..=2000).contains(n));
+        if !holds || !(1..=64).contains(&layers) || corner.iter().any(|at| !at.is_finite()) {
+            return Err(PyValueError::new_err(
+                "size must be 1 to 2000 columns and rows and 1 to 64 layers, the corner finite",
+            ));
+        }
+        let placement = Placement {
+            lattice: Lattice {
+                origin_m: [corner[0], corner[1]],
+                cell_m: config.cell,
+            },
+            bottom_m: corner[2],
+            layer_m: config.layer,
+        };
+        let table = ProbabilityTable::new(config.p_sense, config.p_occ, config.p_min, config.p_max);
+        let size = Size { cols, rows, layers };
+        Ok(Self {
+            grid: OccupancyGrid::new(size, placement, table),
+            config,
+            size,
+            seconds: 0.0,
+        })
+    }
+
+    /// Takes in a frame's points, (n, 3) m, all seen from `eye`; what is further than `max_range` clears the way up to it.
+    fn insert(
+        &mut self,
+        py: Python<'_>,
+        points: &Bound<'_, PyArray2<f64>>,
+        eye: [f64; 3],
+    ) -> PyResult<()> {
+        let points = points.readonly();
+        let by_row = points.as_slice().ok().filter(|_| points.is_c_contiguous());
+        let Some(flat) = by_row else {
+            return Err(PyValueError::new_err(
+                "points must lie row by row in memory",
+            ));
+        };
+        if points.as_array().ncols() != 3 {
+            return Err(PyValueError::new_err("points must be (n, 3)"));
+        }
+        let (points, _) = flat.as_chunks::<3>();
+        let finite = |at: &[f64; 3]| (at[0] + at[1] + at[2]).is_finite();
+        if !finite(&eye) {
+            return Err(PyValueError::new_err("the eye must be finite"));
+        }
+        let (grid, config) = (&mut self.grid, &self.config);
+        let started = Instant::now();
+        let rays = points
+            .iter()
+            .filter(|at| finite(at))
+            .map(|&end_m| ray(eye, end_m, config.max_range));
+        let _area = py
+            .detach(|| unpanicked(|| grid.insert(eye, rays, config.update, config.clearing)))
+            .map_err(|error| failed(py, &error))?;
+        self.seconds = started.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// (rows, columns, layers) float32: how likely each voxel is occupied.
+    fn probability<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let Size { cols, rows, layers } = self.size;
+        let placement = self.grid.placement();
+        let mut values = Vec::with_capacity(rows * cols * layers);
+        for (row, col) in (0..rows).flat_map(|row| (0..cols).map(move |col| (row, col))) {
+            let [x, y] = placement
+                .lattice
+                .center_of(geometry::Cell::new(col as i32, row as i32));
+            values.extend((0..layers).map(|layer| {
+                let z = placement.bottom_m + (layer as f64 + 0.5) * placement.layer_m;
+                self.grid.probability([x, y, z]) as f32
+            }));
+        }
+        values.into_pyarray(py).reshape([rows, cols, layers])
+    }
+}
+
+fn ray(eye_m: [f64; 3], end_m: [f64; 3], max_range_m: f64) -> Ray {
+    let along: [f64; 3] = std::array::from_fn(|a| end_m[a] - eye_m[a]);
+    let range_m = along.iter().map(|part| part * part).sum::<f64>().sqrt();
+    if range_m <= max_range_m {
+        return Ray { end_m, hit: true };
+    }
+    let share = max_range_m / range_m;
+    Ray {
+        end_m: std::array::from_fn(|a| eye_m[a] + share * along[a]),
+        hit: false,
+    }
+}
