@@ -24,7 +24,7 @@ pub(super) struct RegionFit {
     // Pixels that took part.
     count: u32,
     q: f64,
-    // Sums of the products of any two of: g, the change with the tilt's two components, e.
+    // Sums of the products of any two of: g, the change with the tilt's two components, e. Row up to column, the rest is 0.
     moments: [[f64; 4]; 4],
 }
 
@@ -46,15 +46,16 @@ impl RegionFit {
     }
 
     const fn tt(&self) -> Matrix2<f64> {
-        let [_, [_, xx, xy, _], [_, yx, yy, _], _] = self.moments;
-        Matrix2::new(xx, xy, yx, yy)
+        let [_, [_, xx, xy, _], [_, _, yy, _], _] = self.moments;
+        Matrix2::new(xx, xy, xy, yy)
     }
 
+    #[inline]
     fn add(&mut self, values: [f64; 4]) {
         self.count += 1;
-        for (sums, a) in self.moments.iter_mut().zip(values) {
-            for (sum, b) in sums.iter_mut().zip(values) {
-                *sum += a * b;
+        for row in 0..4 {
+            for col in row..4 {
+                self.moments[row][col] += values[row] * values[col];
             }
         }
     }
