@@ -179,6 +179,20 @@ fn a_foot_that_goes_down_and_comes_to_stand_on_the_next_riser_goes_back() {
     assert!(heights(&world).iter().all(|z_m| z_m.abs() < 0.002));
 }
 
+/// Two steps taken for one: the toes meet the edge of the second one's tread, half a step above the level that was told.
+#[test]
+fn a_foot_that_meets_a_level_half_a_step_higher_than_told_goes_back() {
+    let mut world = Ideal::new();
+    world.ground_m = |x_m, _| if x_m > 0.06 { 0.045 } else { 0.0 };
+    run(&mut world, &climb(&stair(0.03)));
+    let stepping = world.walker.stepping();
+    assert_eq!(
+        (stepping.landed, stepping.misstep),
+        (0, Some(Misstep::Obstructed))
+    );
+    assert!(heights(&world).iter().all(|z_m| z_m.abs() < 0.002));
+}
+
 #[test]
 fn feet_push_only_where_they_bear_also_when_the_robot_then_stands() {
     let mut world = Ideal::new();

@@ -104,7 +104,8 @@ pub struct GaitConfig {
     pub obstructed_distance: f64,
     /// One that meets the next riser this near to its place comes down where it is, m: what lies behind its bearing part.
     pub brush_distance: f64,
-    /// One that comes down on something this far above where it was told to land has met another level, m.
+    /// One that comes down on something this far above where it was told to land has met another level, m: 8 mm are climbed
+    /// over, and heights are told within 3 mm.
     pub obstructed_height: f64,
     /// Time to raise the arms, or to lower them, s.
     pub arms_time: f64,
@@ -164,7 +165,7 @@ impl Default for GaitConfig {
             probe_depth: 0.02,
             obstructed_distance: 0.018,
             brush_distance: 0.01,
-            obstructed_height: 0.015,
+            obstructed_height: 0.011,
             arms_time: 1.5,
             hip_speed: 0.12,
             gaze_speed: 2.0,
