@@ -4,7 +4,7 @@ use geometry::{Map, Pose, Robot};
 use nalgebra::Point2;
 
 use crate::extract::Sighting;
-use crate::merge::{merge_all, overlap, replaces};
+use crate::merge::{contradict, merge_all, overlap};
 use crate::tread::Tread;
 use crate::view::{Shows, View};
 use crate::{Stair, StairsConfig};
@@ -106,7 +106,7 @@ impl Memory {
         let mut index = 0;
         while index < self.treads.len() {
             let tread = &self.treads[index];
-            let better = |other: &Tread| replaces(other, tread);
+            let better = |other: &Tread| contradict(other, tread);
             if tread.steps_ago > 0 && self.treads[..index].iter().any(better) {
                 let _ = self.treads.remove(index);
             } else {
@@ -120,7 +120,7 @@ impl Memory {
         stairs.clear();
         for (index, tread) in self.treads.iter().enumerate() {
             let known = |tread: &Tread| tread.sightings >= config.min_frames;
-            let better = |other: &Tread| known(other) && replaces(other, tread);
+            let better = |other: &Tread| known(other) && contradict(other, tread);
             if known(tread) && !self.treads[..index].iter().any(better) {
                 stairs.extend(tread.stair());
             }

@@ -114,6 +114,47 @@ fn stairs_that_vanish_are_dropped_after_some_frames_and_not_at_once() {
     assert!(!last.contains(&1) && !last.contains(&2), "{last:?}");
 }
 
+/// From afar a step and the platform behind it run into each other for some frames. Of the platform little is seen from near by.
+#[test]
+fn two_steps_that_were_taken_for_one_do_not_stay_beside_them() {
+    let box_from = |from_m: f64, top_m| {
+        let corners = [[from_m, -0.4], [3.0, -0.4], [3.0, 0.4], [from_m, 0.4]];
+        Prism::new(&corners, top_m)
+    };
+    let ground = Prism::new(&[[-3.0, -3.0], [5.0, -3.0], [5.0, 3.0], [-3.0, 3.0]], 0.0);
+    let first = box_from(0.45, 0.03);
+    let apart = [
+        first.clone(),
+        box_from(0.57, 0.06),
+        box_from(0.69, 0.09),
+        ground.clone(),
+    ];
+    let joined = [first, box_from(0.57, 0.077), ground];
+    let ghost = |stair: &Stair<Map>| (0.065..0.085).contains(&stair.height_m());
+    let mut recognizer = Recognizer::new(StairsConfig::default(), CAMERA).unwrap();
+    for (frames, prisms, tilt_rad, steps) in [
+        (12, &apart[..], 0.9, 0),
+        (3, &joined[..], 0.6, 0),
+        (12, &apart[..], 0.75, 1),
+    ] {
+        for i in 0..frames {
+            let camera = camera_pose(0.05 * f64::from(i % 5 - 2), tilt_rad);
+            let (scan, planes) = frame(prisms, &Pose::identity(), &camera);
+            let staircase = recognizer
+                .update(&scan, &planes, &Pose::identity(), steps)
+                .unwrap();
+            assert!(
+                !staircase.stairs.iter().any(ghost),
+                "frame {i} at {tilt_rad}: {:?}",
+                staircase.stairs
+            );
+        }
+    }
+    let mut found = heights(recognizer.staircase());
+    found.sort_unstable();
+    assert_eq!(found, [1, 2, 3]);
+}
+
 #[test]
 fn open_floor_and_boxes_are_no_stairs() {
     let boxes = [
