@@ -8,6 +8,7 @@ use sensing::Intrinsics;
 use crate::boundary::side;
 use crate::outer_points::{OuterPoints, Rows};
 use crate::shared_edges::{SharedEdge, SharedEdges};
+use crate::size::{is_cut_short, is_large_enough};
 use crate::view::View;
 use crate::visible::{is_solid, seen_ends};
 use crate::{Edge, Stair, StairsConfig};
@@ -32,7 +33,7 @@ pub(crate) struct Sighting {
     pub(crate) hull: Outline,
     /// Whether it is at the robot's own height, with no other surface between.
     pub(crate) own_level: bool,
-    /// Whether it is large enough to be a stair by itself.
+    /// Whether it is large enough to be a stair by itself, or may be beyond the picture's border.
     pub(crate) large_enough: bool,
 }
 
@@ -63,7 +64,9 @@ impl Extraction {
         self.found
             .retain(|sighting| sighting.own_level || near(&sighting.stair));
         for sighting in &mut self.found {
-            sighting.large_enough = is_large_enough(&sighting.stair, config);
+            let stair = &sighting.stair;
+            sighting.large_enough =
+                is_large_enough(stair, config) || is_cut_short(stair, &view, config);
         }
     }
 
@@ -207,12 +210,6 @@ impl Surface {
     }
 }
 
-/// Whether both edges and the depth between them are long enough for a stair (003, section IV.B).
-fn is_large_enough(stair: &Stair<Robot>, config: &StairsConfig) -> bool {
-    let shortest_m = stair.front.length_m().min(stair.back.length_m());
-    shortest_m >= config.min_edge && stair.depth_m() >= config.min_depth
-}
-
 /// Right and left end at a height.
 pub(crate) fn level_edge([right, left]: [Point2<f64>; 2], z_m: f64) -> Edge<Robot> {
     let at = |p: Point2<f64>| Point::new(p.x, p.y, z_m);
@@ -241,37 +238,4 @@ fn is_own_level(found: &[Sighting], index: usize, config: &StairsConfig) -> bool
         })
     };
     own(stair) && !found.iter().any(between)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A level quadrangle between two edges square to the way, each around y = 0.
-    fn stair(front_m: f64, back_m: f64, depth_m: f64) -> Stair<Robot> {
-        let edge = |x_m: f64, length_m: f64| {
-            let half_m = 0.5 * length_m;
-            level_edge([Point2::new(x_m, -half_m), Point2::new(x_m, half_m)], 0.03)
-        };
-        let reference = Point::new(0.5 + 0.5 * depth_m, 0.0, 0.03);
-        Stair::seen(
-            edge(0.5, front_m),
-            edge(0.5 + depth_m, back_m),
-            reference,
-            100,
-        )
-    }
-
-    /// S-M6.
-    #[test]
-    fn edges_of_15_cm_and_a_depth_of_7_cm_make_a_stair_and_a_tenth_of_a_millimetre_less_does_not() {
-        let config = StairsConfig::default();
-        let decide =
-            |front_m, back_m, depth_m| is_large_enough(&stair(front_m, back_m, depth_m), &config);
-        let (more, less) = (1e-9, -1e-4);
-        assert!(decide(0.15 + more, 0.15 + more, 0.07 + more));
-        assert!(!decide(0.15 + less, 0.3, 0.2));
-        assert!(!decide(0.3, 0.15 + less, 0.2));
-        assert!(!decide(0.3, 0.3, 0.07 + less));
-    }
 }

@@ -18,6 +18,7 @@ mod outer_points;
 mod recognizer;
 mod robust_line;
 mod shared_edges;
+mod size;
 mod stair;
 mod tread;
 mod view;
