@@ -107,11 +107,13 @@ impl Inspection {
     }
 }
 
-/// Whether a stair looks as if it could be stepped on: where the plan has a way, nothing less is worth a detour.
+/// Whether a stair looks as if it could be stepped on, or may where it has not been seen to end: where the plan has a way,
+/// nothing less is worth a detour.
 fn is_inviting(stair: &Stair<Map>, before: &Before<'_>) -> bool {
     let rise_m = stair.height_m() - before.ground_m;
     let needed_m = before.feet.pair_width_m + 2.0 * before.climbing.side_room;
-    is_step(rise_m, before.climbing) && stair.front.length_m() >= needed_m
+    let ends = stair.seen_ends.left > 0 && stair.seen_ends.right > 0;
+    is_step(rise_m, before.climbing) && (!ends || stair.front.length_m() >= needed_m)
 }
 
 /// A plan that leads straight to a place.
@@ -142,4 +144,33 @@ fn places(from: &PlanarPose, to_m: [f64; 2]) -> impl Iterator<Item = [f64; 2]> +
 
 fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use stairs::ClimbingConfig;
+
+    use super::*;
+    use crate::StairClimbingConfig;
+    use crate::climbing::simulation::{FEET, stair};
+
+    #[test]
+    fn stairs_too_narrow_for_the_feet_invite_only_while_they_were_not_seen_to_end() {
+        let (config, climbing) = (StairClimbingConfig::default(), ClimbingConfig::default());
+        let before = Before {
+            config: &config,
+            climbing: &climbing,
+            feet: &FEET,
+            pose: PlanarPose::default(),
+            ground_m: 0.0,
+        };
+        let invites = |width_m: f64, left: usize, right: usize| {
+            let mut stair = stair([0.6, 0.0, 0.0], [0.72, 0.0, 0.0], 0.03, width_m);
+            (stair.seen_ends.left, stair.seen_ends.right) = (left, right);
+            is_inviting(&stair, &before)
+        };
+        assert!(invites(0.3, 100, 100));
+        assert!(!invites(0.15, 100, 100));
+        assert!(invites(0.15, 100, 0) && invites(0.15, 0, 100));
+    }
 }
