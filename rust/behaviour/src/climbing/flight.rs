@@ -133,12 +133,16 @@ impl Flight {
     }
 }
 
-/// Gives each step the stair that it is by now.
+/// Gives each step the stair that it is by now, and has it cross that one's edge.
 fn look_up(steps: &mut [Step], stairs: &Staircase, pose: &PlanarPose) {
     for step in steps {
         if let Some(stair) = stairs.stairs.iter().find(|stair| is_same(step, stair)) {
             let old = *step;
             step.stair = *stair;
+            let (sin, cos) = stair.front.heading_rad().sin_cos();
+            let off_m = stair.front.beyond_m(old.crossing_m);
+            step.crossing_m[0] -= off_m * cos;
+            step.crossing_m[1] -= off_m * sin;
             keep_better_edge(step, &old, pose);
         }
     }

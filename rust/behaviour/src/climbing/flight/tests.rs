@@ -91,3 +91,19 @@ fn an_edge_that_was_never_measured_goes_where_it_is_measured_however_near_it_is(
     flight.refresh(None, &measured(&plan, 0.0), &at_the_edge, &config);
     assert_eq!(flight.first().unwrap().stair.front, first.stair.front);
 }
+
+#[test]
+fn a_step_is_crossed_at_its_edge_wherever_that_is_measured() {
+    let mut flight = Flight::default();
+    let plan = plan(0.1);
+    flight.adopt(&plan.way.as_ref().unwrap().climbs[0].steps);
+    let (pose, config) = (PlanarPose::default(), ClimbingConfig::default());
+    for further_m in [0.07, 0.075, 0.08] {
+        flight.refresh(None, &measured(&plan, further_m), &pose, &config);
+        let crossings_m = flight.steps().iter().map(|step| step.crossing_m);
+        for ([x_m, y_m], was_m) in crossings_m.zip([0.5, 0.62]) {
+            assert!((x_m - was_m - further_m).abs() < 1e-9, "{x_m} {further_m}");
+            assert!((y_m - 0.1).abs() < 1e-9);
+        }
+    }
+}
