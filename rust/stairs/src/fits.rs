@@ -5,7 +5,7 @@ use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
 
 use crate::fusion::FusedEdge;
-use crate::joints::{apart_m, before};
+use crate::joints::{apart_m, before, part_beside};
 use crate::line::Line;
 use crate::view::View;
 use crate::{Edge, EdgeFit, EdgeModel, Stair, StairsConfig};
@@ -156,9 +156,9 @@ fn wanted(
     let robot_m = map_from_robot.origin().inner.z;
     let one = |index: usize| {
         let stair = &stairs[index];
-        let guess = stair.front.transformed(&robot_from_map);
-        let near_m = before(stairs, index, config.own_height)
-            .map_or(0.0, |at| stairs[at].height_m() - robot_m);
+        let before = before(stairs, index, config.own_height).map(|at| &stairs[at]);
+        let near_m = before.map_or(0.0, |before| before.height_m() - robot_m);
+        let guess = guess(stair, before, view, &robot_from_map);
         let far_m = stair.height_m() - robot_m;
         let away_m = -guess.beyond_m([0.0, 0.0]);
         let shows = away_m > 0.0
@@ -174,12 +174,29 @@ fn wanted(
     (0..stairs.len()).filter_map(one).collect()
 }
 
+/// Where the front edge of a stair is looked for. The floor at the foot of a narrow staircase has an edge so wide that its
+/// middle may be out of view: then the part behind the stair before it.
+fn guess(
+    stair: &Stair<Map>,
+    before: Option<&Stair<Map>>,
+    view: &View<'_>,
+    robot_from_map: &Pose<Robot, Map>,
+) -> Edge<Robot> {
+    let whole = stair.front.transformed(robot_from_map);
+    if view.contains(&whole.middle().inner) {
+        return whole;
+    }
+    let part = before.and_then(|before| part_beside(&stair.front, &before.back));
+    part.map_or(whole, |part| part.transformed(robot_from_map))
+}
+
 #[cfg(test)]
 mod tests {
     use geometry::{Camera, Point};
     use proptest::prelude::*;
 
     use super::*;
+    use crate::synthetic::{CAMERA, camera_pose};
     use crate::{FittedEdge, Sides};
 
     /// A step of 30 mm whose front was labelled 1 cm too far, and whose edge was fitted between levels that are off.
@@ -255,5 +272,34 @@ mod tests {
         fn an_edge_that_was_fitted_between_the_same_levels_is(off_m in -0.0065..0.0065f64) {
             prop_assert!(front_fit(off_m).is_some());
         }
+    }
+
+    #[test]
+    fn an_edge_whose_middle_is_out_of_view_is_looked_for_behind_the_stair_before_it() {
+        let mut planes = Planes::new(CAMERA.width * CAMERA.height);
+        planes.robot_from_camera = camera_pose(0.0, 1.0);
+        let view = View::new(&planes, CAMERA);
+        let stair = |[front_m, back_m]: [f64; 2], ends_m: [f64; 2], z_m| {
+            let edge = |x_m: f64| {
+                let [right, left] = ends_m.map(|y_m| Point::<Robot>::new(x_m, y_m, z_m));
+                Edge { left, right }
+            };
+            let (front, back) = (edge(front_m), edge(back_m));
+            Stair::seen(front, back, front.middle(), 100).transformed(&Pose::identity())
+        };
+        let tread = stair([0.05, 0.2], [-0.16, 0.16], 0.0);
+        let floor = |ends_m| stair([0.2, 2.0], ends_m, -0.03);
+        let ends_m = |floor: &Stair<Map>, before| {
+            let guess = guess(floor, before, &view, &Pose::identity());
+            assert!(guess.beyond_m([0.2, 0.0]).abs() < 1e-9);
+            [guess.right, guess.left].map(|end| end.inner.y)
+        };
+        let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < 1e-9;
+        assert!(near(
+            ends_m(&floor([-1.4, 0.2]), Some(&tread)),
+            [-0.16, 0.16]
+        ));
+        assert!(near(ends_m(&floor([-1.4, 0.2]), None), [-1.4, 0.2]));
+        assert!(near(ends_m(&floor([-0.3, 0.3]), Some(&tread)), [-0.3, 0.3]));
     }
 }

@@ -1,6 +1,6 @@
 //! Where one stair ends and the next begins: one edge, the back of the one and the front of the other.
 
-use geometry::Map;
+use geometry::{Map, Point};
 use nalgebra::Point2;
 
 use crate::line::Line;
@@ -33,13 +33,30 @@ pub(crate) fn apart_m(a: &Edge<Map>, b: &Edge<Map>) -> Option<f64> {
 
 /// The middle of the stretch that two nearly parallel edges have beside each other.
 fn middle_of_both(a: &Edge<Map>, b: &Edge<Map>) -> Option<Point2<f64>> {
+    let (line, [right, left]) = beside(a, b)?;
+    Some(line.at + line.along * f64::midpoint(right, left))
+}
+
+/// The stretch of an edge that it has beside a nearly parallel one.
+pub(crate) fn part_beside(edge: &Edge<Map>, other: &Edge<Map>) -> Option<Edge<Map>> {
+    let (line, ends) = beside(edge, other)?;
+    let z_m = edge.middle().inner.z;
+    let [right, left] = ends.map(|end_m| {
+        let at = line.at + line.along * end_m;
+        Point::new(at.x, at.y, z_m)
+    });
+    Some(Edge { left, right })
+}
+
+/// The first edge's line, and from where to where on it both edges lie, m.
+fn beside(a: &Edge<Map>, b: &Edge<Map>) -> Option<(Line, [f64; 2])> {
     let line = Line::along(a)?;
     let span = |edge: &Edge<Map>| {
         [&edge.right, &edge.left].map(|end| line.along.dot(&(end.inner.xy() - line.at)))
     };
     let ([a_right, a_left], [b_right, b_left]) = (span(a), span(b));
     let (right, left) = (a_right.max(b_right), a_left.min(b_left));
-    (right < left).then(|| line.at + line.along * f64::midpoint(right, left))
+    (right < left).then_some((line, [right, left]))
 }
 
 /// Makes one edge of the back of each stair and the front of the next, each by how much of its support saw it.
