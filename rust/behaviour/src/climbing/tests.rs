@@ -7,9 +7,10 @@ use super::simulation::{Simulation, stair, straight};
 use super::state::State;
 use crate::{Motion, Outcome, Pace};
 
-const FOUR_UP: [(f64, f64); 4] = [(0.03, 0.12), (0.03, 0.12), (0.03, 0.12), (0.03, 0.33)];
+pub(super) const FOUR_UP: [(f64, f64); 4] =
+    [(0.03, 0.12), (0.03, 0.12), (0.03, 0.12), (0.03, 0.33)];
 
-fn up(start: PlanarPose) -> Simulation {
+pub(super) fn up(start: PlanarPose) -> Simulation {
     Simulation::new(
         start,
         straight(0.6, &FOUR_UP, 0.33),
@@ -227,7 +228,7 @@ fn a_missing_step_is_refused_without_a_fall() {
     assert_refused_before_a_sunk_third_step(&mut simulation);
 }
 
-fn assert_refused_before_a_sunk_third_step(simulation: &mut Simulation) {
+pub(super) fn assert_refused_before_a_sunk_third_step(simulation: &mut Simulation) {
     simulation.sunk_m[2] = 0.03;
     let (outcome, _) = simulation.run(120.0);
     assert!(
@@ -362,48 +363,4 @@ fn refusing_is_final_and_every_other_state_can_be_left() {
             .count();
         assert_eq!(ways_out == 0, state == State::Refuse, "{state:?}");
     }
-}
-
-#[test]
-fn without_stops_the_stairs_take_less_time_and_one_foot_a_step() {
-    let mut by_step = up(PlanarPose::default());
-    let (_, step_by_step_s) = by_step.run(60.0);
-    let mut simulation = Simulation::new(
-        PlanarPose::default(),
-        straight(0.6, &FOUR_UP, 0.33),
-        [1.15, 0.0],
-        Pace::Continuous,
-    );
-    let (outcome, after_s) = simulation.run(60.0);
-    assert_eq!(
-        outcome,
-        Some(Outcome::GoalReached),
-        "{:?}",
-        simulation.states
-    );
-    assert!((simulation.ground_m() - 0.12).abs() < 1e-6);
-    assert!(after_s < step_by_step_s - 5.0, "{after_s} {step_by_step_s}");
-    let on_second = simulation
-        .landings
-        .iter()
-        .filter(|(_, foot)| (foot.height_m - 0.06).abs() < 1e-6);
-    assert_eq!(on_second.count(), 1);
-}
-
-#[test]
-fn a_climb_without_stops_that_fails_goes_on_step_by_step_or_is_refused_with_the_feet_together() {
-    let mut simulation = Simulation::new(
-        PlanarPose::default(),
-        straight(0.6, &FOUR_UP, 0.33),
-        [1.15, 0.0],
-        Pace::Continuous,
-    );
-    simulation.run_until(60.0, |simulation| {
-        simulation
-            .landings
-            .iter()
-            .any(|(_, foot)| foot.height_m > 0.02)
-    });
-    assert_refused_before_a_sunk_third_step(&mut simulation);
-    assert_eq!(simulation.feet[0].height_m, simulation.feet[1].height_m);
 }
