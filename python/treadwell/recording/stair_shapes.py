@@ -43,9 +43,9 @@ class StairShapes:
         self._touch = (True, True)
         self._marks: list[tuple[NDArray[np.float64], tuple[int, int, int]]] = []
         self._misstep: str | None = None
-        colours = np.array([0x00000000, 0xE74C3CFF, 0xF1C40FFF], dtype=np.uint32)
-        names = ["", "no_ground", "obstructed"]
-        labels = ["", "misstep: no ground", "misstep: obstructed"]
+        colours = np.array([0x00000000, 0xE74C3CFF, 0xF1C40FFF, 0xE67E22FF], dtype=np.uint32)
+        names = ["", "no_ground", "obstructed", "stumbled"]
+        labels = ["", "misstep: no ground", "misstep: obstructed", "stumbled"]
         style = rr.StateConfiguration(values=names, labels=labels, colors=colours)
         stream.log("behaviour/misstep", style, static=True)
 

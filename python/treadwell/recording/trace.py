@@ -69,7 +69,8 @@ class Trace:
         touch: whether the left and the right sole truly stand on something.
         footsteps: steps that the feet are told to take, in the robot's frame of when they were
             listed first; empty while they walk or stand.
-        misstep: why the last listed step was taken back; None where it was not.
+        misstep: why the last listed step was taken back, or "stumbled" where a walk came upon an
+            unseen step; None where neither was.
         state: name of the behaviour's state.
         goal: (x, y) of the goal that is pursued now.
         gaze: (pan to the left, down from the horizon) rad.

@@ -44,7 +44,7 @@ def trace_of(episode: Episode, step: Step) -> Trace:
         soles=episode.judge.soles,
         touch=(episode.judge.touch.left, episode.judge.touch.right),
         footsteps=step.footsteps,
-        misstep=pilot.stepping.misstep,
+        misstep="stumbled" if pilot.stepping.stumbled else pilot.stepping.misstep,
         state=step.state,
         goal=episode.goal,
         gaze=(pilot.gaze[0], pilot.gaze[1]),

@@ -75,6 +75,8 @@ struct Tries {
     missteps: u32,
     /// Searches for stairs without a climb after them.
     searches: u32,
+    /// Walks that came upon a level which was not seen.
+    stumbles: u32,
 }
 
 /// Walks to the goal, and over stairs.
@@ -105,6 +107,8 @@ pub struct StairClimbing {
     /// Where it stood before the last step.
     came_from: Option<Stance>,
     tries: Tries,
+    /// Whether the walker had stumbled at the last tick.
+    had_stumbled: bool,
     refusal: String,
     /// The plan for `walking`: cut off before the next climb.
     walk_plan: Option<Plan>,
@@ -148,6 +152,7 @@ impl StairClimbing {
             on: None,
             came_from: None,
             tries: Tries::default(),
+            had_stumbled: false,
             refusal: String::new(),
             walk_plan: None,
             climb_ahead_s: 0.0,
@@ -245,6 +250,11 @@ impl Behaviour for StairClimbing {
     fn next(&mut self, situation: &Situation<'_>) -> Result<Decision, BehaviourError> {
         let here = self.here(situation);
         self.keep_time(&here);
+        let stumbled = situation.stepping.stumbled;
+        if stumbled && !std::mem::replace(&mut self.had_stumbled, stumbled) {
+            self.after_stumble(&here);
+        }
+        self.had_stumbled = stumbled;
         if self.state == State::Walk {
             return self.walk(&here);
         }

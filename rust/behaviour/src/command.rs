@@ -54,6 +54,9 @@ pub struct Stepping {
     pub height_error_m: f64,
     /// Set when a step was taken back and the list was given up; until the next list.
     pub misstep: Option<Misstep>,
+    /// Whether a walking foot came upon a level that nobody told it of: the robot comes to stand, and walks no more until it stands
+    /// and was told anything but to walk.
+    pub stumbled: bool,
 }
 
 /// What the arms do.

@@ -30,6 +30,8 @@ use track::Track;
 
 /// Standing, looking and waiting without a step towards the goal ends after this, s.
 const LONGEST_IDLE_S: f64 = 75.0;
+/// The walk that comes upon an unseen step more often than this is given up.
+const STUMBLES: u32 = 3;
 /// Nearer than this to its end a path is done, m.
 const PATH_END_M: f64 = 0.04;
 
@@ -56,6 +58,7 @@ pub struct WalkingBehaviour {
     looks: u32,
     turn_to_rad: Option<f64>,
     watched_m: Option<[f64; 2]>,
+    stumbles: u32,
     motion: Motion,
     refusal: String,
 }
@@ -122,6 +125,7 @@ impl WalkingBehaviour {
             looks: 0,
             turn_to_rad: None,
             watched_m: None,
+            stumbles: 0,
             motion: Motion::Stand,
             refusal: String::new(),
         })
@@ -215,7 +219,14 @@ impl WalkingBehaviour {
         if matches!(self.state, State::Refuse | State::Arrive) {
             return;
         }
-        if self.has_arrived(moment) {
+        if moment.situation.stepping.stumbled && self.state.moves() {
+            self.stumbles += 1;
+            if self.stumbles > STUMBLES {
+                self.refuse("blocked: the feet come upon a step that cannot be seen".to_owned());
+            }
+            self.watched_m = None;
+            self.enter(State::Stop);
+        } else if self.has_arrived(moment) {
             self.enter(State::Arrive);
         } else if self.is_blind(moment) {
             self.enter(State::Blind);

@@ -206,6 +206,12 @@ impl PyStepping {
         self.0.height_error_m
     }
 
+    /// Whether a walking foot came upon a level that nobody told it of.
+    #[getter]
+    fn stumbled(&self) -> bool {
+        self.0.stumbled
+    }
+
     /// "no_ground" or "obstructed" when a step was taken back and the list given up, else None.
     #[getter]
     fn misstep(&self) -> Option<&'static str> {

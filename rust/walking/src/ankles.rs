@@ -8,7 +8,7 @@ use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use robot::{Body, Side};
 
 use crate::GaitConfig;
-use crate::gait::{FootPose, Manner, Phase};
+use crate::gait::{FootPose, Phase};
 use crate::support::{Pressure, sole_corners};
 
 /// Smoothing of the measured forces, s.
@@ -86,7 +86,7 @@ fn on_listed_steps(phase: &Phase) -> bool {
     else {
         return false;
     };
-    swing.manner != Manner::Walk
+    swing.manner.is_listed()
 }
 
 impl Sole {
@@ -123,7 +123,7 @@ impl Sole {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gait::Swing;
+    use crate::gait::{Manner, Swing};
     use crate::test_biped::{biped, config};
     use proptest::prelude::*;
 

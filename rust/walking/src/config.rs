@@ -107,6 +107,10 @@ pub struct GaitConfig {
     /// One that comes down on something this far above where it was told to land has met another level, m: 8 mm are climbed
     /// over, and heights are told within 3 mm.
     pub obstructed_height: f64,
+    /// A walking foot that comes upon something this far above the floor has met another level, m.
+    pub stumble_height: f64,
+    /// Time in which a walking foot goes back off what it met, s.
+    pub retreat_time: f64,
     /// Time to raise the arms, or to lower them, s.
     pub arms_time: f64,
     /// Speed up to which the hips are raised and lowered, m/s.
@@ -166,6 +170,8 @@ impl Default for GaitConfig {
             obstructed_distance: 0.018,
             brush_distance: 0.01,
             obstructed_height: 0.011,
+            stumble_height: 0.012,
+            retreat_time: 0.2,
             arms_time: 1.5,
             hip_speed: 0.12,
             gaze_speed: 2.0,
@@ -205,7 +211,7 @@ impl GaitConfig {
         self.check_bounds()
     }
 
-    fn positive(&self) -> [(&'static str, f64); 28] {
+    fn positive(&self) -> [(&'static str, f64); 30] {
         [
             ("step_time", self.step_time),
             ("double_support", self.double_support),
@@ -232,6 +238,8 @@ impl GaitConfig {
             ("obstructed_distance", self.obstructed_distance),
             ("brush_distance", self.brush_distance),
             ("obstructed_height", self.obstructed_height),
+            ("stumble_height", self.stumble_height),
+            ("retreat_time", self.retreat_time),
             ("arms_time", self.arms_time),
             ("hip_speed", self.hip_speed),
             ("gaze_speed", self.gaze_speed),

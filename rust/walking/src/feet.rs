@@ -3,7 +3,7 @@
 use robot::Side;
 
 use crate::GaitConfig;
-use crate::gait::{FootPose, Landing, Manner, Phase};
+use crate::gait::{FootPose, Landing, Phase};
 
 /// Share of the swing after which a load on the foot is a landing.
 const LANDING_SHARE: f64 = 0.6;
@@ -62,7 +62,7 @@ impl FeetControl {
             swing,
         } = phase
         {
-            let landed = swing.manner == Manner::Walk
+            let landed = !swing.manner.is_listed()
                 && loads_n[swing.side.index()] > config.landing_load
                 && elapsed_s / duration_s > LANDING_SHARE;
             if landed && self.held.is_none() {
@@ -71,8 +71,7 @@ impl FeetControl {
                     height_m: None,
                 });
             }
-            self.seeks =
-                (swing.manner == Manner::Walk && self.held.is_none()).then_some(swing.side);
+            self.seeks = (!swing.manner.is_listed() && self.held.is_none()).then_some(swing.side);
             return;
         }
         self.held = None;
@@ -102,7 +101,7 @@ impl FeetControl {
         let index = side.index();
         match phase {
             Phase::Single { swing, .. } if swing.side == side => {
-                let careful = swing.manner != Manner::Walk;
+                let careful = swing.manner.is_listed();
                 self.flying = careful.then_some((side, foot.z_m));
                 if careful && swing.landing == Landing::Seeking(0.0) {
                     self.landed[index] = 0.0;
@@ -126,7 +125,7 @@ impl FeetControl {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gait::Swing;
+    use crate::gait::{Manner, Swing};
     use crate::test_biped::config;
 
     #[test]

@@ -2,6 +2,7 @@
 
 use behaviour::Velocity;
 use geometry::{PlanarPose, wrap_angle};
+use nalgebra::Vector2;
 use robot::{Body, Side};
 
 use crate::GaitConfig;
@@ -23,6 +24,11 @@ impl FootstepPlanner {
             sole_length_m: legs.left.sole.length.max(legs.right.sole.length),
             sole_width_m: legs.left.sole.width.max(legs.right.sole.width),
         }
+    }
+
+    /// Half of a sole's length and width, m.
+    pub const fn half_sole_m(&self) -> Vector2<f64> {
+        Vector2::new(0.5 * self.sole_length_m, 0.5 * self.sole_width_m)
     }
 
     /// Length of a sole, m.

@@ -127,11 +127,13 @@ impl Gait {
                 let before_s = *elapsed_s;
                 *elapsed_s += passed_s;
                 let over = *elapsed_s >= *duration_s;
-                if swing.manner != Manner::Walk {
+                if swing.manner.is_listed() {
                     self.go_carefully(before_s, passed_s, task, ground);
                 } else if over {
                     let swing = *swing;
                     self.land(&swing, swing.to, task);
+                } else if let Ground::Felt(felt) = ground {
+                    self.feel_the_way(before_s, felt);
                 }
             }
         }
@@ -195,7 +197,7 @@ impl Gait {
                 Some(Swing::new(side, Manner::Walk, from, to))
             }
             // Behind a careful step there may be no ground beside the other foot.
-            Task::Stand if self.last.1 != Manner::Walk => None,
+            Task::Stand if self.last.1.is_listed() => None,
             Task::Stand if self.planner.is_beside(&stance.planar, &from.planar, side) => None,
             Task::Stand => {
                 let to = FootPose {

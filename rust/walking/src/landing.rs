@@ -3,7 +3,7 @@
 
 use behaviour::Misstep;
 use geometry::PlanarPose;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 use crate::GaitConfig;
 use crate::gait::{FootPose, Gait, Landing, Manner, Phase, Swing};
@@ -35,6 +35,8 @@ pub struct Felt {
     pub loads_n: [f64; 2],
     /// Centre of each sole by joints and attitude, in the plan, m.
     pub soles_m: [Vector3<f64>; 2],
+    /// Centre of pressure on each sole, from its middle forward and to the left, m; the middle of one that carries nothing.
+    pub pressed_m: [Vector2<f64>; 2],
 }
 
 impl Gait {

@@ -24,6 +24,7 @@ mod phase;
 mod posture;
 mod preview;
 pub mod stance;
+mod stumble;
 pub mod support;
 pub mod swing;
 mod targets;

@@ -19,6 +19,8 @@ pub(crate) struct Listed {
     pub(crate) height_error_m: f64,
     /// Why the list was given up.
     pub(crate) misstep: Option<Misstep>,
+    /// Whether a walk has come upon a level that it was not told of.
+    pub(crate) stumbled: bool,
 }
 
 impl Gait {
@@ -47,6 +49,7 @@ impl Gait {
             landed: self.listed.landed,
             height_error_m: self.listed.height_error_m,
             misstep: self.listed.misstep,
+            stumbled: self.listed.stumbled,
         }
     }
 

@@ -62,14 +62,22 @@ pub enum Manner {
     Careful,
     /// Back to where the foot came from, when a step of a list has failed.
     Back,
+    /// Off what a foot of a walk has met, back along its way.
+    Retreat,
 }
 
 impl Manner {
+    /// Whether the step is of a list: the landing is waited for.
+    pub const fn is_listed(self) -> bool {
+        matches!(self, Self::Careful | Self::Back)
+    }
+
     /// Time on both feet between two steps when the coming one is of this kind, s.
     pub fn double_support_s(self, config: &GaitConfig) -> f64 {
-        match self {
-            Self::Walk => config.double_support,
-            Self::Careful | Self::Back => config.climb_double_support,
+        if self.is_listed() {
+            config.climb_double_support
+        } else {
+            config.double_support
         }
     }
 }
@@ -119,6 +127,7 @@ impl Swing {
         let (from, to) = (&self.from, &self.to);
         match self.manner {
             Manner::Walk => config.step_time - config.double_support,
+            Manner::Retreat => config.retreat_time,
             Manner::Careful | Manner::Back => {
                 let way_m = from.planar.distance_m(&to.planar);
                 let lift_m = (from.z_m - to.z_m).abs() + config.climb_clearance;
@@ -132,7 +141,7 @@ impl Swing {
     /// Time in which the other foot carries everything, s.
     pub fn single_support_s(&self, config: &GaitConfig) -> f64 {
         match self.manner {
-            Manner::Walk => self.in_air_s(config),
+            Manner::Walk | Manner::Retreat => self.in_air_s(config),
             Manner::Careful | Manner::Back => self.in_air_s(config) + config.climb_landing_time,
         }
     }
@@ -148,6 +157,7 @@ impl Swing {
                 let height_m = swing::height_m(share, from.z_m, top_m, to.z_m);
                 (swing::travel(share), height_m)
             }
+            Manner::Retreat => swing::retreat(share, from.z_m, to.z_m),
             Manner::Careful | Manner::Back => {
                 let top_m = higher_m + config.climb_clearance;
                 let height_m = swing::careful_height_m(share, from.z_m, top_m, to.z_m);

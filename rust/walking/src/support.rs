@@ -35,6 +35,17 @@ impl Soles {
         }
     }
 
+    /// Centre of pressure on a sole, from its middle forward and to the left, m; the middle where nothing presses.
+    pub fn pressed_m(&self, side: Side, forces_n: &[[f64; 4]; 2]) -> Vector2<f64> {
+        let forces_n = forces_n[side.index()].map(|force| force.max(0.0));
+        let half = self.half[side.index()];
+        let [front_left, front_right, rear_left, rear_right] = forces_n;
+        let load_n: f64 = forces_n.iter().sum();
+        let forward = front_left + front_right - rear_left - rear_right;
+        let left = front_left + rear_left - front_right - rear_right;
+        Vector2::new(half.x * forward, half.y * left) / load_n.max(1e-3)
+    }
+
     /// The point of what bears of a standing foot's sole that is nearest to `point`, axis by axis.
     pub fn nearest(&self, foot: &FootPose, side: Side, point: &Vector2<f64>) -> Vector2<f64> {
         let (x, y) = foot.planar.inverse().apply(point.x, point.y);

@@ -23,6 +23,19 @@ pub fn height_m(share: f64, from_m: f64, top_m: f64, to_m: f64) -> f64 {
     }
 }
 
+/// When a foot that goes back off something it met moves over the ground, and when it sinks, as shares of its time.
+const OFF: [f64; 2] = [0.0, 0.7];
+const DOWN: [f64; 2] = [0.4, 1.0];
+
+/// Share of the way over the ground of a foot that goes back off something, and its height.
+pub fn retreat(share: f64, from_m: f64, to_m: f64) -> (f64, f64) {
+    let down = minimum_jerk(within(share, DOWN));
+    (
+        minimum_jerk(within(share, OFF)),
+        from_m + (to_m - from_m) * down,
+    )
+}
+
 /// When a careful foot rises, moves over the ground, and sinks, as shares of its time.
 const RISE: [f64; 2] = [0.0, 0.38];
 const OVER: [f64; 2] = [0.25, 0.75];

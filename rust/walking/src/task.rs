@@ -40,6 +40,9 @@ enum State {
 impl StepList {
     /// Takes in the motion of a tick. `gait` gets a new list's frame, which is the robot's now.
     pub fn take(&mut self, motion: &Motion, gait: &mut Gait, robot: Frame) {
+        if gait.is_standing() && !matches!(motion, Motion::Walk(_)) {
+            gait.recover();
+        }
         let Motion::Footsteps(steps) = motion else {
             self.state = State::Idle;
             return;
@@ -79,11 +82,11 @@ impl StepList {
     /// What is to be done at this tick for this motion.
     pub fn task(&self, motion: &Motion, gait: &Gait) -> Task<'_> {
         match motion {
-            Motion::Walk(velocity) => Task::Walk(*velocity),
+            Motion::Walk(velocity) if !gait.has_stumbled() => Task::Walk(*velocity),
             Motion::Footsteps(_) if self.state == State::Begun && !gait.gave_up() => {
                 Task::Steps(&self.steps)
             }
-            Motion::Stand | Motion::Footsteps(_) => Task::Stand,
+            Motion::Stand | Motion::Walk(_) | Motion::Footsteps(_) => Task::Stand,
         }
     }
 }

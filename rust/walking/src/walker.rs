@@ -107,7 +107,7 @@ impl Walker {
         let rate = self
             .capture
             .adjust(&mut self.gait, &self.soles, &error, omega, passed_s);
-        let felt = self.feel(state);
+        let felt = self.feel(observation, state);
         let frame = self.frame(&felt);
         self.list.take(&command.motion, &mut self.gait, frame);
         let task = self.list.task(&command.motion, &self.gait);
@@ -242,14 +242,15 @@ impl Walker {
     }
 
     /// What the feet feel.
-    fn feel(&self, state: &BodyState) -> Felt {
-        let plan_from_torso = &self.balance.plan_from_torso;
+    fn feel(&self, observation: &Observation, state: &BodyState) -> Felt {
+        let plan_from_sole = Side::BOTH.map(|side| {
+            self.balance.plan_from_torso * self.body.torso_from_sole(&state.links, side)
+        });
         Felt {
             loads_n: state.foot_loads_n,
-            soles_m: Side::BOTH.map(|side| {
-                let torso_from_sole = self.body.torso_from_sole(&state.links, side);
-                (plan_from_torso * torso_from_sole).translation.vector
-            }),
+            soles_m: plan_from_sole.map(|pose| pose.translation.vector),
+            pressed_m: Side::BOTH
+                .map(|side| self.soles.pressed_m(side, &observation.foot_forces_n)),
         }
     }
 

@@ -48,6 +48,19 @@ impl StairClimbing {
         }
     }
 
+    /// A walking foot came upon a level that was not seen: look for stairs from here, or give up.
+    pub(super) fn after_stumble(&mut self, here: &Here<'_>) {
+        self.tries.stumbles += 1;
+        if self.tries.stumbles > self.config.tries {
+            self.refuse(format!("blocked: {}", told(Misstep::Obstructed)));
+        } else if self.state.may_become(State::Search) {
+            self.on = None;
+            self.head.gazer.start(here.situation.gaze);
+            self.flight.clear();
+            self.begin_search(here);
+        }
+    }
+
     /// Back to where the robot stood before the last list.
     fn take_back(&mut self, here: &Here<'_>, landed: &[Foothold]) {
         let Some(from) = self.came_from else {
@@ -78,3 +91,7 @@ impl StairClimbing {
         self.stepper.motion()
     }
 }
+
+#[cfg(test)]
+#[path = "setback_tests.rs"]
+mod tests;

@@ -46,6 +46,8 @@ pub(crate) struct Simulation {
     /// Each landing is this far off, m and rad.
     pub(crate) landing_error: PlanarPose,
     pub(crate) obstacle: Option<[f64; 3]>,
+    /// Where feet come upon an edge across the way that nobody sees, m.
+    pub(crate) unseen_edge_m: Option<f64>,
     pub(crate) feet: [Foot; 2],
     pub(crate) goal: Goal,
     pub(crate) time_ns: u64,
@@ -93,6 +95,7 @@ impl Simulation {
             planning: true,
             landing_error: PlanarPose::default(),
             obstacle: None,
+            unseen_edge_m: None,
             feet: Side::BOTH.map(foot),
             goal: Goal {
                 x_m: goal[0],
@@ -238,6 +241,11 @@ impl Simulation {
         assert!(met(self), "{:?}", self.states);
     }
 
+    /// Whether a walk has come upon an unseen edge.
+    pub(crate) const fn has_stumbled(&self) -> bool {
+        self.stepping.stumbled
+    }
+
     /// Where the head looks.
     pub(crate) const fn gaze(&self) -> Gaze {
         self.gaze
@@ -266,6 +274,7 @@ impl Simulation {
         self.gaze = decision.command.gaze;
         self.arms_raised |= decision.command.arms == crate::Arms::Raised;
         match &decision.command.motion {
+            Motion::Walk(_) if self.stepping.stumbled => self.standing_ticks += 1,
             Motion::Walk(velocity) => {
                 let way = PlanarPose::new(
                     velocity.x_mps * 0.01,
@@ -273,6 +282,12 @@ impl Simulation {
                     velocity.yaw_radps * 0.01,
                 );
                 let pose = self.pose().compose(&way);
+                self.standing_ticks = 0;
+                self.stepping.landed = 0;
+                if self.unseen_edge_m.is_some_and(|edge_m| pose.x_m > edge_m) {
+                    self.stepping.stumbled = true;
+                    return;
+                }
                 let ground_m = self.ground_m();
                 assert_eq!(
                     self.truth_m([pose.x_m, pose.y_m]),
@@ -283,12 +298,11 @@ impl Simulation {
                     let place = PlanarPose::new(0.0, 0.5 * side.sign() * FEET.stance_m, 0.0);
                     self.feet[side.index()].pose = pose.compose(&place);
                 }
-                self.standing_ticks = 0;
-                self.stepping.landed = 0;
             }
             Motion::Stand => {
                 self.standing_ticks += 1;
                 if self.stands() {
+                    self.stepping.stumbled = false;
                     self.stepping.landed = 0;
                 }
             }

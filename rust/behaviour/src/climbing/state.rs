@@ -79,7 +79,7 @@ impl State {
                 next,
                 Self::Search | Self::Climb | Self::Blind | Self::Refuse
             ),
-            Self::Finish => matches!(next, Self::Walk | Self::Blind | Self::Refuse),
+            Self::Finish => matches!(next, Self::Walk | Self::Search | Self::Blind | Self::Refuse),
             Self::Blind => matches!(next, Self::Search | Self::Climb | Self::Refuse),
             Self::Refuse => false,
         }

@@ -68,7 +68,7 @@ impl StairClimbing {
         self.count_climb_ahead(climbs, here.passed_s);
         let found = self.climb_ahead_s > SURE_S;
         let seen = self.look(here, false);
-        if !found && !seen {
+        if (!found && !seen) || self.had_stumbled {
             return Motion::Stand;
         }
         if self.tries.searches > self.config.tries || (!found && here.breaks_a_limit()) {

@@ -1,0 +1,169 @@
+//! A walking foot comes upon a level that nobody told it of: it goes back off it, and the walk ends.
+//!
+//! Floors differ by up to 10 mm, which the walk takes as it comes; from there to the least step that the camera tells apart, feet
+//! are all that a robot has.
+
+use geometry::PlanarPose;
+use nalgebra::Vector2;
+
+use crate::gait::{Gait, Manner, Phase, Swing};
+use crate::landing::Felt;
+
+/// Share of its time after which a walking foot has left the ground for sure.
+const LEFT: f64 = 0.25;
+/// How far off the edge that it met a foot goes back, m.
+const CLEAR_M: f64 = 0.01;
+/// A foot of which more than this share lies beyond the edge that it met stands well there.
+const STANDS: f64 = 0.6;
+
+impl Gait {
+    /// Whether a walk has ended because of what it met.
+    pub(crate) const fn has_stumbled(&self) -> bool {
+        self.listed.stumbled
+    }
+
+    /// Lets a new walk begin.
+    pub(crate) const fn recover(&mut self) {
+        self.listed.stumbled = false;
+    }
+
+    /// What a foot of a walk feels on its way.
+    pub(crate) fn feel_the_way(&mut self, before_s: f64, felt: &Felt) {
+        let Phase::Single {
+            elapsed_s, swing, ..
+        } = self.phase
+        else {
+            return;
+        };
+        if self.meets_a_level(&swing, before_s, felt) {
+            self.listed.stumbled = true;
+            self.go_off(&swing, elapsed_s, felt);
+        }
+    }
+
+    /// Whether a foot has come upon something that is higher than the floor may be.
+    fn meets_a_level(&self, swing: &Swing, elapsed_s: f64, felt: &Felt) -> bool {
+        let index = swing.side.index();
+        let share = elapsed_s / swing.in_air_s(&self.config);
+        let above_m = felt.soles_m[index].z - swing.to.z_m;
+        swing.manner == Manner::Walk
+            && share > LEFT
+            && felt.loads_n[index] > self.config.landing_load
+            && above_m > self.config.stumble_height
+    }
+
+    /// Takes the foot back along its way until nothing of it is over the edge that it met; where most of it is, it stays.
+    fn go_off(&mut self, swing: &Swing, elapsed_s: f64, felt: &Felt) {
+        let index = swing.side.index();
+        let here = swing.foot(elapsed_s, &self.config);
+        let back = swing.from.planar;
+        let way_m = here.planar.distance_m(&back);
+        let (x, y) = here.planar.inverse().apply(back.x_m, back.y_m);
+        let ahead = Vector2::new(-x, -y) / way_m.max(1e-6);
+        let half = self.planner.half_sole_m();
+        let reach_m = half.dot(&ahead.abs());
+        let over_m = 2.0 * (reach_m - felt.pressed_m[index].dot(&ahead)).max(0.0);
+        let mut to = here;
+        if over_m > STANDS * 2.0 * reach_m {
+            to.z_m = felt.soles_m[index].z;
+        } else {
+            let share = ((over_m + CLEAR_M) / way_m.max(1e-6)).min(1.0);
+            to.planar = PlanarPose {
+                x_m: here.planar.x_m + (back.x_m - here.planar.x_m) * share,
+                y_m: here.planar.y_m + (back.y_m - here.planar.y_m) * share,
+                ..here.planar
+            };
+            to.z_m = self.feet[swing.side.other().index()].z_m;
+        }
+        let swing = Swing::new(swing.side, Manner::Retreat, here, to);
+        self.phase = Phase::Single {
+            elapsed_s: 0.0,
+            duration_s: swing.single_support_s(&self.config),
+            swing,
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::footsteps::FootstepPlanner;
+    use crate::gait::FootPose;
+    use crate::landing::Ground;
+    use crate::task::Task;
+    use crate::test_biped::{biped, config};
+    use behaviour::Velocity;
+    use nalgebra::Vector3;
+    use robot::Side;
+
+    const AHEAD: Velocity = Velocity {
+        x_mps: 0.1,
+        y_mps: 0.0,
+        yaw_radps: 0.0,
+    };
+
+    /// The left foot on its way 60 mm ahead, most of it behind it.
+    fn walking() -> Gait {
+        let (config, body) = (config(), biped());
+        let foot = |x: f64, y: f64| FootPose {
+            planar: PlanarPose::new(x, y, 0.0),
+            ..FootPose::default()
+        };
+        let feet = [foot(-0.03, 0.0425), foot(0.0, -0.0425)];
+        let mut gait = Gait::new(&config, FootstepPlanner::new(&config, &body), feet);
+        let swing = Swing::new(Side::Left, Manner::Walk, feet[0], foot(0.03, 0.0425));
+        let duration_s = swing.single_support_s(&config);
+        gait.phase = Phase::Single {
+            elapsed_s: 0.65 * duration_s,
+            duration_s,
+            swing,
+        };
+        gait
+    }
+
+    /// The left sole lies on something of this height, its middle of pressure so far ahead of its own.
+    fn upon(height_m: f64, pressed_m: f64) -> Ground {
+        Ground::Felt(Felt {
+            loads_n: [20.0, 50.0],
+            soles_m: [Vector3::new(0.02, 0.0425, height_m), Vector3::zeros()],
+            pressed_m: [Vector2::new(pressed_m, 0.0), Vector2::zeros()],
+        })
+    }
+
+    fn landed(mut gait: Gait, ground: &Ground) -> Gait {
+        for _ in 0..100 {
+            gait.advance(0.01, Task::Walk(AHEAD), ground);
+            if !matches!(gait.phase, Phase::Single { .. }) {
+                return gait;
+            }
+        }
+        panic!("the foot never lands");
+    }
+
+    #[test]
+    fn toes_on_an_unseen_step_go_back_before_its_edge_and_the_walk_is_over() {
+        let before = walking();
+        let toes_m = before.foot(Side::Left).planar.x_m + 0.0525;
+        let gait = landed(before, &upon(0.018, 0.04));
+        assert!(gait.has_stumbled());
+        // Pressed 12.5 mm behind the toes: 25 mm of the sole are over the edge.
+        let back_m = toes_m - (gait.feet[0].planar.x_m + 0.0525);
+        assert!(back_m > 0.025, "{back_m}");
+        assert_eq!(gait.feet[0].z_m, 0.0);
+    }
+
+    #[test]
+    fn a_sole_that_is_mostly_on_the_step_stays_there() {
+        let gait = landed(walking(), &upon(0.018, 0.01));
+        assert!(gait.has_stumbled());
+        assert!(gait.feet[0].planar.x_m > 0.0);
+        assert_eq!(gait.feet[0].z_m, 0.018);
+    }
+
+    #[test]
+    fn a_bump_that_counts_as_floor_is_walked_over() {
+        let gait = landed(walking(), &upon(0.010, 0.04));
+        assert!(!gait.has_stumbled());
+        assert_eq!(gait.feet[0].planar.x_m, 0.03);
+    }
+}
