@@ -166,7 +166,7 @@ impl Default for GaitConfig {
             climb_forward: 0.135,
             climb_rise: 0.055,
             probe_speed: 0.08,
-            probe_depth: 0.02,
+            probe_depth: 0.012,
             obstructed_distance: 0.018,
             brush_distance: 0.01,
             obstructed_height: 0.011,
