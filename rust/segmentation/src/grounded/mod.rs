@@ -45,6 +45,8 @@ use walls::Walls;
 /// How far a tilt may be from the predicted one: sigma, rad, while tracked and while searched.
 const TRACKED_RAD: f64 = 0.008;
 const SEARCHED_RAD: f64 = 0.1;
+/// How far a surface may be tilted that tells of the tilt while it is searched, rad.
+const SEARCHED_LEVEL_RAD: f64 = 0.09;
 /// Step of the search for the tilt while tracked, and last step of the search from nothing, rad.
 const TRACK_STEP_RAD: f64 = 0.012;
 const LAST_STEP_RAD: f64 = 0.006;
@@ -121,7 +123,7 @@ impl<F: Finder> Grounded<F> {
     fn level(&mut self, predicted: Pose<Robot, Camera>) -> Levelled {
         let searching = self.searching();
         let (sigma, level_rad) = if searching {
-            (SEARCHED_RAD, 1.3 * self.config.floor_tilt)
+            (SEARCHED_RAD, SEARCHED_LEVEL_RAD)
         } else {
             (TRACKED_RAD, self.config.floor_tilt)
         };

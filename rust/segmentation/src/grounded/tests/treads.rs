@@ -100,6 +100,27 @@ fn treads_of_known_height_put_the_camera_right() {
     }
 }
 
+#[test]
+fn a_low_staircase_is_not_taken_for_a_level_floor_under_a_tilted_camera() {
+    for rise_m in [-0.016, 0.016] {
+        let steps = Steps {
+            rise_m,
+            tread_m: 0.16,
+        };
+        let mut noise = Noise::new(5);
+        let mut tilts = vec![];
+        for _ in 0..6 {
+            let mut segmenter = tracking(&mut noise);
+            for _ in 0..4 {
+                let (planes, truth) = see(&mut segmenter, steps, 0.0, &NothingKnown, &mut noise);
+                tilts.push(pose_error(&planes, &truth).0);
+            }
+        }
+        tilts.sort_by(f64::total_cmp);
+        assert!(tilts[12] < 0.005 && tilts[23] < 0.02, "{rise_m}: {tilts:?}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
     #[test]
