@@ -196,8 +196,8 @@ impl Gait {
                 let to = self.on_level(&stance, side, &velocity);
                 Some(Swing::new(side, Manner::Walk, from, to))
             }
-            // Behind a careful step there may be no ground beside the other foot.
-            Task::Stand if self.last.1.is_listed() => None,
+            // Behind a careful step, or one back off an edge, there may be no ground beside the other foot.
+            Task::Stand if self.last.1 != Manner::Walk => None,
             Task::Stand if self.planner.is_beside(&stance.planar, &from.planar, side) => None,
             Task::Stand => {
                 let to = FootPose {

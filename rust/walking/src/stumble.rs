@@ -12,7 +12,7 @@ use crate::landing::Felt;
 /// Share of its time after which a walking foot has left the ground for sure.
 const LEFT: f64 = 0.25;
 /// How far off the edge that it met a foot goes back, m.
-const CLEAR_M: f64 = 0.01;
+const CLEAR_M: f64 = 0.025;
 /// A foot of which more than this share lies beyond the edge that it met stands well there.
 const STANDS: f64 = 0.6;
 
