@@ -87,8 +87,8 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::Stair;
     use crate::extract::{Sighting, level_edge};
+    use crate::{Sides, Stair};
 
     const SIMILAR_M: f64 = 0.009;
 
@@ -114,6 +114,46 @@ mod tests {
             large_enough: true,
         };
         Tread::new(&sighting, &Pose::identity()).unwrap()
+    }
+
+    /// A sill ahead, its front from `right` to `left`, with what was seen to end it.
+    fn sill([right, left]: [(f64, f64); 2], seen: Sides) -> Tread {
+        const DEEP_M: f64 = 0.09;
+        let [right, left] = [right, left].map(|(x, y)| Point2::new(x, y));
+        let behind = |p: Point2<f64>| Point2::new(p.x + DEEP_M, p.y);
+        let corners = [right, behind(right), behind(left), left];
+        let mut stair = Stair::seen(
+            level_edge([right, left], 0.038),
+            level_edge([behind(right), behind(left)], 0.038),
+            Point::<Robot>::new(right.x + 0.5 * DEEP_M, 0.5 * (right.y + left.y), 0.038),
+            800,
+        );
+        stair.seen_ends = seen;
+        let sighting = Sighting {
+            stair,
+            hull: Outline::hull(&corners).unwrap(),
+            own_level: false,
+            large_enough: true,
+        };
+        Tread::new(&sighting, &Pose::identity()).unwrap()
+    }
+
+    #[test]
+    fn one_skewed_look_at_a_part_of_a_remembered_stair_does_not_cut_it_off() {
+        let seen = |front: usize, back: usize, sides: usize| Sides {
+            front,
+            back,
+            left: sides,
+            right: sides,
+        };
+        let mut known = sill([(0.4, -0.45), (0.4, 0.4)], seen(800, 800, 0));
+        for _ in 0..8 {
+            known.add(&sill([(0.4, -0.45), (0.4, 0.4)], seen(800, 800, 0)));
+        }
+        known.step();
+        known.add(&sill([(0.35, -0.45), (0.46, -0.2)], seen(0, 100, 800)));
+        let front = known.stair().unwrap().front;
+        assert!(front.left.inner.y > 0.35, "{front:?}");
     }
 
     fn treads() -> impl Strategy<Value = Vec<Tread>> {

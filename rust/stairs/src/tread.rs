@@ -47,13 +47,15 @@ impl Tread {
             .collect();
         let weight = stair.support as f64;
         let seen = &stair.seen_ends;
+        // Where an edge ends is known no better than which way it runs.
+        let surest = seen.front.max(seen.back);
         let border = |edge: &Edge<Map>, seen_edge: usize| {
             let [right, left] = [&edge.right, &edge.left].map(|p| p.inner.xy());
             let weights = Weights {
                 all: weight,
                 edge: seen_edge as f64,
-                left: seen.left as f64,
-                right: seen.right as f64,
+                left: seen.left.min(surest) as f64,
+                right: seen.right.min(surest) as f64,
             };
             Border::new([&right, &left], weights)
         };
