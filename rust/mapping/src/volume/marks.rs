@@ -1,6 +1,6 @@
 //! What the rays of one frame hit and passed, voxel by voxel: each counts once, however many rays touched it.
 
-use geometry::{Cell, CellArea};
+use geometry::CellArea;
 
 use super::columns::Slabs;
 use super::occupancy::Size;
@@ -51,8 +51,7 @@ impl Marks {
             let Some(part) = Part::inside(eye, end, size) else {
                 continue;
             };
-            area.include(Cell::new(part.first[0], part.first[1]));
-            area.include(Cell::new(part.last[0], part.last[1]));
+            part.add_to(&mut area);
             if hit && part.ends_inside {
                 let cell = part.last[1] as usize * self.size.cols + part.last[0] as usize;
                 self.hits[cell] |= 1 << part.last[2];

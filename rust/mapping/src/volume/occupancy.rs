@@ -197,8 +197,7 @@ impl OccupancyGrid {
             let Some(part) = Part::inside(eye, end, size) else {
                 continue;
             };
-            area.include(Cell::new(part.first[0], part.first[1]));
-            area.include(Cell::new(part.last[0], part.last[1]));
+            part.add_to(&mut area);
             if let Some(walk) = VoxelWalk::new(eye, end, size) {
                 self.apply_ray(walk, hit && part.ends_inside);
             }

@@ -1,5 +1,7 @@
 //! Exact voxel traversal of a segment (Amanatides and Woo 1987), clipped to the grid.
 
+use geometry::{Cell, CellArea};
+
 /// The part of a segment that lies inside the grid. Coordinates are in voxels: voxel (i, j, k) fills `i..i+1`, `j..j+1`,
 /// `k..k+1`.
 #[derive(Debug, Clone, Copy)]
@@ -37,6 +39,13 @@ impl Part {
             last: voxel(end),
             ends_inside,
         })
+    }
+
+    /// Widens an area to the cells over which the part lies.
+    pub(super) fn add_to(&self, area: &mut CellArea) {
+        for [col, row, _] in [self.first, self.last] {
+            area.include(Cell::new(col, row));
+        }
     }
 }
 
