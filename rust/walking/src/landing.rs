@@ -2,12 +2,11 @@
 //! there is none or something is in its way.
 
 use behaviour::Misstep;
-use geometry::PlanarPose;
 use nalgebra::{Vector2, Vector3};
 
 use crate::GaitConfig;
 use crate::gait::{FootPose, Gait, Landing, Manner, Phase, Swing};
-use crate::swing::SINKING;
+use crate::swing::{self, SINKING};
 use crate::task::Task;
 
 /// Share of the time after which a careful foot has left the ground for sure.
@@ -148,11 +147,7 @@ impl Swing {
         if arrives {
             let way_m = here.distance_m(&self.from.planar);
             let back_share = CLEAR_M / way_m.max(CLEAR_M);
-            self.to.planar = PlanarPose {
-                x_m: here.x_m + (self.from.planar.x_m - here.x_m) * back_share,
-                y_m: here.y_m + (self.from.planar.y_m - here.y_m) * back_share,
-                ..here
-            };
+            self.to.planar = swing::part_way(&here, &self.from.planar, back_share);
         }
         arrives
     }

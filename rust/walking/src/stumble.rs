@@ -3,11 +3,11 @@
 //! Floors differ by up to 10 mm, which the walk takes as it comes; from there to the least step that the camera tells apart, feet
 //! are all that a robot has.
 
-use geometry::PlanarPose;
 use nalgebra::Vector2;
 
 use crate::gait::{Gait, Manner, Phase, Swing};
 use crate::landing::Felt;
+use crate::swing;
 
 /// Share of its time after which a walking foot has left the ground for sure.
 const LEFT: f64 = 0.25;
@@ -68,11 +68,7 @@ impl Gait {
             to.z_m = felt.soles_m[index].z;
         } else {
             let share = ((over_m + CLEAR_M) / way_m.max(1e-6)).min(1.0);
-            to.planar = PlanarPose {
-                x_m: here.planar.x_m + (back.x_m - here.planar.x_m) * share,
-                y_m: here.planar.y_m + (back.y_m - here.planar.y_m) * share,
-                ..here.planar
-            };
+            to.planar = swing::part_way(&here.planar, &back, share);
             to.z_m = self.feet[swing.side.other().index()].z_m;
         }
         let swing = Swing::new(swing.side, Manner::Retreat, here, to);
@@ -93,6 +89,7 @@ mod tests {
     use crate::task::Task;
     use crate::test_biped::{biped, config};
     use behaviour::Velocity;
+    use geometry::PlanarPose;
     use nalgebra::Vector3;
     use robot::Side;
 

@@ -1,5 +1,16 @@
 //! The path of the swing foot: minimum jerk over the ground, up and down once.
 
+use geometry::PlanarPose;
+
+/// A foot at `here` after a share of the straight way to `place`, its heading kept.
+pub fn part_way(here: &PlanarPose, place: &PlanarPose, share: f64) -> PlanarPose {
+    PlanarPose {
+        x_m: here.x_m + (place.x_m - here.x_m) * share,
+        y_m: here.y_m + (place.y_m - here.y_m) * share,
+        ..*here
+    }
+}
+
 /// Minimum-jerk rise from 0 to 1 for a share of time in [0, 1]: 10 s^3 - 15 s^4 + 6 s^5 (Flash and Hogan, 1985). At rest at both ends.
 pub fn minimum_jerk(share: f64) -> f64 {
     let s = share.clamp(0.0, 1.0);
