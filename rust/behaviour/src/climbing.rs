@@ -250,11 +250,11 @@ impl Behaviour for StairClimbing {
     fn next(&mut self, situation: &Situation<'_>) -> Result<Decision, BehaviourError> {
         let here = self.here(situation);
         self.keep_time(&here);
-        let stumbled = situation.stepping.stumbled;
-        if stumbled && !std::mem::replace(&mut self.had_stumbled, stumbled) {
+        let stumbles = situation.stepping.stumbled && !self.had_stumbled;
+        self.had_stumbled = situation.stepping.stumbled;
+        if stumbles {
             self.after_stumble(&here);
         }
-        self.had_stumbled = stumbled;
         if self.state == State::Walk {
             return self.walk(&here);
         }

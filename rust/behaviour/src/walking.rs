@@ -30,8 +30,6 @@ use track::Track;
 
 /// Standing, looking and waiting without a step towards the goal ends after this, s.
 const LONGEST_IDLE_S: f64 = 75.0;
-/// The walk that comes upon an unseen step more often than this is given up.
-const STUMBLES: u32 = 3;
 /// Nearer than this to its end a path is done, m.
 const PATH_END_M: f64 = 0.04;
 
@@ -220,12 +218,7 @@ impl WalkingBehaviour {
             return;
         }
         if moment.situation.stepping.stumbled && self.state.moves() {
-            self.stumbles += 1;
-            if self.stumbles > STUMBLES {
-                self.refuse("blocked: the feet come upon a step that cannot be seen".to_owned());
-            }
-            self.watched_m = None;
-            self.enter(State::Stop);
+            self.stumble();
         } else if self.has_arrived(moment) {
             self.enter(State::Arrive);
         } else if self.is_blind(moment) {

@@ -24,6 +24,8 @@ pub(crate) struct Simulation {
     /// Patches that stereo never sees.
     pub(crate) holes: Vec<[f64; 3]>,
     pub(crate) blind: bool,
+    /// Where feet come upon an edge across the way that nobody sees, m.
+    pub(crate) unseen_edge_m: Option<f64>,
     /// Whether the planner's path ends where it meets the goal's disc.
     pub(crate) ends_at_the_rim: bool,
     /// Whether the planner says that there is no way.
@@ -38,6 +40,7 @@ pub(crate) struct Simulation {
     /// State, and the place where it began.
     pub(crate) states: Vec<(&'static str, PlanarPose)>,
     gaze: Gaze,
+    stumbled: bool,
     frames: u64,
     last_frame_ns: Option<u64>,
     standing_ticks: u32,
@@ -51,6 +54,7 @@ impl Simulation {
             obstacles: Vec::new(),
             holes: Vec::new(),
             blind: false,
+            unseen_edge_m: None,
             ends_at_the_rim: false,
             closed: false,
             pose: start,
@@ -74,6 +78,7 @@ impl Simulation {
             behaviour: WalkingBehaviour::new(WalkingConfig::default()).unwrap(),
             states: Vec::new(),
             gaze: Gaze::default(),
+            stumbled: false,
             frames: 0,
             last_frame_ns: None,
             standing_ticks: 100,
@@ -101,7 +106,10 @@ impl Simulation {
                 estimate: &estimate,
                 view: &self.view,
                 stairs: &stairs::Staircase::default(),
-                stepping: crate::Stepping::default(),
+                stepping: crate::Stepping {
+                    stumbled: self.stumbled,
+                    ..crate::Stepping::default()
+                },
                 plan: self.plan.as_ref(),
                 goal: &self.goal,
                 last_goal: self.last_goal,
@@ -142,16 +150,24 @@ impl Simulation {
         self.gaze = decision.command.gaze;
         assert!(self.gaze.pan_rad.is_finite() && self.gaze.down_rad.is_finite());
         match decision.command.motion {
+            Motion::Walk(_) if self.stumbled => self.standing_ticks += 1,
             Motion::Walk(velocity) => {
                 let step =
                     [velocity.x_mps, velocity.y_mps, velocity.yaw_radps].map(|speed| speed * 0.01);
                 assert!(step.iter().all(|value| value.is_finite()), "{velocity:?}");
-                self.pose = self
+                let pose = self
                     .pose
                     .compose(&PlanarPose::new(step[0], step[1], step[2]));
                 self.standing_ticks = 0;
+                self.stumbled = self.unseen_edge_m.is_some_and(|edge_m| pose.x_m > edge_m);
+                if !self.stumbled {
+                    self.pose = pose;
+                }
             }
-            _ => self.standing_ticks += 1,
+            _ => {
+                self.standing_ticks += 1;
+                self.stumbled &= self.standing_ticks <= 60;
+            }
         }
     }
 

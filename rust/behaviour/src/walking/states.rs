@@ -26,6 +26,8 @@ const LONGEST_LOOK_S: f64 = 20.0;
 const LOOK_NEAR_RAD: f64 = 1.0;
 /// Above this a turn keeps its direction, rad.
 const KEEP_DIRECTION_RAD: f64 = 2.4;
+/// A robot whose feet come upon unseen steps more often than this gives up.
+const STUMBLES: u32 = 3;
 
 impl WalkingBehaviour {
     /// One tick of the present state.
@@ -234,6 +236,17 @@ impl WalkingBehaviour {
             }
         }
         Motion::Stand
+    }
+
+    /// The feet came upon a step that nobody saw: stand and look, or give up.
+    pub(super) fn stumble(&mut self) {
+        self.stumbles += 1;
+        if self.stumbles > STUMBLES {
+            self.refuse("blocked: the feet come upon a step that cannot be seen".to_owned());
+        } else {
+            self.watched_m = None;
+            self.enter(State::Stop);
+        }
     }
 
     fn arrive(&mut self, moment: &Moment<'_>) -> Motion {

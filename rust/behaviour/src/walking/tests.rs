@@ -73,6 +73,21 @@ fn beside_an_obstacle_in_the_disc_the_rim_will_do() {
 }
 
 #[test]
+fn a_walk_upon_an_unseen_step_stops_and_tries_again_before_it_is_given_up() {
+    let mut simulation = Simulation::new(PlanarPose::default(), [1.5, 0.0]);
+    simulation.unseen_edge_m = Some(0.5);
+    let (outcome, _) = simulation.run(120.0);
+    assert!(
+        matches!(&outcome, Some(Outcome::Refused(reason)) if reason.starts_with("blocked: the feet")),
+        "{outcome:?} {:?}",
+        simulation.states
+    );
+    let stops = simulation.states.iter().filter(|(name, _)| *name == "stop");
+    assert_eq!(stops.count(), 3, "{:?}", simulation.states);
+    assert!(simulation.pose.x_m <= 0.5);
+}
+
+#[test]
 fn the_robot_looks_around_before_its_first_step() {
     let mut simulation = Simulation::new(PlanarPose::default(), [1.5, 0.0]);
     let _ = simulation.run(60.0);
