@@ -54,7 +54,7 @@ impl Extraction {
         self.shared_edges.read(planes, &view, camera.width, config);
         self.found.clear();
         for region in 0..planes.regions.len() {
-            let sighting = self.sighting(region, &view);
+            let sighting = self.sighting(region, &view, config);
             self.found.extend(sighting);
         }
         for i in 0..self.found.len() {
@@ -70,7 +70,12 @@ impl Extraction {
         }
     }
 
-    fn sighting(&mut self, index: usize, view: &View<'_>) -> Option<Sighting> {
+    fn sighting(
+        &mut self,
+        index: usize,
+        view: &View<'_>,
+        config: &StairsConfig,
+    ) -> Option<Sighting> {
         let shared_front = self.shared(view, |edge| edge.farther == index);
         let surface = Surface::new(index, view, shared_front.as_ref())?;
         let reference = surface.reference;
@@ -101,13 +106,8 @@ impl Extraction {
         if !is_solid(&stair, view) {
             return None;
         }
-        stair.seen_ends = seen_ends(&stair, view);
-        if shared_front.is_some() {
-            stair.seen_ends.front = stair.support;
-        }
-        if shared_back.is_some() {
-            stair.seen_ends.back = stair.support;
-        }
+        let shared = [shared_front.is_some(), shared_back.is_some()];
+        stair.seen_ends = seen_ends(&stair, shared, view, config);
         Some(Sighting {
             stair,
             hull: surface.hull,

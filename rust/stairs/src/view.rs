@@ -171,3 +171,10 @@ pub(crate) struct Beyond {
     /// That show something higher.
     pub(crate) higher: f64,
 }
+
+impl Beyond {
+    /// That show something of another height.
+    pub(crate) fn any(&self) -> f64 {
+        self.lower + self.higher
+    }
+}

@@ -1,10 +1,10 @@
 //! What of a stair is in view, and where it ends there.
 
 use geometry::Robot;
-use nalgebra::Vector2;
+use nalgebra::{Point3, Vector2};
 
 use crate::view::{Shows, View};
-use crate::{Edge, Sides, Stair};
+use crate::{Edge, Sides, Stair, StairsConfig};
 
 /// Share of a side's places that must show that the surface ends there.
 const ENDS: f64 = 0.5;
@@ -26,22 +26,45 @@ pub(crate) fn is_solid(stair: &Stair<Robot>, view: &View<'_>) -> bool {
     f64::from(surface) >= SOLID * f64::from(surface + other) && surface > 0
 }
 
-/// Which sides end the surface and not only the view. What ends behind something higher on the robot's side is hidden.
-pub(crate) fn seen_ends(stair: &Stair<Robot>, view: &View<'_>) -> Sides {
-    let [front_left, front_right] = [&stair.front.left.inner, &stair.front.right.inner];
-    let [back_left, back_right] = [&stair.back.left.inner, &stair.back.right.inner];
-    let to_left = |edge: &Edge<Robot>| (edge.left.inner - edge.right.inner).xy();
-    let left = to_left(&stair.front) + to_left(&stair.back);
-    let ends = |side: [&_; 2], outward: Vector2<f64>| {
-        let beyond = view.beyond(side, &outward);
-        beyond.lower + beyond.higher >= ENDS
+/// Which sides end the surface and not only the view; of its front and its back, those that are `shared` with a neighbour
+/// surely do. What ends behind something higher on the robot's side is hidden.
+pub(crate) fn seen_ends(
+    stair: &Stair<Robot>,
+    shared: [bool; 2],
+    view: &View<'_>,
+    config: &StairsConfig,
+) -> Sides {
+    let Stair { front, back, .. } = stair;
+    let beyond = |edge: &Edge<Robot>, outward: Vector2<f64>| {
+        view.beyond([&edge.left.inner, &edge.right.inner], &outward)
     };
-    let front = view.beyond([front_left, front_right], &-stair.front.across());
-    let back = ends([back_left, back_right], stair.back.across());
-    Sides {
-        front: usize::from(front.lower >= ENDS) * stair.support.div_ceil(ONE_SIDED),
-        back: usize::from(back) * stair.support.div_ceil(ONE_SIDED),
-        left: usize::from(ends([front_left, back_left], left)) * stair.support,
-        right: usize::from(ends([front_right, back_right], -left)) * stair.support,
-    }
+    let support = |is_shared: bool, ends: bool| match (is_shared, ends) {
+        (true, _) => stair.support,
+        (false, true) => stair.support.div_ceil(ONE_SIDED),
+        (false, false) => 0,
+    };
+    let ends_before = beyond(front, -front.across()).lower >= ENDS;
+    let ends_behind = beyond(back, back.across()).any() >= ENDS;
+    let mut seen = Sides {
+        front: support(shared[0], ends_before),
+        back: support(shared[1], ends_behind),
+        ..Sides::default()
+    };
+    let to_left = |edge: &Edge<Robot>| (edge.left.inner - edge.right.inner).xy();
+    // An edge that is only where the picture ends does not say which way is sideways.
+    let left = match (seen.front > 0, seen.back > 0) {
+        (true, false) => to_left(front),
+        (false, true) => to_left(back),
+        _ => to_left(front) + to_left(back),
+    };
+    let ends = |side: [&Point3<f64>; 2], outward: Vector2<f64>| {
+        // Where the picture cuts a surface to a corner, that is no side.
+        let deep_m = outward.normalize().perp(&(side[1] - side[0]).xy()).abs();
+        deep_m > config.min_depth / 2.0 && view.beyond(side, &outward).any() >= ENDS
+    };
+    let is_left = ends([&front.left.inner, &back.left.inner], left);
+    let is_right = ends([&front.right.inner, &back.right.inner], -left);
+    seen.left = usize::from(is_left) * stair.support;
+    seen.right = usize::from(is_right) * stair.support;
+    seen
 }

@@ -3,6 +3,9 @@
 use super::prisms::{Prism, frame};
 use super::*;
 use crate::Stair;
+use crate::extract::level_edge;
+use crate::view::View;
+use crate::visible::seen_ends;
 
 fn ground() -> Prism {
     Prism::new(&[[-3.0, -3.0], [5.0, -3.0], [5.0, 3.0], [-3.0, 3.0]], 0.0)
@@ -157,4 +160,32 @@ fn stairs_down_from_a_narrow_landing_are_found_though_the_floor_lies_around_them
             "{stair:?}"
         );
     }
+}
+
+/// A robot at the upper end of stairs looks steeply down: of the first tread the picture may show a triangle.
+#[test]
+fn a_corner_that_the_picture_cuts_off_a_tread_is_not_where_it_ends() {
+    let prism = |x_m: [f64; 2], half_m: f64, top_m: f64| {
+        let [from, to] = x_m;
+        let corners = [[from, -half_m], [to, -half_m], [to, half_m], [from, half_m]];
+        Prism::new(&corners, top_m)
+    };
+    let prisms = [
+        prism([-1.0, 0.08], 0.45, 0.0),
+        prism([0.08, 0.2], 0.165, -0.03),
+        prism([0.2, 0.32], 0.165, -0.06),
+        prism([-3.0, 4.0], 3.0, -0.12),
+    ];
+    let right_end = |front: [[f64; 2]; 2], back: [[f64; 2]; 2], pan_rad: f64| {
+        let (_, planes) = frame(&prisms, &Pose::identity(), &camera_pose(pan_rad, 1.0));
+        let view = View::new(&planes, CAMERA);
+        let edge = |[right, left]: [[f64; 2]; 2]| level_edge([right.into(), left.into()], -0.03);
+        let (front, back) = (edge(front), edge(back));
+        let stair = Stair::seen(front, back, front.middle(), 200);
+        seen_ends(&stair, [false, true], &view, &StairsConfig::default()).right
+    };
+    let back = [[0.2, -0.165], [0.2, 0.165]];
+    assert_eq!(right_end([[0.08, -0.165], [0.08, 0.165]], back, -0.3), 200);
+    let cut = [[0.19, -0.03], [0.09, 0.16]];
+    assert_eq!(right_end(cut, [[0.2, -0.025], [0.2, 0.165]], 0.3), 0);
 }
