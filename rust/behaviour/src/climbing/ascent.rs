@@ -26,13 +26,15 @@ impl StairClimbing {
     /// Looks at what comes after the next step.
     pub(super) fn begin_look(&mut self, here: &Here<'_>) {
         const AHEAD_M: f64 = 0.2;
-        let place_m = self
-            .flight
-            .second()
-            .or(self.flight.first())
-            .map_or([AHEAD_M, 0.0], |step| here.in_robot(step.crossing_m));
+        let step = self.flight.second().or(self.flight.first());
+        let place_m = step.map_or([AHEAD_M, 0.0], |step| self.crossed_at_m(here, step));
         self.head.look_at([place_m[0].max(0.15), place_m[1]]);
         self.phase(Phase::Look);
+    }
+
+    /// Where the robot will cross a step's front edge, in its frame, m.
+    pub(super) fn crossed_at_m(&self, here: &Here<'_>, step: &Step) -> [f64; 2] {
+        here.in_robot(self.before(here).crossed_at_m(step))
     }
 
     /// One tick.
@@ -48,10 +50,8 @@ impl StairClimbing {
                 }
             }
             Phase::Step => {
-                let place_m = self
-                    .flight
-                    .second()
-                    .map_or([0.3, 0.0], |step| here.in_robot(step.crossing_m));
+                let second = self.flight.second();
+                let place_m = second.map_or([0.3, 0.0], |step| self.crossed_at_m(here, step));
                 self.head.turn_to(place_m, here.passed_s);
                 if here.new_frame {
                     self.go_on_without_a_stop(here);

@@ -121,6 +121,13 @@ impl Before<'_> {
         }
     }
 
+    /// Where the robot's middle will cross the step's front edge, m: not where the way does, which may be a hand's breadth
+    /// beside it.
+    pub(crate) fn crossed_at_m(&self, next: &Step) -> [f64; 2] {
+        let pose = self.beyond(next, next.stair.front.heading_rad(), 0.0);
+        [pose.x_m, pose.y_m]
+    }
+
     /// The pose with this heading whose middle is this far beyond the front edge, beside where the robot is now as far as
     /// there is room.
     fn beyond(&self, next: &Step, heading_rad: f64, middle_m: f64) -> PlanarPose {

@@ -46,6 +46,8 @@ pub(crate) struct Simulation {
     /// Each landing is this far off, m and rad.
     pub(crate) landing_error: PlanarPose,
     pub(crate) obstacle: Option<[f64; 3]>,
+    /// The plan leads over the edges this far to the left of their middle, m.
+    pub(crate) way_aside_m: f64,
     /// Where feet come upon an edge across the way that nobody sees, m.
     pub(crate) unseen_edge_m: Option<f64>,
     pub(crate) feet: [Foot; 2],
@@ -95,14 +97,10 @@ impl Simulation {
             planning: true,
             landing_error: PlanarPose::default(),
             obstacle: None,
+            way_aside_m: 0.0,
             unseen_edge_m: None,
             feet: Side::BOTH.map(foot),
-            goal: Goal {
-                x_m: goal[0],
-                y_m: goal[1],
-                radius_m: 0.12,
-                height_m: None,
-            },
+            goal: disc(goal),
             time_ns: 0,
             behaviour: StairClimbing::new(
                 StairClimbingConfig::default(),
@@ -308,5 +306,15 @@ impl Simulation {
             }
             Motion::Footsteps(list) => self.take(list),
         }
+    }
+}
+
+/// A goal at any height.
+const fn disc([x_m, y_m]: [f64; 2]) -> Goal {
+    Goal {
+        x_m,
+        y_m,
+        radius_m: 0.12,
+        height_m: None,
     }
 }

@@ -102,7 +102,7 @@ impl StairClimbing {
         let there = way.x_m.abs() < 0.05 && way.y_m.abs() < 0.03 && turned_rad.abs() < 0.08;
         if there || self.state_s > LONGEST_ALIGN_S {
             self.enter(State::Approach);
-            self.head.look_at(here.in_robot(first.crossing_m));
+            self.head.look_at(self.crossed_at_m(here, &first));
             return Motion::Stand;
         }
         Motion::Walk(Velocity {
@@ -125,7 +125,7 @@ impl StairClimbing {
             return self.stepper.motion();
         }
         self.head
-            .turn_to(here.in_robot(first.crossing_m), here.passed_s);
+            .turn_to(self.crossed_at_m(here, &first), here.passed_s);
         match self.stepper.advance(here.situation, here.passed_s) {
             Stepped::Running => {}
             Stepped::Missed(misstep, _) => {
@@ -155,7 +155,7 @@ impl StairClimbing {
         let looked = self.tries.looks >= self.config.tries;
         if !(self.is_measured(first) || looked && self.is_usable(first)) {
             self.tries.looks += 1;
-            self.head.look_at(here.in_robot(first.crossing_m));
+            self.head.look_at(self.crossed_at_m(here, first));
             if self.tries.looks > self.config.tries {
                 self.retreat(here, NOT_MEASURED.to_owned());
             }

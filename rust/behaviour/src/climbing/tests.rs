@@ -364,3 +364,29 @@ fn refusing_is_final_and_every_other_state_can_be_left() {
         assert_eq!(ways_out == 0, state == State::Refuse, "{state:?}");
     }
 }
+
+/// The planner may lead over an edge a hand's breadth beside where the feet go: what matters is the part before the feet.
+#[test]
+fn on_the_stairs_the_head_looks_where_the_feet_will_go_and_not_where_the_way_does() {
+    let down = [(-0.03, 0.12), (-0.03, 0.12), (-0.03, 0.12), (-0.03, 1.5)];
+    let mut simulation = Simulation::new(
+        PlanarPose::default(),
+        straight(0.5, &down, 0.33),
+        [1.3, 0.0],
+        Pace::StepByStep,
+    );
+    simulation.way_aside_m = 0.05;
+    let mut pans_rad = Vec::new();
+    while simulation.now_s() < 60.0 && simulation.tick().outcome.is_none() {
+        if simulation
+            .states
+            .last()
+            .is_some_and(|(name, _)| *name == "climb")
+        {
+            pans_rad.push(simulation.gaze().pan_rad);
+        }
+    }
+    assert!(simulation.was_in("finish"), "{:?}", simulation.states);
+    let mean_rad = pans_rad.iter().sum::<f64>() / pans_rad.len() as f64;
+    assert!(mean_rad.abs() < 0.05, "{mean_rad}");
+}

@@ -82,7 +82,7 @@ impl Simulation {
             steps.push(Step {
                 stair: *stair,
                 rise_m: stair.height_m() - ground_m,
-                crossing_m: [middle.x, middle.y],
+                crossing_m: [middle.x, middle.y + self.way_aside_m],
             });
             ground_m = stair.height_m();
         }
