@@ -9,8 +9,11 @@ use super::view::View;
 const STRIDE: (usize, usize) = (2, 3);
 /// Height of a bin, m.
 const BIN_M: f32 = 0.006;
-/// Number of bins.
+/// Number of bins, and how many there is room for: no number of 8 bits lies outside.
 const BINS: usize = 96;
+const ROOM: usize = 257;
+/// Samples whose bins are found together.
+const LANES: usize = 8;
 /// Tilts that are tried together.
 const TOGETHER: usize = 3;
 
@@ -30,11 +33,34 @@ pub(super) struct SearchArea {
     pub(super) around_m: [f32; 3],
 }
 
+/// Some pixels: g, X, Y over the disparity, the depth below the camera is their combination; and a weight.
+#[derive(Debug, Clone, Copy)]
+struct Samples {
+    g: [f32; LANES],
+    x: [f32; LANES],
+    y: [f32; LANES],
+    weight: [f32; LANES],
+}
+
+impl Samples {
+    /// None: they lie in no bin.
+    const NONE: Self = Self {
+        g: [f32::NAN; LANES],
+        x: [0.0; LANES],
+        y: [0.0; LANES],
+        weight: [0.0; LANES],
+    };
+
+    /// Their bins from the lowest depth on, under a tilt.
+    fn bins(&self, (a, b): (f32, f32), lowest_m: f32) -> [f32; LANES] {
+        std::array::from_fn(|i| (self.g[i] - a * self.x[i] - b * self.y[i] - lowest_m) / BIN_M)
+    }
+}
+
 /// Searches the tilt. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct HorizonSearch {
-    // g, X, Y over the disparity: the depth below the camera is their combination; and a weight.
-    samples: Vec<[f32; 4]>,
+    samples: Vec<Samples>,
     // The tilts to be tried, in the order in which they count among equals.
     tilts: Vec<Vector2<f64>>,
 }
@@ -48,6 +74,7 @@ impl HorizonSearch {
         area: SearchArea,
     ) -> Vector2<f64> {
         self.samples.clear();
+        let mut count = 0;
         let height = picture.disparity_px.len() / picture.width;
         for row in (0..height).step_by(STRIDE.1) {
             for col in (row / STRIDE.1 % STRIDE.0..picture.width).step_by(STRIDE.0) {
@@ -61,8 +88,16 @@ impl HorizonSearch {
                 let [around_x, around_y, radius] = area.around_m;
                 let (dx, dy) = (x - around_x, y - around_y);
                 let nearness = radius / (dx * dx + dy * dy).sqrt().max(radius);
-                self.samples
-                    .push([g / d, x, y, d / sigma * nearness.powi(4)]);
+                let lane = count % LANES;
+                if lane == 0 {
+                    self.samples.push(Samples::NONE);
+                }
+                count += 1;
+                if let Some(samples) = self.samples.last_mut() {
+                    samples.g[lane] = g / d;
+                    (samples.x[lane], samples.y[lane]) = (x, y);
+                    samples.weight[lane] = d / sigma * nearness.powi(4);
+                }
             }
         }
         let steps = (area.tilt_rad / area.step_rad).round() as i32;
@@ -111,23 +146,27 @@ impl HorizonSearch {
     /// Sum of squares of the histogram of depths below the camera, for each of some tilts: histograms that do not wait for
     /// each other.
     fn sharpness(&self, tilts: &[Vector2<f64>; TOGETHER], area: SearchArea) -> [f32; TOGETHER] {
-        let mut histograms = [[0.0_f32; BINS + 1]; TOGETHER];
+        let mut histograms = [[0.0_f32; ROOM]; TOGETHER];
         let tilts = tilts.map(|tilt| (tilt.x as f32, tilt.y as f32));
         let lowest = area.below_m.0 as f32;
         let span = ((area.below_m.1 - area.below_m.0) as f32 / BIN_M).min(BINS as f32 - 1.0);
-        for [g, x, y, weight] in &self.samples {
-            for (histogram, (a, b)) in histograms.iter_mut().zip(tilts) {
-                let bin = (g - a * x - b * y - lowest) / BIN_M;
-                if bin >= 0.0 && bin < span {
-                    let index = bin as usize;
-                    let part = bin - index as f32;
-                    histogram[index] += weight * (1.0 - part);
-                    histogram[index + 1] += weight * part;
+        for samples in &self.samples {
+            let bins = tilts.map(|tilt| samples.bins(tilt, lowest));
+            for (lane, weight) in samples.weight.iter().enumerate() {
+                for (histogram, bins) in histograms.iter_mut().zip(&bins) {
+                    let bin = bins[lane];
+                    if bin >= 0.0 && bin < span {
+                        let index = bin as u8;
+                        let part = bin - f32::from(index);
+                        let index = usize::from(index);
+                        histogram[index] += weight * (1.0 - part);
+                        histogram[index + 1] += weight * part;
+                    }
                 }
             }
         }
         histograms.map(|histogram| {
-            let pairs = histogram.windows(2);
+            let pairs = histogram[..=BINS].windows(2);
             pairs.map(|pair| (pair[0] + pair[1]).powi(2)).sum()
         })
     }
