@@ -7,6 +7,7 @@ use nalgebra::{Isometry3, Point2, Point3, Translation3, Unit, UnitQuaternion, Ve
 
 use super::steps::StepMarks;
 use super::tilted::{TiltedRecord, over_rays};
+use super::view::to_f32;
 use super::{Finder, Grounded, Levelled};
 use crate::{PlaneRegion, Planes};
 
@@ -75,7 +76,7 @@ impl<F: Finder> Grounded<F> {
             let starts = [view.x.at(0, row), view.y.at(0, row), view.g.at(0, row)];
             for (col, (point, &d)) in points.iter_mut().zip(disparities).enumerate() {
                 // NaN where nothing was seen stays NaN.
-                let (col, nearness) = (col as f32, 1.0 / d);
+                let (col, nearness) = (to_f32(col), 1.0 / d);
                 *point = [
                     px + (starts[0] + view.x.per_col * col) * nearness,
                     py + (starts[1] + view.y.per_col * col) * nearness,

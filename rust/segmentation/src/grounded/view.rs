@@ -30,8 +30,9 @@ impl Linear {
     }
 
     /// The value at a pixel.
+    #[inline]
     pub fn at(&self, col: usize, row: usize) -> f32 {
-        self.origin + self.per_col * col as f32 + self.per_row * row as f32
+        self.origin + self.per_col * to_f32(col) + self.per_row * to_f32(row)
     }
 }
 
@@ -91,10 +92,16 @@ impl View {
         for (row, line) in out.chunks_exact_mut(width).enumerate() {
             let start = self.g.at(0, row);
             for (col, value) in line.iter_mut().enumerate() {
-                *value = start + self.g.per_col * col as f32;
+                *value = start + self.g.per_col * to_f32(col);
             }
         }
     }
+}
+
+/// A column or row as a number. Processors turn signed numbers of 32 bits into `f32` by the four, those of 64 bits one by one.
+#[inline]
+pub(super) const fn to_f32(pixels: usize) -> f32 {
+    pixels as i32 as f32
 }
 
 /// The smallest turn that makes `(a, b, 1)` point up: what a tilt `(a, b)` of the ground means for the camera.
