@@ -58,12 +58,16 @@ impl StepMarks {
                     continue;
                 }
                 let from_left = Last { at: col, height_m };
+                let from_above = Last { at: row, height_m };
+                if left.height_m == height_m && above.height_m == height_m {
+                    (left.at, above.at) = (col, row);
+                    continue;
+                }
                 if left.is_step(from_left) {
                     let cols = left.spoiled(from_left, SPOILED.0, width);
                     planes.at_step[row * width..][cols].fill(true);
                 }
                 left = from_left;
-                let from_above = Last { at: row, height_m };
                 if above.is_step(from_above) {
                     for row in above.spoiled(from_above, SPOILED.1, height) {
                         planes.at_step[row * width + col] = true;
