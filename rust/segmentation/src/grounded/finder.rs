@@ -56,3 +56,28 @@ pub trait Finder: Send + Sync {
         labels: &mut [u16],
     );
 }
+
+/// Pixels whose labels are compared together.
+const CHUNK: usize = 16;
+
+/// Tells how many pixels have which label, some at a time: most lie among their like.
+pub(crate) fn count_labels(labels: &[u16], mut add: impl FnMut(usize, usize)) {
+    let (chunks, rest) = labels.as_chunks::<CHUNK>();
+    for chunk in chunks {
+        let first = chunk[0];
+        if chunk
+            .iter()
+            .fold(0, |differs, label| differs | (label ^ first))
+            == 0
+        {
+            add(usize::from(first), CHUNK);
+        } else {
+            for &label in chunk {
+                add(usize::from(label), 1);
+            }
+        }
+    }
+    for &label in rest {
+        add(usize::from(label), 1);
+    }
+}

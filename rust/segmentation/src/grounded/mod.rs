@@ -30,7 +30,7 @@ use sensing::{Intrinsics, Scan};
 use crate::{KnownFloor, NothingKnown, Planes, SegmentError, Segmenter};
 pub use config::GroundConfig;
 use correction::Correction;
-pub(crate) use finder::{Finder, Look, MAX_REGIONS, Picture, Region};
+pub(crate) use finder::{Finder, Look, MAX_REGIONS, Picture, Region, count_labels};
 use fit::shared_tilt;
 use horizon::{HorizonSearch, SearchArea};
 use known::KnownLevels;
