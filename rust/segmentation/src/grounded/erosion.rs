@@ -14,50 +14,94 @@ pub(super) struct Erosion {
     highest: WindowExtreme,
 }
 
+/// How images are kept so that no window of `COLS` columns and `ROWS` rows reaches beyond them: with a margin that says nothing.
+#[derive(Debug, Clone, Copy)]
+struct Margin<const COLS: usize, const ROWS: usize> {
+    width: usize,
+    height: usize,
+}
+
+impl<const COLS: usize, const ROWS: usize> Margin<COLS, ROWS> {
+    /// From row to row. The margin behind a row is that before the next one.
+    const fn stride(self) -> usize {
+        self.width + COLS / 2
+    }
+
+    /// Pixels with the margin.
+    const fn len(self) -> usize {
+        (self.height + 2 * (ROWS / 2)) * self.stride() + COLS - 1
+    }
+
+    /// Where a row begins.
+    const fn row(self, row: usize) -> usize {
+        (row + ROWS / 2) * self.stride() + COLS / 2
+    }
+}
+
 impl Erosion {
-    /// Fills `eroded` with the labels of those pixels whose window of 2 `reach.1` + 1 rows and 2 `reach.0` + 1 columns
-    /// holds no other region and no seen pixel without one; 0 elsewhere. Pixels that were not seen do not count.
-    pub(super) fn erode(
+    /// Fills `eroded` with the labels of those pixels whose window of `COLS` columns and `ROWS` rows, both odd, holds no other
+    /// region and no seen pixel without one; 0 elsewhere. Pixels that were not seen do not count.
+    pub(super) fn erode<const COLS: usize, const ROWS: usize>(
         &mut self,
         labels: &[u16],
         disparity_px: &[f32],
         width: usize,
-        reach: (usize, usize),
         eroded: &mut [u16],
     ) {
-        self.mark(labels, disparity_px, width);
-        self.lowest.spread(width, reach, i16::min);
-        self.highest.spread(width, reach, i16::max);
-        let windows = self.lowest.over_both.iter().zip(&self.highest.over_both);
-        for ((out, &label), (&low, &high)) in eroded.iter_mut().zip(labels).zip(windows) {
-            let own = label.cast_signed();
-            *out = if low == own && high == own { label } else { 0 };
+        let height = labels.len() / width;
+        let margin = Margin::<COLS, ROWS> { width, height };
+        self.mark(labels, disparity_px, margin);
+        self.lowest.spread(margin, i16::min);
+        self.highest.spread(margin, i16::max);
+        let [lowest, highest] =
+            [&self.lowest, &self.highest].map(|extreme| extreme.over_both.chunks(margin.stride()));
+        let windows = lowest.zip(highest);
+        let lines = eroded
+            .chunks_exact_mut(width)
+            .zip(labels.chunks_exact(width));
+        for ((out, labels), (lowest, highest)) in lines.zip(windows) {
+            let windows = lowest.iter().zip(highest);
+            for ((out, &label), (&low, &high)) in out.iter_mut().zip(labels).zip(windows) {
+                let own = label.cast_signed();
+                *out = if low == own && high == own { label } else { 0 };
+            }
         }
     }
 
     /// Marks what each pixel stands for.
-    fn mark(&mut self, labels: &[u16], disparity_px: &[f32], width: usize) {
-        self.lowest.marks.clear();
-        self.highest.marks.clear();
-        let pixels = || labels.iter().zip(disparity_px);
-        let mark = |label: u16, d: f32, (neutral, mixed): (i16, i16)| {
-            let none = if d.is_nan() { neutral } else { mixed };
-            if label > 0 { label.cast_signed() } else { none }
-        };
-        let low = pixels().map(|(&label, &d)| mark(label, d, (NEUTRAL.0, MIXED.0)));
-        self.lowest.marks.extend(low);
-        let high = pixels().map(|(&label, &d)| mark(label, d, (NEUTRAL.1, MIXED.1)));
-        self.highest.marks.extend(high);
-        for first in (0..labels.len()).step_by(CHUNK) {
-            let chunk = first..(first + CHUNK).min(labels.len());
-            // Marks are not negative, so that most chunks are seen to have none.
-            let lowest = self.lowest.marks[chunk.clone()].iter().copied().min();
-            if lowest != Some(MIXED.0) {
-                continue;
+    fn mark<const COLS: usize, const ROWS: usize>(
+        &mut self,
+        labels: &[u16],
+        disparity_px: &[f32],
+        margin: Margin<COLS, ROWS>,
+    ) {
+        self.lowest.clear(margin.len(), NEUTRAL.0);
+        self.highest.clear(margin.len(), NEUTRAL.1);
+        let width = margin.width;
+        let lines = labels
+            .chunks_exact(width)
+            .zip(disparity_px.chunks_exact(width));
+        for (row, (line, disparity_px)) in lines.enumerate() {
+            let at = margin.row(row);
+            let lowest = &mut self.lowest.marks[at..at + width];
+            let highest = &mut self.highest.marks[at..at + width];
+            let marks = lowest.iter_mut().zip(highest.iter_mut());
+            for ((low, high), (&label, &d)) in marks.zip(line.iter().zip(disparity_px)) {
+                let none = if d.is_nan() { NEUTRAL } else { MIXED };
+                let own = label.cast_signed();
+                *low = if label > 0 { own } else { none.0 };
+                *high = if label > 0 { own } else { none.1 };
             }
-            for at in chunk {
-                if self.lowest.marks[at] == MIXED.0 && is_hole(labels, width, at) {
-                    (self.lowest.marks[at], self.highest.marks[at]) = NEUTRAL;
+            let chunks = lowest.chunks_mut(CHUNK).zip(highest.chunks_mut(CHUNK));
+            for (index, (lowest, highest)) in chunks.enumerate() {
+                // Marks are not negative, so that most chunks are seen to have none.
+                if lowest.iter().copied().min() != Some(MIXED.0) {
+                    continue;
+                }
+                for (i, (low, high)) in lowest.iter_mut().zip(highest).enumerate() {
+                    if *low == MIXED.0 && is_hole(labels, width, row * width + index * CHUNK + i) {
+                        (*low, *high) = NEUTRAL;
+                    }
                 }
             }
         }
@@ -73,29 +117,36 @@ struct WindowExtreme {
 }
 
 impl WindowExtreme {
-    fn spread(&mut self, width: usize, reach: (usize, usize), pick: impl Fn(i16, i16) -> i16) {
-        self.over_cols.clone_from(&self.marks);
-        let rows = self.over_cols.chunks_exact_mut(width);
-        for (out, marks) in rows.zip(self.marks.chunks_exact(width)) {
-            for step in 1..=reach.0.min(width) {
-                pick_shifted(out, marks, step, &pick);
-            }
-        }
-        self.over_both.clone_from(&self.over_cols);
-        for step in 1..=reach.1 {
-            let shift = (step * width).min(self.over_cols.len());
-            pick_shifted(&mut self.over_both, &self.over_cols, shift, &pick);
-        }
+    fn clear(&mut self, count: usize, mark: i16) {
+        self.marks.clear();
+        self.marks.resize(count, mark);
+    }
+
+    fn spread<const COLS: usize, const ROWS: usize>(
+        &mut self,
+        margin: Margin<COLS, ROWS>,
+        pick: impl Fn(i16, i16) -> i16,
+    ) {
+        self.over_cols.resize(margin.len() + 1 - COLS, 0);
+        pick_of::<COLS>(&self.marks, 1, &mut self.over_cols, &pick);
+        self.over_both.resize(margin.height * margin.stride(), 0);
+        pick_of::<ROWS>(&self.over_cols, margin.stride(), &mut self.over_both, &pick);
     }
 }
 
-/// Picks between each value and those of `marks` that lie `shift` before and behind it.
-fn pick_shifted(out: &mut [i16], marks: &[i16], shift: usize, pick: &impl Fn(i16, i16) -> i16) {
-    for (out, &mark) in out.iter_mut().zip(&marks[shift..]) {
-        *out = pick(*out, mark);
-    }
-    for (out, &mark) in out[shift..].iter_mut().zip(marks) {
-        *out = pick(*out, mark);
+/// Picks among `N` values, `step` from each other, from each place on.
+fn pick_of<const N: usize>(
+    values: &[i16],
+    step: usize,
+    out: &mut [i16],
+    pick: &impl Fn(i16, i16) -> i16,
+) {
+    let count = out.len();
+    let lines: [&[i16]; N] = std::array::from_fn(|k| &values[k * step..k * step + count]);
+    for (i, out) in out.iter_mut().enumerate() {
+        *out = lines[1..]
+            .iter()
+            .fold(lines[0][i], |picked, line| pick(picked, line[i]));
     }
 }
 
@@ -129,7 +180,7 @@ mod tests {
         fn what_is_left_has_only_its_own_label_around_it(labels in prop::collection::vec(1..3u16, 20 * 14)) {
             let disparity = vec![5.0; labels.len()];
             let mut eroded = vec![0; labels.len()];
-            Erosion::default().erode(&labels, &disparity, 20, (2, 3), &mut eroded);
+            Erosion::default().erode::<5, 7>(&labels, &disparity, 20, &mut eroded);
             for row in 0..14_i32 {
                 for col in 0..20_i32 {
                     let own = labels[(row * 20 + col) as usize];
@@ -151,7 +202,7 @@ mod tests {
             .map(|&label| if label == 0 { f32::NAN } else { 4.0 })
             .collect();
         let mut eroded = vec![0; 200];
-        Erosion::default().erode(&labels, &disparity, 20, (2, 3), &mut eroded);
+        Erosion::default().erode::<5, 7>(&labels, &disparity, 20, &mut eroded);
         assert_eq!(eroded, labels);
     }
 }

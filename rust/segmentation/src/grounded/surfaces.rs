@@ -5,17 +5,17 @@ use sensing::{Intrinsics, Scan};
 
 use super::GroundConfig;
 use super::erosion::Erosion;
-use super::finder::{Finder, Look, MAX_REGIONS, Picture, Region};
+use super::finder::{Finder, Look, MAX_REGIONS, Picture, Region, count_labels};
 use super::fit::{RegionFit, fit_regions};
 use super::median::Median;
 use super::noise::NoiseMap;
 use super::slivers::Slivers;
 use super::view::View;
 
-/// Columns and rows to each side that are taken off a region before a fit: half a window of 5 and one more (7x5).
-const EROSION: (usize, usize) = (2, 3);
+/// Columns and rows around a pixel that must be of its region for a fit: a matching window of 5, and one more row to each side.
+const EROSION: (usize, usize) = (5, 7);
 /// The same for the check for slices of walls: thin regions, of which 7x5 leaves too little.
-const LIGHT_EROSION: (usize, usize) = (1, 1);
+const LIGHT_EROSION: (usize, usize) = (3, 3);
 /// Pixels that must be left for a fit; else all of the region's count.
 const MIN_FIT: u32 = 24;
 /// A region is steep above this tilt, rad: blending at the borders of a tread gives less than half of it.
@@ -116,17 +116,15 @@ impl<F: Finder> Surfaces<F> {
         };
         let (regions, labels) = (&mut self.regions, &mut self.labels);
         self.finder.find(picture, view, look, regions, labels);
-        self.erosion.erode(
+        let eroded = &mut self.eroded;
+        self.erosion.erode::<{ EROSION.0 }, { EROSION.1 }>(
             labels,
             picture.disparity_px,
             self.width,
-            EROSION,
-            &mut self.eroded,
+            eroded,
         );
         let mut left = [0_u32; MAX_REGIONS + 1];
-        for run in self.eroded.chunk_by(|a, b| a == b) {
-            left[usize::from(run[0])] += run.len() as u32;
-        }
+        count_labels(&self.eroded, |label, pixels| left[label] += pixels as u32);
         for (region, &left) in regions.iter_mut().zip(&left[1..]) {
             region.core = left as usize;
         }
@@ -152,13 +150,13 @@ impl<F: Finder> Surfaces<F> {
         }
         self.slivers
             .find(&self.labels, self.width, view, &self.regions);
-        self.erosion.erode(
-            &self.labels,
-            picture.disparity_px,
-            self.width,
-            LIGHT_EROSION,
-            &mut self.eroded,
-        );
+        self.erosion
+            .erode::<{ LIGHT_EROSION.0 }, { LIGHT_EROSION.1 }>(
+                &self.labels,
+                picture.disparity_px,
+                self.width,
+                &mut self.eroded,
+            );
         fit_regions(picture, view, &self.regions, &self.eroded, &mut self.checks);
     }
 
