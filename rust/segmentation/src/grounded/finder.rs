@@ -81,3 +81,23 @@ pub(crate) fn count_labels(labels: &[u16], mut add: impl FnMut(usize, usize)) {
         add(usize::from(label), 1);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn every_pixel_is_counted_once(runs in prop::collection::vec((0..4u16, 1..40usize), 0..12)) {
+            let labels: Vec<u16> =
+                runs.iter().flat_map(|&(label, count)| std::iter::repeat_n(label, count)).collect();
+            let mut counts = [0; 4];
+            count_labels(&labels, |label, pixels| counts[label] += pixels);
+            for (label, &count) in counts.iter().enumerate() {
+                let of_label = labels.iter().filter(|&&other| usize::from(other) == label);
+                prop_assert_eq!(count, of_label.count());
+            }
+        }
+    }
+}
