@@ -11,7 +11,8 @@ DEMO ?= obstacle_course
 
 setup: .venv/.ready ## the environment in .venv, with the command .venv/bin/treadwell
 
-.venv/.ready: $(UV) pyproject.toml uv.lock Cargo.toml Cargo.lock
+SOURCES := $(shell find rust models scenarios -type f)
+.venv/.ready: $(UV) pyproject.toml uv.lock Cargo.toml Cargo.lock $(SOURCES)
 	$(UV) sync --locked
 	@touch $@
 
