@@ -112,6 +112,7 @@ class Imu:
         """
         self._model = model
         self._site = model.site(site).id
+        self._at_rest = -model.opt.gravity
         self._noise = np.repeat([noise.gyro_noise, noise.accelerometer_noise], 3)
         self._bias = rng.standard_normal(6)
         self._bias *= np.repeat([noise.gyro_bias, noise.accelerometer_bias], 3)
@@ -133,14 +134,14 @@ class Imu:
         mujoco.mj_objectVelocity(self._model, data, site, self._site, self._motion, 0)
         world_from_sensor = data.site_xmat[self._site].reshape(3, 3)
         angular_velocity = world_from_sensor.T @ self._motion[:3]
-        acceleration = -self._model.opt.gravity
+        acceleration = self._at_rest
         if self._time_ns is not None:
             passed = (time_ns - self._time_ns) * 1e-9
             if 0.0 < passed <= LONGEST_TICK:
-                acceleration += (self._motion[3:] - self._velocity) / passed
+                acceleration = acceleration + (self._motion[3:] - self._velocity) / passed
                 turn = rotation_vector(self._world_from_sensor.T @ world_from_sensor)
-                if abs(turn).max() < LARGEST_TURN:
-                    angular_velocity = turn / passed
+                if max(map(abs, turn)) < LARGEST_TURN:
+                    angular_velocity = [angle / passed for angle in turn]
         self._world_from_sensor[:] = world_from_sensor
         self._velocity[:] = self._motion[3:]
         self._time_ns = time_ns
@@ -151,15 +152,15 @@ class Imu:
         return sample[:3], sample[3:]
 
 
-def rotation_vector(rotation: Floats) -> Floats:
+def rotation_vector(rotation: Floats) -> tuple[float, float, float]:
     """Return the axis times the angle (rad) of a rotation (3, 3) by less than half a turn."""
-    r = rotation.tolist()
-    axis = np.array([r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]]) / 2
-    sine = math.sqrt(axis @ axis)
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = rotation.tolist()
+    x, y, z = (zy - yz) / 2, (xz - zx) / 2, (yx - xy) / 2
+    sine = math.sqrt(x * x + y * y + z * z)
     if sine < 1e-12:
-        return axis
-    angle = math.atan2(sine, (r[0][0] + r[1][1] + r[2][2] - 1.0) / 2)
-    return axis * (angle / sine)
+        return x, y, z
+    stretch = math.atan2(sine, (xx + yy + zz - 1.0) / 2) / sine
+    return x * stretch, y * stretch, z * stretch
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,6 +178,37 @@ class SensedSole:
     link: str
     center: tuple[float, float, float]
     size: tuple[float, float]
+
+
+class _Plate:
+    """A sole, found in the model. Plain numbers: for so few of them numpy takes longer."""
+
+    def __init__(self, model: mujoco.MjModel, sole: SensedSole) -> None:
+        """Find its link and its contact sensor."""
+        first = int(model.sensor(sole.sensor).adr[0])
+        self._at = slice(first, first + 6)
+        self._link = int(model.body(sole.link).id)
+        self._center = sole.center
+        self._size = sole.size
+
+    def carried(self, data: mujoco.MjData) -> tuple[float, float, float, float]:
+        """Return what each sensor truly carries, N: front left and right, rear left and right."""
+        fx, fy, fz, x, y, z = data.sensordata[self._at].tolist()
+        xx, xy, xz, yx, yy, yz, zx, zy, zz = data.xmat[self._link].tolist()
+        link_x, link_y, link_z = data.xpos[self._link].tolist()
+        x, y, z = x - link_x, y - link_y, z - link_z
+        # What pushes along the sole, as a riser at the toe does, no sensor under it feels.
+        pressing = max(0.0, -(xz * fx + yz * fy + zz * fz))
+        ahead = 0.5 + (xx * x + yx * y + zx * z - self._center[0]) / self._size[0]
+        aside = 0.5 + (xy * x + yy * y + zy * z - self._center[1]) / self._size[1]
+        front, left = min(max(ahead, 0.0), 1.0), min(max(aside, 0.0), 1.0)
+        rear, right = 1.0 - front, 1.0 - left
+        return (
+            pressing * (front * left),
+            pressing * (front * right),
+            pressing * (rear * left),
+            pressing * (rear * right),
+        )
 
 
 class FootForces:
@@ -202,12 +234,7 @@ class FootForces:
             noise_absolute: N, sigma of what is added to each sample besides.
             rng: the noise.
         """
-        self._at = np.array(
-            [np.arange(6) + int(model.sensor(sole.sensor).adr[0]) for sole in soles], np.intp
-        )
-        self._links = [int(model.body(sole.link).id) for sole in soles]
-        self._centers = np.array([sole.center for sole in soles])
-        self._sizes = np.array([sole.size for sole in soles])
+        self._plates = [_Plate(model, sole) for sole in soles]
         self._noise = noise
         self._noise_absolute = noise_absolute
         self._exact = noise == 0.0 and noise_absolute == 0.0
@@ -215,22 +242,9 @@ class FootForces:
 
     def read(self, data: mujoco.MjData) -> Floats:
         """Return the forces (2, 4) N: front left, front right, rear left, rear right."""
-        forces = self._shared(data)
+        forces = np.array([plate.carried(data) for plate in self._plates])
         if not self._exact:
             share, added = self._rng.standard_normal((2, *forces.shape))
             forces += self._noise * share * forces + self._noise_absolute * added
             np.maximum(forces, 0.0, out=forces)
         return forces
-
-    def _shared(self, data: mujoco.MjData) -> Floats:
-        """Return what each sensor truly carries, (2, 4) N."""
-        force, place = np.split(data.sensordata[self._at], 2, axis=1)
-        rotations = data.xmat[self._links].reshape(-1, 3, 3)
-        # What pushes along the sole, as a riser at the toe does, no sensor under it feels.
-        pressing = np.maximum(-np.einsum("kj,kj->k", rotations[:, :, 2], force), 0.0)
-        in_link = np.einsum("kji,kj->ki", rotations, place - data.xpos[self._links])
-        share = np.clip(0.5 + (in_link - self._centers)[:, :2] / self._sizes, 0.0, 1.0)
-        along = np.stack([share[:, 0], 1.0 - share[:, 0]], axis=1)
-        across = np.stack([share[:, 1], 1.0 - share[:, 1]], axis=1)
-        corners = (along[:, :, None] * across[:, None, :]).reshape(-1, 4)
-        return np.asarray(pressing[:, None] * corners, np.float64)
