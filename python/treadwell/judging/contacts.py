@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
 from treadwell.course.build import Course
 from treadwell.robot.load import Robot
@@ -78,16 +77,19 @@ class Contacts:
         self._model = model
         self._scratch = mujoco.MjData(model)
         body_of = np.asarray(model.geom_bodyid)
-        self._is_robot = np.asarray(model.body_rootid)[body_of] == model.body(robot.root).id
-        self._foot = np.full(model.ngeom, -1)
+        is_robot = np.asarray(model.body_rootid)[body_of] == model.body(robot.root).id
+        foot = np.full(model.ngeom, -1)
         for side, body in enumerate(sole_bodies):
-            self._foot[body_of == body] = side
-        names = [model.body(int(body)).name for body in body_of]
-        self._part = [str(name) for name in names]
+            foot[body_of == body] = side
+        # For each geom; lists, since a look takes up a few of them one by one.
+        self._is_robot: list[bool] = is_robot.tolist()
+        self._foot: list[int] = foot.tolist()
+        self._part = [str(model.body(int(body)).name) for body in body_of]
         # For each geom: index of its element, -1 for the ground, -2 for the robot.
-        self._element = np.where(self._is_robot, _NOTHING, np.asarray(course.geom_element))
+        element = np.where(is_robot, _NOTHING, np.asarray(course.geom_element))
+        self._element: list[int] = element.tolist()
         self._names = [element.name for element in course.elements]
-        self._walkable = np.array([*(element.walkable for element in course.elements), True])
+        self._walkable = [*(element.walkable for element in course.elements), True]
         self._open: dict[tuple[str, str], Collision] = {}
         self._closed: list[Collision] = []
 
@@ -100,28 +102,27 @@ class Contacts:
             interval: s since the last look: for how long the forces are taken to have acted.
         """
         contact = data.contact
-        pairs: NDArray[np.int32] = contact.geom
-        if not len(pairs):
-            return Touch(False, False, None)
-        robot = self._is_robot[pairs]
-        mixed = robot[:, 0] != robot[:, 1]
-        second = robot[:, 1]
-        ours = np.where(second, pairs[:, 1], pairs[:, 0])
-        theirs = np.where(second, pairs[:, 0], pairs[:, 1])
-        # MuJoCo's normal points from the first geom to the second; this one points to the robot.
-        up = np.where(second, contact.frame[:, 2], -contact.frame[:, 2])
-        foot, element = self._foot[ours], self._element[theirs]
-        floor = mixed & self._walkable[element] & (up > SOLE_ON_TOP)
-        standing = floor & (foot >= 0)
-        left, right = bool((standing & (foot == 0)).any()), bool((standing & (foot == 1)).any())
-        if bool((standing | ~mixed).all()):
-            return Touch(left, right, None)
-        lying = floor & (foot < 0) & ((element == _GROUND) | (up > LIES_ON_TOP))
-        part = self._part[int(ours[np.argmax(lying)])] if lying.any() else None
-        hits = mixed & ~standing & (element >= 0)
-        if hits.any():
-            self._add(data, np.flatnonzero(hits), ours, theirs, time, interval)
-        return Touch(left, right, part)
+        standing, lying, hits = [False, False], None, []
+        pairs, normals = contact.geom.tolist(), contact.frame[:, 2].tolist()
+        for index, ((first, second), up) in enumerate(zip(pairs, normals, strict=True)):
+            if self._is_robot[first] == self._is_robot[second]:
+                continue
+            # MuJoCo's normal points from the first geom to the second; ours points to the robot.
+            ours, theirs = second, first
+            if self._is_robot[first]:
+                ours, theirs, up = first, second, -up
+            foot, element = self._foot[ours], self._element[theirs]
+            if self._walkable[element] and up > SOLE_ON_TOP:
+                if foot >= 0:
+                    standing[foot] = True
+                    continue
+                if lying is None and (element == _GROUND or up > LIES_ON_TOP):
+                    lying = self._part[ours]
+            if element >= 0:
+                hits.append((index, ours, theirs))
+        if hits:
+            self._add(data, hits, time, interval)
+        return Touch(standing[0], standing[1], lying)
 
     def collisions(self) -> list[Collision]:
         """Return the collisions so far that count, in the order of time."""
@@ -132,9 +133,7 @@ class Contacts:
     def _add(
         self,
         data: mujoco.MjData,
-        hits: NDArray[np.intp],
-        ours: NDArray[np.int32],
-        theirs: NDArray[np.int32],
+        hits: list[tuple[int, int, int]],
         time: float,
         interval: float,
     ) -> None:
@@ -142,11 +141,10 @@ class Contacts:
         scratch, force = self._scratch, np.zeros(6)
         mujoco.mj_copyData(scratch, self._model, data)
         mujoco.mj_forward(self._model, scratch)
-        for index in hits:
-            mine, other = int(ours[index]), int(theirs[index])
-            element = int(self._element[other])
-            riser = bool(self._foot[mine] >= 0 and self._walkable[element])
-            mujoco.mj_contactForce(self._model, scratch, int(index), force)
+        for index, mine, other in hits:
+            element = self._element[other]
+            riser = self._foot[mine] >= 0 and self._walkable[element]
+            mujoco.mj_contactForce(self._model, scratch, index, force)
             pair = (self._part[mine], self._names[element])
             known = self._open.get(pair)
             if known is not None and time - known.last > SAME_CONTACT_SECONDS + 1e-9:

@@ -73,7 +73,7 @@ class GroundTruth:
         self.sole_bodies = tuple(int(model.body(leg.sole.link).id) for leg in legs)
         self._offsets = tuple(leg.sole.position for leg in legs)
         self.torso = int(model.body(robot.file.body.torso).id)
-        self._up = _upright_axis(robot)
+        self._up: list[float] = _upright_axis(robot).tolist()
 
     def soles(self, data: mujoco.MjData) -> tuple[Sole, Sole]:
         """Return the left and the right sole."""
@@ -104,8 +104,8 @@ class GroundTruth:
 
     def tilt(self, data: mujoco.MjData) -> float:
         """Return by how much the torso leans from upright, rad."""
-        rotation = data.xmat[self.torso]
-        up = float(rotation[6:9] @ self._up)
+        x, y, z = data.xmat[self.torso, 6:].tolist()
+        up = x * self._up[0] + y * self._up[1] + z * self._up[2]
         return math.acos(min(1.0, max(-1.0, up)))
 
 
