@@ -77,21 +77,21 @@ class Motors:
         n = limits.kp.size
         self.encoder_offsets: Floats = np.zeros(n)
         self._half_play = 0.5 * play
-        self._follow = -np.expm1(-timestep / PLAY_TIME)
+        self._follow = np.full(n, -np.expm1(-timestep / PLAY_TIME))
         takes_up = np.maximum(PLAY_TORQUE * limits.peak_torque, limits.kp * self._half_play)
         self._lead_per_torque = self._half_play / takes_up
         self._slope = limits.stall_torque / limits.no_load_speed
-        self._least, self._most = np.zeros(n), limits.peak_torque
-        self._negative_half_play = np.full(n, -self._half_play)
-        self._positive_half_play = np.full(n, self._half_play)
+        self._stall_backward = -limits.stall_torque
+        self._nothing = np.zeros(n)
+        self._most_lead = np.full(n, self._half_play)
+        self._least_lead = -self._most_lead
         self.encoder_offsets = np.zeros(n)
         self._lead = np.zeros(n)
         self._angle = np.zeros(n)
         self._asked = np.zeros(n)
         self._torque = np.zeros(n)
         self._scratch = np.empty(n)
-        self._forward = np.empty(n)
-        self._backward = np.empty(n)
+        self._bound = np.empty(n)
 
     @property
     def angle(self) -> Floats:
@@ -108,20 +108,6 @@ class Motors:
         position = targets.position - self.encoder_offsets
         self._asked = targets.torque + limits.kp * position + limits.kv * targets.velocity
 
-    def bounds(self, velocity: Floats) -> tuple[Floats, Floats]:
-        """Return the largest forward and backward torque at joint velocities (n,) rad/s.
-
-        Returns:
-            Two times (n,) N·m, neither negative; the arrays are used again at the next call.
-        """
-        scratch, forward, backward = self._scratch, self._forward, self._backward
-        np.multiply(self._slope, velocity, out=scratch)
-        np.subtract(self.limits.stall_torque, scratch, out=forward)
-        np.add(self.limits.stall_torque, scratch, out=backward)
-        forward.clip(self._least, self._most, out=forward)
-        backward.clip(self._least, self._most, out=backward)
-        return forward, backward
-
     def torques(self, position: Floats, velocity: Floats) -> Floats:
         """Return the torques for the coming physics step.
 
@@ -132,6 +118,7 @@ class Motors:
         Returns:
             (n,) N·m; the array is used again at the next call.
         """
+        # Arrays of one shape into arrays that are there: all else costs more than the arithmetic.
         limits, torque, scratch, lead = self.limits, self._torque, self._scratch, self._lead
         np.add(position, lead, out=self._angle)
         np.multiply(self._angle, limits.kp, out=scratch)
@@ -139,14 +126,22 @@ class Motors:
         np.multiply(velocity, limits.kv, out=scratch)
         np.subtract(torque, scratch, out=torque)
 
-        forward, backward = self.bounds(velocity)
-        np.minimum(torque, forward, out=torque)
-        np.negative(backward, out=backward)
-        np.maximum(torque, backward, out=torque)
+        bound = self._bound
+        np.multiply(self._slope, velocity, out=scratch)
+        np.subtract(limits.stall_torque, scratch, out=bound)
+        np.maximum(bound, self._nothing, out=bound)
+        np.minimum(torque, bound, out=torque)
+        np.subtract(self._stall_backward, scratch, out=bound)
+        np.minimum(bound, self._nothing, out=bound)
+        np.maximum(torque, bound, out=torque)
+        np.minimum(torque, limits.peak_torque, out=torque)
+        np.negative(limits.peak_torque, out=bound)
+        np.maximum(torque, bound, out=torque)
 
         if self._half_play > 0.0:
             np.multiply(torque, self._lead_per_torque, out=scratch)
-            scratch.clip(self._negative_half_play, self._positive_half_play, out=scratch)
+            np.maximum(scratch, self._least_lead, out=scratch)
+            np.minimum(scratch, self._most_lead, out=scratch)
             np.subtract(scratch, lead, out=scratch)
             np.multiply(scratch, self._follow, out=scratch)
             np.add(lead, scratch, out=lead)

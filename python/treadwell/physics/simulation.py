@@ -1,6 +1,7 @@
 """The physics of one episode: the robot at its start, stepped by its motors alone, and audited."""
 
 import logging
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -169,18 +170,23 @@ class Simulation:
         self.audit.save(folder)
 
     def _check_targets(self, targets: JointTargets) -> None:
-        n = len(self.robot.joints)
-        for name in ("position", "velocity", "torque"):
-            array = getattr(targets, name)
-            if array.shape != (n,) or not np.isfinite(array).all():
+        position, velocity, torque = targets.position, targets.velocity, targets.torque
+        shape = (len(self.robot.joints),)
+        # A product with what is not finite is not finite.
+        if position.shape == velocity.shape == torque.shape == shape and math.isfinite(
+            position @ velocity + torque @ torque
+        ):
+            return
+        for name, array in (("position", position), ("velocity", velocity), ("torque", torque)):
+            if array.shape != shape or not np.isfinite(array).all():
                 raise SimulationError(
-                    f"joint targets: {name} must be {n} finite numbers, got {array!r} "
+                    f"joint targets: {name} must be {shape[0]} finite numbers, got {array!r} "
                     f"at {1e-9 * self.time_ns:.2f} s"
                 )
 
     def _check_state(self) -> None:
-        numbers = self.data.warning.number
-        if numbers.any() or not np.isfinite(self.data.qpos).all():
+        numbers, qpos = self.data.warning.number, self.data.qpos
+        if any(numbers.tolist()) or not math.isfinite(qpos @ qpos):
             names = [
                 mujoco.mjtWarning(kind).name.removeprefix("mjWARN_")
                 for kind in np.flatnonzero(numbers)
