@@ -205,7 +205,8 @@ class StereoModel:
             slice(border, self._pinhole.width - border),
         )
         focal = self._pinhole.focal * config.baseline
-        exact = np.nan_to_num(focal / cast.depth, copy=False, nan=0.0).astype(np.float32)
+        exact = (focal / cast.depth).astype(np.float32)
+        exact[np.isnan(exact)] = 0.0
         error, luck = self._fields(cast, exact)
 
         measured = blend_creases(exact, config.window, config.crease_bandwidth)
@@ -256,7 +257,7 @@ class StereoModel:
     def _threshold(self, cast: Cast, texture: Floats) -> Floats:
         """Return below which value of a unit normal a pixel is matched, (h, w)."""
         level = np.rint(np.clip(texture, 0.0, 1.0) * (TEXTURE_LEVELS - 1)).astype(np.intp)
-        return self._match_below[level][cast.geom]
+        return self._match_below[level].take(cast.geom, mode="wrap")
 
     def _mismatch(self, measured: Floats32, seen: Mask) -> None:
         """Put a few of the matched pixels anywhere in the range of disparities."""
