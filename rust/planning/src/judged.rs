@@ -18,6 +18,8 @@ pub(crate) struct Judged {
     /// Least distance of each cell to the robot so far, m.
     nearest_m: Vec<f32>,
     before_m: Vec<f32>,
+    /// Of each column: how far aside of the robot it is, m, and which column of `before_m` it is.
+    columns: Vec<(f64, usize)>,
 }
 
 impl Judged {
@@ -26,33 +28,44 @@ impl Judged {
         let (cols, rows) = (view.cells.cols(), view.cells.rows());
         std::mem::swap(&mut self.nearest_m, &mut self.before_m);
         self.nearest_m.clear();
+        let before = self.lattice.unwrap_or(view.lattice);
+        self.columns.clear();
+        self.columns.extend((0..cols).map(|col| {
+            let [x, y] = view.lattice.center_of(Cell::new(col as i32, 0));
+            let then = usize::try_from(before.cell_at(x, y).col).ok();
+            (x - at_m[0], then.unwrap_or(usize::MAX))
+        }));
         for row in 0..rows {
-            for col in 0..cols {
-                let cell = Cell::new(col as i32, row as i32);
-                let [x, y] = view.lattice.center_of(cell);
-                let away_m = (x - at_m[0]).hypot(y - at_m[1]) as f32;
-                let before_m = self.read(&self.before_m, [x, y]);
-                self.nearest_m.push(away_m.min(before_m));
-            }
+            let [x, y] = view.lattice.center_of(Cell::new(0, row as i32));
+            let then = usize::try_from(before.cell_at(x, y).row).ok();
+            let known = then.and_then(|row| {
+                let first = row * self.cols;
+                self.before_m.get(first..first + self.cols)
+            });
+            let known = known.unwrap_or_default();
+            let ahead_m = y - at_m[1];
+            self.nearest_m
+                .extend(self.columns.iter().map(|&(aside_m, col)| {
+                    let away_m = (aside_m * aside_m + ahead_m * ahead_m).sqrt() as f32;
+                    known
+                        .get(col)
+                        .map_or(away_m, |&before_m| away_m.min(before_m))
+                }));
         }
         self.lattice = Some(view.lattice);
         self.cols = cols;
     }
 
     /// How near the robot has been to a place, m; infinite where it was never looked at.
-    pub(crate) fn nearest_m(&self, place_m: [f64; 2]) -> f64 {
-        f64::from(self.read(&self.nearest_m, place_m))
-    }
-
-    fn read(&self, distances_m: &[f32], [x, y]: [f64; 2]) -> f32 {
+    pub(crate) fn nearest_m(&self, [x, y]: [f64; 2]) -> f64 {
         let Some(lattice) = self.lattice else {
-            return f32::INFINITY;
+            return f64::INFINITY;
         };
         let cell = lattice.cell_at(x, y);
         let inside = cell.row >= 0 && cell.col >= 0 && (cell.col as usize) < self.cols;
         let index = || cell.row as usize * self.cols + cell.col as usize;
-        let known_m = distances_m.get(if inside { index() } else { usize::MAX });
-        known_m.copied().unwrap_or(f32::INFINITY)
+        let known_m = inside.then(|| self.nearest_m.get(index())).flatten();
+        known_m.map_or(f64::INFINITY, |&known_m| f64::from(known_m))
     }
 
     /// Makes unknown what lies on a higher level and was never as near as `range_m`, unless a recognised stair says what it

@@ -100,7 +100,8 @@ impl Seek {
             let place_m = terrain.center_m(index);
             let seen =
                 |at_m: &[f64; 2]| (place_m[0] - at_m[0]).hypot(place_m[1] - at_m[1]) <= SEEN_M;
-            *worth &= terrain.weights[index].is_finite() && !self.looked_m.iter().any(seen);
+            *worth =
+                *worth && terrain.weights[index].is_finite() && !self.looked_m.iter().any(seen);
         }
     }
 

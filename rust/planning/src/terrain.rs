@@ -191,12 +191,14 @@ impl Terrain {
         let least_m = (at_start_m - half_m).min(body_m);
         let least_edge_m = (to_edge_m - half_m).min(feet_m);
         for index in 0..self.weights.len() {
-            let [x, y] = self.center_m(index);
-            let near = (x - start_m[0]).hypot(y - start_m[1]) <= config.escape_range;
+            let near = || {
+                let [x, y] = self.center_m(index);
+                (x - start_m[0]).hypot(y - start_m[1]) <= config.escape_range
+            };
             let no_ground = self.blocked[index] || self.levels.edge[index];
             let barred = self.weights[index].is_infinite() && !no_ground;
-            if near
-                && barred
+            if barred
+                && near()
                 && self.clearance_m(index) >= least_m
                 && self.edge_clearance_m(index) >= least_edge_m
             {

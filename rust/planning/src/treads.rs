@@ -114,6 +114,8 @@ impl Treads {
 pub(crate) struct Outline {
     /// Counter-clockwise.
     corners_m: [[f64; 2]; 4],
+    /// From each corner to the next, and how far that is, m.
+    sides: [([f64; 2], f64); 4],
 }
 
 impl Outline {
@@ -124,9 +126,13 @@ impl Outline {
             stair.back.left,
             stair.front.left,
         ];
-        Self {
-            corners_m: corners.map(|corner| [corner.inner.x, corner.inner.y]),
-        }
+        let corners_m = corners.map(|corner| [corner.inner.x, corner.inner.y]);
+        let sides = std::array::from_fn(|i| {
+            let [from, to] = [corners_m[i], corners_m[(i + 1) % 4]];
+            let side: [f64; 2] = [to[0] - from[0], to[1] - from[1]];
+            (side, side[0].hypot(side[1]))
+        });
+        Self { corners_m, sides }
     }
 
     fn bounds_m(&self) -> ([f64; 2], [f64; 2]) {
@@ -143,10 +149,7 @@ impl Outline {
     /// How far a place lies beyond the side that it is furthest beyond, m; negative inside.
     pub(crate) fn outside_m(&self, [x, y]: [f64; 2]) -> f64 {
         let mut furthest = f64::NEG_INFINITY;
-        for (i, from) in self.corners_m.iter().enumerate() {
-            let to = self.corners_m[(i + 1) % 4];
-            let side = [to[0] - from[0], to[1] - from[1]];
-            let length = side[0].hypot(side[1]);
+        for (from, (side, length)) in self.corners_m.iter().zip(self.sides) {
             if length > 1e-6 {
                 let beyond = ((x - from[0]) * side[1] - (y - from[1]) * side[0]) / length;
                 furthest = furthest.max(beyond);

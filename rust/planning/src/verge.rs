@@ -73,7 +73,8 @@ impl Verge {
             let near = || {
                 let cell = Cell::new((index % cols) as i32, (index / cols) as i32);
                 let [x, y] = lattice.center_of(cell);
-                (x - stand.at_m[0]).hypot(y - stand.at_m[1]) <= blind_m
+                let (dx, dy) = (x - stand.at_m[0], y - stand.at_m[1]);
+                dx.abs() <= blind_m && dy.abs() <= blind_m && dx.hypot(dy) <= blind_m
             };
             if height.is_nan() && seen.unknown[index] && !levels.edge[index] && near() {
                 *height = stand.height_m as f32;
