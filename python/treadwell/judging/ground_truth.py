@@ -70,18 +70,16 @@ class GroundTruth:
             robot: the robot.
         """
         legs = (robot.file.legs.left, robot.file.legs.right)
-        self.sole_bodies = tuple(int(model.body(leg.sole.link).id) for leg in legs)
+        left, right = (int(model.body(leg.sole.link).id) for leg in legs)
+        self.sole_bodies = (left, right)
         self._offsets = tuple(leg.sole.position for leg in legs)
         self.torso = int(model.body(robot.file.body.torso).id)
         self._up: list[float] = _upright_axis(robot).tolist()
 
     def soles(self, data: mujoco.MjData) -> tuple[Sole, Sole]:
         """Return the left and the right sole."""
-        left, right = (
-            _sole(data, body, offset)
-            for body, offset in zip(self.sole_bodies, self._offsets, strict=True)
-        )
-        return left, right
+        left, right = self.sole_bodies
+        return _sole(data, left, self._offsets[0]), _sole(data, right, self._offsets[1])
 
     def frame(
         self, soles: tuple[Sole, Sole], touching: tuple[bool, bool] = (True, True)

@@ -68,8 +68,10 @@ class Encoders:
         readings = angles + self.offsets
         velocities = data.qvel[self._velocities]
         if self._quantum > 0.0:
-            readings = np.rint(readings / self._quantum) * self._quantum
-            velocities += self._velocity_noise * self._rng.standard_normal(velocities.shape)
+            readings /= self._quantum
+            np.rint(readings, out=readings)
+            readings *= self._quantum
+            velocities += self._velocity_noise * self._rng.standard_normal(velocities.size)
         return readings, velocities
 
 
@@ -133,8 +135,7 @@ class Imu:
         site = mujoco.mjtObj.mjOBJ_SITE
         mujoco.mj_objectVelocity(self._model, data, site, self._site, self._motion, 0)
         world_from_sensor = data.site_xmat[self._site].reshape(3, 3)
-        angular_velocity = world_from_sensor.T @ self._motion[:3]
-        acceleration = self._at_rest
+        angular_velocity, acceleration = None, self._at_rest
         if self._time_ns is not None:
             passed = (time_ns - self._time_ns) * 1e-9
             if 0.0 < passed <= LONGEST_TICK:
@@ -142,10 +143,13 @@ class Imu:
                 turn = rotation_vector(self._world_from_sensor.T @ world_from_sensor)
                 if max(map(abs, turn)) < LARGEST_TURN:
                     angular_velocity = [angle / passed for angle in turn]
+        if angular_velocity is None:
+            angular_velocity = (world_from_sensor.T @ self._motion[:3]).tolist()
         self._world_from_sensor[:] = world_from_sensor
         self._velocity[:] = self._motion[3:]
         self._time_ns = time_ns
-        sample = np.concatenate([angular_velocity, world_from_sensor.T @ acceleration])
+        force = (world_from_sensor.T @ acceleration).tolist()
+        sample = np.array([*angular_velocity, *force])
         sample += self._bias
         if not self._exact:
             sample += self._noise * self._rng.standard_normal(6)
