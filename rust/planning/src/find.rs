@@ -64,15 +64,20 @@ impl AStar {
         if known.as_ref().is_none_or(hoped) {
             let cheaper =
                 |route: &Route| known.as_ref().is_none_or(|known| route.cost < known.cost);
-            let doubtful = run(search, terrain, portals, &ends, start, Fit::Doubtful);
-            if let Some(route) = doubtful.filter(cheaper) {
+            // Without a way that fits just so badly, a search would find what is known already.
+            let mut search_with = |worst| {
+                let any = portals.has(worst);
+                let found = any.then(|| run(search, terrain, portals, &ends, start, worst));
+                found.flatten().filter(cheaper)
+            };
+            if let Some(route) = search_with(Fit::Doubtful) {
                 return Ok(Found {
                     route,
                     worst: Fit::Doubtful,
                     end: End::Look,
                 });
             }
-            let lifted = run(search, terrain, portals, &ends, start, Fit::Broken).filter(cheaper);
+            let lifted = search_with(Fit::Broken);
             limit = lifted.and_then(|route| first_limit(terrain, portals, &self.climbing, &route));
         }
         // From where the robot stands stairs may lead down elsewhere; what is too high or too short stays so.

@@ -117,6 +117,11 @@ impl Portals {
         &self.ways[link]
     }
 
+    /// Whether any way fits just so.
+    pub(crate) fn has(&self, fit: Fit) -> bool {
+        self.ways.iter().any(|way| way.fit == fit)
+    }
+
     /// The steps of a way.
     pub(crate) fn strides(&self, way: &Way) -> &[Stride] {
         &self.strides[way.first..way.end]
