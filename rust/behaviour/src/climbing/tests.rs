@@ -19,6 +19,16 @@ pub(super) fn up(start: PlanarPose) -> Simulation {
     )
 }
 
+fn down() -> Simulation {
+    let steps = [(-0.03, 0.12), (-0.03, 0.12), (-0.03, 0.12), (-0.03, 1.5)];
+    Simulation::new(
+        PlanarPose::default(),
+        straight(0.5, &steps, 0.33),
+        [1.3, 0.0],
+        Pace::StepByStep,
+    )
+}
+
 fn assert_on_top(simulation: &mut Simulation, height_m: f64, limit_s: f64) {
     let (outcome, after_s) = simulation.run(limit_s);
     assert_eq!(
@@ -69,13 +79,7 @@ fn both_feet_are_together_after_each_step_and_the_number_of_steps_is_found() {
 
 #[test]
 fn four_steps_are_descended() {
-    let down = [(-0.03, 0.12), (-0.03, 0.12), (-0.03, 0.12), (-0.03, 1.5)];
-    let mut simulation = Simulation::new(
-        PlanarPose::default(),
-        straight(0.5, &down, 0.33),
-        [1.3, 0.0],
-        Pace::StepByStep,
-    );
+    let mut simulation = down();
     assert_on_top(&mut simulation, -0.12, 60.0);
 }
 
@@ -368,13 +372,7 @@ fn refusing_is_final_and_every_other_state_can_be_left() {
 /// The planner may lead over an edge a hand's breadth beside where the feet go: what matters is the part before the feet.
 #[test]
 fn on_the_stairs_the_head_looks_where_the_feet_will_go_and_not_where_the_way_does() {
-    let down = [(-0.03, 0.12), (-0.03, 0.12), (-0.03, 0.12), (-0.03, 1.5)];
-    let mut simulation = Simulation::new(
-        PlanarPose::default(),
-        straight(0.5, &down, 0.33),
-        [1.3, 0.0],
-        Pace::StepByStep,
-    );
+    let mut simulation = down();
     simulation.way_aside_m = 0.05;
     let mut pans_rad = Vec::new();
     while simulation.now_s() < 60.0 && simulation.tick().outcome.is_none() {
