@@ -6,12 +6,13 @@ UV_VERSION := 0.13.8
 UV := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
 RUN := $(UV) run --locked --quiet
 DEMO ?= obstacle_course
+# What the built package is made of: `make setup` builds anew when it changes.
+SOURCES := $(shell find rust models scenarios -type f)
 
 .PHONY: setup demo test fuzz check lint format bench clean
 
 setup: .venv/.ready ## the environment in .venv, with the command .venv/bin/treadwell
 
-SOURCES := $(shell find rust models scenarios -type f)
 .venv/.ready: $(UV) pyproject.toml uv.lock Cargo.toml Cargo.lock $(SOURCES)
 	$(UV) sync --locked
 	@touch $@

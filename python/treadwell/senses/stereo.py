@@ -257,6 +257,7 @@ class StereoModel:
     def _threshold(self, cast: Cast, texture: Floats) -> Floats:
         """Return below which value of a unit normal a pixel is matched, (h, w)."""
         level = np.rint(np.clip(texture, 0.0, 1.0) * (TEXTURE_LEVELS - 1)).astype(np.intp)
+        # Where nothing was met geom is -1: wrapped, as plain indexing has it, which takes longer.
         return self._match_below[level].take(cast.geom, mode="wrap")
 
     def _mismatch(self, measured: Floats32, seen: Mask) -> None:
