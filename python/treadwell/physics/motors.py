@@ -81,7 +81,7 @@ class Motors:
         takes_up = np.maximum(PLAY_TORQUE * limits.peak_torque, limits.kp * self._half_play)
         self._lead_per_torque = self._half_play / takes_up
         self._slope = limits.stall_torque / limits.no_load_speed
-        self._stall_backward, self._peak_backward = -limits.stall_torque, -limits.peak_torque
+        self._stall_backward = -limits.stall_torque
         self._nothing = np.zeros(n)
         self._most_lead = np.full(n, self._half_play)
         self._least_lead = -self._most_lead
@@ -134,7 +134,8 @@ class Motors:
         np.minimum(bound, self._nothing, out=bound)
         np.maximum(torque, bound, out=torque)
         np.minimum(torque, limits.peak_torque, out=torque)
-        np.maximum(torque, self._peak_backward, out=torque)
+        np.negative(limits.peak_torque, out=bound)
+        np.maximum(torque, bound, out=torque)
 
         if self._half_play > 0.0:
             np.multiply(torque, self._lead_per_torque, out=scratch)
