@@ -120,6 +120,7 @@ impl Portals {
             },
             from_m: line.at(offset_m, toes_m - 0.5 * scene.feet.length_m),
             to_m: line.at(offset_m, heel_m + 0.5 * scene.feet.length_m),
+            range_m: range_m(scene, &line),
             limit: footing.err(),
         }
     }

@@ -2,7 +2,8 @@
 
 use crate::legs::Draft;
 use crate::line::Line;
-use crate::portals::Portals;
+use crate::portals::{Portals, Stride};
+use crate::room::distance_m;
 use crate::terrain::Terrain;
 use crate::{AStarConfig, Climb, Goal};
 
@@ -64,8 +65,14 @@ impl Kept {
                 return None;
             }
         }
-        for climb in &mut draft.climbs {
-            refresh(climb, &mut draft.points_m, portals)?;
+        for index in 0..draft.climbs.len() {
+            let tread = draft.tread_before(index);
+            refresh(
+                &mut draft.climbs[index],
+                tread,
+                &mut draft.points_m,
+                portals,
+            )?;
         }
         holds(&draft, terrain).then_some(draft)
     }
@@ -89,42 +96,58 @@ fn holds(draft: &Draft, terrain: &Terrain) -> bool {
     })
 }
 
-/// Takes over edges and heights as they are seen now; `None` where a step is none any more.
-fn refresh(climb: &mut Climb, points_m: &mut [[f64; 2]], portals: &Portals) -> Option<()> {
+/// Takes over edges and heights as they are seen now; `None` where a step is none any more. From a tread, where the way
+/// stands at the point `tread` before the first step, it leads straight on as far as the next edge allows: the feet move
+/// aside a centimetre at a time there.
+fn refresh(
+    climb: &mut Climb,
+    tread: Option<usize>,
+    points_m: &mut [[f64; 2]],
+    portals: &Portals,
+) -> Option<()> {
+    let first = climb.from_point;
     for (i, step) in climb.steps.iter_mut().enumerate() {
-        let before = Line::of(&step.stair.front);
-        let mut best: Option<(f64, usize)> = None;
-        for (index, stride) in portals.all_strides().iter().enumerate() {
-            let now = &stride.step;
-            let line = Line::of(&now.stair.front);
-            let same = stride.limit.is_none()
-                && line.askew_rad(&before) <= TURNED_RAD
-                && line.beyond_m(step.crossing_m).abs() <= MOVED_M
-                && line.offset_m(step.crossing_m).abs() <= line.half_m()
-                && (now.stair.height_m() - step.stair.height_m()).abs() <= LIFTED_M
-                && (now.rise_m - step.rise_m).abs() <= LIFTED_M;
-            let away_m = (now.crossing_m[0] - step.crossing_m[0])
-                .hypot(now.crossing_m[1] - step.crossing_m[1]);
-            if same && best.is_none_or(|(least_m, _)| away_m < least_m) {
-                best = Some((away_m, index));
-            }
-        }
-        let now = &portals.all_strides()[best?.1];
+        let now = seen_now(step, portals)?;
         let line = Line::of(&now.step.stair.front);
-        let offset_m = line.offset_m(step.crossing_m);
-        let lane_m = offset_m - line.offset_m(now.step.crossing_m);
-        let moved =
-            |place_m: [f64; 2]| line.at(line.offset_m(place_m) + lane_m, line.beyond_m(place_m));
-        if i == 0 && climb.from_point > 0 {
-            points_m[climb.from_point] = moved(now.from_m);
+        let tread = if i == 0 { tread } else { Some(first + i) };
+        let offset_m = tread.map_or(line.offset_m(step.crossing_m), |from| {
+            let straight_m = line.offset_m(points_m[from]);
+            straight_m.clamp(-now.range_m, now.range_m)
+        });
+        let beside = |place_m: [f64; 2]| line.at(offset_m, line.beyond_m(place_m));
+        // What is walked on the tread, up to where the first step begins.
+        let walked_from = tread.map_or(first, |from| from + 1);
+        for point_m in points_m.iter_mut().take(first).skip(walked_from) {
+            *point_m = beside(*point_m);
         }
-        points_m[climb.from_point + i + 1] = moved(now.to_m);
+        if i == 0 && first > 0 {
+            points_m[first] = beside(now.from_m);
+        }
+        points_m[first + i + 1] = beside(now.to_m);
         *step = crate::Step {
             crossing_m: line.at(offset_m, 0.0),
             ..now.step
         };
     }
     Some(())
+}
+
+/// A step as the stairs are seen now, nearest to where it was to be taken.
+fn seen_now<'a>(step: &crate::Step, portals: &'a Portals) -> Option<&'a Stride> {
+    let before = Line::of(&step.stair.front);
+    let same = |stride: &&Stride| {
+        let now = &stride.step;
+        let line = Line::of(&now.stair.front);
+        stride.limit.is_none()
+            && line.askew_rad(&before) <= TURNED_RAD
+            && line.beyond_m(step.crossing_m).abs() <= MOVED_M
+            && line.offset_m(step.crossing_m).abs() <= line.half_m()
+            && (now.stair.height_m() - step.stair.height_m()).abs() <= LIFTED_M
+            && (now.rise_m - step.rise_m).abs() <= LIFTED_M
+    };
+    let away_m = |stride: &Stride| distance_m(stride.step.crossing_m, step.crossing_m);
+    let strides = portals.all_strides().iter().filter(same);
+    strides.min_by(|a, b| away_m(a).total_cmp(&away_m(b)))
 }
 
 /// The path from where the robot is beside it onward; `None` where it strayed too far.

@@ -104,6 +104,18 @@ impl Draft {
             .any(|span| (span[0]..span[1]).contains(&piece))
     }
 
+    /// The point at which the robot stands on a tread before a climb: where it is, or where the climb before ended at these
+    /// stairs.
+    pub(crate) fn tread_before(&self, index: usize) -> Option<usize> {
+        let from = self.climbs[index].from_point;
+        if from == 0 {
+            return Some(0);
+        }
+        let before = self.climbs[..index].last()?.to_point;
+        let here = |span: &[usize; 2]| span[0] < before && from < span[1];
+        self.spans.iter().any(here).then_some(before)
+    }
+
     /// With clearance, unknown parts and cost under this terrain.
     pub(crate) fn annotate(&self, terrain: &Terrain, climb_cost: f64) -> Path {
         let points_m = self.points_m.clone();

@@ -39,6 +39,8 @@ pub(crate) struct Stride {
     pub(crate) step: Step,
     pub(crate) from_m: [f64; 2],
     pub(crate) to_m: [f64; 2],
+    /// How far from its middle the edge may be crossed, m.
+    pub(crate) range_m: f64,
     /// Why it is not taken.
     pub(crate) limit: Option<Unfit>,
 }

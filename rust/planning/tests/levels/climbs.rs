@@ -326,3 +326,24 @@ fn a_turning_staircase_is_climbed_square_to_each_edge() {
         assert!((step.crossing_m[0] - middle.x).hypot(step.crossing_m[1] - middle.y) < 0.07);
     }
 }
+
+/// On a tread the feet move aside a centimetre at a time.
+#[test]
+fn from_tread_to_tread_a_way_leads_straight_on_as_soon_as_the_next_edge_is_seen_to_reach_there() {
+    let mut course = Course::staircase(3, 0.03, 0.68);
+    let whole = course.stairs.stairs[1];
+    let part = &mut course.stairs.stairs[1];
+    (part.front.left.inner.y, part.back.left.inner.y) = (0.0, 0.0);
+    course.forget([1.12, 0.0], [1.6, 0.34]);
+    let (mut planner, to) = (planner(), goal_at(1.4, 0.0, 0.09));
+    let aside = plan(&mut planner, &course, [0.0; 3], 0.0, &to).way.unwrap();
+    assert!(crossings(&aside)[1][1] < -0.1, "{aside:?}");
+    course.stairs.stairs[1] = whole;
+    let path = plan(&mut planner, &course, [0.0; 3], 0.0, &to).way.unwrap();
+    for crossing in crossings(&path) {
+        assert!(
+            (crossing[1] - crossings(&aside)[0][1]).abs() < 1e-6,
+            "{crossing:?}"
+        );
+    }
+}
