@@ -18,6 +18,9 @@ const OUT_OF_VIEW_M: f64 = 0.17;
 /// A step follows another when its front edge is no further than this behind the other's back edge, m.
 const JOINT_M: f64 = 0.06;
 
+/// Further than this before an edge the robot's middle, and no foot of it, is over that edge, m.
+const NOT_YET_THERE_M: f64 = 0.06;
+
 /// Steps that neither the plan nor the view has shown for this long are lost, s.
 const LOST_S: f64 = 1.5;
 /// A plan may think of another way for this long, s.
@@ -115,7 +118,7 @@ impl Flight {
         let Some(first) = self.steps.first().copied() else {
             return;
         };
-        if let Some(steps) = plan.and_then(|plan| steps_from(plan, &first)) {
+        if let Some(steps) = plan.and_then(|plan| steps_from(plan, &first, pose)) {
             self.renew(steps, stairs, pose);
             return;
         }
@@ -198,15 +201,19 @@ pub(crate) fn covers(stair: &Stair<Map>, step: &Step) -> bool {
         && stair.back.beyond_m(place_m) < MARGIN_M
 }
 
-/// The plan's steps from this one on.
-fn steps_from<'a>(plan: &'a Plan, first: &Step) -> Option<&'a [Step]> {
+/// The plan's steps from this one on, and those before it that came to be seen while the robot was not yet at their edges: from
+/// far away two low steps are one.
+fn steps_from<'a>(plan: &'a Plan, first: &Step, pose: &PlanarPose) -> Option<&'a [Step]> {
+    let is_to_come =
+        |step: &&Step| step.stair.front.beyond_m([pose.x_m, pose.y_m]) < -NOT_YET_THERE_M;
     let path = plan.way.as_ref().ok()?;
     path.climbs.iter().find_map(|climb| {
         let at = climb
             .steps
             .iter()
             .position(|step| is_same(first, &step.stair))?;
-        Some(&climb.steps[at..])
+        let to_come = climb.steps[..at].iter().rev().take_while(is_to_come);
+        Some(&climb.steps[at - to_come.count()..])
     })
 }
 

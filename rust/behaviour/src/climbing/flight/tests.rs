@@ -107,3 +107,18 @@ fn a_step_is_crossed_at_its_edge_wherever_that_is_measured() {
         }
     }
 }
+
+#[test]
+fn a_step_that_comes_to_be_seen_before_the_first_one_is_not_stepped_over() {
+    let config = ClimbingConfig::default();
+    let plan = plan(0.0);
+    let steps = &plan.way.as_ref().unwrap().climbs[0].steps;
+    // Before both edges, and on the first step.
+    for (x_m, ahead) in [(0.4, 2), (0.55, 1)] {
+        let mut flight = Flight::default();
+        flight.adopt(&steps[1..]);
+        let pose = PlanarPose::new(x_m, 0.0, 0.0);
+        flight.refresh(Some(&plan), &Staircase::default(), &pose, &config);
+        assert_eq!(flight.steps(), &steps[2 - ahead..], "{x_m}");
+    }
+}
