@@ -49,8 +49,6 @@ const YOUNG_MISSES: u32 = 3;
 /// Finds of a young track contradict each other when they are this far apart, rad and m: one of them was no ground.
 const CONTRADICTS_RAD: f64 = 0.05;
 const CONTRADICTS_M: f64 = 0.012;
-/// The same of a find further away and a track that was found by what is near the feet, rad.
-const CONTRADICTS_NEAR_RAD: f64 = 0.025;
 
 /// Body half about x, y, head half about the camera's x, z, rad; height; ahead and above in the camera's axes, m.
 const STATES: usize = 7;
@@ -73,8 +71,6 @@ pub(super) struct Correction {
     missed: Option<u32>,
     missed_height: u32,
     found: u32,
-    // Whether it was found by what is near the feet.
-    near: bool,
 }
 
 impl Correction {
@@ -98,7 +94,6 @@ impl Correction {
             missed: None,
             missed_height: 0,
             found: 0,
-            near: false,
         }
     }
 
@@ -157,16 +152,9 @@ impl Correction {
         let away_m = middle_of_picture_m(&predicted.inner.translation.vector, &roll);
         let floor_rises = rises + about_x * away_m.y - about_y * away_m.x;
         let floor_rise_m = rise_m + turn_rad.x * away_m.y - turn_rad.y * away_m.x;
-        let apart_rad = if self.near {
-            CONTRADICTS_NEAR_RAD
-        } else {
-            CONTRADICTS_RAD
-        };
-        let contradicts = turn_rad.norm() > apart_rad || floor_rise_m.abs() > CONTRADICTS_M;
+        let contradicts = turn_rad.norm() > CONTRADICTS_RAD || floor_rise_m.abs() > CONTRADICTS_M;
         if contradicts && self.found > 0 && !self.is_settled() {
-            if !self.near {
-                *self = Self::new();
-            }
+            *self = Self::new();
             return;
         }
         let measures = SMatrix::<f64, 3, STATES>::from_rows(&[about_x, about_y, floor_rises]);
@@ -184,23 +172,6 @@ impl Correction {
         self.missed = Some(0);
         self.missed_height = 0;
         self.found = self.found.saturating_add(1);
-    }
-
-    /// The same of a ground that was searched, and found by what is near the feet: of what was found further away before, where
-    /// it may have been the slope of stairs, nothing is kept, and what contradicts it later is left out.
-    pub(super) fn found_near(
-        &mut self,
-        predicted: &Pose<Robot, Camera>,
-        turn_rad: &Vector2<f64>,
-        rise_m: f64,
-    ) {
-        if !self.near && self.found > 0 {
-            *self = Self::new();
-        } else {
-            self.near = false;
-            self.found(predicted, turn_rad, rise_m);
-        }
-        self.near = true;
     }
 
     /// Takes in that surfaces were level as predicted, but of unknown height. Their tilt is not learned: low steps that

@@ -45,14 +45,10 @@ use walls::Walls;
 /// How far a tilt may be from the predicted one: sigma, rad, while tracked and while searched.
 const TRACKED_RAD: f64 = 0.008;
 const SEARCHED_RAD: f64 = 0.1;
-/// How far off the tilt may be that is found by what is near the feet: sigma, rad.
-const NEAR_RAD: f64 = 0.015;
-/// How far a surface may be tilted that tells of the tilt, rad: while tracked little, for treads that are taken for one surface
-/// would turn the track into the slope of the stairs, by a bit each frame; and while it is searched.
-const TRACKED_LEVEL_RAD: f64 = 0.015;
+/// How far a surface may be tilted that tells of the tilt while it is searched, rad.
 const SEARCHED_LEVEL_RAD: f64 = 0.09;
 /// Step of the search for the tilt while tracked, and last step of the search from nothing, rad.
-const TRACK_STEP_RAD: f64 = 0.006;
+const TRACK_STEP_RAD: f64 = 0.012;
 const LAST_STEP_RAD: f64 = 0.006;
 
 /// A segmenter with this way to find surfaces.
@@ -71,8 +67,6 @@ pub struct Grounded<F> {
 /// A frame's camera: where it was predicted, and the tilt found on top.
 #[derive(Debug, Clone, Copy)]
 struct Levelled {
-    /// Whether it was found by what is near the feet alone.
-    near: bool,
     predicted: Pose<Robot, Camera>,
     tilt: Vector2<f64>,
     view: View,
@@ -82,7 +76,6 @@ impl Levelled {
     fn new(camera: &Intrinsics, predicted: Pose<Robot, Camera>, tilt: Vector2<f64>) -> Self {
         let rotation = levelling(tilt.x, tilt.y) * predicted.inner.rotation.to_rotation_matrix();
         Self {
-            near: false,
             predicted,
             tilt,
             view: View::new(camera, &rotation),
@@ -128,14 +121,13 @@ impl<F: Finder> Grounded<F> {
 
     /// Finds the camera's tilt against the prediction and the regions that are seen with it.
     fn level(&mut self, predicted: Pose<Robot, Camera>) -> Levelled {
-        let mut levelled = Levelled::new(&self.camera, predicted, Vector2::zeros());
         let searching = self.searching();
-        let near = searching && self.look_near(&levelled);
         let (sigma, level_rad) = if searching {
             (SEARCHED_RAD, SEARCHED_LEVEL_RAD)
         } else {
-            (TRACKED_RAD, TRACKED_LEVEL_RAD)
+            (TRACKED_RAD, self.config.floor_tilt)
         };
+        let mut levelled = Levelled::new(&self.camera, predicted, Vector2::zeros());
         let guess = self.guess_tilt(&levelled);
         levelled = Levelled::new(&self.camera, predicted, guess);
         for look in [Look::First, Look::Again] {
@@ -144,25 +136,8 @@ impl<F: Finder> Grounded<F> {
             let tilt = shared_tilt(&self.surfaces.fits, level_rad, &expected, sigma);
             levelled = Levelled::new(&self.camera, predicted, levelled.further(&tilt));
         }
-        if near {
-            self.surfaces.show_all();
-            self.surfaces.find(&levelled.view, Look::Again);
-            // What is further away and as level tells it more precisely.
-            let (fits, level_rad) = (&self.surfaces.fits, self.config.floor_tilt);
-            let tilt = shared_tilt(fits, level_rad, &Vector2::zeros(), NEAR_RAD);
-            levelled = Levelled::new(&self.camera, predicted, levelled.further(&tilt));
-        }
         self.surfaces.refit(&levelled.view);
-        Levelled { near, ..levelled }
-    }
-
-    /// Leaves out what is not near the feet, as seen from where the prediction has the camera; says no where too little is.
-    fn look_near(&mut self, level: &Levelled) -> bool {
-        let camera_m = level.predicted.inner.translation.vector;
-        let least = self.config.near_floor * self.surfaces.labels.len() as f64;
-        let (reach_m, least) = (self.config.near_reach, least as usize);
-        self.surfaces
-            .hide_far(&level.view, &camera_m, reach_m, least)
+        levelled
     }
 
     fn guess_tilt(&mut self, level: &Levelled) -> Vector2<f64> {
@@ -237,11 +212,7 @@ impl<F: Finder> Segmenter for Grounded<F> {
                 rise_m: rise,
             } => {
                 (ground, rise_m) = (Some(region), rise);
-                if levelled.near {
-                    self.correction.found_near(&predicted, &turn, rise_m);
-                } else {
-                    self.correction.found(&predicted, &turn, rise_m);
-                }
+                self.correction.found(&predicted, &turn, rise_m);
             }
             Reference::Known { rise_m: rise } => {
                 rise_m = rise;
