@@ -18,7 +18,7 @@ const OUT_OF_VIEW_M: f64 = 0.17;
 /// A step follows another when its front edge is no further than this behind the other's back edge, m.
 const JOINT_M: f64 = 0.06;
 
-/// Further than this before an edge the robot's middle, and no foot of it, is over that edge, m.
+/// A robot whose middle is further than this before an edge has no foot over it yet, m.
 const NOT_YET_THERE_M: f64 = 0.06;
 
 /// Steps that neither the plan nor the view has shown for this long are lost, s.
