@@ -24,6 +24,10 @@ pub struct GroundConfig {
     /// When the ground is searched without a track, it is what is seen up to this distance from the robot, m: it stands on
     /// the floor beside its feet, what is further away may be the slope of a staircase.
     pub search_reach: f64,
+    /// What is seen up to this distance from the robot, m, is near its feet: there a ground that is searched must not slope.
+    pub near_reach: f64,
+    /// Smallest share of the image that must show what is near the feet for it to be judged.
+    pub near_floor: f64,
     /// Widest error of roll and of pitch when the ground is searched, rad (the paper: 7 degrees; the attitude adds).
     pub search_tilt: f64,
     /// Widest error of roll and pitch together while the ground is tracked, rad.
@@ -55,6 +59,8 @@ impl Default for GroundConfig {
             min_ground: 150,
             open_floor: 0.12,
             search_reach: 0.45,
+            near_reach: 0.36,
+            near_floor: 0.17,
             search_tilt: 0.15,
             track_tilt: 0.044,
             ground_height: 0.02,
@@ -75,6 +81,7 @@ impl GroundConfig {
         for (name, value) in [
             ("noise_floor", self.noise_floor),
             ("search_reach", self.search_reach),
+            ("near_reach", self.near_reach),
             ("ground_height", self.ground_height),
             ("track_height", self.track_height),
             ("known_height", self.known_height),
@@ -105,12 +112,17 @@ impl GroundConfig {
             "finite and >= 1",
             self.noise_ceiling,
         )?;
-        require(
-            (0.0..=1.0).contains(&self.open_floor),
-            &key("open_floor"),
-            "within 0 and 1",
-            self.open_floor,
-        )?;
+        for (name, value) in [
+            ("open_floor", self.open_floor),
+            ("near_floor", self.near_floor),
+        ] {
+            require(
+                (0.0..=1.0).contains(&value),
+                &key(name),
+                "within 0 and 1",
+                value,
+            )?;
+        }
         require(
             self.forget_frames >= self.hold_frames,
             &key("forget_frames"),

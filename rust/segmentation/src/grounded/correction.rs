@@ -49,6 +49,8 @@ const YOUNG_MISSES: u32 = 3;
 /// Finds of a young track contradict each other when they are this far apart, rad and m: one of them was no ground.
 const CONTRADICTS_RAD: f64 = 0.05;
 const CONTRADICTS_M: f64 = 0.012;
+/// The same where one of them was told by what is near the feet and the other was not, rad.
+const CONTRADICTS_NEAR_RAD: f64 = 0.025;
 
 /// Body half about x, y, head half about the camera's x, z, rad; height; ahead and above in the camera's axes, m.
 const STATES: usize = 7;
@@ -71,6 +73,8 @@ pub(super) struct Correction {
     missed: Option<u32>,
     missed_height: u32,
     found: u32,
+    // Whether what is near the feet told it, or bore it out.
+    near: bool,
 }
 
 impl Correction {
@@ -94,6 +98,7 @@ impl Correction {
             missed: None,
             missed_height: 0,
             found: 0,
+            near: false,
         }
     }
 
@@ -134,12 +139,14 @@ impl Correction {
     }
 
     /// Takes in what a found ground says: a further turn about the robot's x and y (rad) and a rise (m) of the predicted
-    /// camera. A young track that it contradicts is given up.
+    /// camera. A young track that it contradicts is given up; but what is `near` the feet is the ground, and a find from further
+    /// away that contradicts that may be the slope of stairs and is left out.
     pub(super) fn found(
         &mut self,
         predicted: &Pose<Robot, Camera>,
         turn_rad: &Vector2<f64>,
         rise_m: f64,
+        near: bool,
     ) {
         self.wander();
         let axes = predicted.inner.rotation.to_rotation_matrix();
@@ -152,11 +159,19 @@ impl Correction {
         let away_m = middle_of_picture_m(&predicted.inner.translation.vector, &roll);
         let floor_rises = rises + about_x * away_m.y - about_y * away_m.x;
         let floor_rise_m = rise_m + turn_rad.x * away_m.y - turn_rad.y * away_m.x;
-        let contradicts = turn_rad.norm() > CONTRADICTS_RAD || floor_rise_m.abs() > CONTRADICTS_M;
+        let apart_rad = if near == self.near {
+            CONTRADICTS_RAD
+        } else {
+            CONTRADICTS_NEAR_RAD
+        };
+        let contradicts = turn_rad.norm() > apart_rad || floor_rise_m.abs() > CONTRADICTS_M;
         if contradicts && self.found > 0 && !self.is_settled() {
-            *self = Self::new();
+            if near || !self.near {
+                *self = Self::new();
+            }
             return;
         }
+        self.near |= near;
         let measures = SMatrix::<f64, 3, STATES>::from_rows(&[about_x, about_y, floor_rises]);
         let measured = Vector3::new(turn_rad.x, turn_rad.y, floor_rise_m);
         let noise = Vector3::new(SWAY_RAD.powi(2), SWAY_RAD.powi(2), SWAY_M.powi(2));
@@ -172,6 +187,13 @@ impl Correction {
         self.missed = Some(0);
         self.missed_height = 0;
         self.found = self.found.saturating_add(1);
+    }
+
+    /// Takes in that a ground that was found slopes near the feet: a young track that was found from afar alone is given up.
+    pub(super) fn doubt_afar(&mut self) {
+        if !self.near && !self.is_settled() {
+            *self = Self::new();
+        }
     }
 
     /// Takes in that surfaces were level as predicted, but of unknown height. Their tilt is not learned: low steps that

@@ -45,10 +45,14 @@ use walls::Walls;
 /// How far a tilt may be from the predicted one: sigma, rad, while tracked and while searched.
 const TRACKED_RAD: f64 = 0.008;
 const SEARCHED_RAD: f64 = 0.1;
-/// How far a surface may be tilted that tells of the tilt while it is searched, rad.
+/// How far off the tilt may be that is found by what is near the feet: sigma, rad.
+const NEAR_RAD: f64 = 0.015;
+/// How far a surface may be tilted that tells of the tilt, rad: while tracked little, for treads that are taken for one surface
+/// would turn the track into the slope of the stairs, by a bit each frame; and while it is searched.
+const TRACKED_LEVEL_RAD: f64 = 0.015;
 const SEARCHED_LEVEL_RAD: f64 = 0.09;
 /// Step of the search for the tilt while tracked, and last step of the search from nothing, rad.
-const TRACK_STEP_RAD: f64 = 0.012;
+const TRACK_STEP_RAD: f64 = 0.006;
 const LAST_STEP_RAD: f64 = 0.006;
 
 /// A segmenter with this way to find surfaces.
@@ -67,6 +71,8 @@ pub struct Grounded<F> {
 /// A frame's camera: where it was predicted, and the tilt found on top.
 #[derive(Debug, Clone, Copy)]
 struct Levelled {
+    /// Whether what is near the feet told it, or bears it out.
+    near: bool,
     predicted: Pose<Robot, Camera>,
     tilt: Vector2<f64>,
     view: View,
@@ -76,6 +82,7 @@ impl Levelled {
     fn new(camera: &Intrinsics, predicted: Pose<Robot, Camera>, tilt: Vector2<f64>) -> Self {
         let rotation = levelling(tilt.x, tilt.y) * predicted.inner.rotation.to_rotation_matrix();
         Self {
+            near: false,
             predicted,
             tilt,
             view: View::new(camera, &rotation),
@@ -119,15 +126,16 @@ impl<F: Finder> Grounded<F> {
         !self.correction.is_settled()
     }
 
-    /// Finds the camera's tilt against the prediction and the regions that are seen with it.
-    fn level(&mut self, predicted: Pose<Robot, Camera>) -> Levelled {
+    /// Finds the camera's tilt against the prediction and the regions that are seen with it; `near`: whether nothing but what is
+    /// near the feet is shown at first.
+    fn level(&mut self, predicted: Pose<Robot, Camera>, near: bool) -> Levelled {
+        let mut levelled = Levelled::new(&self.camera, predicted, Vector2::zeros());
         let searching = self.searching();
         let (sigma, level_rad) = if searching {
             (SEARCHED_RAD, SEARCHED_LEVEL_RAD)
         } else {
-            (TRACKED_RAD, self.config.floor_tilt)
+            (TRACKED_RAD, TRACKED_LEVEL_RAD)
         };
-        let mut levelled = Levelled::new(&self.camera, predicted, Vector2::zeros());
         let guess = self.guess_tilt(&levelled);
         levelled = Levelled::new(&self.camera, predicted, guess);
         for look in [Look::First, Look::Again] {
@@ -136,8 +144,18 @@ impl<F: Finder> Grounded<F> {
             let tilt = shared_tilt(&self.surfaces.fits, level_rad, &expected, sigma);
             levelled = Levelled::new(&self.camera, predicted, levelled.further(&tilt));
         }
+        if near {
+            self.surfaces.show_all();
+            for look in [Look::First, Look::Again] {
+                self.surfaces.find(&levelled.view, look);
+            }
+            // What is further away and as level tells it more precisely.
+            let (fits, level_rad) = (&self.surfaces.fits, self.config.floor_tilt);
+            let tilt = shared_tilt(fits, level_rad, &Vector2::zeros(), NEAR_RAD);
+            levelled = Levelled::new(&self.camera, predicted, levelled.further(&tilt));
+        }
         self.surfaces.refit(&levelled.view);
-        levelled
+        Levelled { near, ..levelled }
     }
 
     fn guess_tilt(&mut self, level: &Levelled) -> Vector2<f64> {
@@ -201,9 +219,8 @@ impl<F: Finder> Segmenter for Grounded<F> {
             self.show_uncorrected(scan, planes);
             return Ok(());
         }
-        let predicted = self.correction.predict(&scan.robot_from_camera);
-        let mut levelled = self.level(predicted);
-        let reference = self.find_reference(&levelled, known);
+        let (mut levelled, reference) = self.level_and_refer(&scan.robot_from_camera, known);
+        let predicted = levelled.predicted;
         let turn = levelled.turn().scaled_axis().xy();
         let (mut ground, mut rise_m) = (None, 0.0);
         match reference {
@@ -212,11 +229,12 @@ impl<F: Finder> Segmenter for Grounded<F> {
                 rise_m: rise,
             } => {
                 (ground, rise_m) = (Some(region), rise);
-                self.correction.found(&predicted, &turn, rise_m);
+                self.correction
+                    .found(&predicted, &turn, rise_m, levelled.near);
             }
             Reference::Known { rise_m: rise } => {
                 rise_m = rise;
-                self.correction.found(&predicted, &turn, rise_m);
+                self.correction.found(&predicted, &turn, rise_m, false);
             }
             Reference::Level => self.correction.confirmed(),
             Reference::None => {

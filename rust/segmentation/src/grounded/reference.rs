@@ -1,5 +1,8 @@
 //! What a frame is levelled and lifted by: the ground, or on stairs the other treads that are known.
 
+use geometry::{Camera, Pose, Robot};
+use nalgebra::Vector2;
+
 use super::{Finder, Grounded, Levelled};
 use crate::KnownFloor;
 
@@ -28,6 +31,60 @@ pub(super) enum Reference {
 }
 
 impl<F: Finder> Grounded<F> {
+    /// The camera's pose, and what it is told by. A ground that is searched must not slope near the feet: the robot stands on it,
+    /// and what is further away may be stairs. So what is near is looked at first; where that is too little or cluttered, all.
+    pub(super) fn level_and_refer(
+        &mut self,
+        by_joints: &Pose<Robot, Camera>,
+        known: &dyn KnownFloor,
+    ) -> (Levelled, Reference) {
+        let predicted = self.correction.predict(by_joints);
+        if self.searching()
+            && self.look_near(&Levelled::new(&self.camera, predicted, Vector2::zeros()))
+        {
+            let (levelled, reference) = self.refer(predicted, known, true);
+            if reference != Reference::None {
+                return (levelled, reference);
+            }
+        }
+        // Anew: what was found from afar may have been given up.
+        let predicted = self.correction.predict(by_joints);
+        self.refer(predicted, known, false)
+    }
+
+    /// One look: by all that is seen, or with the rest hidden at first by what is `near`.
+    fn refer(
+        &mut self,
+        predicted: Pose<Robot, Camera>,
+        known: &dyn KnownFloor,
+        near: bool,
+    ) -> (Levelled, Reference) {
+        let mut levelled = self.level(predicted, near);
+        let mut reference = self.find_reference(&levelled, known);
+        if self.searching()
+            && let Reference::Ground { region, .. } = reference
+        {
+            match self.slopes_near(&levelled, region) {
+                Some(true) => {
+                    reference = Reference::None;
+                    self.correction.doubt_afar();
+                }
+                Some(false) => levelled.near = true,
+                None => {}
+            }
+        }
+        (levelled, reference)
+    }
+
+    /// Leaves out what is not near the feet in this view; says no, and leaves nothing out, where too little is.
+    fn look_near(&mut self, levelled: &Levelled) -> bool {
+        let camera_m = levelled.predicted.inner.translation.vector;
+        let least = self.config.near_floor * self.surfaces.labels.len() as f64;
+        let (reach_m, least) = (self.config.near_reach, least as usize);
+        self.surfaces
+            .hide_far(&levelled.view, &camera_m, reach_m, least)
+    }
+
     /// The ground among the regions: the largest level one close to where the ground is expected, but none where another
     /// level is known to lie.
     fn find_ground(&self, levelled: &Levelled) -> Option<usize> {
@@ -83,6 +140,16 @@ impl<F: Finder> Grounded<F> {
         own >= self.config.min_region && 2 * own > near
     }
 
+    /// Whether a ground slopes where it is near the feet; none where too little is seen there.
+    fn slopes_near(&mut self, levelled: &Levelled, index: usize) -> Option<bool> {
+        if !self.look_near(levelled) {
+            return None;
+        }
+        let slopes = self.surfaces.shown_slopes(index, &levelled.view);
+        self.surfaces.show_all();
+        Some(slopes)
+    }
+
     /// Whether another level surface lies so little above or below a region that one could be taken for the other.
     fn has_level_beside(&self, index: usize) -> bool {
         let surfaces = &self.surfaces;
@@ -106,11 +173,7 @@ impl<F: Finder> Grounded<F> {
     }
 
     /// What the frame says of the camera's height, and which region is the ground.
-    pub(super) fn find_reference(
-        &mut self,
-        levelled: &Levelled,
-        known: &dyn KnownFloor,
-    ) -> Reference {
+    fn find_reference(&mut self, levelled: &Levelled, known: &dyn KnownFloor) -> Reference {
         if !self.is_straight(levelled) {
             return Reference::None;
         }

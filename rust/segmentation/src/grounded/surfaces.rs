@@ -1,6 +1,6 @@
 //! The horizontal surfaces of one frame: picture, regions and their fits, with all buffers.
 
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 use sensing::{Intrinsics, Scan};
 
 use super::GroundConfig;
@@ -32,6 +32,7 @@ pub(super) struct Surfaces<F> {
     median: Median,
     noise: NoiseMap,
     seen_px: Vec<f32>,
+    whole_px: Vec<f32>,
     /// Disparities after the median, px.
     pub(super) disparity_px: Vec<f32>,
     /// Local noise, px.
@@ -45,6 +46,7 @@ pub(super) struct Surfaces<F> {
     g: Vec<f32>,
     eroded: Vec<u16>,
     checks: Vec<RegionFit>,
+    shown: Vec<RegionFit>,
     erosion: Erosion,
     slivers: Slivers,
 }
@@ -65,6 +67,7 @@ impl<F: Finder> Surfaces<F> {
                 config.noise_ceiling,
             ),
             seen_px: Vec::new(),
+            whole_px: Vec::new(),
             disparity_px: vec![f32::NAN; pixels],
             sigma_px: vec![0.0; pixels],
             labels: vec![0; pixels],
@@ -73,6 +76,7 @@ impl<F: Finder> Surfaces<F> {
             g: vec![0.0; pixels],
             eroded: vec![0; pixels],
             checks: Vec::new(),
+            shown: Vec::new(),
             erosion: Erosion::default(),
             slivers: Slivers::default(),
         }
@@ -92,6 +96,55 @@ impl<F: Finder> Surfaces<F> {
             .filter(&self.seen_px, self.width, &mut self.disparity_px);
         self.noise.measure(&self.disparity_px);
         self.noise.fill(&mut self.sigma_px);
+    }
+
+    /// Leaves out what is further than `reach_m` from the robot, seen from `camera_m` (robot frame), until all is shown again;
+    /// says no, and leaves nothing out, where less than `least` pixels would be left.
+    pub(super) fn hide_far(
+        &mut self,
+        view: &View,
+        camera_m: &Vector3<f64>,
+        reach_m: f64,
+        least: usize,
+    ) -> bool {
+        self.whole_px.clone_from(&self.disparity_px);
+        let mut left = 0;
+        let lines = self.disparity_px.chunks_exact_mut(self.width);
+        for (row, line) in lines.enumerate() {
+            for (col, d) in line.iter_mut().enumerate() {
+                let x_m = camera_m.x + f64::from(view.x.at(col, row) / *d);
+                let y_m = camera_m.y + f64::from(view.y.at(col, row) / *d);
+                // Also false where nothing was seen.
+                if x_m.hypot(y_m) < reach_m {
+                    left += 1;
+                } else {
+                    *d = f32::NAN;
+                }
+            }
+        }
+        if left < least {
+            self.show_all();
+        }
+        left >= least
+    }
+
+    /// Whether what is shown of a region is no floor, by its slope; after `refit`.
+    pub(super) fn shown_slopes(&mut self, index: usize, view: &View) -> bool {
+        let picture = Picture {
+            width: self.width,
+            disparity_px: &self.disparity_px,
+            g: &self.g,
+            sigma_px: &self.sigma_px,
+        };
+        let shown = &mut self.shown;
+        fit_regions(picture, view, &self.regions, &self.eroded, shown);
+        let (tilt, certainty) = shown[index].own_tilt();
+        tilt.norm() > self.floor_tilt_rad && certainty > STEEP_SURE
+    }
+
+    /// Takes back what was left out.
+    pub(super) fn show_all(&mut self) {
+        std::mem::swap(&mut self.disparity_px, &mut self.whole_px);
     }
 
     /// The picture under a view.

@@ -35,7 +35,7 @@ fn an_error_of_the_head_is_right_at_every_gaze_after_it_was_learned_at_two() {
     for gaze in gazes.iter().flat_map(|gaze| [gaze; 10]) {
         let predicted = correction.predict(&looking(gaze.0, gaze.1));
         let turn = tilt_between(&predicted, &truth(gaze.0, gaze.1));
-        correction.found(&predicted, &turn, 0.0);
+        correction.found(&predicted, &turn, 0.0, false);
     }
     for gaze in [(-1.2, 0.7), (1.2, 0.5), (0.3, 0.3)] {
         let predicted = correction.predict(&looking(gaze.0, gaze.1));
@@ -59,7 +59,7 @@ fn learned_at_one_gaze_it_stays_within_the_tracking_gate_at_others() {
         for _ in 0..10 {
             let predicted = correction.predict(&looking(0.0, 0.7));
             let turn = tilt_between(&predicted, &truth(0.0));
-            correction.found(&predicted, &turn, 0.0);
+            correction.found(&predicted, &turn, 0.0, false);
         }
         let predicted = correction.predict(&looking(1.0, 0.7));
         assert!(tilt_between(&predicted, &truth(1.0)).norm() < 0.044);
@@ -73,11 +73,50 @@ fn a_young_track_that_is_contradicted_begins_anew_and_a_settled_one_does_not() {
         for finds in 1..2 * SETTLED {
             let mut correction = Correction::new();
             for _ in 0..finds {
-                correction.found(&looking(0.0, 0.7), &Vector2::zeros(), 0.0);
+                correction.found(&looking(0.0, 0.7), &Vector2::zeros(), 0.0, false);
             }
-            correction.found(&looking(0.0, 0.7), &far_off, rise_m);
+            correction.found(&looking(0.0, 0.7), &far_off, rise_m, false);
             assert_eq!(correction.missed.is_none(), finds < SETTLED);
         }
+    }
+}
+
+/// A young track that these finds made, each near the feet or not.
+fn young(near: &[bool]) -> Correction {
+    let mut correction = Correction::new();
+    for &near in near {
+        correction.found(&looking(0.0, 0.7), &Vector2::zeros(), 0.0, near);
+    }
+    correction
+}
+
+#[test]
+fn what_is_near_the_feet_overrules_a_find_from_afar_and_never_the_other_way_round() {
+    // Of a slope that meets the floor in the middle of the picture.
+    let (slope, rise_m) = (Vector2::new(0.0, 0.035), 0.0208);
+    let find = |mut correction: Correction, near| {
+        let before = correction.state;
+        correction.found(&looking(0.0, 0.7), &slope, rise_m, near);
+        (correction.missed.is_none(), correction.state == before)
+    };
+    // Given up; left out; taken in as long as both are of a kind.
+    assert_eq!(find(young(&[false; 3]), true), (true, true));
+    assert_eq!(find(young(&[true; 3]), false), (false, true));
+    assert_eq!(find(young(&[false, true, false]), false), (false, true));
+    assert_eq!(find(young(&[true; 3]), true), (false, false));
+    assert_eq!(find(young(&[false; 3]), false), (false, false));
+}
+
+#[test]
+fn a_ground_that_slopes_near_the_feet_ends_young_tracks_from_afar_only() {
+    for (near, given_up) in [
+        (&[false; 3][..], true),
+        (&[false, true, false][..], false),
+        (&[false; SETTLED as usize][..], false),
+    ] {
+        let mut correction = young(near);
+        correction.doubt_afar();
+        assert_eq!(correction.missed.is_none(), given_up);
     }
 }
 
@@ -92,7 +131,7 @@ fn frames_of_one_gaze_that_err_alike_hardly_move_what_other_gazes_told() {
         for _ in 0..5 {
             let predicted = correction.predict(&looking(gaze.0, gaze.1));
             let turn = tilt_between(&predicted, &looking(gaze.0, gaze.1));
-            correction.found(&predicted, &turn, -correction.height_m());
+            correction.found(&predicted, &turn, -correction.height_m(), false);
         }
     }
     let stairs = looking(0.0, 0.95);
@@ -100,7 +139,7 @@ fn frames_of_one_gaze_that_err_alike_hardly_move_what_other_gazes_told() {
     for _ in 0..60 {
         let predicted = correction.predict(&stairs);
         let turn = tilt_between(&predicted, &stairs) + slope;
-        correction.found(&predicted, &turn, -correction.height_m());
+        correction.found(&predicted, &turn, -correction.height_m(), false);
     }
     for gaze in [(0.0, 0.6), (0.0, 1.1)] {
         let truth = looking(gaze.0, gaze.1);
@@ -119,7 +158,7 @@ fn it_forgets_after_so_many_frames_without_ground() {
     let mut correction = Correction::new();
     for _ in 0..SETTLED {
         assert!(!correction.is_settled());
-        correction.found(&looking(0.0, 0.7), &Vector2::new(0.05, 0.0), 0.004);
+        correction.found(&looking(0.0, 0.7), &Vector2::new(0.05, 0.0), 0.004, false);
     }
     assert!(correction.is_settled());
     for _ in 0..10 {

@@ -153,6 +153,52 @@ fn stairs_that_fill_the_view_at_the_start_are_never_taken_for_the_ground() {
     }
 }
 
+/// A platform from behind the robot up to `front_m`, and low steps from there on.
+fn low_steps(front_m: f64, rise_m: f64, tread_m: f64) -> Scene {
+    let block = |i: i32| {
+        let front = front_m + f64::from(i - 1) * tread_m;
+        Block {
+            low_m: [if i == 0 { -1.0 } else { front }, -0.6, -0.5],
+            high_m: [
+                if i == 5 { 2.5 } else { front + tread_m },
+                0.6,
+                f64::from(i) * rise_m,
+            ],
+        }
+    };
+    Scene {
+        ground: false,
+        blocks: (0..=5).map(block).collect(),
+    }
+}
+
+#[test]
+fn low_stairs_in_view_at_the_start_are_not_taken_for_the_ground_of_a_tilted_camera() {
+    for (front_m, rise_m) in [(0.4, -0.017), (0.55, -0.017), (0.4, 0.017), (0.55, 0.017)] {
+        let scene = low_steps(front_m, rise_m, 0.19);
+        for seed in 0..6 {
+            let mut noise = Noise::new(seed);
+            let (mut segmenter, mut planes) = (segmenter(), planes());
+            let turn = Vector3::new(noise.within(0.1), 0.0, noise.within(0.1));
+            for frame in 0..90 {
+                let down =
+                    (0.02 + 0.07 * f64::from(frame)).min(if frame > 20 { 0.85 } else { 1.0 });
+                let aside = 0.8 * (f64::from((frame - 20).max(0)) * 0.09).sin();
+                let truth = camera_pose(aside, down);
+                let mut believed = truth;
+                believed.inner.rotation *= UnitQuaternion::new(turn);
+                believed.inner.translation.vector.z += 0.004;
+                let scan = scene.scan(&truth, believed, SIGMA, &mut noise);
+                segmenter.segment(&scan, &mut planes).unwrap();
+                let (tilt, _) = pose_error(&planes, &truth);
+                let told = format!("{front_m} {rise_m} {seed} frame {frame}: {tilt}");
+                assert!(!planes.reliable || tilt < 0.045, "{told}");
+                assert!(planes.reliable || frame < 30, "{told}");
+            }
+        }
+    }
+}
+
 #[test]
 fn uncorrected_the_camera_stays_where_the_joints_have_it() {
     let config = GroundConfig {
