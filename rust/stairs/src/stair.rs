@@ -189,6 +189,17 @@ impl<F> Stair<F> {
         self.front.beyond_m(at).abs() + self.back.beyond_m(at).abs()
     }
 
+    /// Room to stand on beyond the left and beyond the right ends of its edges, m: the margins, but none where it was seen to
+    /// end. A margin reaches as far as anything that was ever taken for this surface; in a first, tilted look that may be a lot.
+    pub fn room_beside_m(&self) -> [f64; 2] {
+        let ends = &self.seen_ends;
+        [
+            (self.left_margin_m, ends.left),
+            (self.right_margin_m, ends.right),
+        ]
+        .map(|(margin_m, seen)| if seen > 0 { 0.0 } else { margin_m })
+    }
+
     /// Five by five places inside, away from the edges.
     pub(crate) fn places(&self) -> impl Iterator<Item = Point<F>> + '_ {
         let share = |i: usize| 0.1 + 0.2 * i as f64;

@@ -95,11 +95,12 @@ impl Before<'_> {
         let edge = &next.stair.front;
         let askew_rad = angle_between(edge.heading_rad(), self.pose.yaw_rad);
         let middle_m = edge.beyond_m([self.pose.x_m, self.pose.y_m]);
+        let [left_room_m, right_room_m] = next.stair.room_beside_m();
         Stand {
             toes_m: middle_m + 0.5 * self.feet.length_m * askew_rad.cos(),
             askew_rad,
-            left_m: self.left_m(next, &edge.left) + next.stair.left_margin_m,
-            right_m: next.stair.right_margin_m - self.left_m(next, &edge.right),
+            left_m: self.left_m(next, &edge.left) + left_room_m,
+            right_m: right_room_m - self.left_m(next, &edge.right),
         }
     }
 
@@ -264,5 +265,35 @@ pub(crate) fn reason(unfit: &Unfit) -> String {
             mm(width_m),
             mm(needed_m)
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::climbing::simulation::{FEET, stair};
+
+    #[test]
+    fn the_robot_moves_away_from_the_end_of_a_step_that_was_seen_whatever_lay_beyond_it_once() {
+        let (config, climbing) = (StairClimbingConfig::default(), ClimbingConfig::default());
+        let mut next = Step {
+            stair: stair([0.2, 0.0, 0.0], [0.35, 0.0, 0.0], -0.018, 0.7),
+            rise_m: -0.018,
+            crossing_m: [0.2, 0.32],
+        };
+        next.stair.left_margin_m = 1.0;
+        let before = Before {
+            config: &config,
+            climbing: &climbing,
+            feet: &FEET,
+            pose: PlanarPose::new(0.0, 0.32, 0.0),
+            ground_m: 0.0,
+        };
+        let outer_foot_m = |seen: usize, next: &mut Step| {
+            next.stair.seen_ends.left = seen;
+            before.start_stance(next).pose.y_m + 0.5 * FEET.pair_width_m
+        };
+        assert!(outer_foot_m(0, &mut next) > 0.35);
+        assert!(outer_foot_m(20, &mut next) < 0.35 - climbing.side_room);
     }
 }
