@@ -189,11 +189,16 @@ impl Correction {
         self.found = self.found.saturating_add(1);
     }
 
-    /// Takes in that a ground that was found slopes near the feet: a young track that was found from afar alone is given up.
+    /// Takes in that a ground that was found slopes near the feet: a track that was found from afar alone is given up.
     pub(super) fn doubt_afar(&mut self) {
-        if !self.near && !self.is_settled() {
+        if !self.near {
             *self = Self::new();
         }
+    }
+
+    /// Whether what is near the feet told the track, or bore it out.
+    pub(super) const fn is_borne_out(&self) -> bool {
+        self.near
     }
 
     /// Takes in that surfaces were level as predicted, but of unknown height. Their tilt is not learned: low steps that

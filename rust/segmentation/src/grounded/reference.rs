@@ -61,7 +61,7 @@ impl<F: Finder> Grounded<F> {
     ) -> (Levelled, Reference) {
         let mut levelled = self.level(predicted, near);
         let mut reference = self.find_reference(&levelled, known);
-        if self.searching()
+        if (self.searching() || !self.correction.is_borne_out())
             && let Reference::Ground { region, .. } = reference
         {
             match self.slopes_near(&levelled, region) {

@@ -108,11 +108,12 @@ fn what_is_near_the_feet_overrules_a_find_from_afar_and_never_the_other_way_roun
 }
 
 #[test]
-fn a_ground_that_slopes_near_the_feet_ends_young_tracks_from_afar_only() {
+fn a_ground_that_slopes_near_the_feet_ends_tracks_from_afar_only() {
     for (near, given_up) in [
         (&[false; 3][..], true),
         (&[false, true, false][..], false),
-        (&[false; SETTLED as usize][..], false),
+        (&[false; SETTLED as usize][..], true),
+        (&[true; SETTLED as usize][..], false),
     ] {
         let mut correction = young(near);
         correction.doubt_afar();
