@@ -46,21 +46,17 @@ impl StripRows {
         self.g.resize(strip * lanes, 0.0);
         self.sigma_px.clear();
         self.needed.clear();
-        let lines = picture.disparity_px.chunks_exact(picture.width);
-        let lines = lines.zip(picture.g.chunks_exact(picture.width));
-        let lines = lines.zip(picture.sigma_px.chunks_exact(picture.width));
-        let mut lane = 0;
-        for ((disparity_px, g), sigma_px) in lines {
-            let pieces = disparity_px.chunks(strip).zip(g.chunks(strip));
-            for ((disparity_px, g), sigma_px) in pieces.zip(sigma_px.chunks(strip)) {
-                for (k, (&d, &g)) in disparity_px.iter().zip(g).enumerate() {
-                    self.disparity_px[k * lanes + lane] = d;
-                    self.g[k * lanes + lane] = g;
-                }
+        for sigma_px in picture.sigma_px.chunks_exact(picture.width) {
+            for sigma_px in sigma_px.chunks(strip) {
                 self.sigma_px.push(sigma_px[sigma_px.len() / 2]);
                 self.needed.push(sigma_px.len().div_ceil(2) as f32);
-                lane += 1;
             }
+        }
+        for k in 0..strip.min(picture.width) {
+            let pixels = k * lanes..(k + 1) * lanes;
+            let disparity_px = &mut self.disparity_px[pixels.clone()];
+            take_every(strip, k, picture.disparity_px, picture.width, disparity_px);
+            take_every(strip, k, picture.g, picture.width, &mut self.g[pixels]);
         }
     }
 
@@ -81,16 +77,29 @@ impl StripRows {
                 *seen += if q < f32::INFINITY { 1.0 } else { 0.0 };
             }
         }
-        // By exchange of neighbours: the same steps in all lanes.
-        for unsorted in (2..=rules.strip).rev() {
-            for k in 1..unsorted {
-                let (before, here) = self.sorted[(k - 1) * lanes..].split_at_mut(lanes);
-                for (a, b) in before.iter_mut().zip(here) {
-                    let (low, high) =
-                        (if *a < *b { *a } else { *b }, if *b > *a { *b } else { *a });
-                    (*a, *b) = (low, high);
+        // By odd-even merging (Batcher 1968): the same steps in all lanes.
+        let mut run = 1;
+        while run < rules.strip {
+            let mut apart = run;
+            while apart > 0 {
+                for k in apart % run..rules.strip - apart {
+                    let starts = (k - apart % run) / apart % 2 == 0;
+                    if starts && k / (2 * run) == (k + apart) / (2 * run) {
+                        self.exchange(k, k + apart, lanes);
+                    }
                 }
+                apart /= 2;
             }
+            run *= 2;
+        }
+    }
+
+    /// Puts the lower one of the `a`-th and the `b`-th value of each lane first.
+    fn exchange(&mut self, a: usize, b: usize, lanes: usize) {
+        let (before, behind) = self.sorted.split_at_mut(b * lanes);
+        for (a, b) in before[a * lanes..][..lanes].iter_mut().zip(behind) {
+            let (low, high) = (if *a < *b { *a } else { *b }, if *b > *a { *b } else { *a });
+            (*a, *b) = (low, high);
         }
     }
 
@@ -142,6 +151,46 @@ impl StripRows {
             *q /= *weight;
             let mean = *weight / agree / (sigma * sigma);
             *weight = if agree < needed { 0.0 } else { mean };
+        }
+    }
+}
+
+/// Fills `lanes` with the `k`-th of every `strip` pixels of each row; what the last strip lacks stays as it is.
+fn take_every(strip: usize, k: usize, image: &[f32], width: usize, lanes: &mut [f32]) {
+    let rows = image.chunks_exact(width);
+    for (lanes, row) in lanes.chunks_exact_mut(width.div_ceil(strip)).zip(rows) {
+        for (lane, &pixel) in lanes.iter_mut().zip(row[k..].iter().step_by(strip)) {
+            *lane = pixel;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_values_of_every_lane_are_sorted_whatever_the_width_of_the_strips(
+            disparity_px in prop::collection::vec(0.5..9.0f32, 66), strip in 1..=32usize,
+        ) {
+            let picture = Picture {
+                width: 33,
+                disparity_px: &disparity_px,
+                g: &[1.0; 66],
+                sigma_px: &[0.125; 66],
+            };
+            let rules = StripRules { strip, price: 25.0, min_segment: 4, rows: 1, scale: 6.0 };
+            let mut rows = StripRows::default();
+            rows.read(picture, rules);
+            let lanes = rows.seen.len();
+            for lane in 0..lanes {
+                let sorted: Vec<_> = rows.sorted.iter().skip(lane).step_by(lanes).collect();
+                prop_assert!(sorted.is_sorted());
+            }
+            let seen = rows.sorted.iter().filter(|q| q.is_finite()).count();
+            prop_assert_eq!(seen, disparity_px.len());
         }
     }
 }
