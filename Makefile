@@ -29,7 +29,7 @@ test: export PROPTEST_RNG_SEED ?= 2004
 test: setup lint ## every check and every test
 	$(CARGO_TEST)
 	cargo test --workspace --doc --quiet
-	$(RUN) pytest -q
+	$(RUN) pytest -q -n auto --dist worksteal
 
 CARGO_TEST := $(shell cargo nextest --version >/dev/null 2>&1 && echo "cargo nextest run --workspace" || echo "cargo test --workspace --lib --bins --tests")
 
