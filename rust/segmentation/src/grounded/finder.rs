@@ -34,8 +34,6 @@ pub struct Region {
 /// How often a picture was looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Look {
-    /// For the first time, at every second row only, for the tilt: of finders that [glance](Finder::GLANCES).
-    Glance,
     /// For the first time, under a view that is a guess.
     First,
     /// Again, under a better view.
@@ -46,11 +44,9 @@ pub enum Look {
 pub trait Finder: Send + Sync {
     /// Whether it finds planes in any direction, not horizontal ones only.
     const ANY_DIRECTION: bool;
-    /// Whether another look finds everything anew, so that a glance is enough before it.
-    const GLANCES: bool = false;
 
     /// Fills `regions` with what `picture` shows under `view`, and `labels` with their pixels (0: none, i + 1: region i).
-    /// Before another look both still hold what the last one left, but for a glance.
+    /// Before another look both still hold what the last one left.
     fn find(
         &mut self,
         picture: Picture<'_>,

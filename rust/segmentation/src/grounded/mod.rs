@@ -139,11 +139,7 @@ impl<F: Finder> Grounded<F> {
         let guess = self.guess_tilt(&levelled);
         levelled = Levelled::new(&self.camera, predicted, guess);
         for look in [Look::First, Look::Again] {
-            if look == Look::First && F::GLANCES && !searching {
-                self.surfaces.glance(&levelled.view);
-            } else {
-                self.surfaces.find(&levelled.view, look);
-            }
+            self.surfaces.find(&levelled.view, look);
             let expected = -levelled.tilt;
             let tilt = shared_tilt(&self.surfaces.fits, level_rad, &expected, sigma);
             levelled = Levelled::new(&self.camera, predicted, levelled.further(&tilt));

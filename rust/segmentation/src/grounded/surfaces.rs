@@ -14,8 +14,6 @@ use super::view::View;
 
 /// Columns and rows around a pixel that must be of its region for a fit: a matching window of 5, and one more row to each side.
 const EROSION: (usize, usize) = (5, 7);
-/// The same at a glance, of every second row.
-const GLANCE_EROSION: (usize, usize) = (5, 3);
 /// The same for the check for slices of walls: thin regions, of which 7x5 leaves too little.
 const LIGHT_EROSION: (usize, usize) = (3, 3);
 /// Pixels that must be left for a fit; else all of the region's count.
@@ -39,8 +37,6 @@ pub(super) struct Surfaces<F> {
     pub(super) disparity_px: Vec<f32>,
     /// Local noise, px.
     pub(super) sigma_px: Vec<f32>,
-    // Of every second row: disparities and noise.
-    thinned_px: [Vec<f32>; 2],
     /// Region of each pixel plus one; 0: none.
     pub(super) labels: Vec<u16>,
     /// The regions, with `q` from the last fit.
@@ -74,7 +70,6 @@ impl<F: Finder> Surfaces<F> {
             whole_px: Vec::new(),
             disparity_px: vec![f32::NAN; pixels],
             sigma_px: vec![0.0; pixels],
-            thinned_px: [Vec::new(), Vec::new()],
             labels: vec![0; pixels],
             regions: Vec::new(),
             fits: Vec::new(),
@@ -163,33 +158,6 @@ impl<F: Finder> Surfaces<F> {
         }
     }
 
-    /// Finds and fits regions in every second row, enough to tell the tilt.
-    pub(super) fn glance(&mut self, view: &View) {
-        let view = view.of_every_second_row();
-        let [disparity_px, sigma_px] = &mut self.thinned_px;
-        thin_out(&self.disparity_px, self.width, disparity_px);
-        thin_out(&self.sigma_px, self.width, sigma_px);
-        let pixels = disparity_px.len();
-        let (labels, eroded) = (&mut self.labels[..pixels], &mut self.eroded[..pixels]);
-        view.fill(self.width, &mut self.g[..pixels]);
-        let picture = Picture {
-            width: self.width,
-            disparity_px,
-            g: &self.g[..pixels],
-            sigma_px,
-        };
-        self.finder
-            .find(picture, &view, Look::Glance, &mut self.regions, labels);
-        self.erosion
-            .erode::<{ GLANCE_EROSION.0 }, { GLANCE_EROSION.1 }>(
-                labels,
-                picture.disparity_px,
-                self.width,
-                eroded,
-            );
-        fit_regions(picture, &view, &self.regions, eroded, &mut self.fits);
-    }
-
     /// Finds the regions in the view, and fits them.
     pub(super) fn find(&mut self, view: &View, look: Look) {
         view.fill(self.width, &mut self.g);
@@ -268,14 +236,6 @@ impl<F: Finder> Surfaces<F> {
         let (tilt, certainty) = self.checks[index].own_tilt();
         let steep = tilt.norm() > STEEP_RAD && certainty > STEEP_SURE;
         self.fits[index].is_level(self.floor_tilt_rad) && !steep && !self.slivers.contains(index)
-    }
-}
-
-/// Fills `rows` with every second row of an image.
-fn thin_out(image: &[f32], width: usize, rows: &mut Vec<f32>) {
-    rows.clear();
-    for row in image.chunks_exact(width).step_by(2) {
-        rows.extend_from_slice(row);
     }
 }
 

@@ -75,15 +75,6 @@ impl View {
         }
     }
 
-    /// The view of a picture that has every second row only.
-    pub(super) fn of_every_second_row(&self) -> Self {
-        let [x, y, g] = [self.x, self.y, self.g].map(|linear| Linear {
-            per_row: 2.0 * linear.per_row,
-            ..linear
-        });
-        Self { x, y, g }
-    }
-
     /// Turns a plane's disparities `(per_col, per_row, origin)` into what they are made of: `(a, b, q)` with
     /// `d = a X + b Y + q g`. `(-a, -b, q)` is the plane's normal in the levelled axes, towards the camera, over its
     /// distance from the camera, 1/m; a horizontal plane has no `a`, `b`.
@@ -141,17 +132,6 @@ mod tests {
             let disparity = camera.disparity_px(below / -ray.z);
             let g = f64::from(View::new(&camera, &rotation).g.at(col, row));
             assert_relative_eq!(disparity / g, 1.0 / below, max_relative = 1e-4);
-        }
-
-        #[test]
-        fn every_second_row_has_the_rays_it_had(
-            per in prop::array::uniform3(-2.0..2.0f64), col in 0..88usize, row in 0..36usize,
-        ) {
-            let [x, y, g] = [1.0, 2.0, 3.0].map(|by| Linear::new(&(by * nalgebra::Vector3::from(per))));
-            let thinned = View { x, y, g }.of_every_second_row();
-            for (thin, full) in [(thinned.x, x), (thinned.y, y), (thinned.g, g)] {
-                assert_relative_eq!(thin.at(col, row), full.at(col, 2 * row));
-            }
         }
 
         #[test]

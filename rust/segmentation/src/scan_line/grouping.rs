@@ -25,16 +25,6 @@ pub(super) struct GrowthRules {
     pub(super) min_region: usize,
 }
 
-impl GrowthRules {
-    /// The same for a picture that has every second row only.
-    pub(super) const fn thinned(self) -> Self {
-        Self {
-            min_region: self.min_region / 2,
-            ..self
-        }
-    }
-}
-
 /// Grows regions. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Grouping {

@@ -50,7 +50,6 @@ impl ScanLines {
                 strip: config.strip,
                 price: config.segment_price as f32,
                 min_segment: config.min_segment,
-                rows: 1,
                 scale: (camera.focal_px * camera.baseline_m) as f32,
             },
             growth_rules: GrowthRules {
@@ -69,7 +68,6 @@ impl ScanLines {
 
 impl Finder for ScanLines {
     const ANY_DIRECTION: bool = false;
-    const GLANCES: bool = true;
 
     /// At the first look lines are joined; later ones let the regions take in pixels and join, too.
     fn find(
@@ -80,13 +78,10 @@ impl Finder for ScanLines {
         regions: &mut Vec<Region>,
         labels: &mut [u16],
     ) {
-        let (strip_rules, rules) = if look == Look::Glance {
-            (self.strip_rules.thinned(), self.growth_rules.thinned())
-        } else {
-            (self.strip_rules, self.growth_rules)
-        };
+        let rules = self.growth_rules;
         self.segments.clear();
-        self.strips.cut(picture, strip_rules, &mut self.segments);
+        self.strips
+            .cut(picture, self.strip_rules, &mut self.segments);
         self.grouping
             .group(picture, &self.segments, rules, regions, labels);
         if look == Look::Again {

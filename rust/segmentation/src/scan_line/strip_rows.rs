@@ -181,7 +181,7 @@ mod tests {
                 g: &[1.0; 66],
                 sigma_px: &[0.125; 66],
             };
-            let rules = StripRules { strip, price: 25.0, min_segment: 4, rows: 1, scale: 6.0 };
+            let rules = StripRules { strip, price: 25.0, min_segment: 4, scale: 6.0 };
             let mut rows = StripRows::default();
             rows.read(picture, rules);
             let lanes = rows.seen.len();

@@ -41,21 +41,8 @@ pub(super) struct StripRules {
     pub(super) price: f32,
     /// Shortest segment, rows.
     pub(super) min_segment: usize,
-    /// Rows that each one of the picture stands for.
-    pub(super) rows: u8,
     /// `f B`, m px.
     pub(super) scale: f32,
-}
-
-impl StripRules {
-    /// The same for a picture that has every second row only.
-    pub(super) fn thinned(self) -> Self {
-        Self {
-            min_segment: self.min_segment.div_ceil(2),
-            rows: 2 * self.rows,
-            ..self
-        }
-    }
 }
 
 /// Cuts strips into segments. Keeps its buffers.
@@ -98,14 +85,13 @@ impl Strips {
                 }
                 let q = f64::from(self.strip_rows.q[lane]);
                 self.rows.push(row);
-                let rows = f64::from(rules.rows);
-                self.partition.push(q, weight * rows);
+                self.partition.push(q, weight);
                 let line = self.lines[self.lines.len() - 1];
                 let at = row * picture.width + strip * rules.strip;
                 let sigma = f64::from(picture.sigma_px[at]);
                 let g = weight.sqrt() * sigma;
                 self.lines
-                    .push(line.with(row as f64, q * g, g, rows / (sigma * sigma)));
+                    .push(line.with(row as f64, q * g, g, 1.0 / (sigma * sigma)));
             }
             self.cut_run(strip, rules, segments);
         }
@@ -199,7 +185,6 @@ mod tests {
             strip: 8,
             price: 25.0,
             min_segment: 4,
-            rows: 1,
             scale: 6.0,
         };
         let mut segments = Vec::new();
