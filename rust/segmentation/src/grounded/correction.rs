@@ -44,6 +44,8 @@ const FARTHEST_M: f64 = 0.6;
 /// Frames with ground after which a track is settled. Before that the ground is searched as widely as at first, for the
 /// attitude settles in these frames, too, and a first find may be a bad one.
 const SETTLED: u32 = 8;
+/// Frames with ground after which a track is seasoned: what contradicts it then is no floor.
+const SEASONED: u32 = 25;
 /// Frames without ground after which a track that has not settled is given up.
 const YOUNG_MISSES: u32 = 3;
 /// Finds of a young track contradict each other when they are this far apart, rad and m: one of them was no ground.
@@ -105,6 +107,11 @@ impl Correction {
     /// Whether the ground is tracked, not searched.
     pub(super) const fn is_settled(&self) -> bool {
         self.missed.is_some() && self.found >= SETTLED
+    }
+
+    /// Whether so much ground was found that what is tilted against it is no floor.
+    pub(super) const fn is_seasoned(&self) -> bool {
+        self.found >= SEASONED
     }
 
     /// Whether it may be trusted: settled, and confirmed not longer ago than these frames, in any way and in height.

@@ -47,8 +47,9 @@ const TRACKED_RAD: f64 = 0.008;
 const SEARCHED_RAD: f64 = 0.1;
 /// How far off the tilt may be that is found by what is near the feet: sigma, rad.
 const NEAR_RAD: f64 = 0.015;
-/// How far a surface may be tilted that tells of the tilt, rad: while tracked little, for treads that are taken for one surface
-/// would turn the track into the slope of the stairs, by a bit each frame; and while it is searched.
+/// How far a surface may be tilted that tells of the tilt, rad: to a seasoned track little, for treads that are taken for one surface
+/// would turn the track into the slope of the stairs, by a bit each frame; and while it is searched. Between them it is as much as a
+/// floor may be tilted: the first finds may be bad ones, and a track that takes in nothing else is never put right.
 const TRACKED_LEVEL_RAD: f64 = 0.015;
 const SEARCHED_LEVEL_RAD: f64 = 0.09;
 /// Step of the search for the tilt while tracked, and last step of the search from nothing, rad.
@@ -133,8 +134,10 @@ impl<F: Finder> Grounded<F> {
         let searching = self.searching();
         let (sigma, level_rad) = if searching {
             (SEARCHED_RAD, SEARCHED_LEVEL_RAD)
-        } else {
+        } else if self.correction.is_seasoned() {
             (TRACKED_RAD, TRACKED_LEVEL_RAD)
+        } else {
+            (TRACKED_RAD, self.config.floor_tilt)
         };
         let guess = self.guess_tilt(&levelled);
         levelled = Levelled::new(&self.camera, predicted, guess);
@@ -150,8 +153,13 @@ impl<F: Finder> Grounded<F> {
                 self.surfaces.find(&levelled.view, look);
             }
             // What is further away and as level tells it more precisely.
-            let (fits, level_rad) = (&self.surfaces.fits, self.config.floor_tilt);
-            let tilt = shared_tilt(fits, level_rad, &Vector2::zeros(), NEAR_RAD);
+            let level_rad = if searching {
+                self.config.floor_tilt
+            } else {
+                TRACKED_LEVEL_RAD
+            };
+            let nothing = Vector2::zeros();
+            let tilt = shared_tilt(&self.surfaces.fits, level_rad, &nothing, NEAR_RAD);
             levelled = Levelled::new(&self.camera, predicted, levelled.further(&tilt));
         }
         self.surfaces.refit(&levelled.view);

@@ -39,7 +39,7 @@ impl<F: Finder> Grounded<F> {
         known: &dyn KnownFloor,
     ) -> (Levelled, Reference) {
         let predicted = self.correction.predict(by_joints);
-        if self.searching()
+        if !self.correction.is_seasoned()
             && self.look_near(&Levelled::new(&self.camera, predicted, Vector2::zeros()))
         {
             let (levelled, reference) = self.refer(predicted, known, true);
@@ -61,7 +61,7 @@ impl<F: Finder> Grounded<F> {
     ) -> (Levelled, Reference) {
         let mut levelled = self.level(predicted, near);
         let mut reference = self.find_reference(&levelled, known);
-        if (self.searching() || !self.correction.is_borne_out())
+        if (!self.correction.is_seasoned() || !self.correction.is_borne_out())
             && let Reference::Ground { region, .. } = reference
         {
             match self.slopes_near(&levelled, region) {

@@ -50,6 +50,14 @@ fn look(
     planes
 }
 
+/// A pose as it is believed with the camera turned and raised wrongly.
+fn turned(truth: &Pose<Robot, Camera>, turn: &Vector3<f64>, raised_m: f64) -> Pose<Robot, Camera> {
+    let mut believed = *truth;
+    believed.inner.rotation *= UnitQuaternion::new(*turn);
+    believed.inner.translation.vector.z += raised_m;
+    believed
+}
+
 /// Angle between true and found vertical, rad, and error of the camera's height, m.
 fn pose_error(planes: &Planes, truth: &Pose<Robot, Camera>) -> (f64, f64) {
     let found = planes.robot_from_camera.inner;
