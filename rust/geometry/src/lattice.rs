@@ -123,25 +123,34 @@ impl<T: Clone> Grid<T> {
     pub fn fill(&mut self, value: &T) {
         self.values.fill(value.clone());
     }
+}
 
+impl<T: Copy> Grid<T> {
     /// Moves the content so that what was at cell (c + cols, r + rows) is now at (c, r); what comes in is `value`.
     pub fn shift(&mut self, cols: i32, rows: i32, value: &T) {
-        if cols == 0 && rows == 0 {
+        let [across, down] = [cols, rows].map(|by| by.unsigned_abs() as usize);
+        if across >= self.cols || down >= self.rows {
+            self.fill(value);
             return;
         }
-        let source = |cell: Cell| Cell::new(cell.col + cols, cell.row + rows);
-        let (width, height) = (self.cols as i32, self.rows as i32);
-        // Walk in the direction in which a source is read before it is overwritten.
-        let row_at = |i: i32| if rows >= 0 { i } else { height - 1 - i };
-        let col_at = |i: i32| if cols >= 0 { i } else { width - 1 - i };
-        for row in (0..height).map(row_at) {
-            for col in (0..width).map(col_at) {
-                let cell = Cell::new(col, row);
-                let moved = self.get(source(cell)).unwrap_or(value).clone();
-                if let Some(slot) = self.get_mut(cell) {
-                    *slot = moved;
-                }
-            }
+        // As one line of values. What goes over the end of a row comes into the next one, where nothing else comes in.
+        let count = self.values.len();
+        let by = rows as isize * self.cols as isize + cols as isize;
+        let moved = by.unsigned_abs();
+        if by > 0 {
+            self.values.copy_within(moved.., 0);
+            self.values[count - moved..].fill(*value);
+        } else {
+            self.values.copy_within(..count - moved, moved);
+            self.values[..moved].fill(*value);
+        }
+        let incoming = if cols > 0 {
+            self.cols - across..self.cols
+        } else {
+            0..across
+        };
+        for line in self.values.chunks_exact_mut(self.cols) {
+            line[incoming.clone()].fill(*value);
         }
     }
 }

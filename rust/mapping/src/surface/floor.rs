@@ -85,14 +85,13 @@ impl FloorGrid {
         self.lattice = lattice;
     }
 
-    /// Equation (8): forgets heights of the area that the occupancy grid no longer supports, by (3) and (7).
+    /// Equation (8): forgets heights of the area that the occupancy grid, with the same cells, no longer supports, by (3) and (7).
     pub fn verify(&mut self, occupancy: &OccupancyGrid, area: CellArea) {
         for cell in area.cells() {
             let Some(height) = self.height(cell) else {
                 continue;
             };
-            let [x, y] = self.lattice.center_of(cell);
-            if !occupancy.is_occupied([x, y, f64::from(height)]) {
+            if !occupancy.is_occupied_at(cell, f64::from(height)) {
                 self.set(cell, INVALID, 0);
             }
         }
@@ -106,8 +105,8 @@ impl FloorGrid {
         for point in &frame.points {
             let [x, y, _] = point.position_m;
             let height = point.floor_height_m;
-            let supported = !height.is_nan() && occupancy.is_occupied([x, y, height]);
-            let cell = supported.then(|| self.lattice.cell_at(x, y));
+            let cell = (!height.is_nan()).then(|| self.lattice.cell_at(x, y));
+            let cell = cell.filter(|&cell| occupancy.is_occupied_at(cell, height));
             self.point_cells.push(cell);
             let Some(top) = cell.and_then(|cell| self.frame_top.get_mut(cell)) else {
                 continue;

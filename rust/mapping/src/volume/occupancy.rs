@@ -70,9 +70,8 @@ pub struct OccupancyGrid {
 impl OccupancyGrid {
     /// A grid of which nothing is known: 0.5 everywhere, equation (4).
     pub fn new(size: Size, placement: Placement, table: ProbabilityTable) -> Self {
-        let cells = size.cols * size.rows;
         Self {
-            voxels: Voxels::new(cells, size.layers, table),
+            voxels: Voxels::new(size, table),
             marks: Marks::new(size),
             size,
             placement,
@@ -91,8 +90,13 @@ impl OccupancyGrid {
     }
 
     /// Inequality (7): whether the probability at a place exceeds `p_occ`.
-    pub fn is_occupied(&self, point_m: [f64; 3]) -> bool {
-        self.voxel_at(point_m)
+    pub fn is_occupied(&self, [x_m, y_m, z_m]: [f64; 3]) -> bool {
+        self.is_occupied_at(self.placement.lattice.cell_at(x_m, y_m), z_m)
+    }
+
+    /// The same at a height of a cell of the grid.
+    pub fn is_occupied_at(&self, cell: Cell, height_m: f64) -> bool {
+        self.voxel_of(cell, height_m)
             .is_some_and(|(cell, layer)| self.voxels.occupied(cell) >> layer & 1 == 1)
     }
 
@@ -139,23 +143,8 @@ impl OccupancyGrid {
 
     /// Moves the window by whole voxels: what was at (c + cols, r + rows, l + layers) is now at (c, r, l).
     pub fn shift(&mut self, cols: i32, rows: i32, layers: i32) {
-        let (width, height) = (self.size.cols as i32, self.size.rows as i32);
         if cols != 0 || rows != 0 {
-            // Walk in the direction in which a source is read before it is overwritten.
-            let row_at = |i: i32| if rows >= 0 { i } else { height - 1 - i };
-            let col_at = |i: i32| if cols >= 0 { i } else { width - 1 - i };
-            for (row, col) in (0..height).flat_map(|r| (0..width).map(move |c| (r, c))) {
-                let cell = Cell::new(col_at(col), row_at(row));
-                let source = Cell::new(cell.col + cols, cell.row + rows);
-                let Some(to) = self.cell_index(cell) else {
-                    continue;
-                };
-                if let Some(from) = self.cell_index(source) {
-                    self.voxels.copy(from, to);
-                } else {
-                    self.voxels.forget(to);
-                }
-            }
+            self.voxels.shift(cols, rows);
             let cell_m = self.placement.lattice.cell_m;
             self.placement.lattice.origin_m[0] += f64::from(cols) * cell_m;
             self.placement.lattice.origin_m[1] += f64::from(rows) * cell_m;
@@ -227,9 +216,13 @@ impl OccupancyGrid {
         (col < self.size.cols && row < self.size.rows).then(|| row * self.size.cols + col)
     }
 
-    fn voxel_at(&self, point_m: [f64; 3]) -> Option<(usize, usize)> {
-        let [x, y, z] = self.placement.in_voxels(point_m);
-        let cell = self.cell_index(Cell::new(x.floor() as i32, y.floor() as i32))?;
-        (z >= 0.0 && z < self.size.layers as f64).then_some((cell, z as usize))
+    fn voxel_at(&self, [x_m, y_m, z_m]: [f64; 3]) -> Option<(usize, usize)> {
+        self.voxel_of(self.placement.lattice.cell_at(x_m, y_m), z_m)
+    }
+
+    fn voxel_of(&self, cell: Cell, height_m: f64) -> Option<(usize, usize)> {
+        let layer = (height_m - self.placement.bottom_m) / self.placement.layer_m;
+        let inside = layer >= 0.0 && layer < self.size.layers as f64;
+        Some((self.cell_index(cell)?, layer as usize)).filter(|_| inside)
     }
 }

@@ -1,6 +1,8 @@
 //! What is known of each voxel, column by column: codes of probabilities, and masks that are kept in step with them.
 
-use super::ProbabilityTable;
+use geometry::Grid;
+
+use super::{ProbabilityTable, Size};
 
 /// The layers of a cell lie side by side in storage: a line of sight that looks down stays within a cache line for long,
 /// and the highest occupied layer is one instruction on the cell's mask.
@@ -8,38 +10,41 @@ use super::ProbabilityTable;
 pub(super) struct Voxels {
     layers: usize,
     table: ProbabilityTable,
-    codes: Vec<u8>,
+    /// So many columns for each cell.
+    codes: Grid<u8>,
     /// One bit a layer: whether its probability exceeds `p_occ`.
-    occupied: Vec<u64>,
+    occupied: Grid<u64>,
     /// One bit a layer: whether it is as free as can be, so that another miss changes nothing.
-    settled: Vec<u64>,
+    settled: Grid<u64>,
 }
 
 impl Voxels {
     /// Of which nothing is known: 0.5 everywhere, equation (4).
-    pub(super) fn new(cells: usize, layers: usize, table: ProbabilityTable) -> Self {
+    pub(super) fn new(size: Size, table: ProbabilityTable) -> Self {
+        let Size { cols, rows, layers } = size;
         Self {
             layers,
-            codes: vec![table.unknown(); cells * layers],
-            occupied: vec![0; cells],
-            settled: vec![0; cells],
+            codes: Grid::filled(cols * layers, rows, table.unknown()),
+            occupied: Grid::filled(cols, rows, 0),
+            settled: Grid::filled(cols, rows, 0),
             table,
         }
     }
 
     /// Probability that a voxel is occupied.
     pub(super) fn probability(&self, cell: usize, layer: usize) -> f64 {
-        self.table.decode(self.codes[cell * self.layers + layer])
+        self.table
+            .decode(self.codes.values()[cell * self.layers + layer])
     }
 
     /// Occupied layers of a cell, one bit each.
     pub(super) fn occupied(&self, cell: usize) -> u64 {
-        self.occupied[cell]
+        self.occupied.values()[cell]
     }
 
     /// For every cell the layers that a miss does not change, one bit each.
     pub(super) fn settled(&self) -> &[u64] {
-        &self.settled
+        self.settled.values()
     }
 
     /// Takes in a measurement at layers of a cell.
@@ -53,14 +58,14 @@ impl Voxels {
     pub(super) fn miss(&mut self, cell: usize, layers: u64) {
         self.update(
             cell,
-            layers & !self.settled[cell],
+            layers & !self.settled.values()[cell],
             ProbabilityTable::after_miss,
         );
     }
 
     #[inline]
     fn update(&mut self, cell: usize, layers: u64, after: impl Fn(&ProbabilityTable, u8) -> u8) {
-        let column = &mut self.codes[cell * self.layers..][..self.layers];
+        let column = &mut self.codes.values_mut()[cell * self.layers..][..self.layers];
         let (mut occupied, mut settled) = (0, 0);
         for layer in bits(layers) {
             let code = after(&self.table, column[layer]);
@@ -68,25 +73,18 @@ impl Voxels {
             occupied |= u64::from(self.table.is_occupied(code)) << layer;
             settled |= u64::from(self.table.after_miss(code) == code) << layer;
         }
-        self.occupied[cell] = self.occupied[cell] & !layers | occupied;
-        self.settled[cell] = self.settled[cell] & !layers | settled;
+        for (grid, new) in [(&mut self.occupied, occupied), (&mut self.settled, settled)] {
+            let mask = &mut grid.values_mut()[cell];
+            *mask = *mask & !layers | new;
+        }
     }
 
-    /// What was in a cell is now in another one.
-    pub(super) fn copy(&mut self, from: usize, to: usize) {
-        let depth = self.layers;
-        self.codes
-            .copy_within(from * depth..(from + 1) * depth, to * depth);
-        self.occupied[to] = self.occupied[from];
-        self.settled[to] = self.settled[from];
-    }
-
-    /// Nothing is known of a cell.
-    pub(super) fn forget(&mut self, cell: usize) {
-        let unknown = self.table.unknown();
-        self.codes[cell * self.layers..][..self.layers].fill(unknown);
-        self.occupied[cell] = 0;
-        self.settled[cell] = 0;
+    /// What was at cell (c + cols, r + rows) is now at (c, r).
+    pub(super) fn shift(&mut self, cols: i32, rows: i32) {
+        let (depth, unknown) = (self.layers as i32, self.table.unknown());
+        self.codes.shift(cols.saturating_mul(depth), rows, &unknown);
+        self.occupied.shift(cols, rows, &0);
+        self.settled.shift(cols, rows, &0);
     }
 
     /// What was in layer `l + by` is now in layer `l`.
@@ -103,7 +101,7 @@ impl Voxels {
             };
             shifted.unwrap_or(0) & all
         };
-        for column in self.codes.chunks_exact_mut(depth) {
+        for column in self.codes.values_mut().chunks_exact_mut(depth) {
             if by > 0 {
                 column.copy_within(depth - kept.., 0);
                 column[kept..].fill(unknown);
@@ -112,8 +110,10 @@ impl Voxels {
                 column[..depth - kept].fill(unknown);
             }
         }
-        for mask in self.occupied.iter_mut().chain(&mut self.settled) {
-            *mask = shifted(*mask);
+        for grid in [&mut self.occupied, &mut self.settled] {
+            for mask in grid.values_mut() {
+                *mask = shifted(*mask);
+            }
         }
     }
 }
@@ -138,8 +138,7 @@ mod tests {
     enum Change {
         Hit(usize, u64),
         Miss(usize, u64),
-        Copy(usize, usize),
-        Forget(usize),
+        Shift(i32, i32),
         ShiftLayers(i32),
     }
 
@@ -148,8 +147,7 @@ mod tests {
         prop_oneof![
             3 => (0..4_usize, layers()).prop_map(|(cell, layers)| Change::Hit(cell, layers)),
             8 => (0..4_usize, layers()).prop_map(|(cell, layers)| Change::Miss(cell, layers)),
-            1 => (0..4_usize, 0..4_usize).prop_map(|(from, to)| Change::Copy(from, to)),
-            1 => (0..4_usize).prop_map(Change::Forget),
+            2 => (-2..3, -2..3).prop_map(|(cols, rows)| Change::Shift(cols, rows)),
             1 => (-30..30).prop_map(Change::ShiftLayers),
         ]
     }
@@ -160,9 +158,10 @@ mod tests {
             changes in proptest::collection::vec(change(), 0..80),
         ) {
             let table = ProbabilityTable::new(0.7, 0.7, 0.05, 0.95);
-            let mut voxels = Voxels::new(4, LAYERS, table.clone());
+            let size = Size { cols: 2, rows: 2, layers: LAYERS };
+            let mut voxels = Voxels::new(size, table.clone());
             for change in changes {
-                let mut codes = voxels.codes.clone();
+                let mut codes = voxels.codes.values().to_vec();
                 match change {
                     Change::Hit(cell, layers) => {
                         voxels.hit(cell, layers);
@@ -170,7 +169,7 @@ mod tests {
                             let code = &mut codes[cell * LAYERS + layer];
                             *code = table.after_hit(*code);
                         }
-                        prop_assert_eq!(&voxels.codes, &codes);
+                        prop_assert_eq!(voxels.codes.values(), &codes);
                     }
                     Change::Miss(cell, layers) => {
                         voxels.miss(cell, layers);
@@ -178,17 +177,16 @@ mod tests {
                             let code = &mut codes[cell * LAYERS + layer];
                             *code = table.after_miss(*code);
                         }
-                        prop_assert_eq!(&voxels.codes, &codes);
+                        prop_assert_eq!(voxels.codes.values(), &codes);
                     }
-                    Change::Copy(from, to) => voxels.copy(from, to),
-                    Change::Forget(cell) => voxels.forget(cell),
+                    Change::Shift(cols, rows) => voxels.shift(cols, rows),
                     Change::ShiftLayers(by) => voxels.shift_layers(by),
                 }
                 for cell in 0..4 {
                     for layer in 0..64 {
-                        let code = voxels.codes.get(cell * LAYERS + layer).filter(|_| layer < LAYERS);
+                        let code = voxels.codes.values().get(cell * LAYERS + layer).filter(|_| layer < LAYERS);
                         let [occupied, settled] = [&voxels.occupied, &voxels.settled]
-                            .map(|masks| masks[cell] >> layer & 1 == 1);
+                            .map(|masks| masks.values()[cell] >> layer & 1 == 1);
                         prop_assert_eq!(occupied, code.is_some_and(|&code| table.is_occupied(code)));
                         prop_assert_eq!(
                             settled,
