@@ -18,8 +18,6 @@ pub(super) struct Marks {
     /// One bit a layer: hit, or passed, by a ray.
     hits: Vec<u64>,
     passed: Vec<u64>,
-    /// Ends of the rays that meet the grid, in voxels.
-    ends: Vec<[f64; 3]>,
     gaps: Gaps,
 }
 
@@ -31,13 +29,13 @@ impl Marks {
             size,
             hits: vec![0; cells],
             passed: vec![0; cells],
-            ends: Vec::new(),
             gaps: Gaps::default(),
         }
     }
 
-    /// Marks what the rays from `eye` hit and passed, and says which cells they touched. Ends are in voxels, with whether
-    /// something was seen there; `settled` has one bit for each layer of a cell that a miss does not change.
+    /// Marks what the rays from `eye` hit and passed, but for some voxels that are settled or hit, and says which cells they
+    /// touched. Ends are in voxels, with whether something was seen there; `settled` has one bit for each layer of a cell that
+    /// a miss does not change.
     pub(super) fn mark(
         &mut self,
         eye: [f64; 3],
@@ -47,6 +45,11 @@ impl Marks {
     ) -> CellArea {
         let size = self.size.voxels();
         let mut area = CellArea::EMPTY;
+        let mut strip = [Slabs::default(); RAYS];
+        let dense = rays.size_hint().1.is_none_or(|most| most >= DENSE);
+        let alone = clearing == Clearing::EveryRay || !dense;
+        let together = if alone { 1 } else { RAYS };
+        let mut count = 0;
         for (end, hit) in rays {
             let Some(part) = Part::inside(eye, end, size) else {
                 continue;
@@ -56,37 +59,28 @@ impl Marks {
                 let cell = part.last[1] as usize * self.size.cols + part.last[0] as usize;
                 self.hits[cell] |= 1 << part.last[2];
             }
-            self.ends.push(end);
+            strip[count] = Slabs::new(&part, self.size.cols);
+            count += 1;
+            if count == together {
+                self.walk(&strip[..count], settled);
+                count = 0;
+            }
         }
-        self.walk(eye, clearing, settled);
-        self.ends.clear();
+        self.walk(&strip[..count], settled);
+        self.gaps.clear();
         area
     }
 
-    /// Marks every voxel that a ray passes, except for some that are settled or hit.
-    fn walk(&mut self, eye: [f64; 3], clearing: Clearing, settled: &[u64]) {
-        let (size, hits, passed) = (self.size.voxels(), &self.hits, &mut self.passed);
-        let cols = self.size.cols;
-        let mut strip = [Slabs::default(); RAYS];
-        let alone = clearing == Clearing::EveryRay || self.ends.len() < DENSE;
-        let together = if alone { 1 } else { RAYS };
-        for ends in self.ends.chunks(together) {
-            let mut count = 0;
-            for (slot, &end) in strip.iter_mut().zip(ends) {
-                if let Some(part) = Part::inside(eye, end, size) {
-                    *slot = Slabs::new(&part, cols);
-                    count += 1;
-                }
-            }
-            let known = |cell: usize| hits[cell] | passed[cell] | settled[cell];
-            self.gaps.find(&strip[..count], known, self.size);
-            for ray in &strip[..count] {
-                for &[from, end] in self.gaps.spans() {
-                    ray.visit(from, end, |cell, layers| passed[cell] |= layers);
-                }
+    /// Marks the voxels that the rays of a strip pass.
+    fn walk(&mut self, strip: &[Slabs], settled: &[u64]) {
+        let (hits, passed) = (&self.hits, &mut self.passed);
+        let known = |cell: usize| hits[cell] | passed[cell] | settled[cell];
+        self.gaps.find(strip, known, self.size);
+        for ray in strip {
+            for &[from, end] in self.gaps.spans() {
+                ray.visit(from, end, |cell, layers| passed[cell] |= layers);
             }
         }
-        self.gaps.clear();
     }
 
     /// Takes the layers of a cell that were hit, and those that were only passed.
