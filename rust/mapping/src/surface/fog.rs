@@ -103,7 +103,7 @@ impl Fog {
         }
     }
 
-    /// Moves the window to the robot; the cells of the view that this may have changed.
+    /// Moves the window to the robot, and the view with it; the cells of the view that this may have changed.
     fn follow(&mut self, robot_m: [f64; 3]) -> CellArea {
         let [cols, rows] = self.window.follow(robot_m);
         let layers = self.layers.follow(robot_m[2]);
@@ -143,8 +143,8 @@ impl WorldModel for Fog {
         check_poses(planes, map_from_robot)?;
         let at = map_from_robot.inner.translation.vector;
         let robot_m = [at.x, at.y, at.z];
-        let mut changed = self.follow(robot_m);
-        changed.join(self.stood.stand(robot_m, &self.view.lattice));
+        let moved = self.follow(robot_m);
+        let mut changed = self.stood.stand(robot_m, &self.view.lattice);
 
         let config = &self.config;
         self.frame
@@ -178,6 +178,7 @@ impl WorldModel for Fog {
             changed.join(touched);
         }
         self.refresh(changed);
+        changed.join(moved);
         Ok(Insertion {
             changed,
             height_shift_m: shift.filter(|_| used),
