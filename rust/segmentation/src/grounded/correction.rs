@@ -32,6 +32,8 @@ const TRUNK: f64 = 0.45;
 /// How far the halves may wander from frame to frame: sigma, rad, and of the height, m.
 const WANDER_RAD: f64 = 0.0003;
 const WANDER_M: f64 = 0.0002;
+/// The same of the body half until a track is seasoned: a robot that was put down has yet to find out how it stands.
+const SETTLING_RAD: f64 = 0.001;
 /// How far one frame's attitude is off the filtered one while walking: sigma, rad, and of the floor's height in the middle
 /// of the picture, m.
 const SWAY_RAD: f64 = 0.01;
@@ -245,8 +247,14 @@ impl Correction {
 
     /// A frame later what is known is a little less sure.
     fn wander(&mut self) {
-        for angle in 0..HEIGHT {
-            self.covariance[(angle, angle)] += WANDER_RAD.powi(2);
+        let body_rad = if self.is_seasoned() {
+            WANDER_RAD
+        } else {
+            SETTLING_RAD
+        };
+        let wander_rad = [body_rad, body_rad, WANDER_RAD, WANDER_RAD];
+        for (angle, wander_rad) in wander_rad.into_iter().enumerate() {
+            self.covariance[(angle, angle)] += wander_rad.powi(2);
         }
         self.covariance[(HEIGHT, HEIGHT)] += WANDER_M.powi(2);
     }
