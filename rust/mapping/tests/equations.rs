@@ -172,6 +172,41 @@ fn equation_9_an_unsupported_height_is_ignored() {
 }
 
 #[test]
+fn equation_9_a_lower_height_seen_from_nearer_puts_right_what_the_occupancy_grid_cannot() {
+    let mut occupancy = grid();
+    let cell = Cell::new(12, 10);
+    let [x, y] = lattice().center_of(cell);
+    for layer in 0..3 {
+        let voxel = [center(12, 10, layer)];
+        for _ in 0..5 {
+            let _ = insert(&mut occupancy, &voxel, Update::PerPoint);
+        }
+    }
+    let seen = |heights_and_distances: &[(f64, f64)], update: Update| {
+        let mut floor = FloorGrid::new(lattice(), &small());
+        for &(height, distance) in heights_and_distances {
+            let mut frame = frame_of([x, y, height], height);
+            frame.eye_m = [x - distance, y, 0.5];
+            floor.update(&frame, &occupancy, update);
+        }
+        (floor.height(cell).unwrap(), floor.sightings(cell))
+    };
+    let per_frame = |seen_so: &[(f64, f64)]| seen(seen_so, Update::PerFrame);
+    // Two treads that ran into each other.
+    assert_eq!(per_frame(&[(0.061, 1.1), (0.031, 0.5)]), (0.031, 1));
+    // Not from as near as the higher one was seen.
+    assert_eq!(per_frame(&[(0.061, 1.1), (0.031, 1.0)]), (0.061, 1));
+    assert_eq!(per_frame(&[(0.061, 1.1), (0.061, 0.5), (0.031, 0.5)]).1, 2);
+    // A table, and what lies below it.
+    assert_eq!(per_frame(&[(0.061, 1.1), (0.01, 0.5)]), (0.061, 1));
+    // The paper's own.
+    assert_eq!(
+        seen(&[(0.061, 1.1), (0.031, 0.5)], Update::PerPoint),
+        (0.061, 1)
+    );
+}
+
+#[test]
 fn equation_9_is_applied_once_a_cell_and_frame() {
     let (mut grid, mut floor) = (grid(), FloorGrid::new(lattice(), &small()));
     let at = center(12, 9, 1);

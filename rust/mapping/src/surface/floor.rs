@@ -8,6 +8,9 @@ use crate::volume::OccupancyGrid;
 /// There is no floor height: below every height.
 pub const INVALID: f32 = f32::NEG_INFINITY;
 
+/// What is this much nearer than what it is compared with was seen better: a body sways by less.
+const NEARER: f32 = 0.9;
+
 /// Equation (9): the height to keep where `stored` is known and `measured` is seen.
 pub fn merge_height(stored: f32, measured: f32, epsilon: f32, nu: f32) -> f32 {
     if measured < stored - epsilon {
@@ -26,8 +29,11 @@ pub struct FloorGrid {
     heights: Grid<f32>,
     /// Frames that saw the surface which the cell holds.
     sightings: Grid<u16>,
+    /// From how near that was, m over the ground.
+    distances_m: Grid<f32>,
     epsilon: f32,
     nu: f32,
+    layer_m: f32,
     /// Of the frame that is being inserted, per cell: highest supported height, sum and number of those within epsilon.
     frame_top: Grid<f32>,
     frame_sum: Grid<(f64, u32)>,
@@ -44,8 +50,10 @@ impl FloorGrid {
             lattice,
             heights: Grid::filled(n, n, INVALID),
             sightings: Grid::filled(n, n, 0),
+            distances_m: Grid::filled(n, n, f32::INFINITY),
             epsilon: config.epsilon as f32,
             nu: config.nu as f32,
+            layer_m: config.layer as f32,
             frame_top: Grid::filled(n, n, INVALID),
             frame_sum: Grid::filled(n, n, (0.0, 0)),
             frame_cells: Vec::with_capacity(n * n),
@@ -82,6 +90,7 @@ impl FloorGrid {
     pub fn shift(&mut self, cols: i32, rows: i32, lattice: Lattice) {
         self.heights.shift(cols, rows, &INVALID);
         self.sightings.shift(cols, rows, &0);
+        self.distances_m.shift(cols, rows, &f32::INFINITY);
         self.lattice = lattice;
     }
 
@@ -92,7 +101,7 @@ impl FloorGrid {
                 continue;
             };
             if !occupancy.is_occupied_at(cell, f64::from(height)) {
-                self.set(cell, INVALID, 0);
+                self.set(cell, INVALID, 0, f32::INFINITY);
             }
         }
     }
@@ -130,16 +139,12 @@ impl FloorGrid {
                 *sum = (sum.0 + point.floor_height_m, sum.1 + 1);
             }
         }
-        self.finish(update);
+        self.finish(frame.eye_m, update);
     }
 
     /// Applies what was gathered of the frame and clears it.
-    fn finish(&mut self, update: Update) {
+    fn finish(&mut self, [eye_x_m, eye_y_m, _]: [f64; 3], update: Update) {
         while let Some(cell) = self.frame_cells.pop() {
-            let Some(&stored) = self.heights.get(cell) else {
-                continue;
-            };
-            let seen = self.sightings(cell);
             let (Some(top), Some(sum)) =
                 (self.frame_top.get_mut(cell), self.frame_sum.get_mut(cell))
             else {
@@ -151,23 +156,57 @@ impl FloorGrid {
             };
             *top = INVALID;
             *sum = (0.0, 0);
-            if measured < stored - self.epsilon {
-                continue;
-            }
-            let same = measured <= stored + self.epsilon;
-            let height = match update {
-                Update::PerFrame => merge_height(stored, measured, self.epsilon, self.nu),
-                Update::PerPoint => stored,
-            };
-            self.set(cell, height, if same { seen.saturating_add(1) } else { 1 });
+            let [x, y] = self.lattice.center_of(cell);
+            let distance_m = (x - eye_x_m).hypot(y - eye_y_m) as f32;
+            self.merge(cell, measured, distance_m, update);
         }
     }
 
-    fn set(&mut self, cell: Cell, height: f32, seen: u16) {
-        if let (Some(slot), Some(count)) =
-            (self.heights.get_mut(cell), self.sightings.get_mut(cell))
-        {
-            (*slot, *count) = (height, seen);
+    /// Equation (9) for one cell, where points did not apply it themselves, and what comes of it for who saw the surface.
+    fn merge(&mut self, cell: Cell, measured: f32, distance_m: f32, update: Update) {
+        let (Some(&stored), Some(&stored_from_m)) =
+            (self.heights.get(cell), self.distances_m.get(cell))
+        else {
+            return;
+        };
+        let seen = self.sightings(cell);
+        let below = measured < stored - self.epsilon;
+        let height = match update {
+            Update::PerFrame
+                if below && self.sees_better(stored - measured, distance_m, stored_from_m) =>
+            {
+                measured
+            }
+            _ if below => return,
+            Update::PerFrame => merge_height(stored, measured, self.epsilon, self.nu),
+            Update::PerPoint => stored,
+        };
+        if below || measured > stored + self.epsilon {
+            self.set(cell, height, 1, distance_m);
+        } else {
+            self.set(
+                cell,
+                height,
+                seen.saturating_add(1),
+                distance_m.min(stored_from_m),
+            );
+        }
+    }
+
+    /// Whether a height so far below the stored one is that of the same surface, seen better, and not of one below it: from
+    /// afar treads run into each other, and the occupancy grid, which puts other wrong heights right, tells no heights apart
+    /// that are less than a layer from each other.
+    fn sees_better(&self, below_m: f32, distance_m: f32, stored_from_m: f32) -> bool {
+        below_m <= self.layer_m && distance_m < NEARER * stored_from_m
+    }
+
+    fn set(&mut self, cell: Cell, height: f32, seen: u16, distance_m: f32) {
+        if let (Some(slot), Some(count), Some(from_m)) = (
+            self.heights.get_mut(cell),
+            self.sightings.get_mut(cell),
+            self.distances_m.get_mut(cell),
+        ) {
+            (*slot, *count, *from_m) = (height, seen, distance_m);
         }
     }
 }
