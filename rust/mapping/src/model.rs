@@ -33,7 +33,7 @@ pub struct FloorView {
     pub lattice: Lattice,
     /// What is in each cell.
     pub cells: Grid<Surface>,
-    /// How often each cell was seen as floor by a frame (saturating); judged by the score, of use to planners.
+    /// How often each cell was seen as floor by a frame, from where the model is sure of it (saturating); judged by the score, of use to planners.
     pub sightings: Grid<u16>,
 }
 

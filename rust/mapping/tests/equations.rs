@@ -207,6 +207,25 @@ fn equation_9_a_lower_height_seen_from_nearer_puts_right_what_the_occupancy_grid
 }
 
 #[test]
+fn floor_seen_from_beyond_the_sure_range_is_kept_but_counts_as_no_sighting() {
+    let mut occupancy = grid();
+    let cell = Cell::new(12, 10);
+    let [x, y] = lattice().center_of(cell);
+    for _ in 0..5 {
+        let _ = insert(&mut occupancy, &[[x, y, 0.0]], Update::PerPoint);
+    }
+    let mut floor = FloorGrid::new(lattice(), &small());
+    let mut sightings_from = |distance: f64| {
+        let mut frame = frame_of([x, y, 0.0], 0.0);
+        frame.eye_m = [x - distance, y, 0.5];
+        floor.update(&frame, &occupancy, Update::PerFrame);
+        assert_eq!(floor.height(cell), Some(0.0));
+        floor.sightings(cell)
+    };
+    assert_eq!([1.3, 1.1, 1.3, 1.1].map(&mut sightings_from), [0, 1, 1, 2]);
+}
+
+#[test]
 fn equation_9_is_applied_once_a_cell_and_frame() {
     let (mut grid, mut floor) = (grid(), FloorGrid::new(lattice(), &small()));
     let at = center(12, 9, 1);

@@ -69,6 +69,9 @@ pub struct FogConfig {
     pub snap: bool,
     /// Points further away than this are only used to clear the way up to it, m.
     pub max_range: f64,
+    /// Floor that is seen from further away than this counts as no sighting, m: at 1.2 m and beyond, a step of 30 mm is so little
+    /// of a pixel that the treads of stairs run into each other and into the ground.
+    pub sure_range: f64,
     /// Frames are shifted in height to fit the known floor by at most this, m.
     pub match_gate: f64,
     /// Points that must fit the known floor before a frame is shifted, or used without a ground plane.
@@ -99,6 +102,7 @@ impl Default for FogConfig {
             clearing: Clearing::Shared,
             snap: true,
             max_range: 4.0,
+            sure_range: 1.2,
             match_gate: 0.02,
             min_pairs: 150,
             footprint: 0.12,
@@ -164,6 +168,7 @@ impl FogConfig {
             positive("headroom", headroom)?;
         }
         positive("max_range", self.max_range)?;
+        not_negative("sure_range", self.sure_range)?;
         not_negative("match_gate", self.match_gate)?;
         require(
             self.min_pairs > 0,

@@ -27,13 +27,14 @@ pub fn merge_height(stored: f32, measured: f32, epsilon: f32, nu: f32) -> f32 {
 pub struct FloorGrid {
     lattice: Lattice,
     heights: Grid<f32>,
-    /// Frames that saw the surface which the cell holds.
+    /// Frames that saw the surface which the cell holds, from within the sure range.
     sightings: Grid<u16>,
     /// From how near that was, m over the ground.
     distances_m: Grid<f32>,
     epsilon: f32,
     nu: f32,
     layer_m: f32,
+    sure_range_m: f32,
     /// Of the frame that is being inserted, per cell: highest supported height, sum and number of those within epsilon.
     frame_top: Grid<f32>,
     frame_sum: Grid<(f64, u32)>,
@@ -54,6 +55,7 @@ impl FloorGrid {
             epsilon: config.epsilon as f32,
             nu: config.nu as f32,
             layer_m: config.layer as f32,
+            sure_range_m: config.sure_range as f32,
             frame_top: Grid::filled(n, n, INVALID),
             frame_sum: Grid::filled(n, n, (0.0, 0)),
             frame_cells: Vec::with_capacity(n * n),
@@ -69,7 +71,7 @@ impl FloorGrid {
             .filter(|&height| height != INVALID)
     }
 
-    /// Height of the floor at a place of the map frame, m, and how many frames saw it.
+    /// Height of the floor at a place of the map frame, m, and how many frames saw it from near enough to be sure.
     pub fn known_at(&self, x_m: f64, y_m: f64) -> Option<(f64, u16)> {
         let cell = self.lattice.cell_at(x_m, y_m);
         let height = self.height(cell)?;
@@ -81,7 +83,7 @@ impl FloorGrid {
         &self.heights
     }
 
-    /// How many frames saw the surface that a cell holds.
+    /// How many frames saw the surface that a cell holds from near enough to be sure.
     pub fn sightings(&self, cell: Cell) -> u16 {
         self.sightings.get(cell).copied().unwrap_or(0)
     }
@@ -181,13 +183,14 @@ impl FloorGrid {
             Update::PerFrame => merge_height(stored, measured, self.epsilon, self.nu),
             Update::PerPoint => stored,
         };
+        let count = u16::from(distance_m <= self.sure_range_m);
         if below || measured > stored + self.epsilon {
-            self.set(cell, height, 1, distance_m);
+            self.set(cell, height, count, distance_m);
         } else {
             self.set(
                 cell,
                 height,
-                seen.saturating_add(1),
+                seen.saturating_add(count),
                 distance_m.min(stored_from_m),
             );
         }

@@ -155,7 +155,7 @@ impl WorldModel for Fog {
             let (height_m, sightings) = self.floor.known_at(x, y)?;
             Some(Pair {
                 residual_m: height_m - point.floor_height_m,
-                weight: u64::from(sightings),
+                weight: u64::from(sightings.max(1)),
             })
         };
         // The ground that the robot stands on tells a frame's height best. To fit that frame to floor that was seen from far before
