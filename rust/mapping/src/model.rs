@@ -33,7 +33,8 @@ pub struct FloorView {
     pub lattice: Lattice,
     /// What is in each cell.
     pub cells: Grid<Surface>,
-    /// How often each cell was seen as floor by a frame, from where the model is sure of it (saturating); judged by the score, of use to planners.
+    /// How many frames saw each cell as floor, from where the model is sure of it (saturating); judged by the score, of use to
+    /// planners.
     pub sightings: Grid<u16>,
 }
 

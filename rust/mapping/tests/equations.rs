@@ -171,17 +171,21 @@ fn equation_9_an_unsupported_height_is_ignored() {
     assert_eq!(floor.height(Cell::new(12, 9)), None);
 }
 
-#[test]
-fn equation_9_a_lower_height_seen_from_nearer_puts_right_what_the_occupancy_grid_cannot() {
+/// A grid that is occupied at these layers of the cell in column 12 and row 10.
+fn supporting(layers: &[i32]) -> OccupancyGrid {
     let mut occupancy = grid();
-    let cell = Cell::new(12, 10);
-    let [x, y] = lattice().center_of(cell);
-    for layer in 0..3 {
-        let voxel = [center(12, 10, layer)];
+    for &layer in layers {
         for _ in 0..5 {
-            let _ = insert(&mut occupancy, &voxel, Update::PerPoint);
+            let _ = insert(&mut occupancy, &[center(12, 10, layer)], Update::PerPoint);
         }
     }
+    occupancy
+}
+
+#[test]
+fn equation_9_a_lower_height_seen_from_nearer_puts_right_what_the_occupancy_grid_cannot() {
+    let (cell, occupancy) = (Cell::new(12, 10), supporting(&[0, 1, 2]));
+    let [x, y] = lattice().center_of(cell);
     let seen = |heights_and_distances: &[(f64, f64)], update: Update| {
         let mut floor = FloorGrid::new(lattice(), &small());
         for &(height, distance) in heights_and_distances {
@@ -208,12 +212,8 @@ fn equation_9_a_lower_height_seen_from_nearer_puts_right_what_the_occupancy_grid
 
 #[test]
 fn floor_seen_from_beyond_the_sure_range_is_kept_but_counts_as_no_sighting() {
-    let mut occupancy = grid();
-    let cell = Cell::new(12, 10);
+    let (cell, occupancy) = (Cell::new(12, 10), supporting(&[0]));
     let [x, y] = lattice().center_of(cell);
-    for _ in 0..5 {
-        let _ = insert(&mut occupancy, &[[x, y, 0.0]], Update::PerPoint);
-    }
     let mut floor = FloorGrid::new(lattice(), &small());
     let mut sightings_from = |distance: f64| {
         let mut frame = frame_of([x, y, 0.0], 0.0);

@@ -27,9 +27,9 @@ pub fn merge_height(stored: f32, measured: f32, epsilon: f32, nu: f32) -> f32 {
 pub struct FloorGrid {
     lattice: Lattice,
     heights: Grid<f32>,
-    /// Frames that saw the surface which the cell holds, from within the sure range.
+    /// Frames that saw the surface which the cell holds from within the sure range.
     sightings: Grid<u16>,
-    /// From how near that was, m over the ground.
+    /// From how near any frame saw it, m over the ground.
     distances_m: Grid<f32>,
     epsilon: f32,
     nu: f32,
@@ -173,26 +173,22 @@ impl FloorGrid {
         };
         let seen = self.sightings(cell);
         let below = measured < stored - self.epsilon;
+        let better = update == Update::PerFrame
+            && self.sees_better(stored - measured, distance_m, stored_from_m);
+        if below && !better {
+            return;
+        }
         let height = match update {
-            Update::PerFrame
-                if below && self.sees_better(stored - measured, distance_m, stored_from_m) =>
-            {
-                measured
-            }
-            _ if below => return,
-            Update::PerFrame => merge_height(stored, measured, self.epsilon, self.nu),
             Update::PerPoint => stored,
+            Update::PerFrame if below => measured,
+            Update::PerFrame => merge_height(stored, measured, self.epsilon, self.nu),
         };
         let count = u16::from(distance_m <= self.sure_range_m);
         if below || measured > stored + self.epsilon {
             self.set(cell, height, count, distance_m);
         } else {
-            self.set(
-                cell,
-                height,
-                seen.saturating_add(count),
-                distance_m.min(stored_from_m),
-            );
+            let nearest_m = distance_m.min(stored_from_m);
+            self.set(cell, height, seen.saturating_add(count), nearest_m);
         }
     }
 

@@ -155,6 +155,7 @@ impl WorldModel for Fog {
             let (height_m, sightings) = self.floor.known_at(x, y)?;
             Some(Pair {
                 residual_m: height_m - point.floor_height_m,
+                // What was only seen from afar has no sighting, but is better than nothing.
                 weight: u64::from(sightings.max(1)),
             })
         };

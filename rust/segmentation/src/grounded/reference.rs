@@ -31,8 +31,8 @@ pub(super) enum Reference {
 }
 
 impl<F: Finder> Grounded<F> {
-    /// The camera's pose, and what it is told by. A ground that is searched must not slope near the feet: the robot stands on it,
-    /// and what is further away may be stairs. So what is near is looked at first; where that is too little or cluttered, all.
+    /// The camera's pose, and what it is told by. A ground that is searched, or that a young track follows, must not slope near the
+    /// feet: the robot stands on it, and what is further away may be stairs. So what is near is looked at first; where that is too little or cluttered, all.
     pub(super) fn level_and_refer(
         &mut self,
         by_joints: &Pose<Robot, Camera>,
