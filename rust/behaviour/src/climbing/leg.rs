@@ -54,7 +54,10 @@ impl<'a> Leg<'a> {
         } else {
             ASIDE_M
         };
-        self.align.distance_m(pose) < NEAR_M || (way.x_m > -NEAR_M && way.y_m.abs() < aside_m)
+        // Whoever is beyond the edge has it behind, not ahead: a plan may lead round the stairs to their far side.
+        let before = self.first.stair.front.beyond_m([pose.x_m, pose.y_m]) < 0.0;
+        let on_the_way = before && way.x_m > -NEAR_M && way.y_m.abs() < aside_m;
+        self.align.distance_m(pose) < NEAR_M || on_the_way
     }
 
     /// The same plan for one who walks: its path ends where the robot aligns.
@@ -113,10 +116,35 @@ pub(crate) fn align_pose(
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use proptest::prelude::*;
 
     use super::*;
     use crate::climbing::simulation::{FEET, stair};
+
+    fn leg(first: &Step) -> Leg<'_> {
+        let (config, climbing) = (StairClimbingConfig::default(), ClimbingConfig::default());
+        let align = align_pose(first, &config, &climbing, &FEET);
+        Leg {
+            steps: &[],
+            first,
+            align,
+            from_point: 0,
+        }
+    }
+
+    #[test]
+    fn an_edge_on_the_far_side_of_the_stairs_is_not_reached_from_before_them() {
+        let first = Step {
+            stair: stair([1.4, 0.0, PI], [0.9, 0.0, PI], 0.033, 0.5),
+            rise_m: 0.033,
+            crossing_m: [1.4, 0.0],
+        };
+        let leg = leg(&first);
+        assert!(!leg.is_reached(&PlanarPose::new(0.5, 0.05, 0.0)));
+        assert!(leg.is_reached(&PlanarPose::new(1.6, 0.05, PI)));
+    }
 
     proptest! {
         /// A robot that walks at 10 cm/s comes to stand within 14 cm.
@@ -129,9 +157,7 @@ mod tests {
                 rise_m,
                 crossing_m: [0.6, 0.0],
             };
-            let (config, climbing) = (StairClimbingConfig::default(), ClimbingConfig::default());
-            let align = align_pose(&first, &config, &climbing, &FEET);
-            let leg = Leg { steps: &[], first: &first, align, from_point: 0 };
+            let leg = leg(&first);
             let toes_m = 0.5 * FEET.length_m + 0.14 + 0.01;
             prop_assert!(leg.is_reached(&PlanarPose::new(x_m, aside_m, yaw_rad)) || x_m + toes_m < 0.6);
         }
