@@ -13,6 +13,7 @@ mod here;
 mod inspection;
 mod leg;
 mod placement;
+mod room;
 mod run;
 mod setback;
 mod state;

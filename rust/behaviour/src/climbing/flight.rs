@@ -1,22 +1,21 @@
 //! The steps ahead that the robot knows: the memorised one and those behind it (003, section V.C).
 
-use geometry::{Map, PlanarPose, angle_between};
-use planning::{Plan, Step};
-use stairs::{ClimbingConfig, Edge, Stair, Staircase};
+mod lookup;
 
-/// Two sights of one stair differ by less than this in height, m,
-pub(crate) const SAME_HEIGHT_M: f64 = 0.012;
-/// in the place of the front edge, m,
-const SAME_PLACE_M: f64 = 0.05;
-/// where it was measured before; else than this, m,
-const VAGUE_PLACE_M: f64 = 0.09;
-/// and in its heading, rad.
-const SAME_HEADING_RAD: f64 = 0.4;
+use geometry::{Map, PlanarPose};
+use planning::{Plan, Step};
+use stairs::{ClimbingConfig, Edge, Staircase};
+
+use crate::climbing::placement::depth_m;
+pub(crate) use lookup::{SAME_HEIGHT_M, covers, crosses_another, is_step, nearest};
+use lookup::{following, is_same};
+
 /// An edge nearer than this to the robot's middle is out of view: what was measured before is better than what is thought
 /// of it now, m.
 const OUT_OF_VIEW_M: f64 = 0.17;
-/// A step follows another when its front edge is no further than this behind the other's back edge, m.
-const JOINT_M: f64 = 0.06;
+
+/// A robot on a tread deeper than this has room to turn and to walk, m.
+pub(crate) const ROOMY_M: f64 = 0.22;
 
 /// A robot whose middle is further than this before an edge has no foot over it yet, m.
 const NOT_YET_THERE_M: f64 = 0.06;
@@ -119,7 +118,7 @@ impl Flight {
             return;
         };
         if let Some(steps) = plan.and_then(|plan| steps_from(plan, &first, pose)) {
-            self.renew(steps, stairs, pose);
+            self.renew(&steps, stairs, pose);
             return;
         }
         if stairs.stairs.iter().any(|stair| covers(stair, &first)) {
@@ -185,118 +184,25 @@ fn keep_better_edge(step: &mut Step, old: &Step, pose: &PlanarPose) {
         step.stair.left_margin_m = old.stair.left_margin_m;
         step.stair.right_margin_m = old.stair.right_margin_m;
         step.crossing_m = old.crossing_m;
-        step.rise_m = old.rise_m;
+        if (step.rise_m - old.rise_m).abs() < SAME_HEIGHT_M {
+            step.rise_m = old.rise_m;
+        }
     }
 }
 
-/// Whether a stair is where the feet would come to stand on a step.
-pub(crate) fn covers(stair: &Stair<Map>, step: &Step) -> bool {
-    const ON_IT_M: f64 = 0.05;
-    const MARGIN_M: f64 = 0.02;
-    let (sin, cos) = step.stair.front.heading_rad().sin_cos();
-    let [x_m, y_m] = step.crossing_m;
-    let place_m = [x_m + cos * ON_IT_M, y_m + sin * ON_IT_M];
-    (step.stair.height_m() - stair.height_m()).abs() < SAME_HEIGHT_M
-        && stair.front.beyond_m(place_m) > -MARGIN_M
-        && stair.back.beyond_m(place_m) < MARGIN_M
-}
-
-/// The plan's steps from this one on, and those before it that came to be seen while the robot was not yet at their edges: from
-/// far away two low steps are one.
-fn steps_from<'a>(plan: &'a Plan, first: &Step, pose: &PlanarPose) -> Option<&'a [Step]> {
+/// The plan's steps from this one on, as far as no tread between them is roomy, and those before it that came to be seen while
+/// the robot was not yet at their edges: from far away two low steps are one. The plan may walk on a tread between two of them.
+fn steps_from(plan: &Plan, first: &Step, pose: &PlanarPose) -> Option<Vec<Step>> {
     let is_to_come =
         |step: &&Step| step.stair.front.beyond_m([pose.x_m, pose.y_m]) < -NOT_YET_THERE_M;
-    let path = plan.way.as_ref().ok()?;
-    path.climbs.iter().find_map(|climb| {
-        let at = climb
-            .steps
-            .iter()
-            .position(|step| is_same(first, &step.stair))?;
-        let to_come = climb.steps[..at].iter().rev().take_while(is_to_come);
-        Some(&climb.steps[at - to_come.count()..])
-    })
-}
-
-/// Whether a stair is the one of a step.
-pub(crate) fn is_same(step: &Step, stair: &Stair<Map>) -> bool {
-    let turned_rad = angle_between(step.stair.front.heading_rad(), stair.front.heading_rad());
-    let same_place_m = if step.stair.front_fit.is_some() {
-        SAME_PLACE_M
-    } else {
-        VAGUE_PLACE_M
-    };
-    (step.stair.height_m() - stair.height_m()).abs() < SAME_HEIGHT_M
-        && stair.front.beyond_m(step.crossing_m).abs() < same_place_m
-        && turned_rad.abs() < SAME_HEADING_RAD
-}
-
-/// The step behind another by the stairs alone: the nearest whose change of height a parameter set takes.
-fn following(last: &Step, stairs: &Staircase, config: &ClimbingConfig) -> Option<Step> {
-    let heading_rad = last.stair.front.heading_rad();
-    let middle = last.stair.back.middle().inner;
-    let end_m = last.stair.front.beyond_m([middle.x, middle.y]) + JOINT_M;
-    stairs
-        .stairs
-        .iter()
-        .filter_map(|stair| {
-            let rise_m = stair.height_m() - last.stair.height_m();
-            let (depth_m, crossing_m) = ahead(stair, last.crossing_m, heading_rad)?;
-            let near = depth_m > JOINT_M && depth_m < end_m;
-            (near && is_step(rise_m, config)).then_some((depth_m, *stair, rise_m, crossing_m))
-        })
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, stair, rise_m, crossing_m)| Step {
-            stair,
-            rise_m,
-            crossing_m,
-        })
-}
-
-/// The nearest stair ahead of a robot that a parameter set takes (003, section V), no further than `reach_m`.
-pub(crate) fn nearest(
-    stairs: &Staircase,
-    pose: &PlanarPose,
-    ground_m: f64,
-    reach_m: f64,
-    config: &ClimbingConfig,
-) -> Option<Step> {
-    stairs
-        .stairs
-        .iter()
-        .filter_map(|stair| {
-            let rise_m = stair.height_m() - ground_m;
-            let (away_m, crossing_m) = ahead(stair, [pose.x_m, pose.y_m], pose.yaw_rad)?;
-            let near = away_m > 0.0 && away_m < reach_m;
-            (near && is_step(rise_m, config)).then_some((away_m, *stair, rise_m, crossing_m))
-        })
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, stair, rise_m, crossing_m)| Step {
-            stair,
-            rise_m,
-            crossing_m,
-        })
-}
-
-/// Whether a change of height falls between the thresholds of a parameter set.
-pub(crate) fn is_step(rise_m: f64, config: &ClimbingConfig) -> bool {
-    let set = config.set_for(rise_m);
-    let tolerance_m = config.tolerance;
-    rise_m > set.step_min_z - tolerance_m && rise_m < set.step_max_z + tolerance_m
-}
-
-/// How far ahead of a place in this direction the stair's front edge is crossed, and where; `None` where it is not.
-fn ahead(stair: &Stair<Map>, [x_m, y_m]: [f64; 2], heading_rad: f64) -> Option<(f64, [f64; 2])> {
-    let edge = &stair.front;
-    let towards = angle_between(heading_rad, edge.heading_rad()).cos();
-    if towards < 0.5 {
-        return None;
-    }
-    let away_m = -edge.beyond_m([x_m, y_m]) / towards;
-    let (sin, cos) = heading_rad.sin_cos();
-    let crossing_m = [x_m + cos * away_m, y_m + sin * away_m];
-    let middle = edge.middle().inner;
-    let aside_m = (crossing_m[0] - middle.x).hypot(crossing_m[1] - middle.y);
-    (aside_m < 0.5 * edge.length_m()).then_some((away_m, crossing_m))
+    let climbs = &plan.way.as_ref().ok()?.climbs;
+    let steps: Vec<_> = climbs.iter().flat_map(|climb| &climb.steps).collect();
+    let at = steps.iter().position(|step| is_same(first, &step.stair))?;
+    let to_come = steps[..at].iter().rev().copied().take_while(is_to_come);
+    let follows = |pair: &&[&Step]| depth_m(pair[0], pair[1]) < ROOMY_M;
+    let following = steps[at..].windows(2).take_while(follows);
+    let range = at - to_come.count()..=at + following.count();
+    Some(steps[range].iter().copied().copied().collect())
 }
 
 #[cfg(test)]

@@ -122,3 +122,29 @@ fn a_step_that_comes_to_be_seen_before_the_first_one_is_not_stepped_over() {
         assert_eq!(flight.steps(), &steps[2 - ahead..], "{x_m}");
     }
 }
+
+#[test]
+fn two_low_steps_that_were_one_from_far_away_are_two_once_the_plan_has_both_whatever_it_walks_between()
+ {
+    let config = ClimbingConfig::default();
+    let mut plan = plan(0.0);
+    let path = plan.way.as_mut().unwrap();
+    let steps = path.climbs[0].steps.clone();
+    path.climbs = steps
+        .iter()
+        .map(|step| Climb {
+            from_point: 0,
+            to_point: 1,
+            steps: vec![*step],
+        })
+        .collect();
+    let both_in_one = Step {
+        rise_m: 0.06,
+        ..steps[1]
+    };
+    let mut flight = Flight::default();
+    flight.adopt(&[both_in_one]);
+    let pose = PlanarPose::new(0.4, 0.0, 0.0);
+    flight.refresh(Some(&plan), &Staircase::default(), &pose, &config);
+    assert_eq!(flight.steps(), steps);
+}

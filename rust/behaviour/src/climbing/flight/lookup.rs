@@ -1,0 +1,152 @@
+//! Finds steps among the stairs that are known.
+
+use geometry::{Map, PlanarPose, angle_between};
+use planning::Step;
+use stairs::{ClimbingConfig, Stair, Staircase};
+
+/// Two sights of one stair differ by less than this in height, m,
+pub(crate) const SAME_HEIGHT_M: f64 = 0.012;
+/// in the place of the front edge, m,
+const SAME_PLACE_M: f64 = 0.05;
+/// where it was measured before; else than this, m,
+const VAGUE_PLACE_M: f64 = 0.09;
+/// and in its heading, rad.
+const SAME_HEADING_RAD: f64 = 0.4;
+/// A step follows another when its front edge is no further than this behind the other's back edge, m.
+const JOINT_M: f64 = 0.06;
+
+/// Whether a stair is where the feet would come to stand on a step.
+pub(crate) fn covers(stair: &Stair<Map>, step: &Step) -> bool {
+    const ON_IT_M: f64 = 0.05;
+    const MARGIN_M: f64 = 0.02;
+    let (sin, cos) = step.stair.front.heading_rad().sin_cos();
+    let [x_m, y_m] = step.crossing_m;
+    let place_m = [x_m + cos * ON_IT_M, y_m + sin * ON_IT_M];
+    (step.stair.height_m() - stair.height_m()).abs() < SAME_HEIGHT_M
+        && stair.front.beyond_m(place_m) > -MARGIN_M
+        && stair.back.beyond_m(place_m) < MARGIN_M
+}
+
+/// Whether a stair is the one of a step.
+pub(crate) fn is_same(step: &Step, stair: &Stair<Map>) -> bool {
+    let turned_rad = angle_between(step.stair.front.heading_rad(), stair.front.heading_rad());
+    let same_place_m = if step.stair.front_fit.is_some() {
+        SAME_PLACE_M
+    } else {
+        VAGUE_PLACE_M
+    };
+    (step.stair.height_m() - stair.height_m()).abs() < SAME_HEIGHT_M
+        && stair.front.beyond_m(step.crossing_m).abs() < same_place_m
+        && turned_rad.abs() < SAME_HEADING_RAD
+}
+
+/// The step behind another by the stairs alone: the nearest whose change of height a parameter set takes.
+pub(crate) fn following(last: &Step, stairs: &Staircase, config: &ClimbingConfig) -> Option<Step> {
+    let heading_rad = last.stair.front.heading_rad();
+    let middle = last.stair.back.middle().inner;
+    let end_m = last.stair.front.beyond_m([middle.x, middle.y]) + JOINT_M;
+    stairs
+        .stairs
+        .iter()
+        .filter_map(|stair| {
+            let rise_m = stair.height_m() - last.stair.height_m();
+            let (depth_m, crossing_m) = ahead(stair, last.crossing_m, heading_rad)?;
+            let near = depth_m > JOINT_M && depth_m < end_m;
+            (near && is_step(rise_m, config)).then_some((depth_m, *stair, rise_m, crossing_m))
+        })
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, stair, rise_m, crossing_m)| Step {
+            stair,
+            rise_m,
+            crossing_m,
+        })
+}
+
+/// The nearest stair ahead of a robot that a parameter set takes (003, section V), no further than `reach_m`.
+pub(crate) fn nearest(
+    stairs: &Staircase,
+    pose: &PlanarPose,
+    ground_m: f64,
+    reach_m: f64,
+    config: &ClimbingConfig,
+) -> Option<Step> {
+    stairs
+        .stairs
+        .iter()
+        .filter_map(|stair| {
+            let rise_m = stair.height_m() - ground_m;
+            let (away_m, crossing_m) = ahead(stair, [pose.x_m, pose.y_m], pose.yaw_rad)?;
+            let near = away_m > 0.0 && away_m < reach_m;
+            (near && is_step(rise_m, config)).then_some((away_m, *stair, rise_m, crossing_m))
+        })
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, stair, rise_m, crossing_m)| Step {
+            stair,
+            rise_m,
+            crossing_m,
+        })
+}
+
+/// Whether a change of height falls between the thresholds of a parameter set.
+pub(crate) fn is_step(rise_m: f64, config: &ClimbingConfig) -> bool {
+    let set = config.set_for(rise_m);
+    let tolerance_m = config.tolerance;
+    rise_m > set.step_min_z - tolerance_m && rise_m < set.step_max_z + tolerance_m
+}
+
+/// How far ahead of a place in this direction the stair's front edge is crossed, and where; `None` where it is not.
+fn ahead(stair: &Stair<Map>, [x_m, y_m]: [f64; 2], heading_rad: f64) -> Option<(f64, [f64; 2])> {
+    let edge = &stair.front;
+    let towards = angle_between(heading_rad, edge.heading_rad()).cos();
+    if towards < 0.5 {
+        return None;
+    }
+    let away_m = -edge.beyond_m([x_m, y_m]) / towards;
+    let (sin, cos) = heading_rad.sin_cos();
+    let crossing_m = [x_m + cos * away_m, y_m + sin * away_m];
+    let middle = edge.middle().inner;
+    let aside_m = (crossing_m[0] - middle.x).hypot(crossing_m[1] - middle.y);
+    (aside_m < 0.5 * edge.length_m()).then_some((away_m, crossing_m))
+}
+
+/// Whether a robot on the way to where a step is taken from would cross the edge of another one.
+pub(crate) fn crosses_another(
+    stairs: &Staircase,
+    pose: &PlanarPose,
+    ground_m: f64,
+    to: &PlanarPose,
+    step: &Step,
+    config: &ClimbingConfig,
+) -> bool {
+    nearest(stairs, pose, ground_m, pose.distance_m(to), config)
+        .is_some_and(|other| !is_same(step, &other.stair))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::climbing::simulation::stair;
+
+    #[test]
+    fn the_way_to_a_step_may_cross_its_own_edge_but_no_other_one() {
+        let config = ClimbingConfig::default();
+        let low = stair([0.07, 0.0, 0.0], [0.25, 0.0, 0.0], 0.018, 0.6);
+        let high = stair([0.25, 0.0, 0.0], [0.43, 0.0, 0.0], 0.036, 0.6);
+        let stairs = Staircase {
+            stairs: vec![low, high],
+            ..Staircase::default()
+        };
+        let step = |stair: Stair<Map>| Step {
+            stair,
+            rise_m: 0.018,
+            crossing_m: [stair.front.middle().inner.x, 0.0],
+        };
+        let crosses = |to_m: f64, step: &Step| {
+            let to = PlanarPose::new(to_m, 0.0, 0.0);
+            crosses_another(&stairs, &PlanarPose::default(), 0.0, &to, step, &config)
+        };
+        assert!(crosses(0.21, &step(high)));
+        assert!(!crosses(0.03, &step(high)));
+        assert!(!crosses(0.08, &step(low)));
+    }
+}
