@@ -333,9 +333,10 @@ proptest! {
         for _ in 0..30_000 {
             simulation.blind = simulation.now_s() > blind_at_s && simulation.now_s() < blind_at_s + 5.0;
             for (at, sunk) in sunk.iter().take(rises.len()).enumerate() {
-                // What carries the robot does not sink: it would fall with it.
+                // What carries the robot does not sink: it would fall with it. The last step goes on for ever.
                 let begins_m = 0.5 + treads[..at].iter().sum::<f64>();
-                let away_m = (begins_m - simulation.pose().x_m).max(simulation.pose().x_m - begins_m - treads[at]);
+                let ends_m = if at + 1 < rises.len() { begins_m + treads[at] } else { f64::INFINITY };
+                let away_m = (begins_m - simulation.pose().x_m).max(simulation.pose().x_m - ends_m);
                 if *sunk && simulation.now_s() > 25.0 && away_m > 0.1 {
                     simulation.sunk_m[at] = 0.05;
                 }
