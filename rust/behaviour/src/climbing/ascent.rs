@@ -123,28 +123,37 @@ impl StairClimbing {
             self.flight.clear();
             return None;
         }
-        if self.flight.first().is_none() {
-            let reach_m = 0.5 * self.feet.length_m + 0.06;
-            let stairs = here.situation.stairs;
-            let (pose, ground_m) = (&here.pose, here.ground_m);
-            let beyond_m = |step: &Step| step.stair.front.beyond_m([pose.x_m, pose.y_m]);
-            if here.no_way().is_none()
-                && let Some(path) = here.situation.plan.and_then(|plan| plan.way.as_ref().ok())
-                && let Some(steps) = path.climbs.iter().find_map(|climb| {
-                    // The plan may not have noticed yet that a step was taken.
-                    let ahead = climb.steps.iter().position(|step| beyond_m(step) <= 0.0)?;
-                    Some(&climb.steps[ahead..])
-                })
-                && beyond_m(&steps[0]) > -2.0 * reach_m
-            {
+        // What was lost before a foot tried it may have been a glance of something beside the way.
+        let in_doubt = self.flight.is_lost() && self.tries.missteps == 0;
+        if in_doubt || self.flight.first().is_none() {
+            if let Some(steps) = self.planned_ahead(here) {
                 self.flight.adopt(steps);
-            } else if here.situation.plan.is_none()
-                && let Some(step) = nearest(stairs, pose, ground_m, reach_m, &self.climbing)
-            {
-                self.flight.adopt(&[step]);
+            } else if here.situation.plan.is_none() && self.flight.first().is_none() {
+                let reach_m = self.reach_m();
+                let (stairs, ground_m) = (here.situation.stairs, here.ground_m);
+                let step = nearest(stairs, &here.pose, ground_m, reach_m, &self.climbing);
+                self.flight.adopt(step.as_slice());
             }
         }
         self.flight.first().copied()
+    }
+
+    /// The steps within reach that the plan leads over.
+    fn planned_ahead<'a>(&self, here: &Here<'a>) -> Option<&'a [Step]> {
+        let at = [here.pose.x_m, here.pose.y_m];
+        let beyond_m = |step: &Step| step.stair.front.beyond_m(at);
+        let path = here.situation.plan?.way.as_ref().ok()?;
+        let steps = path.climbs.iter().find_map(|climb| {
+            // The plan may not have noticed yet that a step was taken.
+            let ahead = climb.steps.iter().position(|step| beyond_m(step) <= 0.0)?;
+            Some(&climb.steps[ahead..])
+        })?;
+        (beyond_m(&steps[0]) > -2.0 * self.reach_m()).then_some(steps)
+    }
+
+    /// How far ahead of the robot's middle the edge of a step may be that is taken next, m.
+    fn reach_m(&self) -> f64 {
+        0.5 * self.feet.length_m + 0.06
     }
 
     /// What is behind the next step, as far as it was measured.

@@ -16,6 +16,8 @@ const OUT_OF_VIEW_M: f64 = 0.17;
 
 /// A robot on a tread deeper than this has room to turn and to walk, m.
 pub(crate) const ROOMY_M: f64 = 0.22;
+/// Steps whose edges are nearer than this do not follow each other: a way turns back, or they are one, m.
+const LEAST_TREAD_M: f64 = 0.06;
 
 /// A robot whose middle is further than this before an edge has no foot over it yet, m.
 const NOT_YET_THERE_M: f64 = 0.06;
@@ -68,9 +70,14 @@ impl Flight {
         }
         if let Some(last) = last {
             let planned = self.steps.len();
-            let there = |old: &&Step| stairs.stairs.iter().any(|stair| covers(stair, old));
-            self.steps
-                .extend(before[last + 1..].iter().take_while(there).copied());
+            let there = |old: &Step| stairs.stairs.iter().any(|stair| covers(stair, old));
+            for old in &before[last + 1..] {
+                let behind = |last: &Step| depth_m(last, old) > LEAST_TREAD_M;
+                if !(there(old) && self.steps.last().is_some_and(behind)) {
+                    break;
+                }
+                self.steps.push(*old);
+            }
             look_up(&mut self.steps[planned..], stairs, pose);
         }
     }
@@ -199,7 +206,10 @@ fn steps_from(plan: &Plan, first: &Step, pose: &PlanarPose) -> Option<Vec<Step>>
     let steps: Vec<_> = climbs.iter().flat_map(|climb| &climb.steps).collect();
     let at = steps.iter().position(|step| is_same(first, &step.stair))?;
     let to_come = steps[..at].iter().rev().copied().take_while(is_to_come);
-    let follows = |pair: &&[&Step]| depth_m(pair[0], pair[1]) < ROOMY_M;
+    let follows = |pair: &&[&Step]| {
+        let depth_m = depth_m(pair[0], pair[1]);
+        depth_m > LEAST_TREAD_M && depth_m < ROOMY_M
+    };
     let following = steps[at..].windows(2).take_while(follows);
     let range = at - to_come.count()..=at + following.count();
     Some(steps[range].iter().copied().copied().collect())

@@ -1,9 +1,10 @@
-//! What a walk promises that comes upon a step which nobody saw.
+//! What a walk promises that comes upon a step which nobody saw, and a climb whose next step was a glance of something else.
 
 use geometry::PlanarPose;
+use planning::Step;
 
 use crate::Outcome;
-use crate::climbing::simulation::Simulation;
+use crate::climbing::simulation::{Simulation, stair};
 use crate::climbing::tests::up;
 
 fn before_an_unseen_edge() -> Simulation {
@@ -32,4 +33,41 @@ fn a_walk_that_comes_upon_it_again_and_again_is_given_up_where_it_is() {
         simulation.states
     );
     assert!(simulation.pose().x_m <= 0.2);
+}
+
+fn on_stairs(simulation: &Simulation) -> usize {
+    simulation
+        .feet
+        .iter()
+        .filter(|foot| foot.height_m > 0.01)
+        .count()
+}
+
+/// The robot has taken its first step, or is about to, when it takes a glance of something beside it for the next one.
+#[test]
+fn a_step_that_is_neither_seen_nor_planned_any_more_is_dropped() {
+    for landings in [0, 2] {
+        let mut simulation = up(PlanarPose::default());
+        simulation.run_until(60.0, |simulation| {
+            let climbs = simulation
+                .states
+                .last()
+                .is_some_and(|(name, _)| *name == "climb");
+            climbs && simulation.stands() && on_stairs(simulation) == landings
+        });
+        let here = simulation.pose();
+        let glance = Step {
+            stair: stair([here.x_m, 0.2, 1.57], [here.x_m, 0.5, 1.57], -0.033, 0.3),
+            rise_m: -0.033,
+            crossing_m: [here.x_m, 0.2],
+        };
+        simulation.behaviour.flight.adopt(&[glance]);
+        let (outcome, _) = simulation.run(120.0);
+        assert_eq!(
+            outcome,
+            Some(Outcome::GoalReached),
+            "{landings} {:?}",
+            simulation.states
+        );
+    }
 }

@@ -148,3 +148,23 @@ fn two_low_steps_that_were_one_from_far_away_are_two_once_the_plan_has_both_what
     flight.refresh(Some(&plan), &Staircase::default(), &pose, &config);
     assert_eq!(flight.steps(), steps);
 }
+
+#[test]
+fn a_step_that_a_plan_once_had_further_back_is_not_taken_behind_the_last_one() {
+    let config = ClimbingConfig::default();
+    let plan = plan(0.0);
+    let steps = plan.way.as_ref().unwrap().climbs[0].steps.clone();
+    let further_back = Step {
+        stair: stair([0.58, 0.0, 0.0], [0.9, 0.0, 0.0], 0.075, 1.0),
+        rise_m: 0.015,
+        crossing_m: [0.58, 0.0],
+    };
+    let stairs = Staircase {
+        stairs: vec![further_back.stair],
+        ..Staircase::default()
+    };
+    let mut flight = Flight::default();
+    flight.adopt(&[steps[0], steps[1], further_back]);
+    flight.refresh(Some(&plan), &stairs, &PlanarPose::default(), &config);
+    assert_eq!(flight.steps(), steps);
+}
