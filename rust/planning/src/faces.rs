@@ -75,6 +75,23 @@ impl Faces {
         &self.faces
     }
 
+    /// Whether a stair of another level than this begins between a place and an edge ahead of it.
+    pub(crate) fn begins_between(
+        &self,
+        climbing: &ClimbingConfig,
+        (at_m, level_m): ([f64; 2], f64),
+        edge: &Line,
+    ) -> bool {
+        let ahead_m = -edge.beyond_m(at_m);
+        self.faces.iter().any(|face| {
+            let away_m = -face.front.beyond_m(at_m);
+            (0.0..ahead_m - LEAST_DEPTH_M).contains(&away_m)
+                && face.front.askew_rad(edge) <= ASKEW_RAD
+                && face.front.offset_m(at_m).abs() <= face.front.half_m()
+                && differs(climbing, face.stair.height_m() - level_m)
+        })
+    }
+
     /// What lies behind a stair for one who crosses its front edge at `crossing_m`. `own` is its index; ground has none.
     pub(crate) fn after(
         &self,

@@ -227,7 +227,9 @@ impl Portals {
         let Some(cell) = terrain.index_at(stand.at_m).filter(|_| reached) else {
             return;
         };
-        if !differs(scene.climbing, rise_m) {
+        let here = (stand.at_m, stand.height_m);
+        let follows_another = self.faces.begins_between(scene.climbing, here, &line);
+        if !differs(scene.climbing, rise_m) || follows_another {
             return;
         }
         if let Some(level_m) = level_before(terrain, &line, offset_m.clamp(-range_m, range_m))

@@ -226,6 +226,16 @@ fn on_a_tread_in_the_middle_of_a_flight_the_plan_begins_with_a_step() {
 }
 
 #[test]
+fn from_the_end_of_a_tread_low_steps_are_taken_one_by_one() {
+    let course = Course::staircase(4, 0.018, 0.5);
+    let end = goal_at(1.5, 0.0, 0.072);
+    for beyond_m in [0.05, 0.07, 0.085] {
+        let path = course::way_from(&course, [1.0 + beyond_m, 0.0, 0.018], 0.0, &end);
+        assert_eq!(rises_mm(&path), [18, 18, 18], "{beyond_m}");
+    }
+}
+
+#[test]
 fn a_path_follows_the_stairs_as_they_are_seen_and_is_planned_anew_when_they_move() {
     let mut planner = planner();
     let mut course = Course::staircase(2, 0.03, 0.33);
