@@ -123,9 +123,7 @@ impl StairClimbing {
             self.flight.clear();
             return None;
         }
-        // What was lost before a foot tried it may have been a glance of something beside the way.
-        let in_doubt = self.flight.is_lost() && self.tries.missteps == 0;
-        if in_doubt || self.flight.first().is_none() {
+        if self.is_in_doubt() || self.flight.first().is_none() {
             if let Some(steps) = self.planned_ahead(here) {
                 self.flight.adopt(steps);
             } else if here.situation.plan.is_none() && self.flight.first().is_none() {
@@ -136,6 +134,17 @@ impl StairClimbing {
             }
         }
         self.flight.first().copied()
+    }
+
+    /// Whether the memorised step may have been a glance of something beside the way: no foot has tried it, and by now it is not
+    /// seen, or not planned and its edge never was measured.
+    fn is_in_doubt(&self) -> bool {
+        let unseen = self.flight.is_out_of_sight();
+        let measured = self
+            .flight
+            .first()
+            .is_some_and(|first| self.is_usable(first));
+        self.tries.missteps == 0 && self.flight.is_lost() && (unseen || !measured)
     }
 
     /// The steps within reach that the plan leads over.

@@ -110,7 +110,12 @@ impl Flight {
 
     /// Whether the first step is no longer where the way leads: it is not seen, or the plan has left it for long.
     pub(crate) fn is_lost(&self) -> bool {
-        self.lost_s > LOST_S || self.unplanned_s > UNPLANNED_S
+        self.is_out_of_sight() || self.unplanned_s > UNPLANNED_S
+    }
+
+    /// Whether neither the view nor the plan shows the first step.
+    pub(crate) fn is_out_of_sight(&self) -> bool {
+        self.lost_s > LOST_S
     }
 
     /// Takes in what is known now: the plan's steps where it shows the memorised one, else the stairs themselves.
