@@ -138,7 +138,7 @@ impl StairClimbing {
 
     /// Whether the memorised step may have been a glance of something beside the way: no foot has tried it, and by now it is not
     /// seen, or not planned and its edge never was measured.
-    fn is_in_doubt(&self) -> bool {
+    pub(super) fn is_in_doubt(&self) -> bool {
         let unseen = self.flight.is_out_of_sight();
         let measured = self
             .flight

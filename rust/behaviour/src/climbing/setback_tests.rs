@@ -2,6 +2,7 @@
 
 use geometry::PlanarPose;
 use planning::Step;
+use stairs::EdgeFit;
 
 use crate::Outcome;
 use crate::climbing::simulation::{Simulation, stair};
@@ -41,6 +42,32 @@ fn on_stairs(simulation: &Simulation) -> usize {
         .iter()
         .filter(|foot| foot.height_m > 0.01)
         .count()
+}
+
+#[test]
+fn a_step_in_view_that_was_measured_is_not_in_doubt_however_long_plans_lead_elsewhere() {
+    let fit = EdgeFit {
+        frames: 9,
+        place_sigma_m: 0.002,
+        heading_sigma_rad: 0.01,
+    };
+    for (front_fit, lost_s, in_doubt) in [
+        (Some(fit), 0.0, false),
+        (Some(fit), 2.0, true),
+        (None, 0.0, true),
+    ] {
+        let mut behaviour = up(PlanarPose::default()).behaviour;
+        let mut step = Step {
+            stair: stair([0.1, 0.0, 0.0], [0.22, 0.0, 0.0], 0.018, 0.5),
+            rise_m: 0.018,
+            crossing_m: [0.1, 0.0],
+        };
+        step.stair.front_fit = front_fit;
+        behaviour.flight.adopt(&[step]);
+        behaviour.flight.unplanned_s = 5.0;
+        behaviour.flight.lost_s = lost_s;
+        assert_eq!(behaviour.is_in_doubt(), in_doubt, "{front_fit:?} {lost_s}");
+    }
 }
 
 /// The robot has taken its first step, or is about to, when it takes a glance of something beside it for the next one.
