@@ -1,5 +1,7 @@
 """Tests of the rays: against analytic scenes."""
 
+from unittest.mock import patch
+
 import mujoco
 import numpy as np
 import pytest
@@ -80,6 +82,36 @@ def test_the_rays_that_are_saved_would_have_met_the_same(
     # What is narrower than two pixels, as the tip of a corner is, can be missed.
     assert np.count_nonzero(~same) <= 3
     np.testing.assert_allclose(saving.depth[same], whole.depth[same], rtol=1e-9)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(-0.2, 1.2), st.floats(-0.5, 1.4), st.floats(-0.6, 0.6))
+def test_what_is_hidden_because_it_lies_beside_the_picture_is_met_by_no_ray(
+    x: float, tilt: float, yaw: float
+) -> None:
+    model = mujoco.MjModel.from_xml_string(CLUTTER)
+    data = mujoco.MjData(model)
+    data.mocap_pos[0] = [x, 0.0, 0.5]
+    mujoco.mju_euler2Quat(data.mocap_quat[0], [yaw, tilt, 0.0], "zyx")
+    mujoco.mj_forward(model, data)
+    groups = model.geom_group.copy()
+    camera = DepthCamera(model, "eye", PINHOLE)
+    saving = camera.cast(data)
+    assert (model.geom_group == groups).all()
+    with patch.object(DepthCamera, "_beside_view", return_value=np.zeros(model.ngeom, np.bool_)):
+        whole = camera.cast(data)
+    assert (saving.geom == whole.geom).all()
+    np.testing.assert_array_equal(saving.depth, whole.depth)
+
+
+def test_what_lies_behind_the_camera_is_hidden_from_its_rays() -> None:
+    model, data = world(0.5, 0.0)
+    backward = Mount(rotation=np.diag([-1.0, 1.0, -1.0]))
+    for mount, hidden in ((Mount(), False), (backward, True)):
+        camera = DepthCamera(model, "eye", PINHOLE, mount)
+        beside = camera._beside_view(data, *camera.pose(data))
+        assert beside[model.geom("nose").id] == hidden
+        assert not beside[model.geom("floor").id]
 
 
 def test_every_geom_is_where_the_pinhole_projects_it() -> None:

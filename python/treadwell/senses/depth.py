@@ -12,12 +12,15 @@ Floats = NDArray[np.float64]
 MUJOCO_FROM_OPTICAL = np.diag([1.0, -1.0, -1.0])
 # MuJoCo's own default of what is shown: groups 3 to 5 hold what only collides, and marks.
 VISIBLE_GROUPS = np.array([1, 1, 1, 0, 0, 0], np.uint8)
+HIDDEN_GROUP = 5
 # Nothing beyond this is looked for, and nothing is nearer, metres.
 FAR = 20.0
 NEAR = 1e-6
 # Differences of normals, and of 1 / depth (1 / m), that are rounding on one flat face.
 FLATNESS = 1e-9
 UNKNOWN = -2
+# What misses the picture by less is looked for all the same, metres.
+VIEW_MARGIN = 1e-3
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,15 @@ class Pinhole:
         v = (np.arange(self.height) - (self.height - 1) / 2) / self.focal
         x, y = np.meshgrid(u, v)
         return np.stack([x, y, np.ones_like(x)], axis=-1).reshape(-1, 3)
+
+    def borders(self) -> Floats:
+        """Return the planes through the outermost rays, (3, 4) unit normals inwards, optical."""
+        across = (self.width - 1) / 2 / self.focal
+        down = (self.height - 1) / 2 / self.focal
+        inward = np.array(
+            [[1.0, -1.0, 0.0, 0.0], [0.0, 0.0, 1.0, -1.0], [across, across, down, down]]
+        )
+        return np.asarray(inward / np.linalg.norm(inward, axis=0), np.float64)
 
 
 @dataclass(frozen=True)
@@ -123,6 +135,10 @@ class DepthCamera:
         first = pixels[::2, ::2]
         self._first_size = first.shape
         self._first_directions = self._directions[first.reshape(-1)]
+        self._borders = pinhole.borders()
+        # Planes have no ball around them: they reach everywhere.
+        reach = np.where(model.geom_rbound > 0.0, model.geom_rbound, np.inf)
+        self._reach = reach + VIEW_MARGIN
 
     def pose(self, data: mujoco.MjData) -> tuple[Floats, Floats]:
         """Return the real camera's position (3,) and rotation (3, 3), world from optical frame."""
@@ -133,6 +149,24 @@ class DepthCamera:
     def cast(self, data: mujoco.MjData) -> Cast:
         """Return what each pixel's ray meets, by the poses that `data` holds."""
         position, rotation = self.pose(data)
+        # MuJoCo looks at every geom for every ray. Most lie beside the picture: they are hidden.
+        groups = self._model.geom_group
+        before = groups.copy()
+        groups[self._beside_view(data, position, rotation)] = HIDDEN_GROUP
+        try:
+            return self._cast(data, position, rotation)
+        finally:
+            groups[:] = before
+
+    def _beside_view(
+        self, data: mujoco.MjData, position: Floats, rotation: Floats
+    ) -> NDArray[np.bool_]:
+        """Return which geoms (n,) no ray can meet, by the balls around them."""
+        inside = (data.geom_xpos - position) @ (rotation @ self._borders)
+        beside: NDArray[np.bool_] = inside.min(axis=1) < -self._reach
+        return beside
+
+    def _cast(self, data: mujoco.MjData, position: Floats, rotation: Floats) -> Cast:
         shape = (self.pinhole.height, self.pinhole.width)
         inverse = np.full(shape, np.nan)
         geom = np.full(shape, UNKNOWN, np.int32)
