@@ -98,6 +98,23 @@ def test_two_runs_give_the_same_states(qrio: Robot, flat: mujoco.MjModel) -> Non
     assert (first.audit.qpos.array() == second.audit.qpos.array()).all()
 
 
+def test_after_a_tick_the_sensors_say_what_they_do_in_plain_mujoco(
+    qrio: Robot, flat: mujoco.MjModel
+) -> None:
+    simulation = Simulation(flat, qrio, Start(height=0.005))
+    plain = mujoco.MjData(flat)
+    plain.qpos[:] = simulation.data.qpos
+    mujoco.mj_step1(flat, plain)
+    for tick in range(30):
+        simulation.advance(standing(qrio))
+        for ctrl in simulation.audit.ctrl.array()[5 * tick :]:
+            plain.ctrl[:] = ctrl
+            mujoco.mj_step2(flat, plain)
+            mujoco.mj_step1(flat, plain)
+        assert (simulation.data.sensordata == plain.sensordata).all()
+    assert plain.sensor("left_sole_forces").data[:3].any()
+
+
 def test_targets_that_are_not_finite_are_refused(qrio: Robot, flat: mujoco.MjModel) -> None:
     simulation = Simulation(flat, qrio)
     position = qrio.stand.copy()
