@@ -23,9 +23,10 @@ def test_poses_are_those_of_the_geoms() -> None:
     mujoco.mj_kinematics(made.model, data)
     geoms = robot_geoms(made.model, qrio().root)
     shapes = Shapes(made.model, geoms, "robot")
-    places, turns = shapes._poses(geoms, data.xpos, data.xquat)
-    assert places == pytest.approx(data.geom_xpos[geoms], abs=1e-12)
-    for turn, expected in zip(turns, data.geom_xmat[geoms], strict=True):
+    places, turns = shapes._poses(data.xpos, data.xquat)
+    assert sorted(shapes.geoms) == sorted(geoms)
+    assert places == pytest.approx(data.geom_xpos[shapes.geoms], abs=1e-12)
+    for turn, expected in zip(turns, data.geom_xmat[shapes.geoms], strict=True):
         matrix = np.empty(9)
         mujoco.mju_quat2Mat(matrix, turn)
         assert matrix == pytest.approx(expected, abs=1e-9)
