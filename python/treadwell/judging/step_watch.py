@@ -193,8 +193,14 @@ def _error(
 
 def _is_same(first: Stair, second: Stair) -> bool:
     """Say whether two sights are of one stair."""
-    apart = np.mean(first.front, axis=0) - np.mean(second.front, axis=0)
-    return bool(np.hypot(*apart[:2]) < _SAME_STEP_M and abs(apart[2]) < LEAST_CHANGE)
+    (x, y, z), (other_x, other_y, other_z) = _front_middle(first), _front_middle(second)
+    near = math.hypot(x - other_x, y - other_y) < _SAME_STEP_M
+    return near and abs(z - other_z) < LEAST_CHANGE
+
+
+def _front_middle(stair: Stair) -> tuple[float, float, float]:
+    (x, y, z), (other_x, other_y, other_z) = stair.front
+    return (x + other_x) / 2, (y + other_y) / 2, (z + other_z) / 2
 
 
 def _seen_from(pose: tuple[float, float, float, float], point: Floats) -> Floats:

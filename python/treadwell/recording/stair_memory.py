@@ -53,6 +53,6 @@ def _is_same(one: StairTrace, other: StairTrace) -> bool:
 
 def _contains(corners: NDArray[np.float64], point: NDArray[np.float64]) -> bool:
     """Say whether a point lies inside a convex polygon, whichever way round it is given."""
-    along, to = np.roll(corners, -1, axis=0) - corners, point - corners
+    along, to = np.concatenate([corners[1:], corners[:1]]) - corners, point - corners
     sides = along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0]
     return bool((sides >= 0.0).all() or (sides <= 0.0).all())

@@ -1,5 +1,6 @@
 """What the recorder is given at each camera frame: plain arrays, made by the core and the judge."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final
@@ -35,11 +36,13 @@ class StairTrace:
 
     def height(self) -> float:
         """Return its height in the map frame, m."""
-        return float(self.front[:, 2].mean())
+        (_, _, left), (_, _, right) = self.front.tolist()
+        return float((left + right) / 2)
 
     def depth(self) -> float:
         """Return how far its back edge's middle lies from its front edge's, m."""
-        return float(np.linalg.norm((self.back - self.front).mean(axis=0)[:2]))
+        (left_x, left_y, _), (right_x, right_y, _) = (self.back - self.front).tolist()
+        return math.hypot((left_x + right_x) / 2, (left_y + right_y) / 2)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
