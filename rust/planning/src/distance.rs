@@ -43,20 +43,16 @@ impl DistanceField {
 
     /// First pass, all columns at once: downwards, then upwards.
     fn columns(&mut self, blocked: &[bool], cols: usize) {
-        let step = |previous: u32, blocked: bool| {
-            if blocked { 0 } else { (previous + 1).min(FAR) }
-        };
-        for (i, &blocked) in blocked.iter().enumerate() {
-            let above = if i < cols {
-                FAR
-            } else {
-                self.along_column[i - cols]
-            };
-            self.along_column[i] = step(above, blocked);
+        for (here, &blocked) in self.along_column.iter_mut().zip(blocked) {
+            *here = if blocked { 0 } else { FAR };
         }
-        for i in (0..blocked.len() - cols).rev() {
-            let below = (self.along_column[i + cols] + 1).min(FAR);
-            self.along_column[i] = self.along_column[i].min(below);
+        for first in (cols..blocked.len()).step_by(cols) {
+            let (above, here) = self.along_column.split_at_mut(first);
+            step(&above[first - cols..], &mut here[..cols]);
+        }
+        for first in (0..blocked.len() - cols).step_by(cols).rev() {
+            let (here, below) = self.along_column.split_at_mut(first + cols);
+            step(&below[..cols], &mut here[first..]);
         }
     }
 
@@ -100,6 +96,13 @@ impl DistanceField {
             }
             end = end.min(begin);
         }
+    }
+}
+
+/// From a row of cells to the one beside it.
+fn step(from: &[u32], to: &mut [u32]) {
+    for (here, &beside) in to.iter_mut().zip(from) {
+        *here = (*here).min(beside + 1);
     }
 }
 

@@ -82,19 +82,22 @@ impl Levels {
     /// camera missed before a box looks like the shadow below an edge.
     fn close_gaps(&mut self, cols: usize, max_step: f64) {
         self.gaps.clear();
-        for index in cols..self.height_m.len().saturating_sub(cols) {
-            let inside = index % cols > 0 && index % cols + 1 < cols;
-            if !inside || !self.height_m[index].is_nan() {
-                continue;
-            }
-            let between = |[a, b]: [usize; 2]| {
-                let [a, b] = [self.height_m[a], self.height_m[b]];
-                // Not a number: unknown, no ground.
-                (f64::from((a - b).abs()) <= max_step).then_some(0.5 * (a + b))
-            };
-            let closed = between([index - 1, index + 1]);
-            if let Some(height) = closed.or_else(|| between([index - cols, index + cols])) {
-                self.gaps.push((index, height));
+        let between = |a: f32, b: f32| {
+            // Not a number: unknown, no ground.
+            (f64::from((a - b).abs()) <= max_step).then_some(0.5 * (a + b))
+        };
+        let end = self.height_m.len().saturating_sub(cols);
+        for first in (cols..end).step_by(cols.max(1)) {
+            let [below, here, above] = [first - cols, first, first + cols]
+                .map(|first| &self.height_m[first..first + cols]);
+            for col in 1..cols.saturating_sub(1) {
+                if !here[col].is_nan() {
+                    continue;
+                }
+                let closed = between(here[col - 1], here[col + 1]);
+                if let Some(height) = closed.or_else(|| between(below[col], above[col])) {
+                    self.gaps.push((first + col, height));
+                }
             }
         }
         for &(index, height) in &self.gaps {
