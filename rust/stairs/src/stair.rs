@@ -99,6 +99,20 @@ impl<F> Edge<F> {
         (x_m - middle.x) * cos + (y_m - middle.y) * sin
     }
 
+    /// How far to the left of the edge's middle a place lies, m.
+    pub fn aside_m(&self, [x_m, y_m]: [f64; 2]) -> f64 {
+        let (sin, cos) = self.heading_rad().sin_cos();
+        let middle = self.middle().inner;
+        (y_m - middle.y) * cos - (x_m - middle.x) * sin
+    }
+
+    /// Where one crosses its line who goes straight on from a place, square to it, m.
+    pub fn straight_on_m(&self, [x_m, y_m]: [f64; 2]) -> [f64; 2] {
+        let (sin, cos) = self.heading_rad().sin_cos();
+        let away_m = -self.beyond_m([x_m, y_m]);
+        [x_m + cos * away_m, y_m + sin * away_m]
+    }
+
     /// Direction square to it, from front to back, length 1.
     pub(crate) fn across(&self) -> Vector2<f64> {
         let (sin, cos) = self.heading_rad().sin_cos();

@@ -1,5 +1,6 @@
 //! Whether there is room: for a move before a step, for the feet on it, to walk and to turn behind it.
 
+use geometry::PlanarPose;
 use mapping::Surface;
 use planning::Step;
 
@@ -12,8 +13,8 @@ use crate::walking::is_edge;
 const STANDS_ON_M: f32 = 0.04;
 
 impl StairClimbing {
-    /// Whether a move to where `first` is taken from crosses no other edge, leaves both heels on the stair that the robot stands
-    /// on, and needs no large turn.
+    /// Whether a move to where `first` is taken from needs no large turn, crosses no other edge, and leaves the soles on the stair
+    /// that the robot stands on.
     pub(super) fn stays_on(&self, here: &Here<'_>, stance: &Stance, first: &Step) -> bool {
         const LARGEST_TURN_RAD: f64 = 0.3;
         const MARGIN_M: f64 = 0.01;
@@ -24,6 +25,9 @@ impl StairClimbing {
         let Some(on) = self.on else {
             return true;
         };
+        if self.leaves_aside(&on, &here.pose, &stance.pose) {
+            return false;
+        }
         let turn_rad = geometry::angle_between(here.pose.yaw_rad, stance.pose.yaw_rad);
         let least_m = self.climbing.set_for(on.rise_m).front_x_limit - MARGIN_M;
         let half_pair_m = 0.5 * self.feet.pair_width_m;
@@ -32,6 +36,22 @@ impl StairClimbing {
                 let (x_m, y_m) = stance.pose.apply(-0.5 * self.feet.length_m, aside_m);
                 on.stair.front.beyond_m([x_m, y_m]) >= least_m
             })
+    }
+
+    /// Whether a move would bring a sole beyond the side of the stair that the robot stands on, and further than it is.
+    fn leaves_aside(&self, on: &Step, from: &PlanarPose, to: &PlanarPose) -> bool {
+        const SPARE_M: f64 = 0.005;
+        let edge = &on.stair.front;
+        let half_pair_m = 0.5 * self.feet.pair_width_m;
+        let sides = [1.0, -1.0].into_iter().zip(on.stair.room_beside_m());
+        sides.into_iter().any(|(side, room_m)| {
+            let outermost_m = |pose: &PlanarPose| {
+                let (x_m, y_m) = pose.apply(0.0, side * half_pair_m);
+                side * edge.aside_m([x_m, y_m])
+            };
+            let end_m = 0.5 * edge.length_m() + room_m;
+            outermost_m(to) > end_m.max(outermost_m(from) + SPARE_M)
+        })
     }
 
     /// Whether something stands where the feet shall go: not the riser behind the heels or before the toes.
@@ -68,5 +88,31 @@ impl StairClimbing {
         };
         let mut known_now = here.situation.stairs.stairs.iter().filter(stands_on);
         self.on.is_none_or(|step| roomy(&step.stair)) || known_now.any(roomy)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::climbing::simulation::stair;
+    use crate::climbing::tests::up;
+
+    #[test]
+    fn no_sole_is_moved_beyond_the_side_of_the_tread_that_the_robot_stands_on() {
+        let behaviour = up(PlanarPose::default()).behaviour;
+        let on = Step {
+            stair: stair([0.0, 0.0, 0.0], [0.14, 0.0, 0.0], 0.018, 0.4),
+            rise_m: 0.018,
+            crossing_m: [0.0, 0.0],
+        };
+        let leaves = |from_m: f64, to_m: f64| {
+            let pose = |y_m: f64| PlanarPose::new(0.08, y_m, 0.0);
+            behaviour.leaves_aside(&on, &pose(from_m), &pose(to_m))
+        };
+        // The outer side of a sole is 8 cm from the middle.
+        assert!(!leaves(0.0, 0.115) && !leaves(0.0, -0.115));
+        assert!(leaves(0.0, 0.13) && leaves(0.0, -0.13));
+        // Who already stands at the side of what was seen of it may stay, and come back.
+        assert!(!leaves(0.15, 0.15) && !leaves(0.15, 0.13) && leaves(0.15, 0.17));
     }
 }

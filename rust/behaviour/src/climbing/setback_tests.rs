@@ -4,9 +4,9 @@ use geometry::PlanarPose;
 use planning::Step;
 use stairs::EdgeFit;
 
-use crate::Outcome;
-use crate::climbing::simulation::{Simulation, stair};
-use crate::climbing::tests::up;
+use crate::climbing::simulation::{Simulation, stair, straight};
+use crate::climbing::tests::{FOUR_UP, up};
+use crate::{Outcome, Pace};
 
 fn before_an_unseen_edge() -> Simulation {
     let mut simulation = up(PlanarPose::default());
@@ -97,4 +97,35 @@ fn a_step_that_is_neither_seen_nor_planned_any_more_is_dropped() {
             simulation.states
         );
     }
+}
+
+/// The wide floor below a narrow tread may be planned to be crossed anywhere.
+#[test]
+fn on_a_tread_the_robot_goes_straight_on_wherever_a_plan_crosses_the_next_edge() {
+    let (start, goal_m) = (PlanarPose::default(), [1.15, 0.0]);
+    let mut simulation = Simulation::new(
+        start,
+        straight(0.6, &FOUR_UP, 1.0),
+        goal_m,
+        Pace::StepByStep,
+    );
+    simulation.run_until(60.0, |simulation| {
+        on_stairs(simulation) == 2 && simulation.behaviour.on.is_some()
+    });
+    let mut next = *simulation.behaviour.flight.first().unwrap();
+    next.crossing_m[1] += 0.12;
+    simulation.behaviour.flight.adopt(&[next]);
+    let (outcome, _) = simulation.run(120.0);
+    assert_eq!(
+        outcome,
+        Some(Outcome::GoalReached),
+        "{:?}",
+        simulation.states
+    );
+    let furthest_m = simulation
+        .landings
+        .iter()
+        .map(|(_, foot)| foot.pose.y_m.abs());
+    let furthest_m = furthest_m.fold(0.0, f64::max);
+    assert!(furthest_m < 0.07, "{furthest_m}");
 }
