@@ -65,16 +65,22 @@ CLUTTER = """
 """
 
 
-@settings(max_examples=40, deadline=None)
-@given(st.floats(-0.2, 1.2), st.floats(-0.5, 1.4), st.floats(-0.6, 0.6), st.integers(7, 90))
-def test_the_rays_that_are_saved_would_have_met_the_same(
-    x: float, tilt: float, yaw: float, width: int
-) -> None:
+def clutter(x: float, tilt: float, yaw: float) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """Return things in a heap, seen from 0.5 m above the floor at x m."""
     model = mujoco.MjModel.from_xml_string(CLUTTER)
     data = mujoco.MjData(model)
     data.mocap_pos[0] = [x, 0.0, 0.5]
     mujoco.mju_euler2Quat(data.mocap_quat[0], [yaw, tilt, 0.0], "zyx")
     mujoco.mj_forward(model, data)
+    return model, data
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(-0.2, 1.2), st.floats(-0.5, 1.4), st.floats(-0.6, 0.6), st.integers(7, 90))
+def test_the_rays_that_are_saved_would_have_met_the_same(
+    x: float, tilt: float, yaw: float, width: int
+) -> None:
+    model, data = clutter(x, tilt, yaw)
     pinhole = Pinhole(width, 72, 101.4)
     saving = DepthCamera(model, "eye", pinhole).cast(data)
     whole = DepthCamera(model, "eye", pinhole, every_pixel=True).cast(data)
@@ -89,11 +95,7 @@ def test_the_rays_that_are_saved_would_have_met_the_same(
 def test_what_is_hidden_because_it_lies_beside_the_picture_is_met_by_no_ray(
     x: float, tilt: float, yaw: float
 ) -> None:
-    model = mujoco.MjModel.from_xml_string(CLUTTER)
-    data = mujoco.MjData(model)
-    data.mocap_pos[0] = [x, 0.0, 0.5]
-    mujoco.mju_euler2Quat(data.mocap_quat[0], [yaw, tilt, 0.0], "zyx")
-    mujoco.mj_forward(model, data)
+    model, data = clutter(x, tilt, yaw)
     groups = model.geom_group.copy()
     camera = DepthCamera(model, "eye", PINHOLE)
     saving = camera.cast(data)

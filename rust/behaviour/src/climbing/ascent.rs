@@ -133,16 +133,13 @@ impl StairClimbing {
                 self.flight.adopt(step.as_slice());
             }
         }
-        let first = self.flight.first().copied()?;
-        let straight_on = || Step {
-            crossing_m: first
-                .stair
-                .front
-                .straight_on_m([here.pose.x_m, here.pose.y_m]),
-            ..first
-        };
-        // A tread may be narrow and the edge behind it wide: wherever a plan crosses that, there is no walking to the side here.
-        Some(self.on.map_or(first, |_| straight_on()))
+        let mut first = self.flight.first().copied()?;
+        if self.on.is_some() {
+            // A tread may be narrow and the edge behind it wide: wherever a plan crosses that, there is no walking to the side.
+            let at = [here.pose.x_m, here.pose.y_m];
+            first.crossing_m = first.stair.front.straight_on_m(at);
+        }
+        Some(first)
     }
 
     /// Whether the memorised step may have been a glance of something beside the way: no foot has tried it, and by now it is not

@@ -7,8 +7,8 @@ use planning::{Plan, Step};
 use stairs::{ClimbingConfig, Edge, Staircase};
 
 use crate::climbing::placement::depth_m;
+use lookup::{LEAST_TREAD_M, following, is_same};
 pub(crate) use lookup::{SAME_HEIGHT_M, covers, crosses_another, is_step, nearest};
-use lookup::{following, is_same};
 
 /// An edge nearer than this to the robot's middle is out of view: what was measured before is better than what is thought
 /// of it now, m.
@@ -16,8 +16,6 @@ const OUT_OF_VIEW_M: f64 = 0.17;
 
 /// A robot on a tread deeper than this has room to turn and to walk, m.
 pub(crate) const ROOMY_M: f64 = 0.22;
-/// Steps whose edges are nearer than this do not follow each other: a way turns back, or they are one, m.
-const LEAST_TREAD_M: f64 = 0.06;
 
 /// A robot whose middle is further than this before an edge has no foot over it yet, m.
 const NOT_YET_THERE_M: f64 = 0.06;

@@ -14,14 +14,19 @@ fn before_an_unseen_edge() -> Simulation {
     simulation
 }
 
+fn assert_reaches_the_goal(simulation: &mut Simulation) {
+    let (outcome, _) = simulation.run(120.0);
+    let states = &simulation.states;
+    assert_eq!(outcome, Some(Outcome::GoalReached), "{states:?}");
+}
+
 #[test]
 fn a_walk_that_comes_upon_an_unseen_step_looks_and_goes_on() {
     let mut simulation = before_an_unseen_edge();
     simulation.run_until(60.0, Simulation::has_stumbled);
     simulation.run_until(5.0 + simulation.now_s(), Simulation::stands);
     simulation.unseen_edge_m = None;
-    let (outcome, _) = simulation.run(120.0);
-    assert_eq!(outcome, Some(Outcome::GoalReached));
+    assert_reaches_the_goal(&mut simulation);
 }
 
 #[test]
@@ -89,13 +94,7 @@ fn a_step_that_is_neither_seen_nor_planned_any_more_is_dropped() {
             crossing_m: [here.x_m, 0.2],
         };
         simulation.behaviour.flight.adopt(&[glance]);
-        let (outcome, _) = simulation.run(120.0);
-        assert_eq!(
-            outcome,
-            Some(Outcome::GoalReached),
-            "{landings} {:?}",
-            simulation.states
-        );
+        assert_reaches_the_goal(&mut simulation);
     }
 }
 
@@ -115,13 +114,7 @@ fn on_a_tread_the_robot_goes_straight_on_wherever_a_plan_crosses_the_next_edge()
     let mut next = *simulation.behaviour.flight.first().unwrap();
     next.crossing_m[1] += 0.12;
     simulation.behaviour.flight.adopt(&[next]);
-    let (outcome, _) = simulation.run(120.0);
-    assert_eq!(
-        outcome,
-        Some(Outcome::GoalReached),
-        "{:?}",
-        simulation.states
-    );
+    assert_reaches_the_goal(&mut simulation);
     let furthest_m = simulation
         .landings
         .iter()

@@ -12,6 +12,8 @@ const SAME_PLACE_M: f64 = 0.05;
 const VAGUE_PLACE_M: f64 = 0.09;
 /// and in its heading, rad.
 const SAME_HEADING_RAD: f64 = 0.4;
+/// Steps whose edges are nearer than this do not follow each other: a way turns back, or they are one, m.
+pub(crate) const LEAST_TREAD_M: f64 = 0.06;
 /// A step follows another when its front edge is no further than this behind the other's back edge, m.
 const JOINT_M: f64 = 0.06;
 
@@ -42,24 +44,11 @@ pub(crate) fn is_same(step: &Step, stair: &Stair<Map>) -> bool {
 
 /// The step behind another by the stairs alone: the nearest whose change of height a parameter set takes.
 pub(crate) fn following(last: &Step, stairs: &Staircase, config: &ClimbingConfig) -> Option<Step> {
-    let heading_rad = last.stair.front.heading_rad();
     let middle = last.stair.back.middle().inner;
     let end_m = last.stair.front.beyond_m([middle.x, middle.y]) + JOINT_M;
-    stairs
-        .stairs
-        .iter()
-        .filter_map(|stair| {
-            let rise_m = stair.height_m() - last.stair.height_m();
-            let (depth_m, crossing_m) = ahead(stair, last.crossing_m, heading_rad)?;
-            let near = depth_m > JOINT_M && depth_m < end_m;
-            (near && is_step(rise_m, config)).then_some((depth_m, *stair, rise_m, crossing_m))
-        })
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, stair, rise_m, crossing_m)| Step {
-            stair,
-            rise_m,
-            crossing_m,
-        })
+    let way = (last.crossing_m, last.stair.front.heading_rad());
+    let near = |depth_m| depth_m > LEAST_TREAD_M && depth_m < end_m;
+    nearest_where(near, stairs, way, last.stair.height_m(), config)
 }
 
 /// The nearest stair ahead of a robot that a parameter set takes (003, section V), no further than `reach_m`.
@@ -70,21 +59,31 @@ pub(crate) fn nearest(
     reach_m: f64,
     config: &ClimbingConfig,
 ) -> Option<Step> {
-    stairs
-        .stairs
-        .iter()
-        .filter_map(|stair| {
-            let rise_m = stair.height_m() - ground_m;
-            let (away_m, crossing_m) = ahead(stair, [pose.x_m, pose.y_m], pose.yaw_rad)?;
-            let near = away_m > 0.0 && away_m < reach_m;
-            (near && is_step(rise_m, config)).then_some((away_m, *stair, rise_m, crossing_m))
-        })
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, stair, rise_m, crossing_m)| Step {
-            stair,
-            rise_m,
+    let way = ([pose.x_m, pose.y_m], pose.yaw_rad);
+    let near = |away_m| away_m > 0.0 && away_m < reach_m;
+    nearest_where(near, stairs, way, ground_m, config)
+}
+
+/// The nearest step from a level on a way, given by a place, m, and a heading, rad, of those whose edge is `near` enough, m.
+fn nearest_where(
+    near: impl Fn(f64) -> bool,
+    stairs: &Staircase,
+    (from_m, heading_rad): ([f64; 2], f64),
+    level_m: f64,
+    config: &ClimbingConfig,
+) -> Option<Step> {
+    let step = |stair: &Stair<Map>| {
+        let (away_m, crossing_m) = ahead(stair, from_m, heading_rad)?;
+        let step = Step {
+            stair: *stair,
+            rise_m: stair.height_m() - level_m,
             crossing_m,
-        })
+        };
+        (near(away_m) && is_step(step.rise_m, config)).then_some((away_m, step))
+    };
+    let steps = stairs.stairs.iter().filter_map(step);
+    let nearest = steps.min_by(|a, b| a.0.total_cmp(&b.0));
+    nearest.map(|(_, step)| step)
 }
 
 /// Whether a change of height falls between the thresholds of a parameter set.
