@@ -4,7 +4,7 @@
 //! believed), a horizontal surface shows `d = q (g - a X - b Y)`, where `X`, `Y`, `g` are linear in the pixel. One step of
 //! Gauss and Newton over all regions, each with its own `q`, gives the tilt.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::finder::{Picture, Region};
 use super::view::View;
@@ -50,8 +50,17 @@ impl RegionFit {
         Matrix2::new(xx, xy, xy, yy)
     }
 
+    /// No pixel yet, of a surface at this `q`.
+    pub(super) fn at(q: f32) -> Self {
+        Self {
+            q: f64::from(q),
+            ..Self::default()
+        }
+    }
+
+    /// Adds the [`terms`] of a pixel.
     #[inline]
-    fn add(&mut self, values: [f64; 4]) {
+    pub(super) fn add(&mut self, values: [f64; 4]) {
         self.count += 1;
         for row in 0..4 {
             for col in row..4 {
@@ -77,8 +86,7 @@ impl RegionFit {
             // Also false where nothing was seen.
             if miss.abs() < OUTLIER {
                 let (x, y) = (view.x.at(col + i, row), view.y.at(col + i, row));
-                let values = [g * precision, -q * x * precision, -q * y * precision, miss];
-                sums.add(values.map(f64::from));
+                sums.add(terms(q, [g, x, y], precision, miss));
             }
         }
         *self = sums;
@@ -105,6 +113,32 @@ impl RegionFit {
         (tilt, tilt.dot(&product))
     }
 
+    /// How the region lies, with the tilt drawn towards `expected`.
+    pub(super) fn lie(&self, expected: &Vector2<f64>, expected_sigma_rad: f64) -> Option<Lie> {
+        let prior = 1.0 / (expected_sigma_rad * expected_sigma_rad);
+        let (gt, tt) = (self.gt(), self.tt());
+        let mut information = Matrix3::new(
+            self.gg(),
+            gt.x,
+            gt.y,
+            gt.x,
+            tt[(0, 0)],
+            tt[(0, 1)],
+            gt.y,
+            tt[(1, 0)],
+            tt[(1, 1)],
+        ) / SHARED_BY;
+        information += Matrix3::from_diagonal(&Vector3::new(0.0, prior, prior));
+        let te = self.te();
+        let mut product = Vector3::new(self.ge(), te.x, te.y) / SHARED_BY;
+        product += Vector3::new(0.0, expected.x, expected.y) * prior;
+        let covariance = information.try_inverse()?;
+        Some(Lie {
+            covariance,
+            best: covariance * product,
+        })
+    }
+
     /// Whether the region may be horizontal when the camera's tilt is known to `limit_rad`.
     pub(super) fn is_level(&self, limit_rad: f64) -> bool {
         let (tilt, certainty) = self.own_tilt();
@@ -129,6 +163,49 @@ impl RegionFit {
     }
 }
 
+/// What a region's pixels say of its height and tilt.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lie {
+    covariance: Matrix3<f64>,
+    /// Change of `q`, and tilt.
+    best: Vector3<f64>,
+}
+
+impl Lie {
+    /// That a part of the region has another height than the rest. `sums`: of the part's g times each of its [`terms`].
+    pub(super) fn step(&self, sums: [f64; 4]) -> Option<Step> {
+        let [gg, gx, gy, ge] = sums.map(|sum| sum / SHARED_BY);
+        let part = Vector3::new(gg, gx, gy);
+        let drawn = self.covariance * part;
+        let information = gg - part.dot(&drawn);
+        let product = ge - part.dot(&self.best);
+        (information > 0.0).then(|| Step {
+            rise: product / information,
+            certainty: product * product / information,
+            rest: self.best - drawn * (product / information),
+        })
+    }
+}
+
+/// Two heights in one region.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Step {
+    /// How much larger the part's `q` is than that of the rest, 1/m.
+    pub(super) rise: f64,
+    /// By how much two heights explain the disparities better than one, in squared noise.
+    pub(super) certainty: f64,
+    /// Change of `q` of the rest, and tilt.
+    pub(super) rest: Vector3<f64>,
+}
+
+/// What a pixel adds to a fit, in noises: `g`, how its disparity changes with the tilt's two components, and how far it is off
+/// the level surface of this `q`. `gxy`: what the view has of the pixel.
+#[inline]
+pub(super) fn terms(q: f32, gxy: [f32; 3], precision: f32, miss: f32) -> [f64; 4] {
+    let [g, x, y] = gxy;
+    [g * precision, -q * x * precision, -q * y * precision, miss].map(f64::from)
+}
+
 /// Adds up the fit of every region over the pixels that `labels` gives it.
 pub(super) fn fit_regions(
     picture: Picture<'_>,
@@ -138,10 +215,7 @@ pub(super) fn fit_regions(
     fits: &mut Vec<RegionFit>,
 ) {
     fits.clear();
-    fits.extend(regions.iter().map(|region| RegionFit {
-        q: f64::from(region.q),
-        ..RegionFit::default()
-    }));
+    fits.extend(regions.iter().map(|region| RegionFit::at(region.q)));
     for (row, line) in labels.chunks_exact(picture.width).enumerate() {
         let mut col = row % STEP;
         while col < line.len() {

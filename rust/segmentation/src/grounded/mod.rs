@@ -5,6 +5,7 @@
 
 mod config;
 mod correction;
+mod cuts;
 mod erosion;
 mod finder;
 mod fit;
@@ -30,6 +31,7 @@ use sensing::{Intrinsics, Scan};
 use crate::{KnownFloor, NothingKnown, Planes, SegmentError, Segmenter};
 pub use config::GroundConfig;
 use correction::Correction;
+use cuts::TiltPrior;
 pub(crate) use finder::{Finder, Look, MAX_REGIONS, Picture, Region, count_labels};
 use fit::shared_tilt;
 use horizon::{HorizonSearch, SearchArea};
@@ -52,6 +54,8 @@ const NEAR_RAD: f64 = 0.015;
 /// floor may be tilted: the first finds may be bad ones, and a track that takes in nothing else is never put right.
 const TRACKED_LEVEL_RAD: f64 = 0.015;
 const SEARCHED_LEVEL_RAD: f64 = 0.09;
+/// How often the regions of a frame are cut: one may hold three levels.
+const CUTS: usize = 2;
 /// Step of the search for the tilt while tracked, and last step of the search from nothing, rad.
 const TRACK_STEP_RAD: f64 = 0.006;
 const LAST_STEP_RAD: f64 = 0.006;
@@ -160,6 +164,18 @@ impl<F: Finder> Grounded<F> {
             };
             let nothing = Vector2::zeros();
             let tilt = shared_tilt(&self.surfaces.fits, level_rad, &nothing, NEAR_RAD);
+            levelled = Levelled::new(&self.camera, predicted, levelled.further(&tilt));
+        }
+        for _ in 0..CUTS {
+            let expected = -levelled.tilt;
+            let prior = TiltPrior {
+                expected,
+                sigma_rad: sigma,
+            };
+            if F::ANY_DIRECTION || !self.surfaces.cut(&levelled.view, prior) {
+                break;
+            }
+            let tilt = shared_tilt(&self.surfaces.fits, level_rad, &expected, sigma);
             levelled = Levelled::new(&self.camera, predicted, levelled.further(&tilt));
         }
         self.surfaces.refit(&levelled.view);

@@ -4,6 +4,7 @@ use nalgebra::{Vector2, Vector3};
 use sensing::{Intrinsics, Scan};
 
 use super::GroundConfig;
+use super::cuts::{Cuts, TiltPrior};
 use super::erosion::Erosion;
 use super::finder::{Finder, Look, MAX_REGIONS, Picture, Region, count_labels};
 use super::fit::{RegionFit, fit_regions};
@@ -49,6 +50,7 @@ pub(super) struct Surfaces<F> {
     shown: Vec<RegionFit>,
     erosion: Erosion,
     slivers: Slivers,
+    cuts: Cuts,
 }
 
 impl<F: Finder> Surfaces<F> {
@@ -79,6 +81,7 @@ impl<F: Finder> Surfaces<F> {
             shown: Vec::new(),
             erosion: Erosion::default(),
             slivers: Slivers::default(),
+            cuts: Cuts::default(),
         }
     }
 
@@ -169,23 +172,51 @@ impl<F: Finder> Surfaces<F> {
         };
         let (regions, labels) = (&mut self.regions, &mut self.labels);
         self.finder.find(picture, view, look, regions, labels);
+        self.fit_inside(view);
+    }
+
+    /// Cuts the regions that hold two levels, and fits anew; says whether there were any.
+    pub(super) fn cut(&mut self, view: &View, tilt: TiltPrior) -> bool {
+        view.fill(self.width, &mut self.g);
+        let picture = Picture {
+            width: self.width,
+            disparity_px: &self.disparity_px,
+            g: &self.g,
+            sigma_px: &self.sigma_px,
+        };
+        let (regions, labels) = (&mut self.regions, &mut self.labels);
+        let any = self.cuts.cut(picture, view, tilt, regions, labels);
+        if any {
+            self.fit_inside(view);
+        }
+        any
+    }
+
+    /// Fits the regions away from their borders, in the view that `g` is of.
+    fn fit_inside(&mut self, view: &View) {
+        let picture = Picture {
+            width: self.width,
+            disparity_px: &self.disparity_px,
+            g: &self.g,
+            sigma_px: &self.sigma_px,
+        };
         let eroded = &mut self.eroded;
         self.erosion.erode::<{ EROSION.0 }, { EROSION.1 }>(
-            labels,
+            &self.labels,
             picture.disparity_px,
             self.width,
             eroded,
         );
         let mut left = [0_u32; MAX_REGIONS + 1];
         count_labels(&self.eroded, |label, pixels| left[label] += pixels as u32);
-        for (region, &left) in regions.iter_mut().zip(&left[1..]) {
+        for (region, &left) in self.regions.iter_mut().zip(&left[1..]) {
             region.core = left as usize;
         }
         let small = left.map(|left| left < MIN_FIT);
-        if small[1..=regions.len()].contains(&true) {
-            keep_where(labels, &mut self.eroded, &small);
+        if small[1..=self.regions.len()].contains(&true) {
+            keep_where(&self.labels, &mut self.eroded, &small);
         }
-        fit_regions(picture, view, regions, &self.eroded, &mut self.fits);
+        fit_regions(picture, view, &self.regions, &self.eroded, &mut self.fits);
     }
 
     /// Fits the regions anew after a small turn of the view, and checks the thin ones over more of their pixels.

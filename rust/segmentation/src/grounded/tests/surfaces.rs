@@ -51,6 +51,22 @@ fn stairs_of_thirty_millimetres_are_told_apart() {
 }
 
 #[test]
+fn one_level_is_one_surface_however_the_camera_leans() {
+    let mut noise = Noise::new(17);
+    let mut several = 0;
+    for _ in 0..60 {
+        let truth = camera_pose(noise.within(0.6), 0.8 + noise.within(0.2));
+        let lean = Vector3::new(noise.within(0.02), noise.within(0.02), 0.0);
+        let mut planes = planes();
+        let believed = turned(&truth, &lean, 0.0);
+        let scan = Scene::floor().scan(&truth, believed, SIGMA, &mut noise);
+        tracking(&mut noise).segment(&scan, &mut planes).unwrap();
+        several += usize::from(planes.regions.len() > 1);
+    }
+    assert!(several <= 1, "{several}");
+}
+
+#[test]
 fn a_wall_is_no_floor() {
     let mut noise = Noise::new(6);
     let (mut seen, mut called_floor) = (0, 0);
