@@ -30,7 +30,7 @@ impl AStar {
         {
             return None;
         }
-        let draft = kept.rest(&self.terrain, &self.portals, stand.at_m, &self.config)?;
+        let draft = kept.rest(&self.terrain, &self.portals, stand, &self.config)?;
         let path = draft.annotate(&self.terrain, self.config.climb_cost);
         Some(Rest {
             revealed: unknown_in(&path) < kept.unknown,

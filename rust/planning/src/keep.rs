@@ -1,9 +1,10 @@
 //! The path that is being followed: its passed part cut off, its steps as the stairs are seen now.
 
 use crate::legs::Draft;
+use crate::levels::Stand;
 use crate::line::Line;
 use crate::portals::{Portals, Stride};
-use crate::room::distance_m;
+use crate::room::{SAME_M, distance_m};
 use crate::terrain::Terrain;
 use crate::{AStarConfig, Climb, Goal};
 
@@ -54,10 +55,10 @@ impl Kept {
         &self,
         terrain: &Terrain,
         portals: &Portals,
-        start_m: [f64; 2],
+        stand: &Stand,
         config: &AStarConfig,
     ) -> Option<Draft> {
-        let mut draft = rest_of(&self.draft, start_m, config.stray)?;
+        let mut draft = rest_of(&self.draft, stand.at_m, config.stray)?;
         if self.end == End::Border {
             let inside = terrain.index_at([self.goal.x_m, self.goal.y_m]).is_some();
             let left = draft.points_m.len() as f64 * terrain.lattice.cell_m;
@@ -67,14 +68,11 @@ impl Kept {
         }
         for index in 0..draft.climbs.len() {
             let tread = draft.tread_before(index);
-            refresh(
-                &mut draft.climbs[index],
-                tread,
-                &mut draft.points_m,
-                portals,
-            )?;
+            let climb = &mut draft.climbs[index];
+            let level_m = (climb.from_point == 0).then_some(stand.height_m);
+            refresh(climb, level_m, tread, &mut draft.points_m, portals)?;
         }
-        holds(&draft, terrain).then_some(draft)
+        (holds(&draft, terrain) && walks_on_level(&draft, terrain)).then_some(draft)
     }
 }
 
@@ -96,18 +94,41 @@ fn holds(draft: &Draft, terrain: &Terrain) -> bool {
     })
 }
 
-/// Takes over edges and heights as they are seen now; `None` where a step is none any more. From a tread, where the way
+/// Whether what is walked behind the last step at stairs lies as high as that: a further edge may be seen there by now.
+fn walks_on_level(draft: &Draft, terrain: &Terrain) -> bool {
+    let lasts = draft.spans.iter().filter_map(|span| {
+        let mut climbs = draft.climbs.iter();
+        let climb = climbs.rfind(|climb| (span[0]..=span[1]).contains(&climb.to_point))?;
+        Some((climb, span[1]))
+    });
+    let mut lasts =
+        lasts.filter_map(|(climb, end)| Some((climb.steps.last()?, climb.to_point..=end)));
+    lasts.all(|(step, walked)| {
+        let level_m = step.stair.height_m();
+        draft.points_m[walked].iter().all(|point| {
+            let here = terrain
+                .index_at(*point)
+                .and_then(|cell| terrain.level_m(cell));
+            here.is_none_or(|height_m| (height_m - level_m).abs() <= SAME_M)
+        })
+    })
+}
+
+/// Takes over edges and heights as they are seen now; `None` where a step is none any more. `level_m`: the height before the
+/// first step, where the robot stands there. From a tread, where the way
 /// stands at the point `tread` before the first step, it leads straight on as far as the next edge allows: the feet move
 /// aside a centimetre at a time there.
 fn refresh(
     climb: &mut Climb,
+    mut level_m: Option<f64>,
     tread: Option<usize>,
     points_m: &mut [[f64; 2]],
     portals: &Portals,
 ) -> Option<()> {
     let first = climb.from_point;
     for (i, step) in climb.steps.iter_mut().enumerate() {
-        let now = seen_now(step, portals)?;
+        let now = seen_now(step, level_m, portals)?;
+        level_m = Some(now.step.stair.height_m());
         let line = Line::of(&now.step.stair.front);
         let tread = if i == 0 { tread } else { Some(first + i) };
         let offset_m = tread.map_or(line.offset_m(step.crossing_m), |from| {
@@ -132,22 +153,31 @@ fn refresh(
     Some(())
 }
 
-/// A step as the stairs are seen now, nearest to where it was to be taken.
-fn seen_now<'a>(step: &crate::Step, portals: &'a Portals) -> Option<&'a Stride> {
+/// A step as the stairs are seen now, from this level where that is known: nearest to where it was to be taken, and most like it. Ways
+/// over the same edge may come from other levels, even from one that is there no more.
+fn seen_now<'a>(
+    step: &crate::Step,
+    level_m: Option<f64>,
+    portals: &'a Portals,
+) -> Option<&'a Stride> {
     let before = Line::of(&step.stair.front);
+    let rises_m = |stride: &Stride| (stride.step.rise_m - step.rise_m).abs();
     let same = |stride: &&Stride| {
         let now = &stride.step;
         let line = Line::of(&now.stair.front);
+        let from_m = now.stair.height_m() - now.rise_m;
         stride.limit.is_none()
+            && level_m.is_none_or(|level_m| (from_m - level_m).abs() <= SAME_M)
             && line.askew_rad(&before) <= TURNED_RAD
             && line.beyond_m(step.crossing_m).abs() <= MOVED_M
             && line.offset_m(step.crossing_m).abs() <= line.half_m()
             && (now.stair.height_m() - step.stair.height_m()).abs() <= LIFTED_M
-            && (now.rise_m - step.rise_m).abs() <= LIFTED_M
+            && rises_m(stride) <= LIFTED_M
     };
-    let away_m = |stride: &Stride| distance_m(stride.step.crossing_m, step.crossing_m);
+    let unlike_m =
+        |stride: &Stride| distance_m(stride.step.crossing_m, step.crossing_m) + rises_m(stride);
     let strides = portals.all_strides().iter().filter(same);
-    strides.min_by(|a, b| away_m(a).total_cmp(&away_m(b)))
+    strides.min_by(|a, b| unlike_m(a).total_cmp(&unlike_m(b)))
 }
 
 /// The path from where the robot is beside it onward; `None` where it strayed too far.
@@ -210,3 +240,6 @@ fn cut(draft: &Draft, passed: usize, here: [f64; 2]) -> Draft {
         points_m,
     }
 }
+
+#[cfg(test)]
+mod tests;

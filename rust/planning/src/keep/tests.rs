@@ -1,0 +1,95 @@
+//! What is kept of a path: its steps as the stairs are seen now.
+
+use geometry::{Lattice, Map, Point};
+use stairs::{Edge, Sides, Stair};
+
+use super::*;
+use crate::levels::Limits;
+use crate::terrain::Needs;
+
+/// A step down to this height over an edge across the way at x, from this level.
+fn stride(x_m: f64, height_m: f64, level_m: f64) -> Stride {
+    let edge = |x_m: f64| Edge::<Map> {
+        left: Point::new(x_m, 0.3, height_m),
+        right: Point::new(x_m, -0.3, height_m),
+    };
+    let stair = Stair {
+        front: edge(x_m),
+        back: edge(x_m + 0.4),
+        reference: Point::new(x_m + 0.2, 0.0, height_m),
+        left_margin_m: 0.0,
+        right_margin_m: 0.0,
+        support: 500,
+        seen_ends: Sides::default(),
+        front_fit: None,
+        back_fit: None,
+        seen_from_m: 0.3,
+        steps_ago: 0,
+    };
+    Stride {
+        step: crate::Step {
+            stair,
+            rise_m: height_m - level_m,
+            crossing_m: [x_m, 0.0],
+        },
+        from_m: [x_m - 0.07, 0.0],
+        to_m: [x_m + 0.07, 0.0],
+        range_m: 0.2,
+        limit: None,
+    }
+}
+
+#[test]
+fn a_step_is_taken_from_the_level_before_it_whatever_other_way_leads_over_its_edge() {
+    let portals = Portals {
+        strides: vec![stride(1.0, 0.002, 0.029), stride(1.004, 0.002, 0.02)],
+        ..Portals::default()
+    };
+    let step = stride(1.0, 0.0, 0.02).step;
+    let rise_mm = |level_m: Option<f64>| {
+        let now = seen_now(&step, level_m, &portals)?;
+        Some((1e3 * now.step.rise_m).round())
+    };
+    assert_eq!(rise_mm(Some(0.017)), Some(-18.0));
+    assert_eq!(rise_mm(None), Some(-18.0));
+    assert_eq!(rise_mm(Some(0.04)), Some(-27.0));
+    assert_eq!(rise_mm(Some(0.06)), None);
+}
+
+/// Floor that is higher from x = 0.6 m on.
+fn terrain(higher_m: f32) -> Terrain {
+    let limits = Limits {
+        floor_m: 0.01,
+        step_m: 0.05,
+    };
+    let mut terrain = Terrain::new(Needs {
+        body_m: 0.1,
+        feet_m: 0.08,
+        limits,
+    });
+    terrain.lattice = Lattice {
+        origin_m: [0.0, 0.0],
+        cell_m: 0.1,
+    };
+    (terrain.cols, terrain.rows) = (10, 1);
+    let heights_m = (0..10).map(|col| if col < 6 { 0.015 } else { higher_m });
+    terrain.levels.height_m = heights_m.collect();
+    terrain
+}
+
+#[test]
+fn what_is_walked_behind_the_last_step_lies_as_high_as_that() {
+    let climb = Climb {
+        from_point: 0,
+        to_point: 1,
+        steps: vec![stride(0.2, 0.015, 0.0).step],
+    };
+    let draft = Draft {
+        points_m: vec![[0.1, 0.05], [0.3, 0.05], [0.5, 0.05], [0.8, 0.05]],
+        climbs: vec![climb],
+        spans: vec![[0, 3]],
+    };
+    assert!(walks_on_level(&draft, &terrain(0.017)));
+    assert!(!walks_on_level(&draft, &terrain(0.03)));
+    assert!(!walks_on_level(&draft, &terrain(0.0)));
+}
