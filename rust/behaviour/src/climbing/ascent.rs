@@ -89,10 +89,13 @@ impl StairClimbing {
                     self.step(here, &stance);
                 }
             }
-            Verdict::Move(stance) if !self.stays_on(here, &stance, &first) => self
-                .look_again(here, || {
+            Verdict::Move(stance) if !self.stays_on(here, &stance, &first) => {
+                // What is in mind cannot be. By the time it has looked the plan may know better.
+                self.flight.clear();
+                self.look_again(here, || {
                     "lost: the edge of the next step is not where it can be".to_owned()
-                }),
+                });
+            }
             Verdict::Move(stance) => {
                 self.tries.moves += 1;
                 if self.tries.moves > self.config.tries {

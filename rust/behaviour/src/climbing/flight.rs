@@ -177,9 +177,10 @@ fn keep_lane(steps: &mut [Step], before: &Step) {
 }
 
 /// An edge stays where it was measured while it is out of view, and when what is said of it now is worth less. One that was
-/// not measured goes where it is measured.
+/// not measured goes where it is measured, and one of which but a piece was known to where more of it is.
 fn keep_better_edge(step: &mut Step, old: &Step, pose: &PlanarPose) {
     const WORSE: f64 = 2.0;
+    const PIECE: f64 = 0.5;
     let away_m = -old.stair.front.beyond_m([pose.x_m, pose.y_m]);
     let out_of_view = away_m < OUT_OF_VIEW_M;
     let stays = match (&old.stair.front_fit, &step.stair.front_fit) {
@@ -188,7 +189,8 @@ fn keep_better_edge(step: &mut Step, old: &Step, pose: &PlanarPose) {
         (None, Some(_)) => false,
         (None, None) => out_of_view,
     };
-    if stays {
+    let was_a_piece = old.stair.front.length_m() < PIECE * step.stair.front.length_m();
+    if stays && !was_a_piece {
         step.stair.front = old.stair.front;
         step.stair.front_fit = old.stair.front_fit;
         step.stair.left_margin_m = old.stair.left_margin_m;

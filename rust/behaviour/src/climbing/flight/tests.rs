@@ -93,6 +93,26 @@ fn an_edge_that_was_never_measured_goes_where_it_is_measured_however_near_it_is(
 }
 
 #[test]
+fn an_edge_of_which_but_a_piece_was_known_goes_where_more_of_it_is_however_near_it_is() {
+    let plan = plan(0.0);
+    let whole = measured(&plan, 0.0);
+    let mut piece = plan.way.as_ref().unwrap().climbs[0].steps[0];
+    piece.stair = whole.stairs[0];
+    let middle = piece.stair.front.middle().inner.y;
+    piece.stair.front.left.inner.y = middle + 0.005;
+    piece.stair.front.right.inner.y = middle - 0.005;
+    let mut flight = Flight::default();
+    flight.adopt(&[piece]);
+    let at_the_edge = PlanarPose::new(0.45, 0.0, 0.0);
+    flight.refresh(None, &whole, &at_the_edge, &ClimbingConfig::default());
+    let known_m = flight.first().unwrap().stair.front.length_m();
+    assert!(
+        (known_m - whole.stairs[0].front.length_m()).abs() < 1e-9,
+        "{known_m}"
+    );
+}
+
+#[test]
 fn a_step_is_crossed_at_its_edge_wherever_that_is_measured() {
     let mut flight = Flight::default();
     let plan = plan(0.1);
