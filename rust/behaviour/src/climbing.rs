@@ -4,6 +4,7 @@
 //! align, approach, climb, finish. Decides from the [`Situation`] alone; whatever it waits for, it waits in bounded time.
 
 mod ascent;
+mod brink;
 mod config;
 mod finish;
 mod flight;

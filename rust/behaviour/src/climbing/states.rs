@@ -4,6 +4,7 @@ use geometry::angle_between;
 
 use super::walk::SURE_S;
 use super::{Here, Phase, StairClimbing, State};
+use crate::climbing::brink::Brink;
 use crate::climbing::footsteps::{Stance, level};
 use crate::climbing::setback::told;
 use crate::climbing::stepper::Stepped;
@@ -100,16 +101,29 @@ impl StairClimbing {
         let way = here.pose.relative(&goal);
         let turned_rad = angle_between(here.pose.yaw_rad, goal.yaw_rad);
         let there = way.x_m.abs() < 0.05 && way.y_m.abs() < 0.03 && turned_rad.abs() < 0.08;
-        if there || self.state_s > LONGEST_ALIGN_S {
+        let velocity = Velocity {
+            x_mps: (1.2 * way.x_m).clamp(-0.05, 0.1),
+            y_mps: (1.2 * way.y_m).clamp(-0.04, 0.04),
+            yaw_radps: (1.5 * turned_rad).clamp(-0.4, 0.4),
+        };
+        if there
+            || self.state_s > LONGEST_ALIGN_S
+            || self.brink(here).is_neared(&here.pose, &velocity)
+        {
             self.enter(State::Approach);
             self.head.look_at(self.crossed_at_m(here, &first));
             return Motion::Stand;
         }
-        Motion::Walk(Velocity {
-            x_mps: (1.2 * way.x_m).clamp(-0.05, 0.1),
-            y_mps: (1.2 * way.y_m).clamp(-0.04, 0.04),
-            yaw_radps: (1.5 * turned_rad).clamp(-0.4, 0.4),
-        })
+        Motion::Walk(velocity)
+    }
+
+    /// The floor that the robot stands on, as the map has it end.
+    fn brink<'a>(&'a self, here: &Here<'a>) -> Brink<'a> {
+        Brink {
+            view: here.situation.view,
+            feet: &self.feet,
+            level_m: here.ground_m,
+        }
     }
 
     /// Measures the first edge, then moves up to it.
@@ -163,6 +177,10 @@ impl StairClimbing {
         }
         self.tries.looks = 0;
         let stance = self.before(here).start_stance(first);
+        if self.brink(here).is_under(&stance.pose) {
+            self.begin_search(here);
+            return;
+        }
         let holds = level(&here.pose, &stance, self.feet.stance_m, &self.config);
         self.stepper.start(holds, &here.pose, here.ground_m);
         self.phase(Phase::Step);
@@ -207,9 +225,12 @@ impl StairClimbing {
         }
         self.enter(State::StepBack);
         self.refusal = reason;
-        let back = self.flight.first().map_or(here.pose, |first| {
-            super::leg::align_pose(first, &self.config, &self.climbing, &self.feet)
-        });
+        let back = self
+            .flight
+            .first()
+            .map(|first| super::leg::align_pose(first, &self.config, &self.climbing, &self.feet));
+        let back = back.filter(|back| !self.brink(here).is_under(back));
+        let back = back.unwrap_or(here.pose);
         let stance = Stance {
             pose: back,
             height_m: here.ground_m,
