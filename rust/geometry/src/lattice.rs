@@ -2,6 +2,8 @@
 //!
 //! A *cell* is integers, a *point* is metres, an *index* is an offset into storage. Rows run along +y, columns along +x.
 
+use crate::CellArea;
+
 /// A cell of a lattice. Any integer, also outside a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Cell {
@@ -49,56 +51,6 @@ impl Lattice {
 fn floor(value: f64) -> i32 {
     let towards_zero = value as i32;
     towards_zero.saturating_sub(i32::from(value < f64::from(towards_zero)))
-}
-
-/// A rectangle of cells, both ends included; empty where `min > max`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct CellArea {
-    /// Smallest column and row.
-    pub min: Cell,
-    /// Largest column and row.
-    pub max: Cell,
-}
-
-impl CellArea {
-    /// No cell.
-    pub const EMPTY: Self = Self {
-        min: Cell::new(i32::MAX, i32::MAX),
-        max: Cell::new(i32::MIN, i32::MIN),
-    };
-
-    /// Whether it holds no cell.
-    pub const fn is_empty(&self) -> bool {
-        self.min.col > self.max.col || self.min.row > self.max.row
-    }
-
-    /// Grows to hold `cell`.
-    pub fn include(&mut self, cell: Cell) {
-        self.min = Cell::new(self.min.col.min(cell.col), self.min.row.min(cell.row));
-        self.max = Cell::new(self.max.col.max(cell.col), self.max.row.max(cell.row));
-    }
-
-    /// Grows to hold `other`.
-    pub fn join(&mut self, other: Self) {
-        if !other.is_empty() {
-            self.include(other.min);
-            self.include(other.max);
-        }
-    }
-
-    /// Whether it holds `cell`.
-    pub const fn contains(&self, cell: Cell) -> bool {
-        cell.col >= self.min.col
-            && cell.col <= self.max.col
-            && cell.row >= self.min.row
-            && cell.row <= self.max.row
-    }
-
-    /// Its cells, row by row.
-    pub fn cells(self) -> impl Iterator<Item = Cell> {
-        (self.min.row..=self.max.row)
-            .flat_map(move |row| (self.min.col..=self.max.col).map(move |col| Cell { col, row }))
-    }
 }
 
 /// A value for every cell of a rectangle that starts at cell (0, 0); stored row by row.
@@ -237,31 +189,5 @@ mod tests {
                 prop_assert_eq!(grid.get(cell).copied(), Some(expected));
             }
         }
-    }
-
-    #[test]
-    fn joined_areas_hold_both_and_an_empty_one_adds_nothing() {
-        let area = |a: [i32; 4]| CellArea {
-            min: Cell::new(a[0], a[1]),
-            max: Cell::new(a[2], a[3]),
-        };
-        let mut joined = CellArea::EMPTY;
-        joined.join(CellArea::EMPTY);
-        assert!(joined.is_empty());
-        joined.join(area([2, 3, 4, 5]));
-        joined.join(CellArea::EMPTY);
-        assert_eq!(joined, area([2, 3, 4, 5]));
-        joined.join(area([0, 4, 3, 9]));
-        assert_eq!(joined, area([0, 3, 4, 9]));
-    }
-
-    #[test]
-    fn an_area_holds_what_it_was_given_and_no_less() {
-        let mut area = CellArea::EMPTY;
-        assert!(area.is_empty());
-        area.include(Cell::new(3, -1));
-        area.include(Cell::new(1, 4));
-        assert!(area.contains(Cell::new(2, 0)) && !area.contains(Cell::new(0, 0)));
-        assert_eq!(area.cells().count(), 3 * 6);
     }
 }

@@ -19,6 +19,7 @@
 //! ```
 
 mod angle;
+mod area;
 mod config;
 mod frames;
 mod lattice;
@@ -28,9 +29,10 @@ mod plane;
 mod pose;
 
 pub use angle::{angle_between, wrap_angle};
+pub use area::CellArea;
 pub use config::{ConfigError, require, require_positive};
 pub use frames::{Camera, LeftSole, Map, Odometry, RightSole, Robot, Torso, World};
-pub use lattice::{Cell, CellArea, Grid, Lattice};
+pub use lattice::{Cell, Grid, Lattice};
 pub use outline::{Cut, Outline, OutlineError};
 pub use planar::PlanarPose;
 pub use plane::Plane;
