@@ -15,7 +15,7 @@ use geometry::{Cell, CellArea, ConfigError, Map, Pose, Robot};
 use segmentation::Planes;
 
 use crate::surface::{
-    LabelledFrame, LabelledPoint, Pair, Stood, Window, check_poses, height_shift,
+    LabelledFrame, LabelledPoint, Pair, Reading, Stood, Window, check_poses, height_shift,
 };
 use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
 pub use config::AveragingConfig;
@@ -136,8 +136,13 @@ impl WorldModel for Averaging {
         changed.join(self.stood.stand(robot_m, &self.view.lattice));
 
         let config = &self.config;
-        self.frame
-            .read(planes, map_from_robot, false, config.max_range);
+        let reading = Reading {
+            snap: false,
+            max_range_m: config.max_range,
+            sure_range_m: f64::INFINITY,
+            delta_m: 0.0,
+        };
+        self.frame.read(planes, map_from_robot, reading);
         let pair = |point: &LabelledPoint| {
             let [x, y, z] = point.position_m;
             let known_m = self.means.height(self.view.lattice.cell_at(x, y))?;

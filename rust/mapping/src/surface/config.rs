@@ -58,6 +58,11 @@ pub struct FogConfig {
     pub nu: f64,
     /// Equation (11): what rises less than this above a floor is no obstacle, m.
     pub delta: f64,
+    /// Where a cell's own floor is not known, what does not stand out of the highest floor this near is no obstacle, m; 0: all
+    /// that is there is one, as the paper has it.
+    pub floor_beside: f64,
+    /// Floor that seems to lie this near behind an obstacle is not believed, m; 0: it is, as in the paper.
+    pub shadow: f64,
     /// Room that the robot needs above a floor, m: what begins higher is a ceiling to pass under. None: whatever rises above a
     /// floor is an obstacle, as the paper has it.
     pub headroom: Option<f64>,
@@ -97,6 +102,8 @@ impl Default for FogConfig {
             epsilon: 0.015,
             nu: 0.9,
             delta: 0.028,
+            floor_beside: 0.04,
+            shadow: 0.12,
             headroom: None,
             update: Update::PerFrame,
             clearing: Clearing::Shared,
@@ -116,6 +123,8 @@ impl FogConfig {
         Self {
             layers: 16,
             follow_height: false,
+            floor_beside: 0.0,
+            shadow: 0.0,
             ..Self::default()
         }
     }
@@ -164,6 +173,8 @@ impl FogConfig {
             self.nu,
         )?;
         not_negative("delta", self.delta)?;
+        not_negative("floor_beside", self.floor_beside)?;
+        not_negative("shadow", self.shadow)?;
         if let Some(headroom) = self.headroom {
             positive("headroom", headroom)?;
         }

@@ -71,6 +71,15 @@ impl FloorGrid {
             .filter(|&height| height != INVALID)
     }
 
+    /// Highest floor of the cells around one, at most so many cells to each side, m.
+    pub fn highest_around(&self, cell: Cell, cells: i32) -> Option<f32> {
+        let around = CellArea::of(cell).grown(cells);
+        around
+            .cells()
+            .filter_map(|c| self.height(c))
+            .reduce(f32::max)
+    }
+
     /// Height of the floor at a place of the map frame, m, and how many frames saw it from near enough to be sure.
     pub fn known_at(&self, x_m: f64, y_m: f64) -> Option<(f64, u16)> {
         let cell = self.lattice.cell_at(x_m, y_m);

@@ -4,9 +4,12 @@
 use geometry::{Cell, CellArea, ConfigError, Grid, Map, Pose, Robot};
 use segmentation::Planes;
 
+use super::shadow::Shadow;
 use super::stood::Stood;
 use super::window::{Layers, Window};
-use super::{FloorGrid, FogConfig, LabelledFrame, LabelledPoint, Pair, check_poses, height_shift};
+use super::{
+    FloorGrid, FogConfig, LabelledFrame, LabelledPoint, Pair, Reading, check_poses, height_shift,
+};
 use crate::volume::{OccupancyGrid, Placement, ProbabilityTable, Size};
 use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
 
@@ -86,12 +89,17 @@ impl Fog {
             .is_some_and(|center_m| center_m - half_layer_m >= f64::from(floor_m) + headroom_m)
     }
 
-    /// Equation (11) of a cell, but that a ceiling which is high enough is no obstacle; where it is unknown and the robot stood
-    /// there, the floor that it stood on.
+    /// Equation (11) of a cell, but that a ceiling which is high enough is no obstacle, and nor is what does not stand out of the
+    /// floor beside it where the cell's own is not known: the border of a tread, or floor that was only seen from far away. Where
+    /// it is unknown and the robot stood there, the floor that it stood on.
     pub fn surface(&self, cell: Cell) -> Surface {
         let floor = self.floor.height(cell);
         let obstacle = self.occupancy.obstacle_height_m(cell);
-        let limit = floor.map_or(f64::NEG_INFINITY, |h| f64::from(h) + self.config.delta);
+        let level = floor.or_else(|| {
+            let beside = self.floor_beside();
+            obstacle.and_then(|_| self.floor.highest_around(cell, beside))
+        });
+        let limit = level.map_or(f64::NEG_INFINITY, |h| f64::from(h) + self.config.delta);
         match (obstacle, floor) {
             (_, Some(height)) if self.is_passed_under(cell) => Surface::Floor(height),
             (Some(top), _) if top > limit => Surface::Obstacle(top as f32),
@@ -101,6 +109,11 @@ impl Fog {
                 .height(cell)
                 .map_or(Surface::Unknown, Surface::Floor),
         }
+    }
+
+    /// Cells to each side of one without a floor whose floor counts for it.
+    fn floor_beside(&self) -> i32 {
+        (self.config.floor_beside / self.config.cell).round() as i32
     }
 
     /// Moves the window to the robot, and the view with it; the cells of the view that this may have changed.
@@ -119,18 +132,26 @@ impl Fog {
         let all = self.view.cells.area();
         if layers != 0 {
             self.floor.verify(&self.occupancy, all);
-            self.refresh(all);
+            return self.refresh(all);
+        }
+        // Their neighbours may have left the window.
+        for side in all.rim(self.floor_beside()) {
+            let _ = self.refresh(side);
         }
         all
     }
 
-    /// Brings the view up to date in an area.
-    fn refresh(&mut self, area: CellArea) {
-        for cell in area.cells() {
+    /// Brings the view up to date where an area in which floors or voxels changed reaches to, and says where that is.
+    fn refresh(&mut self, area: CellArea) -> CellArea {
+        let reached = area
+            .grown(self.floor_beside())
+            .within(self.view.cells.area());
+        for cell in reached.cells() {
             let surface = self.surface(cell);
             let seen = self.floor.sightings(cell);
             self.view.set(cell, surface, seen);
         }
+        reached
     }
 }
 
@@ -147,8 +168,13 @@ impl WorldModel for Fog {
         let mut changed = self.stood.stand(robot_m, &self.view.lattice);
 
         let config = &self.config;
-        self.frame
-            .read(planes, map_from_robot, config.snap, config.max_range);
+        let reading = Reading {
+            snap: config.snap,
+            max_range_m: config.max_range,
+            sure_range_m: config.sure_range,
+            delta_m: config.delta,
+        };
+        self.frame.read(planes, map_from_robot, reading);
         // A patch that a few frames got wrong does not pull up what it borders on.
         let pair = |point: &LabelledPoint| {
             let [x, y, _] = point.position_m;
@@ -170,6 +196,13 @@ impl WorldModel for Fog {
         if used {
             self.frame.raise(shift.unwrap_or(0.0));
             let eye_m = self.frame.eye_m;
+            let shadow = Shadow {
+                eye_m,
+                reach_m: config.shadow,
+                view: &self.view,
+                occupancy: &self.occupancy,
+            };
+            self.frame.disbelieve(|position_m| shadow.holds(position_m));
             let touched =
                 self.occupancy
                     .insert(eye_m, self.frame.rays(), config.update, config.clearing);
@@ -178,7 +211,7 @@ impl WorldModel for Fog {
                 .update(&self.frame, &self.occupancy, config.update);
             changed.join(touched);
         }
-        self.refresh(changed);
+        changed = self.refresh(changed);
         changed.join(moved);
         Ok(Insertion {
             changed,

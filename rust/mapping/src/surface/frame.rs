@@ -29,8 +29,22 @@ pub struct LabelledPoint {
     pub position_m: [f64; 3],
     /// Height of its horizontal plane in the map frame, m; NaN is *invalid*.
     pub floor_height_m: f64,
-    /// Whether something was seen here; false: the ray was cut at the longest range.
+    /// Whether something was seen here; false: only the way to it was seen to be free, as that of a ray cut at the longest range.
     pub hit: bool,
+}
+
+/// How a frame's points are taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// Whether points on a horizontal plane are moved along their ray to its height.
+    pub snap: bool,
+    /// Points further away only tell that the way is free so far, m.
+    pub max_range_m: f64,
+    /// Points on no plane that are further away over the ground, m, and stand out by less than `delta_m` of what the robot stands on
+    /// may as well be floor: they are no hits.
+    pub sure_range_m: f64,
+    /// How far an obstacle stands out at least, m.
+    pub delta_m: f64,
 }
 
 /// One frame's points and where they were seen from. Reused from frame to frame.
@@ -44,15 +58,8 @@ pub struct LabelledFrame {
 
 impl LabelledFrame {
     /// Carries the points to the map frame: turned by the heading, moved by the position, `h_G = h_R + z_R`.
-    /// Points on a horizontal plane are moved along their ray to its height when `snap`. Those at the edge of a step tell
-    /// of neither surface and are left out.
-    pub fn read(
-        &mut self,
-        planes: &Planes,
-        map_from_robot: &Pose<Map, Robot>,
-        snap: bool,
-        max_range_m: f64,
-    ) {
+    /// Those at the edge of a step tell of neither surface and are left out.
+    pub fn read(&mut self, planes: &Planes, map_from_robot: &Pose<Map, Robot>, reading: Reading) {
         let eye = (*map_from_robot * planes.robot_from_camera.origin()).inner;
         self.eye_m = [eye.x, eye.y, eye.z];
         self.points.clear();
@@ -66,18 +73,22 @@ impl LabelledFrame {
             }
             let mut at = rotation * Point3::new(x, y, z) + translation;
             let floor_height_m = f64::from(height) + translation.z;
-            if snap && let Some(factor) = snap_factor(eye.z, at.z, floor_height_m) {
+            if reading.snap
+                && let Some(factor) = snap_factor(eye.z, at.z, floor_height_m)
+            {
                 at = eye + (at - eye) * factor;
             }
-            let range = (at - eye).norm();
-            let hit = range <= max_range_m;
-            if !hit {
-                at = eye + (at - eye) * (max_range_m / range);
+            let range_m = (at - eye).norm();
+            let seen = range_m <= reading.max_range_m;
+            if !seen {
+                at = eye + (at - eye) * (reading.max_range_m / range_m);
             }
+            let far = (at - eye).xy().norm() > reading.sure_range_m;
+            let stands_out = at.z > translation.z + reading.delta_m;
             self.points.push(LabelledPoint {
                 position_m: [at.x, at.y, at.z],
-                floor_height_m: if hit { floor_height_m } else { f64::NAN },
-                hit,
+                floor_height_m: if seen { floor_height_m } else { f64::NAN },
+                hit: seen && (stands_out || !far || !floor_height_m.is_nan()),
             });
         }
     }
@@ -88,6 +99,16 @@ impl LabelledFrame {
         for point in &mut self.points {
             point.position_m[2] += height_m;
             point.floor_height_m += height_m;
+        }
+    }
+
+    /// Points of floors that cannot have been seen where they seem to lie, as `hidden` says of their position: all that they
+    /// tell is that the way there is free.
+    pub fn disbelieve(&mut self, hidden: impl Fn([f64; 3]) -> bool) {
+        for point in &mut self.points {
+            if !point.floor_height_m.is_nan() && hidden(point.position_m) {
+                (point.floor_height_m, point.hit) = (f64::NAN, false);
+            }
         }
     }
 
@@ -112,6 +133,15 @@ mod tests {
     use geometry::Camera;
     use proptest::prelude::*;
 
+    fn reading(snap: bool, max_range_m: f64) -> Reading {
+        Reading {
+            snap,
+            max_range_m,
+            sure_range_m: 1.2,
+            delta_m: 0.028,
+        }
+    }
+
     fn planes(point: [f32; 3], height: f32) -> Planes {
         let mut planes = Planes::new(1);
         planes.robot_from_camera = Pose::<Robot, Camera>::from_yaw(0.0, 0.0, 0.5, 0.0);
@@ -128,7 +158,7 @@ mod tests {
             let [px, py, pz, yaw] = pose;
             let map_from_robot = Pose::from_yaw(px, py, pz, yaw);
             let mut frame = LabelledFrame::default();
-            frame.read(&planes([x, y, z], f32::NAN), &map_from_robot, true, 10.0);
+            frame.read(&planes([x, y, z], f32::NAN), &map_from_robot, reading(true, 10.0));
             let (sin, cos) = yaw.sin_cos();
             let (x, y, z) = (f64::from(x), f64::from(y), f64::from(z));
             let expected = [cos * x - sin * y + px, sin * x + cos * y + py, z + pz];
@@ -136,7 +166,7 @@ mod tests {
                 prop_assert!((found - wanted).abs() < 1e-12);
             }
             prop_assert!(frame.points[0].floor_height_m.is_nan());
-            frame.read(&planes([1.0, 0.0, 0.0], 0.25), &map_from_robot, false, 10.0);
+            frame.read(&planes([1.0, 0.0, 0.0], 0.25), &map_from_robot, reading(false, 10.0));
             prop_assert!((frame.points[0].floor_height_m - (0.25 + pz)).abs() < 1e-12);
         }
     }
@@ -147,8 +177,7 @@ mod tests {
         frame.read(
             &planes([0.5, 0.0, 0.02], 0.0),
             &Pose::identity(),
-            true,
-            10.0,
+            reading(true, 10.0),
         );
         let [x, _, z] = frame.points[0].position_m;
         assert!(z.abs() < 1e-9, "{z}");
@@ -158,7 +187,11 @@ mod tests {
     #[test]
     fn what_is_too_far_only_clears() {
         let mut frame = LabelledFrame::default();
-        frame.read(&planes([6.0, 0.0, 0.5], 0.5), &Pose::identity(), true, 2.0);
+        frame.read(
+            &planes([6.0, 0.0, 0.5], 0.5),
+            &Pose::identity(),
+            reading(true, 2.0),
+        );
         let point = frame.points[0];
         assert!(!point.hit && point.floor_height_m.is_nan());
         assert!((point.position_m[0] - 2.0).abs() < 1e-12);
@@ -169,9 +202,34 @@ mod tests {
         let mut frame = LabelledFrame::default();
         let mut at_step = planes([0.5, 0.0, 0.0], 0.0);
         at_step.at_step[0] = true;
-        frame.read(&at_step, &Pose::identity(), true, 2.0);
+        frame.read(&at_step, &Pose::identity(), reading(true, 2.0));
         assert!(frame.points.is_empty());
-        frame.read(&planes([f32::NAN; 3], 0.0), &Pose::identity(), true, 2.0);
+        frame.read(
+            &planes([f32::NAN; 3], 0.0),
+            &Pose::identity(),
+            reading(true, 2.0),
+        );
         assert!(frame.points.is_empty());
+    }
+
+    #[test]
+    fn what_may_as_well_be_floor_far_away_is_no_hit() {
+        let hit = |point: [f32; 3], height: f32| {
+            let mut frame = LabelledFrame::default();
+            frame.read(
+                &planes(point, height),
+                &Pose::from_yaw(0.0, 0.0, 0.1, 0.0),
+                reading(true, 4.0),
+            );
+            frame.points[0].hit
+        };
+        assert!(
+            !hit([1.5, 0.0, 0.02], f32::NAN),
+            "far, level with the robot"
+        );
+        assert!(!hit([1.5, 0.0, -0.1], f32::NAN), "far, lower");
+        assert!(hit([1.5, 0.0, 0.04], f32::NAN), "far, and stands out");
+        assert!(hit([1.5, 0.0, 0.0], 0.0), "far, a floor");
+        assert!(hit([0.8, 0.0, 0.02], f32::NAN), "near");
     }
 }

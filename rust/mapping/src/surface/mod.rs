@@ -5,6 +5,7 @@ mod floor;
 mod fog;
 mod frame;
 mod matching;
+mod shadow;
 mod stood;
 mod window;
 
@@ -12,7 +13,8 @@ pub use config::{Clearing, FogConfig, Update};
 pub use floor::{FloorGrid, INVALID, merge_height};
 pub use fog::Fog;
 pub(crate) use frame::check_poses;
-pub use frame::{LabelledFrame, LabelledPoint};
+pub use frame::{LabelledFrame, LabelledPoint, Reading};
 pub use matching::{Pair, height_shift};
+pub use shadow::Shadow;
 pub(crate) use stood::Stood;
 pub(crate) use window::Window;
