@@ -45,14 +45,15 @@ fn insert(grid: &mut OccupancyGrid, ends: &[[f64; 3]], update: Update) -> CellAr
 }
 
 fn frame_of(point: [f64; 3], height: f64) -> LabelledFrame {
-    LabelledFrame {
-        eye_m: EYE,
-        points: vec![LabelledPoint {
-            position_m: point,
-            floor_height_m: height,
-            hit: true,
-        }],
-    }
+    let mut frame = LabelledFrame::default();
+    frame.eye_m = EYE;
+    frame.points.push(LabelledPoint {
+        position_m: point,
+        floor_height_m: height,
+        hit: true,
+        rough: None,
+    });
+    frame
 }
 
 fn point() -> impl Strategy<Value = [f64; 3]> {

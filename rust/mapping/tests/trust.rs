@@ -5,9 +5,9 @@
 mod common;
 
 use common::{Block, camera, look};
-use geometry::{Map, Pose};
+use geometry::{Map, Plane, Point, Pose};
 use mapping::{Fog, FogConfig, Surface, WorldModel};
-use segmentation::Planes;
+use segmentation::{PlaneRegion, Planes};
 
 /// A wall across the robot's way, and a lid before it on the left.
 const WALL: Block = Block {
@@ -124,4 +124,42 @@ fn floor_in_a_shadow_still_clears_the_way_to_it() {
         "{:?}",
         there(&fog)
     );
+}
+
+/// Looks at a level block of which every `smooth_every`-th frame finds the top as smooth as the ground, and the others twice as
+/// rough; then what the map has in its middle.
+fn block_that_is_smooth_every(smooth_every: usize, config: FogConfig) -> Surface {
+    let block = Block::new([0.45, -0.2, 0.0], [0.75, 0.2, 0.1], true);
+    let mut fog = Fog::new(config).unwrap();
+    let pose = Pose::<Map, _>::identity();
+    for frame in 0..20 {
+        let mut planes = look(&[block], &pose, camera(0.5, 0.7, 0.0));
+        for (label, height_m) in planes.labels.iter_mut().zip(&planes.floor_height_m) {
+            *label = u16::from(*height_m > 0.05);
+        }
+        planes.regions.push(PlaneRegion {
+            support: 1000,
+            mean: Point::new(0.6, 0.0, 0.1),
+            plane: Plane::horizontal(0.1),
+            boundary: None,
+            floor_height_m: Some(0.1),
+            roughness: Some(if frame % smooth_every == 0 { 1.0 } else { 2.0 }),
+        });
+        let _ = fog.insert(&planes, &pose).unwrap();
+    }
+    fog.view().at(0.6, 0.02)
+}
+
+#[test]
+fn what_most_frames_find_rough_is_an_obstacle_though_it_is_level() {
+    let found = block_that_is_smooth_every(4, FogConfig::default());
+    assert!(matches!(found, Surface::Obstacle(_)), "{found:?}");
+    let without = FogConfig {
+        rough: None,
+        ..FogConfig::default()
+    };
+    for (smooth_every, config) in [(1, FogConfig::default()), (4, without)] {
+        let found = block_that_is_smooth_every(smooth_every, config);
+        assert!(matches!(found, Surface::Floor(_)), "{found:?}");
+    }
 }

@@ -121,5 +121,6 @@ fn fit(planes: &Planes, label: u16, floor_height_m: Option<f64>) -> PlaneRegion 
         },
         boundary: None,
         floor_height_m,
+        roughness: None,
     }
 }

@@ -141,6 +141,7 @@ impl WorldModel for Averaging {
             max_range_m: config.max_range,
             sure_range_m: f64::INFINITY,
             delta_m: 0.0,
+            rough: f32::INFINITY,
         };
         self.frame.read(planes, map_from_robot, reading);
         let pair = |point: &LabelledPoint| {

@@ -63,6 +63,9 @@ pub struct FogConfig {
     pub floor_beside: f64,
     /// Floor that seems to lie this near behind an obstacle is not believed, m; 0: it is, as in the paper.
     pub shadow: f64,
+    /// Level surfaces that are more times as rough as the ground, root mean square in disparity, are no floor. None: all are, as in
+    /// the paper.
+    pub rough: Option<f64>,
     /// Room that the robot needs above a floor, m: what begins higher is a ceiling to pass under. None: whatever rises above a
     /// floor is an obstacle, as the paper has it.
     pub headroom: Option<f64>,
@@ -104,6 +107,7 @@ impl Default for FogConfig {
             delta: 0.028,
             floor_beside: 0.04,
             shadow: 0.12,
+            rough: Some(1.4),
             headroom: None,
             update: Update::PerFrame,
             clearing: Clearing::Shared,
@@ -125,6 +129,7 @@ impl FogConfig {
             follow_height: false,
             floor_beside: 0.0,
             shadow: 0.0,
+            rough: None,
             ..Self::default()
         }
     }
@@ -175,6 +180,9 @@ impl FogConfig {
         not_negative("delta", self.delta)?;
         not_negative("floor_beside", self.floor_beside)?;
         not_negative("shadow", self.shadow)?;
+        if let Some(rough) = self.rough {
+            positive("rough", rough)?;
+        }
         if let Some(headroom) = self.headroom {
             positive("headroom", headroom)?;
         }

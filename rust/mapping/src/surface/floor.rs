@@ -153,6 +153,13 @@ impl FloorGrid {
         self.finish(frame.eye_m, update);
     }
 
+    /// Forgets the heights of an area's cells for which `is_no_floor` holds, whatever the occupancy grid says.
+    pub(crate) fn forget(&mut self, area: CellArea, is_no_floor: impl Fn(Cell) -> bool) {
+        for cell in area.cells().filter(|&cell| is_no_floor(cell)) {
+            self.set(cell, INVALID, 0, f32::INFINITY);
+        }
+    }
+
     /// Applies what was gathered of the frame and clears it.
     fn finish(&mut self, [eye_x_m, eye_y_m, _]: [f64; 3], update: Update) {
         while let Some(cell) = self.frame_cells.pop() {

@@ -4,6 +4,7 @@
 use geometry::{Cell, CellArea, ConfigError, Grid, Map, Pose, Robot};
 use segmentation::Planes;
 
+use super::rough::Rough;
 use super::shadow::Shadow;
 use super::stood::Stood;
 use super::window::{Layers, Window};
@@ -21,6 +22,7 @@ pub struct Fog {
     layers: Layers,
     occupancy: OccupancyGrid,
     floor: FloorGrid,
+    rough: Rough,
     stood: Stood,
     view: FloorView,
     frame: LabelledFrame,
@@ -51,6 +53,7 @@ impl Fog {
         Ok(Self {
             occupancy: OccupancyGrid::new(size, placement, table),
             floor: FloorGrid::new(lattice, &config),
+            rough: Rough::new(n),
             stood: Stood::new(n, config.footprint),
             view: FloorView::unknown(lattice, n),
             frame: LabelledFrame::default(),
@@ -127,6 +130,7 @@ impl Fog {
         self.occupancy.shift(cols, rows, layers);
         self.occupancy.place(lattice, self.layers.bottom_m());
         self.floor.shift(cols, rows, lattice);
+        self.rough.shift(cols, rows);
         self.stood.shift(cols, rows);
         self.view.shift(cols, rows, lattice);
         let all = self.view.cells.area();
@@ -173,6 +177,7 @@ impl WorldModel for Fog {
             max_range_m: config.max_range,
             sure_range_m: config.sure_range,
             delta_m: config.delta,
+            rough: config.rough.map_or(f32::INFINITY, |rough| rough as f32),
         };
         self.frame.read(planes, map_from_robot, reading);
         // A patch that a few frames got wrong does not pull up what it borders on.
@@ -210,6 +215,9 @@ impl WorldModel for Fog {
             self.floor
                 .update(&self.frame, &self.occupancy, config.update);
             changed.join(touched);
+            let judged = self.rough.take(&self.frame.points, &self.view.lattice);
+            self.floor.forget(judged, |cell| self.rough.is_rough(cell));
+            changed.join(judged);
         }
         changed = self.refresh(changed);
         changed.join(moved);

@@ -31,6 +31,8 @@ pub struct LabelledPoint {
     pub floor_height_m: f64,
     /// Whether something was seen here; false: only the way to it was seen to be free, as that of a ray cut at the longest range.
     pub hit: bool,
+    /// Whether it lies on a surface that is too rough for a floor; none where that cannot be told.
+    pub rough: Option<bool>,
 }
 
 /// How a frame's points are taken.
@@ -45,6 +47,8 @@ pub struct Reading {
     pub sure_range_m: f64,
     /// How far an obstacle stands out at least, m.
     pub delta_m: f64,
+    /// Level surfaces that are more times as rough as the ground are no floor.
+    pub rough: f32,
 }
 
 /// One frame's points and where they were seen from. Reused from frame to frame.
@@ -54,6 +58,8 @@ pub struct LabelledFrame {
     pub eye_m: [f64; 3],
     /// What was seen.
     pub points: Vec<LabelledPoint>,
+    /// Whether the surface of a label is too rough for a floor.
+    rough: Vec<Option<bool>>,
 }
 
 impl LabelledFrame {
@@ -65,9 +71,21 @@ impl LabelledFrame {
         self.points.clear();
         let rotation = map_from_robot.inner.rotation.to_rotation_matrix();
         let translation = map_from_robot.inner.translation.vector;
-        let pixels = planes.points_in_robot_m.iter().zip(&planes.floor_height_m);
-        for ((point, &height), &at_step) in pixels.zip(&planes.at_step) {
+        self.rough.clear();
+        self.rough.push(None);
+        let regions = planes.regions.iter();
+        self.rough
+            .extend(regions.map(|region| Some(region.roughness? > reading.rough)));
+        let surfaces = planes.floor_height_m.iter().zip(&planes.labels);
+        let pixels = planes.points_in_robot_m.iter().zip(surfaces);
+        for ((point, (&height, &label)), &at_step) in pixels.zip(&planes.at_step) {
             let [x, y, z] = point.map(f64::from);
+            let rough = self.rough.get(usize::from(label)).copied().flatten();
+            let height = if rough == Some(true) {
+                f32::NAN
+            } else {
+                height
+            };
             if at_step || !(x + y + z).is_finite() {
                 continue;
             }
@@ -88,6 +106,7 @@ impl LabelledFrame {
             self.points.push(LabelledPoint {
                 position_m: [at.x, at.y, at.z],
                 floor_height_m: if seen { floor_height_m } else { f64::NAN },
+                rough: rough.filter(|_| !far),
                 hit: seen && (stands_out || !far || !floor_height_m.is_nan()),
             });
         }
@@ -139,6 +158,7 @@ mod tests {
             max_range_m,
             sure_range_m: 1.2,
             delta_m: 0.028,
+            rough: 1.4,
         }
     }
 

@@ -5,6 +5,7 @@ mod floor;
 mod fog;
 mod frame;
 mod matching;
+mod rough;
 mod shadow;
 mod stood;
 mod window;

@@ -15,6 +15,7 @@ mod median;
 mod noise;
 mod product;
 mod reference;
+mod roughness;
 mod slivers;
 mod steps;
 mod surfaces;
@@ -253,6 +254,7 @@ impl<F: Finder> Segmenter for Grounded<F> {
                 rise_m: rise,
             } => {
                 (ground, rise_m) = (Some(region), rise);
+                self.surfaces.roughness.learn(region);
                 self.correction
                     .found(&predicted, &turn, rise_m, levelled.near);
             }

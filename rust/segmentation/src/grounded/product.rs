@@ -127,6 +127,7 @@ impl<F: Finder> Grounded<F> {
                 },
                 boundary: Outline::hull(&self.product.corners).ok(),
                 floor_height_m: Some(height_m),
+                roughness: self.surfaces.roughness.of(index),
             });
         }
     }

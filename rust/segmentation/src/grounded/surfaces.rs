@@ -10,6 +10,7 @@ use super::finder::{Finder, Look, MAX_REGIONS, Picture, Region, count_labels};
 use super::fit::{RegionFit, fit_regions};
 use super::median::Median;
 use super::noise::NoiseMap;
+use super::roughness::Roughness;
 use super::slivers::Slivers;
 use super::view::View;
 
@@ -44,6 +45,8 @@ pub(super) struct Surfaces<F> {
     pub(super) regions: Vec<Region>,
     /// A fit for each region, away from its border.
     pub(super) fits: Vec<RegionFit>,
+    /// How rough the regions are, after `refit`.
+    pub(super) roughness: Roughness,
     g: Vec<f32>,
     eroded: Vec<u16>,
     checks: Vec<RegionFit>,
@@ -75,6 +78,7 @@ impl<F: Finder> Surfaces<F> {
             labels: vec![0; pixels],
             regions: Vec::new(),
             fits: Vec::new(),
+            roughness: Roughness::new(),
             g: vec![0.0; pixels],
             eroded: vec![0; pixels],
             checks: Vec::new(),
@@ -232,6 +236,7 @@ impl<F: Finder> Surfaces<F> {
         for (region, fit) in self.regions.iter_mut().zip(&self.fits) {
             region.q = fit.q(&Vector2::zeros()) as f32;
         }
+        self.roughness.measure(picture, &self.regions, &self.eroded);
         self.slivers
             .find(&self.labels, self.width, view, &self.regions);
         self.erosion

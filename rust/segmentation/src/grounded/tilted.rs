@@ -120,6 +120,7 @@ impl<'a> TiltedRecord<'a> {
                 .then(|| Outline::hull(self.corners).ok())
                 .flatten(),
             floor_height_m: None,
+            roughness: None,
         })
     }
 }

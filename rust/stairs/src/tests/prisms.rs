@@ -85,6 +85,7 @@ pub(super) fn frame(
             plane: Plane::horizontal(height_m),
             boundary: Outline::hull(&flat).ok().filter(|_| enough),
             floor_height_m: enough.then_some(height_m),
+            roughness: None,
         });
     }
     (scan, planes)
