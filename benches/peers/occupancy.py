@@ -5,7 +5,8 @@ python benches/peers/occupancy.py [--frames PATH|N]   needs: pip install pyoctom
 
 import argparse
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from time import process_time
 
@@ -13,7 +14,7 @@ import numpy as np
 import pyoctomap
 from numpy.typing import NDArray
 
-from treadwell.timing.benches import grids
+from treadwell.timing.benches import CLEARING, grids
 from treadwell.timing.frames import Frames, read_frames
 from treadwell.timing.room import CAMERAS, room
 
@@ -21,25 +22,33 @@ CELL = 0.04
 RANGE = 4.0
 ROUNDS = 3
 
-Insert = Callable[[NDArray[np.float64], NDArray[np.float64]], object]
+Insert = Callable[[int], object]
+"""Takes in the frame of a number."""
 
 
-def octomap(*, discretize: bool) -> Insert:
-    """Return how a new tree takes in a frame."""
+def octomap(frames: Frames, clouds: Sequence[NDArray[np.float64]], *, discretize: bool) -> Insert:
+    """Return how a new tree takes in the points of a frame."""
     tree = pyoctomap.OcTree(CELL)
 
-    def insert(points: NDArray[np.float64], eye: NDArray[np.float64]) -> object:
-        return tree.insertPointCloud(points, eye, max_range=RANGE, discretize=discretize)
+    def insert(index: int) -> object:
+        eye = frames.position[index]
+        return tree.insertPointCloud(clouds[index], eye, max_range=RANGE, discretize=discretize)
 
     return insert
 
 
-def core(clouds: list[NDArray[np.float64]], mode: str) -> Insert:
-    """Return how a new grid of the core takes in a frame."""
+def core(
+    frames: Frames,
+    clouds: Sequence[NDArray[np.float64]],
+    pictures: Sequence[NDArray[np.float64]],
+    mode: str,
+) -> Insert:
+    """Return how a new grid of the core takes in the same points, pixel by pixel."""
     grid = grids(clouds)[mode]
 
-    def insert(points: NDArray[np.float64], eye: NDArray[np.float64]) -> object:
-        return grid.insert(points, (float(eye[0]), float(eye[1]), float(eye[2])))
+    def insert(index: int) -> object:
+        camera = frames.camera(index)
+        return grid.insert_picture(pictures[index], camera, frames.focal, frames.centre)
 
     return insert
 
@@ -47,19 +56,19 @@ def core(clouds: list[NDArray[np.float64]], mode: str) -> Insert:
 def compare(frames: Frames) -> None:
     """Print a row each: milliseconds of processor time a frame, and ratios to OctoMap's."""
     clouds = [frames.points(index) for index in range(len(frames.depth))]
+    pictures = [frames.picture(index) for index in range(len(frames.depth))]
     makers: dict[str, Callable[[], Insert]] = {
-        "OctoMap exact": lambda: octomap(discretize=False),
-        "OctoMap discretized": lambda: octomap(discretize=True),
-        "exact": lambda: core(clouds, "exact"),
-        "fast": lambda: core(clouds, "fast"),
+        "OctoMap exact": partial(octomap, frames, clouds, discretize=False),
+        "OctoMap discretized": partial(octomap, frames, clouds, discretize=True),
+        **{mode: partial(core, frames, clouds, pictures, mode) for mode in CLEARING},
     }
     spent = {name: np.zeros((ROUNDS, len(clouds))) for name in makers}
     for turn in range(ROUNDS):
         inserts = {name: make() for name, make in makers.items()}
-        for index, (points, eye) in enumerate(zip(clouds, frames.position, strict=True)):
+        for index in range(len(clouds)):
             for name, insert in inserts.items():
                 started = process_time()
-                insert(points, eye)
+                insert(index)
                 spent[name][turn, index] = 1e3 * (process_time() - started)
     best = {name: rows.min(axis=0) for name, rows in spent.items()}
     sys.stdout.write(f"{frames.name} {frames.shape}, {len(clouds)} frames, {1e3 * CELL:.0f} mm\n")

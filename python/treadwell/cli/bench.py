@@ -48,13 +48,11 @@ def show(document: Mapping[str, Any]) -> None:
     """Write what `bench` returned as a table."""
     rows = []
     for row in document["benches"]:
-        agrees = row["agreement"]
-        told = ", ".join(
-            f"{value} {key}" if isinstance(value, int) else f"{key} {100 * value:.1f} %"
-            for key, value in agrees.items()
-        )
-        for mode in ("exact", "fast"):
-            found = row[mode]
+        for mode, found in row["modes"].items():
+            agrees = ", ".join(
+                f"{value} {key}" if isinstance(value, int) else f"{key} {100 * value:.1f} %"
+                for key, value in found["agreement"].items()
+            )
             rows.append(
                 (
                     row["bench"],
@@ -64,8 +62,8 @@ def show(document: Mapping[str, Any]) -> None:
                     f"{found['p95']:.3f}",
                     f"{found['worst']:.3f}",
                     f"{100 * found['bindings_share']:.1f} %",
-                    f"{row['ratio']:.1f}" if mode == "fast" else "",
-                    told if mode == "fast" else "",
+                    f"{found['ratio']:.1f}",
+                    agrees,
                 )
             )
     header = ("bench", "frames", "mode", "p50", "p95", "worst", "bindings", "faster", "agreement")

@@ -50,10 +50,28 @@ class Frames:
         Args:
             index: of the frame.
         """
+        picture = self.picture(index)
+        return np.ascontiguousarray(picture[np.isfinite(picture[..., 0])])
+
+    def picture(self, index: int) -> NDArray[np.float64]:
+        """Return (h, w, 3) m: each pixel's point in the world, NaN where nothing was seen.
+
+        Args:
+            index: of the frame.
+        """
         depth = self.depth[index].astype(np.float64)
-        seen = depth > 0.0
-        local = self.directions()[seen] * depth[seen][:, None]
+        local = self.directions() * np.where(depth > 0.0, depth, np.nan)[..., None]
         return np.ascontiguousarray(local @ self.rotation[index].T + self.position[index])
+
+    def camera(self, index: int) -> NDArray[np.float64]:
+        """Return (4, 4): from the camera's frame to the world's.
+
+        Args:
+            index: of the frame.
+        """
+        pose = np.eye(4)
+        pose[:3, :3], pose[:3, 3] = self.rotation[index], self.position[index]
+        return pose
 
 
 def read_frames(path: Path) -> Frames:

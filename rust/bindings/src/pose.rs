@@ -11,7 +11,7 @@ pub(crate) fn rigid<T, S>(pose: &PyReadonlyArray2<'_, f64>) -> PyResult<Pose<T, 
     let array = pose.as_array();
     if array.dim() != (4, 4) || array.iter().any(|value| !value.is_finite()) {
         return Err(PyValueError::new_err(
-            "robot_from_camera must be a finite (4, 4) matrix",
+            "a camera's pose must be a finite (4, 4) matrix",
         ));
     }
     let matrix = Matrix4::from_fn(|row, col| array[(row, col)]);

@@ -1,6 +1,7 @@
 //! A segmenter alone: for depth images that come from elsewhere than from an episode.
 
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -18,6 +19,9 @@ use crate::products::PyPlanes;
 pub(crate) struct PySegmenter {
     segmenter: Box<dyn Segmenter>,
     scan: Scan,
+    /// Time that the core itself took for the last picture, s.
+    #[pyo3(get)]
+    seconds: f64,
 }
 
 #[pymethods]
@@ -59,6 +63,7 @@ impl PySegmenter {
         Ok(Self {
             segmenter,
             scan: Scan::new(camera),
+            seconds: 0.0,
         })
     }
 
@@ -70,7 +75,11 @@ impl PySegmenter {
         depth: &Bound<'_, PyArray2<f32>>,
         robot_from_camera: &Bound<'_, PyArray2<f64>>,
     ) -> PyResult<PyPlanes> {
-        let Self { segmenter, scan } = self;
+        let Self {
+            segmenter,
+            scan,
+            seconds,
+        } = self;
         let size = (scan.camera.height, scan.camera.width);
         let depth = depth.readonly();
         let depths_m = depth.as_array();
@@ -80,15 +89,15 @@ impl PySegmenter {
                 depths_m.dim()
             )));
         }
-        scan.read_depths(
-            depths_m.iter().copied(),
-            rigid(&robot_from_camera.readonly())?,
-        )
-        .map_err(|error| failed(py, &error))?;
+        let robot_from_camera = rigid(&robot_from_camera.readonly())?;
+        let started = Instant::now();
+        scan.read_depths(depths_m.iter().copied(), robot_from_camera)
+            .map_err(|error| failed(py, &error))?;
         let mut planes = Planes::new(depths_m.len());
         py.detach(|| unpanicked(|| segmenter.segment(scan, &mut planes)))
             .map_err(|error| failed(py, &error))?
             .map_err(|error| failed(py, &error))?;
+        *seconds = started.elapsed().as_secs_f64();
         Ok(PyPlanes(planes))
     }
 }

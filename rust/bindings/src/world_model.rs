@@ -3,14 +3,15 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-use geometry::{Lattice, Map, Pose, Robot};
-use mapping::volume::{OccupancyGrid, Placement, ProbabilityTable, Ray, Size};
+use geometry::{Camera, Lattice, Map, Pose, Robot};
+use mapping::volume::{OccupancyGrid, Picture, Placement, ProbabilityTable, Ray, Size};
 use mapping::{FogConfig, WorldModel};
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::error::{bad_setting, failed, unpanicked};
+use crate::pose::rigid;
 use crate::products::{FlatPose, PyFloorView, PyPlanes};
 
 /// Keeps a map of the planes of frames, as the pilot's world model of that name does.
@@ -125,18 +126,64 @@ impl PyOccupancyGrid {
             return Err(PyValueError::new_err("points must be (n, 3)"));
         }
         let (points, _) = flat.as_chunks::<3>();
-        let finite = |at: &[f64; 3]| (at[0] + at[1] + at[2]).is_finite();
-        if !finite(&eye) {
+        if !eye.iter().all(|at| at.is_finite()) {
             return Err(PyValueError::new_err("the eye must be finite"));
         }
         let (grid, config) = (&mut self.grid, &self.config);
+        let rays = rays(eye, points, config.max_range).map(|(_, ray)| ray);
         let started = Instant::now();
-        let rays = points
-            .iter()
-            .filter(|at| finite(at))
-            .map(|&end_m| ray(eye, end_m, config.max_range));
         let _area = py
             .detach(|| unpanicked(|| grid.insert(eye, rays, config.update, config.clearing)))
+            .map_err(|error| failed(py, &error))?;
+        self.seconds = started.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// Takes in a picture's points, (h, w, 3) m, NaN where nothing was seen. `camera`, (4, 4), is where it was taken: x to the right,
+    /// y down, z forward. `focal` and `centre` are (along columns, along rows), pixels; each pixel's point lies on its line of sight.
+    fn insert_picture(
+        &mut self,
+        py: Python<'_>,
+        points: &Bound<'_, PyArray3<f64>>,
+        camera: &Bound<'_, PyArray2<f64>>,
+        focal: [f64; 2],
+        centre: [f64; 2],
+    ) -> PyResult<()> {
+        let points = points.readonly();
+        let by_row = points.as_slice().ok().filter(|_| points.is_c_contiguous());
+        let Some(flat) = by_row else {
+            return Err(PyValueError::new_err(
+                "points must lie row by row in memory",
+            ));
+        };
+        let (height, width, parts) = points.as_array().dim();
+        if parts != 3 {
+            return Err(PyValueError::new_err("points must be (h, w, 3)"));
+        }
+        let holds = focal.iter().all(|&px| px > 0.0 && px.is_finite());
+        if !holds || !centre.iter().all(|px| px.is_finite()) {
+            return Err(PyValueError::new_err(
+                "focal must be > 0, and the centre finite",
+            ));
+        }
+        let pose: Pose<Map, Camera> = rigid(&camera.readonly())?;
+        let (points, _) = flat.as_chunks::<3>();
+        let picture = Picture {
+            size_px: [width, height],
+            focal_px: focal,
+            centre_px: centre,
+            axes: Picture::axes_of(&pose),
+        };
+        let eye = pose.inner.translation.vector.into();
+        let (grid, config) = (&mut self.grid, &self.config);
+        let rays = rays(eye, points, config.max_range);
+        let started = Instant::now();
+        let _area = py
+            .detach(|| {
+                unpanicked(|| {
+                    grid.insert_picture(eye, &picture, rays, config.update, config.clearing)
+                })
+            })
             .map_err(|error| failed(py, &error))?;
         self.seconds = started.elapsed().as_secs_f64();
         Ok(())
@@ -160,9 +207,33 @@ impl PyOccupancyGrid {
     }
 }
 
+/// The rays to the points that are numbers, each with the number of its point.
+fn rays(
+    eye_m: [f64; 3],
+    points_m: &[[f64; 3]],
+    max_range_m: f64,
+) -> impl Iterator<Item = (usize, Ray)> {
+    points_m
+        .iter()
+        .enumerate()
+        .filter(|(_, at)| (at[0] + at[1] + at[2]).is_finite())
+        .map(move |(index, &end_m)| (index, ray(eye_m, end_m, max_range_m)))
+}
+
+#[inline]
 fn ray(eye_m: [f64; 3], end_m: [f64; 3], max_range_m: f64) -> Ray {
-    let along: [f64; 3] = std::array::from_fn(|a| end_m[a] - eye_m[a]);
-    let range_m = along.iter().map(|part| part * part).sum::<f64>().sqrt();
+    /// A root is only taken where its rounding may decide.
+    const SURELY: f64 = 1.0 - 1e-12;
+    let along = [
+        end_m[0] - eye_m[0],
+        end_m[1] - eye_m[1],
+        end_m[2] - eye_m[2],
+    ];
+    let squared = along[0] * along[0] + along[1] * along[1] + along[2] * along[2];
+    if squared < SURELY * max_range_m * max_range_m {
+        return Ray { end_m, hit: true };
+    }
+    let range_m = squared.sqrt();
     if range_m <= max_range_m {
         return Ray { end_m, hit: true };
     }

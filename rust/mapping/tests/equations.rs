@@ -52,6 +52,7 @@ fn frame_of(point: [f64; 3], height: f64) -> LabelledFrame {
         floor_height_m: height,
         hit: true,
         rough: None,
+        pixel: 0,
     });
     frame
 }

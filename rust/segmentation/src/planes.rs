@@ -1,7 +1,7 @@
 //! What every segmenter produces: planes, labels, and points with the height of the floor they belong to.
 
 use geometry::{Camera, Outline, Plane, Point, Pose, Robot};
-use sensing::Scan;
+use sensing::{Intrinsics, Scan};
 
 /// Why a scan could not be segmented. The segmenter's state is unchanged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -47,6 +47,8 @@ pub struct Planes {
     pub ground: Option<usize>,
     /// Camera in the robot's frame after correction by the ground plane; the measured one where no ground was found.
     pub robot_from_camera: Pose<Robot, Camera>,
+    /// The camera of which the pixels are the picture: each point lies on its pixel's line of sight. None where that is not so.
+    pub camera: Option<Intrinsics>,
     /// Region of each pixel plus one, row by row; 0 where it belongs to none.
     pub labels: Vec<u16>,
     /// Position of each pixel's point in the robot's frame, m; NaN where nothing was seen.
@@ -68,6 +70,7 @@ impl Planes {
             regions: Vec::new(),
             ground: None,
             robot_from_camera: Pose::identity(),
+            camera: None,
             labels: vec![0; pixels],
             points_in_robot_m: vec![[f32::NAN; 3]; pixels],
             floor_height_m: vec![f32::NAN; pixels],

@@ -14,15 +14,19 @@ pub enum Update {
     PerPoint,
 }
 
-/// How a frame's rays are followed, once for all of them. The map is the same to the last bit.
+/// How it is found which voxels a frame's rays pass, once for all of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Default)]
 #[serde(rename_all = "snake_case")]
 pub enum Clearing {
-    /// Where neighbours can only pass what is marked or as free as can be, none of them is followed.
+    /// Where neighbours can only pass what is marked or as free as can be, none of them is followed. The map is that of `EveryRay`
+    /// to the last bit.
     #[default]
     Shared,
-    /// Each by itself: what `Shared` is compared with.
+    /// Each by itself: what the others are compared with.
     EveryRay,
+    /// No ray is followed: every voxel in view is looked up in the picture. One whose middle no ray goes by may be left out, but none
+    /// is passed that `EveryRay` does not pass, and what is hit is the same. Frames that are no pictures are taken in as by `Shared`.
+    Projected,
 }
 
 /// Parameters of the floor and obstacle grid: `[navigation.fog]`. The paper names them without values, except for the
@@ -71,7 +75,7 @@ pub struct FogConfig {
     pub headroom: Option<f64>,
     /// How often a frame may change a voxel: `per_frame` or `per_point`.
     pub update: Update,
-    /// How rays are followed with `per_frame`: `shared` or `every_ray` (slower; the same map).
+    /// How rays are followed with `per_frame`: `shared`, `every_ray` (slower; the same map) or `projected` (faster; frees a bit less).
     pub clearing: Clearing,
     /// Whether points of a horizontal plane are moved along their ray to the plane's height.
     pub snap: bool,

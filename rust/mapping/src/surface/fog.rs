@@ -159,6 +159,17 @@ impl Fog {
     }
 }
 
+/// Takes the lines of sight of a frame into the occupancy grid; the cells that they touched.
+fn occupy(occupancy: &mut OccupancyGrid, frame: &LabelledFrame, config: &FogConfig) -> CellArea {
+    let (eye_m, rays) = (frame.eye_m, frame.rays());
+    let (update, clearing) = (config.update, config.clearing);
+    if let Some(picture) = &frame.picture {
+        occupancy.insert_picture(eye_m, picture, rays, update, clearing)
+    } else {
+        occupancy.insert(eye_m, rays.map(|(_, ray)| ray), update, clearing)
+    }
+}
+
 impl WorldModel for Fog {
     fn insert(
         &mut self,
@@ -208,9 +219,7 @@ impl WorldModel for Fog {
                 occupancy: &self.occupancy,
             };
             self.frame.disbelieve(|position_m| shadow.holds(position_m));
-            let touched =
-                self.occupancy
-                    .insert(eye_m, self.frame.rays(), config.update, config.clearing);
+            let touched = occupy(&mut self.occupancy, &self.frame, config);
             self.floor.verify(&self.occupancy, touched);
             self.floor
                 .update(&self.frame, &self.occupancy, config.update);

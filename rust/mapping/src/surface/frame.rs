@@ -5,7 +5,7 @@ use nalgebra::Point3;
 use segmentation::Planes;
 
 use crate::MapError;
-use crate::volume::Ray;
+use crate::volume::{Picture, Ray};
 
 /// Refuses poses that are no numbers, before anything is changed by them.
 pub(crate) fn check_poses(
@@ -33,6 +33,8 @@ pub struct LabelledPoint {
     pub hit: bool,
     /// Whether it lies on a surface that is too rough for a floor; none where that cannot be told.
     pub rough: Option<bool>,
+    /// Number of its pixel, row by row.
+    pub pixel: u32,
 }
 
 /// How a frame's points are taken.
@@ -58,6 +60,8 @@ pub struct LabelledFrame {
     pub eye_m: [f64; 3],
     /// What was seen.
     pub points: Vec<LabelledPoint>,
+    /// The picture of which the pixels are, where they are one.
+    pub picture: Option<Picture>,
     /// Whether the surface of a label is too rough for a floor.
     rough: Vec<Option<bool>>,
 }
@@ -69,6 +73,7 @@ impl LabelledFrame {
         let eye = (*map_from_robot * planes.robot_from_camera.origin()).inner;
         self.eye_m = [eye.x, eye.y, eye.z];
         self.points.clear();
+        self.picture = picture(planes, map_from_robot);
         let rotation = map_from_robot.inner.rotation.to_rotation_matrix();
         let translation = map_from_robot.inner.translation.vector;
         self.rough.clear();
@@ -78,7 +83,9 @@ impl LabelledFrame {
             .extend(regions.map(|region| Some(region.roughness? > reading.rough)));
         let surfaces = planes.floor_height_m.iter().zip(&planes.labels);
         let pixels = planes.points_in_robot_m.iter().zip(surfaces);
-        for ((point, (&height, &label)), &at_step) in pixels.zip(&planes.at_step) {
+        for (pixel, ((point, (&height, &label)), &at_step)) in
+            (0..).zip(pixels.zip(&planes.at_step))
+        {
             let [x, y, z] = point.map(f64::from);
             let rough = self.rough.get(usize::from(label)).copied().flatten();
             let height = if rough == Some(true) {
@@ -108,6 +115,7 @@ impl LabelledFrame {
                 floor_height_m: if seen { floor_height_m } else { f64::NAN },
                 rough: rough.filter(|_| !far),
                 hit: seen && (stands_out || !far || !floor_height_m.is_nan()),
+                pixel,
             });
         }
     }
@@ -131,13 +139,28 @@ impl LabelledFrame {
         }
     }
 
-    /// The lines of sight.
-    pub fn rays(&self) -> impl Iterator<Item = Ray> {
-        self.points.iter().map(|point| Ray {
-            end_m: point.position_m,
-            hit: point.hit,
+    /// The lines of sight, each with the number of its pixel.
+    pub fn rays(&self) -> impl Iterator<Item = (usize, Ray)> {
+        self.points.iter().map(|point| {
+            let ray = Ray {
+                end_m: point.position_m,
+                hit: point.hit,
+            };
+            (point.pixel as usize, ray)
         })
     }
+}
+
+/// How the pixels' lines of sight lie side by side in the map frame.
+fn picture(planes: &Planes, map_from_robot: &Pose<Map, Robot>) -> Option<Picture> {
+    let camera = planes.camera?;
+    let (col, row) = camera.principal_point_px();
+    Some(Picture {
+        size_px: [camera.width, camera.height],
+        focal_px: [camera.focal_px; 2],
+        centre_px: [col, row],
+        axes: Picture::axes_of(&(*map_from_robot * planes.robot_from_camera)),
+    })
 }
 
 /// By how much a ray is stretched to end at its plane's height; `None` where that is no small correction.

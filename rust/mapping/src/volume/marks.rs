@@ -1,11 +1,16 @@
 //! What the rays of one frame hit and passed, voxel by voxel: each counts once, however many rays touched it.
 
-use geometry::CellArea;
+use geometry::{Cell, CellArea};
 
 use super::columns::Slabs;
-use super::occupancy::Size;
+use super::locator::Locator;
+use super::occupancy::{Placement, Ray, Size};
+use super::picture::Sight;
+use super::projected::Projector;
 use super::ray::Part;
+use super::reaches::Reaches;
 use super::strip::{Gaps, RAYS};
+use super::voxels::{Column, Voxels};
 use crate::surface::Clearing;
 
 /// Marks of the frame that is being inserted. Empty between frames.
@@ -16,6 +21,7 @@ pub(super) struct Marks {
     hits: Vec<u64>,
     passed: Vec<u64>,
     gaps: Gaps,
+    reaches: Reaches,
 }
 
 impl Marks {
@@ -27,6 +33,7 @@ impl Marks {
             hits: vec![0; cells],
             passed: vec![0; cells],
             gaps: Gaps::default(),
+            reaches: Reaches::default(),
         }
     }
 
@@ -45,7 +52,7 @@ impl Marks {
         let mut strip = [Slabs::default(); RAYS];
         let together = match clearing {
             Clearing::EveryRay => 1,
-            Clearing::Shared => RAYS,
+            Clearing::Shared | Clearing::Projected => RAYS,
         };
         let mut count = 0;
         for (end, hit) in rays {
@@ -66,6 +73,44 @@ impl Marks {
         }
         self.walk(&strip[..count], settled);
         self.gaps.clear();
+        area
+    }
+
+    /// The same for the rays of a picture, each with its pixel: looks from the voxels into the picture, and leaves out what is
+    /// settled, and voxels of which no ray goes by the places that are looked at.
+    pub(super) fn look(
+        &mut self,
+        sight: &Sight,
+        placement: &Placement,
+        rays: impl Iterator<Item = (usize, Ray)>,
+        voxels: &Voxels,
+    ) -> CellArea {
+        let locator = Locator::new(placement, self.size);
+        let mut area = CellArea::EMPTY;
+        let mut farthest_m = 0.0_f32;
+        self.reaches.clear(sight.size_px);
+        for (pixel, Ray { end_m, hit }) in rays {
+            let depth_m = sight.depth_of(end_m);
+            farthest_m = farthest_m.max(depth_m);
+            self.reaches.note(pixel, depth_m);
+            if hit && let Some([col, row, layer]) = locator.voxel_at(end_m) {
+                self.hits[row as usize * self.size.cols + col as usize] |= 1 << layer;
+                area.include(Cell::new(col, row));
+            }
+        }
+        self.reaches.gather();
+        let (hits, passed) = (&self.hits, &mut self.passed);
+        let projector = Projector::new(sight, &self.reaches, farthest_m, self.size);
+        area.join(projector.visit(
+            |cell| {
+                let Column { known, likely } = voxels.column(cell);
+                Column {
+                    known: known | hits[cell],
+                    likely,
+                }
+            },
+            |cell, layers| passed[cell] = layers,
+        ));
         area
     }
 

@@ -1,13 +1,19 @@
 //! Volumes: the voxel occupancy grid, its sensor model and its rays.
 
 mod columns;
+mod frustum;
+mod locator;
 mod marks;
 mod occupancy;
+mod picture;
 mod probability;
+mod projected;
 mod ray;
+mod reaches;
 mod strip;
 mod voxels;
 
 pub use occupancy::{OccupancyGrid, Placement, Ray, Size};
+pub use picture::Picture;
 pub use probability::{ProbabilityTable, bayes};
 pub use ray::VoxelWalk;

@@ -3,6 +3,7 @@
 use geometry::{Cell, CellArea, Lattice};
 
 use super::marks::Marks;
+use super::picture::{Picture, Sight};
 use super::ray::Part;
 use super::voxels::{Voxels, bits};
 use super::{ProbabilityTable, VoxelWalk};
@@ -39,7 +40,7 @@ pub struct Placement {
 
 impl Placement {
     /// A point of the map frame in voxels.
-    fn in_voxels(&self, point_m: [f64; 3]) -> [f64; 3] {
+    pub(super) fn in_voxels(&self, point_m: [f64; 3]) -> [f64; 3] {
         let Lattice { origin_m, cell_m } = self.lattice;
         [
             (point_m[0] - origin_m[0]) / cell_m,
@@ -141,6 +142,25 @@ impl OccupancyGrid {
         }
     }
 
+    /// The same with rays that are a picture's, each with the number of its pixel, row by row; no pixel has two.
+    pub fn insert_picture(
+        &mut self,
+        eye_m: [f64; 3],
+        picture: &Picture,
+        rays: impl Iterator<Item = (usize, Ray)>,
+        update: Update,
+        clearing: Clearing,
+    ) -> CellArea {
+        if update == Update::PerPoint || clearing != Clearing::Projected {
+            return self.insert(eye_m, rays.map(|(_, ray)| ray), update, clearing);
+        }
+        let placement = self.placement;
+        let sight = Sight::new(picture, eye_m, &placement);
+        let area = self.marks.look(&sight, &placement, rays, &self.voxels);
+        self.apply_marks(area);
+        area
+    }
+
     /// Moves the window by whole voxels: what was at (c + cols, r + rows, l + layers) is now at (c, r, l).
     pub fn shift(&mut self, cols: i32, rows: i32, layers: i32) {
         if cols != 0 || rows != 0 {
@@ -169,6 +189,9 @@ impl OccupancyGrid {
                 continue;
             };
             let [hits, passed] = self.marks.take(index);
+            if hits | passed == 0 {
+                continue;
+            }
             self.voxels.hit(index, hits);
             self.voxels.miss(index, passed);
         }

@@ -16,6 +16,17 @@ pub(super) struct Voxels {
     occupied: Grid<u64>,
     /// One bit a layer: whether it is as free as can be, so that another miss changes nothing.
     settled: Grid<u64>,
+    /// One bit a layer: whether it is rather occupied than not.
+    likely: Grid<u64>,
+}
+
+/// Layers of a cell, one bit each.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Column {
+    /// Those of which nothing is to be found out.
+    pub(super) known: u64,
+    /// Those that are rather occupied than not.
+    pub(super) likely: u64,
 }
 
 impl Voxels {
@@ -27,6 +38,7 @@ impl Voxels {
             codes: Grid::filled(cols * layers, rows, table.unknown()),
             occupied: Grid::filled(cols, rows, 0),
             settled: Grid::filled(cols, rows, 0),
+            likely: Grid::filled(cols, rows, 0),
             table,
         }
     }
@@ -45,6 +57,15 @@ impl Voxels {
     /// For every cell the layers that a miss does not change, one bit each.
     pub(super) fn settled(&self) -> &[u64] {
         self.settled.values()
+    }
+
+    /// What a search for misses needs to know of a cell.
+    #[inline]
+    pub(super) fn column(&self, cell: usize) -> Column {
+        Column {
+            known: self.settled.values()[cell],
+            likely: self.likely.values()[cell],
+        }
     }
 
     /// Takes in a measurement at layers of a cell.
@@ -66,14 +87,19 @@ impl Voxels {
     #[inline]
     fn update(&mut self, cell: usize, layers: u64, after: impl Fn(&ProbabilityTable, u8) -> u8) {
         let column = &mut self.codes.values_mut()[cell * self.layers..][..self.layers];
-        let (mut occupied, mut settled) = (0, 0);
+        let (mut occupied, mut settled, mut likely) = (0, 0, 0);
         for layer in bits(layers) {
             let code = after(&self.table, column[layer]);
             column[layer] = code;
             occupied |= u64::from(self.table.is_occupied(code)) << layer;
             settled |= u64::from(self.table.after_miss(code) == code) << layer;
+            likely |= u64::from(code > self.table.unknown()) << layer;
         }
-        for (grid, new) in [(&mut self.occupied, occupied), (&mut self.settled, settled)] {
+        for (grid, new) in [
+            (&mut self.occupied, occupied),
+            (&mut self.settled, settled),
+            (&mut self.likely, likely),
+        ] {
             let mask = &mut grid.values_mut()[cell];
             *mask = *mask & !layers | new;
         }
@@ -85,6 +111,7 @@ impl Voxels {
         self.codes.shift(cols.saturating_mul(depth), rows, &unknown);
         self.occupied.shift(cols, rows, &0);
         self.settled.shift(cols, rows, &0);
+        self.likely.shift(cols, rows, &0);
     }
 
     /// What was in layer `l + by` is now in layer `l`.
@@ -110,7 +137,7 @@ impl Voxels {
                 column[..depth - kept].fill(unknown);
             }
         }
-        for grid in [&mut self.occupied, &mut self.settled] {
+        for grid in [&mut self.occupied, &mut self.settled, &mut self.likely] {
             for mask in grid.values_mut() {
                 *mask = shifted(*mask);
             }
@@ -119,6 +146,7 @@ impl Voxels {
 }
 
 /// Positions of the set bits.
+#[inline]
 pub(super) fn bits(mut mask: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let bit = (mask != 0).then(|| mask.trailing_zeros() as usize)?;
@@ -185,9 +213,10 @@ mod tests {
                 for cell in 0..4 {
                     for layer in 0..64 {
                         let code = voxels.codes.values().get(cell * LAYERS + layer).filter(|_| layer < LAYERS);
-                        let [occupied, settled] = [&voxels.occupied, &voxels.settled]
+                        let [occupied, settled, likely] = [&voxels.occupied, &voxels.settled, &voxels.likely]
                             .map(|masks| masks.values()[cell] >> layer & 1 == 1);
                         prop_assert_eq!(occupied, code.is_some_and(|&code| table.is_occupied(code)));
+                        prop_assert_eq!(likely, code.is_some_and(|&code| code > table.unknown()));
                         prop_assert_eq!(
                             settled,
                             code.is_some_and(|&code| table.after_miss(code) == code)

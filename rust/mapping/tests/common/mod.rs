@@ -4,10 +4,17 @@
 use geometry::{Camera, Map, Pose, Robot};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use segmentation::Planes;
+use sensing::Intrinsics;
 
 pub const WIDTH: usize = 88;
 pub const HEIGHT: usize = 72;
 const FOCAL_PX: f64 = 101.2;
+const CAMERA: Intrinsics = Intrinsics {
+    width: WIDTH,
+    height: HEIGHT,
+    focal_px: FOCAL_PX,
+    baseline_m: 0.06,
+};
 
 /// A block; its top is a floor to step on where `flat`.
 #[derive(Debug, Clone, Copy)]
@@ -61,6 +68,7 @@ pub fn look(
 ) -> Planes {
     let mut planes = Planes::new(WIDTH * HEIGHT);
     planes.robot_from_camera = robot_from_camera;
+    planes.camera = Some(CAMERA);
     planes.reliable = true;
     let map_from_camera = (*map_from_robot * robot_from_camera).inner;
     let robot_from_map = map_from_robot.inner.inverse();

@@ -43,6 +43,7 @@ impl<F: Finder> Grounded<F> {
             Translation3::from(position),
             rotation,
         ));
+        planes.camera = Some(self.camera);
         self.place_points(levelled, &position, planes);
         self.describe_regions(levelled, &position, planes);
         let pixels = self.surfaces.labels.iter_mut();
