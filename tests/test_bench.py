@@ -23,7 +23,10 @@ def test_rays_followed_together_make_the_same_map_as_each_by_itself() -> None:
         frames = room(camera, count)
         shared = occupancy(frames)["modes"]["shared"]
         assert shared["agreement"] == {"occupied": 1.0, "free": 1.0, "freed": 0}
-        assert step(frames)["modes"]["shared"]["agreement"] == {"cells": 1.0}
+        modes = step(frames)["modes"]
+        assert [found["used"] for found in modes.values()] == 3 * [count]
+        assert modes["shared"]["agreement"] == {"cells": 1.0}
+        assert modes["projected"]["agreement"]["cells"] > 0.97
 
 
 @pytest.mark.parametrize(
