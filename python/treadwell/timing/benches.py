@@ -18,7 +18,7 @@ CLEARING: Final = {"exact": "every_ray", "shared": "shared", "projected": "proje
 _CELL: Final = 0.04
 _LAYERS: Final = 40
 _BASELINE: Final = 0.06
-_SETTLING: Final = 12
+_SETTLING: Final = 30
 """Frames until the segmenter is sure of the ground: before that the map takes in none."""
 _GROUND: Final = {"search_reach": 1.0}
 """The camera of the bench does not see the floor beside the feet, where the ground is searched."""

@@ -1,4 +1,4 @@
-//! Time to take one 88x72 frame into the map: every ray exact, several kinds of update.
+//! Time to take one 88x72 frame into the map, by several kinds of update.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -34,6 +34,13 @@ fn insert(criterion: &mut Criterion) {
             "fog insert 88x72, 24 layers, every ray",
             FogConfig {
                 clearing: Clearing::EveryRay,
+                ..FogConfig::default()
+            },
+        ),
+        (
+            "fog insert 88x72, 24 layers, projected",
+            FogConfig {
+                clearing: Clearing::Projected,
                 ..FogConfig::default()
             },
         ),

@@ -91,7 +91,9 @@ impl Marks {
         self.reaches.clear(sight.size_px);
         for (pixel, Ray { end_m, hit }) in rays {
             let depth_m = sight.depth_of(end_m);
-            farthest_m = farthest_m.max(depth_m);
+            if depth_m > farthest_m {
+                farthest_m = depth_m;
+            }
             self.reaches.note(pixel, depth_m);
             if hit && let Some([col, row, layer]) = locator.voxel_at(end_m) {
                 self.hits[row as usize * self.size.cols + col as usize] |= 1 << layer;
