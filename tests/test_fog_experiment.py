@@ -54,14 +54,22 @@ def test_segmenters_are_counted_over_all_frames_of_all_runs() -> None:
 
 
 def test_cells_of_the_course_and_of_the_levels_stand_beside_what_is_wanted() -> None:
-    counts = MapCounts(floor_cells_right=0.97, floor_called_obstacle=0.01, obstacle_cells_right=1.0)
+    counts = MapCounts(
+        floor_cells=100,
+        floor_cells_right=0.97,
+        floor_called_obstacle=0.01,
+        obstacle_cells_right=1.0,
+        whole_obstacle_cells=20,
+        whole_obstacle_called_floor=0.05,
+    )
     top = SurfaceEntry(element="low", part="top", truth=0.04, estimate=0.0385, cells=9)
     runs = [Run(result(MADE, map=counts, surfaces=[top]), Path("folder"))]
     rows = rows_of(fog_tables, {cases.course("fog"): runs}, "Cells of")
     assert rows["floor called obstacle, %"] == ("0.5", "1.00", "1.00")
+    assert rows["the same of cells that lie in an obstacle whole, %"] == ("0", "5.00", "5.00")
     assert rows["floor at the wrong height, %"][1:] == ("2.00", "2.00")
     rows = rows_of(fog_tables, {cases.levels("fog"): runs}, "Three levels")
-    assert rows[cases.levels("fog")] == ("97.00", "100.00", "1.50", "1.50")
+    assert rows[cases.levels("fog")] == ("97.00", "100.00", "96.67", "1.50", "1.50")
 
 
 def test_of_what_was_not_run_there_is_no_table() -> None:

@@ -64,6 +64,8 @@ def test_the_file_has_the_contracts_keys_in_its_order(tmp_path: Path) -> None:
         "obstacle_cells_right",
         "floor_called_obstacle",
         "obstacle_called_floor",
+        "whole_obstacle_cells",
+        "whole_obstacle_called_floor",
     }
     assert STAGES[0] == "physics"
 

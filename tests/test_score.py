@@ -52,6 +52,19 @@ def test_wrong_cells_are_counted_as_what_they_are_called() -> None:
     assert counts.floor_cells_right == pytest.approx(1 - 2 / counts.floor_cells)
 
 
+def test_a_cell_that_lies_in_an_obstacle_with_its_centre_alone_is_no_whole_one() -> None:
+    remembered, _, truth = perfect(BOX)
+    border = truth.obstacle & ~truth.whole
+    assert 0 < truth.whole.sum() < truth.obstacle.sum()
+    remembered.kind[border] = FLOOR
+    counts = map_counts(remembered, truth)
+    assert counts.obstacle_called_floor == pytest.approx(border.sum() / truth.obstacle.sum())
+    assert counts.whole_obstacle_cells == truth.whole.sum()
+    assert counts.whole_obstacle_called_floor == 0.0
+    remembered.kind[truth.whole] = FLOOR
+    assert map_counts(remembered, truth).whole_obstacle_called_floor == 1.0
+
+
 def test_a_floor_at_the_height_of_a_boxes_lid_is_right_and_at_any_other_is_not() -> None:
     remembered, _, truth = perfect(BOX)
     remembered.kind[truth.obstacle] = FLOOR

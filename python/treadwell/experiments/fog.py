@@ -137,6 +137,11 @@ def _course(results: Results) -> Table:
         (
             row("floor called obstacle, %", "0.5", [100 * m.floor_called_obstacle for m in maps]),
             row("obstacle called floor, %", "0", [100 * m.obstacle_called_floor for m in maps]),
+            row(
+                "the same of cells that lie in an obstacle whole, %",
+                "0",
+                [100 * m.whole_obstacle_called_floor for m in maps],
+            ),
             row("floor at the wrong height, %", NOTHING, [_wrong_height(run) for run in runs]),
         )
         if runs

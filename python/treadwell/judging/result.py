@@ -73,7 +73,11 @@ class SurfaceEntry(Table):
 
 
 class MapCounts(Table):
-    """Cells of the map against the truth: numbers of cells, and shares of them."""
+    """Cells of the map against the truth: numbers of cells, and shares of them.
+
+    A floor cell lies on one floor whole, an obstacle cell has its centre in an obstacle; a whole
+    obstacle cell has its corners there, too.
+    """
 
     floor_cells: Count = 0
     floor_cells_right: Share = 0.0
@@ -81,6 +85,8 @@ class MapCounts(Table):
     obstacle_cells_right: Share = 0.0
     floor_called_obstacle: Share = 0.0
     obstacle_called_floor: Share = 0.0
+    whole_obstacle_cells: Count = 0
+    whole_obstacle_called_floor: Share = 0.0
 
 
 class StateEntry(Table):

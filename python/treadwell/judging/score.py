@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,6 +79,11 @@ def timing(seconds: Sequence[float]) -> Timing:
     )
 
 
+_CENTRE: Final = (0, 0)
+_CORNERS: Final = (_CENTRE, (-1, -1), (-1, 1), (1, -1), (1, 1))
+"""Places of a cell, in half cells from its middle."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class TrueCells:
     """What truly is in each cell of a remembered map; arrays (rows, cols).
@@ -86,6 +92,7 @@ class TrueCells:
         floor: the whole cell lies on one walkable surface, clear of everything else.
         height: m, of that surface.
         obstacle: the cell's centre lies in an obstacle that the robot could run into.
+        whole: its corners do, too: as a floor cell, it is nothing else.
         lid: m, height of that obstacle's level top, NaN where it has none: a floor at that height
             is what a box's top is to Gutmann 2005 (section III), whoever may stand on it.
     """
@@ -93,6 +100,7 @@ class TrueCells:
     floor: Bools
     height: Floats
     obstacle: Bools
+    whole: Bools
     lid: Floats
 
 
@@ -122,7 +130,7 @@ def true_cells(
             clear &= np.abs(distance) >= half_diagonal
             level = top.height_at(points) + offset[2]
             height = np.where((distance <= 0.0) & (level > height), level, height)
-    obstacle = np.zeros(len(centres), dtype=bool)
+    obstacle = np.zeros((len(_CORNERS), len(centres)), dtype=bool)
     lid = np.full(len(centres), np.nan)
     for element, offset in elements:
         if element.walkable:
@@ -131,16 +139,22 @@ def true_cells(
         for piece in element.pieces:
             bottom = float(piece.vertices[:, 2].min() + offset[2])
             top_z = float(piece.vertices[:, 2].max() + offset[2])
-            distance = signed_distance(piece.outline, centres - offset[:2])
             matters = (bottom < height + headroom) & (top_z > height + 1e-6)
-            inside = matters & (distance <= 0.0)
-            obstacle |= inside
-            lid[inside] = np.fmax(lid[inside], top_z) if has_lid else lid[inside]
-            clear &= ~matters | (distance >= half_diagonal)
+            for inside, corner in zip(obstacle, _CORNERS, strict=True):
+                points = centres + 0.5 * remembered.cell * np.array(corner) - offset[:2]
+                distance = signed_distance(piece.outline, points)
+                here = matters & (distance <= 0.0)
+                inside |= here
+                if corner == _CENTRE:
+                    lid[here] = np.fmax(lid[here], top_z) if has_lid else lid[here]
+                    clear &= ~matters | (distance >= half_diagonal)
     shape = remembered.kind.shape
-    floor = clear & ~obstacle
     return TrueCells(
-        floor.reshape(shape), height.reshape(shape), obstacle.reshape(shape), lid.reshape(shape)
+        floor=(clear & ~obstacle[0]).reshape(shape),
+        height=height.reshape(shape),
+        obstacle=obstacle[0].reshape(shape),
+        whole=np.all(obstacle, axis=0).reshape(shape),
+        lid=lid.reshape(shape),
     )
 
 
@@ -158,6 +172,7 @@ def map_counts(remembered: RememberedMap, truth: TrueCells) -> MapCounts:
     with np.errstate(invalid="ignore"):
         on_lid = (kind == FLOOR) & (np.abs(remembered.height - truth.lid) <= HEIGHT_TOLERANCE)
     called_floor = obstacle & (kind == FLOOR) & ~on_lid
+    whole = obstacle & truth.whole
     return MapCounts(
         floor_cells=int(floor.sum()),
         floor_cells_right=_share(right, floor),
@@ -165,6 +180,8 @@ def map_counts(remembered: RememberedMap, truth: TrueCells) -> MapCounts:
         obstacle_cells_right=_share(obstacle & ~called_floor, obstacle),
         floor_called_obstacle=_share(floor & (kind == OBSTACLE), floor),
         obstacle_called_floor=_share(called_floor, obstacle),
+        whole_obstacle_cells=int(whole.sum()),
+        whole_obstacle_called_floor=_share(called_floor & whole, whole),
     )
 
 

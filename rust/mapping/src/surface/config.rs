@@ -111,7 +111,7 @@ impl Default for FogConfig {
             delta: 0.028,
             floor_beside: 0.04,
             shadow: 0.12,
-            rough: Some(1.4),
+            rough: Some(1.6),
             headroom: None,
             update: Update::PerFrame,
             clearing: Clearing::Shared,

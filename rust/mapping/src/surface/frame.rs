@@ -181,7 +181,7 @@ mod tests {
             max_range_m,
             sure_range_m: 1.2,
             delta_m: 0.028,
-            rough: 1.4,
+            rough: 1.6,
         }
     }
 

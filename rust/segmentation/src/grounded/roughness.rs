@@ -7,7 +7,7 @@
 use super::finder::{MAX_REGIONS, Picture, Region};
 
 /// Fewest pixels away from a region's border that tell how rough it is.
-const FEWEST: u32 = 40;
+const FEWEST: usize = 80;
 /// Deviations count up to this, px: what is further off was mismatched.
 const LARGEST_PX: f32 = 0.6;
 /// Share of what is believed of the ground that one frame makes up.
@@ -16,7 +16,7 @@ const GAIN: f32 = 0.1;
 /// Pixels of a region, and the sum of their squared deviations from it, px.
 #[derive(Debug, Clone, Copy, Default)]
 struct Deviation {
-    pixels: u32,
+    pixels: usize,
     squares: f32,
 }
 
@@ -49,7 +49,8 @@ impl Roughness {
             if label == 0 || d.is_nan() {
                 continue;
             }
-            let Some(region) = regions.get(label - 1) else {
+            // Of thin regions all pixels are left, which the window blends with what borders on them.
+            let Some(region) = regions.get(label - 1).filter(|r| r.core >= FEWEST) else {
                 continue;
             };
             let deviation = (d - region.q * g).clamp(-LARGEST_PX, LARGEST_PX);
@@ -106,6 +107,7 @@ mod tests {
         };
         let region = |q| Region {
             q,
+            core: 10 * WIDTH,
             ..Region::default()
         };
         let mut roughness = Roughness::new();
