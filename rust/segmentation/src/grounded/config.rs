@@ -47,6 +47,9 @@ pub struct GroundConfig {
     /// A surface tilted by more than this against the ground is no floor, rad: steps of 15 mm laid together, treads of 20 cm apart,
     /// slope by 0.075.
     pub floor_tilt: f64,
+    /// Whether surfaces that are tilted by 3 to 10 degrees and are no stairs are kept as one, with their height at each pixel; false:
+    /// they fall into level strips. What looks like one and is not yet sure is left out of maps.
+    pub slopes: bool,
 }
 
 impl Default for GroundConfig {
@@ -70,6 +73,7 @@ impl Default for GroundConfig {
             hold_level_frames: 400,
             forget_frames: 75,
             floor_tilt: 0.03,
+            slopes: false,
         }
     }
 }

@@ -29,6 +29,8 @@ pub struct Region {
     pub core: usize,
     /// The disparities of its plane, px, from finders that find planes in any direction.
     pub plane: Option<Linear>,
+    /// Whether that plane is a slope to walk on.
+    pub is_slope: bool,
 }
 
 /// How often a picture was looked at.

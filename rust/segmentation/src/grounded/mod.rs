@@ -17,6 +17,7 @@ mod product;
 mod reference;
 mod roughness;
 mod slivers;
+mod slopes;
 mod steps;
 mod surfaces;
 #[cfg(test)]
@@ -166,6 +167,9 @@ impl<F: Finder> Grounded<F> {
             let nothing = Vector2::zeros();
             let tilt = shared_tilt(&self.surfaces.fits, level_rad, &nothing, NEAR_RAD);
             levelled = Levelled::new(&self.camera, predicted, levelled.further(&tilt));
+        }
+        if self.config.slopes && !searching {
+            levelled = self.part_slopes(levelled, level_rad, sigma);
         }
         for _ in 0..CUTS {
             let expected = -levelled.tilt;

@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Point2, Point3, Translation3, Unit, UnitQuaternion, Ve
 
 use super::steps::StepMarks;
 use super::tilted::{TiltedRecord, over_rays};
-use super::view::to_f32;
+use super::view::{View, to_f32};
 use super::{Finder, Grounded, Levelled};
 use crate::{PlaneRegion, Planes};
 
@@ -50,6 +50,7 @@ impl<F: Finder> Grounded<F> {
         for (label, height_m) in pixels.zip(&mut planes.floor_height_m) {
             (*label, *height_m) = self.product.floors[usize::from(*label)];
         }
+        self.fill_slopes(&levelled.view, position.z, planes);
         if !F::ANY_DIRECTION {
             self.walls.find(
                 &self.surfaces.disparity_px,
@@ -61,6 +62,13 @@ impl<F: Finder> Grounded<F> {
         }
         planes.labels.copy_from_slice(&self.surfaces.labels);
         self.product.step_marks.mark(self.camera.width, planes);
+        for (at_step, doubtful) in planes
+            .at_step
+            .iter_mut()
+            .zip(&self.surfaces.slopes.doubtful)
+        {
+            *at_step |= doubtful;
+        }
     }
 
     /// Every pixel's point: `position + f B / d * ray`.
@@ -130,6 +138,21 @@ impl<F: Finder> Grounded<F> {
                 floor_height_m: Some(height_m),
                 roughness: self.surfaces.roughness.of(index),
             });
+        }
+    }
+
+    /// Gives the pixels of slopes the height of their plane there.
+    fn fill_slopes(&self, view: &View, camera_m: f64, planes: &mut Planes) {
+        let width = self.camera.width;
+        for run in &self.product.runs {
+            let region = &self.surfaces.regions[usize::from(run.label) - 1];
+            let Some(plane) = region.plane.filter(|_| region.is_slope) else {
+                continue;
+            };
+            for col in run.cols.clone() {
+                let below_m = view.g.at(col, run.row) / plane.at(col, run.row);
+                planes.floor_height_m[run.row * width + col] = camera_m as f32 - below_m;
+            }
         }
     }
 

@@ -12,6 +12,7 @@ use super::median::Median;
 use super::noise::NoiseMap;
 use super::roughness::Roughness;
 use super::slivers::Slivers;
+use super::slopes::Slopes;
 use super::view::View;
 
 /// Columns and rows around a pixel that must be of its region for a fit: a matching window of 5, and one more row to each side.
@@ -54,6 +55,8 @@ pub(super) struct Surfaces<F> {
     erosion: Erosion,
     slivers: Slivers,
     cuts: Cuts,
+    /// Finds slopes.
+    pub(super) slopes: Slopes,
 }
 
 impl<F: Finder> Surfaces<F> {
@@ -86,11 +89,13 @@ impl<F: Finder> Surfaces<F> {
             erosion: Erosion::default(),
             slivers: Slivers::default(),
             cuts: Cuts::default(),
+            slopes: Slopes::default(),
         }
     }
 
     /// Takes in a scan: median and local noise.
     pub(super) fn read(&mut self, scan: &Scan) {
+        self.slopes.doubtful.clear();
         self.seen_px.clear();
         self.seen_px.extend(scan.disparity_px.iter().map(|&d| {
             if d > 0.0 && d.is_finite() {
@@ -177,6 +182,23 @@ impl<F: Finder> Surfaces<F> {
         let (regions, labels) = (&mut self.regions, &mut self.labels);
         self.finder.find(picture, view, look, regions, labels);
         self.fit_inside(view);
+    }
+
+    /// Makes regions of the slopes, and fits the others anew; says whether there were any.
+    pub(super) fn find_slopes(&mut self, view: &View, look: Look) -> bool {
+        view.fill(self.width, &mut self.g);
+        let picture = Picture {
+            width: self.width,
+            disparity_px: &self.disparity_px,
+            g: &self.g,
+            sigma_px: &self.sigma_px,
+        };
+        let (regions, labels) = (&mut self.regions, &mut self.labels);
+        let any = self.slopes.find(picture, view, look, regions, labels);
+        if any {
+            self.fit_inside(view);
+        }
+        any
     }
 
     /// Cuts the regions that hold two levels, and fits anew; says whether there were any.

@@ -87,6 +87,12 @@ impl View {
         .try_inverse()
     }
 
+    /// The disparities of the plane `d = a X + b Y + q g`.
+    pub(crate) fn plane(&self, abq: &Vector3<f64>) -> Linear {
+        let [x, y, g] = [&self.x, &self.y, &self.g].map(Linear::coefficients);
+        Linear::new(&(x * abq.x + y * abq.y + g * abq.z))
+    }
+
     /// Fills `out` with `g` of every pixel, row by row.
     pub fn fill(&self, width: usize, out: &mut [f32]) {
         for (row, line) in out.chunks_exact_mut(width).enumerate() {

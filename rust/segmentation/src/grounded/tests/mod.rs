@@ -3,6 +3,7 @@
 mod camera_place;
 mod ground;
 mod products;
+mod slopes;
 mod surfaces;
 mod treads;
 
