@@ -13,6 +13,9 @@ CLIMBS_S = 2.0
 SETTLES_S = 0.5
 PLATE_M = 6.0
 """Length and width of a plate."""
+SLOPE_M = 0.7
+SLOPE_WIDTH_M = 2.0
+"""Length, seen from above, and width of a slope."""
 STAIR_S = 4.5
 """Longest time for one stand on the stairs; a climb that takes longer is over."""
 
@@ -44,6 +47,7 @@ class Job:
     steps: int
     errors: Errors
     pushed: float
+    slope: float
 
 
 def straight(_rng: np.random.Generator, _job: Job) -> Plan:
@@ -53,6 +57,11 @@ def straight(_rng: np.random.Generator, _job: Job) -> Plan:
 def across(_rng: np.random.Generator, _job: Job) -> Plan:
     """Walk on until the edge is behind the robot."""
     return Plan([(STARTS_S, (WALKING_MPS, 0.0, 0.0)), (STARTS_S + 11.0, None)], 14.0)
+
+
+def over(_rng: np.random.Generator, _job: Job) -> Plan:
+    """Walk on until the slope is behind the robot."""
+    return Plan([(STARTS_S, (WALKING_MPS, 0.0, 0.0)), (STARTS_S + 15.0, None)], 18.0)
 
 
 def backward(_rng: np.random.Generator, _job: Job) -> Plan:
@@ -194,9 +203,35 @@ def edge(rng: np.random.Generator, job: Job) -> list[dict[str, object]]:
     ]
 
 
+def slope(rng: np.random.Generator, job: Job) -> list[dict[str, object]]:
+    """A slope up to a platform, or from the one that the robot stands on down to the floor."""
+    ahead, rise = rng.uniform(0.3, 0.5), SLOPE_M * math.tan(math.radians(job.slope))
+    up = job.task == "slope_up"
+    middle = ahead + SLOPE_M + PLATE_M / 2 if up else ahead - PLATE_M / 2
+    return [
+        {
+            "kind": "platform",
+            "name": "top",
+            "position": [middle, 0.0],
+            "size": [PLATE_M, SLOPE_WIDTH_M, rise],
+        },
+        {
+            "kind": "ramp",
+            "name": "slope",
+            "position": [ahead if up else ahead + SLOPE_M, 0.0],
+            "yaw": 0.0 if up else math.pi,
+            "length": SLOPE_M,
+            "width": SLOPE_WIDTH_M,
+            "rise": rise,
+        },
+    ]
+
+
 EDGES: dict[str, Callable[[np.random.Generator, Job], list[dict[str, object]]]] = {
     "edge_up": edge,
     "edge_down": edge,
+    "slope_up": slope,
+    "slope_down": slope,
 }
 
 TASKS: dict[str, Callable[[np.random.Generator, Job], Plan]] = {
@@ -210,6 +245,8 @@ TASKS: dict[str, Callable[[np.random.Generator, Job], Plan]] = {
     "push_sideways": push_sideways,
     "push_standing": push_standing,
     "wander": wander,
+    "slope_up": over,
+    "slope_down": over,
     "edge_up": across,
     "edge_down": across,
 }

@@ -234,6 +234,7 @@ def main() -> int:
     parser.add_argument("--height-error", type=float, default=0.0, help="of each level, m")
     parser.add_argument("--x-error", type=float, default=0.0, help="of each edge, m")
     parser.add_argument("--pushed", type=float, default=0.0, help="every 2 to 4 s on stairs, N s")
+    parser.add_argument("--slope", type=float, default=5.0, help="degrees")
     parser.add_argument("--gait", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--json", type=Path, help="file for all trials")
     arguments = parser.parse_args()
@@ -250,6 +251,7 @@ def main() -> int:
         steps=arguments.steps,
         errors=Errors(arguments.height_error, arguments.x_error),
         pushed=arguments.pushed,
+        slope=arguments.slope,
     )
     results = []
     for task in arguments.task:
