@@ -1,5 +1,7 @@
 //! Takes the border off regions: there the matching window saw two surfaces at once.
 
+use super::finder::MAX_REGIONS;
+
 /// Lowest and highest label that a pixel stands for. Of one that says nothing (not seen, or a hole inside one region): none.
 const NEUTRAL: (i16, i16) = (i16::MAX, 0);
 /// And of a seen pixel without a region: all.
@@ -168,6 +170,15 @@ fn is_hole(labels: &[u16], width: usize, at: usize) -> bool {
         at + width + 1,
     ];
     label > 0 && neighbours.iter().filter(|&&n| labels[n] == label).count() >= 5
+}
+
+/// Gives back to `eroded` the whole of those regions whose labels are wanted.
+pub(super) fn keep_where(labels: &[u16], eroded: &mut [u16], wanted: &[bool; MAX_REGIONS + 1]) {
+    for (eroded, &label) in eroded.iter_mut().zip(labels) {
+        if wanted[usize::from(label)] {
+            *eroded = label;
+        }
+    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use sensing::{Intrinsics, Scan};
 
 use super::GroundConfig;
 use super::cuts::{Cuts, TiltPrior};
-use super::erosion::Erosion;
+use super::erosion::{Erosion, keep_where};
 use super::finder::{Finder, Look, MAX_REGIONS, Picture, Region, count_labels};
 use super::fit::{RegionFit, fit_regions};
 use super::median::Median;
@@ -294,14 +294,5 @@ impl<F: Finder> Surfaces<F> {
         let (tilt, certainty) = self.checks[index].own_tilt();
         let steep = tilt.norm() > STEEP_RAD && certainty > STEEP_SURE;
         self.fits[index].is_level(self.floor_tilt_rad) && !steep && !self.slivers.contains(index)
-    }
-}
-
-/// Gives back to `eroded` the whole of those regions whose labels are wanted.
-fn keep_where(labels: &[u16], eroded: &mut [u16], wanted: &[bool; MAX_REGIONS + 1]) {
-    for (eroded, &label) in eroded.iter_mut().zip(labels) {
-        if wanted[usize::from(label)] {
-            *eroded = label;
-        }
     }
 }
