@@ -28,6 +28,7 @@ const MOST_TILT: f64 = 0.2;
 /// Fewest pixels of a slope as a share of the image, and least length, m.
 const LEAST_SHARE: f64 = 0.1;
 const LEAST_LENGTH_M: f64 = 0.25;
+
 impl<F: Finder> Grounded<F> {
     /// Takes slopes out of the level regions: their strips have no part in the view that is left. In one that is off itself the treads
     /// of low stairs are as tilted as a slope is.
