@@ -10,6 +10,8 @@ use super::finder::{MAX_REGIONS, Picture, Region};
 const FEWEST: usize = 80;
 /// Deviations count up to this, px: what is further off was mismatched.
 const LARGEST_PX: f32 = 0.6;
+/// The ground counts as this rough at least, in the noise that the sensor has at least: of a perfect sensor nothing is rough.
+const LEAST: f32 = 0.6;
 /// Share of what is believed of the ground that one frame makes up.
 const GAIN: f32 = 0.1;
 
@@ -26,17 +28,19 @@ pub(super) struct Roughness {
     regions: [Deviation; MAX_REGIONS + 1],
     /// Of the ground, root mean square, px; none before any was seen.
     ground_px: Option<f32>,
+    least_px: f32,
 }
 
 impl Roughness {
-    /// Nothing is known of the ground.
-    pub(super) const fn new() -> Self {
+    /// Nothing is known of the ground, nor of the sensor but the noise that it has at least, px.
+    pub(super) const fn new(noise_floor_px: f32) -> Self {
         Self {
             regions: [Deviation {
                 pixels: 0,
                 squares: 0.0,
             }; MAX_REGIONS + 1],
             ground_px: None,
+            least_px: LEAST * noise_floor_px,
         }
     }
 
@@ -69,7 +73,7 @@ impl Roughness {
 
     /// How many times as rough as the ground a region of the last frame is; none where too little is seen of either.
     pub(super) fn of(&self, region: usize) -> Option<f32> {
-        Some(self.region_px(region)? / self.ground_px?)
+        Some(self.region_px(region)? / self.ground_px?.max(self.least_px))
     }
 
     fn region_px(&self, region: usize) -> Option<f32> {
@@ -110,7 +114,7 @@ mod tests {
             core: 10 * WIDTH,
             ..Region::default()
         };
-        let mut roughness = Roughness::new();
+        let mut roughness = Roughness::new(0.1);
         roughness.measure(picture, &[region(60.0), region(70.0)], &inner);
         roughness
     }
@@ -131,6 +135,13 @@ mod tests {
         roughness.learn(0);
         roughness.learn(1);
         assert!((roughness.ground_px.unwrap() - 0.11).abs() < 1e-4);
+    }
+
+    #[test]
+    fn of_a_perfect_sensor_no_surface_is_rough() {
+        let mut roughness = measured(1e-6, 1e-4);
+        roughness.learn(0);
+        assert!(roughness.of(1).unwrap() < 0.01);
     }
 
     #[test]

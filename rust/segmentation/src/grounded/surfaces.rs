@@ -81,7 +81,7 @@ impl<F: Finder> Surfaces<F> {
             labels: vec![0; pixels],
             regions: Vec::new(),
             fits: Vec::new(),
-            roughness: Roughness::new(),
+            roughness: Roughness::new(config.noise_floor as f32),
             g: vec![0.0; pixels],
             eroded: vec![0; pixels],
             checks: Vec::new(),
