@@ -77,7 +77,7 @@ def _moved(results: Results) -> list[Panel]:
 
 
 def draw_panels(path: Path, panels: Sequence[Panel], bounds: Bounds) -> None:
-    """Draw maps side by side, two in a row, with one scale of colours.
+    """Draw maps side by side, two in a row or, where they are wide, one, with one scale of colours.
 
     Args:
         path: of the PNG file.
@@ -88,10 +88,13 @@ def draw_panels(path: Path, panels: Sequence[Panel], bounds: Bounds) -> None:
         RecordingError: the file cannot be written.
     """
     west, east, south, north = bounds
-    cols = min(2, len(panels))
+    wide = east - west > 2 * (north - south)
+    cols = 1 if wide else min(2, len(panels))
     rows = -(-len(panels) // cols)
-    height = 4.0 * (north - south) / (east - west) + 0.6
-    figure = Figure(figsize=(4.4 * cols + 1.0, height * rows), dpi=150, layout="constrained")
+    width = 7.8 if wide else 4.0
+    height = width * (north - south) / (east - west) + 0.6
+    size = ((width + 0.4) * cols + 1.0, height * rows)
+    figure = Figure(figsize=size, dpi=150, layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.subplots(rows, cols, squeeze=False)
     span = height_span(*(remembered for _, remembered in panels))
