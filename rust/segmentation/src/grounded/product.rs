@@ -53,9 +53,9 @@ impl<F: Finder> Grounded<F> {
         self.fill_slopes(&levelled.view, position.z, planes);
         if !F::ANY_DIRECTION {
             self.walls.find(
-                &self.surfaces.disparity_px,
+                &self.surfaces.images.disparity_px,
                 &self.camera,
-                &self.surfaces.sigma_px,
+                &self.surfaces.images.sigma_px,
                 &mut self.surfaces.labels,
                 planes,
             );
@@ -79,7 +79,7 @@ impl<F: Finder> Grounded<F> {
         for (row, (points, disparities)) in planes
             .points_in_robot_m
             .chunks_exact_mut(width)
-            .zip(self.surfaces.disparity_px.chunks_exact(width))
+            .zip(self.surfaces.images.disparity_px.chunks_exact(width))
             .enumerate()
         {
             let starts = [view.x.at(0, row), view.y.at(0, row), view.g.at(0, row)];

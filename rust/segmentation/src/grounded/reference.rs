@@ -123,6 +123,7 @@ impl<F: Finder> Grounded<F> {
         let width = self.camera.width;
         let (mut near, mut own) = (0, 0);
         for (at, (&d, &label)) in surfaces
+            .images
             .disparity_px
             .iter()
             .zip(&surfaces.labels)

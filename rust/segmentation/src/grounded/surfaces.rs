@@ -26,20 +26,39 @@ const STEEP_RAD: f64 = 0.3;
 /// And when the tilt's squared distance from none, in its own errors, is above this.
 const STEEP_SURE: f64 = 3.5;
 
+/// A frame and the view that it is read under, row by row.
+#[derive(Debug, Clone)]
+pub(super) struct Images {
+    width: usize,
+    /// Disparities after the median, px.
+    pub(super) disparity_px: Vec<f32>,
+    /// Local noise, px.
+    pub(super) sigma_px: Vec<f32>,
+    g: Vec<f32>,
+}
+
+impl Images {
+    fn picture(&self) -> Picture<'_> {
+        Picture {
+            width: self.width,
+            disparity_px: &self.disparity_px,
+            g: &self.g,
+            sigma_px: &self.sigma_px,
+        }
+    }
+}
+
 /// Finds the horizontal surfaces that a scan shows under a given view. Keeps its buffers.
 #[derive(Debug, Clone)]
 pub(super) struct Surfaces<F> {
     finder: F,
     floor_tilt_rad: f64,
-    width: usize,
     median: Median,
     noise: NoiseMap,
     seen_px: Vec<f32>,
     whole_px: Vec<f32>,
-    /// Disparities after the median, px.
-    pub(super) disparity_px: Vec<f32>,
-    /// Local noise, px.
-    pub(super) sigma_px: Vec<f32>,
+    /// What is seen, pixel by pixel.
+    pub(super) images: Images,
     /// Region of each pixel plus one; 0: none.
     pub(super) labels: Vec<u16>,
     /// The regions, with `q` from the last fit.
@@ -48,7 +67,6 @@ pub(super) struct Surfaces<F> {
     pub(super) fits: Vec<RegionFit>,
     /// How rough the regions are, after `refit`.
     pub(super) roughness: Roughness,
-    g: Vec<f32>,
     eroded: Vec<u16>,
     checks: Vec<RegionFit>,
     shown: Vec<RegionFit>,
@@ -66,7 +84,6 @@ impl<F: Finder> Surfaces<F> {
         Self {
             finder,
             floor_tilt_rad: config.floor_tilt,
-            width: camera.width,
             median: Median::default(),
             noise: NoiseMap::new(
                 camera.width,
@@ -76,13 +93,16 @@ impl<F: Finder> Surfaces<F> {
             ),
             seen_px: Vec::new(),
             whole_px: Vec::new(),
-            disparity_px: vec![f32::NAN; pixels],
-            sigma_px: vec![0.0; pixels],
+            images: Images {
+                width: camera.width,
+                disparity_px: vec![f32::NAN; pixels],
+                sigma_px: vec![0.0; pixels],
+                g: vec![0.0; pixels],
+            },
             labels: vec![0; pixels],
             regions: Vec::new(),
             fits: Vec::new(),
             roughness: Roughness::new(config.noise_floor as f32),
-            g: vec![0.0; pixels],
             eroded: vec![0; pixels],
             checks: Vec::new(),
             shown: Vec::new(),
@@ -104,10 +124,13 @@ impl<F: Finder> Surfaces<F> {
                 f32::NAN
             }
         }));
-        self.median
-            .filter(&self.seen_px, self.width, &mut self.disparity_px);
-        self.noise.measure(&self.disparity_px);
-        self.noise.fill(&mut self.sigma_px);
+        self.median.filter(
+            &self.seen_px,
+            self.images.width,
+            &mut self.images.disparity_px,
+        );
+        self.noise.measure(&self.images.disparity_px);
+        self.noise.fill(&mut self.images.sigma_px);
     }
 
     /// Leaves out what is further than `reach_m` from the robot, seen from `camera_m` (robot frame), until all is shown again;
@@ -119,9 +142,9 @@ impl<F: Finder> Surfaces<F> {
         reach_m: f64,
         least: usize,
     ) -> bool {
-        self.whole_px.clone_from(&self.disparity_px);
+        self.whole_px.clone_from(&self.images.disparity_px);
         let mut left = 0;
-        let lines = self.disparity_px.chunks_exact_mut(self.width);
+        let lines = self.images.disparity_px.chunks_exact_mut(self.images.width);
         for (row, line) in lines.enumerate() {
             for (col, d) in line.iter_mut().enumerate() {
                 let x_m = camera_m.x + f64::from(view.x.at(col, row) / *d);
@@ -142,12 +165,7 @@ impl<F: Finder> Surfaces<F> {
 
     /// Whether what is shown of a region is no floor, by its slope; after `refit`.
     pub(super) fn shown_slopes(&mut self, index: usize, view: &View) -> bool {
-        let picture = Picture {
-            width: self.width,
-            disparity_px: &self.disparity_px,
-            g: &self.g,
-            sigma_px: &self.sigma_px,
-        };
+        let picture = self.images.picture();
         let shown = &mut self.shown;
         fit_regions(picture, view, &self.regions, &self.eroded, shown);
         let (tilt, certainty) = shown[index].own_tilt();
@@ -156,29 +174,19 @@ impl<F: Finder> Surfaces<F> {
 
     /// Takes back what was left out.
     pub(super) fn show_all(&mut self) {
-        std::mem::swap(&mut self.disparity_px, &mut self.whole_px);
+        std::mem::swap(&mut self.images.disparity_px, &mut self.whole_px);
     }
 
     /// The picture under a view.
     pub(super) fn picture(&mut self, view: &View) -> Picture<'_> {
-        view.fill(self.width, &mut self.g);
-        Picture {
-            width: self.width,
-            disparity_px: &self.disparity_px,
-            g: &self.g,
-            sigma_px: &self.sigma_px,
-        }
+        view.fill(self.images.width, &mut self.images.g);
+        self.images.picture()
     }
 
     /// Finds the regions in the view, and fits them.
     pub(super) fn find(&mut self, view: &View, look: Look) {
-        view.fill(self.width, &mut self.g);
-        let picture = Picture {
-            width: self.width,
-            disparity_px: &self.disparity_px,
-            g: &self.g,
-            sigma_px: &self.sigma_px,
-        };
+        view.fill(self.images.width, &mut self.images.g);
+        let picture = self.images.picture();
         let (regions, labels) = (&mut self.regions, &mut self.labels);
         self.finder.find(picture, view, look, regions, labels);
         self.fit_inside(view);
@@ -186,13 +194,8 @@ impl<F: Finder> Surfaces<F> {
 
     /// Makes regions of the slopes, and fits the others anew; says whether there were any.
     pub(super) fn find_slopes(&mut self, view: &View, look: Look) -> bool {
-        view.fill(self.width, &mut self.g);
-        let picture = Picture {
-            width: self.width,
-            disparity_px: &self.disparity_px,
-            g: &self.g,
-            sigma_px: &self.sigma_px,
-        };
+        view.fill(self.images.width, &mut self.images.g);
+        let picture = self.images.picture();
         let (regions, labels) = (&mut self.regions, &mut self.labels);
         let any = self.slopes.find(picture, view, look, regions, labels);
         if any {
@@ -203,13 +206,8 @@ impl<F: Finder> Surfaces<F> {
 
     /// Cuts the regions that hold two levels, and fits anew; says whether there were any.
     pub(super) fn cut(&mut self, view: &View, tilt: TiltPrior) -> bool {
-        view.fill(self.width, &mut self.g);
-        let picture = Picture {
-            width: self.width,
-            disparity_px: &self.disparity_px,
-            g: &self.g,
-            sigma_px: &self.sigma_px,
-        };
+        view.fill(self.images.width, &mut self.images.g);
+        let picture = self.images.picture();
         let (regions, labels) = (&mut self.regions, &mut self.labels);
         let any = self.cuts.cut(picture, view, tilt, regions, labels);
         if any {
@@ -220,17 +218,12 @@ impl<F: Finder> Surfaces<F> {
 
     /// Fits the regions away from their borders, in the view that `g` is of.
     fn fit_inside(&mut self, view: &View) {
-        let picture = Picture {
-            width: self.width,
-            disparity_px: &self.disparity_px,
-            g: &self.g,
-            sigma_px: &self.sigma_px,
-        };
+        let picture = self.images.picture();
         let eroded = &mut self.eroded;
         self.erosion.erode::<{ EROSION.0 }, { EROSION.1 }>(
             &self.labels,
             picture.disparity_px,
-            self.width,
+            self.images.width,
             eroded,
         );
         let mut left = [0_u32; MAX_REGIONS + 1];
@@ -247,25 +240,20 @@ impl<F: Finder> Surfaces<F> {
 
     /// Fits the regions anew after a small turn of the view, and checks the thin ones over more of their pixels.
     pub(super) fn refit(&mut self, view: &View) {
-        view.fill(self.width, &mut self.g);
-        let picture = Picture {
-            width: self.width,
-            disparity_px: &self.disparity_px,
-            g: &self.g,
-            sigma_px: &self.sigma_px,
-        };
+        view.fill(self.images.width, &mut self.images.g);
+        let picture = self.images.picture();
         fit_regions(picture, view, &self.regions, &self.eroded, &mut self.fits);
         for (region, fit) in self.regions.iter_mut().zip(&self.fits) {
             region.q = fit.q(&Vector2::zeros()) as f32;
         }
         self.roughness.measure(picture, &self.regions, &self.eroded);
         self.slivers
-            .find(&self.labels, self.width, view, &self.regions);
+            .find(&self.labels, self.images.width, view, &self.regions);
         self.erosion
             .erode::<{ LIGHT_EROSION.0 }, { LIGHT_EROSION.1 }>(
                 &self.labels,
                 picture.disparity_px,
-                self.width,
+                self.images.width,
                 &mut self.eroded,
             );
         fit_regions(picture, view, &self.regions, &self.eroded, &mut self.checks);
@@ -274,7 +262,7 @@ impl<F: Finder> Surfaces<F> {
     /// Row, column and label of pixels away from the regions' borders, every `stride`-th each way; after `refit`.
     pub(super) fn inner_pixels(&self, stride: usize) -> impl Iterator<Item = (usize, usize, u16)> {
         self.eroded
-            .chunks_exact(self.width)
+            .chunks_exact(self.images.width)
             .enumerate()
             .step_by(stride)
             .flat_map(move |(row, line)| {
