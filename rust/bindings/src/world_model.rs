@@ -6,7 +6,10 @@ use std::time::Instant;
 use geometry::{Camera, Lattice, Map, Pose, Robot};
 use mapping::volume::{OccupancyGrid, Picture, Placement, ProbabilityTable, Ray, Size};
 use mapping::{FogConfig, WorldModel};
-use numpy::{IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::ndarray::Dimension;
+use numpy::{
+    IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray, PyUntypedArrayMethods,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -116,12 +119,7 @@ impl PyOccupancyGrid {
         eye: [f64; 3],
     ) -> PyResult<()> {
         let points = points.readonly();
-        let by_row = points.as_slice().ok().filter(|_| points.is_c_contiguous());
-        let Some(flat) = by_row else {
-            return Err(PyValueError::new_err(
-                "points must lie row by row in memory",
-            ));
-        };
+        let flat = by_row(&points)?;
         if points.as_array().ncols() != 3 {
             return Err(PyValueError::new_err("points must be (n, 3)"));
         }
@@ -150,12 +148,7 @@ impl PyOccupancyGrid {
         centre: [f64; 2],
     ) -> PyResult<()> {
         let points = points.readonly();
-        let by_row = points.as_slice().ok().filter(|_| points.is_c_contiguous());
-        let Some(flat) = by_row else {
-            return Err(PyValueError::new_err(
-                "points must lie row by row in memory",
-            ));
-        };
+        let flat = by_row(&points)?;
         let (height, width, parts) = points.as_array().dim();
         if parts != 3 {
             return Err(PyValueError::new_err("points must be (h, w, 3)"));
@@ -242,4 +235,13 @@ fn ray(eye_m: [f64; 3], end_m: [f64; 3], max_range_m: f64) -> Ray {
         end_m: std::array::from_fn(|a| eye_m[a] + share * along[a]),
         hit: false,
     }
+}
+
+/// The values of an array as they lie in memory, which has to be row by row.
+fn by_row<'a, D: Dimension>(array: &'a PyReadonlyArray<'_, f64, D>) -> PyResult<&'a [f64]> {
+    array
+        .as_slice()
+        .ok()
+        .filter(|_| array.is_c_contiguous())
+        .ok_or_else(|| PyValueError::new_err("points must lie row by row in memory"))
 }
