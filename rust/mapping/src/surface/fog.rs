@@ -145,6 +145,26 @@ impl Fog {
         all
     }
 
+    /// Takes in the frame that was read, in the paper's order (section III.A): rays, equations (8) and (9); the cells that this touched.
+    fn take_in(&mut self) -> CellArea {
+        let config = &self.config;
+        let shadow = Shadow {
+            eye_m: self.frame.eye_m,
+            reach_m: config.shadow,
+            view: &self.view,
+            occupancy: &self.occupancy,
+        };
+        self.frame.disbelieve(|position_m| shadow.holds(position_m));
+        let mut touched = occupy(&mut self.occupancy, &self.frame, config);
+        self.floor.verify(&self.occupancy, touched);
+        self.floor
+            .update(&self.frame, &self.occupancy, config.update);
+        let judged = self.rough.take(&self.frame.points, &self.view.lattice);
+        self.floor.forget(judged, |cell| self.rough.is_rough(cell));
+        touched.join(judged);
+        touched
+    }
+
     /// Brings the view up to date where an area in which floors or voxels changed reaches to, and says where that is.
     fn refresh(&mut self, area: CellArea) -> CellArea {
         let reached = area
@@ -211,22 +231,7 @@ impl WorldModel for Fog {
         let used = planes.reliable || shift.is_some();
         if used {
             self.frame.raise(shift.unwrap_or(0.0));
-            let eye_m = self.frame.eye_m;
-            let shadow = Shadow {
-                eye_m,
-                reach_m: config.shadow,
-                view: &self.view,
-                occupancy: &self.occupancy,
-            };
-            self.frame.disbelieve(|position_m| shadow.holds(position_m));
-            let touched = occupy(&mut self.occupancy, &self.frame, config);
-            self.floor.verify(&self.occupancy, touched);
-            self.floor
-                .update(&self.frame, &self.occupancy, config.update);
-            changed.join(touched);
-            let judged = self.rough.take(&self.frame.points, &self.view.lattice);
-            self.floor.forget(judged, |cell| self.rough.is_rough(cell));
-            changed.join(judged);
+            changed.join(self.take_in());
         }
         changed = self.refresh(changed);
         changed.join(moved);
