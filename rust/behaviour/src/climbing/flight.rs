@@ -2,7 +2,9 @@
 
 mod lookup;
 
-use geometry::{Map, PlanarPose};
+use std::f64::consts::FRAC_PI_2;
+
+use geometry::{Map, PlanarPose, angle_between};
 use planning::{Plan, Step};
 use stairs::{ClimbingConfig, Edge, Staircase};
 
@@ -204,9 +206,14 @@ fn keep_better_edge(step: &mut Step, old: &Step, pose: &PlanarPose) {
 
 /// The plan's steps from this one on, as far as no tread between them is roomy, and those before it that came to be seen while
 /// the robot was not yet at their edges: from far away two low steps are one. The plan may walk on a tread between two of them.
+/// One that leads the other way is none of them: halfway over an edge a plan may begin with going back over it.
 fn steps_from(plan: &Plan, first: &Step, pose: &PlanarPose) -> Option<Vec<Step>> {
-    let is_to_come =
-        |step: &&Step| step.stair.front.beyond_m([pose.x_m, pose.y_m]) < -NOT_YET_THERE_M;
+    let heading_rad = first.stair.front.heading_rad();
+    let is_to_come = |step: &&Step| {
+        let aside_rad = angle_between(step.stair.front.heading_rad(), heading_rad).abs();
+        let beyond_m = step.stair.front.beyond_m([pose.x_m, pose.y_m]);
+        aside_rad < FRAC_PI_2 && beyond_m < -NOT_YET_THERE_M
+    };
     let climbs = &plan.way.as_ref().ok()?.climbs;
     let steps: Vec<_> = climbs.iter().flat_map(|climb| &climb.steps).collect();
     let at = steps.iter().position(|step| is_same(first, &step.stair))?;

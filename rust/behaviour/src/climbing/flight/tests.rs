@@ -4,6 +4,7 @@ use super::*;
 use crate::climbing::simulation::stair;
 use planning::{Climb, Path};
 use stairs::EdgeFit;
+use std::f64::consts::PI;
 
 /// Two steps that are crossed along x at this offset to the left.
 fn plan(aside_m: f64) -> Plan {
@@ -141,6 +142,25 @@ fn a_step_that_comes_to_be_seen_before_the_first_one_is_not_stepped_over() {
         flight.refresh(Some(&plan), &Staircase::default(), &pose, &config);
         assert_eq!(flight.steps(), &steps[2 - ahead..], "{x_m}");
     }
+}
+
+#[test]
+fn a_plan_that_begins_with_going_back_over_the_edge_is_not_followed_in_the_middle_of_the_step() {
+    let config = ClimbingConfig::default();
+    let mut plan = plan(0.0);
+    let steps = &mut plan.way.as_mut().unwrap().climbs[0].steps;
+    let ahead = steps.clone();
+    let back = Step {
+        stair: stair([0.5, 0.0, PI], [0.3, 0.0, PI], 0.0, 1.0),
+        rise_m: -0.03,
+        crossing_m: [0.5, 0.0],
+    };
+    steps.insert(0, back);
+    let mut flight = Flight::default();
+    flight.adopt(&ahead);
+    let pose = PlanarPose::new(0.57, 0.0, 0.0);
+    flight.refresh(Some(&plan), &Staircase::default(), &pose, &config);
+    assert_eq!(flight.steps(), ahead);
 }
 
 #[test]
