@@ -7,7 +7,7 @@ use crate::Step;
 use crate::faces::{After, GROUND_DEPTH_M};
 use crate::line::{Line, ground_behind};
 use crate::portals::{Entry, Fit, Landing, Portals, Scene, Stride, Way};
-use crate::room::{SAME_M, clear, distance_m, range_m, run_to_cell, walk_m, width_m};
+use crate::room::{SAME_M, clear, distance_m, inside_m, range_m, run_to_cell, walk_m, width_m};
 use crate::route::{LEVEL_M, PULL};
 
 /// Heels come to stand this far beyond an edge where no limit says better, m.
@@ -172,8 +172,11 @@ impl Portals {
         let Some(at_m) = self.strides[..way.end].last().map(|stride| stride.to_m) else {
             return;
         };
-        let remaining_m = walk_m(at_m, [goal.x_m, goal.y_m]);
-        let ahead_m = (1.0 + scene.config.unknown_cost) * remaining_m + HOPE_M;
+        let goal_m = [goal.x_m, goal.y_m];
+        let remaining_m = walk_m(at_m, goal_m);
+        // Beyond the window nothing is known of any way, and all of them are paid for alike.
+        let unseen_m = remaining_m.min(inside_m(scene.terrain, at_m, goal_m));
+        let ahead_m = remaining_m + scene.config.unknown_cost * unseen_m + HOPE_M;
         let missing_m = goal.height_m.map_or(0.0, |h| (h - stair.height_m()).abs());
         let rises_m = scene.config.climb_cost * missing_m / RISE_M;
         self.add(scene, entry.cell, None, cost_m + ahead_m + rises_m, way);

@@ -1,12 +1,13 @@
 //! Room at edges: where the robot lines up, where it may cross, where it walks on.
 
-use geometry::{CellArea, Map};
+use geometry::{CellArea, Lattice, Map};
 use mapping::Surface;
 use stairs::Stair;
 
 use crate::line::Line;
 use crate::portals::Scene;
 use crate::search::octile;
+use crate::terrain::Terrain;
 
 /// How far from an edge the robot lines up, or walks on as it came, at most, m.
 pub(crate) const RUN_M: f64 = 0.35;
@@ -44,6 +45,26 @@ pub(crate) fn run_to_cell(
         away_m += stride_m;
     }
     None
+}
+
+/// How far the straight way from a place in the window towards another leads within the window, m.
+pub(crate) fn inside_m(terrain: &Terrain, from_m: [f64; 2], towards_m: [f64; 2]) -> f64 {
+    let Lattice { origin_m, cell_m } = terrain.lattice;
+    let sizes_m = [terrain.cols, terrain.rows].map(|cells| cells as f64 * cell_m);
+    let share = (0..2).fold(1.0_f64, |share, axis| {
+        let ahead_m = towards_m[axis] - from_m[axis];
+        let end_m = if ahead_m > 0.0 {
+            origin_m[axis] + sizes_m[axis]
+        } else {
+            origin_m[axis]
+        };
+        if ahead_m == 0.0 {
+            share
+        } else {
+            share.min(((end_m - from_m[axis]) / ahead_m).max(0.0))
+        }
+    });
+    share * distance_m(from_m, towards_m)
 }
 
 /// Whether nothing stands, and no other level lies, on the straight way between two places.

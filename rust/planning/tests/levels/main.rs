@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
+mod border;
 mod climbs;
 mod course;
 mod ground;
