@@ -30,6 +30,9 @@ BEAM_BY_THE_PAPER: Final = "beam_seen_by_the_paper"
 BEAMS: Final = (BEAM_SEEN, BEAM_SEEN_LOW, BEAM_BY_THE_PAPER, BEAM_HIGH, BEAM_LOW)
 WALKED_FILTERED: Final = "levels_walked"
 WALKED_UNFILTERED: Final = "levels_walked_unfiltered"
+CROOKED_FILTERED: Final = "levels_walked_crooked"
+CROOKED_UNFILTERED: Final = "levels_walked_crooked_unfiltered"
+WALKED: Final = (WALKED_FILTERED, WALKED_UNFILTERED, CROOKED_FILTERED, CROOKED_UNFILTERED)
 TURNS: Final = "turns"
 SLOPE: Final = "slope_seen"
 OVER: Final = "over_each_other"
@@ -114,6 +117,22 @@ _BEAMS: Final = (
     Case(BEAM_LOW, "beam_low", watch=CeilingWatch),
 )
 
+_UNFILTERED: Final = ("navigation.odometry.height_gain=0.0",)
+
+_CROOKED: Final = (
+    "event=["
+    '{at=0.2, do="encoder_offset", joint="left_knee_pitch", value=0.02},'
+    '{at=0.2, do="encoder_offset", joint="right_knee_pitch", value=-0.02}]',
+)
+"""Knees that read 1.15 degrees too much and too little: four times what encoders may be off."""
+
+_WALKED: Final = (
+    Case(WALKED_FILTERED, "levels_walked", watch=PoseWatch),
+    Case(WALKED_UNFILTERED, "levels_walked", _UNFILTERED, watch=PoseWatch),
+    Case(CROOKED_FILTERED, "levels_walked", _CROOKED, watch=PoseWatch),
+    Case(CROOKED_UNFILTERED, "levels_walked", _CROOKED + _UNFILTERED, watch=PoseWatch),
+)
+
 CASES: Final = (
     Case(LEVELS_IDEAL, "three_levels", _IDEAL),
     *_for_each_model(levels, "three_levels"),
@@ -128,13 +147,7 @@ CASES: Final = (
     Case(SLOPE, "slope_seen", watch=ElementWatch),
     Case(OVER, "over_each_other", watch=ElementWatch),
     Case(TURNS, "turns", watch=PoseWatch),
-    Case(WALKED_FILTERED, "levels_walked", watch=PoseWatch),
-    Case(
-        WALKED_UNFILTERED,
-        "levels_walked",
-        ("navigation.odometry.height_gain=0.0",),
-        watch=PoseWatch,
-    ),
+    *_WALKED,
     # Where another map leads the robot is not asked; one run shows what it looks like.
     *_for_each_model(course, "obstacle_course", share_of_others=0.0),
 )

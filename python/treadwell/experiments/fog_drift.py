@@ -12,7 +12,6 @@ from treadwell.runner import Run
 
 def height_drift(results: Results) -> Table:
     """Return the table of the height's error after a walk over levels, filtered and not."""
-    names = (cases.WALKED_FILTERED, cases.WALKED_UNFILTERED)
     rows = tuple(
         (
             name,
@@ -21,15 +20,16 @@ def height_drift(results: Results) -> Table:
             f"{max(1e3 * max(map(abs, run.findings.heights)) for run in runs):.1f}",
             middle([1e3 * abs(run.findings.heights[-1]) for run in runs]),
         )
-        for name, runs in _seen(results, names)
+        for name, runs in _seen(results, cases.WALKED)
     )
     return Table(
         "Error of the robot's height over six changes of level, mm (section IV)",
         ("case", "runs", "largest, median", "largest, worst", "in the end, median"),
         rows,
         (
-            "While both soles stand on one level. The paper: drawn to the floor in the map, it is "
-            "significantly smaller. Wanted: at most 5 mm at any time, a third of the unfiltered.",
+            "While both soles stand on one level; crooked: the knees' encoders are 1.15 degrees "
+            "off, one up, one down. The paper: drawn to the floor in the map, it is significantly "
+            "smaller. Wanted: at most 5 mm at any time, a third of the unfiltered.",
         ),
     )
 
