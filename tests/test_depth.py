@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from treadwell.senses.depth import DepthCamera, Mount, Pinhole
+from treadwell.senses.view import View
 
 WORLD = """
 <mujoco><worldbody>
@@ -57,9 +58,12 @@ CLUTTER = """
   <geom type="box" size="0.2 0.3 0.015" pos="0.8 0 0.045"/>
   <geom type="box" size="0.1 0.04 0.2" pos="0.6 0.3 0.2" euler="10 5 30"/>
   <geom type="cylinder" size="0.03 0.3" pos="0.5 -0.2 0.3"/>
-  <geom type="sphere" size="0.1" pos="0.9 0.1 0.1"/>
-  <geom type="ellipsoid" size="0.1 0.05 0.2" pos="1.2 0.2 0.2"/>
-  <geom type="capsule" size="0.02 0.2" pos="0.3 0.1 0.1" euler="80 10 0"/>
+  <body pos="0.9 0.1 0.1"><geom type="sphere" size="0.1"/></body>
+  <body pos="1.2 0.2 0.2" euler="0 30 10">
+    <geom type="ellipsoid" size="0.1 0.05 0.2"/>
+    <geom type="box" size="0.6 0.01 0.01" pos="0.1 0.2 0" euler="20 10 60"/>
+  </body>
+  <body pos="0.3 0.1 0.1"><geom type="capsule" size="0.02 0.2" euler="80 10 0"/></body>
   <body name="head" mocap="true"><camera name="eye" xyaxes="0 -1 0 0 0 1"/></body>
 </worldbody></mujoco>
 """
@@ -96,11 +100,13 @@ def test_what_is_hidden_because_it_lies_beside_the_picture_is_met_by_no_ray(
     x: float, tilt: float, yaw: float
 ) -> None:
     model, data = clutter(x, tilt, yaw)
-    groups = model.geom_group.copy()
+    fields = (model.geom_group, model.body_geomnum, model.body_bvhadr)
+    before = [field.copy() for field in fields]
     camera = DepthCamera(model, "eye", PINHOLE)
     saving = camera.cast(data)
-    assert (model.geom_group == groups).all()
-    with patch.object(DepthCamera, "_beside_view", return_value=np.zeros(model.ngeom, np.bool_)):
+    for field, was in zip(fields, before, strict=True):
+        np.testing.assert_array_equal(field, was)
+    with patch.object(View, "beside", return_value=np.zeros(model.ngeom, np.bool_)):
         whole = camera.cast(data)
     assert (saving.geom == whole.geom).all()
     np.testing.assert_array_equal(saving.depth, whole.depth)
@@ -111,9 +117,22 @@ def test_what_lies_behind_the_camera_is_hidden_from_its_rays() -> None:
     backward = Mount(rotation=np.diag([-1.0, 1.0, -1.0]))
     for mount, hidden in ((Mount(), False), (backward, True)):
         camera = DepthCamera(model, "eye", PINHOLE, mount)
-        beside = camera._beside_view(data, *camera.pose(data))
+        beside = View(model, PINHOLE.borders()).beside(data, *camera.pose(data))
         assert beside[model.geom("nose").id] == hidden
         assert not beside[model.geom("floor").id]
+
+
+def test_a_long_wall_beside_the_picture_is_hidden_and_its_body_passed_over() -> None:
+    wall = '<body name="wall" pos="1 {} 0"><geom type="box" size="2 0.02 1"/></body>'
+    for y, hidden in ((1.6, True), (0.8, False)):
+        xml = WORLD.replace("</worldbody>", wall.format(y) + "</worldbody>")
+        model = mujoco.MjModel.from_xml_string(xml.replace('pos="0.3 0 0"', 'pos="-0.3 0 0"'))
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        camera = DepthCamera(model, "eye", Pinhole(88, 72, 88.0))
+        with View(model, camera.pinhole.borders()).alone(data, *camera.pose(data)):
+            bodies = [name for name in ("wall", "nose") if model.body(name).geomnum[0]]
+        assert bodies == ([] if hidden else ["wall"])
 
 
 def test_every_geom_is_where_the_pinhole_projects_it() -> None:

@@ -1,26 +1,24 @@
 """The depth camera without its errors: rays cast through every pixel into the simulated world."""
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell.senses.view import VISIBLE_GROUPS, View
+
 Floats = NDArray[np.float64]
 
 # MuJoCo's camera looks along -z with y up, the optical frame along z with y down.
 MUJOCO_FROM_OPTICAL = np.diag([1.0, -1.0, -1.0])
-# MuJoCo's own default of what is shown: groups 3 to 5 hold what only collides, and marks.
-VISIBLE_GROUPS = np.array([1, 1, 1, 0, 0, 0], np.uint8)
-HIDDEN_GROUP = 5
 # Nothing beyond this is looked for, and nothing is nearer, metres.
 FAR = 20.0
 NEAR = 1e-6
 # Differences of normals, and of 1 / depth (1 / m), that are rounding on one flat face.
 FLATNESS = 1e-9
 UNKNOWN = -2
-# What misses the picture by less is looked for all the same, metres.
-VIEW_MARGIN = 1e-3
 
 
 @dataclass(frozen=True)
@@ -135,10 +133,7 @@ class DepthCamera:
         first = pixels[::2, ::2]
         self._first_size = first.shape
         self._first_directions = self._directions[first.reshape(-1)]
-        self._borders = pinhole.borders()
-        # Planes have no ball around them: they reach everywhere.
-        reach = np.where(model.geom_rbound > 0.0, model.geom_rbound, np.inf)
-        self._reach = reach + VIEW_MARGIN
+        self._view = View(model, pinhole.borders())
 
     def pose(self, data: mujoco.MjData) -> tuple[Floats, Floats]:
         """Return the real camera's position (3,) and rotation (3, 3), world from optical frame."""
@@ -149,31 +144,18 @@ class DepthCamera:
     def cast(self, data: mujoco.MjData) -> Cast:
         """Return what each pixel's ray meets, by the poses that `data` holds."""
         position, rotation = self.pose(data)
-        # MuJoCo looks at every geom for every ray. Most lie beside the picture: they are hidden.
-        groups = self._model.geom_group
-        before = groups.copy()
-        groups[self._beside_view(data, position, rotation)] = HIDDEN_GROUP
-        try:
+        with self._view.alone(data, position, rotation):
             return self._cast(data, position, rotation)
-        finally:
-            groups[:] = before
-
-    def _beside_view(
-        self, data: mujoco.MjData, position: Floats, rotation: Floats
-    ) -> NDArray[np.bool_]:
-        """Return which geoms (n,) no ray can meet, by the balls around them."""
-        inside = (data.geom_xpos - position) @ (rotation @ self._borders)
-        beside: NDArray[np.bool_] = inside.min(axis=1) < -self._reach
-        return beside
 
     def _cast(self, data: mujoco.MjData, position: Floats, rotation: Floats) -> Cast:
         shape = (self.pinhole.height, self.pinhole.width)
-        inverse = np.full(shape, np.nan)
+        inverse = np.empty(shape)
         geom = np.full(shape, UNKNOWN, np.int32)
         if not self._every_pixel:
             self._cast_first(data, position, rotation, inverse, geom)
         rest = np.flatnonzero(geom == UNKNOWN)
-        depth, met, _ = self._rays(data, position, rotation, self._directions[rest])
+        directions = self._directions.take(rest, axis=0)
+        depth, met = self._rays(data, position, rotation, directions, None)
         inverse.reshape(-1)[rest] = 1.0 / depth
         geom.reshape(-1)[rest] = met
         return Cast(1.0 / inverse, geom, position, rotation)
@@ -192,92 +174,103 @@ class DepthCamera:
             data: the state.
             position: (3,) the camera's.
             rotation: (3, 3) world from optical frame.
-            inverse: (h, w) is filled, NaN for nothing met.
+            inverse: (h, w) is filled where known, NaN for nothing met.
             geom: (h, w) is filled where known.
         """
-        size = self._first_size
-        depth, met, normal = self._rays(data, position, rotation, self._first_directions)
-        near, which = (1.0 / depth).reshape(size), met.reshape(size)
-        faces = normal.reshape(*size, 3)
-        inverse[::2, ::2], geom[::2, ::2] = near, which
+        rows, columns = self._first_size
+        normal = np.empty((rows * columns, 3))
+        depth, which = self._rays(data, position, rotation, self._first_directions, normal)
+        near = 1.0 / depth
+        inverse[::2, ::2] = near.reshape(rows, columns)
+        geom[::2, ::2] = which.reshape(rows, columns)
 
+        # Row by row in one line each: numpy is slow over short rows. The right neighbour of i is
+        # i + 1, that below it i + columns; what a row's last one has on its right is cut off.
+        faces = np.ascontiguousarray(normal.T)
+        right = (which[1:] == which[:-1]) & _parallel(faces[:, 1:], faces[:, :-1])
+        below = which[columns:] == which[:-columns]
+        below &= _parallel(faces[:, columns:], faces[:, :-columns])
+        twist = near[columns + 1 :] - near[columns:-1] - near[1:-columns] + near[: -columns - 1]
         # A cell is flat when its four corners are on one plane of one geom, or all on nothing.
-        same = which[:, 1:] == which[:, :-1]
-        same &= _parallel(faces[:, 1:], faces[:, :-1])
-        flat = which[1:, :-1] == which[:-1, :-1]
-        flat &= _parallel(faces[1:, :-1], faces[:-1, :-1])
-        flat &= same[1:] & same[:-1]
-        twist = near[1:, 1:] - near[1:, :-1] - near[:-1, 1:] + near[:-1, :-1]
-        flat &= ~(np.abs(twist) > FLATNESS)
+        flat = np.zeros((rows - 1, columns), np.bool_)
+        cells = flat.reshape(-1)
+        cells[:-1] = right[columns:] & right[:-columns]
+        cells[:-1] &= below[:-1]
+        cells[:-1] &= ~(np.abs(twist) > FLATNESS)
+        flat[:, -1] = False
 
-        across = 0.5 * (near[:, 1:] + near[:, :-1])
-        known = np.zeros((size[0], size[1] - 1), np.bool_)
-        known[1:] |= flat
-        known[:-1] |= flat
-        self._fill(inverse, geom, (slice(0, None, 2), slice(1, None, 2)), known, across, which)
-        down = 0.5 * (near[1:] + near[:-1])
-        known = np.zeros((size[0] - 1, size[1]), np.bool_)
-        known[:, 1:] |= flat
-        known[:, :-1] |= flat
-        self._fill(inverse, geom, (slice(1, None, 2), slice(0, None, 2)), known, down, which)
-        middle = 0.5 * (across[1:] + across[:-1])
-        self._fill(inverse, geom, (slice(1, None, 2), slice(1, None, 2)), flat, middle, which)
-
-    @staticmethod
-    def _fill(
-        inverse: Floats,
-        geom: NDArray[np.int32],
-        pixels: tuple[slice, slice],
-        known: NDArray[np.bool_],
-        values: Floats,
-        which: NDArray[np.int32],
-    ) -> None:
-        """Write the known ones of the pixels between; their geom is that of a corner's."""
-        rows, columns = known.shape
-        part = (slice(0, rows), slice(0, columns))
-        np.copyto(inverse[pixels][part], values, where=known)
-        np.copyto(geom[pixels][part], which[part], where=known)
+        # What lies between two, three or four of them: in the middle of the line between.
+        across = np.full_like(near, np.nan)
+        np.add(near[1:], near[:-1], out=across[:-1])
+        across *= 0.5
+        middle = 0.5 * (across[columns:] + across[:-columns])
+        down = 0.5 * (near[columns:] + near[:-columns])
+        beside = np.zeros((rows, columns), np.bool_)
+        beside[1:] = flat
+        beside[:-1] |= flat
+        above = flat.copy()
+        above.reshape(-1)[1:] |= cells[:-1]
+        odd, even = slice(1, None, 2), slice(0, None, 2)
+        for places, known, values in (
+            ((even, odd), beside, across),
+            ((odd, even), above, down),
+            ((odd, odd), flat, middle),
+        ):
+            known = known[:, : inverse[places].shape[1]]
+            _fill(inverse[places], values.reshape(-1, columns), known)
+            _fill(geom[places], which.reshape(rows, columns), known)
 
     def _rays(
-        self, data: mujoco.MjData, position: Floats, rotation: Floats, directions: Floats
-    ) -> tuple[Floats, NDArray[np.int32], Floats]:
-        """Return depth (n,), NaN for none, geom (n,), -1 for none, and normal (n, 3).
+        self,
+        data: mujoco.MjData,
+        position: Floats,
+        rotation: Floats,
+        directions: Floats,
+        normal: Floats | None,
+    ) -> tuple[Floats, NDArray[np.int32]]:
+        """Return depth (n,), NaN for none, and geom (n,), -1 for none.
 
         Args:
             data: the state.
             position: (3,) the camera's.
             rotation: (3, 3) world from optical frame.
             directions: (n, 3) the rays in the optical frame, each with z = 1.
+            normal: (n, 3) is filled with the normals of what was met, 0 for none.
         """
         count = len(directions)
-        depth, geom, normal = np.empty(count), np.empty(count, np.int32), np.empty(3 * count)
-        rays = directions @ rotation.T
+        depth, geom = np.empty(count), np.empty(count, np.int32)
         # The rays are not normalised: MuJoCo's distance along a ray with z = 1 is the depth.
         mujoco.mj_multiRay(
             self._model,
             data,
             position,
-            rays.reshape(-1),
+            (directions @ rotation.T).reshape(-1),
             VISIBLE_GROUPS,
             True,
             self._body,
             geom,
             depth,
-            normal,
+            None if normal is None else normal.reshape(-1),
             count,
             FAR,
         )
         nothing = geom < 0
         np.maximum(depth, NEAR, out=depth)
         depth[nothing] = np.nan
-        normals = normal.reshape(-1, 3)
-        normals[nothing] = 0.0
-        return depth, geom, normals
+        if normal is not None:
+            normal[nothing] = 0.0
+        return depth, geom
+
+
+def _fill(pixels: NDArray[Any], values: NDArray[Any], known: NDArray[np.bool_]) -> None:
+    """Write the values that are known; row and column 0 of the three belong together."""
+    rows, columns = known.shape
+    np.copyto(pixels[:rows], values[:rows, :columns], where=known)
 
 
 def _parallel(first: Floats, second: Floats) -> NDArray[np.bool_]:
-    """Return where two fields of normals, (..., 3) each, are the same but for rounding."""
+    """Return where two rows of normals, (3, n) each, are the same but for rounding."""
     apart = np.abs(first - second)
-    # Not `max(axis=-1)`: numpy takes six times as long over so short an axis.
-    most = np.maximum(np.maximum(apart[..., 0], apart[..., 1]), apart[..., 2])
-    return most < FLATNESS
+    # Not `max(axis=0)`: numpy takes longer over so short an axis.
+    parallel: NDArray[np.bool_] = np.maximum(np.maximum(apart[0], apart[1]), apart[2]) < FLATNESS
+    return parallel
