@@ -147,9 +147,12 @@ def occluded(disparity: Floats32) -> Mask:
         disparity: (h, w) px, finite.
     """
     place = np.arange(disparity.shape[1], dtype=np.float32) - disparity
-    leftmost = np.minimum.accumulate(place[:, ::-1], axis=1)[:, ::-1]
     hidden = np.zeros(disparity.shape, np.bool_)
-    np.less_equal(leftmost[:, 1:], place[:, :-1], out=hidden[:, :-1])
+    # In most rows each pixel appears right of the one before: nothing is hidden there.
+    rows = np.flatnonzero((place[:, 1:] <= place[:, :-1]).any(axis=1))
+    place = place[rows]
+    leftmost = np.minimum.accumulate(place[:, ::-1], axis=1)[:, ::-1]
+    hidden[rows, :-1] = leftmost[:, 1:] <= place[:, :-1]
     return hidden
 
 
