@@ -202,12 +202,13 @@ def _loop(
     interruption: Interruption,
 ) -> None:
     """Go on until there is a verdict."""
+    pictures = writers.records or scores.watch is not None
     while episode.verdict is None:
         interruption.check()
         step = episode.tick()
         scores.tick(step)
         if step.observation.depth is not None or step.time_ns == 0 or episode.verdict is not None:
-            trace = trace_of(episode, step)
+            trace = trace_of(episode, step, pictures=pictures)
             scores.frame(trace)
             writers.frame(trace)
             if progress is not None:

@@ -82,6 +82,10 @@ class MapMemory:
         self._mark_entering(row, col, row + rows, col + cols)
         r, c = row - self._corner[0], col - self._corner[1]
         here = np.s_[r : r + rows, c : c + cols]
+        if not self._kept[here].any():
+            self._kind[here], self._height[here] = kind, height
+            self._sightings[here] = sightings
+            return
         fresh = (kind != UNKNOWN) | ~self._kept[here]
         np.copyto(self._kind[here], kind, where=fresh)
         np.copyto(self._height[here], height, where=fresh)

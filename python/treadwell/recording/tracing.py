@@ -9,35 +9,37 @@ from treadwell.judging.ground_truth import pose_matrix
 from treadwell.recording.trace import StairTrace, Trace
 
 
-def trace_of(episode: Episode, step: Step) -> Trace:
+def trace_of(episode: Episode, step: Step, *, pictures: bool = True) -> Trace:
     """Return one camera frame's trace.
 
     Args:
         episode: right after `step`.
         step: a tick, with or without a depth frame.
+        pictures: False leaves out what only a recording shows and the core would have to hand
+            over: points, labels, clearance.
     """
     pilot, data = episode.pilot, episode.simulation.data
     map_from_robot = pose_matrix(*step.estimate.pose)
     view = pilot.view()
     frame = step.observation.depth
-    planes = pilot.planes()
+    planes = pilot.planes() if pictures else None
     path = pilot.path()
     return Trace(
         time_ns=step.time_ns,
         map_from_robot=map_from_robot,
         odometry_from_robot=pose_matrix(*step.estimate.odometry),
         truth_from_robot=episode.judge.frame.matrix(),
-        map_from_camera=map_from_robot @ planes.robot_from_camera,
+        map_from_camera=map_from_robot @ pilot.robot_from_camera(),
         depth=None if frame is None else frame.depth,
-        points=transformed(map_from_robot, planes.points_in_robot),
-        labels=planes.labels,
-        ground=0 if planes.ground is None else planes.ground + 1,
+        points=None if planes is None else transformed(map_from_robot, planes.points_in_robot),
+        labels=None if planes is None else planes.labels,
+        ground=0 if planes is None or planes.ground is None else planes.ground + 1,
         view_origin=(view.origin[0], view.origin[1]),
         view_cell=view.cell,
         view_kind=view.kind,
         view_height=view.height,
         sightings=view.sightings,
-        clearance=pilot.clearance(),
+        clearance=pilot.clearance() if pictures else None,
         path=np.empty((0, 2)) if path is None else path,
         climbs=tuple(climb.span for climb in pilot.climbs() or ()),
         stairs=tuple(_stair(stair) for stair in pilot.staircase().stairs),

@@ -52,6 +52,11 @@ class Writers:
             )
             self._observations = observation_log.ObservationLog(folder, made, episode.robot)
 
+    @property
+    def records(self) -> bool:
+        """Whether there is a recording."""
+        return self._recorder is not None
+
     def tick(self, step: Step) -> None:
         """Take in a control tick.
 
