@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from treadwell.judging.map_memory import FLOOR
 from treadwell.judging.result import STAGES
+from treadwell.recording.frame_log import FrameLog
 from treadwell.recording.layout import (
     CLIMB,
     ESTIMATE,
@@ -41,25 +42,25 @@ class Products:
     """Writes the products of each camera frame into a recording."""
 
     def __init__(
-        self, stream: rr.RecordingStream, *, low: float, high: float, sole: tuple[float, float]
+        self, rows: FrameLog, *, low: float, high: float, sole: tuple[float, float]
     ) -> None:
         """Log the style of everything once.
 
         Args:
-            stream: the recording.
+            rows: of the recording.
             low: m, floor height with the darkest colour.
             high: m, floor height with the brightest.
             sole: m, length and width of a sole.
         """
-        self._stream, self._range = stream, (low, high)
-        self._stair_shapes = StairShapes(stream, sole)
+        self._rows, self._range = rows, (low, high)
+        self._stair_shapes = StairShapes(rows, sole)
         self._tracks: dict[str, list[NDArray[np.float64]]] = {}
         self._state, self._frames = "", 0
         self._states: list[str] = []
         names = ["estimate", "odometry", "heading"]
         lines = rr.SeriesLines(colors=[ESTIMATE, ODOMETRY, TRUTH], names=names)
-        stream.log("error", lines, static=True)
-        stream.log("timing", rr.SeriesLines(names=list(STAGES)), static=True)
+        rows.stream.log("error", lines, static=True)
+        rows.stream.log("timing", rr.SeriesLines(names=list(STAGES)), static=True)
 
     def log(self, trace: Trace) -> None:
         """Write everything of a camera frame; the time is set."""
@@ -73,93 +74,124 @@ class Products:
         self._log_plots(trace)
 
     def _log_camera(self, trace: Trace) -> None:
-        stream = self._stream
         if trace.depth is not None:
             depth = np.nan_to_num(1e3 * trace.depth, nan=0.0)
             image = np.clip(depth, 0.0, 65535.0).astype(np.uint16)
-            stream.log(
-                "camera/depth",
-                rr.DepthImage(image, meter=1000.0, colormap="turbo", depth_range=(200, 3000)),
-            )
+            self._log_depth("camera/depth", image, "turbo", (200, 3000))
         if trace.points is not None and trace.labels is not None:
             points, labels = trace.points[::_POINT_STRIDE], trace.labels[::_POINT_STRIDE]
             seen = np.isfinite(points[:, 0])
-            stream.log(
+            self._rows.log(
                 "world/points",
-                rr.Points3D(
-                    points[seen],
-                    colors=plane_colours(labels[seen], trace.ground),
-                    radii=[0.006],
-                ),
+                rr.Points3D,
+                positions=points[seen],
+                colors=plane_colours(labels[seen], trace.ground),
+                radii=[0.006],
             )
         if trace.map_from_camera is not None:
             pose = trace.map_from_camera
-            stream.log("world/camera", rr.Transform3D(translation=pose[:3, 3], mat3x3=pose[:3, :3]))
+            self._rows.log(
+                "world/camera",
+                rr.Transform3D,
+                translation=pose[None, :3, 3],
+                mat3x3=pose[None, :3, :3],
+            )
+
+    def _log_depth(
+        self,
+        entity: str,
+        image: NDArray[np.uint16],
+        colormap: str,
+        depth_range: tuple[float, float],
+    ) -> None:
+        """Add a picture (h, w) in millimetres; the range of its colours is given in them, too."""
+        self._rows.log(
+            entity,
+            rr.DepthImage,
+            buffer=[image.tobytes()],
+            format=[
+                rr.components.ImageFormat(
+                    width=image.shape[1], height=image.shape[0], channel_datatype="U16"
+                )
+            ],
+            meter=[1000.0],
+            colormap=[colormap],
+            depth_range=[depth_range],
+        )
 
     def _log_map(self, trace: Trace) -> None:
-        stream, cell = self._stream, trace.view_cell
+        log, cell = self._rows.log, trace.view_cell
         x0, y0 = trace.view_origin
         floor, obstacle = trace.view_kind == 1, trace.view_kind == 2
         row, col = np.nonzero(floor)
         height = trace.view_height[floor]
         shades = height_colours(height, *self._range)
         centres = np.column_stack([x0 + (col + 0.5) * cell, y0 + (row + 0.5) * cell, height])
-        stream.log(
+        log(
             "world/floor",
-            rr.Boxes3D(
-                centers=centres,
-                half_sizes=[(0.46 * cell, 0.46 * cell, 0.001)],
-                colors=shades,
-                fill_mode=rr.components.FillMode.Solid,
-            ),
+            rr.Boxes3D,
+            centers=centres,
+            half_sizes=[(0.46 * cell, 0.46 * cell, 0.001)],
+            colors=shades,
+            fill_mode=[rr.components.FillMode.Solid],
         )
         row, col = np.nonzero(obstacle)
         base = float(trace.map_from_robot[2, 3])
         half = np.maximum(trace.view_height[obstacle] - base, _LEAST_COLUMN) / 2
         sizes = np.column_stack([np.full((len(half), 2), 0.46 * cell), half])
-        stream.log(
+        log(
             "world/obstacles",
-            rr.Boxes3D(
-                centers=np.column_stack(
-                    [x0 + (col + 0.5) * cell, y0 + (row + 0.5) * cell, base + half]
-                ),
-                half_sizes=sizes,
-                colors=[(*OBSTACLE, 170)],
-                fill_mode=rr.components.FillMode.Solid,
+            rr.Boxes3D,
+            centers=np.column_stack(
+                [x0 + (col + 0.5) * cell, y0 + (row + 0.5) * cell, base + half]
             ),
+            half_sizes=sizes,
+            colors=[(*OBSTACLE, 170)],
+            fill_mode=[rr.components.FillMode.Solid],
         )
         picture = np.full((*trace.view_kind.shape, 3), UNSEEN, dtype=np.uint8)
         picture[floor] = shades
         picture[obstacle] = OBSTACLE
-        stream.log("map/floor", rr.Image(picture[::-1]))
+        log(
+            "map/floor",
+            rr.Image,
+            buffer=[picture[::-1].tobytes()],
+            format=[
+                rr.components.ImageFormat(
+                    width=picture.shape[1],
+                    height=picture.shape[0],
+                    color_model="RGB",
+                    channel_datatype="U8",
+                )
+            ],
+        )
         self._log_route(trace)
         if trace.clearance is not None:
             field = np.nan_to_num(1e3 * trace.clearance, nan=0.0, posinf=2000.0)
             image = np.clip(field, 0.0, 2000.0).astype(np.uint16)[::-1]
-            stream.log(
-                "map/clearance",
-                rr.DepthImage(image, meter=1000.0, colormap="viridis", depth_range=(0, 800)),
-            )
+            self._log_depth("map/clearance", image, "viridis", (0, 800))
 
     def _log_route(self, trace: Trace) -> None:
         """Draw path and robot, in the world and over the picture of the map."""
-        stream = self._stream
+        log = self._rows.log
         parts = legs(trace) if len(trace.path) > 1 else []
         raised = [
             np.column_stack([trace.path, floor_heights(trace) + _PATH_ABOVE])[leg]
             for leg, _ in parts
         ]
         colours = [colour for _, colour in parts]
-        stream.log("world/path", rr.LineStrips3D(raised, colors=colours, radii=[0.006]))
+        log("world/path", rr.LineStrips3D, strips=raised, colors=colours, radii=[0.006])
         flat = [self._pixels(trace, trace.path[leg]) for leg, _ in parts]
-        stream.log("map/floor/path", rr.LineStrips2D(flat, colors=colours, radii=[0.4]))
+        log("map/floor/path", rr.LineStrips2D, strips=flat, colors=colours, radii=[0.4])
         here, heading = trace.map_from_robot[:2, 3], trace.map_from_robot[:2, 0]
         arrow = self._pixels(trace, np.array([here, here + 0.25 * heading]))
-        stream.log(
+        log(
             "map/floor/robot",
-            rr.Arrows2D(
-                origins=arrow[:1], vectors=arrow[1:] - arrow[:1], colors=[ESTIMATE], radii=[0.8]
-            ),
+            rr.Arrows2D,
+            origins=arrow[:1],
+            vectors=arrow[1:] - arrow[:1],
+            colors=[ESTIMATE],
+            radii=[0.8],
         )
 
     @staticmethod
@@ -172,7 +204,7 @@ class Products:
         return pixels
 
     def _log_poses(self, trace: Trace) -> None:
-        stream = self._stream
+        log = self._rows.log
         poses = {
             "truth": (trace.truth_from_robot, TRUTH),
             "estimate": (trace.map_from_robot, ESTIMATE),
@@ -185,35 +217,34 @@ class Products:
                 continue
             track.append(here)
             if len(track) > 1:
-                line = rr.LineStrips3D([np.array(track)], colors=[colour], radii=[0.005])
-                stream.log(f"world/trajectory/{name}", line)
+                line = [np.array(track)]
+                entity = f"world/trajectory/{name}"
+                log(entity, rr.LineStrips3D, strips=line, colors=[colour], radii=[0.005])
         believed = trace.map_from_robot
-        stream.log(
+        log(
             "world/believed",
-            rr.Arrows3D(
-                origins=[believed[:3, 3] + (0.0, 0.0, 0.02)],
-                vectors=[0.2 * believed[:3, 0]],
-                colors=[ESTIMATE],
-                radii=[0.01],
-            ),
+            rr.Arrows3D,
+            origins=[believed[:3, 3] + (0.0, 0.0, 0.02)],
+            vectors=[0.2 * believed[:3, 0]],
+            colors=[ESTIMATE],
+            radii=[0.01],
         )
         ahead = believed[:3, 3] + _AHEAD * believed[:3, 0]
-        stream.log("world/ahead", rr.Points3D([ahead], radii=[0.001], colors=[ESTIMATE]))
+        log("world/ahead", rr.Points3D, positions=[ahead], radii=[0.001], colors=[ESTIMATE])
 
     def _log_state(self, trace: Trace) -> None:
         if trace.state == self._state:
             return
-        stream, self._state = self._stream, trace.state
+        self._state = trace.state
         if trace.state not in self._states:
             self._states.append(trace.state)
             number = np.arange(len(self._states)) % len(STATE_COLOURS)
             chosen = np.array(STATE_COLOURS, dtype=np.uint32)[number]
             style = rr.StateConfiguration(values=self._states, labels=self._states, colors=chosen)
-            stream.log("behaviour", style, static=True)
-        stream.log("behaviour", rr.StateChange(state=trace.state))
+            self._rows.stream.log("behaviour", style, static=True)
+        self._rows.log("behaviour", rr.StateChange, state=[trace.state])
 
     def _log_plots(self, trace: Trace) -> None:
-        stream = self._stream
         truth, believed = trace.truth_from_robot, trace.map_from_robot
         turn = truth[:3, :3].T @ believed[:3, :3]
         errors = [
@@ -221,10 +252,10 @@ class Products:
             math.dist(trace.odometry_from_robot[:3, 3], truth[:3, 3]),
             abs(float(np.arctan2(turn[1, 0], turn[0, 0]))),
         ]
-        stream.log("error", rr.Scalars(errors))
+        self._rows.log("error", rr.Scalars, scalars=errors)
         if trace.timing:
             times = [1e3 * trace.timing.get(stage, float("nan")) for stage in STAGES]
-            stream.log("timing", rr.Scalars(times))
+            self._rows.log("timing", rr.Scalars, scalars=times)
 
 
 def legs(trace: Trace) -> list[tuple[slice, tuple[int, int, int]]]:

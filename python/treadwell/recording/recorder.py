@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
 NAME: Final = "recording.rrd"
 _FRAMES_A_CHECK: Final = 12
-"""Camera frames, about a second, after which the file is looked at."""
+"""Camera frames, about a second, that are written at a time; then the file is looked at."""
+_LONGEST_WAIT: Final = 0.1
+"""Seconds after which a slow run's frames are written before the dozen is full."""
 _FLUSH_SECONDS: Final = 10.0
 _SPARE_BYTES: Final = 16_000_000
 """Room that must be left for what is logged between two looks."""
@@ -50,6 +52,7 @@ class Recorder:
         # Late, because rerun takes a second to import.
         import rerun as rr
 
+        from treadwell.recording.frame_log import FrameLog
         from treadwell.recording.layout import blueprint
         from treadwell.recording.products import Products
         from treadwell.recording.shapes import Shapes, robot_geoms
@@ -80,8 +83,9 @@ class Recorder:
         self._movable = self._draw_course(model, course)
         self._draw_goal(scenario, course)
         sole = robot.file.legs.left.sole
+        self._rows = FrameLog(self._stream)
         self._products = Products(
-            self._stream,
+            self._rows,
             low=-0.05,
             high=max(0.05, top + 0.01),
             sole=(sole.length, sole.width),
@@ -94,14 +98,16 @@ class Recorder:
         Raises:
             RecordingError: the file does not take it any more.
         """
-        stream = self._stream
-        stream.set_time("time", duration=1e-9 * trace.time_ns)
+        self._rows.begin(trace.time_ns)
         for shapes in (self._robot, self._movable):
-            shapes.pose(stream, trace.body_positions, trace.body_orientations)
+            for entity, kind, fields in shapes.posed(trace.body_positions, trace.body_orientations):
+                self._rows.log(entity, kind, **fields)
         self._products.log(trace)
         self._frames += 1
         if self._frames % _FRAMES_A_CHECK == 0:
             self._check()
+        elif self._rows.waiting_seconds > _LONGEST_WAIT:
+            self._rows.send()
 
     def close(self) -> None:
         """Write what is left and close the file. After an error there is nothing left to do.
@@ -122,6 +128,7 @@ class Recorder:
                 self._broken = True
                 self._stream.disconnect()
                 raise self._full()
+            self._rows.send()
             self._stream.flush(timeout_sec=_FLUSH_SECONDS)
             _ = self._path.stat()
         except (OSError, RuntimeError, ValueError) as error:
@@ -158,11 +165,12 @@ class Recorder:
         walls = [g for e in fixed if e.kind == "wall" for g in e.geom_ids]
         others = [g for e in fixed if e.kind != "wall" for g in e.geom_ids]
         moving = [g for e in course.elements if e.mocap_id is not None for g in e.geom_ids]
-        for entity, geoms, opacity in (("course", others, 1.0), ("walls", walls, _WALLS)):
+        for name, geoms, opacity in (("course", others, 1.0), ("walls", walls, _WALLS)):
             ids = np.array(geoms, dtype=np.intp)
-            shapes = Shapes(model, ids, f"world/{entity}", opacity=opacity)
+            shapes = Shapes(model, ids, f"world/{name}", opacity=opacity)
             shapes.draw(self._stream)
-            shapes.pose(self._stream, data.xpos, data.xquat, static=True)
+            for entity, kind, fields in shapes.posed(data.xpos, data.xquat):
+                self._stream.log(entity, kind.from_fields(**fields), static=True)
         movable = Shapes(model, np.array(moving, dtype=np.intp), "world/movable")
         movable.draw(self._stream)
         return movable

@@ -1,7 +1,8 @@
 """MuJoCo's geoms as shapes of the recording: sizes once, poses in one batch a kind and frame."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import mujoco
 import numpy as np
@@ -16,6 +17,12 @@ _KINDS: Final = {
     int(mujoco.mjtGeom.mjGEOM_CYLINDER): "cylinders",
     int(mujoco.mjtGeom.mjGEOM_ELLIPSOID): "ellipsoids",
     int(mujoco.mjtGeom.mjGEOM_SPHERE): "ellipsoids",
+}
+_ARCHETYPES: Final[dict[str, Any]] = {
+    "boxes": rr.Boxes3D,
+    "capsules": rr.Capsules3D,
+    "cylinders": rr.Cylinders3D,
+    "ellipsoids": rr.Ellipsoids3D,
 }
 _COLLISION_GROUP: Final = 3
 """Geoms of this group and above are for touching, not for looking at."""
@@ -87,56 +94,39 @@ class Shapes:
             elif batch.kind == "ellipsoids":
                 shape = rr.Ellipsoids3D.from_fields(half_sizes=size, colors=shade, fill_mode=solid)
             else:
-                kind = rr.Cylinders3D if batch.kind == "cylinders" else rr.Capsules3D
-                shape = kind.from_fields(
+                shape = _ARCHETYPES[batch.kind].from_fields(
                     lengths=2 * size[:, 1], radii=size[:, 0], colors=shade, fill_mode=solid
                 )
             stream.log(f"{self.entity}/{batch.kind}", shape, static=True)
         for geom in self._meshes:
             stream.log(f"{self.entity}/mesh_{geom}", self._mesh(geom), static=True)
 
-    def pose(
-        self,
-        stream: rr.RecordingStream,
-        positions: Floats,
-        orientations: Floats,
-        *,
-        static: bool = False,
-    ) -> None:
-        """Log where the geoms are.
+    def posed(
+        self, positions: Floats, orientations: Floats
+    ) -> Iterator[tuple[str, type[Any], dict[str, Floats]]]:
+        """Yield where the geoms are: entity, rerun's archetype, its fields.
 
         Args:
-            stream: the recording.
             positions: (nbody, 3) of MuJoCo's bodies, m.
             orientations: (nbody, 4) wxyz.
-            static: for what never moves.
         """
         if not self.geoms.size:
             return
         places, turns = self._poses(positions, orientations)
+        xyzw = turns[:, [1, 2, 3, 0]]
         end = 0
         for batch in self._batches:
             first, end = end, end + len(batch.geoms)
-            centres, quaternions = places[first:end], turns[first:end]
-            xyzw = quaternions[:, [1, 2, 3, 0]]
-            shape: rr.AsComponents
+            name, centres = "centers", places[first:end]
             if batch.kind == "capsules":
                 # A capsule of the recording begins at its pose; MuJoCo's lies around it.
-                centres = centres - batch.sizes[:, 1:2] * rotated(quaternions, (0.0, 0.0, 1.0))
-                shape = rr.Capsules3D.from_fields(translations=centres, quaternions=xyzw)
-            elif batch.kind == "boxes":
-                shape = rr.Boxes3D.from_fields(centers=centres, quaternions=xyzw)
-            elif batch.kind == "cylinders":
-                shape = rr.Cylinders3D.from_fields(centers=centres, quaternions=xyzw)
-            else:
-                shape = rr.Ellipsoids3D.from_fields(centers=centres, quaternions=xyzw)
-            stream.log(f"{self.entity}/{batch.kind}", shape, static=static)
-        for geom, at, quaternion in zip(self._meshes, places[end:], turns[end:], strict=True):
-            stream.log(
-                f"{self.entity}/mesh_{geom}",
-                rr.InstancePoses3D(translations=[at], quaternions=[quaternion[[1, 2, 3, 0]]]),
-                static=static,
-            )
+                axes = rotated(turns[first:end], (0.0, 0.0, 1.0))
+                name, centres = "translations", centres - batch.sizes[:, 1:2] * axes
+            fields = {name: centres, "quaternions": xyzw[first:end]}
+            yield f"{self.entity}/{batch.kind}", _ARCHETYPES[batch.kind], fields
+        for i, geom in enumerate(self._meshes, start=end):
+            fields = {"translations": places[i : i + 1], "quaternions": xyzw[i : i + 1]}
+            yield f"{self.entity}/mesh_{geom}", rr.InstancePoses3D, fields
 
     def _poses(self, positions: Floats, orientations: Floats) -> tuple[Floats, Floats]:
         """Return world positions (n, 3) and quaternions (n, 4) wxyz of the geoms, in order."""

@@ -8,6 +8,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from treadwell.protocols import Footstep
+from treadwell.recording.frame_log import FrameLog
 from treadwell.recording.layout import (
     FITTED_EDGE,
     FRONT_EDGE,
@@ -30,14 +31,14 @@ _ABOVE: Final = 0.004
 class StairShapes:
     """Writes stairs, planned and done landings, and missteps of each camera frame."""
 
-    def __init__(self, stream: rr.RecordingStream, sole: tuple[float, float]) -> None:
+    def __init__(self, rows: FrameLog, sole: tuple[float, float]) -> None:
         """Begin with nothing.
 
         Args:
-            stream: the recording.
+            rows: of the recording.
             sole: m, length and width of a sole.
         """
-        self._stream, self._sole = stream, sole
+        self._rows, self._sole = rows, sole
         self._stairs_shown = False
         self._listed: tuple[Footstep, ...] = ()
         self._touch = (True, True)
@@ -47,7 +48,7 @@ class StairShapes:
         names = ["", "no_ground", "obstructed", "stumbled"]
         labels = ["", "misstep: no ground", "misstep: obstructed", "stumbled"]
         style = rr.StateConfiguration(values=names, labels=labels, colors=colours)
-        stream.log("behaviour/misstep", style, static=True)
+        rows.stream.log("behaviour/misstep", style, static=True)
 
     def log(self, trace: Trace) -> None:
         """Write a camera frame; the time is set."""
@@ -56,7 +57,7 @@ class StairShapes:
         self._log_landed(trace)
         if trace.misstep != self._misstep:
             self._misstep = trace.misstep
-            self._stream.log("behaviour/misstep", rr.StateChange(state=trace.misstep or ""))
+            self._rows.log("behaviour/misstep", rr.StateChange, state=[trace.misstep or ""])
 
     def _log_stairs(self, stairs: tuple[StairTrace, ...]) -> None:
         if not stairs and not self._stairs_shown:
@@ -69,14 +70,15 @@ class StairShapes:
         fronts = [_raised(s.front) for s in stairs]
         colours = [_edge_colour(s, fitted=s.front_fitted) for s in stairs]
         self._lines("world/stairs/front", fronts, colours, 0.006)
-        heights = rr.Points3D(
-            [s.front.mean(axis=0) for s in steps],
+        self._rows.log(
+            "world/stairs/height",
+            rr.Points3D,
+            positions=[s.front.mean(axis=0) for s in steps],
             radii=[0.001],
             colors=[(255, 255, 255)],
             labels=[f"{1e3 * s.height():.0f} mm" for s in steps],
-            show_labels=True,
+            show_labels=[True],
         )
-        self._stream.log("world/stairs/height", heights)
         backs = [s for s in stairs if s.back_fitted]
         colours = [_edge_colour(s, fitted=True) for s in backs]
         self._lines("world/stairs/back", [_raised(s.back) for s in backs], colours, 0.004)
@@ -122,8 +124,7 @@ class StairShapes:
         colours: list[_Colour],
         radius: float,
     ) -> None:
-        lines = rr.LineStrips3D(strips, colors=colours, radii=[radius])
-        self._stream.log(entity, lines)
+        self._rows.log(entity, rr.LineStrips3D, strips=strips, colors=colours, radii=[radius])
 
 
 def _opacity(stair: StairTrace) -> int:
