@@ -139,15 +139,19 @@ def true_cells(
         for piece in element.pieces:
             bottom = float(piece.vertices[:, 2].min() + offset[2])
             top_z = float(piece.vertices[:, 2].max() + offset[2])
-            matters = (bottom < height + headroom) & (top_z > height + 1e-6)
+            # Cells farther off than one of their own are clear of it.
+            near = _near(centres - offset[:2], piece.outline, remembered.cell)
+            floor = height[near]
+            matters = (bottom < floor + headroom) & (top_z > floor + 1e-6)
             for inside, corner in zip(obstacle, _CORNERS, strict=True):
-                points = centres + 0.5 * remembered.cell * np.array(corner) - offset[:2]
+                points = centres[near] + 0.5 * remembered.cell * np.array(corner) - offset[:2]
                 distance = signed_distance(piece.outline, points)
                 here = matters & (distance <= 0.0)
-                inside |= here
+                inside[near] |= here
                 if corner == _CENTRE:
-                    lid[here] = np.fmax(lid[here], top_z) if has_lid else lid[here]
-                    clear &= ~matters | (distance >= half_diagonal)
+                    if has_lid:
+                        lid[near[here]] = np.fmax(lid[near[here]], top_z)
+                    clear[near] &= ~matters | (distance >= half_diagonal)
     shape = remembered.kind.shape
     return TrueCells(
         floor=(clear & ~obstacle[0]).reshape(shape),
@@ -156,6 +160,12 @@ def true_cells(
         whole=np.all(obstacle, axis=0).reshape(shape),
         lid=lid.reshape(shape),
     )
+
+
+def _near(points: Floats, outline: Floats, margin: float) -> NDArray[np.intp]:
+    """Return which points (n, 2) lie in the box around an outline or within a margin of it, m."""
+    low, high = outline.min(axis=0) - margin, outline.max(axis=0) + margin
+    return np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))
 
 
 def map_counts(remembered: RememberedMap, truth: TrueCells) -> MapCounts:
