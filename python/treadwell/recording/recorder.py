@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 NAME: Final = "recording.rrd"
 _FRAMES_A_CHECK: Final = 12
 """Camera frames, about a second, that are written at a time; then the file is looked at."""
-_LONGEST_WAIT: Final = 0.1
+_LONGEST_WAIT: Final = 0.2
 """Seconds after which a slow run's frames are written before the dozen is full."""
 _FLUSH_SECONDS: Final = 10.0
 _SPARE_BYTES: Final = 16_000_000
