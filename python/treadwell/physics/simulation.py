@@ -180,7 +180,7 @@ class Simulation:
         shape = (len(self.robot.joints),)
         # A product with what is not finite is not finite.
         if position.shape == velocity.shape == torque.shape == shape and math.isfinite(
-            position @ velocity + torque @ torque
+            position.dot(velocity) + torque.dot(torque)
         ):
             return
         for name, array in (("position", position), ("velocity", velocity), ("torque", torque)):
@@ -192,7 +192,7 @@ class Simulation:
 
     def _check_state(self) -> None:
         numbers, qpos = self.data.warning.number, self.data.qpos
-        if any(numbers.tolist()) or not math.isfinite(qpos @ qpos):
+        if any(numbers.tolist()) or not math.isfinite(qpos.dot(qpos)):
             names = [
                 mujoco.mjtWarning(kind).name.removeprefix("mjWARN_")
                 for kind in np.flatnonzero(numbers)
