@@ -7,6 +7,7 @@ import argparse
 import os
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,23 @@ from episodes import seeds
 from treadwell.runner import run
 
 CORE = ("segment", "map", "stairs", "localize", "plan", "behave", "walk")
+
+
+class Processor:
+    """Notes at each camera frame how much processor time the run has taken, as its progress."""
+
+    def __init__(self) -> None:
+        """Begin with nothing."""
+        self.looks: list[tuple[float, float]] = []
+
+    def update(self, simulated: float, *_: object) -> None:
+        """Take in simulated seconds."""
+        self.looks.append((simulated, time.process_time()))
+
+    def factor(self) -> float:
+        """Return simulated seconds a second of processor time."""
+        (first, begin), (last, end) = self.looks[0], self.looks[-1]
+        return (last - first) / (end - begin)
 
 
 def main() -> None:
@@ -27,11 +45,15 @@ def main() -> None:
     import rerun  # noqa: F401
 
     for record in (False, True):
-        factors, shares, both = [], [], []
+        factors, processor, shares, both = [], [], [], []
         for seed in options.seeds:
             with tempfile.TemporaryDirectory() as folder:
                 out = Path(folder) / "run"
-                result = run(options.scenario, seed=seed, record=record, out=out).result
+                looks = Processor()
+                result = run(
+                    options.scenario, seed=seed, record=record, out=out, progress=looks
+                ).result
+            processor.append(looks.factor())
             table = result.timing_ms
             core = sum(table[name].median * table[name].count for name in CORE) / 1e3
             factors.append(result.real_time_factor)
@@ -40,7 +62,9 @@ def main() -> None:
         title = "with" if record else "without"
         sys.stdout.write(
             f"{title} recording: {np.median(factors):.1f} times real time "
-            f"({min(factors):.1f} to {max(factors):.1f}), core {100 * np.median(shares):.0f} % "
+            f"({min(factors):.1f} to {max(factors):.1f}), "
+            f"{np.median(processor):.1f} by processor time "
+            f"({min(processor):.1f} to {max(processor):.1f}), core {100 * np.median(shares):.0f} % "
             f"of the wall time, segmentation and map {np.median(both):.2f} ms a frame\n"
         )
         sys.stdout.flush()
