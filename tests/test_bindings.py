@@ -82,7 +82,11 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
             {"segmenter": "scan_line_1994", "scan_line_1994": {"strip": 0}},
             r"navigation\.scan_line_1994\.strip must be 1 to 32 pixels, got 0",
         ),
-        ({"localizer": "truth"}, r"navigation\.localizer must be one of odometry, got truth"),
+        ({"localizer": "truth"}, r"navigation\.localizer must be one of odometry, .*, got truth"),
+        (
+            {"localizer": "matching", "matching": {"offset": 0}},
+            r"navigation\.matching\.offset must be finite and > 0, got 0",
+        ),
         (
             {"behaviour": "x"},
             r"navigation\.behaviour must be one of stair_climbing, continuous, walking, got x",

@@ -38,11 +38,16 @@ def test_the_start_is_the_true_one() -> None:
     assert start != told(seed=6)["start"]
 
 
-def test_a_start_that_is_not_known_is_not_told_and_odometry_cannot_do_without() -> None:
+@pytest.mark.parametrize("localizer", ["odometry", "matching"])
+def test_a_start_that_is_not_known_is_not_told_and_odometry_cannot_do_without(
+    localizer: str,
+) -> None:
     document = told("start.known=false", seed=5)
     assert document["start"] == {"position": [0.0, 0.0], "height": 0.0, "yaw": 0.0}
-    made = load_scenario("slalom", overrides=("start.known=false",))
-    with pytest.raises(InputError, match=r"start\.known: found false; the localizer odometry"):
+    overrides = ("start.known=false", f"navigation.localizer={localizer}")
+    made = load_scenario("slalom", overrides=overrides)
+    expected = rf"start\.known: found false; the localizer {localizer}"
+    with pytest.raises(InputError, match=expected):
         user_components(made, {})
 
 

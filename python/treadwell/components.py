@@ -18,6 +18,7 @@ COMPONENTS: Final[dict[str, dict[str, str]]] = {
     },
     "localizer": {
         "odometry": "legs' odometry from encoders, gyro and foot contact",
+        "matching": "the same, its heading kept by upright surfaces that are seen again",
         "truth": "the simulator's own pose; for ablations only, the result says so",
     },
     "planner": {

@@ -13,7 +13,7 @@ from treadwell.robot.load import Robot
 from treadwell.scenario.messages import nearest
 from treadwell.scenario.model import Scenario
 
-TOLD = ("odometry",)
+TOLD = ("odometry", "matching")
 """Localizers that cannot find where the robot is, but have to be told where it starts."""
 
 

@@ -2,7 +2,7 @@
 
 use geometry::{ConfigError, Map, Odometry, Pose, Robot, require};
 use mapping::{FloorView, Surface};
-use nalgebra::Point3;
+use nalgebra::{Point3, UnitQuaternion, Vector3};
 use segmentation::Planes;
 use serde::{Deserialize, Serialize};
 
@@ -75,6 +75,16 @@ impl OdometryLocalizer {
 }
 
 impl OdometryLocalizer {
+    /// Turns the map's odometry frame about where the robot stands, rad: another heading at the same place.
+    pub(crate) fn turn(&mut self, body: &BodyState, turn_rad: f64) {
+        let map_from_odometry = self.map_from_odometry(body).inner;
+        let place = (map_from_odometry * body.odometry_from_robot.inner).translation;
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn_rad);
+        self.map_from_odometry = Some(Pose::wrap(
+            place * turn * place.inverse() * map_from_odometry,
+        ));
+    }
+
     /// By how much the floor under the feet lies above the robot's frame in the map, m: the mean over the places under
     /// and between the soles, where all that are known show the robot's level. Beside an edge one of them may show
     /// another: then nothing is sure.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use behaviour::{Behaviour, Pace, StairClimbing, WalkingBehaviour};
 use geometry::ConfigError;
-use localization::{Localizer, OdometryLocalizer};
+use localization::{Localizer, MatchingLocalizer, OdometryLocalizer};
 use mapping::{Averaging, Fog, WorldModel};
 use planning::{AStar, Planner};
 use robot::{Body, Side};
@@ -110,7 +110,12 @@ pub(crate) fn localizer(settings: &Settings) -> Result<Box<dyn Localizer>, Pilot
             settings.start.into(),
             table(tables, "odometry")?,
         )?)),
-        other => Err(unknown("localizer", other, "odometry")),
+        "matching" => Ok(Box::new(MatchingLocalizer::new(
+            settings.start.into(),
+            table(tables, "odometry")?,
+            table(tables, "matching")?,
+        )?)),
+        other => Err(unknown("localizer", other, "odometry, matching")),
     }
 }
 
