@@ -2,6 +2,7 @@
 
 mod averaging;
 mod model;
+mod storage;
 pub mod surface;
 pub mod volume;
 

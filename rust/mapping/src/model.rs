@@ -55,6 +55,11 @@ impl FloorView {
         self.lattice = lattice;
     }
 
+    /// Columns and rows.
+    pub(crate) const fn size(&self) -> [usize; 2] {
+        [self.cells.cols(), self.cells.rows()]
+    }
+
     /// Sets what is in a cell, and how often it was seen.
     pub(crate) fn set(&mut self, cell: Cell, surface: Surface, sightings: u16) {
         if let (Some(slot), Some(count)) = (self.cells.get_mut(cell), self.sightings.get_mut(cell))

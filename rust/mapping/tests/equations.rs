@@ -54,6 +54,7 @@ fn frame_of(point: [f64; 3], height: f64) -> LabelledFrame {
         rough: None,
         pixel: 0,
     });
+    frame.locate(&lattice(), [20, 20]);
     frame
 }
 
@@ -237,6 +238,7 @@ fn equation_9_is_applied_once_a_cell_and_frame() {
     floor.update(&frame_of(at, 0.040), &grid, Update::PerFrame);
     let mut frame = frame_of(at, 0.050);
     frame.points = vec![frame.points[0]; 50];
+    frame.locate(&lattice(), [20, 20]);
     floor.update(&frame, &grid, Update::PerFrame);
     let height = floor.height(Cell::new(12, 9)).unwrap();
     assert!((height - 0.041).abs() < 1e-6, "{height}");

@@ -3,6 +3,7 @@
 use geometry::{Cell, CellArea, Grid, Lattice};
 
 use super::{FogConfig, LabelledFrame, Update};
+use crate::storage::runs;
 use crate::volume::OccupancyGrid;
 
 /// There is no floor height: below every height.
@@ -38,9 +39,9 @@ pub struct FloorGrid {
     /// Of the frame that is being inserted, per cell: highest supported height, sum and number of those within epsilon.
     frame_top: Grid<f32>,
     frame_sum: Grid<(f64, u32)>,
-    /// Cells with a supported height in this frame, and the cell of every point (or none).
-    frame_cells: Vec<Cell>,
-    point_cells: Vec<Option<Cell>>,
+    /// Cells with a supported height in this frame, and the cell and height of every point with one.
+    frame_cells: Vec<usize>,
+    supported: Vec<(usize, f64)>,
 }
 
 impl FloorGrid {
@@ -59,7 +60,7 @@ impl FloorGrid {
             frame_top: Grid::filled(n, n, INVALID),
             frame_sum: Grid::filled(n, n, (0.0, 0)),
             frame_cells: Vec::with_capacity(n * n),
-            point_cells: Vec::new(),
+            supported: Vec::new(),
         }
     }
 
@@ -71,25 +72,35 @@ impl FloorGrid {
             .filter(|&height| height != INVALID)
     }
 
-    /// Highest floor of the cells around one, at most so many cells to each side, m.
-    pub fn highest_around(&self, cell: Cell, cells: i32) -> Option<f32> {
-        let around = CellArea::of(cell).grown(cells);
-        around
-            .cells()
-            .filter_map(|c| self.height(c))
-            .reduce(f32::max)
+    /// The same of the cell that is stored at an index, row by row.
+    #[inline]
+    pub(crate) fn height_at(&self, index: usize) -> Option<f32> {
+        let height = self.heights.values()[index];
+        (height != INVALID).then_some(height)
     }
 
-    /// Height of the floor at a place of the map frame, m, and how many frames saw it from near enough to be sure.
-    pub fn known_at(&self, x_m: f64, y_m: f64) -> Option<(f64, u16)> {
-        let cell = self.lattice.cell_at(x_m, y_m);
-        let height = self.height(cell)?;
-        Some((f64::from(height), self.sightings(cell)))
+    /// Highest floor of the cells around one, at most so many cells to each side, m.
+    pub fn highest_around(&self, cell: Cell, cells: i32) -> Option<f32> {
+        let around = runs(CellArea::of(cell).grown(cells), self.size());
+        let heights = around.flat_map(|run| &self.heights.values()[run]);
+        // Below every height there is INVALID.
+        let highest = heights.copied().fold(INVALID, f32::max);
+        (highest != INVALID).then_some(highest)
     }
 
     /// All heights; [`INVALID`] where there is none.
     pub const fn heights(&self) -> &Grid<f32> {
         &self.heights
+    }
+
+    /// Columns and rows.
+    fn size(&self) -> [usize; 2] {
+        [self.heights.cols(), self.heights.rows()]
+    }
+
+    /// For each cell, row by row, what [`Self::sightings`] tells.
+    pub(crate) fn all_sightings(&self) -> &[u16] {
+        self.sightings.values()
     }
 
     /// How many frames saw the surface that a cell holds from near enough to be sure.
@@ -107,12 +118,15 @@ impl FloorGrid {
 
     /// Equation (8): forgets heights of the area that the occupancy grid, with the same cells, no longer supports, by (3) and (7).
     pub fn verify(&mut self, occupancy: &OccupancyGrid, area: CellArea) {
-        for cell in area.cells() {
-            let Some(height) = self.height(cell) else {
+        for index in runs(area, self.size()).flatten() {
+            let Some(height) = self.height_at(index) else {
                 continue;
             };
-            if !occupancy.is_occupied_at(cell, f64::from(height)) {
-                self.set(cell, INVALID, 0, f32::INFINITY);
+            let layer = occupancy.layer_at(f64::from(height));
+            if !layer.is_some_and(|layer| occupancy.holds(index, layer)) {
+                self.heights.values_mut()[index] = INVALID;
+                self.sightings.values_mut()[index] = 0;
+                self.distances_m.values_mut()[index] = f32::INFINITY;
             }
         }
     }
@@ -121,36 +135,50 @@ impl FloorGrid {
     ///
     /// Per frame, a cell is updated once, with the mean of the heights within epsilon of the highest one that was seen.
     pub fn update(&mut self, frame: &LabelledFrame, occupancy: &OccupancyGrid, update: Update) {
-        self.point_cells.clear();
-        for point in &frame.points {
-            let [x, y, _] = point.position_m;
-            let height = point.floor_height_m;
-            let cell = (!height.is_nan()).then(|| self.lattice.cell_at(x, y));
-            let cell = cell.filter(|&cell| occupancy.is_occupied_at(cell, height));
-            self.point_cells.push(cell);
-            let Some(top) = cell.and_then(|cell| self.frame_top.get_mut(cell)) else {
-                continue;
-            };
-            if *top == INVALID {
-                self.frame_cells.extend(cell);
-            }
-            *top = top.max(height as f32);
-        }
-        for (point, &cell) in frame.points.iter().zip(&self.point_cells) {
-            let Some(cell) = cell else { continue };
-            let height = point.floor_height_m as f32;
+        self.gather(frame, occupancy);
+        let tops = self.frame_top.values();
+        let sums = self.frame_sum.values_mut();
+        let heights = self.heights.values_mut();
+        for &(index, floor_height_m) in &self.supported {
+            let height = floor_height_m as f32;
             if update == Update::PerPoint {
-                if let Some(stored) = self.heights.get_mut(cell) {
-                    *stored = merge_height(*stored, height, self.epsilon, self.nu);
-                }
-            } else if let (Some(&top), Some(sum)) =
-                (self.frame_top.get(cell), self.frame_sum.get_mut(cell))
-                && height >= top - self.epsilon
-            {
-                *sum = (sum.0 + point.floor_height_m, sum.1 + 1);
+                let stored = &mut heights[index];
+                *stored = merge_height(*stored, height, self.epsilon, self.nu);
+            } else if height >= tops[index] - self.epsilon {
+                let sum = &mut sums[index];
+                *sum = (sum.0 + floor_height_m, sum.1 + 1);
             }
         }
         self.finish(frame.eye_m, update);
+    }
+
+    /// Finds the points whose height the occupancy grid, with the same cells, supports, and the highest of each cell.
+    fn gather(&mut self, frame: &LabelledFrame, occupancy: &OccupancyGrid) {
+        self.supported.clear();
+        let tops = self.frame_top.values_mut();
+        // Points of one surface come one after the other and have one height.
+        let mut last = (f64::NAN, None);
+        for (point, index) in frame.located() {
+            let height_m = point.floor_height_m;
+            if height_m.is_nan() {
+                continue;
+            }
+            if height_m != last.0 {
+                last = (height_m, occupancy.layer_at(height_m));
+            }
+            let (Some(layer), Some(index)) = (last.1, index) else {
+                continue;
+            };
+            if !occupancy.holds(index, layer) {
+                continue;
+            }
+            self.supported.push((index, height_m));
+            let top = &mut tops[index];
+            if *top == INVALID {
+                self.frame_cells.push(index);
+            }
+            *top = top.max(height_m as f32);
+        }
     }
 
     /// Forgets the heights of an area's cells for which `is_no_floor` holds, whatever the occupancy grid says.
@@ -162,12 +190,11 @@ impl FloorGrid {
 
     /// Applies what was gathered of the frame and clears it.
     fn finish(&mut self, [eye_x_m, eye_y_m, _]: [f64; 3], update: Update) {
-        while let Some(cell) = self.frame_cells.pop() {
-            let (Some(top), Some(sum)) =
-                (self.frame_top.get_mut(cell), self.frame_sum.get_mut(cell))
-            else {
-                continue;
-            };
+        let cols = self.heights.cols();
+        while let Some(index) = self.frame_cells.pop() {
+            let cell = Cell::new((index % cols) as i32, (index / cols) as i32);
+            let top = &mut self.frame_top.values_mut()[index];
+            let sum = &mut self.frame_sum.values_mut()[index];
             let measured = match update {
                 Update::PerFrame => (sum.0 / f64::from(sum.1)) as f32,
                 Update::PerPoint => *top,

@@ -5,13 +5,14 @@ use geometry::{Cell, CellArea, ConfigError, Grid, Map, Pose, Robot};
 use segmentation::Planes;
 
 use super::rough::Rough;
-use super::shadow::Shadow;
+use super::shadow::{Shadow, Surroundings};
 use super::stood::Stood;
 use super::window::{Layers, Window};
 use super::{
     FloorGrid, FogConfig, LabelledFrame, LabelledPoint, Pair, Reading, check_poses, height_shift,
 };
-use crate::volume::{OccupancyGrid, Placement, ProbabilityTable, Size};
+use crate::storage::runs;
+use crate::volume::{Locator, OccupancyGrid, Placement, ProbabilityTable, Size};
 use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
 
 /// Keeps the occupancy grid, the floor grid and the view made of both.
@@ -24,6 +25,7 @@ pub struct Fog {
     floor: FloorGrid,
     rough: Rough,
     stood: Stood,
+    surroundings: Surroundings,
     view: FloorView,
     frame: LabelledFrame,
 }
@@ -55,6 +57,7 @@ impl Fog {
             floor: FloorGrid::new(lattice, &config),
             rough: Rough::new(n),
             stood: Stood::new(n, config.footprint),
+            surroundings: Surroundings::default(),
             view: FloorView::unknown(lattice, n),
             frame: LabelledFrame::default(),
             window,
@@ -96,22 +99,31 @@ impl Fog {
     /// floor beside it where the cell's own is not known: the border of a tread, or floor that was only seen from far away. Where
     /// it is unknown and the robot stood there, the floor that it stood on.
     pub fn surface(&self, cell: Cell) -> Surface {
-        let floor = self.floor.height(cell);
-        let obstacle = self.occupancy.obstacle_height_m(cell);
-        let level = floor.or_else(|| {
-            let beside = self.floor_beside();
-            obstacle.and_then(|_| self.floor.highest_around(cell, beside))
-        });
-        let limit = level.map_or(f64::NEG_INFINITY, |h| f64::from(h) + self.config.delta);
-        match (obstacle, floor) {
-            (_, Some(height)) if self.is_passed_under(cell) => Surface::Floor(height),
-            (Some(top), _) if top > limit => Surface::Obstacle(top as f32),
-            (_, Some(height)) => Surface::Floor(height),
-            _ => self
-                .stood
-                .height(cell)
-                .map_or(Surface::Unknown, Surface::Floor),
-        }
+        let index = self.view.cells.index(cell);
+        index.map_or(Surface::Unknown, |index| self.surface_at(index))
+    }
+
+    /// The same of the cell that is stored at an index, row by row.
+    #[inline]
+    fn surface_at(&self, index: usize) -> Surface {
+        let floor = self.floor.height_at(index);
+        let below = match (self.occupancy.obstacle_height_at(index), floor) {
+            (Some(top_m), _) if self.stands_out(index, top_m, floor) => {
+                return Surface::Obstacle(top_m as f32);
+            }
+            (_, None) => self.stood.height_at(index),
+            _ => floor,
+        };
+        below.map_or(Surface::Unknown, Surface::Floor)
+    }
+
+    /// Whether the highest occupied voxel of a cell, whose centre lies at `top_m`, is an obstacle.
+    fn stands_out(&self, index: usize, top_m: f64, floor: Option<f32>) -> bool {
+        let cols = self.view.cells.cols();
+        let cell = Cell::new((index % cols) as i32, (index / cols) as i32);
+        let level = floor.or_else(|| self.floor.highest_around(cell, self.floor_beside()));
+        let limit_m = level.map_or(f64::NEG_INFINITY, |h| f64::from(h) + self.config.delta);
+        top_m > limit_m && !self.is_passed_under(cell)
     }
 
     /// Cells to each side of one without a floor whose floor counts for it.
@@ -145,21 +157,33 @@ impl Fog {
         all
     }
 
+    /// A point and the known floor of its cell.
+    fn pair(&self, point: &LabelledPoint, index: usize) -> Option<Pair> {
+        let height_m = f64::from(self.floor.height_at(index)?);
+        let sightings = self.floor.all_sightings()[index];
+        Some(Pair {
+            residual_m: height_m - point.floor_height_m,
+            // A patch that a few frames got wrong does not pull up what it borders on. What was only seen from afar has no
+            // sighting, but is better than nothing.
+            weight: u64::from(sightings.max(1)),
+        })
+    }
+
     /// Takes in the frame that was read, in the paper's order (section III.A): rays, equations (8) and (9); the cells that this touched.
     fn take_in(&mut self) -> CellArea {
         let config = &self.config;
-        let shadow = Shadow {
-            eye_m: self.frame.eye_m,
-            reach_m: config.shadow,
-            view: &self.view,
-            occupancy: &self.occupancy,
-        };
-        self.frame.disbelieve(|position_m| shadow.holds(position_m));
+        let size = self.view.size();
+        self.frame.locate(&self.view.lattice, size);
+        let map = (&self.view, &self.occupancy);
+        let (eye_m, around) = (self.frame.eye_m, &mut self.surroundings);
+        let shadow = Shadow::new(eye_m, config.shadow, map, around);
+        self.frame
+            .disbelieve(|at_m, index| shadow.holds(at_m, index));
         let mut touched = occupy(&mut self.occupancy, &self.frame, config);
         self.floor.verify(&self.occupancy, touched);
         self.floor
             .update(&self.frame, &self.occupancy, config.update);
-        let judged = self.rough.take(&self.frame.points, &self.view.lattice);
+        let judged = self.rough.take(&self.frame);
         self.floor.forget(judged, |cell| self.rough.is_rough(cell));
         touched.join(judged);
         touched
@@ -167,13 +191,12 @@ impl Fog {
 
     /// Brings the view up to date where an area in which floors or voxels changed reaches to, and says where that is.
     fn refresh(&mut self, area: CellArea) -> CellArea {
-        let reached = area
-            .grown(self.floor_beside())
-            .within(self.view.cells.area());
-        for cell in reached.cells() {
-            let surface = self.surface(cell);
-            let seen = self.floor.sightings(cell);
-            self.view.set(cell, surface, seen);
+        let all = self.view.cells.area();
+        let reached = area.grown(self.floor_beside()).within(all);
+        let size = self.view.size();
+        for index in runs(reached, size).flatten() {
+            self.view.cells.values_mut()[index] = self.surface_at(index);
+            self.view.sightings.values_mut()[index] = self.floor.all_sightings()[index];
         }
         reached
     }
@@ -211,15 +234,10 @@ impl WorldModel for Fog {
             rough: config.rough.map_or(f32::INFINITY, |rough| rough as f32),
         };
         self.frame.read(planes, map_from_robot, reading);
-        // A patch that a few frames got wrong does not pull up what it borders on.
+        let locator = Locator::of_cells(&self.view.lattice, self.view.size());
         let pair = |point: &LabelledPoint| {
-            let [x, y, _] = point.position_m;
-            let (height_m, sightings) = self.floor.known_at(x, y)?;
-            Some(Pair {
-                residual_m: height_m - point.floor_height_m,
-                // What was only seen from afar has no sighting, but is better than nothing.
-                weight: u64::from(sightings.max(1)),
-            })
+            let [x_m, y_m, _] = point.position_m;
+            self.pair(point, locator.index_at([x_m, y_m])?)
         };
         // The ground that the robot stands on tells a frame's height best. To fit that frame to floor that was seen from far before
         // would carry the errors of that from level to level.
@@ -230,7 +248,9 @@ impl WorldModel for Fog {
         };
         let used = planes.reliable || shift.is_some();
         if used {
-            self.frame.raise(shift.unwrap_or(0.0));
+            if let Some(shift_m) = shift {
+                self.frame.raise(shift_m);
+            }
             changed.join(self.take_in());
         }
         changed = self.refresh(changed);

@@ -1,11 +1,11 @@
 //! Labelled points of one frame in the map frame: steps 1 and 2 of the update in 000, section III.A.
 
-use geometry::{Map, Pose, Robot};
+use geometry::{Lattice, Map, Pose, Robot};
 use nalgebra::Point3;
 use segmentation::Planes;
 
 use crate::MapError;
-use crate::volume::{Picture, Ray};
+use crate::volume::{Locator, Picture, Ray};
 
 /// Refuses poses that are no numbers, before anything is changed by them.
 pub(crate) fn check_poses(
@@ -64,6 +64,8 @@ pub struct LabelledFrame {
     pub picture: Option<Picture>,
     /// Whether the surface of a label is too rough for a floor.
     rough: Vec<Option<bool>>,
+    /// Where the cell of each point is stored; none outside of the grid.
+    cells: Vec<Option<u32>>,
 }
 
 impl LabelledFrame {
@@ -120,6 +122,24 @@ impl LabelledFrame {
         }
     }
 
+    /// Finds the points' cells in a grid with so many columns and rows; to be told again when points are others.
+    pub fn locate(&mut self, lattice: &Lattice, size: [usize; 2]) {
+        let locator = Locator::of_cells(lattice, size);
+        self.cells.clear();
+        self.cells.extend(self.points.iter().map(|point| {
+            let [x_m, y_m, _] = point.position_m;
+            locator.index_at([x_m, y_m]).map(|index| index as u32)
+        }));
+    }
+
+    /// The points, each with where its cell is stored; none outside of the grid.
+    pub(crate) fn located(&self) -> impl Iterator<Item = (&LabelledPoint, Option<usize>)> {
+        assert_eq!(self.cells.len(), self.points.len(), "locate first");
+        let cells = self.cells.iter();
+        let cells = cells.map(|cell| cell.map(|index| index as usize));
+        self.points.iter().zip(cells)
+    }
+
     /// Moves the whole frame up.
     pub fn raise(&mut self, height_m: f64) {
         self.eye_m[2] += height_m;
@@ -129,11 +149,12 @@ impl LabelledFrame {
         }
     }
 
-    /// Points of floors that cannot have been seen where they seem to lie, as `hidden` says of their position: all that they
-    /// tell is that the way there is free.
-    pub fn disbelieve(&mut self, hidden: impl Fn([f64; 3]) -> bool) {
-        for point in &mut self.points {
-            if !point.floor_height_m.is_nan() && hidden(point.position_m) {
+    /// Points of floors that cannot have been seen where they seem to lie, as `hidden` says of their position and cell: all that
+    /// they tell is that the way there is free.
+    pub(crate) fn disbelieve(&mut self, hidden: impl Fn([f64; 3], Option<usize>) -> bool) {
+        for (point, cell) in self.points.iter_mut().zip(&self.cells) {
+            let cell = cell.map(|index| index as usize);
+            if !point.floor_height_m.is_nan() && hidden(point.position_m, cell) {
                 (point.floor_height_m, point.hit) = (f64::NAN, false);
             }
         }

@@ -26,10 +26,9 @@ pub fn height_shift(
     gate_m: f64,
     min_pairs: usize,
 ) -> Option<f64> {
-    let pairs = || {
-        let all = frame.points.iter().filter_map(&pair);
-        all.filter(|pair| pair.residual_m.abs() <= gate_m)
-    };
+    let all = frame.points.iter().filter_map(pair);
+    let found: Vec<Pair> = all.filter(|pair| pair.residual_m.abs() <= gate_m).collect();
+    let pairs = || found.iter().copied();
     if gate_m == 0.0 {
         return (pairs().count() >= min_pairs).then_some(0.0);
     }

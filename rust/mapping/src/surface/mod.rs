@@ -16,6 +16,5 @@ pub use fog::Fog;
 pub(crate) use frame::check_poses;
 pub use frame::{LabelledFrame, LabelledPoint, Reading};
 pub use matching::{Pair, height_shift};
-pub use shadow::Shadow;
 pub(crate) use stood::Stood;
 pub(crate) use window::Window;

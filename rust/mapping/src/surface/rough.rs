@@ -1,8 +1,8 @@
 //! Cells that are too rough to step on, though some frames take what is there for a floor.
 
-use geometry::{Cell, CellArea, Grid, Lattice};
+use geometry::{Cell, CellArea, Grid};
 
-use super::LabelledPoint;
+use super::LabelledFrame;
 
 /// Points that a cell is ahead by at most: what is there may be moved.
 const LEAD: i8 = 60;
@@ -35,19 +35,22 @@ impl Rough {
     }
 
     /// Takes in the points of a frame; the cells that may have become rough or ceased to be.
-    pub(crate) fn take(&mut self, points: &[LabelledPoint], lattice: &Lattice) -> CellArea {
+    pub(crate) fn take(&mut self, frame: &LabelledFrame) -> CellArea {
         let mut area = CellArea::EMPTY;
-        self.any |= points.iter().any(|point| point.rough == Some(true));
+        self.any |= frame.points.iter().any(|point| point.rough == Some(true));
         if !self.any {
             return area;
         }
-        for point in points {
-            let Some(rough) = point.rough else { continue };
-            let [x, y, _] = point.position_m;
-            let cell = lattice.cell_at(x, y);
-            if let Some(lead) = self.lead.get_mut(cell) {
+        let cols = self.lead.cols();
+        let leads = self.lead.values_mut();
+        let mut last = None;
+        for (point, index) in frame.located() {
+            if let (Some(rough), Some(index)) = (point.rough, index) {
+                let lead = &mut leads[index];
                 *lead = (*lead + if rough { 1 } else { -1 }).clamp(-LEAD, LEAD);
-                area.include(cell);
+                if last.replace(index) != Some(index) {
+                    area.include(Cell::new((index % cols) as i32, (index / cols) as i32));
+                }
             }
         }
         area

@@ -6,22 +6,86 @@ use geometry::Cell;
 use crate::volume::OccupancyGrid;
 use crate::{FloorView, Surface};
 
-/// What hides floor from one frame's camera.
-#[derive(Debug, Clone, Copy)]
-pub struct Shadow<'a> {
-    /// The camera in the map frame, m.
-    pub eye_m: [f64; 3],
-    /// How far behind an obstacle floor is not believed, m over the ground.
-    pub reach_m: f64,
-    /// The map as it was before the frame.
-    pub view: &'a FloorView,
-    /// Its voxels.
-    pub occupancy: &'a OccupancyGrid,
+/// Which cells have an obstacle near them: most points lie far from all, and need no closer look. Keeps its buffers.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Surroundings {
+    near: Vec<bool>,
+    line: Vec<bool>,
 }
 
-impl Shadow<'_> {
-    /// Whether the line of sight to a point of the map frame passes an obstacle shortly before it.
-    pub fn holds(&self, [x_m, y_m, z_m]: [f64; 3]) -> bool {
+impl Surroundings {
+    /// Finds the cells of a view that are at most so many columns and rows from an obstacle.
+    pub(crate) fn find(&mut self, view: &FloorView, cells: usize) {
+        let [cols, rows] = view.size();
+        self.near.clear();
+        self.near.resize(cols * rows, false);
+        for (row, line) in view.cells.values().chunks_exact(cols).enumerate() {
+            self.line.clear();
+            self.line.resize(cols, false);
+            let mut any = false;
+            for (col, surface) in line.iter().enumerate() {
+                if let Surface::Obstacle(_) = surface {
+                    any = true;
+                    self.line[col.saturating_sub(cells)..(col + cells + 1).min(cols)].fill(true);
+                }
+            }
+            if any {
+                let beside = row.saturating_sub(cells)..(row + cells + 1).min(rows);
+                for near in self.near[beside.start * cols..beside.end * cols].chunks_exact_mut(cols)
+                {
+                    for (near, line) in near.iter_mut().zip(&self.line) {
+                        *near |= line;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// What hides floor from one frame's camera.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shadow<'a> {
+    /// The camera in the map frame, m.
+    eye_m: [f64; 3],
+    /// How far behind an obstacle floor is not believed, m over the ground.
+    reach_m: f64,
+    /// The map as it was before the frame.
+    view: &'a FloorView,
+    /// Its voxels.
+    occupancy: &'a OccupancyGrid,
+    /// Where a closer look is needed.
+    surroundings: &'a Surroundings,
+}
+
+impl<'a> Shadow<'a> {
+    /// Behind the obstacles of a map, as far as `reach_m`, seen from `eye_m`.
+    pub(crate) fn new(
+        eye_m: [f64; 3],
+        reach_m: f64,
+        (view, occupancy): (&'a FloorView, &'a OccupancyGrid),
+        surroundings: &'a mut Surroundings,
+    ) -> Self {
+        // A cell more for what rounding may add.
+        let cells = (reach_m / view.lattice.cell_m).round() as usize + 1;
+        surroundings.find(view, cells);
+        Self {
+            eye_m,
+            reach_m,
+            view,
+            occupancy,
+            surroundings,
+        }
+    }
+
+    /// Whether the line of sight to a point of the map frame, in the cell that is stored at `index`, passes an obstacle shortly
+    /// before it.
+    #[inline]
+    pub(crate) fn holds(&self, at_m: [f64; 3], index: Option<usize>) -> bool {
+        index.is_none_or(|index| self.surroundings.near[index]) && self.is_behind(at_m)
+    }
+
+    /// The same by going back along the line of sight, cell by cell.
+    fn is_behind(&self, [x_m, y_m, z_m]: [f64; 3]) -> bool {
         let back = [
             self.eye_m[0] - x_m,
             self.eye_m[1] - y_m,
@@ -47,5 +111,48 @@ impl Shadow<'_> {
         [-layer_m, 0.0, layer_m]
             .iter()
             .any(|above_m| self.occupancy.is_occupied_at(cell, height_m + above_m))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use geometry::Lattice;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::volume::{Placement, ProbabilityTable, Ray, Size};
+    use crate::{Clearing, Update};
+
+    const CELLS: usize = 12;
+    const CELL_M: f64 = 0.04;
+
+    proptest! {
+        #[test]
+        fn without_a_closer_look_nothing_is_behind_an_obstacle(
+            obstacles in prop::collection::vec((0..CELLS, 0..CELLS), 1..4),
+            at in prop::array::uniform2(-0.1..0.6_f64),
+            eye in prop::array::uniform2(-0.5..1.0_f64),
+            reach_m in 0.0..0.2_f64,
+        ) {
+            let lattice = Lattice { origin_m: [0.0; 2], cell_m: CELL_M };
+            let placement = Placement { lattice, bottom_m: 0.0, layer_m: CELL_M };
+            let size = Size { cols: CELLS, rows: CELLS, layers: 4 };
+            let table = ProbabilityTable::new(0.9, 0.7, 0.05, 0.95);
+            let mut occupancy = OccupancyGrid::new(size, placement, table);
+            let mut view = FloorView::unknown(lattice, CELLS);
+            for (col, row) in obstacles {
+                let cell = Cell::new(col as i32, row as i32);
+                view.set(cell, Surface::Obstacle(0.1), 0);
+                let [x_m, y_m] = lattice.center_of(cell);
+                let ray = Ray { end_m: [x_m, y_m, 0.06], hit: true };
+                let _ = occupancy.insert([x_m, y_m, 0.1], [ray].into_iter(), Update::PerFrame, Clearing::EveryRay);
+            }
+            let mut surroundings = Surroundings::default();
+            let eye_m = [eye[0], eye[1], 0.1];
+            let shadow = Shadow::new(eye_m, reach_m, (&view, &occupancy), &mut surroundings);
+            let at_m = [at[0], at[1], 0.05];
+            let index = view.cells.index(lattice.cell_at(at[0], at[1]));
+            prop_assert_eq!(shadow.holds(at_m, index), shadow.is_behind(at_m));
+        }
     }
 }

@@ -46,9 +46,13 @@ impl Stood {
 
     /// Height of the ground of a cell, m, where the robot stood on it.
     pub(crate) fn height(&self, cell: Cell) -> Option<f32> {
-        self.heights
-            .get(cell)
-            .copied()
-            .filter(|height| !height.is_nan())
+        self.height_at(self.heights.index(cell)?)
+    }
+
+    /// The same of the cell that is stored at an index, row by row.
+    #[inline]
+    pub(crate) fn height_at(&self, index: usize) -> Option<f32> {
+        let height = self.heights.values()[index];
+        (!height.is_nan()).then_some(height)
     }
 }

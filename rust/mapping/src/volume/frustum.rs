@@ -48,16 +48,26 @@ impl Interval {
     fn cut(&mut self, origin: f32, per_slope: f32) {
         let border = -origin * per_slope;
         if per_slope > 0.0 {
-            self.low = self.low.max(border);
+            self.low = if border > self.low { border } else { self.low };
         } else {
-            self.high = self.high.min(border);
+            self.high = if border < self.high {
+                border
+            } else {
+                self.high
+            };
         }
     }
 
     /// The first and the last whole number among them.
     #[inline]
     fn whole(self) -> Option<[usize; 2]> {
-        let [low, high] = [self.low.ceil(), self.high];
+        if self.low > self.high {
+            return None;
+        }
+        // Casts to 32 bits take a fraction of those to more, and of a call that rounds up.
+        let below = self.low as i32;
+        let low = below + i32::from((below as f32) < self.low);
+        let high = self.high as i32;
         (low <= high).then_some([low as usize, high as usize])
     }
 }

@@ -85,7 +85,7 @@ impl Marks {
         rays: impl Iterator<Item = (usize, Ray)>,
         voxels: &Voxels,
     ) -> CellArea {
-        let locator = Locator::new(placement, self.size);
+        let locator = Locator::of_voxels(placement, self.size);
         let mut area = CellArea::EMPTY;
         let mut farthest_m = 0.0_f32;
         self.reaches.clear(sight.size_px);

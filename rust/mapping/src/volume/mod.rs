@@ -13,6 +13,7 @@ mod reaches;
 mod strip;
 mod voxels;
 
+pub(crate) use locator::Locator;
 pub use occupancy::{OccupancyGrid, Placement, Ray, Size};
 pub use picture::Picture;
 pub use probability::{ProbabilityTable, bayes};

@@ -7,6 +7,7 @@ use super::picture::{Picture, Sight};
 use super::ray::Part;
 use super::voxels::{Voxels, bits};
 use super::{ProbabilityTable, VoxelWalk};
+use crate::storage::runs;
 use crate::surface::{Clearing, Update};
 
 /// Number of voxels along each axis.
@@ -101,11 +102,22 @@ impl OccupancyGrid {
             .is_some_and(|(cell, layer)| self.voxels.occupied(cell) >> layer & 1 == 1)
     }
 
+    /// Whether a layer is occupied in the cell that is stored at an index, row by row.
+    #[inline]
+    pub(crate) fn holds(&self, index: usize, layer: usize) -> bool {
+        self.voxels.occupied(index) >> layer & 1 == 1
+    }
+
     /// Equation (10): height of the centre of the highest occupied voxel of a cell, m; `None` is *invalid*.
     pub fn obstacle_height_m(&self, cell: Cell) -> Option<f64> {
-        let mask = self.voxels.occupied(self.cell_index(cell)?);
-        mask.checked_ilog2()
-            .map(|layer| self.center_m(layer as usize))
+        self.obstacle_height_at(self.cell_index(cell)?)
+    }
+
+    /// The same of the cell that is stored at an index, row by row.
+    #[inline]
+    pub(crate) fn obstacle_height_at(&self, index: usize) -> Option<f64> {
+        let layer = self.voxels.occupied(index).checked_ilog2();
+        layer.map(|layer| self.center_m(layer as usize))
     }
 
     /// The other way round: height of the centre of the lowest occupied voxel of a cell whose centre lies above a height, m.
@@ -184,10 +196,7 @@ impl OccupancyGrid {
     /// Per frame: each voxel once, a hit wins over rays that passed. A ray's own end is hit, or, when nothing was seen
     /// there, passed.
     fn apply_marks(&mut self, area: CellArea) {
-        for cell in area.cells() {
-            let Some(index) = self.cell_index(cell) else {
-                continue;
-            };
+        for index in runs(area, [self.size.cols, self.size.rows]).flatten() {
             let [hits, passed] = self.marks.take(index);
             if hits | passed == 0 {
                 continue;
@@ -244,8 +253,13 @@ impl OccupancyGrid {
     }
 
     fn voxel_of(&self, cell: Cell, height_m: f64) -> Option<(usize, usize)> {
+        Some((self.cell_index(cell)?, self.layer_at(height_m)?))
+    }
+
+    /// The layer of a height; none above and below the grid.
+    pub(crate) fn layer_at(&self, height_m: f64) -> Option<usize> {
         let layer = (height_m - self.placement.bottom_m) / self.placement.layer_m;
         let inside = layer >= 0.0 && layer < self.size.layers as f64;
-        Some((self.cell_index(cell)?, layer as usize)).filter(|_| inside)
+        inside.then_some(layer as usize)
     }
 }

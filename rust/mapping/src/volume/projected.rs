@@ -37,10 +37,11 @@ impl<'a> Lens<'a> {
     fn reach(&self, [depth_m, across, down]: [f32; 3]) -> (f32, [f32; 2]) {
         let per_depth = self.per_tile / depth_m;
         let (u, v) = (across * per_depth, down * per_depth);
-        let (i, j) = (
-            u.clamp(0.0, self.last[0]) as u32,
-            v.clamp(0.0, self.last[1]) as u32,
-        );
+        let within = |at: f32, last: f32| {
+            let at = if at > 0.0 { at } else { 0.0 };
+            (if at < last { at } else { last }) as i32
+        };
+        let (i, j) = (within(u, self.last[0]), within(v, self.last[1]));
         let at = j as usize * self.level.size[0] + i as usize;
         let reach_m = self.level.depths_m.get(at).copied().unwrap_or(0.0);
         (reach_m, [i as f32 + 0.5 - u, j as f32 + 0.5 - v])

@@ -44,7 +44,8 @@ impl Level {
     /// Takes the deepest of each tile and the eight around it. `line` is room for a row.
     fn widen(&mut self, narrower: &Self, line: &mut Vec<f32>) {
         let [width, height] = narrower.size;
-        self.clear(narrower.size);
+        self.size = narrower.size;
+        self.depths_m.resize(width * height, 0.0);
         self.tile_px = narrower.tile_px;
         self.apart_px = narrower.apart_px + narrower.tile_px;
         let row = |index: usize| &narrower.depths_m[index * width..][..width];

@@ -1,0 +1,46 @@
+//! Cells by where grids store them: loops over many cells need no column, row and bounds for each.
+
+use std::ops::Range;
+
+use geometry::CellArea;
+
+/// Where the cells of an area are stored that lie in grids of so many columns and rows: a run for each row.
+pub(crate) fn runs(area: CellArea, size: [usize; 2]) -> impl Iterator<Item = Range<usize>> {
+    let [cols, rows] = size;
+    let within = |low: i32, high: i32, count: usize| {
+        let end = (i64::from(high) + 1).clamp(0, count as i64) as usize;
+        (low.max(0) as usize).min(end)..end
+    };
+    let across = within(area.min.col, area.max.col, cols);
+    let down = within(area.min.row, area.max.row, rows);
+    down.map(move |row| row * cols + across.start..row * cols + across.end)
+}
+
+#[cfg(test)]
+mod tests {
+    use geometry::{Cell, Grid};
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn runs_hold_the_cells_of_the_area_in_the_grid(
+            [min_col, min_row, max_col, max_row] in prop::array::uniform4(-3..9_i32),
+        ) {
+            let area = CellArea {
+                min: Cell::new(min_col, min_row),
+                max: Cell::new(max_col, max_row),
+            };
+            let grid = Grid::filled(6, 5, ());
+            let expected: Vec<_> = area.cells().filter_map(|cell| grid.index(cell)).collect();
+            let found: Vec<_> = runs(area, [6, 5]).flatten().collect();
+            prop_assert_eq!(found, expected);
+        }
+    }
+
+    #[test]
+    fn no_cells_have_no_runs() {
+        assert_eq!(runs(CellArea::EMPTY, [6, 5]).count(), 0);
+    }
+}
