@@ -14,7 +14,7 @@ use nalgebra::Vector2;
 use super::finder::{MAX_REGIONS, Picture, Region};
 use super::fit::{Lie, Step};
 use super::view::View;
-use parts::{Parts, Seen, Sums};
+use parts::{Part, Parts, Seen, Sums};
 
 /// Columns and rows of the blocks of pixels that lines are tried with first; then it is every second pixel.
 const BLOCK: usize = 4;
@@ -33,7 +33,7 @@ const FINE: Search = Search {
 /// Columns and rows of a matching window.
 const WINDOW: usize = 5;
 /// Most places of lines of one direction: a region that is larger reaches where a low step is not told from noise.
-const MAX_PLACES: usize = 400;
+const MAX_PLACES: f64 = 400.0;
 /// Two heights are there when they are better by this, in squared noise. One in a thousand regions of one surface reaches 18.
 const CERTAIN: f64 = 24.0;
 /// Lower steps are none, m.
@@ -69,6 +69,9 @@ struct Cut {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Cuts {
     parts: Parts,
+    // Of the region that is being searched: its parts, how far each is in one direction, m, and their sums by places in it.
+    own: Vec<Part>,
+    along_m: Vec<f64>,
     places: Vec<Sums>,
     nearer_px: Vec<f32>,
 }
@@ -124,8 +127,10 @@ impl Cuts {
         let middle = 0.5 * (search.directions - 1) as f64;
         let directions =
             (0..search.directions).map(|i| around_rad + (i as f64 - middle) * search.turn_rad);
+        self.own.clear();
+        self.own.extend(self.parts.of(index).copied());
         directions
-            .filter_map(|across_rad| self.best_across(index, &lie, across_rad, search.step_m))
+            .filter_map(|across_rad| self.best_across(&lie, across_rad, search.step_m))
             .max_by(|a, b| a.step.certainty.total_cmp(&b.step.certainty))
             .filter(|cut| {
                 let step_m = cut.step.rise.abs() / f64::from(region.q * region.q);
@@ -133,23 +138,23 @@ impl Cuts {
             })
     }
 
-    /// The best line of one direction.
-    fn best_across(
-        &mut self,
-        region: usize,
-        lie: &Lie,
-        across_rad: f64,
-        step_m: f64,
-    ) -> Option<Cut> {
+    /// The best line of one direction across the region whose parts are `own`.
+    fn best_across(&mut self, lie: &Lie, across_rad: f64, step_m: f64) -> Option<Cut> {
         let across = Vector2::new(across_rad.cos(), across_rad.sin());
-        let own = || self.parts.of(region);
-        let nearest_m = own()
-            .map(|part| across.dot(&part.place_m))
-            .fold(f64::INFINITY, f64::min);
+        self.along_m.clear();
+        let own = self.own.iter();
+        self.along_m
+            .extend(own.map(|part| across.dot(&part.place_m)));
+        let nearest_m = self.along_m.iter().copied().fold(f64::INFINITY, f64::min);
         self.places.clear();
-        for part in own() {
-            let place = ((across.dot(&part.place_m) - nearest_m) / step_m) as usize;
-            let place = place.min(MAX_PLACES);
+        for (part, along_m) in self.own.iter().zip(&self.along_m) {
+            let place = (along_m - nearest_m) / step_m;
+            // Compared before the cast: one to 32 bits is a fraction of one to more.
+            let place = if place >= MAX_PLACES {
+                MAX_PLACES
+            } else {
+                place
+            } as i32 as usize;
             if place >= self.places.len() {
                 self.places.resize(place + 1, Sums::default());
             }

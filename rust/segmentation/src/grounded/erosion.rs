@@ -3,9 +3,11 @@
 use super::finder::MAX_REGIONS;
 
 /// Lowest and highest label that a pixel stands for. Of one that says nothing (not seen, or a hole inside one region): none.
-const NEUTRAL: (i16, i16) = (i16::MAX, 0);
+/// A byte holds every label, and processors compare many bytes at once.
+const NEUTRAL: (u8, u8) = (u8::MAX, 0);
 /// And of a seen pixel without a region: all.
-const MIXED: (i16, i16) = (0, i16::MAX);
+const MIXED: (u8, u8) = (0, u8::MAX);
+const _: () = assert!(MAX_REGIONS < u8::MAX as usize, "labels are bytes here");
 /// Pixels that are searched for holes together.
 const CHUNK: usize = 32;
 
@@ -53,8 +55,8 @@ impl Erosion {
         let height = labels.len() / width;
         let margin = Margin::<COLS, ROWS> { width, height };
         self.mark(labels, disparity_px, margin);
-        self.lowest.spread(margin, i16::min);
-        self.highest.spread(margin, i16::max);
+        self.lowest.spread(margin, u8::min);
+        self.highest.spread(margin, u8::max);
         let [lowest, highest] =
             [&self.lowest, &self.highest].map(|extreme| extreme.over_both.chunks(margin.stride()));
         let windows = lowest.zip(highest);
@@ -64,7 +66,7 @@ impl Erosion {
         for ((out, labels), (lowest, highest)) in lines.zip(windows) {
             let windows = lowest.iter().zip(highest);
             for ((out, &label), (&low, &high)) in out.iter_mut().zip(labels).zip(windows) {
-                let own = label.cast_signed();
+                let own = label as u8;
                 *out = if low == own && high == own { label } else { 0 };
             }
         }
@@ -90,13 +92,13 @@ impl Erosion {
             let marks = lowest.iter_mut().zip(highest.iter_mut());
             for ((low, high), (&label, &d)) in marks.zip(line.iter().zip(disparity_px)) {
                 let none = if d.is_nan() { NEUTRAL } else { MIXED };
-                let own = label.cast_signed();
+                let own = label as u8;
                 *low = if label > 0 { own } else { none.0 };
                 *high = if label > 0 { own } else { none.1 };
             }
             let chunks = lowest.chunks_mut(CHUNK).zip(highest.chunks_mut(CHUNK));
             for (index, (lowest, highest)) in chunks.enumerate() {
-                // Marks are not negative, so that most chunks are seen to have none.
+                // No mark is lower, so that most chunks are seen to have none.
                 if lowest.iter().copied().min() != Some(MIXED.0) {
                     continue;
                 }
@@ -113,13 +115,13 @@ impl Erosion {
 /// The lowest or the highest mark in a window around each pixel: first along the rows, then along the columns.
 #[derive(Debug, Clone, Default)]
 struct WindowExtreme {
-    marks: Vec<i16>,
-    over_cols: Vec<i16>,
-    over_both: Vec<i16>,
+    marks: Vec<u8>,
+    over_cols: Vec<u8>,
+    over_both: Vec<u8>,
 }
 
 impl WindowExtreme {
-    fn clear(&mut self, count: usize, mark: i16) {
+    fn clear(&mut self, count: usize, mark: u8) {
         self.marks.clear();
         self.marks.resize(count, mark);
     }
@@ -127,7 +129,7 @@ impl WindowExtreme {
     fn spread<const COLS: usize, const ROWS: usize>(
         &mut self,
         margin: Margin<COLS, ROWS>,
-        pick: impl Fn(i16, i16) -> i16,
+        pick: impl Fn(u8, u8) -> u8,
     ) {
         self.over_cols.resize(margin.len() + 1 - COLS, 0);
         pick_of::<COLS>(&self.marks, 1, &mut self.over_cols, &pick);
@@ -138,13 +140,13 @@ impl WindowExtreme {
 
 /// Picks among `N` values, `step` from each other, from each place on.
 fn pick_of<const N: usize>(
-    values: &[i16],
+    values: &[u8],
     step: usize,
-    out: &mut [i16],
-    pick: &impl Fn(i16, i16) -> i16,
+    out: &mut [u8],
+    pick: &impl Fn(u8, u8) -> u8,
 ) {
     let count = out.len();
-    let lines: [&[i16]; N] = std::array::from_fn(|k| &values[k * step..k * step + count]);
+    let lines: [&[u8]; N] = std::array::from_fn(|k| &values[k * step..k * step + count]);
     for (i, out) in out.iter_mut().enumerate() {
         *out = lines[1..]
             .iter()

@@ -7,7 +7,7 @@
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::finder::{Picture, Region};
-use super::view::View;
+use super::view::{View, to_f32};
 
 /// Every so many columns a pixel is looked at: neighbours tell the same.
 const STEP: usize = 2;
@@ -76,18 +76,24 @@ impl RegionFit {
         let q = sums.q as f32;
         let first = row * picture.width + col;
         let pixels = first..first + (count - 1) * STEP + 1;
-        let pictures = picture.disparity_px[pixels.clone()]
-            .iter()
-            .zip(&picture.g[pixels.clone()])
-            .zip(&picture.sigma_px[pixels]);
-        for (i, ((&d, &g), &sigma)) in pictures.enumerate().step_by(STEP) {
-            let precision = 1.0 / sigma;
+        let [disparity_px, g, sigma_px] = [picture.disparity_px, picture.g, picture.sigma_px]
+            .map(|image| image[pixels.clone()].chunks(STEP));
+        let (x, y) = (view.x.along(row), view.y.along(row));
+        let mut col = to_f32(col);
+        // The noise is that of a block.
+        let (mut sigma, mut precision) = (f32::NAN, f32::NAN);
+        for ((d, g), sigma_px) in disparity_px.zip(g).zip(sigma_px) {
+            let (d, g) = (d[0], g[0]);
+            if sigma_px[0] != sigma {
+                sigma = sigma_px[0];
+                precision = 1.0 / sigma;
+            }
             let miss = (d - q * g) * precision;
             // Also false where nothing was seen.
             if miss.abs() < OUTLIER {
-                let (x, y) = (view.x.at(col + i, row), view.y.at(col + i, row));
-                sums.add(terms(q, [g, x, y], precision, miss));
+                sums.add(terms(q, [g, x.at(col), y.at(col)], precision, miss));
             }
+            col += STEP as f32;
         }
         *self = sums;
     }

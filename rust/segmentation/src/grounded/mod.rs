@@ -12,6 +12,7 @@ mod fit;
 mod horizon;
 mod known;
 mod median;
+mod near;
 mod noise;
 mod product;
 mod reference;

@@ -26,7 +26,7 @@ pub(super) struct NoiseMap {
     ceiling_px: f32,
     sigma_px: [f32; BLOCKS.0 * BLOCKS.1],
     // Bin of the difference at each pixel of a line.
-    bins: Vec<u8>,
+    bins: Vec<u32>,
 }
 
 impl NoiseMap {
@@ -77,7 +77,7 @@ impl NoiseMap {
             let to = row * self.width + cols.1.min(self.width.saturating_sub(reach.0));
             self.find_bins(disparity_px, from..to, offset);
             for &bin in self.bins.iter().step_by(2) {
-                counts[usize::from(bin)] += 1;
+                counts[bin as usize] += 1;
             }
         }
         let total: u32 = counts[..UNSEEN].iter().sum();
@@ -108,13 +108,9 @@ impl NoiseMap {
             let bend = a - 2.0 * b + c;
             // Three independent values with weights 1, -2, 1 have sqrt(6) times the noise of one.
             let bin = bend.abs() * per_bin * 0.408_25;
-            // Of no bin where one of the three was not seen.
             let bin = if bin < BINS as f32 { bin } else { BINS as f32 };
-            if bend.is_nan() {
-                UNSEEN as u8
-            } else {
-                bin as u8
-            }
+            // Of no bin where one of the three was not seen.
+            rounded_down(if bend.is_nan() { UNSEEN as f32 } else { bin })
         }));
     }
 
@@ -129,6 +125,19 @@ impl NoiseMap {
             }
         }
     }
+}
+
+/// A number of 0 to 2^22 as a whole one. Without a cast, which processors of all ages do one by one.
+fn rounded_down(value: f32) -> u32 {
+    // So large that a sum has no room for a fraction, and its lowest bits are the whole number.
+    const NO_FRACTION: f32 = 8_388_608.0;
+    let nearest = value + NO_FRACTION - NO_FRACTION;
+    let below = if nearest > value {
+        nearest - 1.0
+    } else {
+        nearest
+    };
+    (below + NO_FRACTION).to_bits() & 0x7f_ffff
 }
 
 #[cfg(test)]
@@ -152,6 +161,21 @@ mod tests {
         for sigma in [0.125, 0.25, 0.5] {
             let ratio = f64::from(measured(sigma)) / sigma;
             assert!((0.7..1.15).contains(&ratio), "{sigma}: {ratio}");
+        }
+    }
+
+    #[test]
+    fn numbers_are_rounded_down_like_a_cast_does() {
+        for whole in 0..=65_u16 {
+            let whole = f32::from(whole);
+            for value in [
+                whole,
+                whole.next_up(),
+                whole + 0.5,
+                (whole + 1.0).next_down(),
+            ] {
+                assert_eq!(rounded_down(value), value as u32, "{value}");
+            }
         }
     }
 

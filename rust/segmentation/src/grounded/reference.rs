@@ -3,6 +3,7 @@
 use geometry::{Camera, Pose, Robot};
 use nalgebra::Vector2;
 
+use super::near::Near;
 use super::{Finder, Grounded, Levelled};
 use crate::KnownFloor;
 
@@ -118,24 +119,16 @@ impl<F: Finder> Grounded<F> {
 
     /// Whether most of what is seen near the feet belongs to a region.
     fn is_underfoot(&self, levelled: &Levelled, index: usize) -> bool {
-        let surfaces = &self.surfaces;
-        let (view, camera_m) = (&levelled.view, levelled.predicted.inner.translation.vector);
+        let camera_m = &levelled.predicted.inner.translation.vector;
+        let reach = Near::new(&levelled.view, camera_m, self.config.search_reach);
         let width = self.camera.width;
+        let lines = self.surfaces.images.disparity_px.chunks_exact(width);
+        let labels = self.surfaces.labels.chunks_exact(width);
         let (mut near, mut own) = (0, 0);
-        for (at, (&d, &label)) in surfaces
-            .images
-            .disparity_px
-            .iter()
-            .zip(&surfaces.labels)
-            .enumerate()
-        {
-            let (col, row) = (at % width, at / width);
-            let x_m = camera_m.x + f64::from(view.x.at(col, row) / d);
-            let y_m = camera_m.y + f64::from(view.y.at(col, row) / d);
-            // Also false where nothing was seen.
-            if x_m.hypot(y_m) < self.config.search_reach {
-                near += 1;
-                own += usize::from(usize::from(label) == index + 1);
+        for (row, (line, labels)) in lines.zip(labels).enumerate() {
+            for (is_near, &label) in reach.along(row, line).zip(labels) {
+                near += usize::from(is_near);
+                own += usize::from(is_near && usize::from(label) == index + 1);
             }
         }
         own >= self.config.min_region && 2 * own > near

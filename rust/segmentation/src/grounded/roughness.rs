@@ -47,19 +47,29 @@ impl Roughness {
     /// Takes in the pixels of a frame's regions that lie away from borders, by the labels that are left there.
     pub(super) fn measure(&mut self, picture: Picture<'_>, regions: &[Region], inner: &[u16]) {
         self.regions = [Deviation::default(); MAX_REGIONS + 1];
-        let pixels = inner.iter().zip(picture.disparity_px).zip(picture.g);
-        for ((&label, &d), &g) in pixels {
-            let label = usize::from(label);
-            if label == 0 || d.is_nan() {
-                continue;
-            }
+        let mut first = 0;
+        for run in inner.chunk_by(|a, b| a == b) {
+            let pixels = first..first + run.len();
+            first = pixels.end;
             // Of thin regions all pixels are left, which the window blends with what borders on them.
-            let Some(region) = regions.get(label - 1).filter(|r| r.core >= FEWEST) else {
+            let region = usize::from(run[0]).checked_sub(1);
+            let region = region.and_then(|index| regions.get(index));
+            let Some(region) = region.filter(|region| region.core >= FEWEST) else {
                 continue;
             };
-            let deviation = (d - region.q * g).clamp(-LARGEST_PX, LARGEST_PX);
-            self.regions[label].pixels += 1;
-            self.regions[label].squares += deviation * deviation;
+            let sums = &mut self.regions[usize::from(run[0])];
+            let mut sum = *sums;
+            for (&d, &g) in picture.disparity_px[pixels.clone()]
+                .iter()
+                .zip(&picture.g[pixels])
+            {
+                if !d.is_nan() {
+                    let deviation = (d - region.q * g).clamp(-LARGEST_PX, LARGEST_PX);
+                    sum.pixels += 1;
+                    sum.squares += deviation * deviation;
+                }
+            }
+            *sums = sum;
         }
     }
 

@@ -9,6 +9,7 @@ use super::erosion::{Erosion, keep_where};
 use super::finder::{Finder, Look, MAX_REGIONS, Picture, Region, count_labels};
 use super::fit::{RegionFit, fit_regions};
 use super::median::Median;
+use super::near::Near;
 use super::noise::NoiseMap;
 use super::roughness::Roughness;
 use super::slivers::Slivers;
@@ -118,7 +119,7 @@ impl<F: Finder> Surfaces<F> {
         self.slopes.doubtful.clear();
         self.seen_px.clear();
         self.seen_px.extend(scan.disparity_px.iter().map(|&d| {
-            if d > 0.0 && d.is_finite() {
+            if d > 0.0 && d < f32::INFINITY {
                 d
             } else {
                 f32::NAN
@@ -142,23 +143,19 @@ impl<F: Finder> Surfaces<F> {
         reach_m: f64,
         least: usize,
     ) -> bool {
-        self.whole_px.clone_from(&self.images.disparity_px);
+        let near = Near::new(view, camera_m, reach_m);
         let mut left = 0;
-        let lines = self.images.disparity_px.chunks_exact_mut(self.images.width);
+        self.whole_px.clear();
+        let lines = self.images.disparity_px.chunks_exact(self.images.width);
         for (row, line) in lines.enumerate() {
-            for (col, d) in line.iter_mut().enumerate() {
-                let x_m = camera_m.x + f64::from(view.x.at(col, row) / *d);
-                let y_m = camera_m.y + f64::from(view.y.at(col, row) / *d);
-                // Also false where nothing was seen.
-                if x_m.hypot(y_m) < reach_m {
-                    left += 1;
-                } else {
-                    *d = f32::NAN;
-                }
-            }
+            let near = line.iter().zip(near.along(row, line));
+            self.whole_px.extend(near.map(|(&d, near)| {
+                left += usize::from(near);
+                if near { d } else { f32::NAN }
+            }));
         }
-        if left < least {
-            self.show_all();
+        if left >= least {
+            std::mem::swap(&mut self.images.disparity_px, &mut self.whole_px);
         }
         left >= least
     }

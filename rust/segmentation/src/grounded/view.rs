@@ -29,10 +29,35 @@ impl Linear {
         Vector3::new(self.per_col, self.per_row, self.origin).map(f64::from)
     }
 
+    /// The same along a row.
+    pub(super) fn along(&self, row: usize) -> AlongRow {
+        AlongRow {
+            origin: self.origin,
+            per_col: self.per_col,
+            of_row: self.per_row * to_f32(row),
+        }
+    }
+
     /// The value at a pixel.
     #[inline]
     pub fn at(&self, col: usize, row: usize) -> f32 {
         self.origin + self.per_col * to_f32(col) + self.per_row * to_f32(row)
+    }
+}
+
+/// The values of a [`Linear`] function along a row: the same bits, for less.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct AlongRow {
+    origin: f32,
+    per_col: f32,
+    of_row: f32,
+}
+
+impl AlongRow {
+    /// The value at a column.
+    #[inline]
+    pub(super) fn at(&self, col: f32) -> f32 {
+        self.origin + self.per_col * col + self.of_row
     }
 }
 

@@ -1,5 +1,7 @@
 //! The rows of strips: of the few pixels of each, the mean over those that agree with the middle one.
 
+use std::ops::Range;
+
 use super::strips::StripRules;
 use crate::grounded::Picture;
 
@@ -8,56 +10,50 @@ const MIN_FALL: f32 = 0.05;
 /// A pixel further from the middle one than this does not count, in noise.
 const AGREE: f32 = 3.0;
 
-/// All rows of all strips. The loops run over the rows, so that pixel `k` of every row is taken at once: *lanes*, row by
-/// row and in each row strip by strip. Keeps its buffers.
+/// The rows of one strip. The loops run over the rows, so that pixel `k` of every row is taken at once: *lanes*. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct StripRows {
-    /// `q` of each lane; of no use where the weight is 0.
+    /// `q` of each row; of no use where the weight is 0.
     pub(super) q: Vec<f32>,
-    /// Weight of each lane, `(g / sigma)^2`; 0 where fewer than half of its pixels agree.
+    /// Weight of each row, `(g / sigma)^2`; 0 where fewer than half of its pixels agree.
     pub(super) weight: Vec<f32>,
-    // Pixel by pixel of the strips: disparity, g, and q in order, without what was not seen.
+    // Pixel by pixel of the strip: disparity, g, and q in order, without what was not seen.
     disparity_px: Vec<f32>,
     g: Vec<f32>,
     sorted: Vec<f32>,
-    // One value a lane: noise, pixels that must agree, those that were seen, the middle q, and those that agree with it.
+    // One value a row: noise, pixels that were seen, the middle q, and pixels that agree with it.
     sigma_px: Vec<f32>,
-    needed: Vec<f32>,
     seen: Vec<f32>,
     middle: Vec<f32>,
     agree: Vec<f32>,
 }
 
 impl StripRows {
-    /// Takes in a picture.
-    pub(super) fn read(&mut self, picture: Picture<'_>, rules: StripRules) {
-        let strips = picture.width.div_ceil(rules.strip);
-        let lanes = picture.disparity_px.len() / picture.width * strips;
-        self.spread(picture, rules.strip, lanes);
+    /// Takes in a strip of a picture that has these columns; the last strip may have fewer than others.
+    pub(super) fn read(&mut self, picture: Picture<'_>, cols: Range<usize>, rules: StripRules) {
+        let lanes = picture.disparity_px.len() / picture.width;
+        let needed = cols.len().div_ceil(2) as f32;
+        self.spread(picture, cols, rules.strip, lanes);
         self.sort(rules, lanes);
         self.find_middles(rules.strip, lanes);
-        self.average(rules, lanes);
+        self.average(rules, lanes, needed);
     }
 
-    /// Brings the pictures into lanes; what the last strip lacks is not seen.
-    fn spread(&mut self, picture: Picture<'_>, strip: usize, lanes: usize) {
+    /// Brings the pictures into lanes; what the strip lacks is not seen.
+    fn spread(&mut self, picture: Picture<'_>, cols: Range<usize>, strip: usize, lanes: usize) {
+        let column_of = |image, col| column(picture.width, col, image);
         self.disparity_px.clear();
+        self.g.clear();
+        for col in cols.clone() {
+            self.disparity_px
+                .extend(column_of(picture.disparity_px, col));
+            self.g.extend(column_of(picture.g, col));
+        }
         self.disparity_px.resize(strip * lanes, f32::NAN);
         self.g.resize(strip * lanes, 0.0);
         self.sigma_px.clear();
-        self.needed.clear();
-        for sigma_px in picture.sigma_px.chunks_exact(picture.width) {
-            for sigma_px in sigma_px.chunks(strip) {
-                self.sigma_px.push(sigma_px[sigma_px.len() / 2]);
-                self.needed.push(sigma_px.len().div_ceil(2) as f32);
-            }
-        }
-        for k in 0..strip.min(picture.width) {
-            let pixels = k * lanes..(k + 1) * lanes;
-            let disparity_px = &mut self.disparity_px[pixels.clone()];
-            take_every(strip, k, picture.disparity_px, picture.width, disparity_px);
-            take_every(strip, k, picture.g, picture.width, &mut self.g[pixels]);
-        }
+        let middle = cols.start + cols.len() / 2;
+        self.sigma_px.extend(column_of(picture.sigma_px, middle));
     }
 
     /// Sorts the `q` of each lane, what was not seen at the end, and counts those that were.
@@ -125,7 +121,7 @@ impl StripRows {
     }
 
     /// Least squares over the pixels that agree with the middle one.
-    fn average(&mut self, rules: StripRules, lanes: usize) {
+    fn average(&mut self, rules: StripRules, lanes: usize, needed: f32) {
         let least_fall = MIN_FALL * rules.scale;
         for sums in [&mut self.q, &mut self.weight, &mut self.agree] {
             sums.clear();
@@ -146,8 +142,8 @@ impl StripRows {
             }
         }
         let sums = self.q.iter_mut().zip(&mut self.weight);
-        let counts = self.agree.iter().zip(&self.needed);
-        for (((q, weight), (&agree, &needed)), &sigma) in sums.zip(counts).zip(&self.sigma_px) {
+        let counts = self.agree.iter().zip(&self.sigma_px);
+        for ((q, weight), (&agree, &sigma)) in sums.zip(counts) {
             *q /= *weight;
             let mean = *weight / agree / (sigma * sigma);
             *weight = if agree < needed { 0.0 } else { mean };
@@ -155,14 +151,9 @@ impl StripRows {
     }
 }
 
-/// Fills `lanes` with the `k`-th of every `strip` pixels of each row; what the last strip lacks stays as it is.
-fn take_every(strip: usize, k: usize, image: &[f32], width: usize, lanes: &mut [f32]) {
-    let rows = image.chunks_exact(width);
-    for (lanes, row) in lanes.chunks_exact_mut(width.div_ceil(strip)).zip(rows) {
-        for (lane, &pixel) in lanes.iter_mut().zip(row[k..].iter().step_by(strip)) {
-            *lane = pixel;
-        }
-    }
+/// A column of an image.
+fn column(width: usize, col: usize, image: &[f32]) -> impl Iterator<Item = f32> {
+    image.chunks_exact(width).map(move |row| row[col])
 }
 
 #[cfg(test)]
@@ -183,13 +174,16 @@ mod tests {
             };
             let rules = StripRules { strip, price: 25.0, min_segment: 4, scale: 6.0 };
             let mut rows = StripRows::default();
-            rows.read(picture, rules);
-            let lanes = rows.seen.len();
-            for lane in 0..lanes {
-                let sorted: Vec<_> = rows.sorted.iter().skip(lane).step_by(lanes).collect();
-                prop_assert!(sorted.is_sorted());
+            let mut seen = 0;
+            for first in (0..33).step_by(strip) {
+                rows.read(picture, first..(first + strip).min(33), rules);
+                let lanes = rows.seen.len();
+                for lane in 0..lanes {
+                    let sorted: Vec<_> = rows.sorted.iter().skip(lane).step_by(lanes).collect();
+                    prop_assert!(sorted.is_sorted());
+                }
+                seen += rows.sorted.iter().filter(|q| q.is_finite()).count();
             }
-            let seen = rows.sorted.iter().filter(|q| q.is_finite()).count();
             prop_assert_eq!(seen, disparity_px.len());
         }
     }

@@ -67,14 +67,15 @@ impl Strips {
         rules: StripRules,
         segments: &mut Vec<Segment>,
     ) {
-        self.strip_rows.read(picture, rules);
         let strips = picture.width.div_ceil(rules.strip);
         let height = picture.disparity_px.len() / picture.width;
         for strip in 0..strips {
+            let first = strip * rules.strip;
+            let cols = first..(first + rules.strip).min(picture.width);
+            self.strip_rows.read(picture, cols, rules);
             self.start_run();
             for row in 0..height {
-                let lane = row * strips + strip;
-                let weight = f64::from(self.strip_rows.weight[lane]);
+                let weight = f64::from(self.strip_rows.weight[row]);
                 if weight == 0.0 {
                     continue;
                 }
@@ -83,11 +84,11 @@ impl Strips {
                 {
                     self.cut_run(strip, rules, segments);
                 }
-                let q = f64::from(self.strip_rows.q[lane]);
+                let q = f64::from(self.strip_rows.q[row]);
                 self.rows.push(row);
                 self.partition.push(q, weight);
                 let line = self.lines[self.lines.len() - 1];
-                let at = row * picture.width + strip * rules.strip;
+                let at = row * picture.width + first;
                 let sigma = f64::from(picture.sigma_px[at]);
                 let g = weight.sqrt() * sigma;
                 self.lines

@@ -1,10 +1,12 @@
 //! What is known of a picture's regions part by part: sums for fits of a piece of a region.
 
+use std::ops::Range;
+
 use nalgebra::Vector2;
 
 use crate::grounded::finder::{Picture, Region};
 use crate::grounded::fit::{RegionFit, terms};
-use crate::grounded::view::View;
+use crate::grounded::view::{View, to_f32};
 
 /// Misses beyond so many noises are left out.
 const OUTLIER: f32 = 6.0;
@@ -22,12 +24,11 @@ impl Seen<'_> {
         let g = self.picture.g[row * self.picture.width + col];
         [g, self.view.x.at(col, row), self.view.y.at(col, row)]
     }
+}
 
-    /// Where a pixel of a surface lies, from below the camera, m.
-    fn place_m(&self, q: f32, col: usize, row: usize) -> Vector2<f64> {
-        let [g, x, y] = self.gxy(col, row);
-        Vector2::new(x, y).map(|value| f64::from(value / (q * g)))
-    }
+/// Where a pixel of a surface lies, from below the camera, m.
+fn place_m(q: f32, [g, x, y]: [f32; 3]) -> Vector2<f64> {
+    Vector2::new(x, y).map(|value| f64::from(value / (q * g)))
 }
 
 /// Pixels of one region that lie together.
@@ -91,11 +92,8 @@ impl Parts {
         for top in (0..height).step_by(block) {
             for left in (0..width).step_by(block) {
                 let rows = top..(top + block).min(height);
-                let pixels = rows.flat_map(|row| {
-                    let cols = left..(left + block).min(width);
-                    cols.map(move |col| (col, row))
-                });
-                self.add_block(seen, regions, labels, pixels);
+                let cols = left..(left + block).min(width);
+                self.add_block(seen, regions, labels, [cols, rows]);
             }
         }
     }
@@ -106,35 +104,44 @@ impl Parts {
         seen: Seen<'_>,
         regions: &[Region],
         labels: &[u16],
-        pixels: impl Iterator<Item = (usize, usize)>,
+        [cols, rows]: [Range<usize>; 2],
     ) {
         let picture = seen.picture;
         let mut part: Option<Part> = None;
-        for (col, row) in pixels.filter(|(col, row)| (col + row) % 2 == 0) {
-            let at = row * picture.width + col;
-            let Some(region) = usize::from(labels[at]).checked_sub(1) else {
-                continue;
-            };
-            let q = regions[region].q;
-            let (gxy, precision) = (seen.gxy(col, row), 1.0 / picture.sigma_px[at]);
-            let miss = (picture.disparity_px[at] - q * gxy[0]) * precision;
-            let other = part.is_some_and(|part| part.region != region);
-            // Not close also where nothing was seen.
-            let close = miss.abs() < OUTLIER;
-            if q == 0.0 || other || !close {
-                continue;
+        for row in rows {
+            let (x, y) = (seen.view.x.along(row), seen.view.y.along(row));
+            let line = row * picture.width + cols.start..row * picture.width + cols.end;
+            let [disparity_px, g, sigma_px] = [picture.disparity_px, picture.g, picture.sigma_px]
+                .map(|image| &image[line.clone()]);
+            let labels = &labels[line];
+            for i in ((cols.start + row) % 2..labels.len()).step_by(2) {
+                let Some(region) = usize::from(labels[i]).checked_sub(1) else {
+                    continue;
+                };
+                if part.is_some_and(|part| part.region != region) {
+                    continue;
+                }
+                let (q, precision) = (regions[region].q, 1.0 / sigma_px[i]);
+                let miss = (disparity_px[i] - q * g[i]) * precision;
+                // Not close also where nothing was seen.
+                let close = miss.abs() < OUTLIER;
+                if q == 0.0 || !close {
+                    continue;
+                }
+                let col = to_f32(cols.start + i);
+                let gxy = [g[i], x.at(col), y.at(col)];
+                let part = part.get_or_insert_with(|| Part {
+                    region,
+                    place_m: place_m(q, gxy),
+                    sums: Sums::default(),
+                });
+                let values = terms(q, gxy, precision, miss);
+                self.totals[region].add(values);
+                part.sums.add(&Sums {
+                    pixels: 2.0,
+                    by_g: values.map(|value| values[0] * value),
+                });
             }
-            let part = part.get_or_insert_with(|| Part {
-                region,
-                place_m: seen.place_m(q, col, row),
-                sums: Sums::default(),
-            });
-            let values = terms(q, gxy, precision, miss);
-            self.totals[region].add(values);
-            part.sums.add(&Sums {
-                pixels: 2.0,
-                by_g: values.map(|value| values[0] * value),
-            });
         }
         self.all.extend(part);
     }
