@@ -11,12 +11,12 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector2;
 
-use super::finder::{MAX_REGIONS, Picture, Region};
+use super::finder::{MAX_REGIONS, Picture, Region, fineness};
 use super::fit::{Lie, Step};
 use super::view::View;
 use parts::{Part, Parts, Seen, Sums};
 
-/// Columns and rows of the blocks of pixels that lines are tried with first; then it is every second pixel.
+/// Columns and rows of the blocks of pixels that lines are tried with first, more in finer images; then it is every second pixel.
 const BLOCK: usize = 4;
 /// Lines that are tried: directions, what they lie apart, rad, and the steps in which they are moved, m.
 const COARSE: Search = Search {
@@ -88,7 +88,8 @@ impl Cuts {
     ) -> bool {
         let seen = Seen { picture, view };
         let before = regions.len();
-        self.parts.collect(seen, regions, labels, BLOCK);
+        let block = BLOCK * fineness(labels.len());
+        self.parts.collect(seen, regions, labels, block);
         let mut cuts = [None; MAX_REGIONS];
         for (region, cut) in cuts.iter_mut().enumerate().take(before) {
             *cut = self.best(region, &regions[region], tilt, COARSE, PI / 2.0);

@@ -18,6 +18,16 @@ pub struct Picture<'a> {
     pub sigma_px: &'a [f32],
 }
 
+/// Pixels of the robot's camera: what is looked at there is as much as is needed.
+const ENOUGH: usize = 88 * 72;
+
+/// How many times finer an image of so many pixels is than that of the robot's camera, each way. Where pixels are looked at that
+/// tell of whole surfaces, so many columns or rows may be left out: matching windows overlap, so that they tell nearly the same.
+pub(super) const fn fineness(pixels: usize) -> usize {
+    let finer = (pixels / ENOUGH).isqrt();
+    if finer > 1 { finer } else { 1 }
+}
+
 /// A region of one surface.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Region {
@@ -88,6 +98,12 @@ pub(crate) fn count_labels(labels: &[u16], mut add: impl FnMut(usize, usize)) {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn the_robots_image_is_as_fine_as_it_is_and_larger_ones_are_finer() {
+        let sizes = [[30, 20], [88, 72], [160, 120], [320, 240], [640, 480]];
+        assert_eq!(sizes.map(|[w, h]| fineness(w * h)), [1, 1, 1, 3, 6]);
+    }
 
     proptest! {
         #[test]

@@ -6,12 +6,12 @@
 
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
-use super::finder::{Picture, Region};
+use super::finder::{Picture, Region, fineness};
 use super::view::{View, to_f32};
 
 /// Every so many columns a pixel is looked at: neighbours tell the same.
 const STEP: usize = 2;
-/// Matching windows of 5x5 overlap: so many of the pixels looked at tell as much as one independent one.
+/// Matching windows of 5x5 overlap: so many of the pixels looked at tell as much as one independent one, where every row is looked at.
 const SHARED_BY: f64 = 25.0 / STEP as f64;
 /// Residuals beyond so many noises are left out.
 const OUTLIER: f32 = 3.5;
@@ -21,8 +21,9 @@ const SIGNIFICANT: f64 = 13.8;
 /// Sums over the pixels of one region; `e` is the residual at the `q` that the sums were made with.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct RegionFit {
-    // Pixels that took part.
+    // Pixels that took part, and how many of them tell as much as one independent one.
     count: u32,
+    shared_by: f64,
     q: f64,
     // Sums of the products of any two of: g, the change with the tilt's two components, e. Row up to column, the rest is 0.
     moments: [[f64; 4]; 4],
@@ -54,6 +55,7 @@ impl RegionFit {
     pub(super) fn at(q: f32) -> Self {
         Self {
             q: f64::from(q),
+            shared_by: SHARED_BY,
             ..Self::default()
         }
     }
@@ -104,8 +106,8 @@ impl RegionFit {
             return (Matrix2::zeros(), Vector2::zeros());
         }
         (
-            (self.tt() - self.gt() * self.gt().transpose() / self.gg()) / SHARED_BY,
-            (self.te() - self.gt() * (self.ge() / self.gg())) / SHARED_BY,
+            (self.tt() - self.gt() * self.gt().transpose() / self.gg()) / self.shared_by,
+            (self.te() - self.gt() * (self.ge() / self.gg())) / self.shared_by,
         )
     }
 
@@ -133,14 +135,15 @@ impl RegionFit {
             gt.y,
             tt[(1, 0)],
             tt[(1, 1)],
-        ) / SHARED_BY;
+        ) / self.shared_by;
         information += Matrix3::from_diagonal(&Vector3::new(0.0, prior, prior));
         let te = self.te();
-        let mut product = Vector3::new(self.ge(), te.x, te.y) / SHARED_BY;
+        let mut product = Vector3::new(self.ge(), te.x, te.y) / self.shared_by;
         product += Vector3::new(0.0, expected.x, expected.y) * prior;
         let covariance = information.try_inverse()?;
         Some(Lie {
             covariance,
+            shared_by: self.shared_by,
             best: covariance * product,
         })
     }
@@ -173,6 +176,7 @@ impl RegionFit {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lie {
     covariance: Matrix3<f64>,
+    shared_by: f64,
     /// Change of `q`, and tilt.
     best: Vector3<f64>,
 }
@@ -180,7 +184,7 @@ pub(super) struct Lie {
 impl Lie {
     /// That a part of the region has another height than the rest. `sums`: of the part's g times each of its [`terms`].
     pub(super) fn step(&self, sums: [f64; 4]) -> Option<Step> {
-        let [gg, gx, gy, ge] = sums.map(|sum| sum / SHARED_BY);
+        let [gg, gx, gy, ge] = sums.map(|sum| sum / self.shared_by);
         let part = Vector3::new(gg, gx, gy);
         let drawn = self.covariance * part;
         let information = gg - part.dot(&drawn);
@@ -220,10 +224,15 @@ pub(super) fn fit_regions(
     labels: &[u16],
     fits: &mut Vec<RegionFit>,
 ) {
+    // A row of so many: those between tell nearly the same.
+    let rows = fineness(labels.len());
     fits.clear();
-    fits.extend(regions.iter().map(|region| RegionFit::at(region.q)));
-    for (row, line) in labels.chunks_exact(picture.width).enumerate() {
-        let mut col = row % STEP;
+    fits.extend(regions.iter().map(|region| RegionFit {
+        shared_by: SHARED_BY / rows as f64,
+        ..RegionFit::at(region.q)
+    }));
+    for (row, line) in labels.chunks_exact(picture.width).enumerate().step_by(rows) {
+        let mut col = row / rows % STEP;
         while col < line.len() {
             let label = line[col];
             let same = |other: &&u16| **other == label;

@@ -2,10 +2,10 @@
 
 use nalgebra::Vector2;
 
-use super::finder::Picture;
+use super::finder::{Picture, fineness};
 use super::view::View;
 
-/// Every so many columns and rows one pixel is looked at.
+/// Every so many columns and rows one pixel is looked at; of finer images as many as of coarse ones.
 const STRIDE: (usize, usize) = (2, 3);
 /// Height of a bin, m.
 const BIN_M: f32 = 0.006;
@@ -76,8 +76,10 @@ impl HorizonSearch {
         self.samples.clear();
         let mut count = 0;
         let height = picture.disparity_px.len() / picture.width;
-        for row in (0..height).step_by(STRIDE.1) {
-            for col in (row / STRIDE.1 % STRIDE.0..picture.width).step_by(STRIDE.0) {
+        let finer = fineness(picture.disparity_px.len());
+        let (across, down) = (STRIDE.0 * finer, STRIDE.1 * finer);
+        for row in (0..height).step_by(down) {
+            for col in (row / down % across..picture.width).step_by(across) {
                 let d = picture.disparity_px[row * picture.width + col];
                 if d.is_nan() {
                     continue;

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use super::finder::fineness;
+
 /// Pixels between the three disparities that are compared: more than a matching window, so that they err independently.
 const REACH: usize = 6;
 /// Blocks across and down the image that have a noise of their own.
@@ -72,7 +74,8 @@ impl NoiseMap {
     ) -> Option<f32> {
         let mut counts = [0_u32; UNSEEN + 1];
         let offset = reach.1 * self.width + reach.0;
-        for row in rows.0.max(reach.1)..rows.1.min(self.height.saturating_sub(reach.1)) {
+        let rows = rows.0.max(reach.1)..rows.1.min(self.height.saturating_sub(reach.1));
+        for row in rows.step_by(fineness(disparity_px.len())) {
             let from = row * self.width + cols.0.max(reach.0);
             let to = row * self.width + cols.1.min(self.width.saturating_sub(reach.0));
             self.find_bins(disparity_px, from..to, offset);
