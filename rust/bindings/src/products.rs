@@ -3,7 +3,7 @@
 use geometry::Pose;
 use localization::BodyState;
 use mapping::Surface;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, ToPyArray};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, ToPyArray};
 use pyo3::prelude::*;
 
 /// (x m, y m, z m, yaw rad): a pose as Python's tuple.
@@ -159,6 +159,21 @@ impl PyFloorView {
         };
         let flat: Vec<f32> = self.0.cells.values().iter().map(height).collect();
         flat.into_pyarray(py).reshape(self.shape())
+    }
+
+    /// (rows, cols, 2) float32: how much each cell's floor rises per metre along x and y of the map; 0 where it is level.
+    #[getter]
+    fn gradient<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let [rows, cols] = self.shape();
+        let flat: Vec<f32> = self
+            .0
+            .gradients
+            .values()
+            .iter()
+            .flatten()
+            .copied()
+            .collect();
+        flat.into_pyarray(py).reshape([rows, cols, 2])
     }
 
     /// (rows, cols) uint16: in how many frames each cell was seen as floor.

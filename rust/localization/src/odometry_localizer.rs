@@ -151,6 +151,7 @@ mod tests {
             },
             cells: Grid::filled(100, 100, surface),
             sightings: Grid::filled(100, 100, 1),
+            gradients: Grid::filled(100, 100, [0.0; 2]),
         }
     }
 

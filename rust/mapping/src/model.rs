@@ -26,6 +26,9 @@ pub enum Surface {
     Obstacle(f32),
 }
 
+/// Floor that rises by less per metre is level ground seen a little wrong.
+const LEAST_GRADIENT: f64 = 0.03;
+
 /// The floor, obstacle and unknown view that planners read. Cells are fixed to the map; the window moves with the robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FloorView {
@@ -36,6 +39,8 @@ pub struct FloorView {
     /// How many frames saw each cell as floor, from where the model is sure of it (saturating); judged by the score, of use to
     /// planners.
     pub sightings: Grid<u16>,
+    /// How much each cell's floor rises per metre along the map's axes: nothing where it is level.
+    pub gradients: Grid<[f32; 2]>,
 }
 
 impl FloorView {
@@ -45,6 +50,7 @@ impl FloorView {
             lattice,
             cells: Grid::filled(cells, cells, Surface::Unknown),
             sightings: Grid::filled(cells, cells, 0),
+            gradients: Grid::filled(cells, cells, [0.0; 2]),
         }
     }
 
@@ -52,6 +58,7 @@ impl FloorView {
     pub(crate) fn shift(&mut self, cols: i32, rows: i32, lattice: Lattice) {
         self.cells.shift(cols, rows, &Surface::Unknown);
         self.sightings.shift(cols, rows, &0);
+        self.gradients.shift(cols, rows, &[0.0; 2]);
         self.lattice = lattice;
     }
 
@@ -74,6 +81,19 @@ impl FloorView {
             .get(self.lattice.cell_at(x_m, y_m))
             .copied()
             .unwrap_or_default()
+    }
+
+    /// How much the floor at a point of the map frame rises per metre along the map's axes; nothing where it is level, as far as
+    /// can be told.
+    pub fn gradient_at(&self, x_m: f64, y_m: f64) -> [f64; 2] {
+        let cell = self.lattice.cell_at(x_m, y_m);
+        let gradient = self.gradients.get(cell).copied().unwrap_or_default();
+        let gradient = gradient.map(f64::from);
+        if gradient[0].hypot(gradient[1]) < LEAST_GRADIENT {
+            [0.0; 2]
+        } else {
+            gradient
+        }
     }
 
     /// What is in a cell; unknown outside the window.

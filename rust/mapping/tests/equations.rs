@@ -53,6 +53,7 @@ fn frame_of(point: [f64; 3], height: f64) -> LabelledFrame {
         hit: true,
         rough: None,
         pixel: 0,
+        label: 0,
     });
     frame.locate(&lattice(), [20, 20]);
     frame

@@ -29,6 +29,7 @@ fn slalom() -> FloorView {
         },
         cells,
         sightings: Grid::filled(100, 100, 9),
+        gradients: Grid::filled(100, 100, [0.0; 2]),
     }
 }
 

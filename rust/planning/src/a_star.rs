@@ -96,6 +96,7 @@ impl Planner for AStar {
             at_m: [start.x_m, start.y_m],
             height_m: origin.z,
             heading_rad: start.yaw_rad,
+            gradient: view.gradient_at(start.x_m, start.y_m),
         };
         self.seek.begin(goal);
         self.look(view, stairs, stand, goal);

@@ -23,6 +23,8 @@ pub struct AStarConfig {
     pub escape_range: f64,
     /// Largest difference in height between neighbouring cells that is walked over, m.
     pub max_step: f64,
+    /// The same on and beside a slope, of which the camera may have made level strips before it told it from them, m.
+    pub slope_step: f64,
     /// Sightings from which on a cell's height may make it a step.
     pub step_sightings: u16,
     /// How far the robot may leave the path before it is planned anew, m.
@@ -61,6 +63,7 @@ impl Default for AStarConfig {
             escape_cost: 20.0,
             escape_range: 0.3,
             max_step: 0.01,
+            slope_step: 0.02,
             step_sightings: 3,
             stray: 0.15,
             better: 0.8,
@@ -92,6 +95,7 @@ impl AStarConfig {
             ("escape_cost", self.escape_cost),
             ("escape_range", self.escape_range),
             ("max_step", self.max_step),
+            ("slope_step", self.slope_step),
             ("stray", self.stray),
             ("turn_cost", self.turn_cost),
             ("foot_margin", self.foot_margin),

@@ -68,8 +68,8 @@ impl Judged {
         known_m.map_or(f64::INFINITY, |&known_m| f64::from(known_m))
     }
 
-    /// Makes unknown what lies on a higher level and was never as near as `range_m`, unless a recognised stair says what it
-    /// is.
+    /// Makes unknown what lies on a higher level and was never as near as `range_m`, unless a recognised stair or a slope says what
+    /// it is.
     pub(crate) fn doubt(
         &self,
         (view, treads): (&FloorView, &Treads),
@@ -79,7 +79,8 @@ impl Judged {
         unknown: &mut [bool],
     ) {
         for (index, surface) in view.cells.values().iter().enumerate() {
-            if f64::from(self.nearest_m[index]) <= range_m || treads.covers(index) {
+            let sloped = view.gradients.values()[index] != [0.0; 2];
+            if f64::from(self.nearest_m[index]) <= range_m || treads.covers(index) || sloped {
                 continue;
             }
             let doubtful = match *surface {
@@ -109,6 +110,7 @@ mod tests {
             },
             cells: Grid::filled(40, 20, surface),
             sightings: Grid::filled(40, 20, 9),
+            gradients: Grid::filled(40, 20, [0.0; 2]),
         }
     }
 
@@ -126,6 +128,7 @@ mod tests {
             at_m: [0.0; 2],
             height_m: 0.0,
             heading_rad: 0.0,
+            gradient: [0.0; 2],
         };
         let seen = (&view, &treads);
         judged.doubt(seen, 0.8, (&stand, 0.01), &mut blocked, &mut unknown);

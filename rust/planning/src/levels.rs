@@ -3,6 +3,7 @@
 use mapping::{FloorView, Surface};
 
 use crate::AStarConfig;
+use crate::slopes::Slopes;
 use crate::treads::Treads;
 
 /// A shadow below an edge, as seen from above, is at most so many cells wide.
@@ -16,6 +17,15 @@ pub(crate) struct Stand {
     pub(crate) at_m: [f64; 2],
     pub(crate) height_m: f64,
     pub(crate) heading_rad: f64,
+    /// Rise of the ground there per metre along the map's axes.
+    pub(crate) gradient: [f64; 2],
+}
+
+impl Stand {
+    /// Height of the ground this far off along the map's axes if it goes on as where the robot stands, m.
+    pub(crate) fn ground_m(&self, [dx_m, dy_m]: [f64; 2]) -> f64 {
+        self.height_m + self.gradient[0] * dx_m + self.gradient[1] * dy_m
+    }
 }
 
 /// Differences in height that matter.
@@ -39,6 +49,7 @@ pub(crate) struct Levels {
     /// Whether there is any edge.
     pub(crate) any: bool,
     gaps: Vec<(usize, f32)>,
+    slopes: Slopes,
 }
 
 impl Levels {
@@ -66,6 +77,7 @@ impl Levels {
                 }
             }));
         treads.lay(&mut self.height_m);
+        self.slopes.read(view, config.slope_step);
         self.close_gaps(view.cells.cols(), limits.floor_m);
         self.edge.clear();
         self.edge.resize(self.height_m.len(), false);
@@ -144,8 +156,11 @@ impl Levels {
             for (inside, next) in neighbours {
                 // Not a number: unknown, no difference.
                 let there = self.height_m.get(next).copied().unwrap_or(f32::NAN);
-                let rise = (there - here).abs();
-                if inside && rise > floor {
+                if !(inside && (there - here).abs() > floor) {
+                    continue;
+                }
+                let rise = self.slopes.step_m(index, next, there - here);
+                if rise > floor {
                     self.mark(index, rise, limits);
                     self.mark(next, rise, limits);
                 }
@@ -179,10 +194,13 @@ impl Levels {
             }
             if let Some((known, height)) = last
                 && (2..=SHADOW_CELLS + 1).contains(&(i - known))
-                && f64::from((here - height).abs()) > limits.floor_m
             {
-                for between in known..=i {
-                    self.mark(first + between * stride, (here - height).abs(), limits);
+                let (from, to) = (first + known * stride, first + i * stride);
+                let rise = self.slopes.step_m(from, to, here - height);
+                if f64::from(rise) > limits.floor_m {
+                    for between in known..=i {
+                        self.mark(first + between * stride, rise, limits);
+                    }
                 }
             }
             last = Some((i, here));

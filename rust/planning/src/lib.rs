@@ -21,6 +21,7 @@ mod route;
 pub mod search;
 mod seek;
 mod shortcut;
+mod slopes;
 mod specks;
 mod terrain;
 mod treads;

@@ -70,14 +70,13 @@ impl Verge {
         self.ground.clear();
         for (index, surface) in seen.view.cells.values().iter().enumerate() {
             let height = &mut levels.height_m[index];
-            let near = || {
+            if height.is_nan() && seen.unknown[index] && !levels.edge[index] {
                 let cell = Cell::new((index % cols) as i32, (index / cols) as i32);
                 let [x, y] = lattice.center_of(cell);
                 let (dx, dy) = (x - stand.at_m[0], y - stand.at_m[1]);
-                dx.abs() <= blind_m && dy.abs() <= blind_m && dx.hypot(dy) <= blind_m
-            };
-            if height.is_nan() && seen.unknown[index] && !levels.edge[index] && near() {
-                *height = stand.height_m as f32;
+                if dx.abs() <= blind_m && dy.abs() <= blind_m && dx.hypot(dy) <= blind_m {
+                    *height = stand.ground_m([dx, dy]) as f32;
+                }
             }
             // Floor that was seen too rarely to be an edge is ground all the same.
             let rarely = height.is_nan()

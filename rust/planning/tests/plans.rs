@@ -26,6 +26,7 @@ fn floor() -> FloorView {
         },
         cells: Grid::filled(100, 100, Surface::Floor(0.0)),
         sightings: Grid::filled(100, 100, 9),
+        gradients: Grid::filled(100, 100, [0.0; 2]),
     }
 }
 

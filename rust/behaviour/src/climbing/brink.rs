@@ -102,6 +102,7 @@ mod tests {
             lattice,
             cells,
             sightings: Grid::filled(50, 50, 9),
+            gradients: Grid::filled(50, 50, [0.0; 2]),
         }
     }
 

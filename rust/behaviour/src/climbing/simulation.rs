@@ -131,6 +131,7 @@ impl Simulation {
                 },
                 cells: Grid::filled(150, 100, Surface::Unknown),
                 sightings: Grid::filled(150, 100, 3),
+                gradients: Grid::filled(150, 100, [0.0; 2]),
             },
         };
         simulation.paint();

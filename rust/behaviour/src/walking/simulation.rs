@@ -73,6 +73,7 @@ impl Simulation {
                 },
                 cells: Grid::filled(CELLS, CELLS, Surface::Unknown),
                 sightings: Grid::filled(CELLS, CELLS, 0),
+                gradients: Grid::filled(CELLS, CELLS, [0.0; 2]),
             },
             plan: None,
             behaviour: WalkingBehaviour::new(WalkingConfig::default()).unwrap(),

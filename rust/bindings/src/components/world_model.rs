@@ -25,6 +25,7 @@ pub(crate) fn world_model(object: Py<PyAny>) -> Box<dyn WorldModel> {
         },
         cells: Grid::filled(0, 0, Surface::Unknown),
         sightings: Grid::filled(0, 0, 0),
+        gradients: Grid::filled(0, 0, [0.0; 2]),
     };
     Box::new(PythonWorldModel { object, view })
 }

@@ -2,6 +2,7 @@
 
 use geometry::{Cell, CellArea, Grid, Lattice};
 
+use super::tilts::{LEVEL, Tilts};
 use super::{FogConfig, LabelledFrame, Update};
 use crate::storage::runs;
 use crate::volume::OccupancyGrid;
@@ -11,6 +12,23 @@ pub const INVALID: f32 = f32::NEG_INFINITY;
 
 /// What is this much nearer than what it is compared with was seen better: a body sways by less.
 const NEARER: f32 = 0.9;
+
+/// A slope passes from one layer of voxels to the next: so far above or below its height it may be found occupied, m.
+const SLOPE_WITHIN_M: f64 = 0.015;
+
+/// Equation (3): whether the occupancy grid supports a height in the cell that is stored at an index; that of a floor with a gradient, or
+/// one close to it.
+fn is_supported(
+    occupancy: &OccupancyGrid,
+    (index, height_m): (usize, f64),
+    gradient: [f32; 2],
+) -> bool {
+    let occupied = |off_m: f64| {
+        let layer = occupancy.layer_at(height_m + off_m);
+        layer.is_some_and(|layer| occupancy.holds(index, layer))
+    };
+    occupied(0.0) || gradient != LEVEL && (occupied(-SLOPE_WITHIN_M) || occupied(SLOPE_WITHIN_M))
+}
 
 /// Equation (9): the height to keep where `stored` is known and `measured` is seen.
 pub fn merge_height(stored: f32, measured: f32, epsilon: f32, nu: f32) -> f32 {
@@ -30,6 +48,7 @@ pub struct FloorGrid {
     heights: Grid<f32>,
     /// Frames that saw the surface which the cell holds from within the sure range.
     sightings: Grid<u16>,
+    tilts: Tilts,
     /// From how near any frame saw it, m over the ground.
     distances_m: Grid<f32>,
     epsilon: f32,
@@ -39,9 +58,9 @@ pub struct FloorGrid {
     /// Of the frame that is being inserted, per cell: highest supported height, sum and number of those within epsilon.
     frame_top: Grid<f32>,
     frame_sum: Grid<(f64, u32)>,
-    /// Cells with a supported height in this frame, and the cell and height of every point with one.
+    /// Cells with a supported height in this frame, and the cell, the height and the label of every point with one.
     frame_cells: Vec<usize>,
-    supported: Vec<(usize, f64)>,
+    supported: Vec<(usize, f64, u16)>,
 }
 
 impl FloorGrid {
@@ -52,6 +71,7 @@ impl FloorGrid {
             lattice,
             heights: Grid::filled(n, n, INVALID),
             sightings: Grid::filled(n, n, 0),
+            tilts: Tilts::new(n),
             distances_m: Grid::filled(n, n, f32::INFINITY),
             epsilon: config.epsilon as f32,
             nu: config.nu as f32,
@@ -108,10 +128,16 @@ impl FloorGrid {
         self.sightings.get(cell).copied().unwrap_or(0)
     }
 
+    /// How much the floor of the cell that is stored at an index rises per metre along the map's axes; nothing where it is level or not known.
+    pub(crate) fn gradient_at(&self, index: usize) -> [f32; 2] {
+        self.tilts.gradient_at(index)
+    }
+
     /// Moves the window by whole cells to where `lattice` lies.
     pub fn shift(&mut self, cols: i32, rows: i32, lattice: Lattice) {
         self.heights.shift(cols, rows, &INVALID);
         self.sightings.shift(cols, rows, &0);
+        self.tilts.shift(cols, rows);
         self.distances_m.shift(cols, rows, &f32::INFINITY);
         self.lattice = lattice;
     }
@@ -122,8 +148,8 @@ impl FloorGrid {
             let Some(height) = self.height_at(index) else {
                 continue;
             };
-            let layer = occupancy.layer_at(f64::from(height));
-            if !layer.is_some_and(|layer| occupancy.holds(index, layer)) {
+            let at = (index, f64::from(height));
+            if !is_supported(occupancy, at, self.tilts.gradient_at(index)) {
                 self.heights.values_mut()[index] = INVALID;
                 self.sightings.values_mut()[index] = 0;
                 self.distances_m.values_mut()[index] = f32::INFINITY;
@@ -139,7 +165,7 @@ impl FloorGrid {
         let tops = self.frame_top.values();
         let sums = self.frame_sum.values_mut();
         let heights = self.heights.values_mut();
-        for &(index, floor_height_m) in &self.supported {
+        for &(index, floor_height_m, label) in &self.supported {
             let height = floor_height_m as f32;
             if update == Update::PerPoint {
                 let stored = &mut heights[index];
@@ -147,6 +173,7 @@ impl FloorGrid {
             } else if height >= tops[index] - self.epsilon {
                 let sum = &mut sums[index];
                 *sum = (sum.0 + floor_height_m, sum.1 + 1);
+                self.tilts.see(index, frame.gradient(label));
             }
         }
         self.finish(frame.eye_m, update);
@@ -166,13 +193,16 @@ impl FloorGrid {
             if height_m != last.0 {
                 last = (height_m, occupancy.layer_at(height_m));
             }
-            let (Some(layer), Some(index)) = (last.1, index) else {
+            let Some(index) = index else {
                 continue;
             };
-            if !occupancy.holds(index, layer) {
+            let held = last.1.is_some_and(|layer| occupancy.holds(index, layer));
+            let gradient = frame.gradient(point.label);
+            if !held && (gradient == LEVEL || !is_supported(occupancy, (index, height_m), gradient))
+            {
                 continue;
             }
-            self.supported.push((index, height_m));
+            self.supported.push((index, height_m, point.label));
             let top = &mut tops[index];
             if *top == INVALID {
                 self.frame_cells.push(index);
@@ -203,12 +233,18 @@ impl FloorGrid {
             *sum = (0.0, 0);
             let [x, y] = self.lattice.center_of(cell);
             let distance_m = (x - eye_x_m).hypot(y - eye_y_m) as f32;
-            self.merge(cell, measured, distance_m, update);
+            self.merge((cell, index), measured, distance_m, update);
         }
     }
 
     /// Equation (9) for one cell, where points did not apply it themselves, and what comes of it for who saw the surface.
-    fn merge(&mut self, cell: Cell, measured: f32, distance_m: f32, update: Update) {
+    fn merge(
+        &mut self,
+        (cell, index): (Cell, usize),
+        measured: f32,
+        distance_m: f32,
+        update: Update,
+    ) {
         let (Some(&stored), Some(&stored_from_m)) =
             (self.heights.get(cell), self.distances_m.get(cell))
         else {
@@ -224,14 +260,19 @@ impl FloorGrid {
         let height = match update {
             Update::PerPoint => stored,
             Update::PerFrame if below => measured,
-            Update::PerFrame => merge_height(stored, measured, self.epsilon, self.nu),
+            Update::PerFrame => {
+                let nu = self.tilts.share_kept(index, self.nu);
+                merge_height(stored, measured, self.epsilon, nu)
+            }
         };
         let count = u16::from(distance_m <= self.sure_range_m);
-        if below || measured > stored + self.epsilon {
-            self.set(cell, height, count, distance_m);
-        } else {
+        let same = !below && measured <= stored + self.epsilon;
+        self.tilts.merge(index, same, self.nu);
+        if same {
             let nearest_m = distance_m.min(stored_from_m);
             self.set(cell, height, seen.saturating_add(count), nearest_m);
+        } else {
+            self.set(cell, height, count, distance_m);
         }
     }
 

@@ -197,6 +197,10 @@ impl Fog {
         for index in runs(reached, size).flatten() {
             self.view.cells.values_mut()[index] = self.surface_at(index);
             self.view.sightings.values_mut()[index] = self.floor.all_sightings()[index];
+            self.view.gradients.values_mut()[index] = match self.view.cells.values()[index] {
+                Surface::Floor(_) => self.floor.gradient_at(index),
+                Surface::Obstacle(_) | Surface::Unknown => [0.0; 2],
+            };
         }
         reached
     }

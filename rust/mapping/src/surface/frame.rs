@@ -1,7 +1,7 @@
 //! Labelled points of one frame in the map frame: steps 1 and 2 of the update in 000, section III.A.
 
 use geometry::{Lattice, Map, Pose, Robot};
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use segmentation::Planes;
 
 use crate::MapError;
@@ -35,6 +35,8 @@ pub struct LabelledPoint {
     pub rough: Option<bool>,
     /// Number of its pixel, row by row.
     pub pixel: u32,
+    /// Label of its surface.
+    pub label: u16,
 }
 
 /// How a frame's points are taken.
@@ -66,6 +68,8 @@ pub struct LabelledFrame {
     rough: Vec<Option<bool>>,
     /// Where the cell of each point is stored; none outside of the grid.
     cells: Vec<Option<u32>>,
+    /// How much the surface of a label rises per metre along the map's axes.
+    gradients: Vec<[f32; 2]>,
 }
 
 impl LabelledFrame {
@@ -83,6 +87,14 @@ impl LabelledFrame {
         let regions = planes.regions.iter();
         self.rough
             .extend(regions.map(|region| Some(region.roughness? > reading.rough)));
+        self.gradients.clear();
+        self.gradients.push([0.0; 2]);
+        let regions = planes.regions.iter();
+        self.gradients
+            .extend(regions.map(|region| match region.floor_height_m {
+                Some(_) => [0.0; 2],
+                None => gradient(&(rotation * region.plane.normal)),
+            }));
         let surfaces = planes.floor_height_m.iter().zip(&planes.labels);
         let pixels = planes.points_in_robot_m.iter().zip(surfaces);
         for (pixel, ((point, (&height, &label)), &at_step)) in
@@ -118,6 +130,7 @@ impl LabelledFrame {
                 rough: rough.filter(|_| !far),
                 hit: seen && (stands_out || !far || !floor_height_m.is_nan()),
                 pixel,
+                label,
             });
         }
     }
@@ -138,6 +151,12 @@ impl LabelledFrame {
         let cells = self.cells.iter();
         let cells = cells.map(|cell| cell.map(|index| index as usize));
         self.points.iter().zip(cells)
+    }
+
+    /// How much the surface of a label rises per metre along the map's axes.
+    pub fn gradient(&self, label: u16) -> [f32; 2] {
+        let gradient = self.gradients.get(usize::from(label));
+        gradient.copied().unwrap_or_default()
     }
 
     /// Moves the whole frame up.
@@ -170,6 +189,11 @@ impl LabelledFrame {
             (point.pixel as usize, ray)
         })
     }
+}
+
+/// Rise per metre of a plane with this normal.
+fn gradient(normal: &Vector3<f64>) -> [f32; 2] {
+    [normal.x, normal.y].map(|across| (-across / normal.z) as f32)
 }
 
 /// How the pixels' lines of sight lie side by side in the map frame.

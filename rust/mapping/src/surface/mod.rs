@@ -8,6 +8,7 @@ mod matching;
 mod rough;
 mod shadow;
 mod stood;
+mod tilts;
 mod window;
 
 pub use config::{Clearing, FogConfig, Update};

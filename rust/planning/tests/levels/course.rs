@@ -33,6 +33,7 @@ impl Course {
                 },
                 cells: Grid::filled(100, 100, Surface::Floor(0.0)),
                 sightings: Grid::filled(100, 100, 9),
+                gradients: Grid::filled(100, 100, [0.0; 2]),
             },
             stairs: Staircase::default(),
         }

@@ -6,3 +6,4 @@ mod border;
 mod climbs;
 mod course;
 mod ground;
+mod slopes;
