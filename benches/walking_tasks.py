@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import cast
 
 import numpy as np
 from climbing import Climber, Errors, Footstep, Tread, alternating, course, pairs, seen
@@ -48,6 +49,7 @@ class Job:
     errors: Errors
     pushed: float
     slope: float
+    told: bool = False
 
 
 def straight(_rng: np.random.Generator, _job: Job) -> Plan:
@@ -225,6 +227,18 @@ def slope(rng: np.random.Generator, job: Job) -> list[dict[str, object]]:
             "rise": rise,
         },
     ]
+
+
+def told(
+    course: list[dict[str, object]], job: Job, rng: np.random.Generator
+) -> tuple[float, float, float]:
+    """Where the slope begins and ends, and its rise per metre, as wrong as a map may have it."""
+    middle = cast(list[float], course[0]["position"])[0]
+    top = middle + (-0.5 if job.task == "slope_up" else 0.5) * PLATE_M
+    begin = top - SLOPE_M if job.task == "slope_up" else top
+    off, tilt = rng.uniform(-job.errors.x, job.errors.x), rng.normal(0.0, math.radians(0.7))
+    rise = math.tan(math.radians(job.slope) + tilt) * (1.0 if job.task == "slope_up" else -1.0)
+    return begin + off, begin + SLOPE_M + off, rise
 
 
 EDGES: dict[str, Callable[[np.random.Generator, Job], list[dict[str, object]]]] = {

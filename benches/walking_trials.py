@@ -24,7 +24,7 @@ import mujoco
 import numpy as np
 from climbing import Errors, elements
 from numpy.typing import NDArray
-from walking_tasks import COURSES, EDGES, TASKS, Job, Motion, climb
+from walking_tasks import COURSES, EDGES, TASKS, Job, Motion, climb, told
 
 from treadwell._core import Walker
 from treadwell.course.build import build_course
@@ -99,6 +99,8 @@ class World:
         description = robot.description()
         description["gait"] = {**description["gait"], **job.gait}
         self.walker = Walker(json.dumps(description))
+        if job.told:
+            self.walker.slope = told(course, job, streams("told"))
         self.torso = model.body(robot.file.body.torso).id
         self.soles = [
             model.body(leg.sole.link).id for leg in (robot.file.legs.left, robot.file.legs.right)
@@ -235,6 +237,7 @@ def main() -> int:
     parser.add_argument("--x-error", type=float, default=0.0, help="of each edge, m")
     parser.add_argument("--pushed", type=float, default=0.0, help="every 2 to 4 s on stairs, N s")
     parser.add_argument("--slope", type=float, default=5.0, help="degrees")
+    parser.add_argument("--told", action="store_true", help="where the slope is")
     parser.add_argument("--gait", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--json", type=Path, help="file for all trials")
     arguments = parser.parse_args()
@@ -252,6 +255,7 @@ def main() -> int:
         errors=Errors(arguments.height_error, arguments.x_error),
         pushed=arguments.pushed,
         slope=arguments.slope,
+        told=arguments.told,
     )
     results = []
     for task in arguments.task:

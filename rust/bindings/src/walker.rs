@@ -1,16 +1,38 @@
 //! The walker alone, with the senses that it needs: for walking trials without camera and map.
 
 use behaviour::{Arms, Command, Footstep, Gaze, Misstep, Motion, Velocity};
-use geometry::PlanarPose;
+use geometry::{Odometry, PlanarPose, Point, Pose, Robot};
 use localization::{Proprioception, ProprioceptionConfig};
+use nalgebra::Vector2;
 use numpy::{PyArray1, ToPyArray};
 use pyo3::prelude::*;
 use robot::{Body, Description, Side};
 use sensing::{Frame, Observation};
 use walking::Walker;
+use walking::relief::Slopes;
 
 use crate::error::{bad_setting, failed, unreadable};
 use crate::observation;
+
+/// Ground that rises along the odometry's x from one place to another.
+#[derive(Debug)]
+struct Slope {
+    odometry_from_robot: Pose<Odometry, Robot>,
+    /// From, to, and the rise per metre.
+    extent_m: (f64, f64, f64),
+}
+
+impl Slopes for Slope {
+    fn gradient(&self, x_m: f64, y_m: f64) -> Vector2<f64> {
+        let at = self.odometry_from_robot * Point::new(x_m, y_m, 0.0);
+        let (from_m, to_m, rise) = self.extent_m;
+        if !(from_m..to_m).contains(&at.inner.x) {
+            return Vector2::zeros();
+        }
+        let (sin, cos) = self.odometry_from_robot.yaw_rad().sin_cos();
+        Vector2::new(cos, -sin) * rise
+    }
+}
 
 type Targets<'py> = (
     Bound<'py, PyArray1<f64>>,
@@ -36,6 +58,7 @@ pub(crate) struct PyWalker {
     observation: Observation,
     spare: Option<Frame>,
     command: Command,
+    slope: Option<(f64, f64, f64)>,
 }
 
 #[pymethods]
@@ -52,6 +75,7 @@ impl PyWalker {
             observation: observation::empty(),
             spare: None,
             command: Command::default(),
+            slope: None,
         })
     }
 
@@ -69,6 +93,7 @@ impl PyWalker {
     ) -> PyResult<Targets<'py>> {
         observation::read(observation, &mut self.observation, &mut self.spare)
             .map_err(|error| unreadable(py, &error))?;
+        self.proprioception.note_slopes(self.walker.on_slope());
         let state = self
             .proprioception
             .update(&self.observation)
@@ -80,9 +105,18 @@ impl PyWalker {
             pan_rad: pan,
             down_rad: down,
         };
+        let slope = self.slope.map(|extent_m| Slope {
+            odometry_from_robot: state.odometry_from_robot,
+            extent_m,
+        });
         let targets = self
             .walker
-            .step(&self.command, &self.observation, state)
+            .step(
+                &self.command,
+                &self.observation,
+                state,
+                slope.as_ref().map(|slope| slope as &dyn Slopes),
+            )
             .map_err(|error| failed(py, &error))?;
         self.proprioception.note_command(
             &targets.positions_rad,
@@ -94,6 +128,17 @@ impl PyWalker {
             targets.velocities_radps.to_pyarray(py),
             targets.torques_nm.to_pyarray(py),
         ))
+    }
+
+    /// (from m, to m, rise per metre): between these places along x of the odometry the ground is known to rise so; None: it is level.
+    #[getter]
+    const fn slope(&self) -> Option<(f64, f64, f64)> {
+        self.slope
+    }
+
+    #[setter]
+    const fn set_slope(&mut self, slope: Option<(f64, f64, f64)>) {
+        self.slope = slope;
     }
 
     /// Whether the arms are to be raised; at rest otherwise.

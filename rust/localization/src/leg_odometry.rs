@@ -52,6 +52,8 @@ impl Legs {
 pub(crate) struct LegOdometry {
     anchors_m: [Option<Vector3<f64>>; 2],
     torso_m: Vector3<f64>,
+    /// Feet that stand, or are to land, on a slope.
+    pub(crate) on_slope: [bool; 2],
 }
 
 impl LegOdometry {
@@ -59,6 +61,7 @@ impl LegOdometry {
         Self {
             anchors_m: [None; 2],
             torso_m: Vector3::new(0.0, 0.0, 0.0),
+            on_slope: [false; 2],
         }
     }
 
@@ -129,22 +132,24 @@ impl LegOdometry {
     }
 
     fn renew_anchors(&mut self, legs: &Legs, contacts: &Contacts, config: &ProprioceptionConfig) {
+        // What two anchors differ by on level ground is the error of a tilt.
+        let level = self.on_slope == [false; 2];
+        let same_level =
+            |a: &Vector3<f64>, b: &Vector3<f64>| (a.z - b.z).abs() < config.level_band && level;
         for side in Side::BOTH {
             let other = self.anchors_m[side.other().index()];
             let anchor = &mut self.anchors_m[side.index()];
             if contacts.holds(side) {
                 if anchor.is_none() {
                     let mut landed = self.torso_m + legs.reach_m(side);
-                    if let Some(other) =
-                        other.filter(|o| (o.z - landed.z).abs() < config.level_band)
-                    {
+                    if let Some(other) = other.filter(|other| same_level(other, &landed)) {
                         landed.z = other.z;
                     }
                     *anchor = Some(landed);
                 }
             } else if let Some(other) = other.filter(|_| contacts.holds(side.other())) {
                 let own = anchor.take();
-                if let Some(own) = own.filter(|own| (own.z - other.z).abs() >= config.level_band) {
+                if let Some(own) = own.filter(|own| !same_level(own, &other)) {
                     self.measure_level_again(legs, side, own.z, other.z);
                 }
             }
@@ -229,5 +234,45 @@ mod tests {
             }
         }
         assert!((level_m - RISE_M).abs() < 2e-4, "{level_m}");
+    }
+
+    /// Height of the robot after steps of 5 mm up each, told or not told that they are a slope's.
+    fn climbed_m(on_slope: bool) -> f64 {
+        const STEP_M: f64 = 0.005;
+        let config = ProprioceptionConfig::default();
+        let mut contacts = Contacts::new(65.0, &config);
+        let mut odometry = LegOdometry::new();
+        let legs = |soles_m: [f64; 2]| Legs {
+            odometry_from_torso_rotation: UnitQuaternion::identity(),
+            torso_from_sole: [(0.04, soles_m[0]), (-0.04, soles_m[1])]
+                .map(|(y_m, sole_m)| Isometry3::translation(0.0, y_m, sole_m - 0.2)),
+        };
+        odometry.start(&legs([0.0; 2]));
+        let mut soles_m = [0.0; 2];
+        let mut level_m = 0.0;
+        for step in 0..8 {
+            let side = step % 2;
+            for lifted in [true, false] {
+                if !lifted {
+                    soles_m[side] = STEP_M * (step + 1) as f64;
+                }
+                let mut shares = [1.0; 2];
+                shares[side] = if lifted { 0.0 } else { 1.0 };
+                for _ in 0..20 {
+                    odometry.on_slope = [on_slope; 2];
+                    contacts.update(&shares.map(|share| [0.12 * 65.0 * share; 4]), &config);
+                    let robot = odometry.update(&legs(soles_m), &contacts, &config);
+                    level_m = robot.origin().inner.z;
+                }
+            }
+        }
+        level_m
+    }
+
+    #[test]
+    fn small_steps_add_up_on_a_slope_and_are_none_on_level_ground() {
+        let (sloped_m, level_m) = (climbed_m(true), climbed_m(false));
+        assert!((sloped_m - 0.0375).abs() < 1e-3, "{sloped_m}");
+        assert!(level_m.abs() < 1e-9, "{level_m}");
     }
 }

@@ -155,6 +155,11 @@ impl Proprioception {
         }
     }
 
+    /// Takes note of which feet stand, or are to land, on a slope: there no two places are on one level.
+    pub const fn note_slopes(&mut self, on_slope: [bool; 2]) {
+        self.odometry.on_slope = on_slope;
+    }
+
     /// Poses the links by the joints: the motors' angles without the gears' play.
     fn pose_links(&mut self, observation: &Observation) -> Result<(), robot::BodyError> {
         let motor_positions_rad = &observation.joint_positions_rad;

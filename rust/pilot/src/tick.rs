@@ -6,6 +6,7 @@ use localization::{BodyStateHistory, Estimate, Localizer, Proprioception};
 use planning::{Plan, Planner};
 use robot::Body;
 use sensing::{Frame, Intrinsics, Observation, SelfFilter};
+use walking::relief::{Mapped, Slopes};
 use walking::{JointTargets, Walker};
 
 use crate::goals::Goals;
@@ -100,6 +101,7 @@ impl Pilot {
         observation.check(self.body.joint_count(), &self.camera, self.time_ns)?;
         self.time_ns = Some(observation.time_ns);
         self.timing = Timing::default();
+        self.proprioception.note_slopes(self.walker.on_slope());
         let state = self
             .timing
             .measure(Stage::Localize, || self.proprioception.update(observation))?;
@@ -133,7 +135,10 @@ impl Pilot {
             self.plan = None;
         }
         let targets = self.timing.measure(Stage::Walk, || {
-            self.walker.step(&decision.command, observation, state)
+            let slopes = Mapped::around(self.perception.view(), &estimate.map_from_robot);
+            let slopes = slopes.as_ref().map(|slopes| slopes as &dyn Slopes);
+            self.walker
+                .step(&decision.command, observation, state, slopes)
         })?;
         let dead_reckoning = self.map_from_odometry_at_start * state.odometry_from_robot;
         self.proprioception.note_command(

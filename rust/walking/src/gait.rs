@@ -1,6 +1,5 @@
 //! The sequence of steps: which foot stands, which moves, and what comes next.
 
-use behaviour::Velocity;
 use geometry::PlanarPose;
 use nalgebra::Vector2;
 use robot::Side;
@@ -10,6 +9,7 @@ use crate::footsteps::FootstepPlanner;
 use crate::landing::Ground;
 use crate::listed::Listed;
 pub use crate::phase::{Bearing, FootPose, Landing, Manner, Phase, Reference, Swing};
+use crate::relief::Relief;
 use crate::task::Task;
 
 /// Where feet and weight are in the sequence of steps.
@@ -163,7 +163,7 @@ impl Gait {
 
     /// The first step out of a stand.
     fn first_swing(&self, task: Task<'_>) -> Option<Swing> {
-        let Task::Walk(velocity) = task else {
+        let Task::Walk(velocity, _) = task else {
             return match task {
                 Task::Steps(_) => self.next_swing(&self.feet, self.last.0, task, 0),
                 _ => None,
@@ -192,29 +192,29 @@ impl Gait {
         let side = last.other();
         let (stance, from) = (feet[last.index()], feet[side.index()]);
         match task {
-            Task::Walk(velocity) => {
-                let to = self.on_level(&stance, side, &velocity);
+            Task::Walk(velocity, relief) => {
+                let planar = self.planner.next(&stance.planar, side, &velocity);
+                let to = self.on_ground(&stance, planar, relief);
                 Some(Swing::new(side, Manner::Walk, from, to))
             }
             // Behind a careful step, or one back off an edge, there may be no ground beside the other foot.
-            Task::Stand if self.last.1 != Manner::Walk => None,
-            Task::Stand if self.planner.is_beside(&stance.planar, &from.planar, side) => None,
-            Task::Stand => {
-                let to = FootPose {
-                    planar: self.planner.beside(&stance.planar, side),
-                    z_m: stance.z_m,
-                    ..FootPose::default()
-                };
+            Task::Stand(_) if self.last.1 != Manner::Walk => None,
+            Task::Stand(_) if self.planner.is_beside(&stance.planar, &from.planar, side) => None,
+            Task::Stand(relief) => {
+                let planar = self.planner.beside(&stance.planar, side);
+                let to = self.on_ground(&stance, planar, relief);
                 Some(Swing::new(side, Manner::Walk, from, to))
             }
             Task::Steps(steps) => self.listed_swing(feet, steps, ahead),
         }
     }
 
-    fn on_level(&self, stance: &FootPose, side: Side, velocity: &Velocity) -> FootPose {
+    /// A foot at this place of the ground on which the other one stands.
+    fn on_ground(&self, stance: &FootPose, planar: PlanarPose, relief: Relief<'_>) -> FootPose {
         FootPose {
-            planar: self.planner.next(&stance.planar, side, velocity),
-            z_m: stance.z_m,
+            planar,
+            z_m: stance.z_m + relief.rise_m(&stance.planar, &planar),
+            gradient: relief.under(&planar, self.planner.sole_length_m()),
             ..FootPose::default()
         }
     }

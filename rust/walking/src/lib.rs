@@ -23,6 +23,7 @@ mod pelvis;
 mod phase;
 mod posture;
 mod preview;
+pub mod relief;
 pub mod stance;
 mod stumble;
 pub mod support;

@@ -71,6 +71,7 @@ impl Gait {
             planar: self.planner.within_climb(&stance.planar, &wanted, side),
             z_m: height_m.clamp(stance.z_m - most, stance.z_m + most),
             bearing: Bearing { from_m, to_m },
+            ..FootPose::default()
         };
         Some(Swing::new(side, Manner::Careful, from, to))
     }

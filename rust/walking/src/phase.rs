@@ -1,7 +1,7 @@
 //! Feet on the ground and on their way.
 
 use geometry::PlanarPose;
-use nalgebra::Vector2;
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 use robot::Side;
 
 use crate::{GaitConfig, swing};
@@ -42,7 +42,7 @@ impl Bearing {
     }
 }
 
-/// A level foot on the ground: its sole's centre in the walker's own plan frame.
+/// A foot on the ground: its sole's centre in the walker's own plan frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FootPose {
     /// Place and heading.
@@ -51,6 +51,24 @@ pub struct FootPose {
     pub z_m: f64,
     /// What of the sole stands on something.
     pub bearing: Bearing,
+    /// Rise of the sole per metre along the plan's axes: nothing where it lies level.
+    pub gradient: Vector2<f64>,
+}
+
+impl FootPose {
+    /// From the sole to the plan: turned by its heading, and then by as much as it is tilted.
+    pub fn plan_from_sole(&self) -> Isometry3<f64> {
+        let PlanarPose { x_m, y_m, yaw_rad } = self.planar;
+        let level = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw_rad);
+        let [x, y] = self.gradient.into();
+        let turn = (self.gradient != Vector2::zeros())
+            .then(|| UnitQuaternion::rotation_between(&Vector3::z(), &Vector3::new(-x, -y, 1.0)))
+            .flatten();
+        Isometry3::from_parts(
+            Translation3::new(x_m, y_m, self.z_m),
+            turn.map_or(level, |turn| turn * level),
+        )
+    }
 }
 
 /// How a foot goes from one place to another.
@@ -177,6 +195,7 @@ impl Swing {
             ),
             z_m,
             bearing: to.bearing,
+            gradient: from.gradient + (to.gradient - from.gradient) * along,
         }
     }
 }

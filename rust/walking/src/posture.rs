@@ -1,6 +1,5 @@
 //! From centre of mass and feet to joint angles, and the torques that hold them.
 
-use geometry::PlanarPose;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use robot::{Body, LinkPoses, Side};
 
@@ -92,7 +91,7 @@ impl Posture {
         let torso_from_plan = plan_from_torso.inverse();
         for side in Side::BOTH {
             let lean = self.lean(moment, &plan_from_torso, side);
-            let sole = plan_from_sole(&feet[side.index()]);
+            let sole = feet[side.index()].plan_from_sole();
             let leg = &self.legs[side.index()];
             let solution =
                 leg.solve(&(torso_from_plan * lean * sole * moment.ankles.level_from_sole(side)));
@@ -129,7 +128,8 @@ impl Posture {
         let size = error.norm();
         let used = (size - TILT_DEADBAND_RAD).max(0.0) / size.max(1e-9) * *weight;
         let turn = UnitQuaternion::from_scaled_axis(-error * used);
-        let pivot = plan_from_sole(&gait.feet[side.other().index()])
+        let pivot = gait.feet[side.other().index()]
+            .plan_from_sole()
             .translation
             .vector;
         Isometry3::from_parts(Translation3::from(pivot - turn * pivot), turn)
@@ -170,12 +170,4 @@ impl Posture {
             *torque = -*torque;
         }
     }
-}
-
-fn plan_from_sole(foot: &FootPose) -> Isometry3<f64> {
-    let PlanarPose { x_m, y_m, yaw_rad } = foot.planar;
-    Isometry3::from_parts(
-        Translation3::new(x_m, y_m, foot.z_m),
-        UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw_rad),
-    )
 }

@@ -86,6 +86,7 @@ mod tests {
     use crate::footsteps::FootstepPlanner;
     use crate::gait::FootPose;
     use crate::landing::Ground;
+    use crate::relief::Relief;
     use crate::task::Task;
     use crate::test_biped::{biped, config};
     use behaviour::Velocity;
@@ -129,7 +130,7 @@ mod tests {
 
     fn landed(mut gait: Gait, ground: &Ground) -> Gait {
         for _ in 0..100 {
-            gait.advance(0.01, Task::Walk(AHEAD), ground);
+            gait.advance(0.01, Task::Walk(AHEAD, Relief::LEVEL), ground);
             if !matches!(gait.phase, Phase::Single { .. }) {
                 return gait;
             }

@@ -3,14 +3,15 @@
 use behaviour::{Footstep, Motion, Velocity};
 
 use crate::gait::Gait;
+use crate::relief::Relief;
 
 /// The motion of a tick.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub enum Task<'a> {
-    /// Come to stand.
-    Stand,
-    /// Walk.
-    Walk(Velocity),
+    /// Come to stand on this ground.
+    Stand(Relief<'a>),
+    /// Walk on it.
+    Walk(Velocity, Relief<'a>),
     /// Take these steps, from where the gait's list is on.
     Steps(&'a [Footstep]),
 }
@@ -79,14 +80,14 @@ impl StepList {
         gait.list_is_done(self.steps.len())
     }
 
-    /// What is to be done at this tick for this motion.
-    pub fn task(&self, motion: &Motion, gait: &Gait) -> Task<'_> {
+    /// What is to be done at this tick for this motion, on this ground.
+    pub fn task<'a>(&'a self, motion: &Motion, gait: &Gait, relief: Relief<'a>) -> Task<'a> {
         match motion {
-            Motion::Walk(velocity) if !gait.has_stumbled() => Task::Walk(*velocity),
+            Motion::Walk(velocity) if !gait.has_stumbled() => Task::Walk(*velocity, relief),
             Motion::Footsteps(_) if self.state == State::Begun && !gait.gave_up() => {
                 Task::Steps(&self.steps)
             }
-            Motion::Stand | Motion::Walk(_) | Motion::Footsteps(_) => Task::Stand,
+            Motion::Stand | Motion::Walk(_) | Motion::Footsteps(_) => Task::Stand(relief),
         }
     }
 }

@@ -12,6 +12,7 @@ use robot::{
 };
 use sensing::Observation;
 
+use crate::relief::Slopes;
 use crate::stance::Stance;
 use crate::{GaitConfig, JointTargets, Walker};
 
@@ -176,6 +177,8 @@ pub(crate) struct Ideal {
     pub(crate) ground_m: fn(f64, f64) -> f64,
     /// Levels ahead, in their order: from this x on, this height, m.
     pub(crate) ground_beyond: Vec<(f64, f64)>,
+    /// What the walker is told of the ground's slopes.
+    pub(crate) slopes: Option<&'static dyn Slopes>,
     time_ns: u64,
 }
 
@@ -193,6 +196,7 @@ impl Ideal {
             targets,
             ground_m: |_, _| 0.0,
             ground_beyond: Vec::new(),
+            slopes: None,
             time_ns: 0,
         }
     }
@@ -238,7 +242,7 @@ impl Ideal {
         self.time_ns += 10_000_000;
         self.targets = self
             .walker
-            .step(command, &observation, &state)
+            .step(command, &observation, &state, self.slopes)
             .unwrap()
             .clone();
     }

@@ -17,6 +17,7 @@ use crate::gaze::Head;
 use crate::landing::{Felt, Ground};
 use crate::pelvis::Course;
 use crate::posture::{Moment, Posture};
+use crate::relief::{Relief, Slopes};
 use crate::stance::Stance;
 use crate::support::{Pressure, Soles};
 use crate::task::{Frame, StepList};
@@ -93,12 +94,13 @@ impl Walker {
         })
     }
 
-    /// The targets for this tick. Allocates nothing.
+    /// The targets for this tick, on ground with these slopes. Allocates nothing.
     pub fn step(
         &mut self,
         command: &Command,
         observation: &Observation,
         state: &BodyState,
+        slopes: Option<&dyn Slopes>,
     ) -> Result<&JointTargets, WalkError> {
         let passed_s = self.pass(observation.time_ns);
         self.sense(observation, state, passed_s);
@@ -110,10 +112,11 @@ impl Walker {
         let felt = self.feel(observation, state);
         let frame = self.frame(&felt);
         self.list.take(&command.motion, &mut self.gait, frame);
-        let task = self.list.task(&command.motion, &self.gait);
+        let relief = Relief::new(slopes, frame.planar);
+        let task = self.list.task(&command.motion, &self.gait, relief);
         self.gait
             .advance(passed_s * rate, task, &Ground::Felt(felt));
-        let task = self.list.task(&command.motion, &self.gait);
+        let task = self.list.task(&command.motion, &self.gait, relief);
         self.reference = self.gait.reference(omega, task);
         self.com += (self.reference.dcm - self.com) * (omega * passed_s)
             + (self.balance.com - self.com) * (self.config.reference_pull * passed_s);
@@ -182,6 +185,15 @@ impl Walker {
     /// Whether the list that was given last is behind the robot: all its steps landed, or it was given up.
     pub fn list_is_over(&self) -> bool {
         self.list.is_over(&self.gait)
+    }
+
+    /// Whether each foot stands, or is to land, on a slope.
+    pub fn on_slope(&self) -> [bool; 2] {
+        let mut feet = self.gait.feet;
+        if let Phase::Single { swing, .. } = &self.gait.phase {
+            feet[swing.side.index()] = swing.to;
+        }
+        feet.map(|foot| foot.gradient != Vector2::zeros())
     }
 
     /// Where a foot stands, or left, in the walker's own frame, which drifts against the world's.
@@ -286,6 +298,10 @@ mod tests;
 #[cfg(test)]
 #[path = "climbing_tests.rs"]
 mod climbing_tests;
+
+#[cfg(test)]
+#[path = "slope_tests.rs"]
+mod slope_tests;
 
 #[cfg(test)]
 #[path = "list_tests.rs"]
