@@ -130,6 +130,7 @@ impl Perception {
         })?;
         let _staircase = timing.measure(Stage::Stairs, || {
             let map_from_robot = &estimate.map_from_robot;
+            self.recognizer.leave_slopes(self.world_model.view());
             self.recognizer
                 .update(&self.scan, &self.planes, map_from_robot, steps_taken)
         })?;

@@ -1,6 +1,7 @@
 //! What is known of the stairs around: merged while the robot stands (003, section IV.C), remembered while it steps.
 
 use geometry::{Map, Pose, Robot};
+use mapping::FloorView;
 use nalgebra::Point2;
 
 use crate::extract::Sighting;
@@ -13,6 +14,10 @@ use crate::{Stair, StairsConfig};
 const LOOKED_AT: usize = 6;
 /// Share of them that must show something lower.
 const SEEN_THROUGH: f64 = 0.6;
+
+/// Places along a front that are looked at for a slope before it, as shares of its length, and how far from it, m.
+const FRONT_SHARES: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
+const BESIDE_M: f64 = 0.06;
 
 /// The treads around the robot, seen or remembered.
 #[derive(Debug, Clone, Default)]
@@ -33,6 +38,15 @@ impl Memory {
                 tread.step();
             }
         }
+    }
+
+    /// Forgets treads where the map has a slope: its level strips are no stairs, and what it leads to is walked onto.
+    pub(crate) fn leave_slopes(&mut self, floor: &FloorView) {
+        self.treads.retain(|tread| {
+            tread
+                .stair()
+                .is_none_or(|stair| !is_of_slope(&stair, floor))
+        });
     }
 
     /// Takes in what a frame showed.
@@ -126,6 +140,21 @@ impl Memory {
             }
         }
     }
+}
+
+/// Whether most of a stair lies on a slope, or most of its front along one.
+fn is_of_slope(stair: &Stair<Map>, floor: &FloorView) -> bool {
+    let is_sloped = |at: [f64; 2]| floor.gradient_at(at[0], at[1]) != [0.0; 2];
+    let on = stair.places().map(|place| place.inner);
+    let on = on.filter(|place| is_sloped([place.x, place.y])).count();
+    let (front, across) = (&stair.front, stair.front.across());
+    let along = FRONT_SHARES.iter().filter(|&&share| {
+        let place = front.right.inner.lerp(&front.left.inner, share);
+        [-BESIDE_M, 0.0, BESIDE_M].iter().any(|beside_m| {
+            is_sloped([place.x + across.x * beside_m, place.y + across.y * beside_m])
+        })
+    });
+    2 * on >= stair.places().count() || 2 * along.count() > FRONT_SHARES.len()
 }
 
 /// Whether a tread lies under the robot.

@@ -1,6 +1,7 @@
 //! The recognizer: from planes to stairs in the map.
 
 use geometry::{ConfigError, Map, Pose, Robot};
+use mapping::FloorView;
 use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
 
@@ -101,6 +102,11 @@ impl Recognizer {
         sort_by_nearness(stairs, map_from_robot);
         self.staircase.frames = self.memory.frames;
         Ok(&self.staircase)
+    }
+
+    /// Takes in where the map has slopes: what lies on them is no stair.
+    pub fn leave_slopes(&mut self, floor: &FloorView) {
+        self.memory.leave_slopes(floor);
     }
 
     /// The stairs as of the last frame.

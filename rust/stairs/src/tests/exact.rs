@@ -7,12 +7,12 @@ use crate::extract::level_edge;
 use crate::view::View;
 use crate::visible::seen_ends;
 
-fn ground() -> Prism {
+pub(super) fn ground() -> Prism {
     Prism::new(&[[-3.0, -3.0], [5.0, -3.0], [5.0, 3.0], [-3.0, 3.0]], 0.0)
 }
 
 /// Looks from here with the head turned left and right, up and down.
-fn swing(prisms: &[Prism], map_from_robot: &Pose<Map, Robot>) -> Recognizer {
+pub(super) fn swing(prisms: &[Prism], map_from_robot: &Pose<Map, Robot>) -> Recognizer {
     let mut recognizer = Recognizer::new(StairsConfig::default(), CAMERA).unwrap();
     for i in 0..25 {
         let (pan, tilt) = (0.08 * f64::from(i % 9 - 4), 0.62 + 0.15 * f64::from(i / 9));

@@ -4,6 +4,7 @@ mod exact;
 mod frames;
 mod prisms;
 mod remembered;
+mod slopes;
 
 use geometry::{Camera, Map, Pose, Robot};
 use segmentation::{GroundConfig, Planes, ScanLine, ScanLineConfig, Segmenter};
