@@ -23,6 +23,8 @@ WALKED = {
     "boxed_in": "refused",
     "beam_high": "goal_reached",
     "beam_low": "refused",
+    "slope_up": "goal_reached",
+    "slope_down": "goal_reached",
 }
 CLIMBED = (
     "stairs_up",
