@@ -2,13 +2,11 @@
 
 use geometry::{Cell, CellArea, Grid, Lattice};
 
+use super::merging::{INVALID, merge_height};
 use super::tilts::{LEVEL, Tilts};
 use super::{FogConfig, LabelledFrame, Update};
 use crate::storage::runs;
 use crate::volume::OccupancyGrid;
-
-/// There is no floor height: below every height.
-pub const INVALID: f32 = f32::NEG_INFINITY;
 
 /// What is this much nearer than what it is compared with was seen better: a body sways by less.
 const NEARER: f32 = 0.9;
@@ -28,17 +26,6 @@ fn is_supported(
         layer.is_some_and(|layer| occupancy.holds(index, layer))
     };
     occupied(0.0) || gradient != LEVEL && (occupied(-SLOPE_WITHIN_M) || occupied(SLOPE_WITHIN_M))
-}
-
-/// Equation (9): the height to keep where `stored` is known and `measured` is seen.
-pub fn merge_height(stored: f32, measured: f32, epsilon: f32, nu: f32) -> f32 {
-    if measured < stored - epsilon {
-        stored
-    } else if measured > stored + epsilon {
-        measured
-    } else {
-        nu * stored + (1.0 - nu) * measured
-    }
 }
 
 /// Heights of the highest horizontal surface of each cell.
@@ -291,33 +278,5 @@ impl FloorGrid {
         ) {
             (*slot, *count, *from_m) = (height, seen, distance_m);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const EPSILON: f32 = 0.015;
-    const NU: f32 = 0.9;
-
-    #[test]
-    fn a_lower_height_is_ignored() {
-        assert_eq!(merge_height(0.1, 0.08, EPSILON, NU), 0.1);
-    }
-
-    #[test]
-    fn a_higher_height_replaces() {
-        assert_eq!(merge_height(0.1, 0.12, EPSILON, NU), 0.12);
-    }
-
-    #[test]
-    fn a_height_of_the_same_surface_is_smoothed() {
-        assert!((merge_height(0.1, 0.11, EPSILON, NU) - 0.101).abs() < 1e-7);
-    }
-
-    #[test]
-    fn an_invalid_height_lies_below_every_height() {
-        assert_eq!(merge_height(INVALID, -5.0, EPSILON, NU), -5.0);
     }
 }
