@@ -25,7 +25,7 @@ def test_the_headings_error_is_taken_after_each_whole_turn() -> None:
         fog_tables, {cases.TURNS: watched(PoseErrors((), headings, turned))}, "Error of the heading"
     )
     assert rows == {
-        "after 1": ("0.9", "0.9"),
-        "after 2": ("1.9", "1.9"),
-        "at any time": ("2.0", "2.0"),
+        "turns, after 1": ("0.9", "0.9"),
+        "turns, after 2": ("1.9", "1.9"),
+        "turns, at any time": ("2.0", "2.0"),
     }

@@ -34,6 +34,7 @@ CROOKED_FILTERED: Final = "levels_walked_crooked"
 CROOKED_UNFILTERED: Final = "levels_walked_crooked_unfiltered"
 WALKED: Final = (WALKED_FILTERED, WALKED_UNFILTERED, CROOKED_FILTERED, CROOKED_UNFILTERED)
 TURNS: Final = "turns"
+TURNS_MATCHED: Final = "turns_matched"
 SLOPE: Final = "slope_seen"
 OVER: Final = "over_each_other"
 
@@ -147,6 +148,7 @@ CASES: Final = (
     Case(SLOPE, "slope_seen", watch=ElementWatch),
     Case(OVER, "over_each_other", watch=ElementWatch),
     Case(TURNS, "turns", watch=PoseWatch),
+    Case(TURNS_MATCHED, "turns", _with("localizer", "matching"), watch=PoseWatch),
     *_WALKED,
     # Where another map leads the robot is not asked; one run shows what it looks like.
     *_for_each_model(course, "obstacle_course", share_of_others=0.0),
