@@ -36,6 +36,7 @@ fn nothing_known() -> FloorView {
         },
         cells: Grid::filled(100, 100, Surface::Unknown),
         sightings: Grid::filled(100, 100, 0),
+        gradients: Grid::filled(100, 100, [0.0; 2]),
     }
 }
 
