@@ -9,7 +9,7 @@ from treadwell.experiments.experiment import NOTHING, Experiment, Results, Table
 from treadwell.experiments.fog_drift import height_drift, turning
 from treadwell.experiments.fog_levels import three_levels, worse_senses
 from treadwell.experiments.fog_pictures import fog_pictures
-from treadwell.experiments.fog_surfaces import ceilings, surfaces
+from treadwell.experiments.fog_surfaces import ceilings, slopes_walked, surfaces
 from treadwell.experiments.level_heights import level_heights
 from treadwell.judging.map_watch import MapFrame, MapHistory
 from treadwell.judging.regions import RegionCounts
@@ -168,6 +168,7 @@ def fog_tables(results: Results) -> list[Table]:
         height_drift(results),
         turning(results),
         surfaces(results),
+        slopes_walked(results),
         ceilings(results),
     ]
     return [table for table in made if table.rows]

@@ -1,5 +1,6 @@
 """What the experiment `fog` runs: its cases, by world model and by segmenter."""
 
+import math
 from collections.abc import Callable
 from typing import Final
 
@@ -37,6 +38,22 @@ TURNS: Final = "turns"
 TURNS_MATCHED: Final = "turns_matched"
 SLOPE: Final = "slope_seen"
 OVER: Final = "over_each_other"
+
+
+SLOPES: Final = (3, 5, 8, 10, 15)
+"""Angles of the slopes that are walked, or refused, degrees."""
+STEEPEST: Final = 10
+"""A steeper slope is to be refused, degrees."""
+
+
+def slope_up(angle: int) -> str:
+    """Return the name of the case in which a slope of so many degrees is walked up."""
+    return f"slope_up_{angle}"
+
+
+def slope_down(angle: int) -> str:
+    """Return the name of the case in which it is walked down."""
+    return f"slope_down_{angle}"
 
 
 def levels(model: str) -> str:
@@ -134,6 +151,24 @@ _WALKED: Final = (
     Case(CROOKED_UNFILTERED, "levels_walked", _CROOKED + _UNFILTERED, watch=PoseWatch),
 )
 
+
+def _slope(scenario: str, name: Callable[[int], str], height: str, angle: int) -> Case:
+    """Return the case of a scenario with a slope of this angle; `height`: key of what is on top."""
+    rise = round(math.tan(math.radians(angle)), 4)
+    top = (f"course.slope.rise={rise}", f"course.top.size=[0.8,0.8,{rise}]", f"{height}={rise}")
+    refused = ('expect.outcome="refused"',) if angle > STEEPEST else ()
+    return Case(name(angle), scenario, top + refused)
+
+
+_SLOPES: Final = tuple(
+    case
+    for angle in SLOPES
+    for case in (
+        _slope("slope_up", slope_up, "goal.height", angle),
+        _slope("slope_down", slope_down, "start.height", angle),
+    )
+)
+
 CASES: Final = (
     Case(LEVELS_IDEAL, "three_levels", _IDEAL),
     *_for_each_model(levels, "three_levels"),
@@ -146,6 +181,7 @@ CASES: Final = (
     *WORSE,
     *_BEAMS,
     Case(SLOPE, "slope_seen", watch=ElementWatch),
+    *_SLOPES,
     Case(OVER, "over_each_other", watch=ElementWatch),
     Case(TURNS, "turns", watch=PoseWatch),
     Case(TURNS_MATCHED, "turns", _with("localizer", "matching"), watch=PoseWatch),

@@ -40,6 +40,30 @@ def ceilings(results: Results) -> Table:
     )
 
 
+def slopes_walked(results: Results) -> Table:
+    """Return the table of slopes that are walked up and down, or refused."""
+    rows = []
+    for angle in cases.SLOPES:
+        cells = []
+        for name in (cases.slope_up(angle), cases.slope_down(angle)):
+            runs = results.get(name, ())
+            fell = sum(run.result.falls for run in runs)
+            reached = sum(run.outcome == "goal_reached" for run in runs)
+            refused = sum(run.outcome == "refused" for run in runs)
+            cells.append(f"{reached} / {refused} / {fell} / {len(runs)}" if runs else NOTHING)
+        if set(cells) != {NOTHING}:
+            rows.append((f"{angle}", *cells))
+    return Table(
+        "Slopes of one metre, walked (section VI)",
+        ("degrees", "up: goal / refused / falls / of", "down: the same"),
+        tuple(rows),
+        (
+            "With navigation.ground.slopes. The paper: only horizontal planes. Wanted: up to 10 "
+            "degrees walked; 15 degrees refused.",
+        ),
+    )
+
+
 def surfaces(results: Results) -> Table:
     """Return the table of what the map has of a slope and of what lies above each other."""
     elements: dict[str, list[ElementCells]] = {}
