@@ -63,6 +63,8 @@ fn read_view(object: &Bound<'_, PyAny>, into: &mut FloorView) -> PyResult<()> {
     if (into.cells.rows(), into.cells.cols()) != (rows, cols) {
         into.cells = Grid::filled(cols, rows, Surface::Unknown);
         into.sightings = Grid::filled(cols, rows, 0);
+        // A model in Python says of each floor how high it is: as far as is known, all of them are level.
+        into.gradients = Grid::filled(cols, rows, [0.0; 2]);
     }
     for ((slot, &kind), &height) in into.cells.values_mut().iter_mut().zip(kind).zip(height) {
         *slot = match kind {
