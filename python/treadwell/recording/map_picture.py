@@ -11,6 +11,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Patch, Polygon
+from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
 from treadwell.course.build import Course
@@ -28,7 +29,8 @@ _STAIR, _FRONT, _FITTED = "#7ff0ff", "#ffbe00", "#00b7ff"
 _LEAST_SPAN: Final = 0.02
 """Metres that the colours span at least, to either side of the middle."""
 _MARGIN: Final = 0.25
-_NARROW: Final = 3.0
+_LABELS_INCHES: Final = 0.45
+"""Room below the map for the numbers and the name of its axis, whatever the map's height."""
 
 
 def draw_map(
@@ -87,7 +89,9 @@ def draw_map(
             Patch(facecolor=_UNKNOWN, edgecolor="#8a8d94", label="never seen"),
         ],
         loc="upper center",
-        bbox_to_anchor=(0.5, -0.14 if height < _NARROW else -0.09),
+        bbox_to_anchor=(0.5, 0.0),
+        bbox_transform=axes.transAxes
+        + ScaledTranslation(0.0, -_LABELS_INCHES, figure.dpi_scale_trans),
         ncols=6,
         frameon=True,
         facecolor="#b9bcc4",
