@@ -14,18 +14,18 @@ const NEARER: f32 = 0.9;
 /// A slope passes from one layer of voxels to the next: so far above or below its height it may be found occupied, m.
 const SLOPE_WITHIN_M: f64 = 0.015;
 
-/// Equation (3): whether the occupancy grid supports a height in the cell that is stored at an index; that of a floor with a gradient, or
-/// one close to it.
-fn is_supported(
+/// Whether the occupancy grid, which does not hold a height in the cell that is stored at an index, holds one close to it, and the floor
+/// there has a gradient.
+fn holds_slope(
     occupancy: &OccupancyGrid,
     (index, height_m): (usize, f64),
     gradient: [f32; 2],
 ) -> bool {
-    let occupied = |off_m: f64| {
-        let layer = occupancy.layer_at(height_m + off_m);
-        layer.is_some_and(|layer| occupancy.holds(index, layer))
-    };
-    occupied(0.0) || gradient != LEVEL && (occupied(-SLOPE_WITHIN_M) || occupied(SLOPE_WITHIN_M))
+    gradient != LEVEL
+        && [-SLOPE_WITHIN_M, SLOPE_WITHIN_M].iter().any(|off_m| {
+            let layer = occupancy.layer_at(height_m + off_m);
+            layer.is_some_and(|layer| occupancy.holds(index, layer))
+        })
 }
 
 /// Heights of the highest horizontal surface of each cell.
@@ -135,8 +135,10 @@ impl FloorGrid {
             let Some(height) = self.height_at(index) else {
                 continue;
             };
-            let at = (index, f64::from(height));
-            if !is_supported(occupancy, at, self.tilts.gradient_at(index)) {
+            let height_m = f64::from(height);
+            let layer = occupancy.layer_at(height_m);
+            let held = layer.is_some_and(|layer| occupancy.holds(index, layer));
+            if !held && !holds_slope(occupancy, (index, height_m), self.gradient_at(index)) {
                 self.heights.values_mut()[index] = INVALID;
                 self.sightings.values_mut()[index] = 0;
                 self.distances_m.values_mut()[index] = f32::INFINITY;
@@ -184,9 +186,8 @@ impl FloorGrid {
                 continue;
             };
             let held = last.1.is_some_and(|layer| occupancy.holds(index, layer));
-            let gradient = frame.gradient(point.label);
-            if !held && (gradient == LEVEL || !is_supported(occupancy, (index, height_m), gradient))
-            {
+            let at = (index, height_m);
+            if !held && !holds_slope(occupancy, at, frame.gradient(point.label)) {
                 continue;
             }
             self.supported.push((index, height_m, point.label));
