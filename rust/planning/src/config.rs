@@ -25,6 +25,8 @@ pub struct AStarConfig {
     pub max_step: f64,
     /// The same on and beside a slope, of which the camera may have made level strips before it told it from them, m.
     pub slope_step: f64,
+    /// Steepest slope that is walked on: rise per metre.
+    pub max_slope: f64,
     /// Sightings from which on a cell's height may make it a step.
     pub step_sightings: u16,
     /// How far the robot may leave the path before it is planned anew, m.
@@ -64,6 +66,7 @@ impl Default for AStarConfig {
             escape_range: 0.3,
             max_step: 0.01,
             slope_step: 0.02,
+            max_slope: 0.2,
             step_sightings: 3,
             stray: 0.15,
             better: 0.8,
@@ -96,6 +99,7 @@ impl AStarConfig {
             ("escape_range", self.escape_range),
             ("max_step", self.max_step),
             ("slope_step", self.slope_step),
+            ("max_slope", self.max_slope),
             ("stray", self.stray),
             ("turn_cost", self.turn_cost),
             ("foot_margin", self.foot_margin),

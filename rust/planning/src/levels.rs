@@ -49,7 +49,7 @@ pub(crate) struct Levels {
     /// Whether there is any edge.
     pub(crate) any: bool,
     gaps: Vec<(usize, f32)>,
-    slopes: Slopes,
+    pub(crate) slopes: Slopes,
 }
 
 impl Levels {
@@ -77,7 +77,7 @@ impl Levels {
                 }
             }));
         treads.lay(&mut self.height_m);
-        self.slopes.read(view, config.slope_step);
+        self.slopes.read(view, config);
         self.close_gaps(view.cells.cols(), limits.floor_m);
         self.edge.clear();
         self.edge.resize(self.height_m.len(), false);
@@ -88,6 +88,10 @@ impl Levels {
         self.mark_rims(cols, treads, stand.height_m, limits.floor_m);
         self.mark_differences(cols, limits);
         self.mark_shadows(cols, limits);
+        for index in self.slopes.too_steep() {
+            self.edge[index] = true;
+            self.any = true;
+        }
     }
 
     /// Gives single cells that were not seen the height of the ground on both sides of them. Else a line of cells that the

@@ -111,8 +111,13 @@ pub(crate) fn explain(
             sentence: format!("the widest gap is {gap_m:.2} m, {needed:.2} m are needed"),
         };
     }
-    if let Some(rise_m) = rise_in_the_way(terrain, ends, start) {
-        return unjoined(climbing, rise_m);
+    if let Some(route) = way_over_levels(terrain, ends, start) {
+        if let Some(rise_per_m) = first_too_steep(terrain, &route) {
+            return too_steep(rise_per_m, terrain.levels.slopes.steepest_walked());
+        }
+        if let Some(rise_m) = first_rise(terrain, &route) {
+            return unjoined(climbing, rise_m);
+        }
     }
     let nearest = widest.nearest_cells * terrain.lattice.cell_m;
     let cells = 0..terrain.blocked.len();
@@ -137,8 +142,8 @@ pub(crate) fn explain(
     }
 }
 
-/// The first change of level, m, on the way that would lead to the goal if levels were one.
-fn rise_in_the_way(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Option<f64> {
+/// The way that would lead to the goal if levels were one.
+fn way_over_levels(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Option<Route> {
     if !terrain.levels.any {
         return None;
     }
@@ -149,7 +154,31 @@ fn rise_in_the_way(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Option<f
         .collect();
     let ending = |cell: usize| ends.cost(cell);
     let remaining = |cell: usize| ends.remaining(cell);
-    let route = Search::default().run(&open, terrain.cols, start, ending, remaining)?;
+    Search::default().run(&open, terrain.cols, start, ending, remaining)
+}
+
+/// How steep the first slope on a way is that is too steep, rise per metre.
+fn first_too_steep(terrain: &Terrain, route: &Route) -> Option<f64> {
+    let slopes = &terrain.levels.slopes;
+    let mut cells = route.cells.iter();
+    cells.find_map(|&cell| slopes.too_steep_at(cell as usize))
+}
+
+/// The word and sentence for a slope that is too steep, both in rise per metre.
+fn too_steep(rise_per_m: f64, limit: f64) -> NoWay {
+    let degrees = |rise_per_m: f64| rise_per_m.atan().to_degrees().round();
+    NoWay {
+        refusal: Refusal::Blocked,
+        sentence: format!(
+            "the slope is {} degrees steep, {} degrees is the limit",
+            degrees(rise_per_m),
+            degrees(limit)
+        ),
+    }
+}
+
+/// The first change of level on a way, m.
+fn first_rise(terrain: &Terrain, route: &Route) -> Option<f64> {
     let levels = route
         .cells
         .iter()

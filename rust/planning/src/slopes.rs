@@ -2,6 +2,8 @@
 
 use mapping::FloorView;
 
+use crate::AStarConfig;
+
 /// Cells to each side of a slope of which the camera may have made level strips before it told them from the slope.
 const STRIP_CELLS: usize = 3;
 
@@ -11,18 +13,21 @@ pub(crate) struct Slopes {
     cols: usize,
     cell_m: f32,
     gradients: Vec<[f32; 2]>,
-    /// Cells of slopes, and those beside them; empty where there is no slope.
+    /// Cells of slopes that may be walked on, and those beside them; empty where there is no slope.
     near: Vec<bool>,
     /// What a level strip of a slope may be off it, m.
     strip_m: f32,
+    /// Steepest slope that is walked on: rise per metre.
+    most: f32,
 }
 
 impl Slopes {
-    /// Reads a view; `strip_m`: what a level strip of a slope may be off it.
-    pub(crate) fn read(&mut self, view: &FloorView, strip_m: f64) {
+    /// Reads a view.
+    pub(crate) fn read(&mut self, view: &FloorView, config: &AStarConfig) {
         self.cols = view.cells.cols();
         self.cell_m = view.lattice.cell_m as f32;
-        self.strip_m = strip_m as f32;
+        self.strip_m = config.slope_step as f32;
+        self.most = config.max_slope as f32;
         self.gradients.clear();
         self.near.clear();
         let gradients = view.gradients.values();
@@ -32,7 +37,7 @@ impl Slopes {
         self.gradients.extend_from_slice(gradients);
         self.near.resize(gradients.len(), false);
         for (index, gradient) in gradients.iter().enumerate() {
-            if *gradient != [0.0; 2] {
+            if *gradient != [0.0; 2] && self.too_steep_at(index).is_none() {
                 self.mark_near(index);
             }
         }
@@ -57,6 +62,23 @@ impl Slopes {
             return 0.0;
         }
         step_m
+    }
+
+    /// The cells of slopes that are too steep to be walked on.
+    pub(crate) fn too_steep(&self) -> impl Iterator<Item = usize> {
+        (0..self.gradients.len()).filter(|&index| self.too_steep_at(index).is_some())
+    }
+
+    /// How steep a cell is if that is more than what is walked on: rise per metre.
+    pub(crate) fn too_steep_at(&self, index: usize) -> Option<f64> {
+        let [x, y] = self.gradients.get(index)?;
+        let rise = x.hypot(*y);
+        (rise > self.most).then_some(f64::from(rise))
+    }
+
+    /// The steepest slope that is walked on: rise per metre.
+    pub(crate) fn steepest_walked(&self) -> f64 {
+        f64::from(self.most)
     }
 
     /// How much higher one cell is than another by the tilt of both, m.

@@ -1,6 +1,6 @@
 //! Slopes: walked over like level floor, whatever their cells' heights differ by; their sides are edges all the same.
 
-use crate::course::{Course, goal_at, way};
+use crate::course::{Course, goal_at, plan, planner, way};
 use geometry::Cell;
 use mapping::Surface;
 use planning::Path;
@@ -11,9 +11,9 @@ const BEGINS_M: f64 = 0.6;
 const TOP_M: f64 = 0.12;
 const HALF_WIDTH_M: f64 = 0.5;
 
-/// A slope along `heading_rad` through the origin, up to a platform, `told` to be one or not. Of where it begins the camera has made
+/// A slope along `heading_rad` through the origin, up to a platform, that rises so much per metre, `told` to be one or not. Of where it begins the camera has made
 /// a level strip.
-fn slope(heading_rad: f64, told: bool) -> Course {
+fn slope(heading_rad: f64, rise: f64, told: bool) -> Course {
     let mut course = Course::floor();
     let (sin, cos) = heading_rad.sin_cos();
     let cells: Vec<Cell> = course.view.cells.area().cells().collect();
@@ -25,10 +25,10 @@ fn slope(heading_rad: f64, told: bool) -> Course {
             continue;
         }
         let strip = up_m < 0.1;
-        let height_m = if strip { 0.016 } else { TOP_M.min(RISE * up_m) };
+        let height_m = if strip { 0.016 } else { TOP_M.min(rise * up_m) };
         *course.view.cells.get_mut(cell).unwrap() = Surface::Floor(height_m as f32);
         if told && !strip && height_m < TOP_M {
-            let gradient = [RISE * cos, RISE * sin].map(|rise| rise as f32);
+            let gradient = [rise * cos, rise * sin].map(|rise| rise as f32);
             *course.view.gradients.get_mut(cell).unwrap() = gradient;
         }
     }
@@ -47,7 +47,7 @@ fn a_slope_in_any_direction_is_walked_straight_up() {
     for heading_rad in [0.0, 0.4, std::f64::consts::FRAC_PI_4] {
         let (sin, cos) = f64::sin_cos(heading_rad);
         let goal = goal_at(1.6 * cos, 1.6 * sin, TOP_M);
-        let path = way(&slope(heading_rad, true), heading_rad, &goal);
+        let path = way(&slope(heading_rad, RISE, true), heading_rad, &goal);
         assert!(path.climbs.is_empty());
         let last = path.points_m.last().unwrap();
         assert!(last[0].hypot(last[1]) > 1.4, "{last:?}");
@@ -60,14 +60,8 @@ fn what_is_not_told_to_be_a_slope_is_no_way_up() {
     let heading_rad = std::f64::consts::FRAC_PI_4;
     let (sin, cos) = heading_rad.sin_cos();
     let goal = goal_at(1.6 * cos, 1.6 * sin, TOP_M);
-    let course = slope(heading_rad, false);
-    let found = crate::course::plan(
-        &mut crate::course::planner(),
-        &course,
-        [0.0; 3],
-        heading_rad,
-        &goal,
-    );
+    let course = slope(heading_rad, RISE, false);
+    let found = plan(&mut planner(), &course, [0.0; 3], heading_rad, &goal);
     let up = |path: &Path| {
         path.points_m
             .last()
@@ -76,9 +70,34 @@ fn what_is_not_told_to_be_a_slope_is_no_way_up() {
     assert!(!found.way.is_ok_and(|path| up(&path)));
 }
 
+/// A slope of 15 degrees across the whole floor, with a platform behind it.
+#[test]
+fn a_slope_that_is_too_steep_is_looked_at_from_near_and_then_refused() {
+    let course = slope(0.0, 15.0_f64.to_radians().tan(), true);
+    let (goal, mut planner) = (goal_at(1.6, 0.0, TOP_M), planner());
+    let (mut at, mut calls) = ([0.0; 2], 0);
+    let mut nearest_m = f64::INFINITY;
+    let sentence = loop {
+        calls += 1;
+        assert!(calls < 2000, "it looks for ever");
+        match plan(&mut planner, &course, [at[0], at[1], 0.0], 0.0, &goal).way {
+            Ok(path) => at = path.points_m[2.min(path.points_m.len() - 1)],
+            Err(no_way) => break no_way.sentence,
+        }
+        if at[1].abs() < HALF_WIDTH_M {
+            nearest_m = nearest_m.min(BEGINS_M - at[0]);
+        }
+    };
+    assert!((0.0..0.3).contains(&nearest_m), "{nearest_m}");
+    assert_eq!(
+        sentence,
+        "the slope is 15 degrees steep, 11 degrees is the limit"
+    );
+}
+
 #[test]
 fn its_side_is_an_edge_where_it_is_high() {
-    let course = slope(0.0, true);
+    let course = slope(0.0, RISE, true);
     let goal = goal_at(1.1, 0.8, 0.0);
     let path = way(&course, 0.0, &goal);
     for [x, y] in path.points_m {

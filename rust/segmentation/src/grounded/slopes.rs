@@ -1,4 +1,4 @@
-//! Slopes: surfaces that are tilted as much as one may be that is still walked on, kept as one region with its own plane.
+//! Slopes: surfaces that are tilted, walkable or too steep to be walked on, each kept as one region with its own plane.
 //!
 //! A segmenter of level surfaces cuts a slope into level strips, which is what stairs look like, too. So a plane is grown through
 //! them, `d = a X + b Y + q g`, over what it fits better than the level surfaces do. It is a slope if it explains all of that
@@ -22,9 +22,10 @@ use seeds::seeds;
 use sums::Seen;
 use treads::Treads;
 
-/// How much a slope may be tilted, tangent: 2 and 11.3 degrees, for what is measured of 3 to 10.
+/// How much a slope is tilted, tangent: 2 and 22 degrees, for what is measured of 3 to 20. Whether one may be walked on is the
+/// planner's to say.
 const LEAST_TILT: f64 = 0.035;
-const MOST_TILT: f64 = 0.2;
+const MOST_TILT: f64 = 0.4;
 /// Fewest pixels of a slope as a share of the image, and least length, m.
 const LEAST_SHARE: f64 = 0.1;
 const LEAST_LENGTH_M: f64 = 0.25;
@@ -197,8 +198,8 @@ impl Slopes {
     }
 }
 
-/// Whether a plane is tilted like a slope that may be walked on.
-fn is_walkable(plane: &Vector3<f64>) -> bool {
+/// Whether a plane is tilted like a slope.
+fn is_slope(plane: &Vector3<f64>) -> bool {
     let tilt = plane.xy().norm() / plane.z;
     plane.z > 0.0 && (LEAST_TILT..MOST_TILT).contains(&tilt)
 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::super::finder::{MAX_REGIONS, Region};
-use super::is_walkable;
+use super::is_slope;
 use super::sums::{Seen, SlopeSums};
 
 /// How often a plane is fitted to what was grown, and grown anew.
@@ -68,14 +68,14 @@ impl Growth {
             self.find_reaches(seen, &plane, regions, labels);
         }
         for _ in 0..ROUNDS {
-            if !is_walkable(&plane) {
+            if !is_slope(&plane) {
                 return None;
             }
             self.flood(seen, start, &plane, labels);
             plane = self.fit_inside(seen)?;
             self.find_reaches(seen, &plane, regions, labels);
         }
-        is_walkable(&plane).then_some(plane)
+        is_slope(&plane).then_some(plane)
     }
 
     /// The plane through what was grown, away from its border: there a window saw something else, too.

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::is_walkable;
+use super::is_slope;
 use super::memory::Memory;
 use super::sums::{Seen, SlopeSums};
 
@@ -38,7 +38,7 @@ pub(super) fn seeds(seen: Seen<'_>, memory: &Memory) -> Vec<(usize, Vector3<f64>
             } else {
                 (sums.plane(), SEED_SURE)
             };
-            let Some(plane) = plane.filter(is_walkable) else {
+            let Some(plane) = plane.filter(is_slope) else {
                 continue;
             };
             // Every fourth pixel was looked at.

@@ -49,7 +49,7 @@ fn found(planes: &Planes) -> Option<(f64, usize)> {
 
 #[test]
 fn a_slope_is_one_surface_with_its_tilt_and_its_height_at_each_pixel() {
-    for degrees in [5.0_f64, 7.0, 9.5] {
+    for degrees in [5.0_f64, 7.0, 9.5, 15.0] {
         let tilt_rad = degrees.to_radians();
         let (mut tilts, mut errors_m, mut seen) = (Vec::new(), Vec::new(), 0);
         for seed in 0..4 {
@@ -99,12 +99,13 @@ fn stairs_are_no_slope() {
         (0.018, 0.15),
         (0.03, 0.12),
         (0.03, 0.25),
+        (0.04, 0.15),
         (0.05, 0.2),
     ] {
-        for seed in 0..3 {
+        for (seed, front_m) in (0..6).zip([0.45, 0.9].into_iter().cycle()) {
             let mut noise = Noise::new(seed);
             let mut segmenter = sloping(true, &mut noise);
-            let scene = Scene::stairs(0.45 + noise.within(0.05), rise_m, tread_m, 4);
+            let scene = Scene::stairs(front_m + noise.within(0.05), rise_m, tread_m, 4);
             for _ in 0..10 {
                 let pose = camera_pose(noise.within(0.2), 0.7 + noise.within(0.1));
                 let planes = look(&mut segmenter, &scene, &pose, &mut noise);
