@@ -37,6 +37,14 @@ impl Marks {
         }
     }
 
+    /// Makes empty marks ready for a grid of another size.
+    pub(super) fn resize(&mut self, size: Size) {
+        let cells = self.hits.len().max(size.cols * size.rows);
+        self.size = size;
+        self.hits.resize(cells, 0);
+        self.passed.resize(cells, 0);
+    }
+
     /// Marks what the rays from `eye` hit and passed, but for some voxels that are settled or hit, and says which cells they
     /// touched. Ends are in voxels, with whether something was seen there; `settled` has one bit for each layer of a cell that
     /// a miss does not change.

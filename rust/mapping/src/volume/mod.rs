@@ -5,6 +5,7 @@ mod frustum;
 mod locator;
 mod marks;
 mod occupancy;
+pub mod octree;
 mod picture;
 mod probability;
 mod projected;

@@ -1,0 +1,260 @@
+//! Beams of a frame into the tree: the voxels that they end in become likelier occupied, those that they pass less likely.
+
+use std::collections::BTreeMap;
+
+use super::super::marks::Marks;
+use super::super::occupancy::{Ray, Size};
+use super::super::{VoxelWalk, voxels::bits};
+use super::brick::{EDGE, index};
+use super::key::{Key, SPAN, in_voxels};
+use super::window::Window;
+use super::{Octree, OctreeError};
+use crate::surface::{Clearing, Update};
+
+/// Largest part of space whose marks are kept at a time, in voxels; a column of marks is one word high.
+const TILE: [i32; 3] = [1024, 1024, 64];
+/// Ends that are further away than this, in voxels, have lost their direction to rounding.
+const FARTHEST: f64 = 1e12;
+
+/// Room for one frame, kept for the next one.
+#[derive(Debug, Clone)]
+pub(super) struct Workspace {
+    marks: Marks,
+    window: Window,
+    ends: Vec<([f64; 3], bool)>,
+}
+
+impl Default for Workspace {
+    fn default() -> Self {
+        let nothing = Size {
+            cols: 0,
+            rows: 0,
+            layers: 0,
+        };
+        Self {
+            marks: Marks::new(nothing),
+            window: Window::default(),
+            ends: Vec::new(),
+        }
+    }
+}
+
+/// A box of voxels.
+#[derive(Debug, Clone, Copy)]
+struct Bounds {
+    low: [i32; 3],
+    high: [i32; 3],
+}
+
+impl Bounds {
+    /// Around the eye and the ends, made of whole bricks; none where all of it is beyond what a tree can hold.
+    fn around(eye: [f64; 3], ends: &[([f64; 3], bool)]) -> Option<Self> {
+        let (mut low, mut high) = (eye, eye);
+        for (end, _) in ends {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(end[axis]);
+                high[axis] = high[axis].max(end[axis]);
+            }
+        }
+        let span = f64::from(SPAN);
+        let outside = |axis: usize| high[axis] < 0.0 || low[axis] >= span;
+        if (0..3).any(outside) {
+            return None;
+        }
+        let edge = EDGE as i32;
+        let voxel = |at: f64| at.clamp(0.0, span - 1.0) as i32;
+        Some(Self {
+            low: low.map(|at| voxel(at) / edge * edge),
+            high: high.map(|at| (voxel(at) / edge + 1) * edge),
+        })
+    }
+
+    fn size(&self) -> [i32; 3] {
+        std::array::from_fn(|axis| self.high[axis] - self.low[axis])
+    }
+
+    /// The tile of a number along each axis.
+    fn tile(&self, number: [i32; 3]) -> Self {
+        let low = std::array::from_fn(|axis| self.low[axis] + number[axis] * TILE[axis]);
+        let high = std::array::from_fn(|axis| (low[axis] + TILE[axis]).min(self.high[axis]));
+        Self { low, high }
+    }
+}
+
+/// A point as seen from the corner of a box.
+#[inline]
+fn seen_from(low: [i32; 3], at: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|axis| at[axis] - f64::from(low[axis]))
+}
+
+impl Octree {
+    /// Takes in the beams of one frame, all from `eye_m`, as the beam model of 002 says: the last voxel of a beam is occupied, all
+    /// others up to it are free. Per frame each voxel is updated once, and occupied wins; per point by every beam.
+    /// Where a beam says that nothing was seen, its last voxel is free, too.
+    pub fn insert(
+        &mut self,
+        eye_m: [f64; 3],
+        rays: &[Ray],
+        update: Update,
+    ) -> Result<(), OctreeError> {
+        let per_m = self.per_m();
+        let eye = in_voxels(eye_m, per_m);
+        let mut ends = std::mem::take(&mut self.workspace.ends);
+        ends.clear();
+        ends.extend(
+            rays.iter()
+                .map(|ray| (in_voxels(ray.end_m, per_m), ray.hit)),
+        );
+        let usable = |at: &[f64; 3]| at.iter().all(|at| at.abs() < FARTHEST);
+        let result = if !usable(&eye) {
+            Err(OctreeError::Eye)
+        } else if let Some(index) = ends.iter().position(|(end, _)| !usable(end)) {
+            Err(OctreeError::Point { index })
+        } else {
+            match update {
+                Update::PerFrame => self.insert_frame(eye, &ends),
+                Update::PerPoint => self.insert_each(eye, &ends),
+            }
+            Ok(())
+        };
+        self.workspace.ends = ends;
+        result
+    }
+
+    /// Per point: every beam at once.
+    fn insert_each(&mut self, eye: [f64; 3], ends: &[([f64; 3], bool)]) {
+        for &(end, hit) in ends {
+            let Some(walk) = VoxelWalk::new(eye, end, [SPAN; 3]) else {
+                continue;
+            };
+            let seen = hit && walk.ends_inside;
+            let last = walk.last;
+            for voxel in walk {
+                let key = voxel.map(|at| at as u16);
+                self.update_voxel(key, seen && voxel == last);
+            }
+        }
+    }
+
+    /// Per frame: part of space by part of space.
+    fn insert_frame(&mut self, eye: [f64; 3], ends: &[([f64; 3], bool)]) {
+        let Some(bounds) = Bounds::around(eye, ends) else {
+            return;
+        };
+        let size = bounds.size();
+        if (0..3).all(|axis| size[axis] <= TILE[axis]) {
+            self.insert_tile(bounds, eye, ends.iter().copied());
+            return;
+        }
+        for (number, rays) in through_tiles(bounds, eye, ends) {
+            let rays = rays.into_iter().map(|ray| ends[ray as usize]);
+            self.insert_tile(bounds.tile(number), eye, rays);
+        }
+    }
+
+    fn insert_tile(
+        &mut self,
+        tile: Bounds,
+        eye: [f64; 3],
+        ends: impl Iterator<Item = ([f64; 3], bool)>,
+    ) {
+        let [cols, rows, layers] = tile.size().map(|voxels| voxels as usize);
+        let size = Size { cols, rows, layers };
+        let Workspace { marks, window, .. } = &mut self.workspace;
+        window.look(&self.nodes, &self.beam, tile.low, size);
+        marks.resize(size);
+        let ends = ends.map(|(end, hit)| (seen_from(tile.low, end), hit));
+        let touched = marks.mark(
+            seen_from(tile.low, eye),
+            ends,
+            Clearing::Shared,
+            window.settled(),
+        );
+        let cells = |low: i32, high: i32, count: usize| {
+            let end = (i64::from(high) + 1).clamp(0, count as i64) as usize;
+            (low.max(0) as usize).min(end) / EDGE..end.div_ceil(EDGE)
+        };
+        for row in cells(touched.min.row, touched.max.row, rows) {
+            for col in cells(touched.min.col, touched.max.col, cols) {
+                self.update_bricks(tile, [col, row]);
+            }
+        }
+    }
+
+    /// Brings the marks of the bricks above each other at a place of a tile into the tree.
+    fn update_bricks(&mut self, tile: Bounds, [col, row]: [usize; 2]) {
+        let Workspace { marks, window, .. } = &mut self.workspace;
+        let cols = tile.size()[0] as usize;
+        let mut columns = [[0_u64; 2]; EDGE * EDGE];
+        let mut touched = 0;
+        for (at, column) in columns.iter_mut().enumerate() {
+            let cell = (row * EDGE + at / EDGE) * cols + col * EDGE + at % EDGE;
+            let [hits, passed] = marks.take(cell);
+            *column = [hits, passed & !window.settled()[cell]];
+            touched |= column[0] | column[1];
+        }
+        let per_brick = EDGE as u32;
+        // One bit for each brick that is touched.
+        let any = (touched | touched >> 1 | touched >> 2 | touched >> 3) & 0x1111_1111_1111_1111;
+        for lowest in bits(any) {
+            let (mut hits, mut misses) = (0, 0);
+            for (at, [hit, passed]) in columns.iter().enumerate() {
+                hits |= (hit >> lowest & 0xf) << (at as u32 * per_brick);
+                misses |= (passed >> lowest & 0xf) << (at as u32 * per_brick);
+            }
+            let place = [col * EDGE, row * EDGE, lowest];
+            let key: Key = std::array::from_fn(|axis| (tile.low[axis] + place[axis] as i32) as u16);
+            let at = window.brick([col, row, lowest / EDGE]);
+            let at = at.unwrap_or_else(|| self.nodes.expand(key, &self.beam));
+            let brick = self.nodes.brick_mut(at);
+            brick.update(hits, misses, &self.beam);
+            if brick.known() == u64::MAX && brick.common(u64::MAX).is_some() {
+                self.nodes.prune(key);
+            }
+        }
+    }
+
+    /// Equation (1) for one voxel.
+    pub fn update_voxel(&mut self, key: Key, hit: bool) {
+        let known = self.nodes.value(key);
+        let value = known.unwrap_or(0.0);
+        let after = if hit {
+            self.beam.after_hit(value)
+        } else {
+            self.beam.after_miss(value)
+        };
+        if known == Some(after) {
+            return;
+        }
+        let at = self.nodes.expand(key, &self.beam);
+        let [x, y, z] = key.map(|at| usize::from(at) % EDGE);
+        let voxel = 1 << index(x, y, z);
+        let (hits, misses) = if hit { (voxel, 0) } else { (0, voxel) };
+        self.nodes.brick_mut(at).update(hits, misses, &self.beam);
+        self.nodes.prune(key);
+    }
+}
+
+/// Which rays pass which tiles, in a fixed order.
+fn through_tiles(
+    bounds: Bounds,
+    eye: [f64; 3],
+    ends: &[([f64; 3], bool)],
+) -> BTreeMap<[i32; 3], Vec<u32>> {
+    let size = bounds.size();
+    let count = std::array::from_fn(|axis| (size[axis] + TILE[axis] - 1) / TILE[axis]);
+    let in_tiles = |at: [f64; 3]| {
+        let at = seen_from(bounds.low, at);
+        std::array::from_fn(|axis| at[axis] / f64::from(TILE[axis]))
+    };
+    let mut tiles = BTreeMap::<_, Vec<u32>>::new();
+    for (ray, &(end, _)) in ends.iter().enumerate() {
+        for tile in VoxelWalk::new(in_tiles(eye), in_tiles(end), count)
+            .into_iter()
+            .flatten()
+        {
+            tiles.entry(tile).or_default().push(ray as u32);
+        }
+    }
+    tiles
+}

@@ -1,0 +1,152 @@
+//! The tree as it is seen from outside: nodes down to single voxels, and the leaves one after the other.
+
+use super::brick::{Brick, EDGE, cube};
+use super::key::{DEPTH, Key, SPAN, child_corner, edge};
+use super::nodes::{BRICK_DEPTH, Link, Nodes};
+
+/// A node of which something is known. Parts of bricks are nodes, too.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Node<'a> {
+    /// The same log-odds everywhere.
+    Leaf(f32),
+    Branch(&'a [Link; 8]),
+    /// A cube of voxels of a brick, not all the same.
+    Part {
+        brick: &'a Brick,
+        place: [usize; 3],
+        edge: usize,
+    },
+}
+
+impl Nodes {
+    /// The node behind a link.
+    #[inline]
+    pub(super) fn node(&self, link: Link) -> Option<Node<'_>> {
+        match link {
+            Link::Unknown => None,
+            Link::Leaf(value) => Some(Node::Leaf(value)),
+            Link::Branch(at) => Some(Node::Branch(self.branch(at))),
+            Link::Brick(at) => part(self.brick(at), [0; 3], EDGE),
+        }
+    }
+
+    /// A child of a node.
+    #[inline]
+    pub(super) fn child<'a>(&'a self, node: Node<'a>, child: usize) -> Option<Node<'a>> {
+        match node {
+            Node::Leaf(_) => None,
+            Node::Branch(children) => self.node(children[child]),
+            Node::Part { brick, place, edge } => {
+                let half = edge / 2;
+                let place = std::array::from_fn(|axis| place[axis] + (child >> axis & 1) * half);
+                part(brick, place, half)
+            }
+        }
+    }
+
+    /// Nodes, inner ones and leaves, of a pruned octree whose leaves may be single voxels.
+    pub(super) fn count(&self) -> usize {
+        self.node(self.root())
+            .map_or(0, |root| self.count_below(root))
+    }
+
+    fn count_below(&self, node: Node<'_>) -> usize {
+        let children = (0..8).filter_map(|child| self.child(node, child));
+        1 + children.map(|child| self.count_below(child)).sum::<usize>()
+    }
+}
+
+/// A cube of voxels of a brick.
+#[inline]
+fn part(brick: &Brick, place: [usize; 3], edge: usize) -> Option<Node<'_>> {
+    let voxels = cube(place, edge);
+    if brick.known() & voxels == 0 {
+        return None;
+    }
+    let whole = Node::Part { brick, place, edge };
+    Some(brick.common(voxels).map_or(whole, Node::Leaf))
+}
+
+/// The largest cube of the tree around a place in which the same is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leaf {
+    /// Its lowest voxel.
+    pub corner: Key,
+    /// Levels below the root: 16 for a single voxel.
+    pub depth: u32,
+    /// How likely it is occupied: occupied from 0 on.
+    pub log_odds: f32,
+}
+
+impl Leaf {
+    /// Voxels along a side.
+    pub const fn edge(&self) -> u32 {
+        edge(self.depth)
+    }
+
+    /// Whether it is rather occupied than not.
+    pub fn is_occupied(&self) -> bool {
+        self.log_odds >= 0.0
+    }
+}
+
+/// Iterates over the leaves that meet a box, in the order of OctoMap's files.
+#[derive(Debug)]
+pub struct Leaves<'a> {
+    nodes: &'a Nodes,
+    /// Lowest and highest voxel of the box.
+    bounds: [Key; 2],
+    /// What is still to be visited, the next one last.
+    stack: Vec<(Node<'a>, Key, u32)>,
+}
+
+impl<'a> Leaves<'a> {
+    /// All leaves that have a voxel between two.
+    pub(super) fn within(nodes: &'a Nodes, bounds: [Key; 2]) -> Self {
+        let root = nodes.node(nodes.root()).map(|root| (root, [0; 3], 0));
+        Self {
+            nodes,
+            bounds,
+            stack: root.into_iter().collect(),
+        }
+    }
+
+    fn meets(&self, corner: Key, depth: u32) -> bool {
+        let [low, high] = self.bounds;
+        (0..3).all(|axis| {
+            let first = u32::from(corner[axis]);
+            first <= u32::from(high[axis]) && first + edge(depth) > u32::from(low[axis])
+        })
+    }
+}
+
+impl Iterator for Leaves<'_> {
+    type Item = Leaf;
+
+    fn next(&mut self) -> Option<Leaf> {
+        while let Some((node, corner, depth)) = self.stack.pop() {
+            if !self.meets(corner, depth) {
+                continue;
+            }
+            if let Node::Leaf(log_odds) = node {
+                return Some(Leaf {
+                    corner,
+                    depth,
+                    log_odds,
+                });
+            }
+            for child in (0..8).rev() {
+                if let Some(below) = self.nodes.child(node, child) {
+                    let corner = child_corner(corner, depth, child);
+                    self.stack.push((below, corner, depth + 1));
+                }
+            }
+        }
+        None
+    }
+}
+
+/// The box of all that a tree can hold.
+pub(super) const EVERYWHERE: [Key; 2] = [[0; 3], [(SPAN - 1) as u16; 3]];
+
+const _: () = assert!(EDGE == 1 << (DEPTH - BRICK_DEPTH));

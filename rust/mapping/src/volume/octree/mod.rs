@@ -1,0 +1,117 @@
+//! An octree of occupancy after OctoMap (Hornung et al. 2013), as 002 uses it: log-odds that are clamped, the unknown is absent,
+//! equal children are one leaf. Its lowest two levels are bricks of 64 voxels, which a frame is brought into as a whole.
+
+mod brick;
+mod cast;
+mod config;
+mod error;
+mod header;
+mod insertion;
+mod key;
+mod leaves;
+mod nodes;
+mod reading;
+mod window;
+mod writing;
+
+use geometry::ConfigError;
+
+pub use cast::{Cast, Sighting};
+pub use config::{OctreeConfig, probability};
+pub use error::OctreeError;
+pub use header::Format;
+pub use key::Key;
+pub use leaves::{Leaf, Leaves};
+
+use config::Beam;
+use insertion::Workspace;
+use leaves::EVERYWHERE;
+use nodes::Nodes;
+
+/// What is known of the space around the origin of the map frame: 2^16 voxels along each axis.
+#[derive(Debug, Clone)]
+pub struct Octree {
+    config: OctreeConfig,
+    beam: Beam,
+    nodes: Nodes,
+    workspace: Workspace,
+}
+
+/// Equal where they know the same, however they came to it.
+impl PartialEq for Octree {
+    fn eq(&self, other: &Self) -> bool {
+        self.config == other.config && self.leaves().eq(other.leaves())
+    }
+}
+
+impl Octree {
+    /// Of which nothing is known.
+    pub fn new(config: OctreeConfig) -> Result<Self, ConfigError> {
+        config.check()?;
+        Ok(Self {
+            beam: Beam::new(&config),
+            config,
+            nodes: Nodes::default(),
+            workspace: Workspace::default(),
+        })
+    }
+
+    /// The parameters.
+    pub const fn config(&self) -> &OctreeConfig {
+        &self.config
+    }
+
+    /// The voxel that holds a point of the map frame; none beyond what a tree can hold.
+    pub fn key_at(&self, point_m: [f64; 3]) -> Option<Key> {
+        key::key_at(key::in_voxels(point_m, self.per_m()))
+    }
+
+    /// What is known of a voxel; equation (1) as log-odds, occupied from 0 on.
+    pub fn log_odds(&self, key: Key) -> Option<f32> {
+        self.nodes.value(key)
+    }
+
+    /// What is known of a point of the map frame.
+    pub fn log_odds_at(&self, point_m: [f64; 3]) -> Option<f32> {
+        self.log_odds(self.key_at(point_m)?)
+    }
+
+    /// Whether a point of the map frame is rather occupied than not, where anything is known of it.
+    pub fn is_occupied_at(&self, point_m: [f64; 3]) -> Option<bool> {
+        self.log_odds_at(point_m).map(|value| value >= 0.0)
+    }
+
+    /// All leaves.
+    pub fn leaves(&self) -> Leaves<'_> {
+        Leaves::within(&self.nodes, EVERYWHERE)
+    }
+
+    /// The leaves that have a voxel from one to another, both included.
+    pub fn leaves_within(&self, low: Key, high: Key) -> Leaves<'_> {
+        Leaves::within(&self.nodes, [low, high])
+    }
+
+    /// The centre of a leaf in the map frame, m.
+    pub fn centre_m(&self, leaf: &Leaf) -> [f64; 3] {
+        key::centre_m(leaf.corner, leaf.edge(), self.config.resolution)
+    }
+
+    /// Nodes, inner ones and leaves, as OctoMap counts them in a pruned tree.
+    pub fn node_count(&self) -> usize {
+        self.nodes.count()
+    }
+
+    /// Bytes that the tree takes, without what is kept for insertion.
+    pub fn bytes(&self) -> usize {
+        self.nodes.bytes()
+    }
+
+    /// Voxels a metre.
+    fn per_m(&self) -> f64 {
+        1.0 / self.config.resolution
+    }
+
+    const fn nodes(&self) -> &Nodes {
+        &self.nodes
+    }
+}

@@ -1,0 +1,209 @@
+//! The tree itself: what is uniform is one leaf, what is not known is absent, and the lowest levels are bricks.
+
+use super::brick::{Brick, EDGE, cube, index};
+use super::config::Beam;
+use super::key::{Key, child_of};
+
+/// Depth of the nodes that are bricks.
+pub(super) const BRICK_DEPTH: u32 = 14;
+
+/// What is below a node.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) enum Link {
+    /// Nothing is known.
+    #[default]
+    Unknown,
+    /// The same log-odds everywhere.
+    Leaf(f32),
+    /// Eight children.
+    Branch(u32),
+    /// Voxels.
+    Brick(u32),
+}
+
+/// Where a link is stored: a child of a branch, or the root.
+#[derive(Debug, Clone, Copy)]
+struct Slot {
+    branch: Option<u32>,
+    child: usize,
+}
+
+/// Always pruned: no branch has eight equal leaves, no brick is uniform or unknown.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Nodes {
+    root: Link,
+    branches: Vec<[Link; 8]>,
+    bricks: Vec<Brick>,
+    free_branches: Vec<u32>,
+    free_bricks: Vec<u32>,
+}
+
+impl Nodes {
+    pub(super) const fn root(&self) -> Link {
+        self.root
+    }
+
+    #[inline]
+    pub(super) fn branch(&self, at: u32) -> &[Link; 8] {
+        &self.branches[at as usize]
+    }
+
+    #[inline]
+    pub(super) fn brick(&self, at: u32) -> &Brick {
+        &self.bricks[at as usize]
+    }
+
+    #[inline]
+    pub(super) fn brick_mut(&mut self, at: u32) -> &mut Brick {
+        &mut self.bricks[at as usize]
+    }
+
+    /// What is known of a voxel.
+    pub(super) fn value(&self, key: Key) -> Option<f32> {
+        let mut link = self.root;
+        for depth in 0..=BRICK_DEPTH {
+            match link {
+                Link::Unknown => return None,
+                Link::Leaf(value) => return Some(value),
+                Link::Branch(at) => link = self.branch(at)[child_of(key, depth)],
+                Link::Brick(at) => return self.brick(at).value(voxel_in_brick(key)),
+            }
+        }
+        None
+    }
+
+    /// Bytes that the tree takes.
+    pub(super) fn bytes(&self) -> usize {
+        let branches = self.branches.len() - self.free_branches.len();
+        let bricks = self.bricks.len() - self.free_bricks.len();
+        branches * size_of::<[Link; 8]>() + bricks * size_of::<Brick>()
+    }
+
+    /// The brick of a voxel, made of what is known there. It has to be [`Self::prune`]d when its voxels have been changed.
+    pub(super) fn expand(&mut self, key: Key, beam: &Beam) -> u32 {
+        let slot = self.descend(key, BRICK_DEPTH);
+        let known = match self.link(slot) {
+            Link::Brick(at) => return at,
+            Link::Leaf(value) => Some(value),
+            Link::Unknown | Link::Branch(_) => None,
+        };
+        let mut brick = Brick::unknown();
+        if let Some(value) = known {
+            brick.fill(u64::MAX, value, beam);
+        }
+        let at = store(&mut self.bricks, &mut self.free_bricks, brick);
+        self.set(slot, Link::Brick(at));
+        at
+    }
+
+    /// Gives all voxels of a node the same value; the node holds no branch or brick yet, or is a part of a brick.
+    pub(super) fn set_leaf(&mut self, corner: Key, depth: u32, value: f32, beam: &Beam) {
+        if depth <= BRICK_DEPTH {
+            let slot = self.descend(corner, depth);
+            self.set(slot, Link::Leaf(value));
+        } else {
+            let at = self.expand(corner, beam);
+            let place = corner.map(|at| usize::from(at) % EDGE);
+            let edge = EDGE >> (depth - BRICK_DEPTH);
+            self.brick_mut(at).fill(cube(place, edge), value, beam);
+        }
+    }
+
+    /// Makes one leaf of every node above a brick, and of the brick, that has become uniform.
+    pub(super) fn prune(&mut self, key: Key) {
+        let mut path = [Slot {
+            branch: None,
+            child: 0,
+        }; BRICK_DEPTH as usize + 1];
+        let mut depth = 0;
+        while let Link::Branch(branch) = self.link(path[depth]) {
+            let child = child_of(key, depth as u32);
+            depth += 1;
+            path[depth] = Slot {
+                branch: Some(branch),
+                child,
+            };
+        }
+        for slot in path[..=depth].iter().rev() {
+            let Some(value) = self.uniform(self.link(*slot)) else {
+                return;
+            };
+            match self.link(*slot) {
+                Link::Brick(at) => self.free_bricks.push(at),
+                Link::Branch(at) => self.free_branches.push(at),
+                Link::Leaf(_) | Link::Unknown => {}
+            }
+            self.set(*slot, Link::Leaf(value));
+        }
+    }
+
+    /// The value of all voxels below a link whose children are pruned, if it is the same.
+    fn uniform(&self, link: Link) -> Option<f32> {
+        match link {
+            Link::Unknown => None,
+            Link::Leaf(value) => Some(value),
+            Link::Brick(at) => self.brick(at).common(u64::MAX),
+            Link::Branch(at) => {
+                let children = self.branch(at);
+                let Link::Leaf(first) = children[0] else {
+                    return None;
+                };
+                let same = |link: &Link| matches!(link, Link::Leaf(value) if value.to_bits() == first.to_bits());
+                children.iter().all(same).then_some(first)
+            }
+        }
+    }
+
+    /// Where the node of a depth above a voxel is stored. Leaves on the way get children of the same value.
+    fn descend(&mut self, key: Key, depth: u32) -> Slot {
+        let mut slot = Slot {
+            branch: None,
+            child: 0,
+        };
+        for level in 0..depth {
+            let branch = match self.link(slot) {
+                Link::Branch(branch) => branch,
+                other => {
+                    let branch = store(&mut self.branches, &mut self.free_branches, [other; 8]);
+                    self.set(slot, Link::Branch(branch));
+                    branch
+                }
+            };
+            slot = Slot {
+                branch: Some(branch),
+                child: child_of(key, level),
+            };
+        }
+        slot
+    }
+
+    #[inline]
+    fn link(&self, slot: Slot) -> Link {
+        slot.branch
+            .map_or(self.root, |at| self.branch(at)[slot.child])
+    }
+
+    fn set(&mut self, slot: Slot, link: Link) {
+        match slot.branch {
+            Some(at) => self.branches[at as usize][slot.child] = link,
+            None => self.root = link,
+        }
+    }
+}
+
+/// Which voxel of its brick a voxel is.
+#[inline]
+pub(super) fn voxel_in_brick(key: Key) -> usize {
+    let [x, y, z] = key.map(|at| usize::from(at) % EDGE);
+    index(x, y, z)
+}
+
+/// Stores something where something was given back, or behind all.
+fn store<T>(all: &mut Vec<T>, free: &mut Vec<u32>, item: T) -> u32 {
+    if let Some(at) = free.pop() {
+        all[at as usize] = item;
+        return at;
+    }
+    all.push(item);
+    all.len() as u32 - 1
+}
