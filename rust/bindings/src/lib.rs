@@ -4,6 +4,7 @@ mod clearance;
 mod components;
 mod error;
 mod observation;
+mod octree;
 mod pilot;
 mod pose;
 mod products;
@@ -21,6 +22,8 @@ mod _core {
 
     #[pymodule_export]
     use super::clearance::swept_clearance;
+    #[pymodule_export]
+    use super::octree::PyOctree;
     #[pymodule_export]
     use super::pilot::{PyPilot, PyTick};
     #[pymodule_export]

@@ -201,7 +201,7 @@ impl PyOccupancyGrid {
 }
 
 /// The rays to the points that are numbers, each with the number of its point.
-fn rays(
+pub(crate) fn rays(
     eye_m: [f64; 3],
     points_m: &[[f64; 3]],
     max_range_m: f64,
@@ -238,7 +238,9 @@ fn ray(eye_m: [f64; 3], end_m: [f64; 3], max_range_m: f64) -> Ray {
 }
 
 /// The values of an array as they lie in memory, which has to be row by row.
-fn by_row<'a, D: Dimension>(array: &'a PyReadonlyArray<'_, f64, D>) -> PyResult<&'a [f64]> {
+pub(crate) fn by_row<'a, D: Dimension>(
+    array: &'a PyReadonlyArray<'_, f64, D>,
+) -> PyResult<&'a [f64]> {
     array
         .as_slice()
         .ok()

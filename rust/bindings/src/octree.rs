@@ -1,0 +1,204 @@
+//! The octree alone: maps from points, from OctoMap's files and into them, and the rays in them.
+
+use std::path::Path;
+use std::time::Instant;
+
+use mapping::Update;
+use mapping::volume::octree::{Cast, Leaf, Octree, OctreeConfig, Sighting};
+use numpy::{
+    IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods,
+};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::error::{bad_setting, failed, unpanicked};
+use crate::world_model::{by_row, rays};
+
+/// Rows of three metres each, and one number a row.
+type Rows<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>);
+
+/// Occupancy of the space around the origin, as OctoMap keeps it.
+#[pyclass(name = "Octree", module = "treadwell._core")]
+pub(crate) struct PyOctree {
+    tree: Octree,
+    /// Time that the core itself took for the last frame, s.
+    #[pyo3(get)]
+    seconds: f64,
+}
+
+#[pymethods]
+impl PyOctree {
+    /// A tree of which nothing is known, with voxels of `resolution`, m. `settings` is JSON: `p_hit`, `p_miss`, `p_min`, `p_max`.
+    #[new]
+    #[pyo3(signature = (resolution=0.04, *, settings="{}"))]
+    fn new(py: Python<'_>, resolution: f64, settings: &str) -> PyResult<Self> {
+        let config: OctreeConfig =
+            serde_json::from_str(settings).map_err(|error| bad_setting(py, &error))?;
+        let config = OctreeConfig {
+            resolution,
+            ..config
+        };
+        let tree = Octree::new(config).map_err(|error| bad_setting(py, &error))?;
+        Ok(Self { tree, seconds: 0.0 })
+    }
+
+    /// Reads a file of OctoMap's, `.bt` or `.ot`.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: &str) -> PyResult<Self> {
+        let tree = py
+            .detach(|| unpanicked(|| Octree::read(Path::new(path))))
+            .map_err(|error| failed(py, &error))?
+            .map_err(|error| bad_setting(py, &error))?;
+        Ok(Self { tree, seconds: 0.0 })
+    }
+
+    /// Writes a file that OctoMap reads, of the format that its name ends in: `.bt` or `.ot`.
+    fn write(&self, py: Python<'_>, path: &str) -> PyResult<()> {
+        let tree = &self.tree;
+        py.detach(|| unpanicked(|| tree.write(Path::new(path))))
+            .map_err(|error| failed(py, &error))?
+            .map_err(|error| bad_setting(py, &error))
+    }
+
+    /// Takes in a frame's points, (n, 3) m, all seen from `eye`; what is further than `max_range` clears the way up to it. Points
+    /// that are no numbers are left out. A voxel changes once a frame, and a hit wins, or by `each_point`.
+    #[pyo3(signature = (points, eye, *, max_range=f64::INFINITY, each_point=false))]
+    fn insert(
+        &mut self,
+        py: Python<'_>,
+        points: &Bound<'_, PyArray2<f64>>,
+        eye: [f64; 3],
+        max_range: f64,
+        each_point: bool,
+    ) -> PyResult<()> {
+        let points = points.readonly();
+        let points = triples("points", &points)?;
+        if max_range <= 0.0 || max_range.is_nan() {
+            return Err(PyValueError::new_err("max_range must be > 0"));
+        }
+        let update = if each_point {
+            Update::PerPoint
+        } else {
+            Update::PerFrame
+        };
+        let tree = &mut self.tree;
+        let started = Instant::now();
+        py.detach(|| {
+            unpanicked(|| {
+                let rays: Vec<_> = rays(eye, points, max_range).map(|(_, ray)| ray).collect();
+                tree.insert(eye, &rays, update)
+            })
+        })
+        .map_err(|error| failed(py, &error))?
+        .map_err(|error| bad_setting(py, &error))?;
+        self.seconds = started.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// The occupied leaves: (n, 3) m, their centres, and (n,) m, their sides.
+    fn occupied<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
+        self.cubes(py, Leaf::is_occupied)
+    }
+
+    /// The free leaves, likewise.
+    fn free<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
+        self.cubes(py, |leaf| !leaf.is_occupied())
+    }
+
+    /// (n,) float32: log-odds of points, (n, 3) m; NaN where nothing is known.
+    fn log_odds<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'_, PyArray2<f64>>,
+    ) -> PyResult<Bound<'py, PyArray1<f32>>> {
+        let points = points.readonly();
+        let points = triples("points", &points)?;
+        let at = |point: &[f64; 3]| self.tree.log_odds_at(*point).unwrap_or(f32::NAN);
+        Ok(points.iter().map(at).collect::<Vec<_>>().into_pyarray(py))
+    }
+
+    /// For rays from (n, 3) m in directions (n, 3): the centres (n, 3) m of the first occupied voxels, and how far they are from
+    /// where the rays begin, (n,) m; NaN where a ray meets none within `max_range`, or first, unless `through_unknown`, what is
+    /// unknown.
+    #[pyo3(signature = (origins, directions, max_range=f64::INFINITY, *, through_unknown=true))]
+    fn cast_rays<'py>(
+        &self,
+        py: Python<'py>,
+        origins: &Bound<'_, PyArray2<f64>>,
+        directions: &Bound<'_, PyArray2<f64>>,
+        max_range: f64,
+        through_unknown: bool,
+    ) -> PyResult<Rows<'py>> {
+        let (origins, directions) = (origins.readonly(), directions.readonly());
+        let origins = triples("origins", &origins)?;
+        let directions = triples("directions", &directions)?;
+        if origins.len() != directions.len() || max_range <= 0.0 || max_range.is_nan() {
+            return Err(PyValueError::new_err(
+                "origins and directions must be as many, max_range > 0",
+            ));
+        }
+        let (tree, max_range_m) = (&self.tree, max_range);
+        let sighting = Sighting {
+            max_range_m,
+            through_unknown,
+        };
+        let cast = |(origin, direction): (&[f64; 3], &[f64; 3])| match tree
+            .cast_ray(*origin, *direction, sighting)
+        {
+            Cast::Occupied(end) => (end, distance(end, *origin)),
+            Cast::Unknown(_) | Cast::Nothing => ([f64::NAN; 3], f64::NAN),
+        };
+        let found = py.detach(|| unpanicked(|| origins.iter().zip(directions).map(cast).unzip()));
+        rows(py, found.map_err(|error| failed(py, &error))?)
+    }
+
+    /// Side of the smallest voxels, m.
+    #[getter]
+    fn resolution(&self) -> f64 {
+        self.tree.config().resolution
+    }
+
+    /// Inner nodes and leaves.
+    #[getter]
+    fn nodes(&self) -> usize {
+        self.tree.node_count()
+    }
+
+    /// What the tree takes.
+    #[getter]
+    fn size_bytes(&self) -> usize {
+        self.tree.bytes()
+    }
+}
+
+impl PyOctree {
+    fn cubes<'py>(&self, py: Python<'py>, wanted: impl Fn(&Leaf) -> bool) -> PyResult<Rows<'py>> {
+        let resolution = self.tree.config().resolution;
+        let cube = |leaf: Leaf| {
+            let side = f64::from(leaf.edge()) * resolution;
+            (self.tree.centre_m(&leaf), side)
+        };
+        rows(py, self.tree.leaves().filter(wanted).map(cube).unzip())
+    }
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let squared = |axis: usize| (a[axis] - b[axis]) * (a[axis] - b[axis]);
+    (squared(0) + squared(1) + squared(2)).sqrt()
+}
+
+fn rows(py: Python<'_>, (points, numbers): (Vec<[f64; 3]>, Vec<f64>)) -> PyResult<Rows<'_>> {
+    let count = points.len();
+    let points = points.into_flattened().into_pyarray(py);
+    Ok((points.reshape([count, 3])?, numbers.into_pyarray(py)))
+}
+
+/// The rows of an (n, 3) array.
+fn triples<'a>(name: &str, array: &'a PyReadonlyArray2<'_, f64>) -> PyResult<&'a [[f64; 3]]> {
+    if array.as_array().ncols() != 3 || !array.is_c_contiguous() {
+        return Err(PyValueError::new_err(format!(
+            "{name} must be (n, 3) and lie row by row in memory"
+        )));
+    }
+    Ok(by_row(array)?.as_chunks::<3>().0)
+}
