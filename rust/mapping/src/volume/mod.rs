@@ -11,6 +11,7 @@ mod probability;
 mod projected;
 mod ray;
 mod reaches;
+mod solid;
 mod strip;
 mod voxels;
 
@@ -19,3 +20,4 @@ pub use occupancy::{OccupancyGrid, Placement, Ray, Size};
 pub use picture::Picture;
 pub use probability::{ProbabilityTable, bayes};
 pub use ray::VoxelWalk;
+pub use solid::{DistanceField, RangeField, SolidError, SolidVoxels};

@@ -1,0 +1,9 @@
+//! A map that does not change, as dense grids: which voxels are solid, how far a ray gets, how near the next surface is.
+
+mod distance_field;
+mod range_field;
+mod voxels;
+
+pub use distance_field::DistanceField;
+pub use range_field::RangeField;
+pub use voxels::{SolidError, SolidVoxels};

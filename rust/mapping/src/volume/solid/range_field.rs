@@ -1,0 +1,275 @@
+//! How far a ray gets through a map that does not change.
+
+use std::cmp::Ordering;
+
+use super::SolidVoxels;
+
+/// Free space beyond which a skip is not longer, voxels.
+const FURTHEST: u8 = u8::MAX;
+
+/// For each voxel and each of the eight octants of directions, how large the cube of free voxels is that begins with this one and
+/// extends to where the octant points; 0 where the voxel is solid.
+///
+/// A ray cannot leave such a cube but through its far faces, so that it is followed from cube to cube instead of from voxel to
+/// voxel, and ends at the face at which a traversal of all voxels would end.
+#[derive(Debug, Clone)]
+pub struct RangeField {
+    resolution_m: f64,
+    per_m: f64,
+    /// The grid's lowest corner, m.
+    corner_m: [f64; 3],
+    size: [i32; 3],
+    /// Steps in storage to the next voxel along each axis.
+    strides: [i32; 3],
+    /// One field after the other; bit `a` of its number is set where the direction is negative along axis `a`.
+    octants: [Vec<u8>; 8],
+}
+
+impl RangeField {
+    /// The field of these voxels.
+    pub fn new(voxels: &SolidVoxels) -> Self {
+        let size = voxels.size.map(|count| count as i32);
+        Self {
+            resolution_m: voxels.resolution_m,
+            per_m: 1.0 / voxels.resolution_m,
+            corner_m: voxels.corner_m([0; 3]),
+            size,
+            strides: [1, size[0], size[0] * size[1]],
+            octants: std::array::from_fn(|octant| free_cubes(voxels, octant)),
+        }
+    }
+
+    /// Side of a voxel, m.
+    pub fn resolution_m(&self) -> f64 {
+        self.resolution_m
+    }
+
+    /// Distance from `origin_m` along the unit vector `direction` to where the ray enters a solid voxel, m; none where it meets
+    /// none within `max_range_m`. 0 for an origin in a solid voxel. Allocates nothing.
+    #[inline]
+    pub fn cast(&self, origin_m: [f64; 3], direction: [f64; 3], max_range_m: f64) -> Option<f64> {
+        // Axes along which the ray goes down are mirrored, so that it goes up along all of them.
+        let (mut from, mut along, mut per_along) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+        let (mut strides, mut base, mut octant) = (self.strides, 0, 0);
+        let (mut enter, mut leave) = (0.0_f64, max_range_m * self.per_m);
+        for a in 0..3 {
+            from[a] = (origin_m[a] - self.corner_m[a]) * self.per_m;
+            along[a] = direction[a];
+            if direction[a] < 0.0 {
+                from[a] = f64::from(self.size[a]) - from[a];
+                along[a] = -along[a];
+                base += (self.size[a] - 1) * strides[a];
+                strides[a] = -strides[a];
+                octant |= 1 << a;
+            }
+            per_along[a] = 1.0 / along[a];
+            let to_end = f64::from(self.size[a]) - from[a];
+            if along[a] > 0.0 {
+                enter = enter.max(-from[a] * per_along[a]);
+                leave = leave.min(to_end * per_along[a]);
+            } else if from[a] < 0.0 || to_end <= 0.0 {
+                return None;
+            }
+        }
+        if enter >= leave {
+            return None;
+        }
+        let cubes = &self.octants[octant];
+        let last = self.size.map(|count| count - 1);
+        let mut voxel: [i32; 3] =
+            std::array::from_fn(|a| ((from[a] + along[a] * enter) as i32).min(last[a]));
+        let mut at = enter;
+        loop {
+            let index =
+                base + voxel[0] * strides[0] + voxel[1] * strides[1] + voxel[2] * strides[2];
+            let free = i32::from(cubes[index as usize]);
+            if free == 0 {
+                return Some(at * self.resolution_m);
+            }
+            let faces = voxel.map(|v| v + free);
+            let exits: [f64; 3] = std::array::from_fn(|a| {
+                if along[a] > 0.0 {
+                    (f64::from(faces[a]) - from[a]) * per_along[a]
+                } else {
+                    f64::INFINITY
+                }
+            });
+            at = exits[0].min(exits[1]).min(exits[2]);
+            // No number for a time, from an origin that is none, ends it too.
+            if at.partial_cmp(&leave) != Some(Ordering::Less) {
+                return None;
+            }
+            // Rounding may take no axis back, nor any but those that leave out of the cube.
+            voxel = std::array::from_fn(|a| {
+                if exits[a] <= at {
+                    faces[a]
+                } else {
+                    ((from[a] + along[a] * at) as i32)
+                        .min(last[a].min(faces[a] - 1))
+                        .max(voxel[a])
+                }
+            });
+        }
+    }
+}
+
+/// Side of the largest free cube from each voxel towards an octant: one more than the least of its seven neighbours there.
+fn free_cubes(voxels: &SolidVoxels, octant: usize) -> Vec<u8> {
+    let size = voxels.size;
+    let mut cubes = vec![0; voxels.solid.len()];
+    let mirrored = |axis: usize, at: usize| {
+        if octant >> axis & 1 == 0 {
+            size[axis] - 1 - at
+        } else {
+            at
+        }
+    };
+    // From the far end: `at` counts away from it, so that neighbours towards the octant come first.
+    for z in 0..size[2] {
+        for y in 0..size[1] {
+            for x in 0..size[0] {
+                let at = [x, y, z];
+                let here = voxels.index(std::array::from_fn(|a| mirrored(a, at[a])));
+                if voxels.solid[here] {
+                    continue;
+                }
+                let least = (1..8_usize)
+                    .filter_map(|step| {
+                        let back = |a: usize| at[a].checked_sub(step >> a & 1);
+                        let near = [back(0)?, back(1)?, back(2)?];
+                        let near = std::array::from_fn(|a| mirrored(a, near[a]));
+                        Some(cubes[voxels.index(near)])
+                    })
+                    .min();
+                // Outside all is free.
+                cubes[here] = least.map_or(FURTHEST, |least: u8| least.saturating_add(1));
+            }
+        }
+    }
+    cubes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::volume::VoxelWalk;
+    use proptest::prelude::*;
+
+    const SIDE_M: f64 = 0.1;
+
+    /// What a traversal of every voxel finds, m: where the segment enters the first solid one.
+    fn traversed(voxels: &SolidVoxels, from: [f64; 3], along: [f64; 3], max: f64) -> Option<f64> {
+        let corner = voxels.corner_m([0; 3]);
+        let from: [f64; 3] = std::array::from_fn(|a| (from[a] - corner[a]) / SIDE_M);
+        let to = std::array::from_fn(|a| from[a] + along[a] * max / SIDE_M);
+        let size = voxels.size().map(|v| v as i32);
+        let solid =
+            VoxelWalk::new(from, to, size)?.find(|voxel| voxels.is_solid(voxel.map(i64::from)))?;
+        let enter = (0..3).filter(|&a| along[a] != 0.0).map(|a| {
+            let near = f64::from(solid[a] + i32::from(along[a] < 0.0));
+            (near - from[a]) / along[a]
+        });
+        Some(enter.fold(0.0, f64::max) * SIDE_M)
+    }
+
+    fn direction() -> impl Strategy<Value = [f64; 3]> {
+        // Many of them along an axis or in a plane of the grid, where ties are.
+        prop::array::uniform3(prop_oneof![3 => -1.0..1.0f64, 1 => Just(0.0)])
+            .prop_filter("no direction", |d| d.iter().any(|v| v.abs() > 1e-3))
+            .prop_map(|d| {
+                let norm = d.iter().map(|v| v * v).sum::<f64>().sqrt();
+                d.map(|v| v / norm)
+            })
+    }
+
+    fn boxes() -> impl Strategy<Value = Vec<[[f64; 3]; 2]>> {
+        let place = prop::array::uniform3(-1.5..1.5f64);
+        prop::collection::vec((place, prop::array::uniform3(0.1..0.9f64)), 1..8).prop_map(|list| {
+            (list.iter())
+                .map(|(low, side)| [*low, std::array::from_fn(|a| low[a] + side[a])])
+                .collect()
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
+        #[test]
+        fn a_cast_ends_where_a_traversal_of_all_voxels_ends(
+            boxes in boxes(),
+            rays in prop::collection::vec((prop::array::uniform3(-2.5..2.5f64), direction(), 0.1..6.0f64), 20),
+        ) {
+            let voxels = SolidVoxels::of_boxes(&boxes, SIDE_M).unwrap();
+            let field = RangeField::new(&voxels);
+            for (from, along, max) in rays {
+                let (found, expected) = (field.cast(from, along, max), traversed(&voxels, from, along, max));
+                match (found, expected) {
+                    (Some(found), Some(expected)) => prop_assert!((found - expected).abs() < 1e-9, "{found} {expected}"),
+                    // Where the ray ends on the face itself.
+                    (None, Some(at)) | (Some(at), None) => prop_assert!((at - max).abs() < 1e-9, "{found:?} {expected:?}"),
+                    (None, None) => {}
+                }
+            }
+        }
+
+        #[test]
+        fn a_wall_is_met_within_half_a_voxel_of_where_it_stands(
+            half in prop::array::uniform3(0.5..2.0f64),
+            from in prop::array::uniform3(-0.4..0.4f64),
+            along in direction(),
+        ) {
+            let voxels = SolidVoxels::of_boxes(&room(half), SIDE_M).unwrap();
+            let field = RangeField::new(&voxels);
+            let to_wall = |a: usize| if along[a] == 0.0 { f64::INFINITY } else { (half[a] * along[a].signum() - from[a]) / along[a] };
+            let expected = to_wall(0).min(to_wall(1)).min(to_wall(2));
+            let found = field.cast(from, along, 9.0).unwrap();
+            // The end point lies at most half a voxel off the wall, however flat the ray meets it;
+            let end: [f64; 3] = std::array::from_fn(|a| from[a] + along[a] * found);
+            let off = (0..3).map(|a| (half[a] - end[a].abs()).abs()).fold(f64::INFINITY, f64::min);
+            prop_assert!(off <= 0.5 * SIDE_M + 1e-9, "{off}");
+            // so the range is within half a voxel's diagonal where it meets all walls at less than 54.7 degrees.
+            if along.iter().all(|v| v.abs() > 0.578) || along.iter().filter(|v| **v == 0.0).count() == 2 {
+                prop_assert!((found - expected).abs() <= 0.5 * SIDE_M * 3.0_f64.sqrt() + 1e-9, "{found} {expected}");
+            }
+        }
+
+        #[test]
+        fn walls_on_faces_of_voxels_are_met_exactly(
+            half in prop::array::uniform3(5..20i32),
+            from in prop::array::uniform3(-0.4..0.4f64),
+            along in direction(),
+        ) {
+            let half = half.map(|v| f64::from(v) * SIDE_M);
+            let field = RangeField::new(&SolidVoxels::of_boxes(&room(half), SIDE_M).unwrap());
+            let to_wall = |a: usize| if along[a] == 0.0 { f64::INFINITY } else { (half[a] * along[a].signum() - from[a]) / along[a] };
+            let expected = to_wall(0).min(to_wall(1)).min(to_wall(2));
+            prop_assert!((field.cast(from, along, 9.0).unwrap() - expected).abs() < 1e-9);
+        }
+    }
+
+    /// Six walls about a room that extends by `half` to both sides, m.
+    fn room(half: [f64; 3]) -> Vec<[[f64; 3]; 2]> {
+        let outer = half.map(|v| v + 0.3);
+        let wall = |a: usize, sign: f64| {
+            let (mut low, mut high) = (outer.map(|v| -v), outer);
+            if sign > 0.0 {
+                low[a] = half[a];
+            } else {
+                high[a] = -half[a];
+            }
+            [low, high]
+        };
+        (0..3).flat_map(|a| [wall(a, 1.0), wall(a, -1.0)]).collect()
+    }
+
+    #[test]
+    fn a_ray_with_a_number_that_is_none_ends() {
+        let field = RangeField::new(&SolidVoxels::of_boxes(&room([1.0; 3]), SIDE_M).unwrap());
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let _ = field.cast([0.0, 0.0, 0.0], [bad, 0.0, 1.0], 5.0);
+            let _ = field.cast([bad, 0.0, 0.0], [0.6, 0.0, 0.8], 5.0);
+            let _ = field.cast([bad; 3], [0.6, 0.0, 0.8], 5.0);
+        }
+        assert_eq!(field.cast([1.1, 0.0, 0.0], [1.0, 0.0, 0.0], 5.0), Some(0.0));
+    }
+}
