@@ -9,6 +9,7 @@ mod leg_odometry;
 mod levelling;
 mod localizer;
 mod matching;
+mod monte_carlo;
 mod odometry_localizer;
 mod play;
 mod proprioception;
@@ -20,5 +21,8 @@ pub use config::ProprioceptionConfig;
 pub use history::BodyStateHistory;
 pub use localizer::{Estimate, Localizer, LocalizerError};
 pub use matching::{MatchingConfig, MatchingLocalizer};
+pub use monte_carlo::{
+    Belief, MonteCarloConfig, MonteCarloLocalizer, RangeModel, StaticMap, TorsoPose,
+};
 pub use odometry_localizer::{OdometryLocalizer, OdometryLocalizerConfig};
 pub use proprioception::Proprioception;

@@ -1,0 +1,197 @@
+//! The particle filter: move, weigh, draw anew.
+
+use nalgebra::Isometry3;
+use rayon::prelude::*;
+
+use super::MonteCarloConfig;
+use super::belief::Belief;
+use super::motion::{Motion, Reading};
+use super::observation::{LogLikelihood, Observation};
+use super::particle::{Bins, Particle, TorsoPose};
+use super::random::{Purpose, Stream};
+use super::recovery::Recovery;
+use super::resampling::resample;
+use super::static_map::StaticMap;
+use super::weights::{effective_number, weigh};
+
+/// Particles that a thread takes at least: the cost of a few hundred rays.
+const PER_THREAD: usize = 32;
+/// The robot is searching while its best cluster holds less than this share.
+const SURE: f64 = 0.9;
+
+/// Guesses, and the room to work on them.
+#[derive(Debug, Clone)]
+pub(super) struct Filter {
+    config: MonteCarloConfig,
+    pub(super) particles: Vec<Particle>,
+    drawn: Vec<Particle>,
+    likelihoods: Vec<LogLikelihood>,
+    logs: Vec<f64>,
+    bins: Bins,
+    recovery: Recovery,
+    /// Share of the most particles that are to be drawn anywhere.
+    adrift: f64,
+    searching: bool,
+}
+
+impl Filter {
+    pub(super) fn new(config: &MonteCarloConfig) -> Self {
+        let most = config.most_particles;
+        Self {
+            config: config.clone(),
+            particles: Vec::with_capacity(most),
+            drawn: Vec::with_capacity(most),
+            likelihoods: Vec::with_capacity(most),
+            logs: Vec::with_capacity(most),
+            bins: Bins::default(),
+            recovery: Recovery::default(),
+            adrift: 0.0,
+            searching: false,
+        }
+    }
+
+    /// Guesses about a torso's pose that is told.
+    pub(super) fn start_at(&mut self, map_from_torso: &Isometry3<f64>) {
+        let config = &self.config;
+        let start = TorsoPose::of(map_from_torso);
+        let [place_m, heading_rad] = config.start_noise;
+        let count = config.particles;
+        self.particles.clear();
+        self.particles.extend((0..count).map(|index| {
+            let normals = Stream::new(config.seed, 0, Purpose::Start, index).normals::<3>();
+            let mut pose = start;
+            pose.place_m[0] += place_m * normals[0];
+            pose.place_m[1] += place_m * normals[1];
+            pose.yaw_rad = geometry::wrap_angle(pose.yaw_rad + heading_rad * normals[2]);
+            let weight = 1.0 / count as f64;
+            Particle { pose, weight }
+        }));
+        self.searching = false;
+    }
+
+    /// Guesses everywhere.
+    pub(super) fn start_anywhere(&mut self, map: &StaticMap, reading: &Reading) {
+        let count = self.config.most_particles;
+        let seed = self.config.seed;
+        self.particles.clear();
+        self.particles.extend((0..count).filter_map(|index| {
+            let mut stream = Stream::new(seed, 0, Purpose::Start, index);
+            let pose = anywhere(map, reading, &mut stream)?;
+            let weight = 1.0 / count as f64;
+            Some(Particle { pose, weight })
+        }));
+        self.searching = true;
+    }
+
+    /// Moves every guess and weighs it by a frame.
+    pub(super) fn update(
+        &mut self,
+        motion: Option<&Motion>,
+        observation: &Observation,
+        map: &StaticMap,
+        step: u64,
+    ) -> Option<Belief> {
+        let seed = self.config.seed;
+        self.likelihoods
+            .resize(self.particles.len(), LogLikelihood::default());
+        (self.particles.par_iter_mut())
+            .zip(self.likelihoods.par_iter_mut())
+            .enumerate()
+            .with_min_len(PER_THREAD)
+            .for_each(|(index, (particle, likelihood))| {
+                if let Some(motion) = motion {
+                    let mut stream = Stream::new(seed, step, Purpose::Motion, index);
+                    motion.sample(&mut particle.pose, &mut stream);
+                }
+                *likelihood = observation.log_likelihood(&particle.pose, map);
+            });
+        let evidence = [self.config.independence, self.config.least_effective];
+        weigh(
+            &mut self.particles,
+            &self.likelihoods,
+            evidence,
+            &mut self.logs,
+        );
+        let belief = Belief::of(&self.particles, &mut self.bins, &self.config);
+        self.searching = belief.is_none_or(|belief| belief.share < SURE);
+        let fit = belief.and_then(|belief| observation.fit(&belief.torso, map));
+        self.adrift = fit.map_or(0.0, |fit| {
+            let (rates, below) = (self.config.recovery_rates, self.config.recovery_below);
+            self.config.recovery_most * self.recovery.update(fit, rates, below)
+        });
+        belief
+    }
+
+    /// Draws anew where few guesses weigh much, and adds guesses anywhere where frames stopped to fit.
+    pub(super) fn resample(&mut self, map: &StaticMap, reading: &Reading, step: u64) {
+        let config = &self.config;
+        let added = (self.adrift * config.most_particles as f64) as usize;
+        let enough = config.resample_below * self.particles.len() as f64;
+        if added == 0 && effective_number(&self.particles) >= enough {
+            return;
+        }
+        let room = (config.most_particles - added).max(config.particles);
+        let mut stream = Stream::new(config.seed, step, Purpose::Resampling, 0);
+        resample(
+            &self.particles,
+            (config.bins, config.kld),
+            [config.particles, room],
+            &mut stream,
+            (&mut self.bins, &mut self.drawn),
+        );
+        std::mem::swap(&mut self.particles, &mut self.drawn);
+        if self.searching {
+            self.jitter(step);
+        }
+        let added = added.min(self.config.most_particles - self.particles.len());
+        self.add_anywhere(added, map, reading, step);
+    }
+
+    /// Guesses that were drawn several times part a little: there are too few of them for the room that is searched.
+    fn jitter(&mut self, step: u64) {
+        let [place_m, heading_rad] = self.config.search_jitter;
+        for (index, particle) in self.particles.iter_mut().enumerate() {
+            let mut stream = Stream::new(self.config.seed, step, Purpose::Jitter, index);
+            let normals = stream.normals::<3>();
+            particle.pose.place_m[0] += place_m * normals[0];
+            particle.pose.place_m[1] += place_m * normals[1];
+            let yaw_rad = particle.pose.yaw_rad + heading_rad * normals[2];
+            particle.pose.yaw_rad = geometry::wrap_angle(yaw_rad);
+        }
+    }
+
+    /// Adds guesses anywhere; all weigh the same then.
+    fn add_anywhere(&mut self, count: usize, map: &StaticMap, reading: &Reading, step: u64) {
+        let seed = self.config.seed;
+        self.particles.extend((0..count).filter_map(|index| {
+            let mut stream = Stream::new(seed, step, Purpose::Injection, index);
+            let pose = anywhere(map, reading, &mut stream)?;
+            Some(Particle { pose, weight: 0.0 })
+        }));
+        let weight = 1.0 / self.particles.len() as f64;
+        for particle in &mut self.particles {
+            particle.weight = weight;
+        }
+    }
+}
+
+/// A torso above a place to stand, in any heading, as high and tilted as the body says.
+fn anywhere(map: &StaticMap, reading: &Reading, stream: &mut Stream) -> Option<TorsoPose> {
+    if map.places.is_empty() {
+        return None;
+    }
+    let top_m = map.places[stream.below(map.places.len())].top_m;
+    let side_m = map.resolution_m();
+    let mut within = || (stream.uniform() - 0.5) * side_m;
+    let place_m = [
+        top_m[0] + within(),
+        top_m[1] + within(),
+        top_m[2] + reading.torso_height_m,
+    ];
+    Some(TorsoPose {
+        place_m,
+        roll_rad: reading.odometry_from_torso.roll_rad,
+        pitch_rad: reading.odometry_from_torso.pitch_rad,
+        yaw_rad: std::f64::consts::TAU * (stream.uniform() - 0.5),
+    })
+}

@@ -1,0 +1,228 @@
+//! Which points of a frame lie on the ground.
+
+use nalgebra::{Matrix3, Vector3};
+use segmentation::Planes;
+
+use super::MonteCarloConfig;
+use super::random::Stream;
+
+/// The picture is read on a grid of so many columns at most: a hundred beams need no more.
+const COLUMNS: usize = 80;
+/// Normals are taken over this share of the picture's width to each side.
+const NORMAL_SHARE: f64 = 0.025;
+/// Neighbours that differ more in depth than this, per metre of it, lie on two surfaces.
+const JUMP: f64 = 0.2;
+/// A normal counts for the ground within this angle of it: cosine of 30 degrees.
+const UPRIGHT: f64 = 0.866;
+/// Fewer candidates than this are no ground.
+const LEAST_CANDIDATES: usize = 30;
+/// A plane holds at least this share of the candidates that are left.
+const DOMINANT: f64 = 0.2;
+/// Share of the tolerance within which a point lies on a plane though its neighbourhood is not level.
+const NEAR: f64 = 0.5;
+/// Planes that are looked for: the ground before a stair, and its treads.
+const MOST_PLANES: usize = 3;
+
+/// A point of the picture.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sighting {
+    /// Robot frame, m.
+    pub(super) point_m: Vector3<f64>,
+    /// Distance from the camera, m,
+    pub(super) range_m: f64,
+    /// and the unit vector from there.
+    pub(super) along: Vector3<f64>,
+    /// The surface's, towards the camera; none where it is not smooth.
+    normal: Option<Vector3<f64>>,
+    pub(super) is_ground: bool,
+}
+
+/// Reads frames and finds the ground in them. Keeps its buffers.
+#[derive(Debug, Clone, Default)]
+pub(super) struct GroundFinder {
+    pub(super) sightings: Vec<Sighting>,
+    candidates: Vec<u32>,
+    kept: Vec<u32>,
+}
+
+impl GroundFinder {
+    /// Reads a frame's points within reach and labels them: those at about the height of the soles of which the neighbourhood is
+    /// level are candidates, and those of them are ground that lie on planes that many lie on (002, III.C).
+    pub(super) fn find(&mut self, planes: &Planes, config: &MonteCarloConfig, draws: &mut Stream) {
+        self.read(planes, config);
+        self.candidates.clear();
+        for (index, sighting) in self.sightings.iter().enumerate() {
+            let point = &sighting.point_m;
+            let band_m = config.ground_band + config.ground_tilt * point.xy().norm();
+            let level = (sighting.normal).is_some_and(|normal| normal.z > UPRIGHT);
+            if point.z.abs() < band_m && level {
+                self.candidates.push(index as u32);
+            }
+        }
+        let enough = (DOMINANT * self.candidates.len() as f64) as usize;
+        for _ in 0..MOST_PLANES {
+            if self.candidates.len() < enough.max(LEAST_CANDIDATES) {
+                break;
+            }
+            let Some(plane) = self.dominant(config, draws) else {
+                break;
+            };
+            if self.take(&plane, config) < enough {
+                break;
+            }
+        }
+    }
+
+    fn read(&mut self, planes: &Planes, config: &MonteCarloConfig) {
+        self.sightings.clear();
+        let Some(camera) = planes.camera else {
+            return;
+        };
+        let eye = planes.robot_from_camera.origin().inner.coords;
+        let stride = camera.width.div_ceil(COLUMNS);
+        let window = ((camera.width as f64 * NORMAL_SHARE) as usize).max(2);
+        let at = |col: usize, row: usize| {
+            let point = planes.points_in_robot_m.get(row * camera.width + col)?;
+            let point = Vector3::from(point.map(f64::from));
+            point.iter().all(|v| v.is_finite()).then_some(point)
+        };
+        for row in (0..camera.height).step_by(stride) {
+            for col in (0..camera.width).step_by(stride) {
+                let Some(point_m) = at(col, row) else {
+                    continue;
+                };
+                let range_m = (point_m - eye).norm();
+                if !(config.reach[0]..config.reach[1]).contains(&range_m) {
+                    continue;
+                }
+                let (left, right) = (
+                    col.saturating_sub(window),
+                    (col + window).min(camera.width - 1),
+                );
+                let (top, bottom) = (
+                    row.saturating_sub(window),
+                    (row + window).min(camera.height - 1),
+                );
+                let about = [at(left, row), at(right, row), at(col, top), at(col, bottom)];
+                let normal = match about {
+                    [Some(left), Some(right), Some(top), Some(bottom)] => {
+                        normal(&point_m, [left, right], [top, bottom], &eye)
+                    }
+                    _ => None,
+                };
+                self.sightings.push(Sighting {
+                    point_m,
+                    range_m,
+                    along: (point_m - eye) / range_m,
+                    normal,
+                    is_ground: false,
+                });
+            }
+        }
+    }
+
+    /// Of the planes through three candidates the one that most candidates lie on; of equals the first.
+    fn dominant(&self, config: &MonteCarloConfig, draws: &mut Stream) -> Option<Level> {
+        let mut best: Option<(usize, Level)> = None;
+        for _ in 0..config.ground_samples {
+            let points: [Vector3<f64>; 3] = std::array::from_fn(|_| {
+                let index = self.candidates[draws.below(self.candidates.len())];
+                self.sightings[index as usize].point_m
+            });
+            let Some(plane) = Level::through(&points) else {
+                continue;
+            };
+            let on = |&&index: &&u32| plane.holds(&self.sightings[index as usize], config, 1.0);
+            let count = self.candidates.iter().filter(on).count();
+            if best.is_none_or(|(most, _)| count > most) {
+                best = Some((count, plane));
+            }
+        }
+        let (_, plane) = best?;
+        let on = (self.candidates.iter()).map(|&index| &self.sightings[index as usize]);
+        Level::fitted(on.filter(|sighting| plane.holds(sighting, config, 1.0))).or(Some(plane))
+    }
+
+    /// Labels what lies on a plane and leaves the other candidates; returns how many were taken.
+    fn take(&mut self, plane: &Level, config: &MonteCarloConfig) -> usize {
+        self.kept.clear();
+        for &index in &self.candidates {
+            if !plane.holds(&self.sightings[index as usize], config, 1.0) {
+                self.kept.push(index);
+            }
+        }
+        let taken = self.candidates.len() - self.kept.len();
+        std::mem::swap(&mut self.candidates, &mut self.kept);
+        for sighting in &mut self.sightings {
+            // Beside a wall's foot the neighbourhood is not level, nor is its foot high.
+            let level = (sighting.normal).is_some_and(|normal| normal.z > UPRIGHT);
+            let share = if level { 1.0 } else { NEAR };
+            sighting.is_ground |= plane.holds(sighting, config, share);
+        }
+        taken
+    }
+}
+
+/// Normal of the surface about a point, towards the camera.
+fn normal(
+    point: &Vector3<f64>,
+    across: [Vector3<f64>; 2],
+    down: [Vector3<f64>; 2],
+    eye: &Vector3<f64>,
+) -> Option<Vector3<f64>> {
+    let range_m = (point - eye).norm();
+    let torn = [across[0], across[1], down[0], down[1]]
+        .iter()
+        .any(|other| ((other - eye).norm() - range_m).abs() > JUMP * range_m);
+    let normal = (across[1] - across[0]).cross(&(down[1] - down[0]));
+    let normal = normal.try_normalize(1e-12).filter(|_| !torn)?;
+    Some(if normal.dot(&(eye - point)) < 0.0 {
+        -normal
+    } else {
+        normal
+    })
+}
+
+/// A plane that is about level: `normal . p = offset_m`.
+#[derive(Debug, Clone, Copy)]
+struct Level {
+    normal: Vector3<f64>,
+    offset_m: f64,
+}
+
+impl Level {
+    fn through([a, b, c]: &[Vector3<f64>; 3]) -> Option<Self> {
+        let normal = (b - a).cross(&(c - a)).try_normalize(1e-6)?;
+        let normal = normal * normal.z.signum();
+        (normal.z > UPRIGHT).then(|| Self {
+            normal,
+            offset_m: normal.dot(a),
+        })
+    }
+
+    /// The plane with the least squares of vertical distances from points: `z = a x + b y + c`.
+    fn fitted<'a>(sightings: impl Iterator<Item = &'a Sighting>) -> Option<Self> {
+        let (mut squares, mut sums) = (Matrix3::zeros(), Vector3::zeros());
+        for sighting in sightings {
+            let row = Vector3::new(sighting.point_m.x, sighting.point_m.y, 1.0);
+            squares += row * row.transpose();
+            sums += row * sighting.point_m.z;
+        }
+        let [a, b, c] = squares.cholesky()?.solve(&sums).into();
+        let scale = 1.0 / (a * a + b * b + 1.0).sqrt();
+        let normal = Vector3::new(-a, -b, 1.0) * scale;
+        (normal.z > UPRIGHT).then_some(Self {
+            normal,
+            offset_m: c * scale,
+        })
+    }
+
+    /// Whether a point lies on the plane, within a share of the tolerance.
+    fn holds(&self, sighting: &Sighting, config: &MonteCarloConfig, share: f64) -> bool {
+        // A range's error moves the point along the line of sight, which is flat far away.
+        let noise_m = config.range_noise_growth * sighting.range_m * sighting.range_m;
+        let noise_m = noise_m * self.normal.dot(&sighting.along).abs();
+        (self.normal.dot(&sighting.point_m) - self.offset_m).abs()
+            < share * (config.ground_tolerance + noise_m)
+    }
+}

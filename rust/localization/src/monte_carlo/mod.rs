@@ -1,0 +1,165 @@
+//! The localizer `monte_carlo`: the torso's pose in six dimensions, in a volume that is known beforehand (002, III.C).
+
+mod beams;
+mod belief;
+mod config;
+mod filter;
+mod ground;
+mod motion;
+mod observation;
+mod particle;
+mod random;
+mod recovery;
+mod resampling;
+mod static_map;
+#[cfg(test)]
+mod tests;
+mod weights;
+#[cfg(test)]
+mod world;
+
+use std::sync::Arc;
+
+use geometry::{ConfigError, Map, Odometry, Pose, Robot};
+use mapping::FloorView;
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use segmentation::Planes;
+
+pub use belief::Belief;
+pub use config::{MonteCarloConfig, RangeModel};
+pub use particle::TorsoPose;
+pub use static_map::StaticMap;
+
+use crate::{BodyState, Estimate, Localizer, LocalizerError};
+use beams::Beams;
+use filter::Filter;
+use motion::{Motion, Reading};
+use observation::Observation;
+
+/// Monte Carlo localization in a static map: tracks from a start that is told, finds the place where none is, and finds it again
+/// where frames stop to fit.
+#[derive(Debug, Clone)]
+pub struct MonteCarloLocalizer {
+    config: MonteCarloConfig,
+    map: Arc<StaticMap>,
+    map_from_robot_at_start: Option<Pose<Map, Robot>>,
+    filter: Filter,
+    beams: Beams,
+    observation: Observation,
+    /// Frames that were used.
+    step: u64,
+    last: Option<Reading>,
+    belief: Option<Belief>,
+    map_from_odometry: Option<Pose<Map, Odometry>>,
+}
+
+impl MonteCarloLocalizer {
+    /// Starts at a pose that is told, or anywhere on the map.
+    pub fn new(
+        map: Arc<StaticMap>,
+        map_from_robot_at_start: Option<Pose<Map, Robot>>,
+        config: MonteCarloConfig,
+    ) -> Result<Self, ConfigError> {
+        config.check()?;
+        Ok(Self {
+            filter: Filter::new(&config),
+            config,
+            map,
+            map_from_robot_at_start,
+            beams: Beams::default(),
+            observation: Observation::default(),
+            step: 0,
+            last: None,
+            belief: None,
+            map_from_odometry: None,
+        })
+    }
+
+    /// What the particles said together at the last frame that was used.
+    pub fn belief(&self) -> Option<&Belief> {
+        self.belief.as_ref()
+    }
+
+    /// Where the particles are, with their weights.
+    pub fn particles(&self) -> impl ExactSizeIterator<Item = (&TorsoPose, f64)> {
+        (self.filter.particles.iter()).map(|particle| (&particle.pose, particle.weight))
+    }
+
+    /// Whether enough happened since the last frame that was used: frames of a robot that stands err alike.
+    fn is_due(&self, before: &Reading, now: &Reading) -> bool {
+        let (travelled_m, turned_rad) = now.since(before);
+        let waited_s = now.time_ns.saturating_sub(before.time_ns) as f64 * 1e-9;
+        let [way_m, turn_rad, wait_s] = self.config.update_after;
+        travelled_m > way_m || turned_rad > turn_rad || waited_s > wait_s
+    }
+
+    fn start(&mut self, reading: &Reading) {
+        match self.map_from_robot_at_start {
+            Some(start) => {
+                let map_from_torso = start.inner * reading.torso_from_robot.inverse();
+                self.filter.start_at(&map_from_torso);
+            }
+            None => self.filter.start_anywhere(&self.map, reading),
+        }
+    }
+}
+
+impl Localizer for MonteCarloLocalizer {
+    fn correct(
+        &mut self,
+        body: &BodyState,
+        planes: &Planes,
+        _view: &FloorView,
+    ) -> Result<(), LocalizerError> {
+        let reading = Reading::of(body);
+        let motion = match &self.last {
+            Some(before) if !self.is_due(before, &reading) => return Ok(()),
+            Some(before) => Some(Motion::between(before, &reading, &self.config)),
+            None => {
+                self.start(&reading);
+                None
+            }
+        };
+        self.last = Some(reading);
+        self.step += 1;
+        self.beams
+            .draw(planes, &reading.torso_from_robot, &self.config, self.step);
+        self.observation
+            .set(&self.beams, &reading, &self.map, &self.config);
+        self.belief =
+            (self.filter).update(motion.as_ref(), &self.observation, &self.map, self.step);
+        self.filter.resample(&self.map, &reading, self.step);
+        if let Some(belief) = &self.belief {
+            self.map_from_odometry = Some(upright(&belief.torso, &reading.odometry_from_torso));
+        }
+        Ok(())
+    }
+
+    fn estimate(&mut self, body: &BodyState) -> Result<Estimate, LocalizerError> {
+        let start = self.map_from_robot_at_start.unwrap_or_else(Pose::identity);
+        let map_from_odometry = *self
+            .map_from_odometry
+            .get_or_insert_with(|| start * body.odometry_from_robot.inverse());
+        let lost = match &self.belief {
+            Some(belief) => {
+                belief.share < self.config.least_share
+                    || belief.spread_m() > self.config.most_spread
+            }
+            None => self.map_from_robot_at_start.is_none(),
+        };
+        Ok(Estimate {
+            time_ns: body.time_ns,
+            map_from_robot: map_from_odometry * body.odometry_from_robot,
+            map_from_odometry,
+            lost,
+        })
+    }
+}
+
+/// The odometry frame in the map, so that the torso's place and heading in both agree. Both frames are upright: roll and pitch of
+/// the torso are its own.
+fn upright(in_map: &TorsoPose, in_odometry: &TorsoPose) -> Pose<Map, Odometry> {
+    let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), in_map.turned_rad(in_odometry));
+    let shift = Vector3::from(in_map.place_m) - turn * Vector3::from(in_odometry.place_m);
+    Pose::wrap(Isometry3::from_parts(Translation3::from(shift), turn))
+}

@@ -1,0 +1,296 @@
+//! How likely a frame is from where a guess stands: equation (2) of 002.
+//!
+//! `p(o | x) = p(r | x) p(z | x) p(phi | x) p(theta | x)`, as sums of logarithms.
+
+use nalgebra::{Point3, Vector3};
+
+use super::MonteCarloConfig;
+use super::beams::{Beam, Beams};
+use super::motion::Reading;
+use super::particle::TorsoPose;
+use super::static_map::StaticMap;
+
+/// Beams of which the likelihoods are multiplied before their logarithm is taken: each lies between 1e-3 and 1e2.
+const FACTORS: usize = 8;
+/// A torso is looked for ground below it down to so many times its height.
+const GROUND_BELOW: f64 = 1.5;
+/// Share of heights that have nothing to do with the map's ground: beside an edge, on what is not in it.
+const ANY_HEIGHT: f64 = 0.05;
+/// A range fits within so many standard deviations.
+const MATCH_SIGMAS: f64 = 3.0;
+/// What ends before the map's surface counts so much against a pose as what ends behind it.
+const BEFORE_COUNTS: f64 = 0.03;
+/// Fewer beams off the ground do not tell whether a frame fits.
+const LEAST_RAYS: usize = 10;
+/// Beyond so many standard deviations a Gaussian is nothing.
+const NO_SIGMAS: f64 = 6.0;
+
+/// Logarithm of a frame's likelihood.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct LogLikelihood {
+    /// Of the ranges.
+    pub(super) ranges: f64,
+    /// Of height, roll and pitch.
+    pub(super) body: f64,
+}
+
+/// A beam with all of its likelihood that does not depend on the guess: of a range `r` where the map says `m`,
+/// `p(r | m) = hit N(r; m, sigma) + [r < m] short l exp(-l r) + random / r_max`. What stands in the way and is not mapped makes
+/// `r` shorter (Thrun, Burgard, Fox 2005, 6.3); its normalization over `0..m` is left out.
+#[derive(Debug, Clone, Copy)]
+struct Ray {
+    direction: [f64; 3],
+    range_m: f64,
+    per_noise: f64,
+    hit: f64,
+    short: f64,
+    is_ground: bool,
+}
+
+/// Everything that a frame says.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Observation {
+    origin_m: [f64; 3],
+    rays: Vec<Ray>,
+    random: f64,
+    reach_m: f64,
+    height_m: f64,
+    height_noise_m: f64,
+    attitude_rad: [f64; 2],
+    attitude_noise_rad: f64,
+    /// The soles' middle in the torso's frame, m.
+    sole_m: [f64; 3],
+}
+
+impl Observation {
+    /// Takes in a frame's beams and what the body says. Keeps its buffer.
+    pub(super) fn set(
+        &mut self,
+        beams: &Beams,
+        reading: &Reading,
+        map: &StaticMap,
+        config: &MonteCarloConfig,
+    ) {
+        let [hit, short, random] = config.mixture;
+        self.origin_m = beams.origin_m;
+        self.reach_m = config.reach[1];
+        self.random = random / self.reach_m;
+        self.rays.clear();
+        self.rays.extend(beams.drawn.iter().map(|beam: &Beam| {
+            let per_noise = 1.0 / beam.noise_m;
+            Ray {
+                direction: beam.direction,
+                range_m: beam.range_m,
+                per_noise,
+                hit: hit * per_noise / std::f64::consts::TAU.sqrt(),
+                is_ground: beam.is_ground,
+                short: short * config.short_rate * (-config.short_rate * beam.range_m).exp(),
+            }
+        }));
+        self.height_m = reading.torso_height_m;
+        // The map's ground is as coarse as its voxels.
+        self.height_noise_m = config
+            .height_noise
+            .hypot(map.resolution_m() / 12.0_f64.sqrt());
+        let torso = &reading.odometry_from_torso;
+        self.attitude_rad = [torso.roll_rad, torso.pitch_rad];
+        self.attitude_noise_rad = config.attitude_noise;
+        self.sole_m = reading.torso_from_robot.translation.vector.into();
+    }
+
+    /// The frame's likelihood from a guess. Allocates nothing.
+    pub(super) fn log_likelihood(&self, pose: &TorsoPose, map: &StaticMap) -> LogLikelihood {
+        let isometry = pose.isometry();
+        let turn = isometry.rotation.to_rotation_matrix();
+        let turned = |v: &[f64; 3]| -> [f64; 3] {
+            std::array::from_fn(|a| turn[(a, 0)] * v[0] + turn[(a, 1)] * v[1] + turn[(a, 2)] * v[2])
+        };
+        let placed = |v: &[f64; 3]| -> [f64; 3] {
+            let off = turned(v);
+            std::array::from_fn(|a| pose.place_m[a] + off[a])
+        };
+        let eye = placed(&self.origin_m);
+        let ranges = match &map.distances {
+            None => self.product(|ray| {
+                // A ray that meets nothing within reach is as good as one that ends beyond it.
+                let cast = map.ranges.cast(eye, turned(&ray.direction), self.reach_m);
+                self.beam_likelihood(ray, cast.unwrap_or(f64::INFINITY))
+            }),
+            Some(field) => self.product(|ray| {
+                let along = turned(&ray.direction);
+                let end = std::array::from_fn(|a| eye[a] + along[a] * ray.range_m);
+                ray.hit * gauss(field.distance_m(end) * ray.per_noise) + ray.short + self.random
+            }),
+        };
+        LogLikelihood {
+            ranges,
+            body: self.body_log_likelihood(pose, placed(&self.sole_m), map),
+        }
+    }
+
+    /// How well a pose explains the frame: of the beams off the ground the share that ends where the map says. Those that pass
+    /// through what the map has speak against it, those that end before it speak little: what is not mapped stands there. None
+    /// where too few beams can tell.
+    pub(super) fn fit(&self, pose: &TorsoPose, map: &StaticMap) -> Option<f64> {
+        let isometry = pose.isometry();
+        let eye = (isometry * Point3::from(self.origin_m)).coords.into();
+        let (mut counts, mut all) = ([0.0; 3], 0);
+        for ray in self.rays.iter().filter(|ray| !ray.is_ground) {
+            let along = isometry.rotation * Vector3::from(ray.direction);
+            let cast = map.ranges.cast(eye, along.into(), self.reach_m);
+            let sigmas = (cast.unwrap_or(f64::INFINITY) - ray.range_m) * ray.per_noise;
+            let kind = if sigmas > MATCH_SIGMAS {
+                1
+            } else {
+                usize::from(sigmas < -MATCH_SIGMAS) * 2
+            };
+            counts[kind] += 1.0;
+            all += 1;
+        }
+        let [on, before, beyond] = counts;
+        (all >= LEAST_RAYS).then(|| on / (on + beyond + BEFORE_COUNTS * before))
+    }
+
+    /// Likelihood of a beam where the map has its end at `mapped_m`.
+    #[inline]
+    fn beam_likelihood(&self, ray: &Ray, mapped_m: f64) -> f64 {
+        let off_m = mapped_m - ray.range_m;
+        let before = if off_m > 0.0 { ray.short } else { 0.0 };
+        ray.hit * gauss(off_m * ray.per_noise) + before + self.random
+    }
+
+    /// Logarithm of the product over all rays.
+    #[inline]
+    fn product(&self, likelihood: impl Fn(&Ray) -> f64) -> f64 {
+        (self.rays.chunks(FACTORS))
+            .map(|rays| rays.iter().map(&likelihood).product::<f64>().ln())
+            .sum()
+    }
+
+    fn body_log_likelihood(&self, pose: &TorsoPose, sole_m: [f64; 3], map: &StaticMap) -> f64 {
+        let attitude = [pose.roll_rad, pose.pitch_rad]
+            .into_iter()
+            .zip(self.attitude_rad)
+            .map(|(guess, measured)| -0.5 * ((guess - measured) / self.attitude_noise_rad).powi(2));
+        let above = [sole_m[0], sole_m[1], pose.place_m[2]];
+        let reach_m = GROUND_BELOW * self.height_m;
+        let height = match map.ranges.cast(above, [0.0, 0.0, -1.0], reach_m) {
+            Some(height_m) => gauss((height_m - self.height_m) / self.height_noise_m),
+            None => 0.0,
+        };
+        attitude.sum::<f64>() + ((1.0 - ANY_HEIGHT) * height + ANY_HEIGHT * 1e-2).ln()
+    }
+}
+
+/// `exp(-u^2 / 2)`.
+#[inline]
+fn gauss(sigmas: f64) -> f64 {
+    if sigmas.abs() < NO_SIGMAS {
+        (-0.5 * sigmas * sigmas).exp()
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::RangeModel;
+    use super::super::world::{Eye, World};
+    use super::*;
+    use crate::synthetic_walk::state_at;
+    use geometry::Pose;
+    use nalgebra::Isometry3;
+    use proptest::prelude::*;
+    use std::sync::Arc;
+
+    /// What is seen in the room from a place, by a torso that is tilted as it is measured to be; and the truth.
+    fn seen(range_model: RangeModel) -> (Observation, Arc<StaticMap>, TorsoPose, Beams) {
+        let world = World::room();
+        let config = MonteCarloConfig {
+            range_model,
+            ..MonteCarloConfig::default()
+        };
+        let map = world.map(&config);
+        let robot = Isometry3::new(Vector3::new(1.1, 2.6, 0.0), Vector3::z() * 0.2);
+        let mut body = state_at(0);
+        body.robot_from_torso = Pose::wrap(Isometry3::new(
+            Vector3::new(0.0, 0.0, 0.33),
+            Vector3::new(0.03, -0.04, 0.0),
+        ));
+        body.odometry_from_torso_rotation = body.robot_from_torso.inner.rotation;
+        let reading = Reading::of(&body);
+        let mut beams = Beams::default();
+        let planes = world.frame(&robot, &Eye::ahead(), 1);
+        beams.draw(&planes, &reading.torso_from_robot, &config, 1);
+        let mut observation = Observation::default();
+        observation.set(&beams, &reading, &map, &config);
+        let truth = TorsoPose::of(&(robot * body.robot_from_torso.inner));
+        (observation, map, truth, beams)
+    }
+
+    #[test]
+    fn the_sum_of_logarithms_is_the_logarithm_of_the_product() {
+        let (observation, map, truth, beams) = seen(RangeModel::RayCast);
+        let [hit, short, random] = MonteCarloConfig::default().mixture;
+        let isometry = truth.isometry();
+        let eye = (isometry * Point3::from(beams.origin_m)).coords;
+        let product: f64 = (beams.drawn.iter().take(40))
+            .map(|beam| {
+                let along = isometry.rotation * Vector3::from(beam.direction);
+                let cast = map.ranges.cast(eye.into(), along.into(), 4.0);
+                let (range_m, sd) = (beam.range_m, beam.noise_m);
+                let off = (cast.unwrap() - range_m) / sd;
+                let normal = (-0.5 * off * off).exp() / (sd * std::f64::consts::TAU.sqrt());
+                let before = if cast.unwrap() > range_m {
+                    0.5 * (-0.5 * range_m).exp()
+                } else {
+                    0.0
+                };
+                hit * normal + short * before + random / 4.0
+            })
+            .product();
+        let mut first = observation.clone();
+        first.rays.truncate(40);
+        let found = first.log_likelihood(&truth, &map).ranges;
+        assert!(
+            (found - product.ln()).abs() < 1e-3,
+            "{found} {}",
+            product.ln()
+        );
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(40))]
+
+        #[test]
+        fn every_factor_peaks_at_the_truth(axis in 0..6_usize, by in prop_oneof![-0.3..-0.12f64, 0.12..0.3f64], field in any::<bool>()) {
+            let model = if field { RangeModel::LikelihoodField } else { RangeModel::RayCast };
+            let (observation, map, truth, _) = seen(model);
+            let mut wrong = truth;
+            match axis {
+                0..3 => wrong.place_m[axis] += by,
+                3 => wrong.roll_rad += by,
+                4 => wrong.pitch_rad += by,
+                _ => wrong.yaw_rad += by,
+            }
+            let (right, wrong) = (observation.log_likelihood(&truth, &map), observation.log_likelihood(&wrong, &map));
+            prop_assert!(right.ranges > wrong.ranges + 5.0, "{right:?} {wrong:?}");
+            // Height, roll and pitch are measured by themselves; the others are not.
+            if (2..5).contains(&axis) { prop_assert!(right.body > wrong.body + 2.0, "{right:?} {wrong:?}"); }
+        }
+    }
+
+    #[test]
+    fn what_stands_in_the_way_costs_little_what_is_seen_through_costs_much() {
+        let (observation, map, truth, _) = seen(RangeModel::RayCast);
+        let mut short = observation.clone();
+        let mut long = observation.clone();
+        for (short, long) in short.rays.iter_mut().zip(&mut long.rays).take(20) {
+            short.range_m -= 0.4;
+            long.range_m += 0.4;
+        }
+        let of = |observation: &Observation| observation.log_likelihood(&truth, &map).ranges;
+        assert!(of(&observation) > of(&short) && of(&short) > of(&long) + 5.0);
+        assert!(observation.fit(&truth, &map) > Some(0.97));
+    }
+}

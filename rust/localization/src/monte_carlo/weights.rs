@@ -1,0 +1,120 @@
+//! From likelihoods to weights: in log space, normalized, and no frame decides alone.
+
+use super::observation::LogLikelihood;
+use super::particle::Particle;
+
+/// An exponent is halved so often at most until enough particles are left,
+const HALVINGS: usize = 40;
+/// and then refined between that and twice of it.
+const REFINEMENTS: usize = 3;
+
+/// Number of particles that weigh as much as these, which sum to one: `1 / sum w^2`.
+pub(super) fn effective_number(particles: &[Particle]) -> f64 {
+    1.0 / (particles.iter())
+        .map(|particle| particle.weight * particle.weight)
+        .sum::<f64>()
+}
+
+/// Multiplies the weights by likelihoods, of which the ranges' have the exponent `independence`, and normalizes. Where fewer than
+/// `least_share` of the particles would be left to speak of, all is flattened by an exponent that leaves as many. `logs` is room to
+/// work in.
+pub(super) fn weigh(
+    particles: &mut [Particle],
+    likelihoods: &[LogLikelihood],
+    [independence, least_share]: [f64; 2],
+    logs: &mut Vec<f64>,
+) {
+    logs.clear();
+    logs.extend(
+        likelihoods
+            .iter()
+            .map(|one| independence * one.ranges + one.body),
+    );
+    let best = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    for log in logs.iter_mut() {
+        *log -= best;
+    }
+    let least = least_share * particles.len() as f64;
+    let number = |exponent: f64| {
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for (particle, log) in particles.iter().zip(logs.iter()) {
+            let weight = particle.weight * (exponent * log).exp();
+            sum += weight;
+            squares += weight * weight;
+        }
+        sum * sum / squares
+    };
+    let mut exponent = 1.0;
+    if number(exponent) < least {
+        let (mut low, mut high) = (0.5, 1.0);
+        for _ in 0..HALVINGS {
+            if number(low) >= least {
+                break;
+            }
+            (low, high) = (0.5 * low, low);
+        }
+        for _ in 0..REFINEMENTS {
+            exponent = f64::midpoint(low, high);
+            if number(exponent) < least {
+                high = exponent;
+            } else {
+                low = exponent;
+            }
+        }
+        exponent = low;
+    }
+    let mut sum = 0.0;
+    for (particle, log) in particles.iter_mut().zip(logs.iter()) {
+        particle.weight *= (exponent * log).exp();
+        sum += particle.weight;
+    }
+    for particle in particles.iter_mut() {
+        particle.weight /= sum;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn cloud(count: usize) -> Vec<Particle> {
+        let particle = Particle {
+            weight: 1.0 / count as f64,
+            ..Particle::default()
+        };
+        vec![particle; count]
+    }
+
+    fn of(ranges: f64) -> LogLikelihood {
+        LogLikelihood { ranges, body: 0.0 }
+    }
+
+    proptest! {
+        #[test]
+        fn weights_are_bayes_where_none_decides_alone(logs in prop::collection::vec(-2.0..0.0f64, 5..50)) {
+            let mut particles = cloud(logs.len());
+            let likelihoods: Vec<_> = logs.iter().map(|&log| of(log)).collect();
+            weigh(&mut particles, &likelihoods, [1.0, 0.1], &mut Vec::new());
+            let sum = logs.iter().map(|log| log.exp()).sum::<f64>();
+            for (particle, log) in particles.iter().zip(&logs) {
+                prop_assert!((particle.weight - log.exp() / sum).abs() < 1e-12);
+            }
+        }
+
+        #[test]
+        fn however_unlikely_all_are_weights_sum_to_one_and_enough_are_left(logs in prop::collection::vec(-3000.0..-1000.0f64, 20..200)) {
+            let mut particles = cloud(logs.len());
+            let likelihoods: Vec<_> = logs.iter().map(|&log| of(log)).collect();
+            weigh(&mut particles, &likelihoods, [1.0, 0.2], &mut Vec::new());
+            let sum = particles.iter().map(|particle| particle.weight).sum::<f64>();
+            prop_assert!((sum - 1.0).abs() < 1e-9);
+            let number = effective_number(&particles);
+            prop_assert!(number >= 0.2 * logs.len() as f64, "{number}");
+            // The order stays.
+            for (a, b) in particles.iter().zip(&particles[1..]).zip(logs.iter().zip(&logs[1..])).map(|((a, b), (la, lb))| if la > lb { (a, b) } else { (b, a) }) {
+                prop_assert!(a.weight >= b.weight);
+            }
+        }
+    }
+}
