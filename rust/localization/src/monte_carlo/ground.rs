@@ -20,6 +20,8 @@ const LEAST_CANDIDATES: usize = 30;
 const DOMINANT: f64 = 0.2;
 /// Share of the tolerance within which a point lies on a plane though its neighbourhood is not level.
 const NEAR: f64 = 0.5;
+/// Every so many candidates one is asked whether it lies on a plane that is tried.
+const STRIDE: usize = 4;
 /// Planes that are looked for: the ground before a stair, and its treads.
 const MOST_PLANES: usize = 3;
 
@@ -133,7 +135,7 @@ impl GroundFinder {
                 continue;
             };
             let on = |&&index: &&u32| plane.holds(&self.sightings[index as usize], config, 1.0);
-            let count = self.candidates.iter().filter(on).count();
+            let count = self.candidates.iter().step_by(STRIDE).filter(on).count();
             if best.is_none_or(|(most, _)| count > most) {
                 best = Some((count, plane));
             }

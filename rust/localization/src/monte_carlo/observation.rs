@@ -41,6 +41,8 @@ pub(super) struct LogLikelihood {
 struct Ray {
     direction: [f64; 3],
     range_m: f64,
+    /// From here on a surface is too far to have been measured, m.
+    far_m: f64,
     per_noise: f64,
     hit: f64,
     short: f64,
@@ -81,6 +83,7 @@ impl Observation {
             Ray {
                 direction: beam.direction,
                 range_m: beam.range_m,
+                far_m: beam.range_m + NO_SIGMAS * beam.noise_m,
                 per_noise,
                 hit: hit * per_noise / std::f64::consts::TAU.sqrt(),
                 is_ground: beam.is_ground,
@@ -102,23 +105,20 @@ impl Observation {
     pub(super) fn log_likelihood(&self, pose: &TorsoPose, map: &StaticMap) -> LogLikelihood {
         let isometry = pose.isometry();
         let turn = isometry.rotation.to_rotation_matrix();
-        let turned = |v: &[f64; 3]| -> [f64; 3] {
-            std::array::from_fn(|a| turn[(a, 0)] * v[0] + turn[(a, 1)] * v[1] + turn[(a, 2)] * v[2])
-        };
-        let placed = |v: &[f64; 3]| -> [f64; 3] {
-            let off = turned(v);
-            std::array::from_fn(|a| pose.place_m[a] + off[a])
-        };
+        let row = |a: usize| [turn[(a, 0)], turn[(a, 1)], turn[(a, 2)]];
+        let rows = [row(0), row(1), row(2)];
+        let turned = |v: &[f64; 3]| [dot(&rows[0], v), dot(&rows[1], v), dot(&rows[2], v)];
+        let placed = |v: &[f64; 3]| beyond(&pose.place_m, &turned(v), 1.0);
         let eye = placed(&self.origin_m);
         let ranges = match &map.distances {
             None => self.product(|ray| {
-                // A ray that meets nothing within reach is as good as one that ends beyond it.
-                let cast = map.ranges.cast(eye, turned(&ray.direction), self.reach_m);
+                // How far beyond the measured range the map's surface lies makes no difference.
+                let cast = map.ranges.cast(eye, turned(&ray.direction), ray.far_m);
                 self.beam_likelihood(ray, cast.unwrap_or(f64::INFINITY))
             }),
             Some(field) => self.product(|ray| {
                 let along = turned(&ray.direction);
-                let end = std::array::from_fn(|a| eye[a] + along[a] * ray.range_m);
+                let end = beyond(&eye, &along, ray.range_m);
                 ray.hit * gauss(field.distance_m(end) * ray.per_noise) + ray.short + self.random
             }),
         };
@@ -180,6 +180,21 @@ impl Observation {
         };
         attitude.sum::<f64>() + ((1.0 - ANY_HEIGHT) * height + ANY_HEIGHT * 1e-2).ln()
     }
+}
+
+#[inline]
+fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// So far along a direction.
+#[inline]
+fn beyond(from: &[f64; 3], along: &[f64; 3], by: f64) -> [f64; 3] {
+    [
+        from[0] + along[0] * by,
+        from[1] + along[1] * by,
+        from[2] + along[2] * by,
+    ]
 }
 
 /// `exp(-u^2 / 2)`.
@@ -288,6 +303,7 @@ mod tests {
         for (short, long) in short.rays.iter_mut().zip(&mut long.rays).take(20) {
             short.range_m -= 0.4;
             long.range_m += 0.4;
+            long.far_m += 0.4;
         }
         let of = |observation: &Observation| observation.log_likelihood(&truth, &map).ranges;
         assert!(of(&observation) > of(&short) && of(&short) > of(&long) + 5.0);

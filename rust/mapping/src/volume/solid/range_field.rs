@@ -65,8 +65,8 @@ impl RangeField {
             per_along[a] = 1.0 / along[a];
             let to_end = f64::from(self.size[a]) - from[a];
             if along[a] > 0.0 {
-                enter = enter.max(-from[a] * per_along[a]);
-                leave = leave.min(to_end * per_along[a]);
+                enter = -lesser(-enter, from[a] * per_along[a]);
+                leave = lesser(leave, to_end * per_along[a]);
             } else if from[a] < 0.0 || to_end <= 0.0 {
                 return None;
             }
@@ -74,10 +74,12 @@ impl RangeField {
         if enter >= leave {
             return None;
         }
-        let cubes = &self.octants[octant];
-        let last = self.size.map(|count| count - 1);
-        let mut voxel: [i32; 3] =
-            std::array::from_fn(|a| ((from[a] + along[a] * enter) as i32).min(last[a]));
+        let cubes = self.octants[octant].as_slice();
+        let last = [self.size[0] - 1, self.size[1] - 1, self.size[2] - 1];
+        let mut voxel = [0; 3];
+        for a in 0..3 {
+            voxel[a] = floor(from[a] + along[a] * enter).clamp(0, last[a]);
+        }
         let mut at = enter;
         loop {
             let index =
@@ -86,31 +88,42 @@ impl RangeField {
             if free == 0 {
                 return Some(at * self.resolution_m);
             }
-            let faces = voxel.map(|v| v + free);
-            let exits: [f64; 3] = std::array::from_fn(|a| {
-                if along[a] > 0.0 {
-                    (f64::from(faces[a]) - from[a]) * per_along[a]
-                } else {
-                    f64::INFINITY
-                }
-            });
-            at = exits[0].min(exits[1]).min(exits[2]);
+            // Along an axis on which the ray stands still the exit is infinitely far: the face lies ahead of it.
+            let mut exits = [0.0; 3];
+            for a in 0..3 {
+                exits[a] = (f64::from(voxel[a] + free) - from[a]) * per_along[a];
+            }
+            at = lesser(lesser(exits[0], exits[1]), exits[2]);
             // No number for a time, from an origin that is none, ends it too.
             if at.partial_cmp(&leave) != Some(Ordering::Less) {
                 return None;
             }
-            // Rounding may take no axis back, nor any but those that leave out of the cube.
-            voxel = std::array::from_fn(|a| {
-                if exits[a] <= at {
-                    faces[a]
+            for a in 0..3 {
+                // Rounding may take no axis back, nor out of the grid.
+                let inside = floor(from[a] + along[a] * at).max(voxel[a]).min(last[a]);
+                voxel[a] = if exits[a] <= at {
+                    voxel[a] + free
                 } else {
-                    ((from[a] + along[a] * at) as i32)
-                        .min(last[a].min(faces[a] - 1))
-                        .max(voxel[a])
-                }
-            });
+                    inside
+                };
+            }
         }
     }
+}
+
+/// The lesser of two numbers, by the one instruction that does not ask whether they are numbers.
+#[inline]
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The whole number below, or at a whole number that one or the one before: without the checks of a cast, for what lies far within
+/// 2^31.
+#[inline]
+fn floor(value: f64) -> i32 {
+    // In this binade the last bit is worth one.
+    const ONES: f64 = 6_755_399_441_055_744.0;
+    (value - 0.5 + ONES).to_bits() as i32
 }
 
 /// Side of the largest free cube from each voxel towards an octant: one more than the least of its seven neighbours there.
