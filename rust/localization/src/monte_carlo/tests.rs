@@ -111,7 +111,7 @@ fn in_a_corridor_that_looks_the_same_everywhere_the_spread_along_it_grows_and_ac
     assert!(inside > 135, "{inside}");
 }
 
-/// Frames until the estimate is not lost, within 0.1 m, on the right level, and stays so for 2 s.
+/// Frames until the estimate is within 0.1 m and 0.1 rad, on the right level, and stays so for 2 s.
 fn frames_to_find(walk: &mut Walk<'_>, most: usize) -> Option<usize> {
     let mut good = 0;
     for number in 0..most {
