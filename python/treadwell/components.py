@@ -19,6 +19,7 @@ COMPONENTS: Final[dict[str, dict[str, str]]] = {
     "localizer": {
         "odometry": "legs' odometry from encoders, gyro and foot contact",
         "matching": "the same, its heading kept by upright surfaces that are seen again",
+        "monte_carlo": "particles in six dimensions against a static map (Maier 2012)",
         "truth": "the simulator's own pose; for ablations only, the result says so",
     },
     "planner": {
@@ -32,8 +33,15 @@ COMPONENTS: Final[dict[str, dict[str, str]]] = {
 }
 """Slot of `[navigation]` -> name -> description."""
 
-STAGES: Final[tuple[str, ...]] = ("proprioception", "self_filter", "ground", "stairs", "climbing")
-"""Stages of the core with parameters (`[navigation.self_filter]`) that are not chosen by name."""
+STAGES: Final[tuple[str, ...]] = (
+    "proprioception",
+    "self_filter",
+    "ground",
+    "stairs",
+    "climbing",
+    "static_map",
+)
+"""Stages with parameters (`[navigation.self_filter]`) that are not chosen by name."""
 
 CLASS_NAME: Final = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*", re.ASCII)
 """A user's own component: `package.module:Class`."""

@@ -4,14 +4,18 @@ import json
 import re
 from typing import Any
 
-from treadwell._core import Pilot
+from treadwell._core import Octree, Pilot
 from treadwell.components import COMPONENTS
 from treadwell.course.build import Course
+from treadwell.course.static_map import map_resolution, static_map
 from treadwell.errors import InputError
 from treadwell.plugins import check_component, load_component
 from treadwell.robot.load import Robot
 from treadwell.scenario.messages import nearest
 from treadwell.scenario.model import Scenario
+
+MAPPED = frozenset({"monte_carlo"})
+"""Components that have to be told a static map."""
 
 TOLD = ("odometry", "matching")
 """Localizers that cannot find where the robot is, but have to be told where it starts."""
@@ -20,22 +24,33 @@ TOLD = ("odometry", "matching")
 def core_settings(scenario: Scenario, robot: Robot, course: Course) -> str:
     """Return robot, start, goals and navigation as JSON. No truth but the start, where it is known.
 
-    A start that is not known is the map's origin to the core.
+    Of a start that is not known the core is told nothing.
     """
     goal = scenario.goal
     places = [{"position": list(via), "radius": goal.radius} for via in goal.via]
     places.append({"position": list(goal.position), "radius": goal.radius, "height": goal.height})
     place = course.start
-    start = {"position": list(place.position), "height": place.height, "yaw": place.yaw}
-    if not scenario.start.known:
-        start = {"position": [0.0, 0.0], "height": 0.0, "yaw": 0.0}
+    known = {"position": list(place.position), "height": place.height, "yaw": place.yaw}
     settings = {
         "robot": robot.description(),
-        "start": start,
+        "start": known if scenario.start.known else None,
         "goals": places,
         "navigation": {**scenario.navigation.slots(), **scenario.navigation.parameters()},
     }
     return json.dumps(settings, allow_nan=False)
+
+
+def told_map(scenario: Scenario, course: Course) -> Octree | None:
+    """Return the map that a component needs to be told, None when none does.
+
+    Raises:
+        InputError: `[navigation.static_map]` is bad, or the course too large for it.
+    """
+    if not MAPPED & set(scenario.navigation.slots().values()):
+        return None
+    where = str(scenario.path or scenario.name)
+    table = scenario.navigation.parameters().get("static_map", {})
+    return static_map(course, map_resolution(table, where), where)
 
 
 def user_components(scenario: Scenario, given: dict[str, object]) -> dict[str, Any]:
@@ -69,19 +84,22 @@ def user_components(scenario: Scenario, given: dict[str, object]) -> dict[str, A
     return {**loaded, **given}
 
 
-def build_core(scenario: Scenario, settings: str, components: dict[str, Any]) -> Pilot:
+def build_core(
+    scenario: Scenario, settings: str, components: dict[str, Any], static_map: Octree | None = None
+) -> Pilot:
     """Return the core.
 
     Args:
         scenario: for the file's name in an error.
         settings: what `core_settings` returned.
         components: what `user_components` returned.
+        static_map: what `told_map` returned.
 
     Raises:
         InputError: a parameter is unknown or cannot be; the message names file, key and spelling.
     """
     try:
-        return Pilot(settings, **components)
+        return Pilot(settings, static_map=static_map, **components)
     except InputError as error:
         words = re.findall(r"`(\w+)`", str(error))
         unknown = "unknown field" in str(error) and len(words) > 1

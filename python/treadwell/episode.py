@@ -7,7 +7,7 @@ from pathlib import Path
 from time import perf_counter
 
 from treadwell._core import Pilot
-from treadwell.core_settings import build_core, core_settings, user_components
+from treadwell.core_settings import build_core, core_settings, told_map, user_components
 from treadwell.course.build import build_course
 from treadwell.course.events import Events
 from treadwell.judging.judge import Judge
@@ -122,7 +122,7 @@ class Episode:
         if self.ablation:
             given["localizer"] = TruthLocalizer(self.judge, self.simulation.data)
         settings = core_settings(scenario, self.robot, self.course)
-        self.pilot = build_core(scenario, settings, given)
+        self.pilot = build_core(scenario, settings, given, told_map(scenario, self.course))
 
     def tick(self) -> Step:
         """Go on by one control tick.

@@ -1,6 +1,7 @@
 //! The octree alone: maps from points, from OctoMap's files and into them, and the rays in them.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 use mapping::Update;
@@ -20,7 +21,8 @@ type Rows<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>);
 /// Occupancy of the space around the origin, as OctoMap keeps it.
 #[pyclass(name = "Octree", module = "treadwell._core")]
 pub(crate) struct PyOctree {
-    tree: Octree,
+    /// Shared with the cores that were told it as their map.
+    tree: Arc<Octree>,
     /// Time that the core itself took for the last frame, s.
     #[pyo3(get)]
     seconds: f64,
@@ -39,7 +41,7 @@ impl PyOctree {
             ..config
         };
         let tree = Octree::new(config).map_err(|error| bad_setting(py, &error))?;
-        Ok(Self { tree, seconds: 0.0 })
+        Ok(Self::of(tree))
     }
 
     /// Reads a file of OctoMap's, `.bt` or `.ot`.
@@ -49,7 +51,7 @@ impl PyOctree {
             .detach(|| unpanicked(|| Octree::read(Path::new(path))))
             .map_err(|error| failed(py, &error))?
             .map_err(|error| bad_setting(py, &error))?;
-        Ok(Self { tree, seconds: 0.0 })
+        Ok(Self::of(tree))
     }
 
     /// Writes a file that OctoMap reads, of the format that its name ends in: `.bt` or `.ot`.
@@ -81,7 +83,7 @@ impl PyOctree {
         } else {
             Update::PerFrame
         };
-        let tree = &mut self.tree;
+        let tree = Arc::make_mut(&mut self.tree);
         let started = Instant::now();
         py.detach(|| {
             unpanicked(|| {
@@ -93,6 +95,16 @@ impl PyOctree {
         .map_err(|error| bad_setting(py, &error))?;
         self.seconds = started.elapsed().as_secs_f64();
         Ok(())
+    }
+
+    /// Makes the voxels of points, (n, 3) m, occupied: a map that is told, not seen. Points beyond what a tree can hold, and those
+    /// that are no numbers, are left out.
+    fn occupy(&mut self, py: Python<'_>, points: &Bound<'_, PyArray2<f64>>) -> PyResult<()> {
+        let points = points.readonly();
+        let points = triples("points", &points)?;
+        let tree = Arc::make_mut(&mut self.tree);
+        py.detach(|| unpanicked(|| tree.occupy(points)))
+            .map_err(|error| failed(py, &error))
     }
 
     /// The occupied leaves: (n, 3) m, their centres, and (n,) m, their sides.
@@ -172,6 +184,18 @@ impl PyOctree {
 }
 
 impl PyOctree {
+    fn of(tree: Octree) -> Self {
+        Self {
+            tree: Arc::new(tree),
+            seconds: 0.0,
+        }
+    }
+
+    /// The tree, to be read.
+    pub(crate) fn tree(&self) -> Arc<Octree> {
+        Arc::clone(&self.tree)
+    }
+
     fn cubes<'py>(&self, py: Python<'py>, wanted: impl Fn(&Leaf) -> bool) -> PyResult<Rows<'py>> {
         let resolution = self.tree.config().resolution;
         let cube = |leaf: Leaf| {

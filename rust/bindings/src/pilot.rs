@@ -9,6 +9,7 @@ use sensing::{Frame, Observation};
 use crate::components;
 use crate::error::{bad_setting, failed, unpanicked, unreadable};
 use crate::observation;
+use crate::octree::PyOctree;
 use crate::products::{FlatPose, PyFloorView, PyPlanes, flat, matrix};
 use crate::stairs::{FlatFootstep, PyClimb, PyStaircase, PyStepping, flat_footsteps};
 
@@ -59,10 +60,11 @@ impl PyPilot {
         clippy::too_many_arguments,
         reason = "one keyword argument of Python's each"
     )]
-    #[pyo3(signature = (settings, *, segmenter=None, world_model=None, localizer=None, planner=None, behaviour=None))]
+    #[pyo3(signature = (settings, *, static_map=None, segmenter=None, world_model=None, localizer=None, planner=None, behaviour=None))]
     fn new(
         py: Python<'_>,
         settings: &str,
+        static_map: Option<PyRef<'_, PyOctree>>,
         segmenter: Option<Py<PyAny>>,
         world_model: Option<Py<PyAny>>,
         localizer: Option<Py<PyAny>>,
@@ -78,7 +80,8 @@ impl PyPilot {
             planner: planner.map(components::planner),
             behaviour: behaviour.map(components::behaviour),
         };
-        let pilot = Pilot::new(&settings, given).map_err(|error| {
+        let static_map = static_map.map(|octree| octree.tree());
+        let pilot = Pilot::new(&settings, static_map.as_deref(), given).map_err(|error| {
             if error.is_bad_setting() {
                 bad_setting(py, &error)
             } else {

@@ -125,6 +125,9 @@ pub trait WorldModel: Send + Sync {
     /// The floor, obstacle and unknown view, as of the last insertion.
     fn view(&self) -> &FloorView;
 
+    /// Drops what was seen: the robot found itself at another place than it had believed.
+    fn forget(&mut self) {}
+
     /// For each cell of the view the height at which what hangs above its floor begins, m in the map frame, as coarse as the
     /// model is; NaN where nothing is known to. `None` from a model that keeps no ceilings. Made anew at each call.
     fn ceilings(&self) -> Option<Grid<f32>> {

@@ -1,7 +1,7 @@
 //! What a depth frame sets off: scan, planes, pose, map.
 
 use geometry::{Camera, Grid, Map, Pose, Robot};
-use localization::{BodyState, Localizer};
+use localization::{BodyState, Estimate, Localizer};
 use mapping::{FloorView, Insertion, Surface, WorldModel};
 use robot::Body;
 use segmentation::{KnownFloor, Planes, Segmenter};
@@ -74,6 +74,17 @@ pub(crate) struct TakenBy<'a> {
     pub(crate) steps_taken: u64,
 }
 
+/// A frame that moves the robot further in the map than this, m, or turns it by more, rad, tells that it was somewhere else all along.
+const ELSEWHERE: [f64; 2] = [0.3, 0.35];
+
+/// Whether what was mapped lies in the wrong place.
+fn is_elsewhere(before: &Estimate, after: &Estimate) -> bool {
+    let moved = before.map_from_odometry.inverse() * after.map_from_odometry;
+    let [far_m, turned_rad] = ELSEWHERE;
+    let robot_m = after.map_from_robot.origin().inner - before.map_from_robot.origin().inner;
+    robot_m.norm() > far_m || moved.yaw_rad().abs() > turned_rad
+}
+
 impl Perception {
     pub(crate) fn new(
         segmenter: Box<dyn Segmenter>,
@@ -124,6 +135,10 @@ impl Perception {
             localizer.correct(body_then, &self.planes, self.world_model.view())?;
             localizer.estimate(body_then)
         })?;
+        if is_elsewhere(&predicted, &estimate) {
+            self.world_model.forget();
+            self.recognizer.forget();
+        }
         let insertion = timing.measure(Stage::Map, || {
             self.world_model
                 .insert(&self.planes, &estimate.map_from_robot)

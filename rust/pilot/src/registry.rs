@@ -1,10 +1,16 @@
 //! Which component a name stands for: the one place where a new one is added.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use behaviour::{Behaviour, Pace, StairClimbing, WalkingBehaviour};
-use geometry::ConfigError;
-use localization::{Localizer, MatchingLocalizer, OdometryLocalizer};
+use geometry::{ConfigError, Pose};
+use localization::{
+    Localizer, MatchingLocalizer, MonteCarloConfig, MonteCarloLocalizer, OdometryLocalizer,
+    StaticMap,
+};
+use mapping::volume::SolidVoxels;
+use mapping::volume::octree::{Leaf, Octree};
 use mapping::{Averaging, Fog, WorldModel};
 use planning::{AStar, Planner};
 use robot::{Body, Side};
@@ -103,20 +109,52 @@ pub(crate) fn recognizer(
     Ok(Recognizer::new(config, camera)?)
 }
 
-pub(crate) fn localizer(settings: &Settings) -> Result<Box<dyn Localizer>, PilotError> {
+pub(crate) fn localizer(
+    settings: &Settings,
+    static_map: Option<&Octree>,
+) -> Result<Box<dyn Localizer>, PilotError> {
     let tables = &settings.navigation.tables;
+    let start = settings.start_or_origin();
     match settings.navigation.localizer.as_str() {
         "odometry" => Ok(Box::new(OdometryLocalizer::new(
-            settings.start.into(),
+            start,
             table(tables, "odometry")?,
         )?)),
         "matching" => Ok(Box::new(MatchingLocalizer::new(
-            settings.start.into(),
+            start,
             table(tables, "odometry")?,
             table(tables, "matching")?,
         )?)),
-        other => Err(unknown("localizer", other, "odometry, matching")),
+        "monte_carlo" => {
+            let config: MonteCarloConfig = table(tables, "monte_carlo")?;
+            let told = static_map.ok_or_else(|| {
+                PilotError::Settings(
+                    "navigation.localizer: monte_carlo has to be told a static map".to_owned(),
+                )
+            })?;
+            let map = Arc::new(StaticMap::new(&solid(told)?, &config));
+            let start = settings.start.map(Pose::from);
+            Ok(Box::new(MonteCarloLocalizer::new(map, start, config)?))
+        }
+        other => Err(unknown(
+            "localizer",
+            other,
+            "odometry, matching, monte_carlo",
+        )),
     }
+}
+
+/// The occupied voxels of a map as a dense grid.
+fn solid(map: &Octree) -> Result<SolidVoxels, PilotError> {
+    let resolution_m = map.config().resolution;
+    let cube = |leaf: Leaf| {
+        let half_m = 0.5 * f64::from(leaf.edge()) * resolution_m;
+        let centre_m = map.centre_m(&leaf);
+        [-half_m, half_m].map(|off_m| centre_m.map(|at_m| at_m + off_m))
+    };
+    let cubes: Vec<_> = (map.leaves().filter(Leaf::is_occupied)).map(cube).collect();
+    SolidVoxels::of_boxes(&cubes, resolution_m)
+        .map_err(|error| PilotError::Settings(format!("static map: {error}")))
 }
 
 pub(crate) fn planner(

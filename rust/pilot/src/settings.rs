@@ -13,8 +13,8 @@ use serde::Deserialize;
 pub struct Settings {
     /// The robot's body.
     pub robot: Description,
-    /// Where the robot stands at the start.
-    pub start: StartSettings,
+    /// Where the robot stands at the start; `None` where it has to find out.
+    pub start: Option<StartSettings>,
     /// Where it shall go: the via points in order, the goal last.
     pub goals: Vec<GoalSettings>,
     /// Its components and their parameters.
@@ -62,6 +62,13 @@ pub struct Navigation {
     /// `[navigation.<name>]`, as the user wrote them.
     #[serde(flatten)]
     pub tables: BTreeMap<String, serde_json::Value>,
+}
+
+impl Settings {
+    /// The robot's frame in the map at the start: the map's origin where nobody says.
+    pub(crate) fn start_or_origin(&self) -> Pose<Map, Robot> {
+        self.start.map_or_else(Pose::identity, Pose::from)
+    }
 }
 
 impl From<StartSettings> for Pose<Map, Robot> {

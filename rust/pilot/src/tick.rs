@@ -3,6 +3,7 @@
 use behaviour::{Behaviour, Decision, Gaze, Situation, Stepping};
 use geometry::{Map, Odometry, Pose, Robot};
 use localization::{BodyStateHistory, Estimate, Localizer, Proprioception};
+use mapping::volume::octree::Octree;
 use planning::{Plan, Planner};
 use robot::Body;
 use sensing::{Frame, Intrinsics, Observation, SelfFilter};
@@ -49,8 +50,13 @@ pub struct Tick<'a> {
 }
 
 impl Pilot {
-    /// Builds the core. A component that is given takes the place of the named one.
-    pub fn new(settings: &Settings, given: Components) -> Result<Self, PilotError> {
+    /// Builds the core. A component that is given takes the place of the named one; `static_map` is what is known of the place
+    /// beforehand.
+    pub fn new(
+        settings: &Settings,
+        static_map: Option<&Octree>,
+        given: Components,
+    ) -> Result<Self, PilotError> {
         let body = Body::new(settings.robot.clone())?;
         let walker = Walker::new(&body)?;
         let feet = registry::feet(&body, &walker);
@@ -66,7 +72,7 @@ impl Pilot {
             Ok,
         )?;
         Ok(Self {
-            map_from_odometry_at_start: Pose::wrap(Pose::<Map, Robot>::from(settings.start).inner),
+            map_from_odometry_at_start: Pose::wrap(settings.start_or_origin().inner),
             proprioception: Proprioception::new(&body, table(tables, "proprioception")?)?,
             history: BodyStateHistory::default(),
             perception: Perception::new(
@@ -78,7 +84,7 @@ impl Pilot {
             ),
             localizer: given
                 .localizer
-                .map_or_else(|| registry::localizer(settings), Ok)?,
+                .map_or_else(|| registry::localizer(settings, static_map), Ok)?,
             planner: given
                 .planner
                 .map_or_else(|| registry::planner(settings, &body, feet), Ok)?,

@@ -55,6 +55,12 @@ impl Recognizer {
         })
     }
 
+    /// Drops what was seen: the robot found itself at another place than it had believed.
+    pub fn forget(&mut self) {
+        self.memory = Memory::default();
+        self.staircase = Staircase::default();
+    }
+
     /// Takes in a frame seen from `map_from_robot` after `steps_taken` steps in all. Frames whose planes are not reliable
     /// teach nothing.
     pub fn update(

@@ -88,6 +88,12 @@ pub struct MonteCarloConfig {
     pub least_share: f64,
     /// or its place is worse than this, m (standard deviation).
     pub most_spread: f64,
+    /// The estimate follows what the frames say by this share of what it is off, each,
+    pub follow_share: f64,
+    /// its height by what it is off beyond this, m,
+    pub height_band: f64,
+    /// and all at once where it is off by more than this: m, rad.
+    pub follow_within: [f64; 2],
     /// Radius and height of what the robot needs to stand somewhere, m.
     pub body: [f64; 2],
 }
@@ -130,6 +136,9 @@ impl Default for MonteCarloConfig {
             recovery_most: 0.5,
             least_share: 0.5,
             most_spread: 0.4,
+            follow_share: 0.2,
+            height_band: 0.02,
+            follow_within: [0.3, 0.35],
             body: [0.1, 0.55],
         }
     }
@@ -152,6 +161,7 @@ impl MonteCarloConfig {
             ("recovery_below", self.recovery_below),
             ("recovery_most", self.recovery_most),
             ("least_share", self.least_share),
+            ("follow_share", self.follow_share),
         ] {
             let holds = (0.0..=1.0).contains(&share);
             require(holds, &key(name), "between 0 and 1", share)?;
@@ -187,7 +197,7 @@ impl MonteCarloConfig {
         )
     }
 
-    fn positive(&self) -> [(&'static str, &[f64]); 23] {
+    fn positive(&self) -> [(&'static str, &[f64]); 25] {
         use std::slice::from_ref;
         [
             ("place_noise", &self.place_noise),
@@ -212,6 +222,8 @@ impl MonteCarloConfig {
             ("update_after", &self.update_after),
             ("recovery_rates", &self.recovery_rates),
             ("most_spread", from_ref(&self.most_spread)),
+            ("height_band", from_ref(&self.height_band)),
+            ("follow_within", &self.follow_within),
             ("body", &self.body),
         ]
     }

@@ -130,7 +130,12 @@ impl Localizer for MonteCarloLocalizer {
             (self.filter).update(motion.as_ref(), &self.observation, &self.map, self.step);
         self.filter.resample(&self.map, &reading, self.step);
         if let Some(belief) = &self.belief {
-            self.map_from_odometry = Some(upright(&belief.torso, &reading.odometry_from_torso));
+            let found = upright(&belief.torso, &reading.odometry_from_torso);
+            let robot = &body.odometry_from_robot;
+            self.map_from_odometry = Some(match &self.map_from_odometry {
+                Some(before) => follow(before, &found, robot, &self.config),
+                None => found,
+            });
         }
         Ok(())
     }
@@ -154,6 +159,33 @@ impl Localizer for MonteCarloLocalizer {
             lost,
         })
     }
+}
+
+/// The odometry frame in the map after a frame said where it is: by a share of the way there, and in height by what exceeds a
+/// dead band, since legs know heights better than voxels do and maps would smear; all the way where the robot is elsewhere.
+fn follow(
+    before: &Pose<Map, Odometry>,
+    found: &Pose<Map, Odometry>,
+    odometry_from_robot: &Pose<Odometry, Robot>,
+    config: &MonteCarloConfig,
+) -> Pose<Map, Odometry> {
+    let [from, to] = [before, found].map(|frame| *frame * *odometry_from_robot);
+    let off_m = to.origin().inner - from.origin().inner;
+    let turn_rad = geometry::wrap_angle(to.yaw_rad() - from.yaw_rad());
+    let [far_m, far_rad] = config.follow_within;
+    if off_m.norm() > far_m || turn_rad.abs() > far_rad {
+        return *found;
+    }
+    let share = config.follow_share;
+    let beyond_m = off_m.z - off_m.z.clamp(-config.height_band, config.height_band);
+    let at = from.origin().inner;
+    let map_from_robot: Pose<Map, Robot> = Pose::from_yaw(
+        at.x + share * off_m.x,
+        at.y + share * off_m.y,
+        at.z + share * beyond_m,
+        from.yaw_rad() + share * turn_rad,
+    );
+    map_from_robot * odometry_from_robot.inverse()
 }
 
 /// The odometry frame in the map, so that the torso's place and heading in both agree. Both frames are upright: roll and pitch of

@@ -124,6 +124,12 @@ impl Averaging {
 }
 
 impl WorldModel for Averaging {
+    fn forget(&mut self) {
+        if let Ok(fresh) = Self::new(self.config.clone()) {
+            *self = fresh;
+        }
+    }
+
     fn insert(
         &mut self,
         planes: &Planes,

@@ -218,6 +218,12 @@ fn occupy(occupancy: &mut OccupancyGrid, frame: &LabelledFrame, config: &FogConf
 }
 
 impl WorldModel for Fog {
+    fn forget(&mut self) {
+        if let Ok(fresh) = Self::new(self.config.clone()) {
+            *self = fresh;
+        }
+    }
+
     fn insert(
         &mut self,
         planes: &Planes,

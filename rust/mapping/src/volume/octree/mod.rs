@@ -81,6 +81,18 @@ impl Octree {
         self.log_odds_at(point_m).map(|value| value >= 0.0)
     }
 
+    /// Makes the voxels that hold these points of the map frame, m, as surely occupied as beams can: a map that is told, not seen.
+    /// Points beyond what a tree can hold are left out.
+    pub fn occupy(&mut self, points_m: &[[f64; 3]]) {
+        let per_m = self.per_m();
+        for key in (points_m.iter()).filter_map(|point| key::key_at(key::in_voxels(*point, per_m)))
+        {
+            self.nodes
+                .set_leaf(key, key::DEPTH, self.beam.highest, &self.beam);
+            self.nodes.prune(key);
+        }
+    }
+
     /// All leaves.
     pub fn leaves(&self) -> Leaves<'_> {
         Leaves::within(&self.nodes, EVERYWHERE)
