@@ -6,6 +6,7 @@ mod ahead;
 mod config;
 pub(crate) mod gaze;
 mod legs;
+mod locate;
 mod progress;
 mod state;
 mod states;
@@ -212,14 +213,16 @@ impl WalkingBehaviour {
         }
     }
 
-    /// What may end any state: nothing is seen, the goal is reached, or nothing has happened for too long.
+    /// What may end any state: the robot does not know where it is, nothing is seen, the goal is reached, or nothing has happened for too long.
     fn interrupt(&mut self, moment: &Moment<'_>) {
         if matches!(self.state, State::Refuse | State::Arrive) {
             return;
         }
         if moment.situation.stepping.stumbled && self.state.moves() {
             self.stumble();
-        } else if self.has_arrived(moment) {
+        } else if moment.situation.estimate.lost {
+            self.enter(State::Locate);
+        } else if self.state != State::Locate && self.has_arrived(moment) {
             self.enter(State::Arrive);
         } else if self.is_blind(moment) {
             self.enter(State::Blind);
@@ -246,7 +249,7 @@ impl WalkingBehaviour {
             1.0
         };
         let unseen_s = self.unseen_s(moment.situation);
-        moment.situation.estimate.lost || unseen_s > patience * self.config.blind_after
+        unseen_s > patience * self.config.blind_after
     }
 
     /// Deep inside the goal's disc, or as deep as the way leads.
@@ -288,7 +291,7 @@ impl Behaviour for WalkingBehaviour {
         self.keep_time(&moment);
         self.interrupt(&moment);
         self.motion = self.act(&moment);
-        let moving = self.state.moves() || self.state == State::LookAround;
+        let moving = matches!(self.state, State::Walk | State::Turn | State::LookAround);
         Ok(Decision {
             command: Command {
                 motion: self.motion.clone(),

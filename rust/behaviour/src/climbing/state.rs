@@ -80,7 +80,9 @@ impl State {
                 Self::Search | Self::Climb | Self::Blind | Self::Refuse
             ),
             Self::Finish => matches!(next, Self::Walk | Self::Search | Self::Blind | Self::Refuse),
-            Self::Blind => matches!(next, Self::Search | Self::Climb | Self::Refuse),
+            Self::Blind => {
+                matches!(next, Self::Walk | Self::Search | Self::Climb | Self::Refuse)
+            }
             Self::Refuse => false,
         }
     }

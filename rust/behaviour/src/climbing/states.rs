@@ -244,6 +244,12 @@ impl StairClimbing {
     /// Stands and looks down and around: from where the head points now perhaps nothing can be told.
     fn wait_for_sight(&mut self, here: &Here<'_>) -> Motion {
         let lost = here.situation.estimate.lost;
+        if lost && self.on.is_none() {
+            // Not on stairs: whoever walks can find out where it is.
+            self.flight.clear();
+            self.enter(State::Walk);
+            return Motion::Stand;
+        }
         if self.phase == Phase::Look {
             self.head.search(0.0);
             self.phase(Phase::Wait);

@@ -55,6 +55,8 @@ pub struct WalkingConfig {
     pub blind_after: f64,
     /// it gives up after this, s.
     pub blind_limit: f64,
+    /// it gives up after it did not know where it is for this long, s.
+    pub locate_limit: f64,
     /// "No way" must be the planner's answer for this long, s, and in all directions looked at.
     pub refuse_time: f64,
     /// Without headway for this long the robot looks around, s;
@@ -90,6 +92,7 @@ impl Default for WalkingConfig {
             arrive_time: 0.5,
             blind_after: 1.0,
             blind_limit: 10.0,
+            locate_limit: 60.0,
             refuse_time: 3.0,
             patience: 15.0,
             tries: 3,
@@ -113,6 +116,7 @@ impl WalkingConfig {
             ("gaze_speed", self.gaze_speed),
             ("blind_after", self.blind_after),
             ("patience", self.patience),
+            ("locate_limit", self.locate_limit),
         ];
         for (name, value) in positive {
             let key = format!("navigation.walking.{name}");

@@ -45,6 +45,8 @@ pub(crate) struct Simulation {
     last_frame_ns: Option<u64>,
     standing_ticks: u32,
     blocked_cells: usize,
+    /// Until then the localizer does not know where the robot is, s.
+    pub(crate) lost_until_s: f64,
 }
 
 impl Simulation {
@@ -84,6 +86,7 @@ impl Simulation {
             last_frame_ns: None,
             standing_ticks: 100,
             blocked_cells: usize::MAX,
+            lost_until_s: 0.0,
         }
     }
 
@@ -98,7 +101,7 @@ impl Simulation {
             time_ns: self.time_ns,
             map_from_robot,
             map_from_odometry: Pose::identity(),
-            lost: false,
+            lost: (self.time_ns as f64) < 1e9 * self.lost_until_s,
         };
         let decision = self
             .behaviour

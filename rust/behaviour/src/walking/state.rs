@@ -17,12 +17,14 @@ pub(crate) enum State {
     Refuse,
     /// Stands because nothing is seen.
     Blind,
+    /// Turns and circles to find out where it is.
+    Locate,
 }
 
 impl State {
     /// All of them.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 7] = [
+    pub(crate) const ALL: [Self; 8] = [
         Self::LookAround,
         Self::Walk,
         Self::Turn,
@@ -30,6 +32,7 @@ impl State {
         Self::Arrive,
         Self::Refuse,
         Self::Blind,
+        Self::Locate,
     ];
 
     /// The name in the recording's lane.
@@ -42,12 +45,13 @@ impl State {
             Self::Arrive => "arrive",
             Self::Refuse => "refuse",
             Self::Blind => "blind",
+            Self::Locate => "locate",
         }
     }
 
     /// Whether the feet may move.
     pub(crate) const fn moves(self) -> bool {
-        matches!(self, Self::Walk | Self::Turn)
+        matches!(self, Self::Walk | Self::Turn | Self::Locate)
     }
 
     /// Whether `next` may follow. Refusing is final; one who has arrived can only have slipped out again.
@@ -56,7 +60,11 @@ impl State {
             Self::LookAround => !matches!(next, Self::Stop),
             Self::Walk | Self::Turn | Self::Stop => true,
             Self::Arrive => matches!(next, Self::Stop),
-            Self::Blind => matches!(next, Self::LookAround | Self::Refuse | Self::Arrive),
+            Self::Blind => matches!(
+                next,
+                Self::LookAround | Self::Refuse | Self::Arrive | Self::Locate
+            ),
+            Self::Locate => matches!(next, Self::LookAround | Self::Refuse | Self::Stop),
             Self::Refuse => false,
         }
     }

@@ -43,6 +43,7 @@ impl WalkingBehaviour {
                 Motion::Stand
             }
             State::Blind => self.wait_for_sight(moment),
+            State::Locate => self.locate(moment),
         }
     }
 
@@ -260,24 +261,16 @@ impl WalkingBehaviour {
 
     fn wait_for_sight(&mut self, moment: &Moment<'_>) -> Motion {
         self.gaze_at(moment, 0.0, self.config.gaze_near);
-        let lost = moment.situation.estimate.lost;
         let unseen_s = self.unseen_s(moment.situation);
-        if !lost && unseen_s < self.config.blind_after {
+        if unseen_s < self.config.blind_after {
             self.look(Sweep::around(&self.config));
         } else if self.state_s > self.config.blind_limit {
-            self.refuse(if lost {
-                format!(
-                    "lost: the robot has not known where it is for {:.0} s",
-                    self.state_s
-                )
-            } else {
-                format!("lost: nothing has been seen for {unseen_s:.0} s")
-            });
+            self.refuse(format!("lost: nothing has been seen for {unseen_s:.0} s"));
         }
         Motion::Stand
     }
 
-    fn gaze_at(&mut self, moment: &Moment<'_>, pan_rad: f64, down_rad: f64) {
+    pub(super) fn gaze_at(&mut self, moment: &Moment<'_>, pan_rad: f64, down_rad: f64) {
         let pan_rad = pan_rad.clamp(-self.config.sweep, self.config.sweep);
         let goal = Gaze { pan_rad, down_rad };
         self.gazer

@@ -209,6 +209,31 @@ fn who_stays_blind_is_lost() {
 }
 
 #[test]
+fn who_does_not_know_where_it_is_turns_until_it_does_and_goes_on() {
+    let mut simulation = Simulation::new(PlanarPose::default(), [1.0, 0.0]);
+    simulation.lost_until_s = 12.0;
+    let (outcome, after_s) = simulation.run(120.0);
+    assert_eq!(outcome, Some(Outcome::GoalReached));
+    assert!(after_s > 12.0 && simulation.was_in("locate"));
+    let (_, left) = (simulation.states.iter())
+        .find(|(name, _)| *name == "look_around")
+        .unwrap();
+    assert!(left.x_m.hypot(left.y_m) < 0.05, "{left:?}");
+}
+
+#[test]
+fn who_never_finds_out_where_it_is_gives_up_and_arrives_nowhere() {
+    // It believes to stand at the goal.
+    let mut simulation = Simulation::new(PlanarPose::default(), [0.0, 0.0]);
+    simulation.lost_until_s = f64::INFINITY;
+    let (outcome, after_s) = simulation.run(120.0);
+    assert!(
+        matches!(outcome, Some(Outcome::Refused(reason)) if reason.starts_with("lost: the robot has not found out"))
+    );
+    assert!(after_s > 55.0 && after_s < 75.0);
+}
+
+#[test]
 fn a_hole_in_the_depth_image_is_looked_at_then_crossed_slowly() {
     let mut simulation = Simulation::new(PlanarPose::new(-1.0, 0.0, 0.0), [1.0, 0.0]);
     simulation.holes.push([0.0, 0.0, 0.2]);

@@ -1,0 +1,65 @@
+//! The state `locate`: the robot does not know where it is, and looks round until the localizer does.
+
+use mapping::{FloorView, Surface};
+
+use super::{Moment, WalkingBehaviour};
+use crate::walking::gaze::Sweep;
+use crate::{Motion, Velocity};
+
+/// The head sways so far to each side of straight ahead, rad, in this time, s: walls tell more than the floor before the feet.
+const SWAY_RAD: f64 = 0.6;
+const SWAY_S: f64 = 4.0;
+/// After as much turning, rad, small circles tell more than turning on.
+const TURNED_RAD: f64 = 7.0;
+/// Share of the turning speed on a circle.
+const CIRCLE_SHARE: f64 = 0.6;
+/// Floor is needed so far ahead to walk on, m, each so far to the side,
+const AHEAD_M: [f64; 3] = [0.15, 0.25, 0.35];
+const ASIDE_M: [f64; 3] = [-0.12, 0.0, 0.12];
+/// and as level as this, m.
+const LEVEL_M: f64 = 0.012;
+
+impl WalkingBehaviour {
+    /// Turns on the spot, then goes in small circles where the floor ahead is free, and gives up in the end.
+    pub(super) fn locate(&mut self, moment: &Moment<'_>) -> Motion {
+        if !moment.situation.estimate.lost {
+            self.look(Sweep::around(&self.config));
+            return Motion::Stand;
+        }
+        if self.state_s > self.config.locate_limit {
+            self.refuse(format!(
+                "lost: the robot has not found out where it is for {:.0} s",
+                self.state_s
+            ));
+            return Motion::Stand;
+        }
+        let phase = std::f64::consts::TAU * self.state_s / SWAY_S;
+        self.gaze_at(moment, SWAY_RAD * phase.sin(), self.config.gaze_far);
+        let turn_radps = self.config.turn_speed;
+        let circles = self.state_s * turn_radps > TURNED_RAD && is_free_ahead(moment);
+        Motion::Walk(if circles {
+            Velocity {
+                x_mps: self.config.creep_speed,
+                yaw_radps: CIRCLE_SHARE * turn_radps,
+                ..Velocity::default()
+            }
+        } else {
+            Velocity {
+                yaw_radps: turn_radps,
+                ..Velocity::default()
+            }
+        })
+    }
+}
+
+/// Whether the floor before the feet is known, level and free.
+fn is_free_ahead(moment: &Moment<'_>) -> bool {
+    let view: &FloorView = moment.situation.view;
+    let ground_m = moment.situation.estimate.map_from_robot.origin().inner.z;
+    AHEAD_M.iter().all(|&ahead_m| {
+        ASIDE_M.iter().all(|&aside_m| {
+            let (x, y) = moment.pose.apply(ahead_m, aside_m);
+            matches!(view.at(x, y), Surface::Floor(height_m) if (f64::from(height_m) - ground_m).abs() < LEVEL_M)
+        })
+    })
+}
