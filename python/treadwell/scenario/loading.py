@@ -44,6 +44,7 @@ def load_scenario(
     """
     path = find_scenario(name_or_path)
     raw = read_toml(path)
+    _add_course(raw, path)
     lines = _apply(raw, robot=robot, seed=seed, overrides=overrides)
     scenario = None
     try:
@@ -119,6 +120,28 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise InputError(f"{path}: a value out of range: {shortened(str(error), 300)}") from None
     except RecursionError:
         raise InputError(f"{path}: nested too deep") from None
+
+
+def _add_course(raw: dict[str, Any], path: Path) -> None:
+    """Put the course of the file that `course_of` names before the scenario's own, in place.
+
+    Raises:
+        InputError: it names no scenario file beside this one, or one that cannot be read.
+    """
+    if "course_of" not in raw:
+        return
+    file = raw.pop("course_of")
+    fault = "must be a file's name"
+    if isinstance(file, str):
+        fault = asset_fault(path.parent, file, (".toml",))
+    if fault:
+        raise InputError(f"{path}: course_of: found {shown(file)}; {fault}")
+    other = read_toml(path.parent / file)
+    own, shared = raw.get("course", []), other.get("course", [])
+    if isinstance(own, list) and isinstance(shared, list):
+        raw["course"] = [*shared, *own]
+    if "course_of" in other:
+        raise InputError(f"{path}: course_of: {file} has no course of its own but another's")
 
 
 def _apply(
