@@ -258,7 +258,11 @@ impl Behaviour for StairClimbing {
             self.after_stumble(&here);
         }
         if self.state == State::Walk {
-            return self.walk(&here);
+            return if situation.estimate.lost {
+                self.walk_lost(&here)
+            } else {
+                self.walk(&here)
+            };
         }
         self.interrupt(&here);
         let motion = self.act(&here);

@@ -12,7 +12,7 @@ use localization::{
 use mapping::volume::SolidVoxels;
 use mapping::volume::octree::{Leaf, Octree};
 use mapping::{Averaging, Fog, WorldModel};
-use planning::{AStar, Planner};
+use planning::{AStar, Guided, Planner};
 use robot::{Body, Side};
 use segmentation::{Histogram, Hough, Ransac, ScanLine, ScanLine1994, ScanLineAdaptive, Segmenter};
 use sensing::Intrinsics;
@@ -159,17 +159,25 @@ fn solid(map: &Octree) -> Result<SolidVoxels, PilotError> {
 
 pub(crate) fn planner(
     settings: &Settings,
+    static_map: Option<&Octree>,
     body: &Body,
     feet: Feet,
 ) -> Result<Box<dyn Planner>, PilotError> {
     let tables = &settings.navigation.tables;
+    let size = &body.description().body;
     match settings.navigation.planner.as_str() {
-        "a_star" => Ok(Box::new(AStar::new(
-            table(tables, "a_star")?,
-            table(tables, "climbing")?,
-            feet,
-            body.description().body.radius,
-        )?)),
+        "a_star" => {
+            let near = AStar::new(
+                table(tables, "a_star")?,
+                table(tables, "climbing")?,
+                feet,
+                size.radius,
+            )?;
+            Ok(match static_map {
+                Some(map) => Box::new(Guided::new(near, &solid(map)?, size.height)?),
+                None => Box::new(near),
+            })
+        }
         other => Err(unknown("planner", other, "a_star")),
     }
 }

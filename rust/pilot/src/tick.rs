@@ -87,7 +87,7 @@ impl Pilot {
                 .map_or_else(|| registry::localizer(settings, static_map), Ok)?,
             planner: given
                 .planner
-                .map_or_else(|| registry::planner(settings, &body, feet), Ok)?,
+                .map_or_else(|| registry::planner(settings, static_map, &body, feet), Ok)?,
             behaviour: given
                 .behaviour
                 .map_or_else(|| registry::behaviour(settings, feet), Ok)?,

@@ -7,6 +7,7 @@ mod config;
 pub mod distance;
 mod faces;
 mod find;
+mod guide;
 mod judged;
 mod keep;
 mod legs;
@@ -29,4 +30,5 @@ mod verge;
 
 pub use a_star::AStar;
 pub use config::AStarConfig;
+pub use guide::Guided;
 pub use plan::{Climb, Goal, NoWay, Path, Plan, PlanError, Planner, Refusal, Step};

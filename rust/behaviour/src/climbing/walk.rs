@@ -37,14 +37,16 @@ impl StairClimbing {
         };
     }
 
+    /// A tick of `walking` while the robot does not know where it is.
+    pub(super) fn walk_lost(&mut self, here: &Here<'_>) -> Result<Decision, BehaviourError> {
+        self.walk_plan = None;
+        self.idle_s = 0.0;
+        self.walking.next(here.situation)
+    }
+
     /// A tick of `walking` on the way to the next climb, to stairs that need a closer look, or to the goal.
     pub(super) fn walk(&mut self, here: &Here<'_>) -> Result<Decision, BehaviourError> {
         let situation = here.situation;
-        if situation.estimate.lost {
-            self.walk_plan = None;
-            self.idle_s = 0.0;
-            return self.walking.next(situation);
-        }
         let leg = self.leg(here).filter(|_| !here.is_at_the_goal());
         self.idle_s = 0.0;
         let looking = self.walking.is_looking_around();

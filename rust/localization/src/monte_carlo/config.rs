@@ -90,8 +90,8 @@ pub struct MonteCarloConfig {
     pub most_spread: f64,
     /// The estimate follows what the frames say by this share of what it is off, each,
     pub follow_share: f64,
-    /// its height by what it is off beyond this, m,
-    pub height_band: f64,
+    /// beyond these: in the plane, m, in height, m, in heading, rad,
+    pub follow_bands: [f64; 3],
     /// and all at once where it is off by more than this: m, rad.
     pub follow_within: [f64; 2],
     /// Radius and height of what the robot needs to stand somewhere, m.
@@ -136,8 +136,8 @@ impl Default for MonteCarloConfig {
             recovery_most: 0.5,
             least_share: 0.5,
             most_spread: 0.4,
-            follow_share: 0.2,
-            height_band: 0.02,
+            follow_share: 0.1,
+            follow_bands: [0.02, 0.02, 0.02],
             follow_within: [0.3, 0.35],
             body: [0.1, 0.55],
         }
@@ -222,7 +222,7 @@ impl MonteCarloConfig {
             ("update_after", &self.update_after),
             ("recovery_rates", &self.recovery_rates),
             ("most_spread", from_ref(&self.most_spread)),
-            ("height_band", from_ref(&self.height_band)),
+            ("follow_bands", &self.follow_bands),
             ("follow_within", &self.follow_within),
             ("body", &self.body),
         ]

@@ -161,8 +161,9 @@ impl Localizer for MonteCarloLocalizer {
     }
 }
 
-/// The odometry frame in the map after a frame said where it is: by a share of the way there, and in height by what exceeds a
-/// dead band, since legs know heights better than voxels do and maps would smear; all the way where the robot is elsewhere.
+/// The odometry frame in the map after a frame said where it is: by a share of what exceeds a dead band, all at once where the robot
+/// is elsewhere. Within the band legs know better than voxels do what happens from frame to frame, and maps and footholds that
+/// follow every guess would smear.
 fn follow(
     before: &Pose<Map, Odometry>,
     found: &Pose<Map, Odometry>,
@@ -177,13 +178,16 @@ fn follow(
         return *found;
     }
     let share = config.follow_share;
-    let beyond_m = off_m.z - off_m.z.clamp(-config.height_band, config.height_band);
+    let [place_m, height_m, heading_rad] = config.follow_bands;
+    let level_m = off_m.xy().norm();
+    let level_share = share * (level_m - place_m).max(0.0) / level_m.max(f64::MIN_POSITIVE);
+    let beyond = |off: f64, band: f64| off - off.clamp(-band, band);
     let at = from.origin().inner;
     let map_from_robot: Pose<Map, Robot> = Pose::from_yaw(
-        at.x + share * off_m.x,
-        at.y + share * off_m.y,
-        at.z + share * beyond_m,
-        from.yaw_rad() + share * turn_rad,
+        at.x + level_share * off_m.x,
+        at.y + level_share * off_m.y,
+        at.z + share * beyond(off_m.z, height_m),
+        from.yaw_rad() + share * beyond(turn_rad, heading_rad),
     );
     map_from_robot * odometry_from_robot.inverse()
 }

@@ -2,8 +2,10 @@
 
 mod distance_field;
 mod range_field;
+mod standing;
 mod voxels;
 
 pub use distance_field::DistanceField;
 pub use range_field::RangeField;
+pub use standing::{Standing, standing};
 pub use voxels::{SolidError, SolidVoxels};

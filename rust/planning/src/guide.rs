@@ -1,0 +1,186 @@
+//! A guide for planners that see only what is near: the way through a map that is known beforehand, over all its levels (002, III.D).
+
+mod floors;
+mod prior;
+
+use geometry::{ConfigError, Map, Pose, Robot};
+use mapping::FloorView;
+use mapping::volume::SolidVoxels;
+use stairs::Staircase;
+
+use crate::{AStar, Goal, Path, Plan, PlanError, Planner};
+use floors::{Field, Floors, NONE};
+use prior::Prior;
+
+/// How far ahead on the guide's way the planner is sent, m,
+const AHEAD_M: f64 = 1.4;
+/// and how near it may come to that place before it is sent on, m.
+const ON_M: f64 = 0.7;
+/// Radius of such a place, m.
+const RADIUS_M: f64 = 0.2;
+/// Beyond stairs it lies where the way has been level for this long, m.
+const LANDING_M: f64 = 0.3;
+/// Heights that differ by more than this are two levels, m.
+const LEVEL_M: f64 = 0.02;
+/// The robot that stands beside its own obstacle cells is not blocked by them, m.
+const OWN_M: f64 = 0.3;
+
+/// Plans by [`AStar`] to places on the guide's way, one after the other, and to the goal in the end.
+#[derive(Debug, Clone)]
+pub struct Guided {
+    near: AStar,
+    floors: Floors,
+    prior: Prior,
+    field: Field,
+    /// Places where something stands that the map does not have.
+    blocked: Vec<bool>,
+    goal: Option<Goal>,
+    /// Where the planner is sent, unless to the goal itself, and the place of the floors that this is.
+    sent: Option<(Goal, u32)>,
+}
+
+impl Guided {
+    /// Guides a planner through a map for a body of a radius and a height, m.
+    pub fn new(near: AStar, solid: &SolidVoxels, height_m: f64) -> Result<Self, ConfigError> {
+        let floors = Floors::new(solid, [near.needed_m(), height_m]);
+        Ok(Self {
+            blocked: vec![false; floors.len()],
+            prior: Prior::new(solid, height_m),
+            near,
+            floors,
+            field: Field::default(),
+            goal: None,
+            sent: None,
+        })
+    }
+
+    /// The guide's way from where the robot stands: its places.
+    fn way(&self, at_m: [f64; 3]) -> Option<Vec<u32>> {
+        let leads = |place: u32| self.field.cost_m[place as usize].is_finite();
+        let mut place = self.floors.under(at_m, leads)?;
+        let mut way = vec![place];
+        while self.field.next[place as usize] != NONE {
+            place = self.field.next[place as usize];
+            way.push(place);
+        }
+        Some(way)
+    }
+
+    /// Where on a way the planner is sent: so far ahead, or to where it is level again behind stairs; `None` to the goal itself.
+    fn ahead(&self, way: &[u32], goal: &Goal) -> Option<(Goal, u32)> {
+        let (mut walked_m, mut level_m, mut climbs) = (0.0, 0.0, false);
+        for pair in way.windows(2) {
+            let [from, to] = [pair[0], pair[1]].map(|place| self.floors.at_m(place));
+            let step_m = (to[0] - from[0]).hypot(to[1] - from[1]);
+            walked_m += step_m;
+            if (to[2] - from[2]).abs() > LEVEL_M {
+                climbs = true;
+                level_m = 0.0;
+            } else {
+                level_m += step_m;
+            }
+            let landed = climbs && level_m > LANDING_M;
+            if landed || (walked_m > AHEAD_M && !climbs) {
+                let height_m = match goal.height_m {
+                    // What the goal says of its level is finer than voxels.
+                    Some(height_m) if (height_m - to[2]).abs() < self.floors.side_m => height_m,
+                    _ => to[2],
+                };
+                let place = Goal {
+                    x_m: to[0],
+                    y_m: to[1],
+                    radius_m: RADIUS_M,
+                    height_m: climbs.then_some(height_m),
+                };
+                return Some((place, pair[1]));
+            }
+        }
+        None
+    }
+
+    /// Takes note of what stands in the window that the map does not have, on the robot's level.
+    fn note_obstacles(&mut self, robot_m: [f64; 3]) {
+        let needed_m = self.near.needed_m();
+        for place in 0..self.floors.len() as u32 {
+            let [x, y, z] = self.floors.at_m(place);
+            let near = (x - robot_m[0]).hypot(y - robot_m[1]) < OWN_M;
+            if (z - robot_m[2]).abs() > LEVEL_M || self.floors.is_at_step(place) {
+                continue;
+            }
+            if let Some(clearance_m) = self.near.clearance_m(x, y) {
+                self.blocked[place as usize] = clearance_m < needed_m && !near;
+            }
+        }
+    }
+
+    /// The place where the planner is sent by now.
+    fn send(&mut self, at_m: [f64; 3], goal: &Goal) -> Option<Vec<u32>> {
+        let way = self.way(at_m)?;
+        let stays = self.sent.is_some_and(|(sent, place)| {
+            let far = (sent.x_m - at_m[0]).hypot(sent.y_m - at_m[1]) > ON_M;
+            let below = sent.height_m.is_some_and(|h| (h - at_m[2]).abs() > LEVEL_M);
+            (far || below) && way.contains(&place)
+        });
+        if !stays {
+            self.sent = self.ahead(&way, goal);
+        }
+        Some(way)
+    }
+
+    /// A path to where the planner was sent, lengthened by the guide's way from there to the goal.
+    fn lengthen(&self, path: &mut Path, way: &[u32], sent: u32) {
+        let rest = way
+            .iter()
+            .position(|place| *place == sent)
+            .unwrap_or(way.len());
+        for place in way.iter().skip(rest + 1) {
+            let [x, y, _] = self.floors.at_m(*place);
+            path.points_m.push([x, y]);
+            path.unknown.push(false);
+            path.clearance_m.push(f64::INFINITY);
+        }
+        let rest_m = f64::from(self.field.cost_m[sent as usize]);
+        if rest_m.is_finite() {
+            path.cost_m += rest_m;
+        }
+    }
+}
+
+impl Planner for Guided {
+    fn plan(
+        &mut self,
+        view: &FloorView,
+        stairs: &Staircase,
+        start: &Pose<Map, Robot>,
+        goal: &Goal,
+    ) -> Result<Plan, PlanError> {
+        let origin = start.origin().inner;
+        let at_m = [origin.x, origin.y, origin.z];
+        if self.goal != Some(*goal) {
+            self.blocked.fill(false);
+            self.floors.aim(goal, &self.blocked, &mut self.field);
+            (self.goal, self.sent) = (Some(*goal), None);
+        }
+        let way = self.send(at_m, goal);
+        let target = self.sent.filter(|_| way.is_some());
+        let mut plan = (self.near).plan(
+            &self.prior.laid_under(view, at_m),
+            stairs,
+            start,
+            target.as_ref().map_or(goal, |(g, _)| g),
+        )?;
+        if plan.way.is_err() {
+            self.note_obstacles(at_m);
+            self.floors.aim(goal, &self.blocked, &mut self.field);
+            self.sent = None;
+        }
+        if let (Ok(path), Some(way), Some((_, sent))) = (&mut plan.way, &way, target) {
+            self.lengthen(path, way, sent);
+        }
+        Ok(plan)
+    }
+
+    fn distance_field_m(&self) -> Option<Vec<f32>> {
+        self.near.distance_field_m()
+    }
+}

@@ -1,0 +1,238 @@
+//! The floors of a map that is known beforehand, on all its levels, and the way over them to a goal.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use mapping::volume::{SolidVoxels, standing};
+
+use crate::Goal;
+
+/// Places beside each other whose heights differ by no more than this are joined, m: floor, a slope, or a step of stairs.
+const STEP_M: f64 = 0.055;
+/// A change of height costs as much as this way, m a metre of height: levels are changed where they have to be.
+const CLIMB: f64 = 10.0;
+/// A place is where the robot stands when it is no further away than this, m,
+const NEAR_M: f64 = 0.3;
+/// and no more above or below it than this, m.
+const LEVEL_M: f64 = 0.06;
+/// No place.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Places to stand: a column of the map has one on each of its levels.
+#[derive(Debug, Clone)]
+pub(super) struct Floors {
+    pub(super) side_m: f64,
+    corner_m: [f64; 2],
+    cols: usize,
+    rows: usize,
+    /// For each column the first of its places; one more at the end.
+    first: Vec<u32>,
+    /// For each place its column,
+    column: Vec<u32>,
+    /// and its height, m.
+    height_m: Vec<f32>,
+}
+
+/// How far it is from each place to a goal, m of level way, and which place is next; infinite and [`NONE`] where no way leads there.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Field {
+    pub(super) cost_m: Vec<f32>,
+    pub(super) next: Vec<u32>,
+}
+
+impl Floors {
+    /// Of a map, for a body of a radius and a height, m.
+    pub(super) fn new(solid: &SolidVoxels, body_m: [f64; 2]) -> Self {
+        let [cols, rows, _] = solid.size();
+        let mut places: Vec<(u32, f32)> = (standing(solid, body_m).iter())
+            .map(|place| {
+                let [x, y, _] = place.voxel;
+                ((y * cols + x) as u32, place.top_m[2] as f32)
+            })
+            .collect();
+        places.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let mut first = vec![0; cols * rows + 1];
+        for (column, _) in &places {
+            first[*column as usize + 1] += 1;
+        }
+        for column in 0..cols * rows {
+            first[column + 1] += first[column];
+        }
+        let corner = solid.corner_m([0; 3]);
+        let (column, height_m) = places.into_iter().unzip();
+        Self {
+            side_m: solid.resolution_m(),
+            corner_m: [corner[0], corner[1]],
+            cols,
+            rows,
+            first,
+            column,
+            height_m,
+        }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.height_m.len()
+    }
+
+    /// The column that holds a point, seen from above; none outside the map.
+    pub(super) fn column_at(&self, at_m: [f64; 2]) -> Option<usize> {
+        let cell = |axis: usize| (at_m[axis] - self.corner_m[axis]) / self.side_m;
+        let (x, y) = (cell(0), cell(1));
+        let inside = x >= 0.0 && y >= 0.0 && x < self.cols as f64 && y < self.rows as f64;
+        inside.then(|| y as usize * self.cols + x as usize)
+    }
+
+    /// Column and row.
+    pub(super) const fn cell_of(&self, column: usize) -> [usize; 2] {
+        [column % self.cols, column / self.cols]
+    }
+
+    /// Heights of the places of a column, m.
+    pub(super) fn heights_m(&self, column: usize) -> impl Iterator<Item = f64> + '_ {
+        let places = self.first[column] as usize..self.first[column + 1] as usize;
+        self.height_m[places]
+            .iter()
+            .map(|&height_m| f64::from(height_m))
+    }
+
+    /// Where a place is, m.
+    pub(super) fn at_m(&self, place: u32) -> [f64; 3] {
+        let [x, y] = self.cell_of(self.column[place as usize] as usize);
+        [
+            self.corner_m[0] + (x as f64 + 0.5) * self.side_m,
+            self.corner_m[1] + (y as f64 + 0.5) * self.side_m,
+            f64::from(self.height_m[place as usize]),
+        ]
+    }
+
+    /// Places no further than `near_m` from a point, seen from above.
+    fn around(&self, [x_m, y_m]: [f64; 2], near_m: f64) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let cell = |at_m: f64, axis: usize| (at_m - self.corner_m[axis]) / self.side_m;
+        let span = |at_m: f64, axis: usize, count: usize| {
+            let low = cell(at_m - near_m, axis).floor().max(0.0) as usize;
+            low..(cell(at_m + near_m, axis).ceil().max(0.0) as usize).min(count)
+        };
+        let cols = span(x_m, 0, self.cols);
+        span(y_m, 1, self.rows)
+            .flat_map(move |row| cols.clone().map(move |col| row * self.cols + col))
+            .flat_map(|column| self.first[column]..self.first[column + 1])
+            .map(move |place| {
+                let [x, y, _] = self.at_m(place);
+                (place, (x - x_m).hypot(y - y_m))
+            })
+            .filter(move |&(_, away_m)| away_m <= near_m)
+    }
+
+    /// The place that a robot stands on, of those from which `counts` says that they do.
+    pub(super) fn under(&self, [x, y, z]: [f64; 3], counts: impl Fn(u32) -> bool) -> Option<u32> {
+        self.around([x, y], NEAR_M)
+            .filter(|&(place, _)| {
+                (f64::from(self.height_m[place as usize]) - z).abs() < LEVEL_M && counts(place)
+            })
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(place, _)| place)
+    }
+
+    /// The places beside one that a step leads to, with what the step costs, m.
+    fn steps(&self, place: u32) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let [col, row] = self.cell_of(self.column[place as usize] as usize);
+        let height_m = f64::from(self.height_m[place as usize]);
+        let cols = col.saturating_sub(1)..(col + 2).min(self.cols);
+        (row.saturating_sub(1)..(row + 2).min(self.rows))
+            .flat_map(move |r| cols.clone().map(move |c| [c, r]))
+            .filter(move |&beside| beside != [col, row])
+            .flat_map(move |[c, r]| {
+                let beside = r * self.cols + c;
+                let way_m =
+                    self.side_m * f64::from((c.abs_diff(col) + r.abs_diff(row)) as u32).sqrt();
+                (self.first[beside]..self.first[beside + 1]).filter_map(move |next| {
+                    let rise_m = (f64::from(self.height_m[next as usize]) - height_m).abs();
+                    (rise_m <= STEP_M).then_some((next, way_m + CLIMB * rise_m))
+                })
+            })
+    }
+
+    /// Whether a step up or down leads on from a place.
+    pub(super) fn is_at_step(&self, place: u32) -> bool {
+        let height_m = self.height_m[place as usize];
+        (self.steps(place)).any(|(next, _)| (self.height_m[next as usize] - height_m).abs() > 0.01)
+    }
+
+    /// The way from everywhere to a goal (Dijkstra), but through places that are `blocked`.
+    pub(super) fn aim(&self, goal: &Goal, blocked: &[bool], field: &mut Field) {
+        field.cost_m.clear();
+        field.cost_m.resize(self.len(), f32::INFINITY);
+        field.next.clear();
+        field.next.resize(self.len(), NONE);
+        // Costs as bits: floats that are not negative are ordered like them.
+        let mut queue = BinaryHeap::new();
+        let reach_m = goal.radius_m.max(self.side_m);
+        for (place, away_m) in self.around([goal.x_m, goal.y_m], reach_m) {
+            let height_m = f64::from(self.height_m[place as usize]);
+            if goal
+                .height_m
+                .is_none_or(|level_m| (level_m - height_m).abs() < LEVEL_M)
+            {
+                field.cost_m[place as usize] = away_m as f32;
+                queue.push(Reverse(((away_m as f32).to_bits(), place)));
+            }
+        }
+        while let Some(Reverse((bits, place))) = queue.pop() {
+            let cost_m = f32::from_bits(bits);
+            if cost_m > field.cost_m[place as usize] {
+                continue;
+            }
+            for (next, way_m) in self.steps(place) {
+                let through_m = cost_m + way_m as f32;
+                if through_m < field.cost_m[next as usize] && !blocked[next as usize] {
+                    field.cost_m[next as usize] = through_m;
+                    field.next[next as usize] = place;
+                    queue.push(Reverse((through_m.to_bits(), next)));
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn goal(x_m: f64, y_m: f64, height_m: Option<f64>) -> Goal {
+        Goal {
+            x_m,
+            y_m,
+            radius_m: 0.05,
+            height_m,
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(40))]
+
+        #[test]
+        fn no_step_makes_a_way_cheaper_than_the_field_says(
+            blocks in prop::collection::vec((0.0..1.6f64, 0.0..1.6f64, 0.04..0.4f64, 0.04..0.4f64, 1..10_u32), 0..8),
+            x in 0.1..1.9f64, y in 0.1..1.9f64,
+        ) {
+            let mut boxes = vec![[[0.0, 0.0, -0.04], [2.0, 2.0, 0.0]]];
+            boxes.extend(blocks.iter().map(|&(x, y, dx, dy, h)| [[x, y, 0.0], [x + dx, y + dy, 0.04 * f64::from(h)]]));
+            let floors = Floors::new(&SolidVoxels::of_boxes(&boxes, 0.04).unwrap(), [0.08, 0.55]);
+            let mut field = Field::default();
+            floors.aim(&goal(x, y, None), &vec![false; floors.len()], &mut field);
+            for place in 0..floors.len() as u32 {
+                let here = field.cost_m[place as usize];
+                for (next, way_m) in floors.steps(place) {
+                    prop_assert!(here <= field.cost_m[next as usize] + way_m as f32 + 1e-4);
+                }
+                let next = field.next[place as usize];
+                if next != NONE {
+                    let (_, way_m) = floors.steps(place).find(|(step, _)| *step == next).unwrap();
+                    prop_assert!((here - field.cost_m[next as usize] - way_m as f32).abs() < 1e-4);
+                }
+            }
+        }
+    }
+}
