@@ -14,7 +14,7 @@ const TAKES_UP: f64 = 0.06;
 /// Share of a tick's new lead in the smoothed one.
 const FOLLOW: f64 = 0.5;
 
-/// A joint of a leg.
+/// A motor of a leg, by the joint that it turns.
 #[derive(Debug, Clone, Copy)]
 struct Gear {
     joint: usize,
@@ -42,6 +42,7 @@ impl Play {
         let gears = Side::BOTH
             .iter()
             .flat_map(|&side| body.leg_joints(side))
+            .filter(|&&joint| body.followers().iter().all(|pair| pair.0 != joint))
             .filter_map(|&joint| {
                 let name = &description.joints[joint];
                 let mut hinges = description
@@ -116,6 +117,9 @@ impl Play {
                 &mut self.torques_nm,
             );
         }
+        for &(follower, leader) in body.followers() {
+            self.torques_nm[leader] += self.torques_nm[follower];
+        }
         for gear in &mut self.gears {
             let joint = gear.joint;
             let torque_nm = gear.asked_nm.map_or(-self.torques_nm[joint], |asked_nm| {
@@ -128,6 +132,9 @@ impl Play {
             gear.lead_rad += (lead_rad - gear.lead_rad) * FOLLOW;
             self.joint_positions_rad[gear.joint] -= gear.lead_rad;
         }
+        for &(follower, leader) in body.followers() {
+            self.joint_positions_rad[follower] = self.joint_positions_rad[leader];
+        }
         &self.joint_positions_rad
     }
 }
@@ -139,10 +146,10 @@ fn center_of_pressure(
     side: Side,
     [front_left, front_right, rear_left, rear_right]: &[f64; 4],
 ) -> Point3<f64> {
-    let sole = &body.description().legs.get(side).sole;
+    let ([x, y], [length, width]) = body.description().legs.get(side).sensors_on_sole_m();
     let load_n = (front_left + front_right + rear_left + rear_right).max(1e-6);
-    let x = sole.length / 4.0 * (front_left + front_right - rear_left - rear_right) / load_n;
-    let y = sole.width / 4.0 * (front_left + rear_left - front_right - rear_right) / load_n;
+    let x = x + length / 4.0 * (front_left + front_right - rear_left - rear_right) / load_n;
+    let y = y + width / 4.0 * (front_left + rear_left - front_right - rear_right) / load_n;
     body.torso_from_sole(links, side) * Point3::new(x, y, 0.0)
 }
 
@@ -154,6 +161,13 @@ mod tests {
     fn corrected(play_rad: f64, forces_n: [[f64; 4]; 2]) -> (Vec<f64>, Vec<f64>) {
         let mut description = biped().description().clone();
         description.play = play_rad;
+        corrected_of(description, forces_n)
+    }
+
+    fn corrected_of(
+        description: robot::Description,
+        forces_n: [[f64; 4]; 2],
+    ) -> (Vec<f64>, Vec<f64>) {
         let body = Body::new(description).unwrap();
         let mut observation = Walk::new().stand(1).observations[0].clone();
         observation.foot_forces_n = forces_n;
@@ -187,6 +201,24 @@ mod tests {
                 .all(|(j, m)| (j - m).abs() <= 0.0025 + 1e-12)
         );
         assert_eq!(joints[12], measured[12]);
+    }
+
+    #[test]
+    fn a_joint_that_follows_is_where_the_one_is_whose_motor_turns_it() {
+        let mut description = biped().description().clone();
+        description.play = 0.005;
+        let [leader, follower] = Side::BOTH.map(|side| biped().leg_joints(side)[3]);
+        let name = description.joints[leader].clone();
+        let mut hinges = description
+            .links
+            .iter_mut()
+            .filter_map(|link| link.joint.as_mut());
+        let follows = hinges.find(|hinge| hinge.name == description.joints[follower]);
+        follows.unwrap().follows = Some(name);
+        let (measured, joints) = corrected_of(description, [[0.0; 4], [16.0; 4]]);
+        // The load is on the follower's leg: the leader's motor holds it, and lags for both.
+        assert!((joints[leader] - measured[leader] - 0.0025).abs() < 1e-6);
+        assert_eq!(joints[follower], joints[leader]);
     }
 
     #[test]

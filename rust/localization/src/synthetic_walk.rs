@@ -40,6 +40,7 @@ fn link(
             no_load_speed: 7.0,
             kp: 150.0,
             kv: 3.0,
+            follows: None,
         }),
     }
 }
@@ -84,6 +85,7 @@ pub(crate) fn biped() -> Body {
             length: 0.105,
             width: 0.075,
         },
+        sensors: None,
     };
     describe(links, leg("left"), leg("right"))
 }

@@ -123,6 +123,9 @@ pub struct JointDescription {
     pub kp: f64,
     /// Damping of the servo, N m s/rad.
     pub kv: f64,
+    /// The joint whose motor turns this one too, by the same angle; `None` for a joint with a motor of its own.
+    #[serde(default)]
+    pub follows: Option<String>,
 }
 
 /// Both legs.
@@ -149,10 +152,26 @@ impl Legs {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Leg {
-    /// Hip yaw, hip roll, hip pitch, knee pitch, ankle pitch, ankle roll.
+    /// Hip yaw, hip roll, hip pitch, knee pitch, ankle pitch, ankle roll. The first axis may slant sideways.
     pub joints: [String; 6],
     /// The sole at its end.
     pub sole: Sole,
+    /// Where the force sensors are; `None`: at the sole's corners.
+    #[serde(default)]
+    pub sensors: Option<ForceSensors>,
+}
+
+impl Leg {
+    /// Middle of the force sensors from the sole's centre, and their distances, forward and to the left, m.
+    pub fn sensors_on_sole_m(&self) -> ([f64; 2], [f64; 2]) {
+        let sole = &self.sole;
+        self.sensors
+            .as_ref()
+            .map_or(([0.0; 2], [sole.length, sole.width]), |sensors| {
+                let middle = [0, 1].map(|axis| sensors.position[axis] - sole.position[axis]);
+                (middle, [sensors.length, sensors.width])
+            })
+    }
 }
 
 /// The rectangle that a foot stands on.
@@ -162,6 +181,18 @@ pub struct Sole {
     /// Link that carries it.
     pub link: String,
     /// Centre of the rectangle in the link's frame, in the plane that touches the ground, m.
+    pub position: [f64; 3],
+    /// Extent along x, m.
+    pub length: f64,
+    /// Extent along y, m.
+    pub width: f64,
+}
+
+/// The rectangle at whose corners the force sensors of a foot are.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ForceSensors {
+    /// Its centre in the link's frame, m.
     pub position: [f64; 3],
     /// Extent along x, m.
     pub length: f64,
@@ -230,4 +261,36 @@ pub struct Extent {
     pub radius: f64,
     /// Height of the top of the head while it stands, m.
     pub height: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn leg(sensors: Option<ForceSensors>) -> Leg {
+        let sole = Sole {
+            link: "foot".to_owned(),
+            position: [0.02, 0.005, -0.045],
+            length: 0.15,
+            width: 0.09,
+        };
+        Leg {
+            joints: ["a", "b", "c", "d", "e", "f"].map(str::to_owned),
+            sole,
+            sensors,
+        }
+    }
+
+    #[test]
+    fn force_sensors_are_at_the_soles_corners_unless_told_otherwise() {
+        assert_eq!(leg(None).sensors_on_sole_m(), ([0.0; 2], [0.15, 0.09]));
+        let inside = leg(Some(ForceSensors {
+            position: [0.03, 0.0, -0.045],
+            length: 0.1,
+            width: 0.05,
+        }));
+        let (middle_m, size_m) = inside.sensors_on_sole_m();
+        assert!((middle_m[0] - 0.01).abs() < 1e-12 && (middle_m[1] + 0.005).abs() < 1e-12);
+        assert_eq!(size_m, [0.1, 0.05]);
+    }
 }

@@ -66,6 +66,7 @@ pub struct Body {
     link_index: BTreeMap<String, usize>,
     joint_index: BTreeMap<String, usize>,
     leg_joints: [[usize; 6]; 2],
+    followers: Vec<(usize, usize)>,
     sole_links: [usize; 2],
     link_from_sole: [Isometry3<f64>; 2],
     camera_link: usize,
@@ -122,6 +123,7 @@ impl Body {
             .map(|(i, link)| (link.name.clone(), i))
             .collect();
         let links = build_links(&description, &joint_index)?;
+        let followers = find_followers(&description, &joint_index)?;
         let leg = |side: Side| description.legs.get(side);
         let mut leg_joints = [[0; 6]; 2];
         let mut sole_links = [0; 2];
@@ -147,6 +149,7 @@ impl Body {
             camera_link,
             imu_link,
             leg_joints,
+            followers,
             sole_links,
             link_from_sole,
             links,
@@ -179,6 +182,11 @@ impl Body {
     /// Joint indices of a leg from the hip down: yaw, roll, pitch, knee, ankle pitch, ankle roll.
     pub const fn leg_joints(&self, side: Side) -> &[usize; 6] {
         &self.leg_joints[side.index()]
+    }
+
+    /// Joints without a motor of their own, each with the one whose motor turns it too, by the same angle.
+    pub fn followers(&self) -> &[(usize, usize)] {
+        &self.followers
     }
 
     /// The link that a joint turns, by the joint's index, with what is known of the joint.
@@ -255,6 +263,27 @@ impl Body {
         }
         Point3::from(sum / self.mass_kg())
     }
+}
+
+/// Pairs of joints that one motor turns.
+fn find_followers(
+    description: &Description,
+    joint_index: &BTreeMap<String, usize>,
+) -> Result<Vec<(usize, usize)>, BodyError> {
+    let joints = description
+        .links
+        .iter()
+        .filter_map(|link| link.joint.as_ref());
+    let mut followers = Vec::new();
+    for joint in joints {
+        if let Some(leader) = &joint.follows {
+            let role = format!("joint `{}` follows", joint.name);
+            let pair = [&joint.name, leader].map(|name| find(joint_index, "joint", &role, name));
+            let [follower, leader] = pair;
+            followers.push((follower?, leader?));
+        }
+    }
+    Ok(followers)
 }
 
 fn build_links(

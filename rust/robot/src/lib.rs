@@ -7,7 +7,7 @@ mod kinematics;
 mod statics;
 
 pub use description::{
-    CameraMount, Description, Extent, Head, ImuMount, JointDescription, Leg, Legs, LinkDescription,
-    Side, Sole, StereoDescription,
+    CameraMount, Description, Extent, ForceSensors, Head, ImuMount, JointDescription, Leg, Legs,
+    LinkDescription, Side, Sole, StereoDescription,
 };
 pub use kinematics::{Body, BodyError, LinkPoses};

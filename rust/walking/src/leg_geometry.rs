@@ -7,9 +7,10 @@ use crate::WalkError;
 
 /// A deviation from the assumed geometry that does not matter, m or sine of an angle.
 const TOLERANCE: f64 = 1e-6;
-/// Axes at zero from the hip down: yaw, roll, pitch, knee, ankle pitch, ankle roll.
-const AXES: [(&str, [f64; 3]); 6] = [
-    ("z", [0.0, 0.0, 1.0]),
+/// The steepest slant of a hip's yaw axis, rad.
+const STEEPEST_RAD: f64 = 1.2;
+/// Axes at zero from the hip down, behind the first: roll, pitch, knee, ankle pitch, ankle roll.
+const AXES: [(&str, [f64; 3]); 5] = [
     ("x", [1.0, 0.0, 0.0]),
     ("y", [0.0, 1.0, 0.0]),
     ("y", [0.0, 1.0, 0.0]),
@@ -22,6 +23,8 @@ const AXES: [(&str, [f64; 3]); 6] = [
 pub(crate) struct LegGeometry {
     /// +1 where a joint turns about the positive axis, else -1.
     pub(crate) signs: [f64; 6],
+    /// By how much the yaw axis is turned about x from upright, rad: its upper end slants to the right where positive.
+    pub(crate) slant_rad: f64,
     /// Smallest and largest angle of each joint, rad.
     pub(crate) ranges_rad: [[f64; 2]; 6],
     /// Where yaw, roll and pitch meet, m.
@@ -43,31 +46,37 @@ impl LegGeometry {
         let mut anchors = [Vector3::zeros(); 6];
         let mut signs = [1.0; 6];
         let mut ranges_rad = [[0.0; 2]; 6];
+        let mut slant_rad = 0.0;
         for (slot, &joint) in body.leg_joints(side).iter().enumerate() {
             let (link, hinge) = body
                 .hinge(joint)
                 .ok_or_else(|| refuse(format!("its joint {} turns no link", slot + 1)))?;
             let pose = &poses.torso_from_link[link];
             let axis = pose.rotation * Vector3::from(hinge.axis).normalize();
-            let (letter, wanted) = AXES[slot];
-            let along = axis.dot(&Vector3::from(wanted));
-            if along.abs() < 1.0 - TOLERANCE {
-                return Err(refuse(format!(
-                    "the axis of `{}` must be along {letter} at zero, got [{:.3}, {:.3}, {:.3}]",
-                    hinge.name, axis.x, axis.y, axis.z
-                )));
+            if slot == 0 {
+                (signs[0], slant_rad) = yaw_axis(&axis).ok_or_else(|| {
+                    refuse(misses(&hinge.name, "be upright or slant sideways", &axis))
+                })?;
+            } else {
+                let (letter, wanted) = AXES[slot - 1];
+                let along = axis.dot(&Vector3::from(wanted));
+                if along.abs() < 1.0 - TOLERANCE {
+                    let wanted = format!("be along {letter}");
+                    return Err(refuse(misses(&hinge.name, &wanted, &axis)));
+                }
+                signs[slot] = along.signum();
             }
-            signs[slot] = along.signum();
             ranges_rad[slot] = hinge.range;
             anchors[slot] = (pose * Point3::from(hinge.anchor)).coords;
         }
-        let [hip, knee, ankle] = meeting_points(&anchors).map_err(refuse)?;
+        let [hip, knee, ankle] = meeting_points(&anchors, slant_rad).map_err(refuse)?;
         let torso_from_sole = body.torso_from_sole(&poses, side);
         if torso_from_sole.rotation.angle() > TOLERANCE {
             return Err(refuse("the sole must be level at zero".to_owned()));
         }
         Ok(Self {
             signs,
+            slant_rad,
             ranges_rad,
             hip,
             thigh_m: hip.z - knee.z,
@@ -77,16 +86,36 @@ impl LegGeometry {
     }
 }
 
+/// The sign and the slant of a hip's yaw axis: it may lie in the plane of y and z, as a NAO's does.
+fn yaw_axis(axis: &Vector3<f64>) -> Option<(f64, f64)> {
+    let sign = axis.z.signum();
+    let slant_rad = (-sign * axis.y).atan2(sign * axis.z);
+    let holds = axis.x.abs() < TOLERANCE && slant_rad.abs() < STEEPEST_RAD;
+    let upright = axis.z.abs() >= 1.0 - TOLERANCE;
+    holds.then_some((sign, if upright { 0.0 } else { slant_rad }))
+}
+
+fn misses(joint: &str, wanted: &str, axis: &Vector3<f64>) -> String {
+    format!(
+        "the axis of `{joint}` must {wanted} at zero, got [{:.3}, {:.3}, {:.3}]",
+        axis.x, axis.y, axis.z
+    )
+}
+
 /// Hip, knee and ankle. An anchor may lie anywhere on its own axis: what counts is where the axes meet.
-fn meeting_points(anchors: &[Vector3<f64>; 6]) -> Result<[Vector3<f64>; 3], String> {
+fn meeting_points(
+    anchors: &[Vector3<f64>; 6],
+    slant_rad: f64,
+) -> Result<[Vector3<f64>; 3], String> {
     let [yaw, roll, pitch, knee, ankle_pitch, ankle_roll] = anchors;
     let hip = Vector3::new(yaw.x, roll.y, roll.z);
     let knee = Vector3::new(knee.x, hip.y, knee.z);
     let ankle = Vector3::new(ankle_pitch.x, ankle_roll.y, ankle_pitch.z);
+    let yaw_y = yaw.y - slant_rad.tan() * (hip.z - yaw.z);
     let near = |a: f64, b: f64| (a - b).abs() < TOLERANCE;
     let claims = [
         (
-            near(yaw.y, hip.y) && near(pitch.x, hip.x) && near(pitch.z, hip.z),
+            near(yaw_y, hip.y) && near(pitch.x, hip.x) && near(pitch.z, hip.z),
             "yaw, roll and pitch of the hip must meet in a point",
         ),
         (

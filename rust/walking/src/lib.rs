@@ -24,6 +24,7 @@ mod phase;
 mod posture;
 mod preview;
 pub mod relief;
+mod shared_hip;
 pub mod stance;
 mod stumble;
 pub mod support;

@@ -6,8 +6,9 @@ use robot::{Body, LinkPoses, Side};
 use crate::ankles::Ankles;
 use crate::balance::{Balance, GRAVITY_MPS2};
 use crate::gait::{FootPose, Gait, Phase};
-use crate::leg::Leg;
+use crate::leg::{Leg, LegAngles};
 use crate::pelvis::{Course, Pelvis, Trunk};
+use crate::shared_hip::SharedHip;
 use crate::support::Pressure;
 use crate::{GaitConfig, JointTargets, WalkError};
 
@@ -37,6 +38,7 @@ pub(crate) struct Moment<'a> {
 #[derive(Debug, Clone)]
 pub(crate) struct Posture {
     legs: [Leg; 2],
+    shared_hip: Option<SharedHip>,
     mass_kg: f64,
     pelvis: Pelvis,
     swing_tilt: f64,
@@ -48,11 +50,13 @@ pub(crate) struct Posture {
 impl Posture {
     /// For this body and gait; fails where a leg does not fit the inverse kinematics.
     pub(crate) fn new(body: &Body, config: &GaitConfig) -> Result<Self, WalkError> {
+        let legs = [
+            Leg::new(body, Side::Left, config.max_extension)?,
+            Leg::new(body, Side::Right, config.max_extension)?,
+        ];
         Ok(Self {
-            legs: [
-                Leg::new(body, Side::Left, config.max_extension)?,
-                Leg::new(body, Side::Right, config.max_extension)?,
-            ],
+            shared_hip: SharedHip::read(body, &legs)?,
+            legs,
             mass_kg: body.mass_kg(),
             pelvis: Pelvis::new(config),
             swing_tilt: config.swing_tilt,
@@ -76,7 +80,8 @@ impl Posture {
         self.yaw_rad = geometry::wrap_angle(self.yaw_rad + turn * (TURN_RATE * passed_s).min(1.0));
         let rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_rad);
         body.pose_links(&targets.positions_rad, &mut self.poses)?;
-        let offset = rotation * body.center_of_mass_in_torso(&self.poses).coords;
+        let about = body.center_of_mass_in_torso(&self.poses);
+        let offset = rotation * about.coords;
         let course = &moment.course;
         let over = course.com - offset.xy();
         let trunk = Trunk {
@@ -89,12 +94,13 @@ impl Posture {
         let place = Translation3::new(over.x, over.y, height);
         let plan_from_torso = Isometry3::from_parts(place, rotation);
         let torso_from_plan = plan_from_torso.inverse();
-        for side in Side::BOTH {
+        let soles = Side::BOTH.map(|side| {
             let lean = self.lean(moment, &plan_from_torso, side);
             let sole = feet[side.index()].plan_from_sole();
-            let leg = &self.legs[side.index()];
-            let solution =
-                leg.solve(&(torso_from_plan * lean * sole * moment.ankles.level_from_sole(side)));
+            torso_from_plan * lean * sole * moment.ankles.level_from_sole(side)
+        });
+        let solutions = self.solve(&soles, &about);
+        for (leg, solution) in self.legs.iter().zip(&solutions) {
             for (&joint, &angle) in leg.joints().iter().zip(&solution.angles_rad) {
                 let before = targets.positions_rad[joint];
                 targets.velocities_radps[joint] = (angle - before) / passed_s;
@@ -102,6 +108,20 @@ impl Posture {
             }
         }
         Ok(())
+    }
+
+    /// Both legs' angles; where they share a motor, the torso turns about `about` until they agree.
+    fn solve(
+        &mut self,
+        torso_from_sole: &[Isometry3<f64>; 2],
+        about: &Point3<f64>,
+    ) -> [LegAngles; 2] {
+        let Some(shared_hip) = &self.shared_hip else {
+            return [0, 1].map(|index| self.legs[index].solve(&torso_from_sole[index]));
+        };
+        let agreement = shared_hip.agree(&self.legs, torso_from_sole, about);
+        self.yaw_rad = geometry::wrap_angle(self.yaw_rad + agreement.turn_rad);
+        agreement.legs
     }
 
     /// How the plan appears to a leg whose foot is in the air, as seen from the reference's torso: leaning by the measured tilt,
@@ -168,6 +188,10 @@ impl Posture {
         }
         for torque in torques_nm.iter_mut() {
             *torque = -*torque;
+        }
+        for &(follower, leader) in body.followers() {
+            torques_nm[leader] += torques_nm[follower];
+            torques_nm[follower] = 0.0;
         }
     }
 }

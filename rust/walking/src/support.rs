@@ -21,6 +21,8 @@ pub struct Pressure {
 pub struct Soles {
     margin_m: f64,
     half: [Vector2<f64>; 2],
+    /// Middle of the force sensors on each sole, and half of their distances.
+    sensors: [[Vector2<f64>; 2]; 2],
 }
 
 impl Soles {
@@ -32,18 +34,19 @@ impl Soles {
                 let sole = &body.description().legs.get(side).sole;
                 Vector2::new(0.5 * sole.length, 0.5 * sole.width)
             }),
+            sensors: sensors(body),
         }
     }
 
-    /// Centre of pressure on a sole, from its middle forward and to the left, m; the middle where nothing presses.
+    /// Centre of pressure on a sole, from its middle forward and to the left, m; the sensors' middle where nothing presses.
     pub fn pressed_m(&self, side: Side, forces_n: &[[f64; 4]; 2]) -> Vector2<f64> {
         let forces_n = forces_n[side.index()].map(|force| force.max(0.0));
-        let half = self.half[side.index()];
+        let [middle, half] = self.sensors[side.index()];
         let [front_left, front_right, rear_left, rear_right] = forces_n;
         let load_n: f64 = forces_n.iter().sum();
         let forward = front_left + front_right - rear_left - rear_right;
         let left = front_left + rear_left - front_right - rear_right;
-        Vector2::new(half.x * forward, half.y * left) / load_n.max(1e-3)
+        middle + Vector2::new(half.x * forward, half.y * left) / load_n.max(1e-3)
     }
 
     /// The point of what bears of a standing foot's sole that is nearest to `point`, axis by axis.
@@ -101,10 +104,17 @@ impl Soles {
 
 /// Where the force sensors are on each sole: front left, front right, rear left, rear right, m.
 pub(crate) fn sole_corners(body: &Body) -> [[Vector2<f64>; 4]; 2] {
+    sensors(body).map(|[middle, half]| {
+        let (x, y) = (half.x, half.y);
+        [(x, y), (x, -y), (-x, y), (-x, -y)].map(|(x, y)| middle + Vector2::new(x, y))
+    })
+}
+
+/// Middle of the force sensors on each sole, and half of their distances, m.
+fn sensors(body: &Body) -> [[Vector2<f64>; 2]; 2] {
     Side::BOTH.map(|side| {
-        let sole = &body.description().legs.get(side).sole;
-        let (x, y) = (0.5 * sole.length, 0.5 * sole.width);
-        [(x, y), (x, -y), (-x, y), (-x, -y)].map(|(x, y)| Vector2::new(x, y))
+        let (middle, size) = body.description().legs.get(side).sensors_on_sole_m();
+        [Vector2::from(middle), Vector2::from(size) * 0.5]
     })
 }
 
@@ -162,5 +172,26 @@ mod tests {
             let wanted = carry[0] * share + carry[1] * (1.0 - share);
             prop_assert!((soles.on_both(&feet, &carry, &wanted).zmp - wanted).norm() < 1e-9);
         }
+    }
+
+    #[test]
+    fn the_pressure_is_told_from_where_the_sensors_are() {
+        let mut inside = crate::test_biped::description();
+        inside.legs.left.sensors = Some(robot::ForceSensors {
+            position: [0.01, 0.0, -0.045],
+            length: 0.06,
+            width: 0.04,
+        });
+        let soles = Soles::new(&Body::new(inside).unwrap(), MARGIN_M);
+        let heel = [[0.0, 0.0, 10.0, 10.0]; 2];
+        let [left, right] = Side::BOTH.map(|side| soles.pressed_m(side, &heel));
+        assert!(
+            (left - Vector2::new(0.01 - 0.03, 0.0)).norm() < 1e-12,
+            "{left}"
+        );
+        assert!(
+            (right - Vector2::new(-0.0525, 0.0)).norm() < 1e-12,
+            "{right}"
+        );
     }
 }

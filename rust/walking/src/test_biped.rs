@@ -54,6 +54,7 @@ fn link(
             no_load_speed: 7.0,
             kp: 150.0,
             kv: 3.0,
+            follows: None,
         }),
     }
 }
@@ -79,16 +80,6 @@ pub(crate) fn description() -> Description {
     links.push(link("pan", 0, [0.0, 0.0, 0.2], 0.1, Z));
     links.push(link("tilt", 13, [0.0, 0.0, 0.04], 0.4, Y));
     links.push(link("left_arm", 0, [0.0, 0.1, 0.15], 0.0, Y));
-    let names = |side: &str| LEG.map(|(name, _)| format!("{side}_{name}"));
-    let leg = |side: &str| Leg {
-        joints: names(side),
-        sole: Sole {
-            link: format!("{side}_foot"),
-            position: [0.0, 0.0, -0.045],
-            length: 0.105,
-            width: 0.075,
-        },
-    };
     let joints: Vec<String> = links
         .iter()
         .filter_map(|link| link.joint.as_ref().map(|joint| joint.name.clone()))
@@ -119,6 +110,19 @@ pub(crate) fn description() -> Description {
         play: 0.0,
         gait: serde_json::Value::Null,
         links,
+    }
+}
+
+fn leg(side: &str) -> Leg {
+    Leg {
+        joints: LEG.map(|(name, _)| format!("{side}_{name}")),
+        sole: Sole {
+            link: format!("{side}_foot"),
+            position: [0.0, 0.0, -0.045],
+            length: 0.105,
+            width: 0.075,
+        },
+        sensors: None,
     }
 }
 
@@ -167,6 +171,17 @@ pub(crate) fn biped() -> Body {
     Body::new(description()).unwrap()
 }
 
+/// The same with hips like a NAO's: yaw axes that slant by 45 degrees, one motor for both.
+pub(crate) fn shared_hip_description() -> Description {
+    let mut shared = description();
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    for (link, axis) in [(1, [0.0, half, -half]), (7, [0.0, half, half])] {
+        shared.links[link].joint.as_mut().unwrap().axis = axis;
+    }
+    shared.links[7].joint.as_mut().unwrap().follows = Some("left_hip_yaw".to_owned());
+    shared
+}
+
 /// A world without inertia: joints are where their targets are, the torso is level, the feet that stand carry what they shall
 /// carry, and one that comes down on the ground feels it.
 pub(crate) struct Ideal {
@@ -184,7 +199,10 @@ pub(crate) struct Ideal {
 
 impl Ideal {
     pub(crate) fn new() -> Self {
-        let body = biped();
+        Self::of(biped())
+    }
+
+    pub(crate) fn of(body: Body) -> Self {
         let walker = Walker::new(&body).unwrap();
         let targets = JointTargets {
             positions_rad: body.description().stand.clone(),
