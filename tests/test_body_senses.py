@@ -75,6 +75,17 @@ def test_encoders_sit_at_the_motors() -> None:
     assert positions.tolist() == [0.5, 0.5]
 
 
+def test_a_joint_without_an_encoder_reads_what_its_leader_reads() -> None:
+    data = state()
+    data.joint("one").qpos, data.joint("two").qpos = 0.3, 0.302
+    data.joint("one").qvel = 1.0
+    offsets = np.array([0.01, 0.2])
+    encoders = Encoders(MODEL, ("one", "two"), QUANTUM, offsets, stream(0, "e"), {1: 0})
+    positions, velocities = encoders.read(data, Play())
+    assert positions[0] == positions[1] == pytest.approx(0.81, abs=QUANTUM)
+    assert velocities[0] == velocities[1]
+
+
 def test_velocities_have_the_noise_of_two_readings() -> None:
     data = state()
     data.joint("one").qvel = 1.0

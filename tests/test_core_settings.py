@@ -1,6 +1,7 @@
 """What the core is told before the first tick: robot, start, goals, navigation."""
 
 import json
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -63,6 +64,17 @@ def test_a_table_of_parameters_goes_through_untouched() -> None:
     assert document["navigation"]["fog"] == {"cell": 0.05}
     assert document["navigation"]["self_filter"] == {"margin": 0.02}
     assert document["navigation"]["planner"] == "a_star"
+
+
+def test_a_robots_own_parameters_lie_under_the_scenarios() -> None:
+    robot = load_robot("qrio")
+    tables = {"fog": {"cell": 0.03, "headroom": 0.7}, "ground": {"noise_floor": 0.05}}
+    file = robot.file.model_copy(update={"navigation": tables})
+    made = load_scenario("slalom", overrides=("navigation.fog.cell=0.05",))
+    settings = core_settings(made, replace(robot, file=file), build_course(made, robot))
+    navigation = json.loads(settings)["navigation"]
+    assert navigation["fog"] == {"cell": 0.05, "headroom": 0.7}
+    assert navigation["ground"] == {"noise_floor": 0.05}
 
 
 def test_components_of_the_users_are_loaded_and_given_ones_beat_the_files() -> None:

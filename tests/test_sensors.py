@@ -208,7 +208,10 @@ def test_a_robot_without_errors_in_its_file_has_exact_noisy_senses() -> None:
         for name in ("encoders", "imu", "feet")
     }
     exact = SimpleNamespace(
-        file=ROBOT.file.model_copy(update=tables), joints=ROBOT.joints, nominal=ROBOT.nominal
+        file=ROBOT.file.model_copy(update=tables),
+        joints=ROBOT.joints,
+        followers=ROBOT.followers,
+        nominal=ROBOT.nominal,
     )
     one = Sensors(world.model, exact, Settings(), RandomStreams(0)).observe(world.data, 0)
     other = senses(world, IDEAL).observe(world.data, 0)

@@ -35,7 +35,7 @@ def core_settings(scenario: Scenario, robot: Robot, course: Course) -> str:
         "robot": robot.description(),
         "start": known if scenario.start.known else None,
         "goals": places,
-        "navigation": {**scenario.navigation.slots(), **scenario.navigation.parameters()},
+        "navigation": {**scenario.navigation.slots(), **_parameters(scenario, robot)},
     }
     return json.dumps(settings, allow_nan=False)
 
@@ -51,6 +51,16 @@ def told_map(scenario: Scenario, course: Course) -> Octree | None:
     where = str(scenario.path or scenario.name)
     table = scenario.navigation.parameters().get("static_map", {})
     return static_map(course, map_resolution(table, where), where)
+
+
+def _parameters(scenario: Scenario, robot: Robot) -> dict[str, dict[str, Any]]:
+    """Return component -> its parameters: the robot's own, and the scenario's over them."""
+    tables: dict[str, dict[str, Any]] = {
+        name: dict(table) for name, table in robot.file.navigation.items()
+    }
+    for name, table in scenario.navigation.parameters().items():
+        tables[name] = {**tables.get(name, {}), **table}
+    return tables
 
 
 def user_components(scenario: Scenario, given: dict[str, object]) -> dict[str, Any]:

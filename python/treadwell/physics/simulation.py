@@ -76,6 +76,9 @@ class Simulation:
         self._positions = _slice([int(joint.qposadr[0]) for joint in joints])
         self._velocities = _slice([int(joint.dofadr[0]) for joint in joints])
         self._actuators = np.array([model.actuator(name).id for name in robot.actuators])
+        self._driven: slice | NDArray[np.intp] = slice(None)
+        if robot.followers:
+            self._driven = np.setdiff1d(np.arange(len(joints)), list(robot.followers))
         self.motors = Motors(
             robot.limits,
             play=robot.file.encoders.play if play else 0.0,
@@ -118,7 +121,8 @@ class Simulation:
         for left in reversed(range(STEPS_PER_TICK)):
             if left == 0:
                 model.opt.disableflags &= ~_SENSORS
-            ctrl[self._actuators] = self.motors.torques(positions, velocities)
+            torques = self.motors.torques(positions, velocities)
+            ctrl[self._actuators] = torques[self._driven]
             audit.ctrl.append(ctrl)
             mujoco.mj_step2(model, data)
             mujoco.mj_step1(model, data)

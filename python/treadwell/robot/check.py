@@ -9,6 +9,7 @@ import numpy as np
 
 from treadwell.errors import InputError
 from treadwell.robot.file import LegTable, RobotFile
+from treadwell.robot.followers import followers, is_tie
 
 PHYSICS_STEP = 0.002
 """The physics step that the harness is built on, s."""
@@ -34,6 +35,7 @@ def check_robot(toml: Path, mjcf: Path, model: mujoco.MjModel, file: RobotFile) 
     """
     _check_links(mjcf, model)
     _check_joints(mjcf, model)
+    _check_ties(mjcf, model)
     _Checker(toml, mjcf, model, file).check()
 
 
@@ -69,6 +71,19 @@ def _check_joints(mjcf: Path, model: mujoco.MjModel) -> None:
         low, high = model.jnt_range[joint]
         if not model.jnt_limited[joint] or low >= high:
             raise InputError(f"{mjcf}: joint {name!r} needs a range, got {low:g} to {high:g}")
+
+
+def _check_ties(mjcf: Path, model: mujoco.MjModel) -> None:
+    """Refuse equalities other than between a joint without a motor and one that has one."""
+    driven = {int(model.actuator_trnid[i, 0]) for i in range(model.nu)}
+    tied = [int(joint) for joint in model.eq_obj1id]
+    for i in range(model.neq):
+        fits = is_tie(model, i) and tied.count(tied[i]) == 1
+        if not fits or tied[i] in driven or int(model.eq_obj2id[i]) not in driven:
+            raise InputError(
+                f"{mjcf}: equality {model.equality(i).name!r} must tie a joint1 without a motor "
+                'to a joint2 with one, by polycoef="0 1 0 0 0"'
+            )
 
 
 class _Checker:
@@ -133,6 +148,7 @@ class _Checker:
                 )
             actuators[joint] = i
         groups: dict[str, str] = {}
+        tied = followers(model)
         for group, motors in self.file.motors.items():
             for joint_name in motors.joints:
                 key = f"motors.{group}.joints"
@@ -140,6 +156,8 @@ class _Checker:
                 if joint_name in groups:
                     self._fail(key, f"joint {joint_name!r} is in motors.{groups[joint_name]} too")
                 groups[joint_name] = group
+                if joint in tied:
+                    self._fail(key, f"joint {joint_name!r} has no motor of its own")
                 if joint not in actuators:
                     raise InputError(f"{self.mjcf}: joint {joint_name!r} has no <motor>")
                 low, high = model.actuator_ctrlrange[actuators[joint]]
@@ -151,7 +169,8 @@ class _Checker:
                         f"is {peak:g}, but the motor of {joint_name!r} in {self.mjcf.name} "
                         f"has a ctrlrange of {low:g} to {high:g}",
                     )
-        missing = [joint for joint in self.joints if joint not in groups]
+        driven = [name for name, joint in self.joints.items() if joint not in tied]
+        missing = [joint for joint in driven if joint not in groups]
         if missing:
             self._fail("motors", f"no group has the joints {_list(missing)}")
 

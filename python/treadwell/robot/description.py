@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from treadwell.physics.motors import MotorLimits
 from treadwell.robot.file import LegTable, RobotFile
+from treadwell.robot.followers import followers
 
 Floats = NDArray[np.float64]
 
@@ -69,11 +70,8 @@ def describe(
             "focal": focal_length(file),
             "period": camera.period,
             "stereo": {
-                "baseline": camera.stereo.baseline,
-                "window": camera.stereo.window,
-                "quantum": camera.stereo.quantum,
-                "min_disparity": camera.stereo.min_disparity,
-                "max_disparity": camera.stereo.max_disparity,
+                "baseline": camera.triangulation.baseline,
+                "window": camera.triangulation.window,
             },
         },
         "body": {"radius": file.body.radius, "height": file.body.height},
@@ -92,6 +90,7 @@ def _leg(leg: LegTable) -> dict[str, Any]:
             "length": sole.length,
             "width": sole.width,
         },
+        "sensors": None if leg.sensors is None else leg.sensors.model_dump(),
     }
 
 
@@ -120,6 +119,7 @@ def _joint(model: mujoco.MjModel, joint: int, limits: MotorLimits) -> dict[str, 
     if joint < 0:
         return None
     order = joint - 1
+    leader = followers(model).get(joint)
     return {
         "name": model.joint(joint).name,
         "axis": model.jnt_axis[joint].tolist(),
@@ -129,4 +129,5 @@ def _joint(model: mujoco.MjModel, joint: int, limits: MotorLimits) -> dict[str, 
         "no_load_speed": float(limits.no_load_speed[order]),
         "kp": float(limits.kp[order]),
         "kv": float(limits.kv[order]),
+        "follows": None if leader is None else model.joint(leader).name,
     }

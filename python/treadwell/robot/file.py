@@ -56,15 +56,25 @@ class SoleTable(Table):
     width: Positive
 
 
+class SensorsTable(Table):
+    """`[legs.*.sensors]`: the rectangle with a force sensor at each corner; as for a sole."""
+
+    position: Position
+    length: Positive
+    width: Positive
+
+
 class LegTable(Table):
     """`[legs.*]`: joints from the hip down (yaw, roll, pitch, knee, ankle pitch, ankle roll).
 
-    `forces` names the contact sensor of the sole: its net force, and where that acts.
+    `forces` names the contact sensor of the sole: its net force, and where that acts. Without
+    `sensors`, there is one under each corner of the sole.
     """
 
     joints: tuple[Name, Name, Name, Name, Name, Name]
     forces: Name
     sole: SoleTable
+    sensors: SensorsTable | None = None
 
 
 class LegsTable(Table):
@@ -146,24 +156,60 @@ class StereoTable(Table):
         return self
 
 
+class StructuredLightTable(Table):
+    """`[camera.structured_light]`: baseline, nearest, farthest (m), noise (px), shares, rad."""
+
+    baseline: Positive
+    window: Annotated[int, Field(ge=1, le=31)]
+    disparity_noise: NotNegative
+    quantum: NotNegative = 0.0
+    nearest: Positive
+    farthest: Positive
+    lateral_noise: NotNegative = 0.0
+    edge_dropout: Share = 0.0
+    steepest: Annotated[FiniteFloat, Field(gt=0.0, le=1.5708)]
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.farthest <= self.nearest:
+            raise ValueError("farthest must be above nearest")
+        if self.disparity_noise < self.quantum / 12.0**0.5:
+            raise ValueError("disparity_noise must hold that of rounding, quantum / sqrt(12)")
+        return self
+
+
 class CameraTable(Table):
-    """`[camera]`: a camera of the MJCF; image size (pixels), fields of view (rad), period (s)."""
+    """`[camera]`: a camera of the MJCF; image size (pixels), fields of view (rad), period (s).
+
+    `sensor` names the table that says how it errs.
+    """
 
     name: Name
-    sensor: Literal["stereo"]
+    sensor: Literal["stereo", "structured_light"]
     width: Annotated[int, Field(ge=8, le=640)]
     height: Annotated[int, Field(ge=8, le=480)]
     horizontal_fov: Annotated[FiniteFloat, Field(gt=0.0, lt=3.0)]
     vertical_fov: Annotated[FiniteFloat, Field(gt=0.0, lt=3.0)]
     period: Positive
-    stereo: StereoTable
+    stereo: StereoTable | None = None
+    structured_light: StructuredLightTable | None = None
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         ticks = self.period / 0.01
         if ticks < 1.0 - 1e-9 or abs(ticks - round(ticks)) > 1e-6:
             raise ValueError("period must be a multiple of the control tick, 0.01 s")
+        tables = {"stereo": self.stereo, "structured_light": self.structured_light}
+        if [name for name, table in tables.items() if table is not None] != [self.sensor]:
+            raise ValueError(f"sensor {self.sensor!r} needs its own table, and no other sensor's")
         return self
+
+    @property
+    def triangulation(self) -> StereoTable | StructuredLightTable:
+        """The sensor's table: both kinds have a baseline and a window."""
+        table = self.stereo or self.structured_light
+        assert table is not None
+        return table
 
 
 class MotorsTable(Table):
@@ -187,7 +233,7 @@ class MotorsTable(Table):
 
 
 class RobotFile(Table):
-    """The whole file. `gait` goes to the walker as it is."""
+    """The whole file. `gait` goes to the walker as it is; a scenario goes over `navigation`."""
 
     robot: RobotTable
     body: BodyTable
@@ -201,15 +247,16 @@ class RobotFile(Table):
     camera: CameraTable
     motors: dict[Name, MotorsTable]
     gait: dict[str, Any] = {}
+    navigation: dict[Name, dict[str, Any]] = {}
 
-    @field_validator("gait")
+    @field_validator("gait", "navigation")
     @classmethod
-    def _check_gait(cls, gait: dict[str, Any]) -> dict[str, Any]:
+    def _check_core(cls, table: dict[str, Any]) -> dict[str, Any]:
         try:
-            json.dumps(gait, allow_nan=False)
+            json.dumps(table, allow_nan=False)
         except (TypeError, ValueError) as error:
             raise ValueError("must hold finite numbers, strings, booleans and lists") from error
-        return gait
+        return table
 
 
 def read_robot_file(path: Path) -> RobotFile:

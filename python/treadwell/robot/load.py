@@ -16,6 +16,7 @@ from treadwell.physics.motors import MotorLimits
 from treadwell.robot.check import check_robot
 from treadwell.robot.description import describe
 from treadwell.robot.file import MotorsTable, RobotFile, read_robot_file
+from treadwell.robot.followers import followers
 
 STAND = "stand"
 """Name of the keyframe of the MJCF in which the robot stands upright."""
@@ -66,9 +67,15 @@ class Robot:
 
     @cached_property
     def actuators(self) -> tuple[str, ...]:
-        """Names of the motors' actuators in joint order."""
+        """Names of the motors' actuators, in the order of the joints that have one."""
         of_joint = {int(self.nominal.actuator_trnid[i, 0]): i for i in range(self.nominal.nu)}
-        return tuple(self.nominal.actuator(of_joint[j]).name for j in range(1, self.nominal.njnt))
+        return tuple(self.nominal.actuator(of_joint[joint]).name for joint in sorted(of_joint))
+
+    @cached_property
+    def followers(self) -> dict[int, int]:
+        """For each joint without a motor the one whose motor turns it too, both in joint order."""
+        tied = followers(self.nominal)
+        return {follower - 1: leader - 1 for follower, leader in tied.items()}
 
     @cached_property
     def stand_qpos(self) -> NDArray[np.float64]:
@@ -82,8 +89,9 @@ class Robot:
 
     @cached_property
     def limits(self) -> MotorLimits:
-        """What the motors can do, in joint order."""
-        groups = [self._group(joint) for joint in self.joints]
+        """What the motors can do, in joint order; a follower's is its leader's."""
+        leaders = [self.followers.get(i, i) for i in range(len(self.joints))]
+        groups = [self._group(self.joints[leader]) for leader in leaders]
         return MotorLimits(
             kp=np.array([group.kp for group in groups]),
             kv=np.array([group.kv for group in groups]),

@@ -1,8 +1,9 @@
 """The senses of the robot's own body: encoders, the inertial unit, the foot forces."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Protocol
 
 import mujoco
@@ -36,6 +37,7 @@ class Encoders:
         quantum: float,
         offsets: Floats,
         rng: np.random.Generator,
+        followers: Mapping[int, int] = MappingProxyType({}),
     ) -> None:
         """Find the joints.
 
@@ -45,6 +47,7 @@ class Encoders:
             quantum: rad, step of the readings; 0 for exact readings and velocities.
             offsets: (n,) rad, what each encoder reads too much.
             rng: the velocities' noise.
+            followers: joints without an encoder, each with the one whose encoder speaks for both.
         """
         ids = [model.joint(joint).id for joint in joints]
         self._positions = model.jnt_qposadr[ids].copy()
@@ -54,6 +57,7 @@ class Encoders:
         self._velocity_noise = quantum / (np.sqrt(6.0) * VELOCITY_SPAN)
         self._rng = rng
         self.offsets = np.array(offsets, np.float64)
+        self._followers, self._leaders = list(followers), list(followers.values())
 
     def read(self, data: mujoco.MjData, motors: MotorSide | None) -> tuple[Floats, Floats]:
         """Return the readings (n,) rad and the velocities (n,) rad/s.
@@ -72,6 +76,9 @@ class Encoders:
             np.rint(readings, out=readings)
             readings *= self._quantum
             velocities += self._velocity_noise * self._rng.standard_normal(velocities.size)
+        if self._followers:
+            readings[self._followers] = readings[self._leaders]
+            velocities[self._followers] = velocities[self._leaders]
         return readings, velocities
 
 
@@ -169,12 +176,12 @@ def rotation_vector(rotation: Floats) -> tuple[float, float, float]:
 
 @dataclass(frozen=True, slots=True)
 class SensedSole:
-    """A stiff sole on four force sensors, one under each corner.
+    """A stiff sole on four force sensors, at the corners of a rectangle.
 
     Attributes:
         sensor: name of its contact sensor: net force and where it acts, in the world.
         link: the link that carries it.
-        center: m, its centre in the link's frame.
+        center: m, the rectangle's centre in the link's frame.
         size: m, its length and width.
     """
 

@@ -1,16 +1,23 @@
 """The depth camera in time: when it exposes, when its frames arrive, when it is blind."""
 
 from collections import deque
+from typing import Protocol
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.observation import Frame
-from treadwell.senses.depth import DepthCamera
-from treadwell.senses.stereo import StereoModel
+from treadwell.senses.depth import Cast, DepthCamera
 
 Floats = NDArray[np.float64]
+
+
+class DepthErrors(Protocol):
+    """What turns exact depth into a sensor's."""
+
+    def see(self, cast: Cast, texture: Floats) -> NDArray[np.float32]:
+        """Return the measured depth, (h, w) m, NaN for none; texture for each geom id, 0 to 1."""
 
 
 class DepthSensor:
@@ -24,7 +31,7 @@ class DepthSensor:
         self,
         model: mujoco.MjModel,
         camera: DepthCamera,
-        stereo: StereoModel | None,
+        errors: DepthErrors | None,
         texture: Floats,
         period_ns: int,
         latency_ns: int,
@@ -34,7 +41,7 @@ class DepthSensor:
         Args:
             model: the compiled world with the robot.
             camera: where the rays start.
-            stereo: the errors; None: the exact depth is delivered.
+            errors: the sensor's; None: the exact depth is delivered.
             texture: for each geom id, how well stereo sees it, 0 (blank) to 1.
             period_ns: from one exposure to the next.
             latency_ns: from exposure to arrival.
@@ -47,7 +54,7 @@ class DepthSensor:
             raise ValueError(f"texture: {model.ngeom} geoms, got {len(texture)} values")
         self._texture = texture
         self.camera = camera
-        self._stereo = stereo
+        self._errors = errors
         self._period_ns = period_ns
         self._latency_ns = latency_ns
         self._next_ns = 0
@@ -78,6 +85,6 @@ class DepthSensor:
     def _expose(self, data: mujoco.MjData) -> NDArray[np.float32]:
         """Return the depth image (h, w) of the present state."""
         cast = self.camera.cast(data)
-        if self._stereo is None:
+        if self._errors is None:
             return cast.depth.astype(np.float32)
-        return self._stereo.see(cast, self._texture)
+        return self._errors.see(cast, self._texture)

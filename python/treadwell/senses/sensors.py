@@ -13,8 +13,9 @@ from treadwell.robot.file import RobotFile
 from treadwell.senses.body import Encoders, FootForces, Imu, ImuNoise, MotorSide, SensedSole
 from treadwell.senses.camera_error import CameraError, CameraErrorBounds, draw_camera_error
 from treadwell.senses.depth import DepthCamera, Mount, Pinhole
-from treadwell.senses.depth_sensor import DepthSensor
+from treadwell.senses.depth_sensor import DepthErrors, DepthSensor
 from treadwell.senses.stereo import StereoConfig, StereoModel
+from treadwell.senses.structured_light import StructuredLightConfig, StructuredLightModel
 
 Floats = NDArray[np.float64]
 Streams = Callable[[str], np.random.Generator]
@@ -69,6 +70,10 @@ class SensedRobot(Protocol):
     @property
     def joints(self) -> tuple[str, ...]:
         """The names of its joints, in joint order."""
+
+    @property
+    def followers(self) -> Mapping[int, int]:
+        """Joints without a motor, each with the one that turns it, in joint order."""
 
     @property
     def nominal(self) -> mujoco.MjModel:
@@ -172,13 +177,13 @@ class Sensors:
         table = robot.file.encoders
         offsets = np.zeros(len(robot.joints))
         if settings.encoders == "ideal":
-            return Encoders(model, robot.joints, 0.0, offsets, rng)
+            return Encoders(model, robot.joints, 0.0, offsets, rng, robot.followers)
         for leg in (robot.file.legs.left, robot.file.legs.right):
             at = [self._joint_order[joint] for joint in leg.joints]
             offsets[at] = rng.uniform(-table.leg_offset, table.leg_offset, len(at))
         for joint, offset in zip(_camera_joints(robot.file), error.offsets, strict=True):
             offsets[self._joint_order[joint]] = offset
-        return Encoders(model, robot.joints, table.quantum, offsets, rng)
+        return Encoders(model, robot.joints, table.quantum, offsets, rng, robot.followers)
 
 
 def _camera_joints(file: RobotFile) -> tuple[str, ...]:
@@ -223,10 +228,10 @@ def _feet(
     share, absolute = 0.0, 0.0
     if settings.feet != "ideal":
         share, absolute = file.feet.force_noise, file.feet.force_noise_absolute
-    soles = [
-        SensedSole(leg.forces, leg.sole.link, leg.sole.position, (leg.sole.length, leg.sole.width))
-        for leg in (file.legs.left, file.legs.right)
-    ]
+    soles = []
+    for leg in (file.legs.left, file.legs.right):
+        at = leg.sensors or leg.sole
+        soles.append(SensedSole(leg.forces, leg.sole.link, at.position, (at.length, at.width)))
     return FootForces(model, soles, share, absolute, streams("sensors.feet"))
 
 
@@ -240,20 +245,31 @@ def _depth(
 ) -> DepthSensor:
     table = file.camera
     pinhole = Pinhole(table.width, table.height, focal_length(file))
-    stereo = None
+    errors = None
     if settings.depth == "ideal":
         mount = Mount()
     else:
-        values = table.stereo.model_dump()
-        values["valid_textured"] = 1.0 - values.pop("dropout_rate")
-        values["mismatch_rate"] = _either(settings.mismatch_rate, values["mismatch_rate"])
-        pattern, noise = streams("sensors.depth.pattern"), streams("sensors.depth.noise")
-        stereo = StereoModel(StereoConfig(**values), pinhole, pattern, noise)
+        errors = _depth_errors(file, settings, streams, pinhole)
     return DepthSensor(
         model,
-        DepthCamera(model, table.name, pinhole, mount, every_pixel=stereo is None),
-        stereo,
+        DepthCamera(model, table.name, pinhole, mount, every_pixel=errors is None),
+        errors,
         np.ones(model.ngeom) if texture is None else texture,
         round(table.period * 1e9),
         round(settings.latency * 1e9),
     )
+
+
+def _depth_errors(
+    file: RobotFile, settings: SensorSettings, streams: Streams, pinhole: Pinhole
+) -> DepthErrors:
+    camera, noise = file.camera, streams("sensors.depth.noise")
+    if camera.structured_light is not None:
+        light = StructuredLightConfig(**camera.structured_light.model_dump())
+        return StructuredLightModel(light, pinhole, noise)
+    assert camera.stereo is not None
+    values = camera.stereo.model_dump()
+    values["valid_textured"] = 1.0 - values.pop("dropout_rate")
+    values["mismatch_rate"] = _either(settings.mismatch_rate, values["mismatch_rate"])
+    pattern = streams("sensors.depth.pattern")
+    return StereoModel(StereoConfig(**values), pinhole, pattern, noise)
