@@ -19,6 +19,7 @@ BROKEN = [
     ("kp = 150.0", "kb = 150.0", r"motors\.hip_and_knee\.kb: unknown key"),
     ("period = 0.08", "period = 0.085", "multiple of the control tick"),
     ("stall_torque = 1.4", "stall_torque = 0.4", "must not be below peak_torque"),
+    ("period = 0.08", "period = 0.08\npool = 3", "pool must divide width and height, got 3"),
     ('sensor = "stereo"', 'sensor = "structured_light"', "needs its own table, and no other"),
     ("[gait]", "[navigation.ground]\nnoise_floor = 2026-01-01\n[gait]", "navigation: must hold"),
     ('model = "qrio.xml"', 'model = "../qrio.xml"', r"robot\.model"),

@@ -69,6 +69,7 @@ def describe(
             "height": camera.height,
             "focal": focal_length(file),
             "period": camera.period,
+            "pool": camera.pool,
             "stereo": {
                 "baseline": camera.triangulation.baseline,
                 "window": camera.triangulation.window,

@@ -181,7 +181,7 @@ class StructuredLightTable(Table):
 class CameraTable(Table):
     """`[camera]`: a camera of the MJCF; image size (pixels), fields of view (rad), period (s).
 
-    `sensor` names the table that says how it errs.
+    `sensor` names the table that says how it errs. The core takes `pool` pixels a side for one.
     """
 
     name: Name
@@ -191,6 +191,7 @@ class CameraTable(Table):
     horizontal_fov: Annotated[FiniteFloat, Field(gt=0.0, lt=3.0)]
     vertical_fov: Annotated[FiniteFloat, Field(gt=0.0, lt=3.0)]
     period: Positive
+    pool: Annotated[int, Field(ge=1, le=8)] = 1
     stereo: StereoTable | None = None
     structured_light: StructuredLightTable | None = None
 
@@ -199,6 +200,8 @@ class CameraTable(Table):
         ticks = self.period / 0.01
         if ticks < 1.0 - 1e-9 or abs(ticks - round(ticks)) > 1e-6:
             raise ValueError("period must be a multiple of the control tick, 0.01 s")
+        if self.width % self.pool or self.height % self.pool:
+            raise ValueError(f"pool must divide width and height, got {self.pool}")
         tables = {"stereo": self.stereo, "structured_light": self.structured_light}
         if [name for name, table in tables.items() if table is not None] != [self.sensor]:
             raise ValueError(f"sensor {self.sensor!r} needs its own table, and no other sensor's")

@@ -122,6 +122,7 @@ fn describe(links: Vec<LinkDescription>, left: Leg, right: Leg) -> Body {
             height: 72,
             focal: 100.0,
             period: 0.08,
+            pool: 1,
             stereo: StereoDescription {
                 baseline: 0.06,
                 window: 5,

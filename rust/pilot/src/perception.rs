@@ -5,7 +5,7 @@ use localization::{BodyState, Estimate, Localizer};
 use mapping::{FloorView, Insertion, Surface, WorldModel};
 use robot::Body;
 use segmentation::{KnownFloor, Planes, Segmenter};
-use sensing::{Frame, Intrinsics, Scan, SelfFilter};
+use sensing::{Frame, Scan, SelfFilter};
 use stairs::{Recognizer, Staircase};
 
 use crate::PilotError;
@@ -91,15 +91,15 @@ impl Perception {
         world_model: Box<dyn WorldModel>,
         recognizer: Recognizer,
         self_filter: SelfFilter,
-        camera: Intrinsics,
+        scan: Scan,
     ) -> Self {
         Self {
             segmenter,
             world_model,
             recognizer,
-            scan: Scan::new(camera),
+            planes: Planes::new(scan.disparity_px.len()),
+            scan,
             self_filter,
-            planes: Planes::new(camera.width * camera.height),
             insertion: None,
             frames_used: 0,
             last_frame_ns: None,

@@ -6,7 +6,7 @@ use localization::{BodyStateHistory, Estimate, Localizer, Proprioception};
 use mapping::volume::octree::Octree;
 use planning::{Plan, Planner};
 use robot::Body;
-use sensing::{Frame, Intrinsics, Observation, SelfFilter};
+use sensing::{Frame, Intrinsics, Observation, Scan, SelfFilter};
 use walking::relief::{Mapped, Slopes};
 use walking::{JointTargets, Walker};
 
@@ -60,10 +60,12 @@ impl Pilot {
         let body = Body::new(settings.robot.clone())?;
         let walker = Walker::new(&body)?;
         let feet = registry::feet(&body, &walker);
-        let camera = Intrinsics::from(&body.description().camera);
+        let mount = &body.description().camera;
+        let camera = Intrinsics::from(mount);
+        let scan = Scan::pooled(camera, mount.pool);
         let tables = &settings.navigation.tables;
         let segmenter = given.segmenter.map_or_else(
-            || registry::segmenter(&settings.navigation.segmenter, tables, camera),
+            || registry::segmenter(&settings.navigation.segmenter, tables, scan.camera),
             Ok,
         )?;
         let self_filter = SelfFilter::new(&body, &table(tables, "self_filter")?)?;
@@ -78,9 +80,9 @@ impl Pilot {
             perception: Perception::new(
                 segmenter,
                 world_model,
-                registry::recognizer(settings, camera)?,
+                registry::recognizer(settings, scan.camera)?,
                 self_filter,
-                camera,
+                scan,
             ),
             localizer: given
                 .localizer

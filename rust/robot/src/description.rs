@@ -240,8 +240,15 @@ pub struct CameraMount {
     pub focal: f64,
     /// Time between exposures, s.
     pub period: f64,
+    /// Pixels a side that are looked at as one.
+    #[serde(default = "one")]
+    pub pool: usize,
     /// What is known of the stereo matching.
     pub stereo: StereoDescription,
+}
+
+const fn one() -> usize {
+    1
 }
 
 /// What the core knows of its stereo camera.

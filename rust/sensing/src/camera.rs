@@ -27,6 +27,18 @@ impl From<&CameraMount> for Intrinsics {
 }
 
 impl Intrinsics {
+    /// The camera of an image in which `pool` x `pool` pixels, of which the sides hold whole numbers, are one.
+    #[must_use]
+    pub fn pooled(&self, pool: usize) -> Self {
+        let pool = pool.max(1);
+        Self {
+            width: self.width / pool,
+            height: self.height / pool,
+            focal_px: self.focal_px / pool as f64,
+            ..*self
+        }
+    }
+
     /// Column and row at which the optical axis meets the image, pixels.
     pub fn principal_point_px(&self) -> (f64, f64) {
         (

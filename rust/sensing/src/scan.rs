@@ -30,13 +30,22 @@ pub struct Scan {
     pub disparity_px: Vec<f32>,
     /// Number of pixels with a disparity.
     pub valid: usize,
+    /// Pixels a side of the depth image that are one of the scan.
+    pool: usize,
 }
 
 impl Scan {
     /// An empty scan for this camera.
     pub fn new(camera: Intrinsics) -> Self {
+        Self::pooled(camera, 1)
+    }
+
+    /// An empty scan for this camera that takes `pool` x `pool` of its pixels for one.
+    pub fn pooled(camera: Intrinsics, pool: usize) -> Self {
+        let camera = camera.pooled(pool);
         Self {
             exposure_ns: 0,
+            pool: pool.max(1),
             camera,
             robot_from_camera: Pose::identity(),
             disparity_px: vec![f32::NAN; camera.width * camera.height],
@@ -50,8 +59,40 @@ impl Scan {
         frame: &Frame,
         robot_from_camera: Pose<Robot, Camera>,
     ) -> Result<(), ScanError> {
-        self.read_depths(frame.depth_m.iter().copied(), robot_from_camera)?;
+        if self.pool > 1 {
+            self.read_pooled(frame, robot_from_camera)?;
+        } else {
+            self.read_depths(frame.depth_m.iter().copied(), robot_from_camera)?;
+        }
         self.exposure_ns = frame.exposure_ns;
+        Ok(())
+    }
+
+    /// Each pixel is the mean of a block's nearest surface, where half of the block or more was seen.
+    fn read_pooled(
+        &mut self,
+        frame: &Frame,
+        robot_from_camera: Pose<Robot, Camera>,
+    ) -> Result<(), ScanError> {
+        let (pool, camera) = (self.pool, self.camera);
+        let fits = [frame.width / pool, frame.height / pool] == [camera.width, camera.height];
+        if !fits || frame.depth_m.len() != frame.width * frame.height {
+            return Err(ScanError::WrongSize {
+                expected: self.disparity_px.len() * pool * pool,
+                found: frame.depth_m.len(),
+            });
+        }
+        self.robot_from_camera = robot_from_camera;
+        self.valid = 0;
+        let scale = (camera.focal_px * camera.baseline_m) as f32;
+        let rows = frame.depth_m.chunks_exact(frame.width * pool);
+        let lines = self.disparity_px.chunks_exact_mut(camera.width);
+        for (rows, line) in rows.zip(lines) {
+            for (col, disparity) in line.iter_mut().enumerate() {
+                *disparity = pooled_px(rows, frame.width, col * pool, pool, scale);
+                self.valid += usize::from(!disparity.is_nan());
+            }
+        }
         Ok(())
     }
 
@@ -76,5 +117,99 @@ impl Scan {
             self.valid += usize::from(seen);
         }
         Ok(())
+    }
+}
+
+/// Depths that differ by more, as a share, are not of one surface's few pixels.
+const ONE_SURFACE: f32 = 0.04;
+
+/// Disparity of a block of `pool` x `pool` depths that begins at column `left` of `rows`; NaN where less than half of it was seen.
+fn pooled_px(rows: &[f32], width: usize, left: usize, pool: usize, scale: f32) -> f32 {
+    let mut nearest_m = f32::INFINITY;
+    let mut seen = 0;
+    let block = || {
+        rows.chunks_exact(width)
+            .flat_map(|row| &row[left..left + pool])
+    };
+    for &depth_m in block() {
+        if depth_m > 0.0 && depth_m.is_finite() {
+            seen += 1;
+            nearest_m = nearest_m.min(depth_m);
+        }
+    }
+    if 2 * seen < pool * pool {
+        return f32::NAN;
+    }
+    let (mut sum_px, mut count) = (0.0, 0.0);
+    for &depth_m in block() {
+        if depth_m > 0.0 && depth_m <= nearest_m * (1.0 + ONE_SURFACE) {
+            sum_px += scale / depth_m;
+            count += 1.0;
+        }
+    }
+    sum_px / count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const CAMERA: Intrinsics = Intrinsics {
+        width: 8,
+        height: 6,
+        focal_px: 12.0,
+        baseline_m: 0.075,
+    };
+
+    fn pooled(depth_m: Vec<f32>) -> Result<Scan, ScanError> {
+        let mut scan = Scan::pooled(CAMERA, 2);
+        let frame = Frame {
+            exposure_ns: 7,
+            arrival_ns: 7,
+            width: 8,
+            height: 6,
+            depth_m,
+        };
+        scan.read(&frame, Pose::identity()).map(|()| scan)
+    }
+
+    proptest! {
+        #[test]
+        fn a_plane_is_the_same_plane_to_the_pooled_camera(slope in -0.05..0.05f64, down in -0.05..0.05f64) {
+            let plane = |camera: &Intrinsics, col: f64, row: f64| {
+                let (cx, cy) = camera.principal_point_px();
+                let [x, y] = [(col - cx) / camera.focal_px, (row - cy) / camera.focal_px];
+                1.0 / (1.0 + slope * x + down * y)
+            };
+            let depths = (0..48).map(|i| plane(&CAMERA, f64::from(i % 8), f64::from(i / 8)) as f32);
+            let scan = pooled(depths.collect()).unwrap();
+            prop_assert_eq!(scan.valid, 12);
+            for (i, found_px) in scan.disparity_px.iter().enumerate() {
+                let depth_m = plane(&scan.camera, (i % 4) as f64, (i / 4) as f64);
+                prop_assert!((f64::from(*found_px) - scan.camera.disparity_px(depth_m)).abs() < 1e-4);
+            }
+        }
+    }
+
+    #[test]
+    fn at_a_border_the_nearer_surface_counts_and_half_a_block_has_to_be_seen() {
+        let mut depths = vec![2.0; 48];
+        depths[0] = 1.0;
+        (depths[2], depths[3]) = (f32::NAN, 0.0);
+        (depths[4], depths[5], depths[12]) = (f32::NAN, f32::INFINITY, f32::NAN);
+        let scan = pooled(depths).unwrap();
+        let at = |depth_m: f64| scan.camera.disparity_px(depth_m) as f32;
+        assert_eq!(scan.disparity_px[..2], [at(1.0), at(2.0)]);
+        assert!(scan.disparity_px[2].is_nan());
+        assert_eq!((scan.valid, scan.exposure_ns), (11, 7));
+    }
+
+    #[test]
+    fn an_image_of_another_size_is_refused() {
+        assert!(matches!(
+            pooled(vec![1.0; 47]),
+            Err(ScanError::WrongSize { .. })
+        ));
     }
 }

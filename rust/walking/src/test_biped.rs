@@ -147,6 +147,7 @@ fn camera() -> CameraMount {
         height: 8,
         focal: 8.0,
         period: 0.08,
+        pool: 1,
         stereo: stereo(),
     }
 }
