@@ -66,15 +66,19 @@ def test_a_table_of_parameters_goes_through_untouched() -> None:
     assert document["navigation"]["planner"] == "a_star"
 
 
+_BOTH = ("navigation.fog.cell=0.05", "navigation.climbing.ascend={step_max_z=0.03}")
+
+
 def test_a_robots_own_parameters_lie_under_the_scenarios() -> None:
     robot = load_robot("qrio")
-    tables = {"fog": {"cell": 0.03, "headroom": 0.7}, "ground": {"noise_floor": 0.05}}
+    ascend = {"step_max_z": 0.04, "approach_x": 0.0}
+    tables = {"fog": {"cell": 0.03, "headroom": 0.7}, "climbing": {"ascend": ascend}}
     file = robot.file.model_copy(update={"navigation": tables})
-    made = load_scenario("slalom", overrides=("navigation.fog.cell=0.05",))
+    made = load_scenario("slalom", overrides=_BOTH)
     settings = core_settings(made, replace(robot, file=file), build_course(made, robot))
     navigation = json.loads(settings)["navigation"]
     assert navigation["fog"] == {"cell": 0.05, "headroom": 0.7}
-    assert navigation["ground"] == {"noise_floor": 0.05}
+    assert navigation["climbing"] == {"ascend": {"step_max_z": 0.03, "approach_x": 0.0}}
 
 
 def test_components_of_the_users_are_loaded_and_given_ones_beat_the_files() -> None:

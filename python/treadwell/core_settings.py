@@ -31,11 +31,12 @@ def core_settings(scenario: Scenario, robot: Robot, course: Course) -> str:
     places.append({"position": list(goal.position), "radius": goal.radius, "height": goal.height})
     place = course.start
     known = {"position": list(place.position), "height": place.height, "yaw": place.yaw}
+    parameters = _over(robot.file.navigation, scenario.navigation.parameters())
     settings = {
         "robot": robot.description(),
         "start": known if scenario.start.known else None,
         "goals": places,
-        "navigation": {**scenario.navigation.slots(), **_parameters(scenario, robot)},
+        "navigation": {**scenario.navigation.slots(), **parameters},
     }
     return json.dumps(settings, allow_nan=False)
 
@@ -53,14 +54,15 @@ def told_map(scenario: Scenario, course: Course) -> Octree | None:
     return static_map(course, map_resolution(table, where), where)
 
 
-def _parameters(scenario: Scenario, robot: Robot) -> dict[str, dict[str, Any]]:
-    """Return component -> its parameters: the robot's own, and the scenario's over them."""
-    tables: dict[str, dict[str, Any]] = {
-        name: dict(table) for name, table in robot.file.navigation.items()
-    }
-    for name, table in scenario.navigation.parameters().items():
-        tables[name] = {**tables.get(name, {}), **table}
-    return tables
+def _over(own: dict[str, Any], asked: dict[str, Any]) -> dict[str, Any]:
+    """Return a robot's own parameters with a scenario's over them, table by table."""
+    both = dict(own)
+    for key, value in asked.items():
+        table = both.get(key)
+        if isinstance(table, dict) and isinstance(value, dict):
+            value = _over(table, value)
+        both[key] = value
+    return both
 
 
 def user_components(scenario: Scenario, given: dict[str, object]) -> dict[str, Any]:

@@ -98,6 +98,8 @@ pub struct ClimbingConfig {
     pub tolerance: f64,
     /// Room beside the feet on a stair, to each side, m.
     pub side_room: f64,
+    /// Place of the heels past the front edge of what goes on level, m, unless `front_x_limit` asks for more.
+    pub level_x: f64,
     /// Parameters of a step up.
     pub ascend: ParameterSet,
     /// Parameters of a step down.
@@ -110,6 +112,7 @@ impl Default for ClimbingConfig {
             floor_max: 0.01,
             tolerance: 0.0025,
             side_room: 0.02,
+            level_x: 0.015,
             ascend: ParameterSet {
                 step_min_z: 0.015,
                 step_max_z: 0.050,
@@ -152,6 +155,9 @@ impl ClimbingConfig {
             let key = format!("navigation.climbing.{name}");
             require(value.is_finite() && value >= 0.0, &key, ">= 0", value)?;
         }
+        let level_x = self.level_x;
+        let key = "navigation.climbing.level_x";
+        require(level_x.is_finite(), key, "finite", level_x)?;
         let up = &self.ascend;
         require(
             0.0 < up.step_min_z && up.step_min_z < up.step_max_z,

@@ -77,9 +77,8 @@ impl Footing {
         }
         let set = config.set_for(rise_m);
         let least_heel_m = set.front_x_limit;
-        let easy_heel_m = least_heel_m.max(0.0);
         let heel_m = match onward {
-            Onward::Level => easy_heel_m.max(0.015),
+            Onward::Level => least_heel_m.max(config.level_x),
             Onward::Edge {
                 depth_m,
                 rise_m: next_m,
@@ -141,6 +140,20 @@ mod tests {
         let sill = on_stair(0.038, edge(0.09, -0.038)).unwrap();
         assert_relative_eq!(sill.heel_m, 0.0, epsilon = 1e-12);
         assert_relative_eq!(sill.bearing_m[1] - sill.bearing_m[0], 0.09, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn on_a_landing_the_heels_are_where_they_are_told_to_be() {
+        let short = ClimbingConfig {
+            level_x: -0.02,
+            ..ClimbingConfig::default()
+        };
+        for (rise_m, heel_m) in [(0.03, -0.02), (-0.03, 0.015)] {
+            let told = Footing::on_stair(&short, &FEET, rise_m, 0.33, Onward::Level).unwrap();
+            assert_relative_eq!(told.heel_m, heel_m);
+            let usual = on_stair(rise_m, Onward::Level).unwrap();
+            assert_relative_eq!(usual.heel_m, 0.015);
+        }
     }
 
     #[test]

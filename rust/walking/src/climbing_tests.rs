@@ -5,6 +5,7 @@ use geometry::PlanarPose;
 use proptest::prelude::*;
 
 use super::*;
+use crate::gait::Bearing;
 use crate::test_biped::{Ideal, config};
 
 pub(super) const TREAD_M: f64 = 0.12;
@@ -231,6 +232,28 @@ fn a_foot_above_the_other_one_carries_further_forward() {
     run(&mut world, &command);
     for side in Side::BOTH {
         assert!((forward_m(&world, side) - middle_m).abs() < 0.001);
+    }
+}
+
+#[test]
+fn a_foot_carries_where_it_is_told_to_within_the_middle_half_of_what_bears() {
+    let mut described = crate::test_biped::description();
+    described.gait = serde_json::json!({"support_ahead": -0.01});
+    let world = Ideal::of(Body::new(described).unwrap());
+    let feet = |bearing_m: [f64; 2]| {
+        let mut feet = world.walker.gait.feet;
+        let [from_m, to_m] = bearing_m;
+        feet[0].bearing = Bearing { from_m, to_m };
+        feet
+    };
+    for (bearing_m, wanted_m) in [
+        ([-HALF_SOLE_M, HALF_SOLE_M], -0.01),
+        ([-0.02, HALF_SOLE_M], -0.02 + 0.25 * (HALF_SOLE_M + 0.02)),
+    ] {
+        let feet = feet(bearing_m);
+        let point = world.walker.gait.support_point(&feet, Side::Left);
+        let (x, _) = feet[0].planar.inverse().apply(point.x, point.y);
+        assert!((x - wanted_m).abs() < 1e-9, "{x} {wanted_m}");
     }
 }
 

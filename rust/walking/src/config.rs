@@ -34,8 +34,13 @@ pub struct GaitConfig {
     pub hip_height: f64,
     /// The leg never gets longer than this share of its straight length.
     pub max_extension: f64,
+    /// The hips are lowered so that a thigh stretches back no further than this, rad; without it, as far as a straight leg asks.
+    pub hip_stretch: Option<f64>,
     /// Where the foot carries: this far from the sole's middle towards the other foot, m.
     pub support_inward: f64,
+    /// Where along the sole it carries, m forward of the sole's middle, as far as that lies in the middle half of what bears; without it,
+    /// in the middle of what bears.
+    pub support_ahead: Option<f64>,
     /// A foot that stands higher than the other one carries further forward, by this share of the difference.
     pub support_forward: f64,
     /// The centre of pressure keeps this far from the sole's edges, m.
@@ -134,7 +139,9 @@ impl Default for GaitConfig {
             foot_gap: 0.008,
             hip_height: 0.0,
             max_extension: 0.985,
+            hip_stretch: None,
             support_inward: 0.0,
+            support_ahead: None,
             support_forward: 0.2,
             sole_margin: 0.006,
             dcm_gain: 3.0,
@@ -283,6 +290,11 @@ impl GaitConfig {
         require(share, "gait.velocity_blend", "from 0 to 1", blend)?;
         let inward = self.support_inward;
         require(inward.is_finite(), "gait.support_inward", "finite", inward)?;
+        let stretch = self.hip_stretch.unwrap_or(0.5);
+        let bent = stretch > 0.0 && stretch < 1.5;
+        require(bent, "gait.hip_stretch", "> 0 and < 1.5", stretch)?;
+        let ahead = self.support_ahead.unwrap_or(0.0);
+        require(ahead.is_finite(), "gait.support_ahead", "finite", ahead)?;
         let hurry = self.capture_hurry;
         let faster = hurry.is_finite() && hurry >= 1.0;
         require(faster, "gait.capture_hurry", ">= 1", hurry)?;

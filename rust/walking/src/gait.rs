@@ -46,7 +46,7 @@ impl Gait {
         self.phase == Phase::Standing
     }
 
-    /// Point under one of `feet` where it is to carry: the middle of what bears, towards the other foot by `support_inward`, and
+    /// Point under one of `feet` where it is to carry: the middle of what bears or, near it, `support_ahead`; towards the other foot by `support_inward`, and
     /// forward by `support_forward` where it stands higher than the other one: the knee that lifts the body bears less so.
     pub fn support_point(&self, feet: &[FootPose; 2], side: Side) -> Vector2<f64> {
         let (foot, other) = (&feet[side.index()], &feet[side.other().index()]);
@@ -56,9 +56,13 @@ impl Gait {
         let middle = 0.5 * (rear + front);
         let forward = self.config.support_forward * (foot.z_m - other.z_m).max(0.0);
         let inward = -side.sign() * self.config.support_inward;
-        let (x, y) = foot
-            .planar
-            .apply(middle + forward.min(0.5 * (front - middle)), inward);
+        let reach = 0.5 * (front - middle);
+        let along = self
+            .config
+            .support_ahead
+            .map_or(middle, |ahead| ahead.clamp(middle - reach, middle + reach));
+        let room = reach - (along - middle);
+        let (x, y) = foot.planar.apply(along + forward.min(room), inward);
         Vector2::new(x, y)
     }
 

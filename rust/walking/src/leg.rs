@@ -61,6 +61,19 @@ impl Leg {
         self.max_length_m
     }
 
+    /// The greatest height of the hip over an ankle that is `back_m` behind and `aside_m` beside it at which the thigh stretches back by
+    /// no more than `stretch_rad`: the knee bends until the shank makes up for the rest.
+    pub fn stretched_m(&self, back_m: f64, aside_m: f64, stretch_rad: f64) -> f64 {
+        let (thigh_m, shank_m) = (self.geometry.thigh_m, self.geometry.shank_m);
+        let (sin, cos) = stretch_rad.sin_cos();
+        if back_m <= (thigh_m + shank_m) * sin {
+            return f64::INFINITY;
+        }
+        let left_m = (back_m - thigh_m * sin).min(shank_m);
+        let along_m = thigh_m * cos + (shank_m * shank_m - left_m * left_m).sqrt();
+        (along_m * along_m - aside_m * aside_m).max(0.0).sqrt()
+    }
+
     /// Height of the ankle over the sole, m.
     pub fn ankle_height_m(&self) -> f64 {
         self.geometry.ankle_in_sole.z
@@ -251,6 +264,20 @@ mod tests {
             let pose = Isometry3::from_parts(Translation3::from(xyz), rotation);
             prop_assert!(leg.solve(&pose).angles_rad.iter().all(|angle| angle.is_finite()));
         }
+    }
+
+    #[test]
+    fn at_the_greatest_height_for_a_thigh_it_stretches_back_just_so_far() {
+        let leg = Leg::new(&biped(), Side::Left, 0.9999).unwrap();
+        for (back_m, aside_m) in [(0.11, 0.0), (0.13, 0.0), (0.12, 0.03)] {
+            let rise_m = leg.stretched_m(back_m, aside_m, 0.45);
+            let ankle_m = leg.ankle_height_m();
+            let place = leg.hip() - Vector3::new(back_m, aside_m, rise_m + ankle_m);
+            let found = leg.solve(&Isometry3::translation(place.x, place.y, place.z));
+            assert!(found.reached);
+            assert!((found.angles_rad[2] - 0.45).abs() < 1e-6, "{found:?}");
+        }
+        assert!(leg.stretched_m(0.08, 0.0, 0.45).is_infinite());
     }
 
     #[test]

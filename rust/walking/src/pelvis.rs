@@ -35,6 +35,8 @@ pub(crate) struct Course<'a> {
 pub(crate) struct Trunk {
     /// From the centre of mass to the torso's origin over the ground, m.
     pub(crate) from_com: Vector2<f64>,
+    /// Where the torso looks, a unit vector.
+    pub(crate) forward: Vector2<f64>,
     /// From the torso's origin to each hip, in the plan's axes, m.
     pub(crate) hips: [nalgebra::Vector3<f64>; 2],
 }
@@ -43,6 +45,7 @@ pub(crate) struct Trunk {
 #[derive(Debug, Clone)]
 pub(crate) struct Pelvis {
     hip_height_m: f64,
+    hip_stretch_rad: Option<f64>,
     speed_mps: f64,
     goal_m: f64,
     height_m: f64,
@@ -54,6 +57,7 @@ impl Pelvis {
     pub(crate) const fn new(config: &GaitConfig) -> Self {
         Self {
             hip_height_m: config.hip_height,
+            hip_stretch_rad: config.hip_stretch,
             speed_mps: config.hip_speed,
             goal_m: 0.0,
             height_m: 0.0,
@@ -115,7 +119,12 @@ impl Pelvis {
             let hip = &trunk.hips[side.index()];
             let across = over + hip.xy() - leg.ankle_in_plan(&foot.planar);
             let reach_m = leg.max_length_m();
-            let rise_m = (reach_m * reach_m - across.norm_squared()).max(0.0).sqrt();
+            let mut rise_m = (reach_m * reach_m - across.norm_squared()).max(0.0).sqrt();
+            if let Some(stretch_rad) = self.hip_stretch_rad {
+                let back_m = across.dot(&trunk.forward);
+                let aside_m = across.perp(&trunk.forward);
+                rise_m = rise_m.min(leg.stretched_m(back_m, aside_m, stretch_rad));
+            }
             limit_m = limit_m
                 .min(foot.z_m + leg.ankle_height_m() + rise_m - hip.z)
                 .min(ground_m + self.hip_height_m - hip.z);

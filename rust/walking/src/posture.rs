@@ -86,6 +86,7 @@ impl Posture {
         let over = course.com - offset.xy();
         let trunk = Trunk {
             from_com: -offset.xy(),
+            forward: (rotation * Vector3::x()).xy(),
             hips: [0, 1].map(|index| rotation * self.legs[index].hip()),
         };
         let height = self
