@@ -58,6 +58,8 @@ pub struct WalkingBehaviour {
     turn_to_rad: Option<f64>,
     watched_m: Option<[f64; 2]>,
     stumbles: u32,
+    /// Time in the state `locate` at which the look around was over, s.
+    looked_round_s: Option<f64>,
     motion: Motion,
     refusal: String,
 }
@@ -125,6 +127,7 @@ impl WalkingBehaviour {
             turn_to_rad: None,
             watched_m: None,
             stumbles: 0,
+            looked_round_s: None,
             motion: Motion::Stand,
             refusal: String::new(),
         })
@@ -221,7 +224,7 @@ impl WalkingBehaviour {
         if moment.situation.stepping.stumbled && self.state.moves() {
             self.stumble();
         } else if moment.situation.estimate.lost {
-            self.enter(State::Locate);
+            self.begin_locating();
         } else if self.state != State::Locate && self.has_arrived(moment) {
             self.enter(State::Arrive);
         } else if self.is_blind(moment) {

@@ -4,11 +4,14 @@ use mapping::{FloorView, Surface};
 
 use super::{Moment, WalkingBehaviour};
 use crate::walking::gaze::Sweep;
+use crate::walking::state::State;
 use crate::{Motion, Velocity};
 
 /// The head sways so far to each side of straight ahead, rad, in this time, s: walls tell more than the floor before the feet.
 const SWAY_RAD: f64 = 0.6;
 const SWAY_S: f64 = 4.0;
+/// The look around at the start ends after this, whatever the frames do, s.
+const LONGEST_LOOK_S: f64 = 12.0;
 /// After as much turning, rad, small circles tell more than turning on.
 const TURNED_RAD: f64 = 7.0;
 /// Share of the turning speed on a circle.
@@ -20,7 +23,17 @@ const ASIDE_M: [f64; 3] = [-0.12, 0.0, 0.12];
 const LEVEL_M: f64 = 0.012;
 
 impl WalkingBehaviour {
-    /// Turns on the spot, then goes in small circles where the floor ahead is free, and gives up in the end.
+    /// Begins to find out where it is.
+    pub(super) fn begin_locating(&mut self) {
+        if self.state != State::Locate {
+            self.sweep = Sweep::around(&self.config);
+            self.looked_round_s = None;
+            self.enter(State::Locate);
+        }
+    }
+
+    /// Stands and looks around, the ground before the feet first; turns on the spot, then goes in small circles where the floor
+    /// ahead is free, and gives up in the end.
     pub(super) fn locate(&mut self, moment: &Moment<'_>) -> Motion {
         if !moment.situation.estimate.lost {
             self.look(Sweep::around(&self.config));
@@ -33,10 +46,20 @@ impl WalkingBehaviour {
             ));
             return Motion::Stand;
         }
-        let phase = std::f64::consts::TAU * self.state_s / SWAY_S;
+        let Some(looked_s) = self.looked_round_s else {
+            let frames = moment.situation.frames_used;
+            let speed_radps = self.config.gaze_speed;
+            let seen = (self.sweep).advance(&mut self.gazer, frames, moment.passed_s, speed_radps);
+            if seen || self.state_s > LONGEST_LOOK_S {
+                self.looked_round_s = Some(self.state_s);
+            }
+            return Motion::Stand;
+        };
+        let turned_s = self.state_s - looked_s;
+        let phase = std::f64::consts::TAU * turned_s / SWAY_S;
         self.gaze_at(moment, SWAY_RAD * phase.sin(), self.config.gaze_far);
         let turn_radps = self.config.turn_speed;
-        let circles = self.state_s * turn_radps > TURNED_RAD && is_free_ahead(moment);
+        let circles = turned_s * turn_radps > TURNED_RAD && is_free_ahead(moment);
         Motion::Walk(if circles {
             Velocity {
                 x_mps: self.config.creep_speed,

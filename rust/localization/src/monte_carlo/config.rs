@@ -134,7 +134,7 @@ impl Default for MonteCarloConfig {
             recovery_rates: [0.01, 0.2],
             recovery_below: 0.65,
             recovery_most: 0.5,
-            least_share: 0.5,
+            least_share: 0.75,
             most_spread: 0.4,
             follow_share: 0.1,
             follow_bands: [0.02, 0.02, 0.02],
