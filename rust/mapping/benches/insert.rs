@@ -1,23 +1,28 @@
-//! Time to take one 88x72 frame into the map, by several kinds of update.
+//! Time to take one frame into the map: of 88x72 pixels by several kinds of update, of 320x240 into the two maps.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
 
-use common::{Block, camera, look};
+use common::{Block, DEPTH_CAMERA, camera, look, look_through};
 use criterion::{Criterion, criterion_group, criterion_main};
 use geometry::{Map, Pose, Robot};
-use mapping::{Clearing, Fog, FogConfig, Update, WorldModel};
+use mapping::{Clearing, Fog, FogConfig, TwoMaps, TwoMapsConfig, Update, WorldModel};
 
-/// A sill, steps and boxes seen while walking 8 mm a frame and sweeping the head.
-fn insert(criterion: &mut Criterion) {
-    let blocks = [
+/// A sill, steps and boxes.
+fn course() -> [Block; 6] {
+    [
         Block::new([0.6, -0.5, 0.0], [0.69, 0.5, 0.038], true),
         Block::new([1.2, -0.2, 0.0], [2.0, 0.2, 0.03], true),
         Block::new([1.32, -0.2, 0.0], [2.0, 0.2, 0.06], true),
         Block::new([0.9, 0.3, 0.0], [1.0, 0.5, 0.3], false),
         Block::new([-3.0, 1.4, 0.0], [4.0, 1.5, 0.6], false),
         Block::new([-3.0, -1.5, 0.0], [4.0, -1.4, 0.6], false),
-    ];
+    ]
+}
+
+/// The course seen while walking 8 mm a frame and sweeping the head.
+fn insert(criterion: &mut Criterion) {
+    let blocks = course();
     let frames: Vec<_> = (0..50)
         .map(|i| {
             let pose = Pose::<Map, Robot>::from_yaw(0.008 * f64::from(i), 0.0, 0.0, 0.0);
@@ -64,5 +69,38 @@ fn insert(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, insert);
+/// The same as 002 sees it.
+fn insert_into_two_maps(criterion: &mut Criterion) {
+    let blocks = course();
+    let frames: Vec<_> = (0..50)
+        .map(|i| {
+            let pose = Pose::<Map, Robot>::from_yaw(0.013 * f64::from(i), 0.0, 0.0, 0.0);
+            let eye = camera(0.5, 0.52, 0.5 * (0.3 * f64::from(i)).sin());
+            (look_through(DEPTH_CAMERA, &blocks, &pose, eye), pose)
+        })
+        .collect();
+    for resolution in [0.04, 0.02] {
+        let config = TwoMapsConfig {
+            resolution,
+            ..TwoMapsConfig::default()
+        };
+        let Ok(mut maps) = TwoMaps::new(config, &FogConfig::default(), None) else {
+            return;
+        };
+        let name = format!("two maps insert 320x240, {resolution} m");
+        let mut next = frames.iter().cycle();
+        let _ = criterion.bench_function(&name, |bencher| {
+            bencher.iter(|| next.next().map(|(planes, pose)| maps.insert(planes, pose)));
+        });
+    }
+    let Ok(mut fog) = Fog::new(FogConfig::default()) else {
+        return;
+    };
+    let mut next = frames.iter().cycle();
+    let _ = criterion.bench_function("fog insert 320x240", |bencher| {
+        bencher.iter(|| next.next().map(|(planes, pose)| fog.insert(planes, pose)));
+    });
+}
+
+criterion_group!(benches, insert, insert_into_two_maps);
 criterion_main!(benches);

@@ -37,8 +37,19 @@ impl Fog {
     /// A map of which nothing is known, around the map's origin.
     pub fn new(config: FogConfig) -> Result<Self, ConfigError> {
         config.check()?;
+        let window = Window::new(config.cell, config.cells);
+        Ok(Self::with_window(config, window))
+    }
+
+    /// The same with cells that stay around a place of the map frame.
+    pub(crate) fn around(config: FogConfig, place_m: [f64; 2]) -> Result<Self, ConfigError> {
+        config.check()?;
+        let window = Window::fixed(config.cell, config.cells, place_m);
+        Ok(Self::with_window(config, window))
+    }
+
+    fn with_window(config: FogConfig, window: Window) -> Self {
         let n = config.cells;
-        let window = Window::new(config.cell, n);
         let layers = Layers::new(&config);
         let lattice = window.lattice();
         let table = ProbabilityTable::new(config.p_sense, config.p_occ, config.p_min, config.p_max);
@@ -52,7 +63,7 @@ impl Fog {
             rows: n,
             layers: config.layers,
         };
-        Ok(Self {
+        Self {
             occupancy: OccupancyGrid::new(size, placement, table),
             floor: FloorGrid::new(lattice, &config),
             rough: Rough::new(n),
@@ -63,7 +74,24 @@ impl Fog {
             window,
             layers,
             config,
-        })
+        }
+    }
+
+    /// The parameters.
+    pub(crate) const fn config(&self) -> &FogConfig {
+        &self.config
+    }
+
+    /// The points of the last frame, as they were taken in.
+    pub(crate) const fn frame(&self) -> &LabelledFrame {
+        &self.frame
+    }
+
+    /// Height of the floor of the cell that is stored at an index: what was seen there, or else what the robot stood on.
+    #[inline]
+    pub(crate) fn floor_at(&self, index: usize) -> Option<f32> {
+        let seen = self.floor.height_at(index);
+        seen.or_else(|| self.stood.height_at(index))
     }
 
     /// The occupancy grid.
@@ -121,13 +149,18 @@ impl Fog {
     fn stands_out(&self, index: usize, top_m: f64, floor: Option<f32>) -> bool {
         let cols = self.view.cells.cols();
         let cell = Cell::new((index % cols) as i32, (index / cols) as i32);
-        let level = floor.or_else(|| self.floor.highest_around(cell, self.floor_beside()));
+        let level = floor.or_else(|| self.floor_beside(cell));
         let limit_m = level.map_or(f64::NEG_INFINITY, |h| f64::from(h) + self.config.delta);
         top_m > limit_m && !self.is_passed_under(cell)
     }
 
+    /// The highest floor beside a cell without one, as far as it counts for it, m.
+    pub(crate) fn floor_beside(&self, cell: Cell) -> Option<f32> {
+        self.floor.highest_around(cell, self.cells_beside())
+    }
+
     /// Cells to each side of one without a floor whose floor counts for it.
-    fn floor_beside(&self) -> i32 {
+    fn cells_beside(&self) -> i32 {
         (self.config.floor_beside / self.config.cell).round() as i32
     }
 
@@ -151,7 +184,7 @@ impl Fog {
             return self.refresh(all);
         }
         // Their neighbours may have left the window.
-        for side in all.rim(self.floor_beside()) {
+        for side in all.rim(self.cells_beside()) {
             let _ = self.refresh(side);
         }
         all
@@ -192,7 +225,7 @@ impl Fog {
     /// Brings the view up to date where an area in which floors or voxels changed reaches to, and says where that is.
     fn refresh(&mut self, area: CellArea) -> CellArea {
         let all = self.view.cells.area();
-        let reached = area.grown(self.floor_beside()).within(all);
+        let reached = area.grown(self.cells_beside()).within(all);
         let size = self.view.size();
         for index in runs(reached, size).flatten() {
             self.view.cells.values_mut()[index] = self.surface_at(index);

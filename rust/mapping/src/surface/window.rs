@@ -15,6 +15,8 @@ struct Axis {
     units: usize,
     /// Border between units that is nearest to the robot.
     center: i64,
+    /// Whether it stays where it is.
+    fixed: bool,
 }
 
 impl Axis {
@@ -23,11 +25,15 @@ impl Axis {
             unit_m,
             units,
             center: 0,
+            fixed: false,
         }
     }
 
     /// Follows the robot; the whole units moved.
     fn follow(&mut self, robot_m: f64) -> i32 {
+        if self.fixed {
+            return 0;
+        }
         let at = robot_m / self.unit_m;
         if (at - self.center as f64).abs() <= SLACK {
             return 0;
@@ -51,6 +57,18 @@ impl Window {
     pub(crate) const fn new(cell_m: f64, cells: usize) -> Self {
         Self {
             axes: [Axis::new(cell_m, cells); 2],
+        }
+    }
+
+    /// The same around another place, to the next border of cells, where it stays.
+    pub(crate) fn fixed(cell_m: f64, cells: usize, around_m: [f64; 2]) -> Self {
+        let axis = |at_m: f64| Axis {
+            center: (at_m / cell_m).round() as i64,
+            fixed: true,
+            ..Axis::new(cell_m, cells)
+        };
+        Self {
+            axes: around_m.map(axis),
         }
     }
 
@@ -128,6 +146,14 @@ mod tests {
                 prop_assert!((ground_layer - robot[2]).abs() <= 0.75 * 0.04 + 1e-9);
             }
         }
+    }
+
+    #[test]
+    fn a_fixed_window_stays_where_it_was_put() {
+        let mut window = Window::fixed(0.04, 100, [1.01, -3.0]);
+        assert_eq!(window.follow([7.0, 0.3, 0.0]), [0; 2]);
+        let [x_m, y_m] = window.lattice().origin_m;
+        assert!((x_m + 1.0).abs() < 1e-12 && (y_m + 5.0).abs() < 1e-12);
     }
 
     #[test]

@@ -8,12 +8,18 @@ use sensing::Intrinsics;
 
 pub const WIDTH: usize = 88;
 pub const HEIGHT: usize = 72;
-const FOCAL_PX: f64 = 101.2;
-const CAMERA: Intrinsics = Intrinsics {
+pub const CAMERA: Intrinsics = Intrinsics {
     width: WIDTH,
     height: HEIGHT,
-    focal_px: FOCAL_PX,
+    focal_px: 101.2,
     baseline_m: 0.06,
+};
+/// The depth camera of 002: 58 x 45 degrees.
+pub const DEPTH_CAMERA: Intrinsics = Intrinsics {
+    width: 320,
+    height: 240,
+    focal_px: 288.7,
+    baseline_m: 0.075,
 };
 
 /// A block; its top is a floor to step on where `flat`.
@@ -66,17 +72,29 @@ pub fn look(
     map_from_robot: &Pose<Map, Robot>,
     robot_from_camera: Pose<Robot, Camera>,
 ) -> Planes {
-    let mut planes = Planes::new(WIDTH * HEIGHT);
+    look_through(CAMERA, blocks, map_from_robot, robot_from_camera)
+}
+
+/// The same through another camera.
+pub fn look_through(
+    camera: Intrinsics,
+    blocks: &[Block],
+    map_from_robot: &Pose<Map, Robot>,
+    robot_from_camera: Pose<Robot, Camera>,
+) -> Planes {
+    let mut planes = Planes::new(camera.width * camera.height);
     planes.robot_from_camera = robot_from_camera;
-    planes.camera = Some(CAMERA);
+    planes.camera = Some(camera);
     planes.reliable = true;
     let map_from_camera = (*map_from_robot * robot_from_camera).inner;
     let robot_from_map = map_from_robot.inner.inverse();
     let eye = map_from_camera.translation.vector;
-    for row in 0..HEIGHT {
-        for col in 0..WIDTH {
-            let (u, v) = (col as f64 - 43.5, row as f64 - 35.5);
-            let along = map_from_camera.rotation * Vector3::new(u / FOCAL_PX, v / FOCAL_PX, 1.0);
+    let (centre_col, centre_row) = camera.principal_point_px();
+    for row in 0..camera.height {
+        for col in 0..camera.width {
+            let (u, v) = (col as f64 - centre_col, row as f64 - centre_row);
+            let [u, v] = [u, v].map(|px| px / camera.focal_px);
+            let along = map_from_camera.rotation * Vector3::new(u, v, 1.0);
             let ground = (along.z < 0.0).then(|| (-eye.z / along.z, Some(0.0)));
             let nearest = blocks
                 .iter()
@@ -88,7 +106,7 @@ pub fn look(
                 .min_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((t, height)) = nearest.filter(|&(t, _)| t < 4.0) {
                 let point = robot_from_map * nalgebra::Point3::from(eye + along * t);
-                let index = row * WIDTH + col;
+                let index = row * camera.width + col;
                 planes.points_in_robot_m[index] = [point.x as f32, point.y as f32, point.z as f32];
                 let above_robot = height.map(|h| h - map_from_robot.inner.translation.z);
                 planes.floor_height_m[index] = above_robot.map_or(f32::NAN, |h| h as f32);

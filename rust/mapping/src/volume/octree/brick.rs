@@ -101,6 +101,16 @@ impl Brick {
         self.occupied
     }
 
+    /// Those of which the log-odds are so high; not less than 0, as of the occupied ones.
+    pub(super) fn at_least(&self, log_odds: f32) -> u64 {
+        if self.occupied == 0 {
+            return 0;
+        }
+        let marks = self.values.iter().enumerate();
+        let marks = marks.map(|(at, &value)| u64::from(value >= log_odds) << at);
+        self.occupied & marks.fold(0, |all, mark| all | mark)
+    }
+
     /// Those that a miss does not change.
     pub(super) const fn settled(&self) -> u64 {
         self.settled

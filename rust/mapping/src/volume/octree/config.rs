@@ -96,7 +96,7 @@ impl Beam {
 
 /// Log-odds in steps of 2^-20: their sums are exact in 32 bits, so that the order of measurements does not matter until a bound is
 /// met, and voxels that saw the same are equal and prune.
-fn log_odds(probability: f64) -> f32 {
+pub(super) fn log_odds(probability: f64) -> f32 {
     const STEPS: f64 = 1_048_576.0;
     (((probability / (1.0 - probability)).ln() * STEPS).round() / STEPS) as f32
 }

@@ -3,6 +3,7 @@
 
 mod brick;
 mod cast;
+mod columns;
 mod config;
 mod error;
 mod header;
@@ -17,6 +18,7 @@ mod writing;
 use geometry::ConfigError;
 
 pub use cast::{Cast, Sighting};
+pub(crate) use columns::{Footprint, LAYERS};
 pub use config::{OctreeConfig, probability};
 pub use error::OctreeError;
 pub use header::Format;

@@ -1,0 +1,291 @@
+//! The two maps of Maier, Hornung and Bennewitz 2012 (002, sections III.A, B and D): a static one that was told, and a local one of
+//! what was seen. What is occupied in either, within the robot's vertical extent, is projected to the floor.
+//!
+//! The paper's floor is where nothing is projected, and its normals keep the floor's points out of the local map. A robot on stairs
+//! needs to know how high its floor is: floors, and which points are theirs, are those of [`Fog`]; where it saw none, the
+//! static map tells.
+
+mod beams;
+mod config;
+mod layers;
+mod prior;
+mod unseen;
+
+use std::sync::Arc;
+
+use geometry::{Cell, CellArea, ConfigError, Grid, Map, Pose, Robot};
+use segmentation::Planes;
+
+use crate::storage::runs;
+use crate::surface::{Clearing, Update};
+use crate::volume::Ray;
+use crate::volume::octree::{Cast, Octree, Sighting};
+use crate::{FloorView, Fog, FogConfig, Insertion, MapError, Surface, WorldModel};
+use beams::Ground;
+pub use config::TwoMapsConfig;
+use layers::{Columns, Layers};
+use prior::Prior;
+use unseen::Unseen;
+
+/// Cells that a window may have along a side to hold all of the static map; a larger map is looked at around the robot.
+const MOST_CELLS: f64 = 1000.0;
+/// Cells of the window around the static map.
+const MARGIN_CELLS: f64 = 2.0;
+
+/// Keeps the static and the local map, the floors, and the view made of them.
+#[derive(Debug, Clone)]
+pub struct TwoMaps {
+    config: TwoMapsConfig,
+    /// As it was when nothing had been seen.
+    fresh: Fog,
+    floors: Fog,
+    local: Octree,
+    prior: Option<Prior>,
+    /// Height of the level on which the robot stands, m: where it stood when the maps were last projected anew.
+    level_m: f64,
+    layers: Layers,
+    columns: Columns,
+    view: FloorView,
+    rays: Vec<Ray>,
+}
+
+impl TwoMaps {
+    /// The name by which it is chosen.
+    pub const NAME: &'static str = "octree";
+
+    /// A map of which nothing was seen: around the static map where there is one, else around the map's origin. `floors`: of the
+    /// floor grid, with the cells of the view; its `clearing` is always `projected`.
+    pub fn new(
+        config: TwoMapsConfig,
+        floors: &FogConfig,
+        static_map: Option<Arc<Octree>>,
+    ) -> Result<Self, ConfigError> {
+        config.check(floors)?;
+        let extent = static_map.as_deref().and_then(Prior::extent_m);
+        let window = extent.and_then(|(middle_m, reach_m)| {
+            let cells = 2.0 * ((reach_m / floors.cell).ceil() + MARGIN_CELLS);
+            (cells <= MOST_CELLS).then_some((middle_m, cells as usize))
+        });
+        let floors = FogConfig {
+            cells: window.map_or(floors.cells, |(_, cells)| cells),
+            // The voxels of this one only tell which floors are still there.
+            clearing: Clearing::Projected,
+            ..floors.clone()
+        };
+        let floors = match window {
+            Some((middle_m, _)) => Fog::around(floors, middle_m)?,
+            None => Fog::new(floors)?,
+        };
+        let lattice = floors.view().lattice;
+        let cells = floors.config().cells;
+        let told = |tree| Prior::new(tree, &config.octree());
+        let size = [cells; 2];
+        let layers = Layers::above(-config.below_m(), (lattice, size), config.resolution);
+        Ok(Self {
+            local: Octree::new(config.octree())?,
+            prior: static_map.map(told).transpose()?,
+            level_m: f64::NAN,
+            columns: Columns::default(),
+            view: FloorView::unknown(lattice, cells),
+            rays: Vec::new(),
+            fresh: floors.clone(),
+            layers,
+            floors,
+            config,
+        })
+    }
+
+    /// The local map.
+    pub const fn local(&self) -> &Octree {
+        &self.local
+    }
+
+    /// Drops what was seen, and keeps what was told.
+    pub fn forget(&mut self) {
+        self.floors = self.fresh.clone();
+        if let Ok(nothing) = Octree::new(self.config.octree()) {
+            self.local = nothing;
+        }
+        self.level_m = f64::NAN;
+    }
+
+    /// The view made of both maps at once: what [`WorldModel::view`] is frame by frame.
+    pub fn projected(&self) -> FloorView {
+        let mut whole = self.clone();
+        whole.columns = Columns::default();
+        whole.view = FloorView::unknown(*self.layers.lattice(), self.layers.size()[0]);
+        let all = whole.layers.all();
+        let local = (&whole.local, whole.config.p_occ);
+        whole.columns.read(local, &whole.layers, all);
+        whole.project(all);
+        whole.view
+    }
+
+    /// Follows the robot: where its level or the window is another one, all is looked at anew; whether that is so.
+    fn follow(&mut self, robot_m: [f64; 3]) -> bool {
+        let lattice = self.floors.view().lattice;
+        let same_level = (robot_m[2] - self.level_m).abs() <= 0.5 * self.config.resolution;
+        if same_level && lattice == *self.layers.lattice() {
+            return false;
+        }
+        self.level_m = robot_m[2];
+        let bottom_m = self.level_m - self.config.below_m();
+        let place = (lattice, self.layers.size());
+        self.layers = Layers::above(bottom_m, place, self.config.resolution);
+        self.view = FloorView::unknown(lattice, self.layers.size()[0]);
+        if let Some(prior) = &mut self.prior {
+            prior.look(&self.layers, robot_m, &self.config);
+        }
+        true
+    }
+
+    /// Takes the frame that the floors took in into the local map; the cells that it touched.
+    fn take_in(
+        &mut self,
+        planes: &Planes,
+        map_from_robot: &Pose<Map, Robot>,
+    ) -> Result<CellArea, MapError> {
+        let mut rays = std::mem::take(&mut self.rays);
+        rays.clear();
+        let frame = self.floors.frame();
+        let ground = Ground {
+            level_m: self.level_m,
+            delta_m: self.floors.config().delta,
+            floor_at: |index| self.floor_at(index),
+        };
+        beams::read(&mut rays, (frame, planes), &ground, self.config.resolution);
+        let seen = rays.len();
+        let unseen = Unseen {
+            range_m: self.config.unseen_range,
+            blind_m: self.config.blind_range,
+            floor_m: self.level_m,
+            voxel_m: self.config.resolution,
+        };
+        unseen::read(&mut rays, planes, map_from_robot, &unseen);
+        let eye_m = frame.eye_m;
+        let mut at = 0;
+        rays.retain(|ray| {
+            at += 1;
+            at <= seen || !self.is_hidden(eye_m, ray)
+        });
+        let lattice = self.layers.lattice();
+        let mut touched = CellArea::of(lattice.cell_at(eye_m[0], eye_m[1]));
+        for ray in &rays {
+            touched.include(lattice.cell_at(ray.end_m[0], ray.end_m[1]));
+        }
+        let taken = self.local.insert(eye_m, &rays, Update::PerFrame);
+        self.rays = rays;
+        taken.map_err(|error| MapError::Failed(error.to_string()))?;
+        Ok(touched.within(self.layers.all()))
+    }
+
+    /// Whether something is remembered on a line of sight, so near that the camera may be blind to it.
+    fn is_hidden(&self, eye_m: [f64; 3], ray: &Ray) -> bool {
+        let near = Sighting {
+            max_range_m: self.config.blind_range,
+            through_unknown: true,
+        };
+        let along = std::array::from_fn(|axis| ray.end_m[axis] - eye_m[axis]);
+        self.local.cast_ray(eye_m, along, near) != Cast::Nothing
+    }
+
+    /// Height of the floor of the cell that is stored at an index, m: what was seen, or else what was told.
+    fn floor_at(&self, index: usize) -> Option<f32> {
+        let told = || self.prior.as_ref()?.floor_at(index);
+        self.floors.floor_at(index).or_else(told)
+    }
+
+    /// Layers of a cell in which either map has something.
+    fn solid(&self, index: usize) -> u64 {
+        let told = self.prior.as_ref().map_or(0, |prior| prior.solid(index));
+        self.columns.at(index) | told
+    }
+
+    /// Section III.D for the cell that is stored at an index: what stands out of its floor within the robot's vertical extent is an
+    /// obstacle. Where no floor is known, that of the cells beside it counts, or the level that the robot stands on.
+    fn surface_at(&self, index: usize) -> Surface {
+        let floor = self.floor_at(index);
+        let base_m = floor.or_else(|| {
+            let cols = self.layers.size()[0];
+            let cell = Cell::new((index % cols) as i32, (index / cols) as i32);
+            self.floors.floor_beside(cell)
+        });
+        let base_m = base_m.map_or(self.level_m, f64::from);
+        let (delta_m, height_m) = (self.floors.config().delta, self.config.height);
+        let extent = self.layers.between(base_m + delta_m, base_m + height_m);
+        match (self.solid(index) & extent).checked_ilog2() {
+            Some(top) => Surface::Obstacle(self.layers.middle_m(top) as f32),
+            None => floor.map_or(Surface::Unknown, Surface::Floor),
+        }
+    }
+
+    /// Brings the view up to date in an area.
+    fn project(&mut self, area: CellArea) {
+        for index in runs(area, self.layers.size()).flatten() {
+            let surface = self.surface_at(index);
+            self.view.cells.values_mut()[index] = surface;
+            let floors = self.floors.floor();
+            self.view.sightings.values_mut()[index] = floors.all_sightings()[index];
+            self.view.gradients.values_mut()[index] = match surface {
+                Surface::Floor(_) => floors.gradient_at(index),
+                Surface::Obstacle(_) | Surface::Unknown => [0.0; 2],
+            };
+        }
+    }
+}
+
+impl WorldModel for TwoMaps {
+    fn insert(
+        &mut self,
+        planes: &Planes,
+        map_from_robot: &Pose<Map, Robot>,
+    ) -> Result<Insertion, MapError> {
+        let at = map_from_robot.inner.translation.vector;
+        let robot_m = [at.x, at.y, at.z];
+        let eye_m = (*map_from_robot * planes.robot_from_camera.origin()).inner;
+        let held = |at_m: [f64; 3]| self.local.key_at(at_m).is_some();
+        let finite = robot_m.iter().all(|at_m| at_m.is_finite());
+        if finite && !(held(robot_m) && held(eye_m.into())) {
+            let said = "the robot's pose must be no further away than a map can reach";
+            return Err(MapError::Failed(said.into()));
+        }
+        let insertion = self.floors.insert(planes, map_from_robot)?;
+        let moved = self.follow(robot_m);
+        let mut changed = if insertion.used {
+            self.take_in(planes, map_from_robot)?
+        } else {
+            CellArea::EMPTY
+        };
+        if moved {
+            changed = self.layers.all();
+        }
+        let local = (&self.local, self.config.p_occ);
+        self.columns.read(local, &self.layers, changed);
+        changed.join(insertion.changed);
+        let changed = changed.within(self.layers.all());
+        self.project(changed);
+        Ok(Insertion {
+            changed,
+            ..insertion
+        })
+    }
+
+    fn view(&self) -> &FloorView {
+        &self.view
+    }
+
+    fn ceilings(&self) -> Option<Grid<f32>> {
+        let [cols, rows] = self.layers.size();
+        let mut ceilings = Grid::filled(cols, rows, f32::NAN);
+        for (index, slot) in ceilings.values_mut().iter_mut().enumerate() {
+            if let Some(floor) = self.floor_at(index) {
+                let above_m = f64::from(floor) + self.floors.config().delta;
+                let above = self.solid(index) & self.layers.between(above_m, f64::INFINITY);
+                if above != 0 {
+                    *slot = self.layers.middle_m(above.trailing_zeros()) as f32;
+                }
+            }
+        }
+        Some(ceilings)
+    }
+}
