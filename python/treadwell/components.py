@@ -7,6 +7,7 @@ COMPONENTS: Final[dict[str, dict[str, str]]] = {
     "world_model": {
         "fog": "floor and obstacle grid over an 8-bit occupancy grid, moves with the robot",
         "averaging": "mean height of each cell's points (Kagami 2003); what fog is compared with",
+        "octree": "a static map that is told and a local one of what is seen (Maier 2012), octrees",
     },
     "segmenter": {
         "scan_line": "planes by scan-line grouping, thresholds follow the local noise",

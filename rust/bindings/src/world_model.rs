@@ -34,7 +34,8 @@ impl PyWorldModel {
     fn new(py: Python<'_>, name: &str, settings: &str) -> PyResult<Self> {
         let tables: BTreeMap<String, serde_json::Value> =
             serde_json::from_str(settings).map_err(|error| bad_setting(py, &error))?;
-        let model = pilot::world_model(name, &tables).map_err(|error| bad_setting(py, &error))?;
+        let model =
+            pilot::world_model(name, &tables, None).map_err(|error| bad_setting(py, &error))?;
         Ok(Self {
             model,
             seconds: 0.0,

@@ -11,7 +11,7 @@ use localization::{
 };
 use mapping::volume::SolidVoxels;
 use mapping::volume::octree::{Leaf, Octree};
-use mapping::{Averaging, Fog, WorldModel};
+use mapping::{Averaging, Fog, TwoMaps, WorldModel};
 use planning::{AStar, Guided, Planner};
 use robot::{Body, Side};
 use segmentation::{Histogram, Hough, Ransac, ScanLine, ScanLine1994, ScanLineAdaptive, Segmenter};
@@ -89,15 +89,21 @@ pub fn segmenter(
     }
 }
 
-/// The world model of a name, with what `[navigation.<name>]` says.
+/// The world model of a name, with what `[navigation.<name>]` says, and the static map where the robot was told one.
 pub fn world_model(
     name: &str,
     tables: &BTreeMap<String, Value>,
+    static_map: Option<&Arc<Octree>>,
 ) -> Result<Box<dyn WorldModel>, PilotError> {
     match name {
         "fog" => Ok(Box::new(Fog::new(table(tables, "fog")?)?)),
         "averaging" => Ok(Box::new(Averaging::new(table(tables, "averaging")?)?)),
-        other => Err(unknown("world_model", other, "fog, averaging")),
+        name @ "octree" => Ok(Box::new(TwoMaps::new(
+            table(tables, name)?,
+            &table(tables, "fog")?,
+            static_map.map(Arc::clone),
+        )?)),
+        other => Err(unknown("world_model", other, "fog, averaging, octree")),
     }
 }
 

@@ -70,7 +70,7 @@ impl Pilot {
         )?;
         let self_filter = SelfFilter::new(&body, &table(tables, "self_filter")?)?;
         let world_model = given.world_model.map_or_else(
-            || registry::world_model(&settings.navigation.world_model, tables),
+            || registry::world_model(&settings.navigation.world_model, tables, None),
             Ok,
         )?;
         Ok(Self {
