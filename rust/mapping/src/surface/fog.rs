@@ -41,10 +41,14 @@ impl Fog {
         Ok(Self::with_window(config, window))
     }
 
-    /// The same with cells that stay around a place of the map frame.
-    pub(crate) fn around(config: FogConfig, place_m: [f64; 2]) -> Result<Self, ConfigError> {
+    /// The same around another place of the map frame, where the cells stay while the robot is no more than so many of them away.
+    pub(crate) fn around(
+        config: FogConfig,
+        place_m: [f64; 2],
+        slack: f64,
+    ) -> Result<Self, ConfigError> {
         config.check()?;
-        let window = Window::fixed(config.cell, config.cells, place_m);
+        let window = Window::around(config.cell, config.cells, place_m, slack);
         Ok(Self::with_window(config, window))
     }
 

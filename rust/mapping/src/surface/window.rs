@@ -15,8 +15,8 @@ struct Axis {
     units: usize,
     /// Border between units that is nearest to the robot.
     center: i64,
-    /// Whether it stays where it is.
-    fixed: bool,
+    /// Units that the robot may wander from it before the window follows.
+    slack: f64,
 }
 
 impl Axis {
@@ -25,17 +25,14 @@ impl Axis {
             unit_m,
             units,
             center: 0,
-            fixed: false,
+            slack: SLACK,
         }
     }
 
     /// Follows the robot; the whole units moved.
     fn follow(&mut self, robot_m: f64) -> i32 {
-        if self.fixed {
-            return 0;
-        }
         let at = robot_m / self.unit_m;
-        if (at - self.center as f64).abs() <= SLACK {
+        if (at - self.center as f64).abs() <= self.slack {
             return 0;
         }
         let target = at.round() as i64;
@@ -60,15 +57,15 @@ impl Window {
         }
     }
 
-    /// The same around another place, to the next border of cells, where it stays.
-    pub(crate) fn fixed(cell_m: f64, cells: usize, around_m: [f64; 2]) -> Self {
+    /// The same around another place, to the next border of cells, where it stays while the robot is no more than so many cells away.
+    pub(crate) fn around(cell_m: f64, cells: usize, place_m: [f64; 2], slack: f64) -> Self {
         let axis = |at_m: f64| Axis {
             center: (at_m / cell_m).round() as i64,
-            fixed: true,
+            slack: slack.max(SLACK),
             ..Axis::new(cell_m, cells)
         };
         Self {
-            axes: around_m.map(axis),
+            axes: place_m.map(axis),
         }
     }
 
@@ -149,11 +146,12 @@ mod tests {
     }
 
     #[test]
-    fn a_fixed_window_stays_where_it_was_put() {
-        let mut window = Window::fixed(0.04, 100, [1.01, -3.0]);
-        assert_eq!(window.follow([7.0, 0.3, 0.0]), [0; 2]);
+    fn a_window_with_slack_stays_where_it_was_put_until_the_robot_is_too_far_away() {
+        let mut window = Window::around(0.04, 100, [1.01, -3.0], 25.0);
+        assert_eq!(window.follow([1.9, -3.9, 0.0]), [0; 2]);
         let [x_m, y_m] = window.lattice().origin_m;
         assert!((x_m + 1.0).abs() < 1e-12 && (y_m + 5.0).abs() < 1e-12);
+        assert_eq!(window.follow([2.04, -3.9, 0.0]), [26, 0]);
     }
 
     #[test]

@@ -27,10 +27,8 @@ use layers::{Columns, Layers};
 use prior::Prior;
 use unseen::Unseen;
 
-/// Cells that a window may have along a side to hold all of the static map; a larger map is looked at around the robot.
+/// Cells along a side of a static map that the window holds as a whole; a larger one is looked at around the robot.
 const MOST_CELLS: f64 = 1000.0;
-/// Cells of the window around the static map.
-const MARGIN_CELLS: f64 = 2.0;
 
 /// Keeps the static and the local map, the floors, and the view made of them.
 #[derive(Debug, Clone)]
@@ -63,17 +61,18 @@ impl TwoMaps {
         config.check(floors)?;
         let extent = static_map.as_deref().and_then(Prior::extent_m);
         let window = extent.and_then(|(middle_m, reach_m)| {
-            let cells = 2.0 * ((reach_m / floors.cell).ceil() + MARGIN_CELLS);
-            (cells <= MOST_CELLS).then_some((middle_m, cells as usize))
+            let reach = (reach_m / floors.cell).ceil();
+            (2.0 * reach <= MOST_CELLS).then_some((middle_m, reach))
         });
         let floors = FogConfig {
-            cells: window.map_or(floors.cells, |(_, cells)| cells),
+            // As much room beyond the static map as there is around the robot without one.
+            cells: floors.cells + window.map_or(0, |(_, reach)| 2 * reach as usize),
             // The voxels of this one only tell which floors are still there.
             clearing: Clearing::Projected,
             ..floors.clone()
         };
         let floors = match window {
-            Some((middle_m, _)) => Fog::around(floors, middle_m)?,
+            Some((middle_m, reach)) => Fog::around(floors, middle_m, reach)?,
             None => Fog::new(floors)?,
         };
         let lattice = floors.view().lattice;
@@ -98,15 +97,6 @@ impl TwoMaps {
     /// The local map.
     pub const fn local(&self) -> &Octree {
         &self.local
-    }
-
-    /// Drops what was seen, and keeps what was told.
-    pub fn forget(&mut self) {
-        self.floors = self.fresh.clone();
-        if let Ok(nothing) = Octree::new(self.config.octree()) {
-            self.local = nothing;
-        }
-        self.level_m = f64::NAN;
     }
 
     /// The view made of both maps at once: what [`WorldModel::view`] is frame by frame.
@@ -235,6 +225,15 @@ impl TwoMaps {
 }
 
 impl WorldModel for TwoMaps {
+    /// What was told is kept.
+    fn forget(&mut self) {
+        self.floors = self.fresh.clone();
+        if let Ok(nothing) = Octree::new(self.config.octree()) {
+            self.local = nothing;
+        }
+        self.level_m = f64::NAN;
+    }
+
     fn insert(
         &mut self,
         planes: &Planes,
