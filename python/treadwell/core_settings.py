@@ -14,8 +14,8 @@ from treadwell.robot.load import Robot
 from treadwell.scenario.messages import nearest
 from treadwell.scenario.model import Scenario
 
-MAPPED = frozenset({"monte_carlo"})
-"""Components that have to be told a static map."""
+MAPPED = frozenset({"monte_carlo", "octree"})
+"""Components that are told a static map."""
 
 TOLD = ("odometry", "matching")
 """Localizers that cannot find where the robot is, but have to be told where it starts."""

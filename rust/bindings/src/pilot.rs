@@ -81,7 +81,7 @@ impl PyPilot {
             behaviour: behaviour.map(components::behaviour),
         };
         let static_map = static_map.map(|octree| octree.tree());
-        let pilot = Pilot::new(&settings, static_map.as_deref(), given).map_err(|error| {
+        let pilot = Pilot::new(&settings, static_map.as_ref(), given).map_err(|error| {
             if error.is_bad_setting() {
                 bad_setting(py, &error)
             } else {

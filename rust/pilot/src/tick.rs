@@ -1,5 +1,7 @@
 //! One tick: from an observation to joint targets.
 
+use std::sync::Arc;
+
 use behaviour::{Behaviour, Decision, Gaze, Situation, Stepping};
 use geometry::{Map, Odometry, Pose, Robot};
 use localization::{BodyStateHistory, Estimate, Localizer, Proprioception};
@@ -54,7 +56,7 @@ impl Pilot {
     /// beforehand.
     pub fn new(
         settings: &Settings,
-        static_map: Option<&Octree>,
+        static_map: Option<&Arc<Octree>>,
         given: Components,
     ) -> Result<Self, PilotError> {
         let body = Body::new(settings.robot.clone())?;
@@ -70,7 +72,7 @@ impl Pilot {
         )?;
         let self_filter = SelfFilter::new(&body, &table(tables, "self_filter")?)?;
         let world_model = given.world_model.map_or_else(
-            || registry::world_model(&settings.navigation.world_model, tables, None),
+            || registry::world_model(&settings.navigation.world_model, tables, static_map),
             Ok,
         )?;
         Ok(Self {
@@ -84,9 +86,10 @@ impl Pilot {
                 self_filter,
                 scan,
             ),
-            localizer: given
-                .localizer
-                .map_or_else(|| registry::localizer(settings, static_map), Ok)?,
+            localizer: given.localizer.map_or_else(
+                || registry::localizer(settings, static_map.map(Arc::as_ref)),
+                Ok,
+            )?,
             planner: given
                 .planner
                 .map_or_else(|| registry::planner(settings, static_map, &body, feet), Ok)?,
