@@ -117,7 +117,7 @@ pub(crate) fn recognizer(
 
 pub(crate) fn localizer(
     settings: &Settings,
-    static_map: Option<&Octree>,
+    static_map: Option<&Arc<Octree>>,
 ) -> Result<Box<dyn Localizer>, PilotError> {
     let tables = &settings.navigation.tables;
     let start = settings.start_or_origin();
@@ -165,7 +165,7 @@ fn solid(map: &Octree) -> Result<SolidVoxels, PilotError> {
 
 pub(crate) fn planner(
     settings: &Settings,
-    static_map: Option<&Octree>,
+    static_map: Option<&Arc<Octree>>,
     body: &Body,
     feet: Feet,
 ) -> Result<Box<dyn Planner>, PilotError> {

@@ -86,10 +86,9 @@ impl Pilot {
                 self_filter,
                 scan,
             ),
-            localizer: given.localizer.map_or_else(
-                || registry::localizer(settings, static_map.map(Arc::as_ref)),
-                Ok,
-            )?,
+            localizer: given
+                .localizer
+                .map_or_else(|| registry::localizer(settings, static_map), Ok)?,
             planner: given
                 .planner
                 .map_or_else(|| registry::planner(settings, static_map, &body, feet), Ok)?,
