@@ -336,3 +336,21 @@ def test_any_setting_is_taken_or_bad_input(setting: str) -> None:
 def test_any_bytes_are_bad_input(content: bytes, tmp_path_factory: pytest.TempPathFactory) -> None:
     path = write(tmp_path_factory.mktemp("bytes"), content)
     assert str(path) in message(path)
+
+
+def test_the_course_of_another_file_comes_first(tmp_path: Path) -> None:
+    (tmp_path / "house.toml").write_text(
+        '[[course]]\nkind = "cylinder"\nposition = [3.0, 0.0]\nradius = 0.1\nheight = 0.3\n'
+    )
+    path = tmp_path / "task.toml"
+    task = (
+        'schema = 1\nname = "task"\ncourse_of = "house.toml"\n[start]\nposition = [0.0, 0.0]\n'
+        "[goal]\nposition = [1.0, 0.0]\n"
+        '[[course]]\nkind = "wall"\nfrom = [0.0, 1.0]\nto = [1.0, 1.0]\nheight = 0.5\n'
+    )
+    path.write_text(task)
+    assert [element.kind for element in load_scenario(path).course] == ["cylinder", "wall"]
+    for found in ('"nowhere.toml"', '"../house.toml"', "3", '"task.toml"'):
+        path.write_text(task.replace('"house.toml"', found))
+        with pytest.raises(InputError, match="course_of: "):
+            load_scenario(path)
