@@ -13,7 +13,7 @@ from treadwell.course.outlines import Floats
 from treadwell.errors import InputError
 
 MARGIN: Final = 1.0
-"""Metres of ground that the map has around what stands on it, the start and the goal."""
+"""Metres of ground that the map has around what stands on it, and around the start."""
 
 MOST_VOXELS: Final = 2**24
 """Voxels that the box around a map may have: what a localizer keeps of each is 8 bytes."""

@@ -182,3 +182,30 @@ fn who_is_carried_to_another_level_finds_out_where_in_5_of_6() {
     }
     assert!(found >= 5, "{found}");
 }
+
+/// Where a robot that odometry has at (1, 0) is taken to be, after it was taken to be there and a frame says that it is `off`.
+fn followed(off: [f64; 3], turned_rad: f64) -> Pose<Map, Robot> {
+    let odometry_from_robot = Pose::from_yaw(1.0, 0.0, 0.0, 0.3);
+    let found: Pose<Map, Robot> = Pose::from_yaw(1.0 + off[0], off[1], off[2], 0.3 + turned_rad);
+    let found = found * odometry_from_robot.inverse();
+    let config = MonteCarloConfig::default();
+    follow(&Pose::identity(), &found, &odometry_from_robot, &config) * odometry_from_robot
+}
+
+#[test]
+fn within_the_bands_odometry_holds_beyond_them_the_frames_do_by_and_by() {
+    let still = followed([0.01, -0.015, 0.018], 0.015);
+    let at = still.origin().inner;
+    assert!((at.x - 1.0).abs() < 1e-9 && at.y.abs() < 1e-9 && at.z.abs() < 1e-9);
+    assert!((still.yaw_rad() - 0.3).abs() < 1e-9);
+    let drawn = followed([0.0, 0.12, 0.07], -0.12);
+    let at = drawn.origin().inner;
+    assert!((at.y - 0.01).abs() < 1e-9 && (at.z - 0.005).abs() < 1e-9);
+    assert!((drawn.yaw_rad() - 0.29).abs() < 1e-9);
+}
+
+#[test]
+fn who_is_elsewhere_is_there_at_once() {
+    let at = followed([0.0, 2.0, 0.36], 1.0);
+    assert!((at.origin().inner.y - 2.0).abs() < 1e-9 && (at.yaw_rad() - 1.3).abs() < 1e-9);
+}
