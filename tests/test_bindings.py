@@ -72,7 +72,7 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
         ({"planner": "b_star"}, r"navigation\.planner must be one of a_star, got b_star"),
         (
             {"world_model": "haze"},
-            r"navigation\.world_model must be one of fog, averaging, got haze",
+            r"navigation\.world_model must be one of fog, averaging, octree, got haze",
         ),
         ({"segmenter": "x"}, r"segmenter must be one of scan_line, .*, ransac, histogram, got x"),
         ({"segmenter": "hough", "hough": {"angle": 0}}, r"navigation\.hough\.angle must be 0\.03"),

@@ -58,8 +58,19 @@ LOOKED_AT = (
     "turns",
     "beam_seen",
 )
+IN_A_KNOWN_HOUSE = (
+    "two_levels",
+    "two_levels_unknown",
+    "nao_1",
+    "nao_2",
+    "nao_3",
+    "visitor_nao",
+    "kidnapped",
+    "underpass",
+)
 EXPECTED = {
     **WALKED,
+    **dict.fromkeys(IN_A_KNOWN_HOUSE, "goal_reached"),
     **dict.fromkeys(LOOKED_AT, "goal_reached"),
     **dict.fromkeys(CLIMBED, "goal_reached"),
     **dict.fromkeys(NOT_CLIMBED, "refused"),
@@ -86,6 +97,13 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Runner:
 
 def test_every_shipped_scenario_says_what_is_expected_of_it_here() -> None:
     assert {name: load_scenario(name).expect.outcome for name in scenario_names()} == EXPECTED
+
+
+@pytest.mark.parametrize("name", IN_A_KNOWN_HOUSE)
+def test_in_a_house_that_is_known_the_goal_is_reached(run: Runner, name: str) -> None:
+    result = run(name, 0).result
+    assert (result.outcome, result.falls, result.failures) == ("goal_reached", 0, [])
+    assert not result.ablation
 
 
 @pytest.mark.parametrize("seed", SEEDS)

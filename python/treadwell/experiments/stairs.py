@@ -24,7 +24,7 @@ PHASES: Final[dict[str, tuple[tuple[str, ...], float]]] = {
     "approach": (("approach",), 5.0),
     "climb": (("climb", "step_back"), 24.0),
     "finish": (("finish", "arrive"), 5.0),
-    "other": (("stop", "blind", "refuse"), 0.0),
+    "other": (("stop", "blind", "locate", "refuse"), 0.0),
 }
 """Phase of the paper -> our states that count for it until the last step, and the paper's s."""
 _TIMED: Final = ("stairs_up", "stairs_up_continuous", "stairs_down", "stairs_askew")

@@ -13,7 +13,8 @@ use serde::Deserialize;
 pub struct Settings {
     /// The robot's body.
     pub robot: Description,
-    /// Where the robot stands at the start; `None` where it has to find out.
+    /// Where the robot stands at the start; `null` where it has to find out.
+    #[serde(deserialize_with = "Option::deserialize")] // or it might be left out
     pub start: Option<StartSettings>,
     /// Where it shall go: the via points in order, the goal last.
     pub goals: Vec<GoalSettings>,
