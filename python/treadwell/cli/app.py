@@ -175,7 +175,9 @@ def verify(
 
 @app.command(epilog="Example: treadwell experiment stairs --seeds 5 --out runs/stairs")
 def experiment(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="Which experiment: fog, stairs.")],
+    name: Annotated[
+        str, typer.Argument(metavar="NAME", help="Which experiment: fog, nao, stairs.")
+    ],
     *,
     seeds: Annotated[
         int, typer.Option("--seeds", metavar="N", min=1, help="Seeds of each scenario.")

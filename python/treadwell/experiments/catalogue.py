@@ -6,9 +6,10 @@ from typing import Final
 from treadwell.errors import InputError
 from treadwell.experiments.experiment import Experiment
 from treadwell.experiments.fog import FOG
+from treadwell.experiments.nao import NAO
 from treadwell.experiments.stairs import STAIRS
 
-EXPERIMENTS: Final[dict[str, Experiment]] = {made.name: made for made in (FOG, STAIRS)}
+EXPERIMENTS: Final[dict[str, Experiment]] = {made.name: made for made in (FOG, NAO, STAIRS)}
 
 
 def find_experiment(name: str) -> Experiment:

@@ -19,7 +19,7 @@ from treadwell.judging.step_watch import EDGE_M, HEADING_RAD, HEIGHT_M, StepErro
 from treadwell.runner import Run
 
 PHASES: Final[dict[str, tuple[tuple[str, ...], float]]] = {
-    "search": (("look_around", "turn", "search"), 5.0),
+    "search": (("look_around", "locate", "turn", "search"), 5.0),
     "align": (("walk", "align"), 5.0),
     "approach": (("approach",), 5.0),
     "climb": (("climb", "step_back"), 24.0),
@@ -155,7 +155,8 @@ def _times(results: Results) -> Table:
     )
 
 
-def _reasons(results: Results) -> Table:
+def reasons(results: Results) -> Table:
+    """Return the table of what was refused, and of what went otherwise than expected."""
     rows = []
     for name, runs in results.items():
         told = [run.result for run in runs if run.outcome == "refused" or not run.passed]
@@ -223,7 +224,7 @@ def stairs_tables(results: Results) -> list[Table]:
         _times(results),
         _steps(results),
         _widths(results),
-        _reasons(results),
+        reasons(results),
         level_heights(results.get("obstacle_course", ())),
         _frame_times(results),
     ]
