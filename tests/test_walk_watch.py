@@ -75,6 +75,18 @@ def test_what_the_map_lacks_is_found_as_an_obstacle_or_by_its_top(
     assert (books.name, books.cells, books.found) == ("books", 9, found)
 
 
+def test_floor_beside_a_thing_is_not_clear_of_it() -> None:
+    kinds, heights = np.full((40, 40), FLOOR, dtype=np.uint8), np.zeros((40, 40), dtype=np.float32)
+    frame = {"view_origin": (0.9, -0.6), "view_kind": kinds, "view_height": heights}
+    free = seen(**frame)
+    assert 1300 < free.clear < 1600
+    assert free.clear_wrong == 0
+    # Beside the books, 20 mm off, and far from everything.
+    kinds[2, 4], kinds[12, 20] = OBSTACLE, OBSTACLE
+    wrong = seen(**frame)
+    assert (wrong.clear, wrong.clear_wrong) == (free.clear, 1)
+
+
 def test_the_static_map_is_that_of_what_is_mapped_and_bars_the_way() -> None:
     columns = seen().static
     assert len(columns) == 10

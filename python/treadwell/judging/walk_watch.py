@@ -11,10 +11,13 @@ from treadwell.course.outlines import signed_distance
 from treadwell.course.static_map import RESOLUTION, static_map
 from treadwell.episode import Episode
 from treadwell.judging.map_memory import FLOOR, OBSTACLE, MapMemory, RememberedMap
+from treadwell.judging.score import LEAST_SIGHTINGS, true_cells
 from treadwell.recording.trace import Trace
 
 Floats = NDArray[np.float64]
 
+CLEAR_M = 0.07
+"""Floor this far from everything that is not walked on is clear of it: a cell and a half."""
 _SOLE_M = 0.02
 """A voxel whose middle lies no higher than this above the robot's level is its floor."""
 
@@ -45,6 +48,8 @@ class Walk:
         odometry: (n, 4) the same by leg odometry alone.
         carried: s, when it was carried off last; 0.0 where it was not.
         unmapped: what the static map lacks.
+        clear: cells of the map's memory that truly are floor, clear of everything.
+        clear_wrong: those of them that are an obstacle in the end.
         static: (m, 2) m, centres of the static map's columns at the height of the robot's body,
             above the level that it stood on in the end.
         voxel: m, side of those.
@@ -56,6 +61,8 @@ class Walk:
     odometry: Floats
     carried: float
     unmapped: tuple[Unmapped, ...]
+    clear: int
+    clear_wrong: int
     static: Floats
     voxel: float
 
@@ -98,6 +105,7 @@ class WalkWatch:
         fired = self._episode.events.fired
         elements = self._episode.course.elements
         remembered = self._memory.map()
+        clear = self._clear(remembered)
         return Walk(
             times=rows[:, 0],
             believed=rows[:, 1:5],
@@ -105,9 +113,26 @@ class WalkWatch:
             odometry=rows[:, 9:13],
             carried=max((time for time, what in fired if what == "kidnap"), default=0.0),
             unmapped=tuple(_found(one, remembered) for one in elements if not one.mapped),
+            clear=int(clear.sum()),
+            clear_wrong=int((clear & (remembered.kind == OBSTACLE)).sum()),
             static=self._static(float(true[-1, 2]) if len(true) else 0.0),
             voxel=RESOLUTION,
         )
+
+    def _clear(self, remembered: RememberedMap) -> NDArray[np.bool_]:
+        """Say which cells are floor, were seen or are taken for an obstacle, and lie clear."""
+        course, body = self._episode.course, self._episode.robot.file.body
+        if not remembered.kind.size:
+            return np.zeros(remembered.kind.shape, dtype=bool)
+        seen = (remembered.sightings >= LEAST_SIGHTINGS) | (remembered.kind == OBSTACLE)
+        clear: NDArray[np.bool_] = true_cells(course, remembered, body.height).floor & seen
+        centres = remembered.centres().reshape(-1, 2)
+        for element in course.elements:
+            if element.present and not element.walkable:
+                for piece in element.pieces:
+                    near = signed_distance(piece.outline, centres) < CLEAR_M
+                    clear &= ~near.reshape(clear.shape)
+        return clear
 
     def _static(self, level: float) -> Floats:
         """Return the columns of the static map that bar a robot which stands on a level."""
