@@ -98,7 +98,7 @@ def test_unmapped_things_that_were_not_found_are_named() -> None:
 
 def test_contacts_and_the_time_to_a_new_way_are_counted_where_one_was_needed() -> None:
     hit = CollisionEntry(time=1.0, robot_part="torso", element="visitor", impulse=1.0)
-    quick, free = Avoidance(True, 3.0, 3.2, 4.0), Avoidance(False, 3.0, 9.0, 9.0)
+    quick, free = Avoidance(2.0, 3.0, 3.2, 4.0), Avoidance(None, 3.0, None, None)
     bumped = Run(result(MADE, collisions=[hit]), Path("folder"), findings=free)
     runs = {cases.VISITOR: [*watched(quick), bumped]}
     row = rows_of(nao_tables, runs, "Somebody")[cases.VISITOR]

@@ -75,7 +75,6 @@ def test_the_new_way_is_timed_from_the_picture_that_has_the_visitor_first() -> N
     scene.see(AROUND, replanned=True)
     scene.see(THROUGH)
     found = scene.watch.findings()
-    assert found.blocked
     assert found.seen is not None
     assert round(found.seen, 6) == 0.55
     assert round(found.delay() or 0.0, 6) == 0.25
@@ -90,14 +89,28 @@ def test_nothing_is_timed_where_the_way_was_free_or_the_visitor_never_seen() -> 
         scene.present.add("visitor")
     free.see(AROUND, SEEN_POINTS)
     unseen.see(AROUND, replanned=True)
-    assert not free.watch.findings().blocked
+    assert free.watch.findings().blocked is None
     assert free.watch.findings().delay() is None
-    assert unseen.watch.findings() == Avoidance(True, None, None, None)
+    assert unseen.watch.findings().seen is None
     assert unseen.watch.findings().delay() is None
+
+
+def test_one_that_is_seen_coming_counts_from_when_it_stands_in_the_way() -> None:
+    scene = Scene()
+    scene.see(AROUND)
+    scene.present.add("visitor")
+    scene.see(AROUND, SEEN_POINTS, replanned=True)
+    scene.see(THROUGH, SEEN_POINTS)
+    scene.see(AROUND, SEEN_POINTS, replanned=True)
+    found = scene.watch.findings()
+    assert found.blocked is not None
+    assert round(found.blocked, 6) == 0.6
+    assert round(found.delay() or 0.0, 6) == 0.2
+    assert found.delay_around() == found.delay()
 
 
 def test_a_course_without_a_visitor_has_none() -> None:
     episode: Any = SimpleNamespace(course=world().course, robot=qrio())
     watch = VisitorWatch(episode)
     watch.frame(trace(WORLD, 0))
-    assert watch.findings() == Avoidance(False, None, None, None)
+    assert watch.findings() == Avoidance(None, None, None, None)

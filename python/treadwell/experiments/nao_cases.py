@@ -119,7 +119,7 @@ CLAIMS: Final = (
     *_both("stairs_up", "19 of 20"),
     *_both("stairs_down", "19 of 20"),
     *_both("two_levels", NOTHING),
-    Claim(Case("underpass_qrio", "underpass"), "qrio"),
+    *_both("underpass", NOTHING),
 )
 
 CASES: Final = (

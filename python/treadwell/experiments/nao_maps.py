@@ -79,10 +79,10 @@ def visitors(results: Results) -> Table:
         ),
         rows,
         (
-            "In the way: the path led through the visitor when it came. New way: from the taking "
-            "of the first picture with 20 points or more on the visitor until the first way that "
-            "is planned anew; around: until the path leads by the whole visitor, half the feet's "
-            "width off, of which the robot has seen a part. New ways: median of all in a run. "
+            "In the way: the path led through the visitor, by half the feet's width, at any time. "
+            "New way: from the first picture with 20 points or more on it, if it was in the way by "
+            "then, until the first way that is planned anew; around: until the path leads by the "
+            "whole visitor, of which the robot has seen a part. New ways: median of all in a run. "
             "The paper: immediately, collision-free, goal reached.",
         ),
     )
@@ -95,7 +95,7 @@ def _avoided(runs: Sequence[Run]) -> tuple[str, ...]:
     return (
         share(sum(not run.result.collisions for run in runs), len(runs)),
         share(sum(run.outcome == "goal_reached" for run in runs), len(runs)),
-        share(sum(one.blocked for one in found), len(found)),
+        share(sum(one.blocked is not None for one in found), len(found)),
         share(sum(one.seen is not None for one in found), len(found)),
         middle(delays, 2),
         f"{max(delays):.2f}" if delays else NOTHING,

@@ -29,29 +29,29 @@ class Avoidance:
     """What happened after an element was put in the way.
 
     Attributes:
-        blocked: whether the path led through it, when it came.
+        blocked: s, when the path led through it first; None where it never did.
         seen: s, when the first picture was taken that has it; None without one.
-        replanned: s, when a way was planned anew first, after that; None where none was.
-        around: s, when the path led around all of it first; None where it never did.
+        replanned: s, when a way was planned anew first, after both; None where none was.
+        around: s, when the path led around all of it first, after both; None where it never did.
     """
 
-    blocked: bool
+    blocked: float | None
     seen: float | None
     replanned: float | None
     around: float | None
 
     def delay(self) -> float | None:
-        """Return the time from the first picture to the first new way, s."""
+        """Return the time from when it was seen in the way to the first new way, s."""
         return self._since(self.replanned)
 
     def delay_around(self) -> float | None:
-        """Return the time from the first picture until the path led around all of it, s."""
+        """Return the time from then until the path led around all of it, s."""
         return self._since(self.around)
 
     def _since(self, time: float | None) -> float | None:
-        if not self.blocked or self.seen is None or time is None:
+        if self.blocked is None or self.seen is None or time is None:
             return None
-        return time - self.seen
+        return time - max(self.blocked, self.seen)
 
 
 class VisitorWatch:
@@ -67,7 +67,7 @@ class VisitorWatch:
         )
         self._before: Floats = np.empty((0, 2))
         self._came = False
-        self._blocked = False
+        self._blocked: float | None = None
         self._seen: float | None = None
         self._replans = 0
         self._replanned: float | None = None
@@ -82,18 +82,22 @@ class VisitorWatch:
             self._before, self._replans = trace.path, self._episode.pilot.replans
             return
         offset = self._episode.events.place(visitor, self._episode.simulation.data)[:2]
-        if not self._came:
-            self._came = True
-            self._blocked = self._leads_through(self._before, trace, visitor, offset)
+        now = 1e-9 * trace.time_ns
+        if not self._came and self._leads_through(self._before, trace, visitor, offset):
+            self._blocked = now
+        self._came = True
         if self._seen is None and _points_on(visitor, trace, offset) >= SEEN_POINTS:
             self._seen = 1e-9 * self._episode.pilot.planes().exposure_ns
-        if self._seen is None:
+        through = self._leads_through(trace.path, trace, visitor, offset)
+        if self._blocked is None and through:
+            self._blocked = now
+        if self._seen is None or self._blocked is None:
+            self._replans = self._episode.pilot.replans
             return
         if self._replanned is None and self._episode.pilot.replans > self._replans:
-            self._replanned = 1e-9 * trace.time_ns
-        seeks = self._around is None and len(trace.path) > 0
-        if seeks and not self._leads_through(trace.path, trace, visitor, offset):
-            self._around = 1e-9 * trace.time_ns
+            self._replanned = now
+        if self._around is None and len(trace.path) and not through:
+            self._around = now
 
     def findings(self) -> Avoidance:
         """Return what was seen so far."""
