@@ -7,6 +7,8 @@ import numpy as np
 from episode_builders import result
 from experiment_builders import MADE, rows_of, watched
 
+from treadwell.components import COMPONENTS
+from treadwell.core_settings import MAPPED
 from treadwell.episode import Episode
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.fog import FOG, fog_tables
@@ -24,6 +26,11 @@ def frame(covered: int = 0, found: int = 0, stale: int = 0, between: int = 0) ->
 
 def history(*frames: MapFrame) -> MapHistory:
     return MapHistory(frames, ())
+
+
+def test_no_map_is_told_the_course_that_it_is_to_find() -> None:
+    told = {f"navigation.{slot}={name}" for slot in COMPONENTS for name in MAPPED}
+    assert not [case.name for case in cases.CASES if told & set(case.overrides)]
 
 
 def test_what_is_stale_after_a_box_was_removed_is_counted_until_none_is() -> None:
