@@ -5,8 +5,8 @@
 
 mod common;
 
-use common::{Block, HEIGHT, WIDTH, camera, look};
-use geometry::{Cell, Map, Pose, Robot};
+use common::{Block, HEIGHT, WIDTH, camera, interior, look};
+use geometry::{Map, Pose, Robot};
 use mapping::{Averaging, AveragingConfig, Fog, FogConfig, MapError, Surface, WorldModel};
 use segmentation::Planes;
 
@@ -40,7 +40,7 @@ impl Both {
     fn heights(&self, min: [f64; 2], max: [f64; 2]) -> [Vec<Option<f64>>; 2] {
         let maps = [&self.averaging as &dyn WorldModel, &self.fog];
         maps.map(|map| {
-            let cells = interior(map, min, max);
+            let cells = interior(map.view(), min, max).into_iter();
             cells.map(|cell| height(map.view().cell(cell))).collect()
         })
     }
@@ -59,14 +59,6 @@ fn height(surface: Surface) -> Option<f64> {
         Surface::Floor(h) | Surface::Obstacle(h) => Some(f64::from(h)),
         Surface::Unknown => None,
     }
-}
-
-fn interior(map: &dyn WorldModel, min: [f64; 2], max: [f64; 2]) -> impl Iterator<Item = Cell> {
-    let lattice = map.view().lattice;
-    map.view().cells.area().cells().filter(move |cell| {
-        let [x, y] = lattice.center_of(*cell);
-        (x - 0.021 > min[0] && x + 0.021 < max[0]) && (y - 0.021 > min[1] && y + 0.021 < max[1])
-    })
 }
 
 /// Repeatable numbers from 0 to 1.

@@ -4,8 +4,8 @@
 
 mod common;
 
-use common::{Block, HEIGHT, WIDTH, camera, look};
-use geometry::{Cell, Map, Pose, Robot};
+use common::{Block, HEIGHT, WIDTH, camera, interior, look};
+use geometry::{Map, Pose, Robot};
 use mapping::{Fog, FogConfig, MapError, Surface, Update, WorldModel};
 use segmentation::Planes;
 
@@ -23,18 +23,6 @@ fn look_around(fog: &mut Fog, blocks: &[Block], map_from_robot: &Pose<Map, Robot
             }
         }
     }
-}
-
-/// Cells whose whole square lies within the rectangle.
-fn interior(fog: &Fog, min: [f64; 2], max: [f64; 2]) -> Vec<Cell> {
-    let view = fog.view();
-    let inside = |cell: &Cell| {
-        let [x, y] = view.lattice.center_of(*cell);
-        (x - 0.021 > min[0] && x + 0.021 < max[0]) && (y - 0.021 > min[1] && y + 0.021 < max[1])
-    };
-    let cells: Vec<_> = view.cells.area().cells().filter(inside).collect();
-    assert!(!cells.is_empty());
-    cells
 }
 
 #[test]
@@ -55,20 +43,20 @@ fn floors_are_exact_and_obstacles_coarse_with_a_perfect_sensor() {
         ([0.4, 0.1], [0.8, 0.5], 0.092),
     ];
     for (min, max, height) in levels {
-        for cell in interior(&fog, min, max) {
+        for cell in interior(fog.view(), min, max) {
             match fog.view().cell(cell) {
                 Surface::Floor(h) => assert!((h - height).abs() < 1e-4, "{h} at {cell:?}"),
                 other => panic!("{other:?} at {cell:?}"),
             }
         }
     }
-    for cell in interior(&fog, [0.3, -0.06], [0.9, 0.06]) {
+    for cell in interior(fog.view(), [0.3, -0.06], [0.9, 0.06]) {
         assert!(matches!(fog.view().cell(cell), Surface::Floor(h) if h.abs() < 1e-4));
     }
     for (block, height) in [(blocks[2], 0.2), (blocks[3], 0.3)] {
         let (mut seen, mut missed) = (0, 0);
         for cell in interior(
-            &fog,
+            fog.view(),
             [block.min[0], block.min[1]],
             [block.max[0], block.max[1]],
         ) {
@@ -100,7 +88,7 @@ fn a_removed_box_vanishes_within_12_frames() {
             let _ = fog.insert(&look(&box_, &pose, eye), &pose).unwrap();
         }
         let raised = |fog: &Fog| {
-            interior(fog, [0.5, -0.1], [0.8, 0.1])
+            interior(fog.view(), [0.5, -0.1], [0.8, 0.1])
                 .into_iter()
                 .filter(|&cell| match fog.view().cell(cell) {
                     Surface::Floor(h) | Surface::Obstacle(h) => h > 0.03,
@@ -155,7 +143,7 @@ fn of_two_levels_only_the_higher_one_is_kept() {
     let mut fog = Fog::new(FogConfig::default()).unwrap();
     look_around(&mut fog, &[], &at(0.0, 0.0));
     look_around(&mut fog, &table, &at(0.0, 0.0));
-    for cell in interior(&fog, [0.5, -0.3], [1.1, 0.3]) {
+    for cell in interior(fog.view(), [0.5, -0.3], [1.1, 0.3]) {
         let surface = fog.view().cell(cell);
         assert!(
             matches!(surface, Surface::Floor(h) if (h - 0.12).abs() < 1e-3),

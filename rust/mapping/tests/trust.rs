@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{Block, camera, look};
+use common::{Block, camera, is_obstacle, look};
 use geometry::{Map, Plane, Point, Pose};
 use mapping::{Fog, FogConfig, Surface, WorldModel};
 use segmentation::{PlaneRegion, Planes};
@@ -96,10 +96,7 @@ fn without_a_floor_of_its_own_a_cell_is_an_obstacle_where_it_stands_out_of_the_f
         (0.3, FogConfig::default()),
     ] {
         let found = strip_between_floors(strip_m, config);
-        assert!(
-            matches!(found, Surface::Obstacle(_)),
-            "{strip_m}: {found:?}"
-        );
+        assert!(is_obstacle(found), "{strip_m}: {found:?}");
     }
 }
 
@@ -115,7 +112,7 @@ fn floor_in_a_shadow_still_clears_the_way_to_it() {
         see(&mut fog, &look(&[WALL], &pose, eye));
     }
     let there = |fog: &Fog| fog.view().at(0.82, 0.02);
-    assert!(matches!(there(&fog), Surface::Obstacle(_)));
+    assert!(is_obstacle(there(&fog)));
     for _ in 0..12 {
         see(&mut fog, &look(&[], &pose, eye));
     }
@@ -153,7 +150,7 @@ fn block_that_is_smooth_every(smooth_every: usize, config: FogConfig) -> Surface
 #[test]
 fn what_most_frames_find_rough_is_an_obstacle_though_it_is_level() {
     let found = block_that_is_smooth_every(4, FogConfig::default());
-    assert!(matches!(found, Surface::Obstacle(_)), "{found:?}");
+    assert!(is_obstacle(found), "{found:?}");
     let without = FogConfig {
         rough: None,
         ..FogConfig::default()

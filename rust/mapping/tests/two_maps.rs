@@ -6,13 +6,11 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{Block, camera, look};
-use geometry::{Cell, Map, Pose, Robot};
+use common::{Block, camera, interior, is_obstacle, look};
+use geometry::{Map, Pose, Robot};
 use mapping::volume::Ray;
 use mapping::volume::octree::{Octree, OctreeConfig};
-use mapping::{
-    FloorView, FogConfig, MapError, Surface, TwoMaps, TwoMapsConfig, Update, WorldModel,
-};
+use mapping::{FogConfig, MapError, Surface, TwoMaps, TwoMapsConfig, Update, WorldModel};
 use proptest::prelude::*;
 use segmentation::Planes;
 
@@ -65,22 +63,6 @@ fn look_around(maps: &mut TwoMaps, blocks: &[Block], map_from_robot: &Pose<Map, 
             let _ = maps.insert(&planes, map_from_robot).unwrap();
         }
     }
-}
-
-/// Cells of a view whose whole square lies within the rectangle.
-fn interior(view: &FloorView, min: [f64; 2], max: [f64; 2]) -> Vec<Cell> {
-    let half = 0.5 * view.lattice.cell_m;
-    let inside = |cell: &Cell| {
-        let at = view.lattice.center_of(*cell);
-        (0..2).all(|a| at[a] - half > min[a] - 1e-9 && at[a] + half < max[a] + 1e-9)
-    };
-    let cells: Vec<_> = view.cells.area().cells().filter(inside).collect();
-    assert!(!cells.is_empty());
-    cells
-}
-
-fn is_obstacle(surface: Surface) -> bool {
-    matches!(surface, Surface::Obstacle(_))
 }
 
 #[test]

@@ -4,9 +4,9 @@
 
 mod common;
 
-use common::{Block, DEPTH_CAMERA, WIDTH, camera, look, look_through};
-use geometry::{Cell, Map, Pose, Robot};
-use mapping::{FloorView, FogConfig, Surface, TwoMaps, TwoMapsConfig, WorldModel};
+use common::{Block, DEPTH_CAMERA, WIDTH, camera, interior, is_obstacle, look, look_through};
+use geometry::{Map, Pose, Robot};
+use mapping::{FogConfig, Surface, TwoMaps, TwoMapsConfig, WorldModel};
 use segmentation::Planes;
 
 fn maps(config: TwoMapsConfig) -> TwoMaps {
@@ -22,22 +22,6 @@ fn with_voxels(resolution: f64) -> TwoMapsConfig {
 
 fn at(x_m: f64) -> Pose<Map, Robot> {
     Pose::from_yaw(x_m, 0.0, 0.0, 0.0)
-}
-
-/// Cells of a view whose whole square lies within the rectangle.
-fn interior(view: &FloorView, min: [f64; 2], max: [f64; 2]) -> Vec<Cell> {
-    let half = 0.5 * view.lattice.cell_m;
-    let inside = |cell: &Cell| {
-        let at = view.lattice.center_of(*cell);
-        (0..2).all(|a| at[a] - half > min[a] - 1e-9 && at[a] + half < max[a] + 1e-9)
-    };
-    let cells: Vec<_> = view.cells.area().cells().filter(inside).collect();
-    assert!(!cells.is_empty());
-    cells
-}
-
-fn is_obstacle(surface: Surface) -> bool {
-    matches!(surface, Surface::Obstacle(_))
 }
 
 /// Frames until nothing of a visitor is left in the view, at most 20.

@@ -1,7 +1,8 @@
 //! Boxes on a floor, seen by a perfect depth camera: the worlds of the map's tests and of its bench.
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its part")]
 
-use geometry::{Camera, Map, Pose, Robot};
+use geometry::{Camera, Cell, Map, Pose, Robot};
+use mapping::{FloorView, Surface};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use segmentation::Planes;
 use sensing::Intrinsics;
@@ -114,4 +115,20 @@ pub fn look_through(
         }
     }
     planes
+}
+
+/// Cells of a view whose whole square lies within the rectangle.
+pub fn interior(view: &FloorView, min: [f64; 2], max: [f64; 2]) -> Vec<Cell> {
+    let half = 0.5 * view.lattice.cell_m;
+    let inside = |cell: &Cell| {
+        let at = view.lattice.center_of(*cell);
+        (0..2).all(|a| at[a] - half > min[a] - 1e-9 && at[a] + half < max[a] + 1e-9)
+    };
+    let cells: Vec<_> = view.cells.area().cells().filter(inside).collect();
+    assert!(!cells.is_empty());
+    cells
+}
+
+pub fn is_obstacle(surface: Surface) -> bool {
+    matches!(surface, Surface::Obstacle(_))
 }
