@@ -1,4 +1,4 @@
-//! Frames and typed poses, angles, planes, outlines, lattices and grids: the words all other crates speak in.
+//! Frames and typed poses, angles, planes, outlines, lattices, grids and repeatable random numbers: the words all other crates speak in.
 //!
 //! Poses are named `target_from_source`, and the types say the same in the same order, so that adjacent words cancel:
 //!
@@ -27,6 +27,7 @@ mod outline;
 mod planar;
 mod plane;
 mod pose;
+mod random;
 
 pub use angle::{angle_between, wrap_angle};
 pub use area::CellArea;
@@ -37,3 +38,4 @@ pub use outline::{Cut, Outline, OutlineError};
 pub use planar::PlanarPose;
 pub use plane::Plane;
 pub use pose::{Point, Pose, Vector};
+pub use random::{GOLDEN, SplitMix64, mix};

@@ -1,6 +1,6 @@
 //! Test support: exact disparities of a ground plane and boxes, and the errors of block matching on top.
 
-use geometry::{Camera, Pose, Robot};
+use geometry::{Camera, GOLDEN, Pose, Robot, SplitMix64};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use sensing::{Intrinsics, Scan};
 
@@ -12,21 +12,19 @@ pub(crate) const CAMERA: Intrinsics = Intrinsics {
     baseline_m: 0.06,
 };
 
-/// Seeded random numbers (splitmix64) that need no dependency.
-pub(crate) struct Noise(u64);
+/// Seeded random numbers of several kinds.
+pub(crate) struct Noise(SplitMix64);
 
 impl Noise {
     pub(crate) fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x5851_F42D_4C95_7F2D)
+        Self(SplitMix64::new(
+            seed.wrapping_mul(GOLDEN) ^ 0x5851_F42D_4C95_7F2D,
+        ))
     }
 
     /// Uniform in [0, 1).
     pub(crate) fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        self.0.uniform()
     }
 
     /// Uniform between -limit and limit.

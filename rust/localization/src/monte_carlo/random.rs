@@ -1,6 +1,8 @@
 //! Random numbers by counter: what a particle draws depends on the seed, the step and its index, not on who drew before it, so that
 //! any number of threads draws the same.
 
+use geometry::{GOLDEN, SplitMix64, mix};
+
 /// What numbers are drawn for; each has streams of its own.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Purpose {
@@ -15,37 +17,26 @@ pub(super) enum Purpose {
 
 /// The numbers of one particle at one step: splitmix64 from a place that the three together say.
 #[derive(Debug, Clone)]
-pub(super) struct Stream(u64);
-
-const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
-
-fn mix(mut z: u64) -> u64 {
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^ (z >> 31)
-}
+pub(super) struct Stream(SplitMix64);
 
 impl Stream {
     pub(super) fn new(seed: u64, step: u64, purpose: Purpose, index: usize) -> Self {
         let parts = [step, purpose as u64, index as u64];
-        Self(parts.iter().fold(mix(seed ^ GOLDEN), |state, &part| {
-            mix(state.wrapping_add(part.wrapping_add(1).wrapping_mul(GOLDEN)))
-        }))
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(GOLDEN);
-        mix(self.0)
+        Self(SplitMix64::new(
+            parts.iter().fold(mix(seed ^ GOLDEN), |state, &part| {
+                mix(state.wrapping_add(part.wrapping_add(1).wrapping_mul(GOLDEN)))
+            }),
+        ))
     }
 
     /// Uniform in 0..1, 1 excluded.
     pub(super) fn uniform(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+        self.0.uniform()
     }
 
     /// A whole number from 0 to `count` - 1; `count` must not be 0.
     pub(super) fn below(&mut self, count: usize) -> usize {
-        ((u128::from(self.next()) * count as u128) >> 64) as usize
+        ((u128::from(self.0.next_bits()) * count as u128) >> 64) as usize
     }
 
     /// Independent numbers of mean 0 and variance 1, by Box and Muller.
@@ -86,7 +77,8 @@ mod tests {
 
     #[test]
     fn seed_step_purpose_and_index_each_give_another_stream() {
-        let first = |seed, step, purpose, index| Stream::new(seed, step, purpose, index).next();
+        let first =
+            |seed, step, purpose, index| Stream::new(seed, step, purpose, index).0.next_bits();
         let base = first(1, 1, Purpose::Start, 1);
         assert_eq!(base, first(1, 1, Purpose::Start, 1));
         for other in [

@@ -1,8 +1,10 @@
 //! Random numbers that are the same for the same frame.
 
-/// Numbers drawn by splitmix64.
+use geometry::SplitMix64;
+
+/// Numbers drawn for a frame.
 #[derive(Debug, Clone)]
-pub(crate) struct Draws(u64);
+pub(crate) struct Draws(SplitMix64);
 
 impl Draws {
     /// Seeded by what a frame shows: no clock, and no memory of the frames before it.
@@ -10,16 +12,13 @@ impl Draws {
         let mix = |seed: u64, d: &f32| {
             (seed ^ u64::from(d.to_bits())).wrapping_mul(0x0000_0100_0000_01B3)
         };
-        Self(disparity_px.iter().fold(0xCBF2_9CE4_8422_2325, mix))
+        let seed = disparity_px.iter().fold(0xCBF2_9CE4_8422_2325, mix);
+        Self(SplitMix64::new(seed))
     }
 
     /// A whole number from 0 to `count` - 1; `count` must not be 0.
     pub(crate) fn below(&mut self, count: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) % count as u64) as usize
+        (self.0.next_bits() % count as u64) as usize
     }
 }
 
