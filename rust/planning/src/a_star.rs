@@ -1,11 +1,12 @@
 //! The planner: a path by A*, kept as long as it holds.
 
-use geometry::{ConfigError, Map, PlanarPose, Pose, Robot, require};
+use geometry::{ConfigError, Map, Pose, Robot, require};
 use mapping::FloorView;
 use stairs::{ClimbingConfig, Feet, Staircase};
 
 use crate::keep::Kept;
 use crate::levels::{Limits, Stand};
+use crate::plan::place_of;
 use crate::portals::{Portals, Scene};
 use crate::search::Search;
 use crate::seek::Seek;
@@ -83,18 +84,10 @@ impl Planner for AStar {
         start: &Pose<Map, Robot>,
         goal: &Goal,
     ) -> Result<Plan, PlanError> {
-        let origin = start.origin().inner;
-        let start = PlanarPose::new(origin.x, origin.y, start.yaw_rad());
-        if !(start.x_m + start.y_m + start.yaw_rad + origin.z).is_finite() {
-            return Err(PlanError::NotFinite("the start"));
-        }
-        let height = goal.height_m.unwrap_or(0.0);
-        if !(goal.x_m + goal.y_m + goal.radius_m + height).is_finite() {
-            return Err(PlanError::NotFinite("the goal"));
-        }
+        let (start, height_m) = place_of(start, goal)?;
         let stand = Stand {
             at_m: [start.x_m, start.y_m],
-            height_m: origin.z,
+            height_m,
             heading_rad: start.yaw_rad,
             gradient: view.gradient_at(start.x_m, start.y_m),
         };

@@ -8,6 +8,8 @@ use mapping::FloorView;
 use mapping::volume::SolidVoxels;
 use stairs::Staircase;
 
+use crate::plan::place_of;
+use crate::shortcut::lay;
 use crate::{AStar, Goal, Path, Plan, PlanError, Planner};
 use floors::{Field, Floors, NONE};
 use prior::Prior;
@@ -127,22 +129,25 @@ impl Guided {
         Some(way)
     }
 
-    /// A path to where the planner was sent, lengthened by the guide's way from there to the goal.
-    fn lengthen(&self, path: &mut Path, way: &[u32], sent: u32) {
-        let rest = way
-            .iter()
-            .position(|place| *place == sent)
-            .unwrap_or(way.len());
-        for place in way.iter().skip(rest + 1) {
-            let [x, y, _] = self.floors.at_m(*place);
-            path.points_m.push([x, y]);
-            path.unknown.push(false);
-            path.clearance_m.push(f64::INFINITY);
+    /// A path that ends where the planner was sent, lengthened by the guide's way from there to the goal. One that ends elsewhere, at
+    /// a place to look from or behind a step, may go on in another way than the guide's.
+    fn lengthen(&self, path: &mut Path, way: &[u32], (sent, place): (Goal, u32), cell_m: f64) {
+        let Some(rest) = way.iter().position(|at| *at == place) else {
+            return;
+        };
+        let Some(&[x, y]) = path.points_m.last() else {
+            return;
+        };
+        if (x - sent.x_m).hypot(y - sent.y_m) > sent.radius_m {
+            return;
         }
-        let rest_m = f64::from(self.field.cost_m[sent as usize]);
-        if rest_m.is_finite() {
-            path.cost_m += rest_m;
+        for &place in &way[rest + 1..] {
+            let [x, y, _] = self.floors.at_m(place);
+            lay(&mut path.points_m, [x, y], cell_m);
         }
+        path.unknown.resize(path.points_m.len(), false);
+        path.clearance_m.resize(path.points_m.len(), f64::INFINITY);
+        path.cost_m += f64::from(self.field.cost_m[place as usize]);
     }
 }
 
@@ -154,8 +159,8 @@ impl Planner for Guided {
         start: &Pose<Map, Robot>,
         goal: &Goal,
     ) -> Result<Plan, PlanError> {
-        let origin = start.origin().inner;
-        let at_m = [origin.x, origin.y, origin.z];
+        let (place, height_m) = place_of(start, goal)?;
+        let at_m = [place.x_m, place.y_m, height_m];
         if self.goal != Some(*goal) {
             self.blocked.fill(false);
             self.floors.aim(goal, &self.blocked, &mut self.field);
@@ -174,8 +179,8 @@ impl Planner for Guided {
             self.floors.aim(goal, &self.blocked, &mut self.field);
             self.sent = None;
         }
-        if let (Ok(path), Some(way), Some((_, sent))) = (&mut plan.way, &way, target) {
-            self.lengthen(path, way, sent);
+        if let (Ok(path), Some(way), Some(sent)) = (&mut plan.way, &way, target) {
+            self.lengthen(path, way, sent, view.lattice.cell_m);
         }
         Ok(plan)
     }
@@ -184,3 +189,6 @@ impl Planner for Guided {
         self.near.distance_field_m()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,6 @@
 //! What every planner produces: a path, or the reason why there is none.
 
-use geometry::{Map, Pose, Robot};
+use geometry::{Map, PlanarPose, Pose, Robot};
 use mapping::FloorView;
 use stairs::{Stair, Staircase};
 
@@ -26,6 +26,23 @@ pub struct Goal {
     pub radius_m: f64,
     /// Height of the level, m, where several lie above each other.
     pub height_m: Option<f64>,
+}
+
+/// Where the robot stands, and how high, m, when this and the goal are numbers.
+pub(crate) fn place_of(
+    start: &Pose<Map, Robot>,
+    goal: &Goal,
+) -> Result<(PlanarPose, f64), PlanError> {
+    let origin = start.origin().inner;
+    let place = PlanarPose::new(origin.x, origin.y, start.yaw_rad());
+    if !(place.x_m + place.y_m + place.yaw_rad + origin.z).is_finite() {
+        return Err(PlanError::NotFinite("the start"));
+    }
+    let height_m = goal.height_m.unwrap_or(0.0);
+    if !(goal.x_m + goal.y_m + goal.radius_m + height_m).is_finite() {
+        return Err(PlanError::NotFinite("the goal"));
+    }
+    Ok((place, origin.z))
 }
 
 /// One step up or down on the way.
