@@ -19,7 +19,7 @@ mod synthetic_walk;
 pub use body_state::{BodyState, ProprioceptionError};
 pub use config::ProprioceptionConfig;
 pub use history::BodyStateHistory;
-pub use localizer::{Estimate, Localizer, LocalizerError};
+pub use localizer::{Estimate, Guess, Localizer, LocalizerError};
 pub use matching::{MatchingConfig, MatchingLocalizer};
 pub use monte_carlo::{
     Belief, MonteCarloConfig, MonteCarloLocalizer, RangeModel, StaticMap, TorsoPose,

@@ -27,6 +27,17 @@ pub struct Estimate {
     pub lost: bool,
 }
 
+/// One of the places where the robot may be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Guess {
+    /// The torso in the map, m.
+    pub place_m: [f64; 3],
+    /// Heading, rad.
+    pub yaw_rad: f64,
+    /// How much it counts: those of all sum to one.
+    pub weight: f64,
+}
+
 /// Keeps the robot's pose in the map.
 pub trait Localizer: Send + Sync {
     /// Called when a depth frame was segmented, before the map takes it in; `body` is the body state at the exposure.
@@ -39,4 +50,9 @@ pub trait Localizer: Send + Sync {
 
     /// The estimate at a control tick, from odometry and the corrections so far.
     fn estimate(&mut self, body: &BodyState) -> Result<Estimate, LocalizerError>;
+
+    /// The places that are kept in mind, of a localizer that keeps several. Made anew at each call.
+    fn guesses(&self) -> Vec<Guess> {
+        Vec::new()
+    }
 }

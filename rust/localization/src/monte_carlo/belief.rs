@@ -1,15 +1,20 @@
 //! What the particles say together.
 
 use geometry::wrap_angle;
-use nalgebra::{Matrix4, Vector4};
+use nalgebra::{Matrix4, Vector3, Vector4};
 
 use super::MonteCarloConfig;
+use super::motion::Motion;
 use super::particle::{Bins, Particle, TorsoPose};
 
 /// Steps of the mean's way to the middle of its cluster.
 const SHIFTS: usize = 4;
 /// Cells from which it begins: a cluster may lie across the borders of several.
 const SEEDS: usize = 4;
+
+/// A belief that is off by less than this, m and rad, from where the last one moved to goes on.
+const SAME_M: f64 = 0.3;
+const SAME_RAD: f64 = 0.35;
 
 /// Where the torso is believed to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,6 +56,21 @@ impl Belief {
             share,
             covariance,
         })
+    }
+
+    /// Whether this is where an earlier belief has moved to since.
+    pub(super) fn goes_on(&self, before: &Self, motion: Option<&Motion>) -> bool {
+        let mut expected = before.torso;
+        if let Some(motion) = motion {
+            motion.apply(&mut expected, &[0.0; 6]);
+        }
+        self.holds(&expected, [SAME_M, SAME_RAD])
+    }
+
+    /// Whether a pose is within so many m and rad of this.
+    pub(super) fn holds(&self, pose: &TorsoPose, [near_m, near_rad]: [f64; 2]) -> bool {
+        let off: [f64; 3] = std::array::from_fn(|a| pose.place_m[a] - self.torso.place_m[a]);
+        Vector3::from(off).norm() < near_m && pose.turned_rad(&self.torso).abs() < near_rad
     }
 
     /// Standard deviation of the place along its least certain level direction, m.

@@ -80,10 +80,20 @@ pub struct MonteCarloConfig {
     pub update_after: [f64; 3],
     /// Rates of the slow and the fast mean of how well frames fit (Thrun, Burgard, Fox: augmented MCL).
     pub recovery_rates: [f64; 2],
-    /// Guesses anywhere are added when the fast mean falls below this share of the slow one.
+    /// The robot is lost when the fast mean falls below this share of the slow one.
     pub recovery_below: f64,
-    /// Share of `most_particles` that is added at most.
-    pub recovery_most: f64,
+    /// Other places are searched beside the tracking while the place explains less than this share of what stands on the ground,
+    pub search_below: f64,
+    /// and one that explains so much more of it is taken.
+    pub search_better: f64,
+    /// Share of the guesses of a search that is drawn anywhere each time.
+    pub search_anew: f64,
+    /// Standard deviation of ranges, m, by which a search blurs what it sees: few guesses are near the truth at first.
+    pub search_blur: f64,
+    /// Directions out of twelve in which a place that was searched has to hold before it is taken.
+    pub confirm_directions: usize,
+    /// Way of the camera, m, or turn, rad, after which all of a frame is news to a search.
+    pub news_after: [f64; 2],
     /// The estimate counts as lost while its cluster holds less than this share,
     pub least_share: f64,
     /// or its place is worse than this, m (standard deviation).
@@ -133,7 +143,12 @@ impl Default for MonteCarloConfig {
             update_after: [0.02, 0.03, 0.5],
             recovery_rates: [0.01, 0.2],
             recovery_below: 0.65,
-            recovery_most: 0.5,
+            search_below: 0.45,
+            search_better: 0.2,
+            search_anew: 0.1,
+            search_blur: 0.1,
+            confirm_directions: 7,
+            news_after: [0.1, 0.1],
             least_share: 0.75,
             most_spread: 0.4,
             follow_share: 0.1,
@@ -159,7 +174,9 @@ impl MonteCarloConfig {
             ("resample_below", self.resample_below),
             ("least_effective", self.least_effective),
             ("recovery_below", self.recovery_below),
-            ("recovery_most", self.recovery_most),
+            ("search_below", self.search_below),
+            ("search_better", self.search_better),
+            ("search_anew", self.search_anew),
             ("least_share", self.least_share),
             ("follow_share", self.follow_share),
         ] {
@@ -173,6 +190,14 @@ impl MonteCarloConfig {
         ] {
             require(count > 0, &key(name), "> 0", count)?;
         }
+        let directions = self.confirm_directions;
+        let possible = (1..=12).contains(&directions);
+        require(
+            possible,
+            &key("confirm_directions"),
+            "between 1 and 12",
+            directions,
+        )?;
         let most = self.most_particles;
         let enough = most >= self.particles && u32::try_from(most).is_ok();
         require(
@@ -197,7 +222,7 @@ impl MonteCarloConfig {
         )
     }
 
-    fn positive(&self) -> [(&'static str, &[f64]); 25] {
+    fn positive(&self) -> [(&'static str, &[f64]); 27] {
         use std::slice::from_ref;
         [
             ("place_noise", &self.place_noise),
@@ -219,6 +244,8 @@ impl MonteCarloConfig {
             ("kld", &self.kld),
             ("cluster", &self.cluster),
             ("search_jitter", &self.search_jitter),
+            ("search_blur", from_ref(&self.search_blur)),
+            ("news_after", &self.news_after),
             ("update_after", &self.update_after),
             ("recovery_rates", &self.recovery_rates),
             ("most_spread", from_ref(&self.most_spread)),

@@ -9,15 +9,12 @@ use super::motion::{Motion, Reading};
 use super::observation::{LogLikelihood, Observation};
 use super::particle::{Bins, Particle, TorsoPose};
 use super::random::{Purpose, Stream};
-use super::recovery::Recovery;
-use super::resampling::resample;
+use super::resampling::{low_variance, resample};
 use super::static_map::StaticMap;
 use super::weights::{effective_number, weigh};
 
 /// Particles that a thread takes at least: the cost of a few hundred rays.
 const PER_THREAD: usize = 32;
-/// The robot is searching while its best cluster holds less than this share.
-const SURE: f64 = 0.9;
 
 /// Guesses, and the room to work on them.
 #[derive(Debug, Clone)]
@@ -28,10 +25,6 @@ pub(super) struct Filter {
     likelihoods: Vec<LogLikelihood>,
     logs: Vec<f64>,
     bins: Bins,
-    recovery: Recovery,
-    /// Share of the most particles that are to be drawn anywhere.
-    adrift: f64,
-    searching: bool,
 }
 
 impl Filter {
@@ -44,9 +37,6 @@ impl Filter {
             likelihoods: Vec::with_capacity(most),
             logs: Vec::with_capacity(most),
             bins: Bins::default(),
-            recovery: Recovery::default(),
-            adrift: 0.0,
-            searching: false,
         }
     }
 
@@ -66,7 +56,6 @@ impl Filter {
             let weight = 1.0 / count as f64;
             Particle { pose, weight }
         }));
-        self.searching = false;
     }
 
     /// Guesses everywhere.
@@ -80,14 +69,35 @@ impl Filter {
             let weight = 1.0 / count as f64;
             Some(Particle { pose, weight })
         }));
-        self.searching = true;
     }
 
-    /// Moves every guess and weighs it by a frame.
+    /// The same guesses with other settings.
+    pub(super) fn with(self, config: &MonteCarloConfig) -> Self {
+        Self {
+            config: config.clone(),
+            ..self
+        }
+    }
+
+    /// Drops what is not of a belief's cluster.
+    pub(super) fn keep_near(&mut self, belief: &Belief) {
+        self.particles
+            .retain(|particle| belief.holds(&particle.pose, self.config.cluster));
+        let sum: f64 = self.particles.iter().map(|particle| particle.weight).sum();
+        if sum <= 0.0 {
+            self.start_at(&belief.torso.isometry());
+            return;
+        }
+        for particle in &mut self.particles {
+            particle.weight /= sum;
+        }
+    }
+
+    /// Moves every guess and weighs it by a frame, of which the share `news` tells something new.
     pub(super) fn update(
         &mut self,
         motion: Option<&Motion>,
-        observation: &Observation,
+        (observation, news): (&Observation, f64),
         map: &StaticMap,
         step: u64,
     ) -> Option<Belief> {
@@ -105,45 +115,46 @@ impl Filter {
                 }
                 *likelihood = observation.log_likelihood(&particle.pose, map);
             });
-        let evidence = [self.config.independence, self.config.least_effective];
         weigh(
             &mut self.particles,
             &self.likelihoods,
-            evidence,
+            [self.config.independence * news, self.config.least_effective],
             &mut self.logs,
         );
-        let belief = Belief::of(&self.particles, &mut self.bins, &self.config);
-        self.searching = belief.is_none_or(|belief| belief.share < SURE);
-        let fit = belief.and_then(|belief| observation.fit(&belief.torso, map));
-        self.adrift = fit.map_or(0.0, |fit| {
-            let (rates, below) = (self.config.recovery_rates, self.config.recovery_below);
-            self.config.recovery_most * self.recovery.update(fit, rates, below)
-        });
-        belief
+        Belief::of(&self.particles, &mut self.bins, &self.config)
     }
 
-    /// Draws anew where few guesses weigh much, and adds guesses anywhere where frames stopped to fit.
-    pub(super) fn resample(&mut self, map: &StaticMap, reading: &Reading, step: u64) {
+    /// Draws anew where few guesses weigh much: as many as their spread needs.
+    pub(super) fn resample(&mut self, step: u64) {
         let config = &self.config;
-        let added = (self.adrift * config.most_particles as f64) as usize;
         let enough = config.resample_below * self.particles.len() as f64;
-        if added == 0 && effective_number(&self.particles) >= enough {
+        if effective_number(&self.particles) >= enough {
             return;
         }
-        let room = (config.most_particles - added).max(config.particles);
         let mut stream = Stream::new(config.seed, step, Purpose::Resampling, 0);
         resample(
             &self.particles,
             (config.bins, config.kld),
-            [config.particles, room],
+            [config.particles, config.most_particles],
             &mut stream,
             (&mut self.bins, &mut self.drawn),
         );
         std::mem::swap(&mut self.particles, &mut self.drawn);
-        if self.searching {
-            self.jitter(step);
+    }
+
+    /// Draws anew where few guesses weigh much, all of the most there may be, and a share of them anywhere.
+    pub(super) fn resample_widely(&mut self, map: &StaticMap, reading: &Reading, step: u64) {
+        let config = &self.config;
+        let enough = config.resample_below * self.particles.len() as f64;
+        if effective_number(&self.particles) >= enough {
+            return;
         }
-        let added = added.min(self.config.most_particles - self.particles.len());
+        let most = config.most_particles;
+        let added = (config.search_anew * most as f64) as usize;
+        let mut stream = Stream::new(config.seed, step, Purpose::Resampling, 0);
+        low_variance(&self.particles, most - added, &mut stream, &mut self.drawn);
+        std::mem::swap(&mut self.particles, &mut self.drawn);
+        self.jitter(step);
         self.add_anywhere(added, map, reading, step);
     }
 

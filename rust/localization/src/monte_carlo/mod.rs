@@ -3,17 +3,21 @@
 mod beams;
 mod belief;
 mod config;
+mod directions;
+mod doubt;
 mod filter;
+mod fit;
 mod ground;
 mod motion;
 mod observation;
 mod particle;
 mod random;
-mod recovery;
 mod resampling;
+mod search;
 mod static_map;
 #[cfg(test)]
 mod tests;
+mod tracking;
 mod weights;
 #[cfg(test)]
 mod world;
@@ -30,11 +34,12 @@ pub use config::{MonteCarloConfig, RangeModel};
 pub use particle::TorsoPose;
 pub use static_map::StaticMap;
 
-use crate::{BodyState, Estimate, Localizer, LocalizerError};
+use crate::{BodyState, Estimate, Guess, Localizer, LocalizerError};
 use beams::Beams;
-use filter::Filter;
 use motion::{Motion, Reading};
 use observation::Observation;
+use search::Search;
+use tracking::Tracking;
 
 /// Monte Carlo localization in a static map: tracks from a start that is told, finds the place where none is, and finds it again
 /// where frames stop to fit.
@@ -43,13 +48,15 @@ pub struct MonteCarloLocalizer {
     config: MonteCarloConfig,
     map: Arc<StaticMap>,
     map_from_robot_at_start: Option<Pose<Map, Robot>>,
-    filter: Filter,
+    /// Around the place where the robot knows to be.
+    tracking: Option<Tracking>,
+    /// Everywhere, where it does not know, or doubts.
+    search: Option<Search>,
     beams: Beams,
     observation: Observation,
     /// Frames that were used.
     step: u64,
     last: Option<Reading>,
-    belief: Option<Belief>,
     map_from_odometry: Option<Pose<Map, Odometry>>,
 }
 
@@ -62,45 +69,77 @@ impl MonteCarloLocalizer {
     ) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self {
-            filter: Filter::new(&config),
             config,
             map,
             map_from_robot_at_start,
+            tracking: None,
+            search: None,
             beams: Beams::default(),
             observation: Observation::default(),
             step: 0,
             last: None,
-            belief: None,
             map_from_odometry: None,
         })
     }
 
-    /// What the particles said together at the last frame that was used.
+    /// What the guesses said together at the last frame that was used: those that track, or those of the search where none do.
     pub fn belief(&self) -> Option<&Belief> {
-        self.belief.as_ref()
-    }
-
-    /// Where the particles are, with their weights.
-    pub fn particles(&self) -> impl ExactSizeIterator<Item = (&TorsoPose, f64)> {
-        (self.filter.particles.iter()).map(|particle| (&particle.pose, particle.weight))
+        match (&self.tracking, &self.search) {
+            (Some(tracking), _) => tracking.belief(),
+            (None, Some(search)) => search.likely(),
+            (None, None) => None,
+        }
     }
 
     /// Whether enough happened since the last frame that was used: frames of a robot that stands err alike.
     fn is_due(&self, before: &Reading, now: &Reading) -> bool {
-        let (travelled_m, turned_rad) = now.since(before);
+        let (travelled_m, turned_rad) = now.seen_since(before);
         let waited_s = now.time_ns.saturating_sub(before.time_ns) as f64 * 1e-9;
         let [way_m, turn_rad, wait_s] = self.config.update_after;
         travelled_m > way_m || turned_rad > turn_rad || waited_s > wait_s
     }
 
     fn start(&mut self, reading: &Reading) {
-        match self.map_from_robot_at_start {
-            Some(start) => {
-                let map_from_torso = start.inner * reading.torso_from_robot.inverse();
-                self.filter.start_at(&map_from_torso);
-            }
-            None => self.filter.start_anywhere(&self.map, reading),
+        self.tracking = self.map_from_robot_at_start.map(|start| {
+            let map_from_torso = start.inner * reading.torso_from_robot.inverse();
+            Tracking::from(&map_from_torso, &self.config)
+        });
+    }
+
+    /// Looks for the robot everywhere while it may be elsewhere than it believes, and takes the place that was found.
+    fn look_elsewhere(&mut self, since: Option<(&Reading, &Motion)>, reading: &Reading) {
+        let doubted = (self.tracking.as_ref()).is_none_or(Tracking::is_doubted);
+        if !doubted && self.search.is_none() {
+            return;
         }
+        let search =
+            (self.search).get_or_insert_with(|| Search::anywhere(&self.config, &self.map, reading));
+        let news = since.map_or(1.0, |(before, _)| {
+            search::news(before, reading, &self.config)
+        });
+        let motion = since.map(|(_, motion)| motion);
+        search.update(
+            (motion, news),
+            (&self.observation, &self.beams, reading),
+            (&self.map, self.tracking.as_ref().and_then(Tracking::belief)),
+            self.step,
+        );
+        if search.is_better() {
+            if let Some(search) = self.search.take_if(|search| search.is_thorough()) {
+                self.tracking = Some(Tracking::in_place_of(search, &self.config));
+            }
+        } else if (self.tracking.as_ref()).is_some_and(|tracking| tracking.outlives(search)) {
+            self.search = None;
+        }
+    }
+
+    /// Whether the estimate is not to be acted on.
+    fn is_lost(&self) -> bool {
+        let Some(tracking) = &self.tracking else {
+            return self.step > 0 || self.map_from_robot_at_start.is_none();
+        };
+        let elsewhere = self.search.as_ref().is_some_and(Search::is_contest);
+        elsewhere || tracking.is_lost()
     }
 }
 
@@ -111,8 +150,9 @@ impl Localizer for MonteCarloLocalizer {
         planes: &Planes,
         _view: &FloorView,
     ) -> Result<(), LocalizerError> {
-        let reading = Reading::of(body);
-        let motion = match &self.last {
+        let reading = Reading::of(body, &planes.robot_from_camera.inner);
+        let before = self.last;
+        let motion = match &before {
             Some(before) if !self.is_due(before, &reading) => return Ok(()),
             Some(before) => Some(Motion::between(before, &reading, &self.config)),
             None => {
@@ -125,11 +165,12 @@ impl Localizer for MonteCarloLocalizer {
         self.beams
             .draw(planes, &reading.torso_from_robot, &self.config, self.step);
         self.observation
-            .set(&self.beams, &reading, &self.map, &self.config);
-        self.belief =
-            (self.filter).update(motion.as_ref(), &self.observation, &self.map, self.step);
-        self.filter.resample(&self.map, &reading, self.step);
-        if let Some(belief) = &self.belief {
+            .set((&self.beams, 0.0), &reading, &self.map, &self.config);
+        if let Some(tracking) = &mut self.tracking {
+            tracking.update(motion.as_ref(), &self.observation, &self.map, self.step);
+        }
+        self.look_elsewhere(before.as_ref().zip(motion.as_ref()), &reading);
+        if let Some(belief) = self.belief() {
             let found = upright(&belief.torso, &reading.odometry_from_torso);
             let robot = &body.odometry_from_robot;
             self.map_from_odometry = Some(match &self.map_from_odometry {
@@ -145,19 +186,27 @@ impl Localizer for MonteCarloLocalizer {
         let map_from_odometry = *self
             .map_from_odometry
             .get_or_insert_with(|| start * body.odometry_from_robot.inverse());
-        let lost = match &self.belief {
-            Some(belief) => {
-                belief.share < self.config.least_share
-                    || belief.spread_m() > self.config.most_spread
-            }
-            None => self.map_from_robot_at_start.is_none(),
-        };
         Ok(Estimate {
             time_ns: body.time_ns,
             map_from_robot: map_from_odometry * body.odometry_from_robot,
             map_from_odometry,
-            lost,
+            lost: self.is_lost(),
         })
+    }
+
+    fn guesses(&self) -> Vec<Guess> {
+        let tracking = self.tracking.iter().flat_map(Tracking::particles);
+        let search = self.search.iter().flat_map(Search::particles);
+        // Those of the search count where there are no others.
+        let share = if self.tracking.is_some() { 0.0 } else { 1.0 };
+        (tracking.map(|particle| (particle, 1.0)))
+            .chain(search.map(|particle| (particle, share)))
+            .map(|(particle, share)| Guess {
+                place_m: particle.pose.place_m,
+                yaw_rad: particle.pose.yaw_rad,
+                weight: share * particle.weight,
+            })
+            .collect()
     }
 }
 

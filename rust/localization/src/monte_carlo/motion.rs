@@ -1,7 +1,7 @@
 //! How far the torso moved between two frames, by leg odometry, and how wrong that may be.
 
 use geometry::wrap_angle;
-use nalgebra::{Isometry3, Rotation2, Vector2};
+use nalgebra::{Isometry3, Rotation2, Vector2, Vector3};
 
 use super::MonteCarloConfig;
 use super::particle::TorsoPose;
@@ -13,6 +13,7 @@ use crate::BodyState;
 pub(super) struct Reading {
     pub(super) time_ns: u64,
     pub(super) odometry_from_robot: Isometry3<f64>,
+    pub(super) odometry_from_camera: Isometry3<f64>,
     pub(super) torso_from_robot: Isometry3<f64>,
     /// The torso by leg odometry; roll and pitch are those of the attitude filter.
     pub(super) odometry_from_torso: TorsoPose,
@@ -21,23 +22,36 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    pub(super) fn of(body: &BodyState) -> Self {
+    pub(super) fn of(body: &BodyState, robot_from_camera: &Isometry3<f64>) -> Self {
         let robot_from_torso = body.robot_from_torso.inner;
         let mut torso = body.odometry_from_robot.inner * robot_from_torso;
         torso.rotation = body.odometry_from_torso_rotation;
         Self {
             time_ns: body.time_ns,
             odometry_from_robot: body.odometry_from_robot.inner,
+            odometry_from_camera: body.odometry_from_robot.inner * robot_from_camera,
             torso_from_robot: robot_from_torso.inverse(),
             odometry_from_torso: TorsoPose::of(&torso),
             torso_height_m: robot_from_torso.translation.z,
         }
     }
 
+    /// How far the camera went since another reading, m, and by how much it turned, rad.
+    pub(super) fn seen_since(&self, before: &Self) -> (f64, f64) {
+        let moved = before.odometry_from_camera.inverse() * self.odometry_from_camera;
+        (moved.translation.vector.norm(), moved.rotation.angle())
+    }
+
     /// How far the robot's frame went since another reading, m, and by how much it turned, rad.
-    pub(super) fn since(&self, before: &Self) -> (f64, f64) {
+    fn gone_since(&self, before: &Self) -> (f64, f64) {
         let moved = before.odometry_from_robot.inverse() * self.odometry_from_robot;
         (moved.translation.vector.norm(), moved.rotation.angle())
+    }
+
+    /// Where the camera looks to by leg odometry, rad.
+    pub(super) fn heading_of_camera_rad(&self) -> f64 {
+        let along = self.odometry_from_camera.rotation * Vector3::z();
+        along.y.atan2(along.x)
     }
 }
 
@@ -56,7 +70,7 @@ impl Motion {
     /// Variances grow with the way, the turn and the time, so that it does not matter in how many increments one goes:
     /// `sigma^2 = a d + b |turn| + c t`.
     pub(super) fn between(before: &Reading, now: &Reading, config: &MonteCarloConfig) -> Self {
-        let (travelled_m, turned_rad) = now.since(before);
+        let (travelled_m, turned_rad) = now.gone_since(before);
         let passed_s = now.time_ns.saturating_sub(before.time_ns) as f64 * 1e-9;
         let sd = |[per_m, per_rad, per_s]: [f64; 3]| {
             let way = per_m * per_m * travelled_m + per_rad * per_rad * turned_rad;
@@ -86,7 +100,11 @@ impl Motion {
     /// Moves a guess by the increment and a draw of its error.
     pub(super) fn sample(&self, pose: &mut TorsoPose, stream: &mut Stream) {
         let normals = stream.normals::<6>();
-        let draw: [f64; 6] = std::array::from_fn(|a| self.sd[a] * normals[a]);
+        self.apply(pose, &std::array::from_fn(|a| self.sd[a] * normals[a]));
+    }
+
+    /// Moves a guess by the increment and its error.
+    pub(super) fn apply(&self, pose: &mut TorsoPose, draw: &[f64; 6]) {
         let shift: [f64; 3] = std::array::from_fn(|a| self.shift_m[a] + draw[a]);
         let (sin, cos) = pose.yaw_rad.sin_cos();
         pose.place_m[0] += cos * shift[0] - sin * shift[1];
@@ -113,7 +131,7 @@ mod tests {
         body.robot_from_torso = Pose::from_yaw(0.02, 0.0, 0.33, 0.0);
         let torso = body.odometry_from_robot * body.robot_from_torso;
         body.odometry_from_torso_rotation = torso.inner.rotation;
-        Reading::of(&body)
+        Reading::of(&body, &Isometry3::identity())
     }
 
     #[test]

@@ -6,6 +6,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::MonteCarloConfig;
 use super::beams::{Beam, Beams};
+use super::fit::Fit;
 use super::motion::Reading;
 use super::particle::TorsoPose;
 use super::static_map::StaticMap;
@@ -16,12 +17,6 @@ const FACTORS: usize = 8;
 const GROUND_BELOW: f64 = 1.5;
 /// Share of heights that have nothing to do with the map's ground: beside an edge, on what is not in it.
 const ANY_HEIGHT: f64 = 0.05;
-/// A range fits within so many standard deviations.
-const MATCH_SIGMAS: f64 = 3.0;
-/// What ends before the map's surface counts so much against a pose as what ends behind it.
-const BEFORE_COUNTS: f64 = 0.03;
-/// Fewer beams off the ground do not tell whether a frame fits.
-const LEAST_RAYS: usize = 10;
 /// Beyond so many standard deviations a Gaussian is nothing.
 const NO_SIGMAS: f64 = 6.0;
 
@@ -65,10 +60,11 @@ pub(super) struct Observation {
 }
 
 impl Observation {
-    /// Takes in a frame's beams and what the body says. Keeps its buffer.
+    /// Takes in a frame's beams and what the body says; ranges are taken to be worse than they are by a standard deviation of
+    /// `blur_m`, so that guesses that are near the truth count. Keeps its buffer.
     pub(super) fn set(
         &mut self,
-        beams: &Beams,
+        (beams, blur_m): (&Beams, f64),
         reading: &Reading,
         map: &StaticMap,
         config: &MonteCarloConfig,
@@ -79,11 +75,12 @@ impl Observation {
         self.random = random / self.reach_m;
         self.rays.clear();
         self.rays.extend(beams.drawn.iter().map(|beam: &Beam| {
-            let per_noise = 1.0 / beam.noise_m;
+            let noise_m = beam.noise_m.hypot(blur_m);
+            let per_noise = 1.0 / noise_m;
             Ray {
                 direction: beam.direction,
                 range_m: beam.range_m,
-                far_m: beam.range_m + NO_SIGMAS * beam.noise_m,
+                far_m: beam.range_m + NO_SIGMAS * noise_m,
                 per_noise,
                 hit: hit * per_noise / std::f64::consts::TAU.sqrt(),
                 is_ground: beam.is_ground,
@@ -128,27 +125,17 @@ impl Observation {
         }
     }
 
-    /// How well a pose explains the frame: of the beams off the ground the share that ends where the map says. Those that pass
-    /// through what the map has speak against it, those that end before it speak little: what is not mapped stands there. None
-    /// where too few beams can tell.
-    pub(super) fn fit(&self, pose: &TorsoPose, map: &StaticMap) -> Option<f64> {
+    /// How well a pose explains the frame, by the beams off the ground. None where too few beams can tell.
+    pub(super) fn fit(&self, pose: &TorsoPose, map: &StaticMap) -> Option<Fit> {
         let isometry = pose.isometry();
         let eye = (isometry * Point3::from(self.origin_m)).coords.into();
-        let (mut counts, mut all) = ([0.0; 3], 0);
+        let mut fit = Fit::default();
         for ray in self.rays.iter().filter(|ray| !ray.is_ground) {
             let along = isometry.rotation * Vector3::from(ray.direction);
             let cast = map.ranges.cast(eye, along.into(), self.reach_m);
-            let sigmas = (cast.unwrap_or(f64::INFINITY) - ray.range_m) * ray.per_noise;
-            let kind = if sigmas > MATCH_SIGMAS {
-                1
-            } else {
-                usize::from(sigmas < -MATCH_SIGMAS) * 2
-            };
-            counts[kind] += 1.0;
-            all += 1;
+            fit.count((cast.unwrap_or(f64::INFINITY) - ray.range_m) * ray.per_noise);
         }
-        let [on, before, beyond] = counts;
-        (all >= LEAST_RAYS).then(|| on / (on + beyond + BEFORE_COUNTS * before))
+        fit.tells()
     }
 
     /// Likelihood of a beam where the map has its end at `mapped_m`.
@@ -233,12 +220,12 @@ mod tests {
             Vector3::new(0.03, -0.04, 0.0),
         ));
         body.odometry_from_torso_rotation = body.robot_from_torso.inner.rotation;
-        let reading = Reading::of(&body);
+        let reading = Reading::of(&body, &Isometry3::identity());
         let mut beams = Beams::default();
         let planes = world.frame(&robot, &Eye::ahead(), 1);
         beams.draw(&planes, &reading.torso_from_robot, &config, 1);
         let mut observation = Observation::default();
-        observation.set(&beams, &reading, &map, &config);
+        observation.set((&beams, 0.0), &reading, &map, &config);
         let truth = TorsoPose::of(&(robot * body.robot_from_torso.inner));
         (observation, map, truth, beams)
     }
@@ -307,6 +294,14 @@ mod tests {
         }
         let of = |observation: &Observation| observation.log_likelihood(&truth, &map).ranges;
         assert!(of(&observation) > of(&short) && of(&short) > of(&long) + 5.0);
-        assert!(observation.fit(&truth, &map) > Some(0.97));
+        let fit = observation.fit(&truth, &map).unwrap();
+        assert!(fit.lenient() > 0.97 && fit.strict() > 0.97);
+        let mut blocked = observation.clone();
+        let upright = blocked.rays.iter_mut().filter(|ray| !ray.is_ground);
+        for ray in upright.take(20) {
+            ray.range_m -= 0.4;
+        }
+        let fit = blocked.fit(&truth, &map).unwrap();
+        assert!(fit.lenient() > 0.9 && fit.strict() < 0.7, "{fit:?}");
     }
 }
