@@ -58,7 +58,7 @@ pub struct WalkingBehaviour {
     turn_to_rad: Option<f64>,
     watched_m: Option<[f64; 2]>,
     stumbles: u32,
-    /// Time in the state `locate` at which the look around was over, s.
+    /// Time since the start at which the look around of the state `locate` was over, s.
     looked_round_s: Option<f64>,
     motion: Motion,
     refusal: String,

@@ -12,8 +12,10 @@ const SWAY_RAD: f64 = 0.6;
 const SWAY_S: f64 = 4.0;
 /// The look around at the start ends after this, whatever the frames do, s.
 const LONGEST_LOOK_S: f64 = 12.0;
+/// Who lost its place again within this time does not begin with a look around, s.
+const LOOK_HOLDS_S: f64 = 30.0;
 /// After as much turning, rad, small circles tell more than turning on.
-const TURNED_RAD: f64 = 7.0;
+const TURNED_RAD: f64 = 4.0;
 /// Share of the turning speed on a circle.
 const CIRCLE_SHARE: f64 = 0.6;
 /// Floor is needed so far ahead to walk on, m, each so far to the side,
@@ -27,7 +29,9 @@ impl WalkingBehaviour {
     pub(super) fn begin_locating(&mut self) {
         if self.state != State::Locate {
             self.sweep = Sweep::around(&self.config);
-            self.looked_round_s = None;
+            // Who has just looked round turns on.
+            self.looked_round_s =
+                (self.looked_round_s).filter(|looked_s| self.elapsed_s - looked_s < LOOK_HOLDS_S);
             self.enter(State::Locate);
         }
     }
@@ -51,11 +55,11 @@ impl WalkingBehaviour {
             let speed_radps = self.config.gaze_speed;
             let seen = (self.sweep).advance(&mut self.gazer, frames, moment.passed_s, speed_radps);
             if seen || self.state_s > LONGEST_LOOK_S {
-                self.looked_round_s = Some(self.state_s);
+                self.looked_round_s = Some(self.elapsed_s);
             }
             return Motion::Stand;
         };
-        let turned_s = self.state_s - looked_s;
+        let turned_s = self.elapsed_s - looked_s;
         let phase = std::f64::consts::TAU * turned_s / SWAY_S;
         self.gaze_at(moment, SWAY_RAD * phase.sin(), self.config.gaze_far);
         let turn_radps = self.config.turn_speed;
