@@ -69,6 +69,7 @@ class Episode:
         scenario: as it is run, with overrides and draws applied.
         robot, course, simulation, sensors, events, judge, referee: the parts of the harness.
         pilot: the core.
+        static_map: what the core was told of the course; None where nothing in it asks for one.
         ablation: whether anything in the core was given the truth.
         verdict: how it ended, None while it goes on.
         seconds: stage -> seconds that it took, one a tick at which it ran.
@@ -122,7 +123,8 @@ class Episode:
         if self.ablation:
             given["localizer"] = TruthLocalizer(self.judge, self.simulation.data)
         settings = core_settings(scenario, self.robot, self.course)
-        self.pilot = build_core(scenario, settings, given, told_map(scenario, self.course))
+        self.static_map = told_map(scenario, self.course)
+        self.pilot = build_core(scenario, settings, given, self.static_map)
 
     def tick(self) -> Step:
         """Go on by one control tick.

@@ -23,7 +23,7 @@ LANDED_SOLES: Final = ((250, 250, 250), (165, 170, 180))
 """Where the left and the right foot came down."""
 GOAL: Final = (60, 200, 90, 110)
 GROUND_PLANE: Final = (95, 185, 120)
-_NOT_AT_THE_FEET: Final = ("points", "trajectory", "walls", "obstacles", "believed", "path")
+_NOT_AT_THE_FEET: Final = ("points", "trajectory", "walls", "obstacles", "believed", "path", "maps")
 STATE_COLOURS: Final = (
     0x4C8BF5FF,
     0xF5A623FF,
@@ -78,6 +78,8 @@ def blueprint(
     centre: tuple[float, float, float],
     extent: float,
     feet: tuple[float, float, float] | None = None,
+    *,
+    maps: bool = False,
 ) -> rrb.Blueprint:
     """Return the views: the world large, map and camera beside it, states and plots below.
 
@@ -85,11 +87,13 @@ def blueprint(
         centre: m, world: what the first view looks at.
         extent: m, size of the course.
         feet: m, world: where the robot starts, for a view that goes with its feet; None for none.
+        maps: whether the robot was told a map, for a view of it.
     """
     x, y, z = centre
     away = max(1.3, 0.55 * extent)
     world = rrb.Spatial3DView(
         origin="/world",
+        contents=["+ $origin/**", "- $origin/maps/static/**", "- $origin/maps/local/**"],
         name="World",
         background=rrb.Background(color=(236, 239, 243, 255)),
         line_grid=rrb.LineGrid3D(visible=True, spacing=0.2, color=(120, 125, 135, 60)),
@@ -108,11 +112,17 @@ def blueprint(
         rrb.TimeSeriesView(origin="/error", name="Error against truth (m, rad)"),
         rrb.TimeSeriesView(origin="/timing", name="Time a stage takes (ms)"),
     )
+    beside = [] if feet is None else [_feet(feet)]
+    if maps:
+        beside.insert(0, _maps(centre, away))
+    views = (
+        rrb.Horizontal(world, rrb.Vertical(*beside), pictures, column_shares=[5, 4, 2])
+        if beside
+        else rrb.Horizontal(world, pictures, column_shares=[3, 1])
+    )
     return rrb.Blueprint(
         rrb.Vertical(
-            rrb.Horizontal(world, pictures, column_shares=[3, 1])
-            if feet is None
-            else rrb.Horizontal(world, _feet(feet), pictures, column_shares=[5, 4, 2]),
+            views,
             rrb.StateTimelineView(origin="/behaviour", name="Behaviour"),
             plots,
             row_shares=[6, 1, 2],
@@ -120,6 +130,22 @@ def blueprint(
         rrb.TimePanel(state="collapsed", timeline="time"),
         rrb.SelectionPanel(state="collapsed"),
         rrb.BlueprintPanel(state="collapsed"),
+    )
+
+
+def _maps(centre: tuple[float, float, float], away: float) -> rrb.Spatial3DView:
+    """Return the view of what is known of the space, and of where the robot may be in it."""
+    x, y, z = centre
+    return rrb.Spatial3DView(
+        origin="/world",
+        contents=[f"+ $origin/{name}/**" for name in ("maps", "path", "believed", "robot", "goal")],
+        name="Static map, local map and guesses",
+        background=rrb.Background(color=(236, 239, 243, 255)),
+        eye_controls=rrb.EyeControls3D(
+            position=(x - 0.3 * away, y - 0.6 * away, z + 1.1 * away),
+            look_target=(x, y, z),
+            eye_up=(0.0, 0.0, 1.0),
+        ),
     )
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 import mujoco
 import numpy as np
 
+from treadwell._core import Octree
 from treadwell.course.build import Course
 from treadwell.errors import InputError, RecordingError
 from treadwell.recording.file import cut_to_whole_messages, room
@@ -35,7 +36,13 @@ class Recorder:
     """Writes `recording.rrd`. What was written stays readable whatever happens later."""
 
     def __init__(
-        self, path: Path, model: mujoco.MjModel, course: Course, scenario: Scenario, robot: Robot
+        self,
+        path: Path,
+        model: mujoco.MjModel,
+        course: Course,
+        scenario: Scenario,
+        robot: Robot,
+        static_map: Octree | None = None,
     ) -> None:
         """Open the file and draw what never moves.
 
@@ -45,6 +52,7 @@ class Recorder:
             course: what stands where.
             scenario: for goal and name.
             robot: for its root link.
+            static_map: what the robot knows of the place beforehand.
 
         Raises:
             RecordingError: the file cannot be opened.
@@ -56,6 +64,7 @@ class Recorder:
         from treadwell.recording.layout import blueprint
         from treadwell.recording.products import Products
         from treadwell.recording.shapes import Shapes, robot_geoms
+        from treadwell.recording.volumes import Volumes
 
         self._path = path
         self._frames, self._broken = 0, False
@@ -74,7 +83,10 @@ class Recorder:
                 send_properties=False,
             )
             above = (centre[0], centre[1], centre[2] + 0.15)
-            self._stream.save(path, blueprint(above, extent, feet=begin if top > 0.0 else None))
+            views = blueprint(
+                above, extent, feet=begin if top > 0.0 else None, maps=static_map is not None
+            )
+            self._stream.save(path, views)
         except (OSError, RuntimeError) as error:
             raise RecordingError(f"{path}: cannot be written: {_reason(error)}") from error
         self._stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
@@ -84,12 +96,9 @@ class Recorder:
         self._draw_goal(scenario, course)
         sole = robot.file.legs.left.sole
         self._rows = FrameLog(self._stream)
-        self._products = Products(
-            self._rows,
-            low=-0.05,
-            high=max(0.05, top + 0.01),
-            sole=(sole.length, sole.width),
-        )
+        low, high = -0.05, max(0.05, top + 0.01)
+        self._products = Products(self._rows, low=low, high=high, sole=(sole.length, sole.width))
+        self._volumes = Volumes(self._rows, static_map, (low, high))
         self._check()
 
     def frame(self, trace: Trace) -> None:
@@ -103,6 +112,7 @@ class Recorder:
             for entity, kind, fields in shapes.posed(trace.body_positions, trace.body_orientations):
                 self._rows.log(entity, kind, **fields)
         self._products.log(trace)
+        self._volumes.log(trace)
         self._frames += 1
         if self._frames % _FRAMES_A_CHECK == 0:
             self._check()

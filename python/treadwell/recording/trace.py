@@ -65,6 +65,10 @@ class Trace:
         view_height: (rows, cols) float32, NaN where unknown.
         sightings: (rows, cols) uint16, frames that saw the cell as floor.
         clearance: (rows, cols) float32, distance to the nearest obstacle; None without one.
+        occupied: (n, 4) float32, middle and side of each cube that was seen to be occupied; empty
+            without a map in three dimensions, or without pictures.
+        guesses: (n, 4) float32, where the torso may be, some of many, and its heading, rad; empty
+            of a localizer that keeps no guesses, or without pictures.
         path: (n, 2) the path in the map frame; empty without one.
         climbs: for each leg of the path that is climbed the indices of its first and last point.
         stairs: the stairs that are seen or remembered.
@@ -97,6 +101,8 @@ class Trace:
     view_height: NDArray[np.float32]
     sightings: NDArray[np.uint16]
     clearance: NDArray[np.float32] | None = None
+    occupied: NDArray[np.float32] = field(default_factory=lambda: np.empty((0, 4), np.float32))
+    guesses: NDArray[np.float32] = field(default_factory=lambda: np.empty((0, 4), np.float32))
     path: Floats
     climbs: tuple[tuple[int, int], ...] = ()
     stairs: tuple[StairTrace, ...] = ()

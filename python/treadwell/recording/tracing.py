@@ -3,10 +3,13 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell._core import Stair
+from treadwell._core import Pilot, Stair
 from treadwell.episode import Episode, Step
 from treadwell.judging.ground_truth import pose_matrix
 from treadwell.recording.trace import StairTrace, Trace
+
+_MOST_GUESSES = 1000
+"""So many guesses of a localizer are shown, about, evenly out of all."""
 
 
 def trace_of(episode: Episode, step: Step, *, pictures: bool = True) -> Trace:
@@ -16,7 +19,7 @@ def trace_of(episode: Episode, step: Step, *, pictures: bool = True) -> Trace:
         episode: right after `step`.
         step: a tick, with or without a depth frame.
         pictures: False leaves out what only a recording shows and the core would have to hand
-            over: points, labels, clearance.
+            over: points, labels, clearance, voxels, guesses.
     """
     pilot, data = episode.pilot, episode.simulation.data
     map_from_robot = pose_matrix(*step.estimate.pose)
@@ -40,6 +43,8 @@ def trace_of(episode: Episode, step: Step, *, pictures: bool = True) -> Trace:
         view_height=view.height,
         sightings=view.sightings,
         clearance=pilot.clearance() if pictures else None,
+        occupied=_occupied(pilot) if pictures else np.empty((0, 4), np.float32),
+        guesses=_guesses(pilot) if pictures else np.empty((0, 4), np.float32),
         path=np.empty((0, 2)) if path is None else path,
         climbs=tuple(climb.span for climb in pilot.climbs() or ()),
         stairs=tuple(_stair(stair) for stair in pilot.staircase().stairs),
@@ -64,6 +69,18 @@ def _stair(stair: Stair) -> StairTrace:
         back_fitted=stair.back_fit is not None,
         steps_ago=stair.steps_ago,
     )
+
+
+def _occupied(pilot: Pilot) -> NDArray[np.float32]:
+    middles, sides = pilot.occupied()
+    return np.column_stack([middles, sides]).astype(np.float32)
+
+
+def _guesses(pilot: Pilot) -> NDArray[np.float32]:
+    """Return some of them, also of a search beside those that count."""
+    places, headings, _ = pilot.guesses()
+    stride = 1 + len(headings) // _MOST_GUESSES
+    return np.column_stack([places, headings])[::stride].astype(np.float32)
 
 
 def transformed(

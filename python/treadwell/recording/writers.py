@@ -48,7 +48,12 @@ class Writers:
 
             made = episode.scenario
             self._recorder = recording.Recorder(
-                folder / recording.NAME, episode.course.model, episode.course, made, episode.robot
+                folder / recording.NAME,
+                episode.course.model,
+                episode.course,
+                made,
+                episode.robot,
+                episode.static_map,
             )
             self._observations = observation_log.ObservationLog(folder, made, episode.robot)
 

@@ -16,7 +16,7 @@ use crate::error::{bad_setting, failed, unpanicked};
 use crate::world_model::{by_row, rays};
 
 /// Rows of three metres each, and one number a row.
-type Rows<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>);
+pub(crate) type Rows<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>);
 
 /// Occupancy of the space around the origin, as OctoMap keeps it.
 #[pyclass(name = "Octree", module = "treadwell._core")]
@@ -211,7 +211,10 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (squared(0) + squared(1) + squared(2)).sqrt()
 }
 
-fn rows(py: Python<'_>, (points, numbers): (Vec<[f64; 3]>, Vec<f64>)) -> PyResult<Rows<'_>> {
+pub(crate) fn rows(
+    py: Python<'_>,
+    (points, numbers): (Vec<[f64; 3]>, Vec<f64>),
+) -> PyResult<Rows<'_>> {
     let count = points.len();
     let points = points.into_flattened().into_pyarray(py);
     Ok((points.reshape([count, 3])?, numbers.into_pyarray(py)))

@@ -1,6 +1,7 @@
 //! The pilot: an observation in, joint targets out, every product to look at.
 
 use behaviour::Outcome;
+use localization::Guess;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, ToPyArray};
 use pilot::{Components, Pilot, STAGES, Settings};
 use pyo3::prelude::*;
@@ -9,9 +10,16 @@ use sensing::{Frame, Observation};
 use crate::components;
 use crate::error::{bad_setting, failed, unpanicked, unreadable};
 use crate::observation;
-use crate::octree::PyOctree;
+use crate::octree::{PyOctree, Rows, rows};
 use crate::products::{FlatPose, PyFloorView, PyPlanes, flat, matrix};
 use crate::stairs::{FlatFootstep, PyClimb, PyStaircase, PyStepping, flat_footsteps};
+
+/// Places, headings and weights.
+type Guesses<'py> = (
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
+);
 
 /// The whole core: an observation in, joint targets out.
 #[pyclass(name = "Pilot", module = "treadwell._core")]
@@ -170,6 +178,26 @@ impl PyPilot {
         let ceilings = self.pilot.perception().ceilings()?;
         let flat = ceilings.values().to_pyarray(py);
         flat.reshape([ceilings.rows(), ceilings.cols()]).ok()
+    }
+
+    /// (n, 3) m, (n,) rad and (n,): the torso, its heading and the weight of each place where the robot may be; empty of a localizer
+    /// that keeps no guesses.
+    fn guesses<'py>(&self, py: Python<'py>) -> PyResult<Guesses<'py>> {
+        let guesses = self.pilot.guesses();
+        let places: Vec<f64> = guesses.iter().flat_map(|guess| guess.place_m).collect();
+        let of = |value: fn(&Guess) -> f64| -> Vec<f64> { guesses.iter().map(value).collect() };
+        Ok((
+            places.into_pyarray(py).reshape([guesses.len(), 3])?,
+            of(|guess| guess.yaw_rad).into_pyarray(py),
+            of(|guess| guess.weight).into_pyarray(py),
+        ))
+    }
+
+    /// (n, 3) m and (n,) m: middles and sides of the cubes that were seen to be occupied; empty of a world model that keeps none.
+    fn occupied<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
+        let voxels = self.pilot.perception().occupied();
+        let split = voxels.iter().map(|voxel| (voxel.centre_m, voxel.side_m));
+        rows(py, split.unzip())
     }
 
     /// Via points passed so far.

@@ -8,6 +8,6 @@ mod two_maps;
 pub mod volume;
 
 pub use averaging::{Averaging, AveragingConfig};
-pub use model::{FloorView, Insertion, MapError, Surface, WorldModel};
+pub use model::{FloorView, Insertion, MapError, Surface, Voxel, WorldModel};
 pub use surface::{Clearing, Fog, FogConfig, Update};
 pub use two_maps::{TwoMaps, TwoMapsConfig};

@@ -113,6 +113,15 @@ pub struct Insertion {
     pub used: bool,
 }
 
+/// A cube of space that something is in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Voxel {
+    /// Its middle in the map frame, m.
+    pub centre_m: [f64; 3],
+    /// Its side, m.
+    pub side_m: f64,
+}
+
 /// Keeps a model of the world.
 pub trait WorldModel: Send + Sync {
     /// Moves the window to the robot, takes in one frame seen from `map_from_robot`, and says what changed.
@@ -132,5 +141,10 @@ pub trait WorldModel: Send + Sync {
     /// model is; NaN where nothing is known to. `None` from a model that keeps no ceilings. Made anew at each call.
     fn ceilings(&self) -> Option<Grid<f32>> {
         None
+    }
+
+    /// What was seen to be occupied, of a model that keeps the space in three dimensions. Made anew at each call.
+    fn occupied(&self) -> Vec<Voxel> {
+        Vec::new()
     }
 }

@@ -2,7 +2,7 @@
 
 use geometry::{Camera, Grid, Map, Pose, Robot};
 use localization::{BodyState, Estimate, Localizer};
-use mapping::{FloorView, Insertion, Surface, WorldModel};
+use mapping::{FloorView, Insertion, Surface, Voxel, WorldModel};
 use robot::Body;
 use segmentation::{KnownFloor, Planes, Segmenter};
 use sensing::{Frame, Scan, SelfFilter};
@@ -170,6 +170,11 @@ impl Perception {
     /// Where what hangs above the view's cells begins, m, where the map keeps it.
     pub fn ceilings(&self) -> Option<Grid<f32>> {
         self.world_model.ceilings()
+    }
+
+    /// What was seen to be occupied, where the model keeps the space in three dimensions.
+    pub fn occupied(&self) -> Vec<Voxel> {
+        self.world_model.occupied()
     }
 
     /// The stairs that are seen or remembered.

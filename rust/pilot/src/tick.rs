@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use behaviour::{Behaviour, Decision, Gaze, Situation, Stepping};
 use geometry::{Map, Odometry, Pose, Robot};
-use localization::{BodyStateHistory, Estimate, Localizer, Proprioception};
+use localization::{BodyStateHistory, Estimate, Guess, Localizer, Proprioception};
 use mapping::volume::octree::Octree;
 use planning::{Plan, Planner};
 use robot::Body;
@@ -202,6 +202,11 @@ impl Pilot {
     /// Distance of each cell of the view to the nearest obstacle, m, row by row, by the planner's last look.
     pub fn distance_field_m(&self) -> Option<Vec<f32>> {
         self.planner.distance_field_m()
+    }
+
+    /// Where the robot may be, by a localizer that keeps several places in mind.
+    pub fn guesses(&self) -> Vec<Guess> {
+        self.localizer.guesses()
     }
 
     /// Via points passed so far.

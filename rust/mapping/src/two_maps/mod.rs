@@ -19,8 +19,8 @@ use segmentation::Planes;
 use crate::storage::runs;
 use crate::surface::{Clearing, Update};
 use crate::volume::Ray;
-use crate::volume::octree::{Cast, Octree, Sighting};
-use crate::{FloorView, Fog, FogConfig, Insertion, MapError, Surface, WorldModel};
+use crate::volume::octree::{Cast, Octree, Sighting, probability};
+use crate::{FloorView, Fog, FogConfig, Insertion, MapError, Surface, Voxel, WorldModel};
 use beams::Ground;
 pub use config::TwoMapsConfig;
 use layers::{Columns, Layers};
@@ -271,6 +271,17 @@ impl WorldModel for TwoMaps {
 
     fn view(&self) -> &FloorView {
         &self.view
+    }
+
+    /// Of the local map.
+    fn occupied(&self) -> Vec<Voxel> {
+        (self.local.leaves())
+            .filter(|leaf| probability(leaf.log_odds) >= self.config.p_occ)
+            .map(|leaf| Voxel {
+                centre_m: self.local.centre_m(&leaf),
+                side_m: f64::from(leaf.edge()) * self.config.resolution,
+            })
+            .collect()
     }
 
     fn ceilings(&self) -> Option<Grid<f32>> {

@@ -1,0 +1,76 @@
+"""What is known of the space, and where the robot may be in it: voxels and guesses, recorded."""
+
+import numpy as np
+import rerun as rr
+from numpy.typing import NDArray
+
+from treadwell._core import Octree
+from treadwell.recording.frame_log import FrameLog
+from treadwell.recording.layout import ESTIMATE, height_colours
+from treadwell.recording.trace import Trace
+
+_LOCAL_STRIDE = 12
+"""Of so many camera frames, about two seconds, one has its local map recorded."""
+_FAINT = 90
+"""Opacity, of 255, of the static map: what was seen shows in it."""
+_LOCAL = (215, 60, 40)
+"""Colour of what was seen."""
+
+
+class Volumes:
+    """Writes the map that was told, the one that was made, and the guesses of a localizer."""
+
+    def __init__(
+        self, rows: FrameLog, static_map: Octree | None, height: tuple[float, float]
+    ) -> None:
+        """Log the map that was told, if any.
+
+        Args:
+            rows: of the recording.
+            static_map: what the robot knows of the place beforehand.
+            height: m, what has the darkest and the brightest colour.
+        """
+        self._rows, self._frames = rows, 0
+        if static_map is not None:
+            centres, sides = static_map.occupied()
+            shades = height_colours(centres[:, 2].astype(np.float32), *height)
+            opacity = np.full((len(shades), 1), _FAINT, dtype=np.uint8)
+            boxes = rr.Boxes3D(
+                centers=centres,
+                half_sizes=_halves(sides),
+                colors=np.hstack([shades, opacity]),
+                fill_mode=rr.components.FillMode.Solid,
+            )
+            rows.stream.log("world/maps/static", boxes, static=True)
+
+    def log(self, trace: Trace) -> None:
+        """Write a camera frame's; the time is set."""
+        if self._frames % _LOCAL_STRIDE == 0 and len(trace.occupied):
+            self._rows.log(
+                "world/maps/local",
+                rr.Boxes3D,
+                centers=trace.occupied[:, :3],
+                half_sizes=_halves(trace.occupied[:, 3]),
+                colors=[_LOCAL],
+                fill_mode=[rr.components.FillMode.Solid],
+            )
+        self._frames += 1
+        if len(trace.guesses):
+            self._rows.log(
+                "world/maps/guesses",
+                rr.Arrows3D,
+                origins=trace.guesses[:, :3],
+                vectors=_headings(trace.guesses[:, 3]),
+                colors=[ESTIMATE],
+                radii=[0.004],
+            )
+
+
+def _halves(sides: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Return the half sizes (n, 3) of cubes."""
+    return np.repeat(sides[:, None] / 2, 3, axis=1)
+
+
+def _headings(yaw: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Return short arrows (n, 3) that point to headings, rad."""
+    return 0.08 * np.column_stack([np.cos(yaw), np.sin(yaw), np.zeros_like(yaw)])
