@@ -22,6 +22,8 @@ pub struct TwoMapsConfig {
     /// From where on a voxel counts as occupied: with the others, one frame is not enough, where nothing was known or it was free,
     /// and two are.
     pub p_occ: f64,
+    /// So many voxels in a cell and around it, as likely occupied as not, are believed by one frame.
+    pub large: u32,
     /// No voxel is less likely occupied than this: how soon what appears is believed.
     pub p_min: f64,
     /// Nor more likely than this: how soon what went away is forgotten; three frames, half a second at 6 Hz.
@@ -43,6 +45,7 @@ impl Default for TwoMapsConfig {
             p_hit: 0.7,
             p_miss: 0.28,
             p_occ: 0.71,
+            large: 16,
             p_min: 0.32,
             p_max: 0.97,
             height: 0.61,

@@ -6,6 +6,7 @@
 //! static map tells.
 
 mod beams;
+mod believed;
 mod config;
 mod layers;
 mod prior;
@@ -22,8 +23,9 @@ use crate::volume::Ray;
 use crate::volume::octree::{Cast, Octree, Sighting, probability};
 use crate::{FloorView, Fog, FogConfig, Insertion, MapError, Surface, Voxel, WorldModel};
 use beams::Ground;
+use believed::Believed;
 pub use config::TwoMapsConfig;
-use layers::{Columns, Layers};
+use layers::Layers;
 use prior::Prior;
 use unseen::Unseen;
 
@@ -42,7 +44,7 @@ pub struct TwoMaps {
     /// Height of the level on which the robot stands, m: where it stood when the maps were last projected anew.
     level_m: f64,
     layers: Layers,
-    columns: Columns,
+    believed: Believed,
     view: FloorView,
     rays: Vec<Ray>,
 }
@@ -84,7 +86,7 @@ impl TwoMaps {
             local: Octree::new(config.octree())?,
             prior: static_map.map(told).transpose()?,
             level_m: f64::NAN,
-            columns: Columns::default(),
+            believed: Believed::default(),
             view: FloorView::unknown(lattice, cells),
             rays: Vec::new(),
             fresh: floors.clone(),
@@ -102,11 +104,11 @@ impl TwoMaps {
     /// The view made of both maps at once: what [`WorldModel::view`] is frame by frame.
     pub fn projected(&self) -> FloorView {
         let mut whole = self.clone();
-        whole.columns = Columns::default();
+        whole.believed = Believed::default();
         whole.view = FloorView::unknown(*self.layers.lattice(), self.layers.size()[0]);
         let all = whole.layers.all();
         let local = (&whole.local, whole.config.p_occ);
-        whole.columns.read(local, &whole.layers, all);
+        whole.believed.read(local, &whole.layers, all);
         whole.project(all);
         whole.view
     }
@@ -188,7 +190,7 @@ impl TwoMaps {
     /// Layers of a cell in which either map has something.
     fn solid(&self, index: usize) -> u64 {
         let told = self.prior.as_ref().map_or(0, |prior| prior.solid(index));
-        self.columns.at(index) | told
+        self.believed.at(index, self.config.large) | told
     }
 
     /// Section III.D for the cell that is stored at an index: what stands out of its floor within the robot's vertical extent is an
@@ -259,7 +261,8 @@ impl WorldModel for TwoMaps {
             changed = self.layers.all();
         }
         let local = (&self.local, self.config.p_occ);
-        self.columns.read(local, &self.layers, changed);
+        self.believed.read(local, &self.layers, changed);
+        changed = changed.grown(Believed::REACH);
         changed.join(insertion.changed);
         let changed = changed.within(self.layers.all());
         self.project(changed);
