@@ -60,6 +60,8 @@ pub struct WalkingBehaviour {
     stumbles: u32,
     /// Time since the start at which the look around of the state `locate` was over, s.
     looked_round_s: Option<f64>,
+    /// The odometry frame in the map when the robot lost its place.
+    lost_at: Option<PlanarPose>,
     motion: Motion,
     refusal: String,
 }
@@ -128,6 +130,7 @@ impl WalkingBehaviour {
             watched_m: None,
             stumbles: 0,
             looked_round_s: None,
+            lost_at: None,
             motion: Motion::Stand,
             refusal: String::new(),
         })
@@ -224,7 +227,7 @@ impl WalkingBehaviour {
         if moment.situation.stepping.stumbled && self.state.moves() {
             self.stumble();
         } else if moment.situation.estimate.lost {
-            self.begin_locating();
+            self.begin_locating(moment);
         } else if self.state != State::Locate && self.has_arrived(moment) {
             self.enter(State::Arrive);
         } else if self.is_blind(moment) {

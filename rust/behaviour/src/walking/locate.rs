@@ -1,5 +1,6 @@
 //! The state `locate`: the robot does not know where it is, and looks round until the localizer does.
 
+use geometry::PlanarPose;
 use mapping::{FloorView, Surface};
 
 use super::{Moment, WalkingBehaviour};
@@ -18,6 +19,8 @@ const LOOK_HOLDS_S: f64 = 30.0;
 const TURNED_RAD: f64 = 4.0;
 /// Share of the turning speed on a circle.
 const CIRCLE_SHARE: f64 = 0.6;
+/// The odometry frame moves further than this in the map, m, when the robot finds itself elsewhere.
+const ELSEWHERE_M: f64 = 0.2;
 /// Floor is needed so far ahead to walk on, m, each so far to the side,
 const AHEAD_M: [f64; 3] = [0.15, 0.25, 0.35];
 const ASIDE_M: [f64; 3] = [-0.12, 0.0, 0.12];
@@ -26,8 +29,9 @@ const LEVEL_M: f64 = 0.012;
 
 impl WalkingBehaviour {
     /// Begins to find out where it is.
-    pub(super) fn begin_locating(&mut self) {
+    pub(super) fn begin_locating(&mut self, moment: &Moment<'_>) {
         if self.state != State::Locate {
+            self.lost_at = Some(odometry_in_map(moment));
             self.sweep = Sweep::around(&self.config);
             // Who has just looked round turns on.
             self.looked_round_s =
@@ -40,7 +44,7 @@ impl WalkingBehaviour {
     /// ahead is free, and gives up in the end.
     pub(super) fn locate(&mut self, moment: &Moment<'_>) -> Motion {
         if !moment.situation.estimate.lost {
-            self.look(Sweep::around(&self.config));
+            self.go_on(moment);
             return Motion::Stand;
         }
         if self.state_s > self.config.locate_limit {
@@ -77,6 +81,23 @@ impl WalkingBehaviour {
             }
         })
     }
+
+    /// Looks round at a place where it was not known to be; goes on where it is where it was.
+    fn go_on(&mut self, moment: &Moment<'_>) {
+        let now = odometry_in_map(moment);
+        let stayed = (self.lost_at).is_some_and(|before| now.distance_m(&before) < ELSEWHERE_M);
+        match &moment.track {
+            Some((_, track)) if stayed => self.set_off(track),
+            _ => self.look(Sweep::around(&self.config)),
+        }
+    }
+}
+
+/// The odometry frame in the map: it moves when the robot finds itself elsewhere.
+fn odometry_in_map(moment: &Moment<'_>) -> PlanarPose {
+    let frame = &moment.situation.estimate.map_from_odometry;
+    let origin = frame.origin().inner;
+    PlanarPose::new(origin.x, origin.y, frame.yaw_rad())
 }
 
 /// Whether the floor before the feet is known, level and free.

@@ -64,7 +64,7 @@ impl State {
                 next,
                 Self::LookAround | Self::Refuse | Self::Arrive | Self::Locate
             ),
-            Self::Locate => matches!(next, Self::LookAround | Self::Refuse | Self::Stop),
+            Self::Locate => !matches!(next, Self::Arrive | Self::Blind),
             Self::Refuse => false,
         }
     }

@@ -86,7 +86,7 @@ impl WalkingBehaviour {
     }
 
     /// Walk, or first turn to where the way leads.
-    fn set_off(&mut self, track: &Track) {
+    pub(super) fn set_off(&mut self, track: &Track) {
         self.turn_to_rad = None;
         let turn = self.must_turn(track);
         self.enter(if turn { State::Turn } else { State::Walk });

@@ -16,6 +16,9 @@ use super::weights::{effective_number, weigh};
 /// Particles that a thread takes at least: the cost of a few hundred rays.
 const PER_THREAD: usize = 32;
 
+/// One in so many of those that are drawn anywhere is drawn at the place that is believed.
+const BELIEVED_ANEW: usize = 10;
+
 /// Guesses, and the room to work on them.
 #[derive(Debug, Clone)]
 pub(super) struct Filter {
@@ -142,8 +145,14 @@ impl Filter {
         std::mem::swap(&mut self.particles, &mut self.drawn);
     }
 
-    /// Draws anew where few guesses weigh much, all of the most there may be, and a share of them anywhere.
-    pub(super) fn resample_widely(&mut self, map: &StaticMap, reading: &Reading, step: u64) {
+    /// Draws anew where few guesses weigh much, all of the most there may be, and a share of them anywhere, some of these at
+    /// the place that is believed, if any is: it is to be compared with the others.
+    pub(super) fn resample_widely(
+        &mut self,
+        (map, reading): (&StaticMap, &Reading),
+        believed: Option<&Belief>,
+        step: u64,
+    ) {
         let config = &self.config;
         let enough = config.resample_below * self.particles.len() as f64;
         if effective_number(&self.particles) >= enough {
@@ -155,7 +164,18 @@ impl Filter {
         low_variance(&self.particles, most - added, &mut stream, &mut self.drawn);
         std::mem::swap(&mut self.particles, &mut self.drawn);
         self.jitter(step);
-        self.add_anywhere(added, map, reading, step);
+        let here = believed.map_or(0, |_| added / BELIEVED_ANEW);
+        if let Some(believed) = believed {
+            let count = self.particles.len();
+            self.particles.resize(
+                count + here,
+                Particle {
+                    pose: believed.torso,
+                    weight: 0.0,
+                },
+            );
+        }
+        self.add_anywhere(added - here, map, reading, step);
     }
 
     /// Guesses that were drawn several times part a little: there are too few of them for the room that is searched.

@@ -19,7 +19,7 @@ const OTHER_SEED: u64 = 0x5EA2_C4E5;
 const LEAST_NEWS: f64 = 0.1;
 
 /// Directions in which another place has to be better before the robot stops to look.
-const CONTEST: usize = 3;
+const CONTEST: usize = 4;
 /// Frames, half a minute of them, after which a search beside a place that fits ends.
 const MOST_FRAMES: u32 = 200;
 
@@ -83,7 +83,7 @@ impl Search {
             self.advantage = Directions::default();
         }
         self.best = found;
-        self.filter.resample_widely(map, reading, step);
+        self.filter.resample_widely((map, reading), believed, step);
         let explains = |belief: &Belief| Some(observation.fit(&belief.torso, map)?.strict());
         if let Some(explained) = found.as_ref().and_then(explains) {
             let before = believed.and_then(explains).unwrap_or(0.0);
