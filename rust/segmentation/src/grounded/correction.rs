@@ -177,6 +177,9 @@ impl Correction {
         if contradicts && self.found > 0 && !self.is_settled() {
             if near || !self.near {
                 *self = Self::new();
+            } else {
+                // Time after time it is the young track that is wrong.
+                self.missed_young();
             }
             return;
         }
@@ -223,11 +226,19 @@ impl Correction {
     pub(super) fn missed_one(&mut self, forget_frames: u32) {
         self.wander();
         self.missed_height = self.missed_height.saturating_add(1);
-        let patience = if self.is_settled() {
-            forget_frames
+        if self.is_settled() {
+            self.missed_of(forget_frames);
         } else {
-            YOUNG_MISSES
-        };
+            self.missed_young();
+        }
+    }
+
+    /// A young track has little patience.
+    fn missed_young(&mut self) {
+        self.missed_of(YOUNG_MISSES);
+    }
+
+    fn missed_of(&mut self, patience: u32) {
         match self.missed {
             Some(missed) if missed < patience => self.missed = Some(missed + 1),
             Some(_) => *self = Self::new(),

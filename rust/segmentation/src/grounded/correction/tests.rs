@@ -108,6 +108,21 @@ fn what_is_near_the_feet_overrules_a_find_from_afar_and_never_the_other_way_roun
 }
 
 #[test]
+fn a_young_track_that_all_finds_from_afar_contradict_is_given_up_after_some() {
+    let off = Vector2::new(0.0, 0.06);
+    let mut correction = young(&[true]);
+    let frames = (1..20).find(|_| {
+        correction.found(&looking(0.0, 0.7), &off, 0.03, false);
+        correction.missed.is_none()
+    });
+    assert_eq!(frames, Some(YOUNG_MISSES as usize + 1));
+    for _ in 0..SETTLED {
+        correction.found(&looking(0.0, 0.7), &Vector2::zeros(), 0.0, false);
+    }
+    assert!(correction.holds(1, 1));
+}
+
+#[test]
 fn a_ground_that_slopes_near_the_feet_ends_tracks_from_afar_only() {
     for (near, given_up) in [
         (&[false; 3][..], true),
