@@ -3,39 +3,32 @@
 use std::cmp::Ordering;
 
 use super::SolidVoxels;
+use super::free_boxes::FreeBoxes;
 
-/// Free space beyond which a skip is not longer, voxels.
-const FURTHEST: u8 = u8::MAX;
-
-/// For each voxel and each of the eight octants of directions, how large the cube of free voxels is that begins with this one and
-/// extends to where the octant points; 0 where the voxel is solid.
+/// For each octant of directions, how much free space lies ahead of each voxel.
 ///
-/// A ray cannot leave such a cube but through its far faces, so that it is followed from cube to cube instead of from voxel to
+/// A ray cannot leave a free box but through its far faces, so that it is followed from box to box instead of from voxel to
 /// voxel, and ends at the face at which a traversal of all voxels would end.
 #[derive(Debug, Clone)]
 pub struct RangeField {
-    resolution_m: f64,
-    per_m: f64,
+    pub(super) resolution_m: f64,
+    pub(super) per_m: f64,
     /// The grid's lowest corner, m.
-    corner_m: [f64; 3],
-    size: [i32; 3],
-    /// Steps in storage to the next voxel along each axis.
-    strides: [i32; 3],
-    /// One field after the other; bit `a` of its number is set where the direction is negative along axis `a`.
-    octants: [Vec<u8>; 8],
+    pub(super) corner_m: [f64; 3],
+    pub(super) size: [i32; 3],
+    /// Bit `a` of an octant's number is set where the direction is negative along axis `a`; its grid is mirrored there.
+    pub(super) octants: [FreeBoxes; 8],
 }
 
 impl RangeField {
     /// The field of these voxels.
     pub fn new(voxels: &SolidVoxels) -> Self {
-        let size = voxels.size.map(|count| count as i32);
         Self {
             resolution_m: voxels.resolution_m,
             per_m: 1.0 / voxels.resolution_m,
             corner_m: voxels.corner_m([0; 3]),
-            size,
-            strides: [1, size[0], size[0] * size[1]],
-            octants: std::array::from_fn(|octant| free_cubes(voxels, octant)),
+            size: voxels.size.map(|count| count as i32),
+            octants: std::array::from_fn(|octant| FreeBoxes::towards(voxels, octant)),
         }
     }
 
@@ -50,16 +43,14 @@ impl RangeField {
     pub fn cast(&self, origin_m: [f64; 3], direction: [f64; 3], max_range_m: f64) -> Option<f64> {
         // Axes along which the ray goes down are mirrored, so that it goes up along all of them.
         let (mut from, mut along, mut per_along) = ([0.0; 3], [0.0; 3], [0.0; 3]);
-        let (mut strides, mut base, mut octant) = (self.strides, 0, 0);
         let (mut enter, mut leave) = (0.0_f64, max_range_m * self.per_m);
+        let mut octant = 0;
         for a in 0..3 {
             from[a] = (origin_m[a] - self.corner_m[a]) * self.per_m;
             along[a] = direction[a];
             if direction[a] < 0.0 {
                 from[a] = f64::from(self.size[a]) - from[a];
                 along[a] = -along[a];
-                base += (self.size[a] - 1) * strides[a];
-                strides[a] = -strides[a];
                 octant |= 1 << a;
             }
             per_along[a] = 1.0 / along[a];
@@ -74,24 +65,24 @@ impl RangeField {
         if enter >= leave {
             return None;
         }
-        let cubes = self.octants[octant].as_slice();
-        let last = [self.size[0] - 1, self.size[1] - 1, self.size[2] - 1];
+        let boxes = &self.octants[octant];
+        let last = self.size.map(|count| count - 1);
         let mut voxel = [0; 3];
         for a in 0..3 {
             voxel[a] = floor(from[a] + along[a] * enter).clamp(0, last[a]);
         }
         let mut at = enter;
         loop {
-            let index =
-                base + voxel[0] * strides[0] + voxel[1] * strides[1] + voxel[2] * strides[2];
-            let free = i32::from(cubes[index as usize]);
-            if free == 0 {
+            let row = voxel[2] * self.size[1] + voxel[1];
+            let [width, height] = boxes.sides((row * self.size[0] + voxel[0]) as usize);
+            if height == 0 {
                 return Some(at * self.resolution_m);
             }
             // Along an axis on which the ray stands still the exit is infinitely far: the face lies ahead of it.
+            let faces = [voxel[0] + width, voxel[1] + width, voxel[2] + height];
             let mut exits = [0.0; 3];
             for a in 0..3 {
-                exits[a] = (f64::from(voxel[a] + free) - from[a]) * per_along[a];
+                exits[a] = (f64::from(faces[a]) - from[a]) * per_along[a];
             }
             at = lesser(lesser(exits[0], exits[1]), exits[2]);
             // No number for a time, from an origin that is none, ends it too.
@@ -101,11 +92,7 @@ impl RangeField {
             for a in 0..3 {
                 // Rounding may take no axis back, nor out of the grid.
                 let inside = floor(from[a] + along[a] * at).max(voxel[a]).min(last[a]);
-                voxel[a] = if exits[a] <= at {
-                    voxel[a] + free
-                } else {
-                    inside
-                };
+                voxel[a] = if exits[a] <= at { faces[a] } else { inside };
             }
         }
     }
@@ -124,42 +111,6 @@ fn floor(value: f64) -> i32 {
     // In this binade the last bit is worth one.
     const ONES: f64 = 6_755_399_441_055_744.0;
     (value - 0.5 + ONES).to_bits() as i32
-}
-
-/// Side of the largest free cube from each voxel towards an octant: one more than the least of its seven neighbours there.
-fn free_cubes(voxels: &SolidVoxels, octant: usize) -> Vec<u8> {
-    let size = voxels.size;
-    let mut cubes = vec![0; voxels.solid.len()];
-    let mirrored = |axis: usize, at: usize| {
-        if octant >> axis & 1 == 0 {
-            size[axis] - 1 - at
-        } else {
-            at
-        }
-    };
-    // From the far end: `at` counts away from it, so that neighbours towards the octant come first.
-    for z in 0..size[2] {
-        for y in 0..size[1] {
-            for x in 0..size[0] {
-                let at = [x, y, z];
-                let here = voxels.index(std::array::from_fn(|a| mirrored(a, at[a])));
-                if voxels.solid[here] {
-                    continue;
-                }
-                let least = (1..8_usize)
-                    .filter_map(|step| {
-                        let back = |a: usize| at[a].checked_sub(step >> a & 1);
-                        let near = [back(0)?, back(1)?, back(2)?];
-                        let near = std::array::from_fn(|a| mirrored(a, near[a]));
-                        Some(cubes[voxels.index(near)])
-                    })
-                    .min();
-                // Outside all is free.
-                cubes[here] = least.map_or(FURTHEST, |least: u8| least.saturating_add(1));
-            }
-        }
-    }
-    cubes
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Which voxels of a map are solid.
 
+use super::super::octree::{Leaf, Octree};
+
 /// Voxels that a dense grid may have at most: a range field keeps eight bytes of each.
 const MOST_VOXELS: f64 = (1_u64 << 26) as f64;
 
@@ -85,6 +87,20 @@ impl SolidVoxels {
             size,
             solid,
         })
+    }
+
+    /// The occupied voxels of a tree.
+    pub fn occupied(tree: &Octree) -> Result<Self, SolidError> {
+        let resolution_m = tree.config().resolution;
+        let cube = |leaf: Leaf| {
+            let half_m = 0.5 * f64::from(leaf.edge()) * resolution_m;
+            let centre_m = tree.centre_m(&leaf);
+            [-half_m, half_m].map(|off_m| centre_m.map(|at_m| at_m + off_m))
+        };
+        let cubes: Vec<_> = (tree.leaves().filter(Leaf::is_occupied))
+            .map(cube)
+            .collect();
+        Self::of_boxes(&cubes, resolution_m)
     }
 
     /// Side of a voxel, m.
