@@ -34,6 +34,8 @@ pub(super) struct Sighting {
     pub(super) range_m: f64,
     /// and the unit vector from there.
     pub(super) along: Vector3<f64>,
+    /// By how much the range's noise moves the point, m: along the line of sight, which is flat far away.
+    spread_m: Vector3<f64>,
     /// The surface's, towards the camera; none where it is not smooth.
     normal: Option<Vector3<f64>>,
     pub(super) is_ground: bool,
@@ -45,6 +47,8 @@ pub(super) struct GroundFinder {
     pub(super) sightings: Vec<Sighting>,
     candidates: Vec<u32>,
     kept: Vec<u32>,
+    /// Points and spreads of the candidates that are asked whether they lie on a plane, side by side.
+    asked: Vec<[Vector3<f64>; 2]>,
 }
 
 impl GroundFinder {
@@ -116,6 +120,7 @@ impl GroundFinder {
                     point_m,
                     range_m,
                     along: (point_m - eye) / range_m,
+                    spread_m: (point_m - eye) * (config.range_noise_growth * range_m),
                     normal,
                     is_ground: false,
                 });
@@ -124,7 +129,13 @@ impl GroundFinder {
     }
 
     /// Of the planes through three candidates the one that most candidates lie on; of equals the first.
-    fn dominant(&self, config: &MonteCarloConfig, draws: &mut Stream) -> Option<Level> {
+    fn dominant(&mut self, config: &MonteCarloConfig, draws: &mut Stream) -> Option<Level> {
+        self.asked.clear();
+        for &index in self.candidates.iter().step_by(STRIDE) {
+            let sighting = &self.sightings[index as usize];
+            self.asked.push([sighting.point_m, sighting.spread_m]);
+        }
+        let tolerance_m = config.ground_tolerance;
         let mut best: Option<(usize, Level)> = None;
         for _ in 0..config.ground_samples {
             let points: [Vector3<f64>; 3] = std::array::from_fn(|_| {
@@ -134,22 +145,23 @@ impl GroundFinder {
             let Some(plane) = Level::through(&points) else {
                 continue;
             };
-            let on = |&&index: &&u32| plane.holds(&self.sightings[index as usize], config, 1.0);
-            let count = self.candidates.iter().step_by(STRIDE).filter(on).count();
+            let on =
+                |&&[point_m, spread_m]: &&[_; 2]| plane.holds(&point_m, &spread_m, tolerance_m);
+            let count = self.asked.iter().filter(on).count();
             if best.is_none_or(|(most, _)| count > most) {
                 best = Some((count, plane));
             }
         }
         let (_, plane) = best?;
         let on = (self.candidates.iter()).map(|&index| &self.sightings[index as usize]);
-        Level::fitted(on.filter(|sighting| plane.holds(sighting, config, 1.0))).or(Some(plane))
+        Level::fitted(on.filter(|sighting| plane.has(sighting, config, 1.0))).or(Some(plane))
     }
 
     /// Labels what lies on a plane and leaves the other candidates; returns how many were taken.
     fn take(&mut self, plane: &Level, config: &MonteCarloConfig) -> usize {
         self.kept.clear();
         for &index in &self.candidates {
-            if !plane.holds(&self.sightings[index as usize], config, 1.0) {
+            if !plane.has(&self.sightings[index as usize], config, 1.0) {
                 self.kept.push(index);
             }
         }
@@ -159,7 +171,7 @@ impl GroundFinder {
             // Beside a wall's foot the neighbourhood is not level, nor is its foot high.
             let level = (sighting.normal).is_some_and(|normal| normal.z > UPRIGHT);
             let share = if level { 1.0 } else { NEAR };
-            sighting.is_ground |= plane.holds(sighting, config, share);
+            sighting.is_ground |= plane.has(sighting, config, share);
         }
         taken
     }
@@ -220,11 +232,14 @@ impl Level {
     }
 
     /// Whether a point lies on the plane, within a share of the tolerance.
-    fn holds(&self, sighting: &Sighting, config: &MonteCarloConfig, share: f64) -> bool {
-        // A range's error moves the point along the line of sight, which is flat far away.
-        let noise_m = config.range_noise_growth * sighting.range_m * sighting.range_m;
-        let noise_m = noise_m * self.normal.dot(&sighting.along).abs();
-        (self.normal.dot(&sighting.point_m) - self.offset_m).abs()
-            < share * (config.ground_tolerance + noise_m)
+    fn has(&self, sighting: &Sighting, config: &MonteCarloConfig, share: f64) -> bool {
+        let (spread_m, tolerance_m) = (sighting.spread_m * share, config.ground_tolerance * share);
+        self.holds(&sighting.point_m, &spread_m, tolerance_m)
+    }
+
+    #[inline]
+    fn holds(&self, point_m: &Vector3<f64>, spread_m: &Vector3<f64>, tolerance_m: f64) -> bool {
+        let noise_m = self.normal.dot(spread_m).abs();
+        (self.normal.dot(point_m) - self.offset_m).abs() < tolerance_m + noise_m
     }
 }
