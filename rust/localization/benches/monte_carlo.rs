@@ -7,7 +7,7 @@ use geometry::{Camera, Grid, Lattice, Pose, Robot};
 use localization::{
     BodyState, Localizer, MonteCarloConfig, MonteCarloLocalizer, RangeModel, StaticMap,
 };
-use mapping::volume::{RangeField, SolidVoxels};
+use mapping::volume::{LANES, Lanes, RangeField, SolidVoxels};
 use mapping::{FloorView, Surface};
 use nalgebra::{
     Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector2, Vector3,
@@ -146,27 +146,46 @@ fn rays(criterion: &mut Criterion) {
     // A low-discrepancy sequence (the plastic number's) is spread evenly over guesses and beams.
     let at =
         |index: u32, axis: i32| (f64::from(index) * 0.754_877_666_f64.powi(axis)).fract() - 0.5;
-    let mut cast = Vec::with_capacity(50_000);
+    let mut guesses = Vec::with_capacity(500);
     for guess in 1..=500 {
         let shift = Vector2::new(at(guess, 1), at(guess, 2)) * 0.2;
         let turn =
             UnitQuaternion::from_euler_angles(0.0, 0.02 * at(guess, 3), 0.4 + 0.2 * at(guess, 4));
         let robot =
             Isometry3::from_parts(Translation3::new(3.0 + shift.x, 2.0 + shift.y, 0.0), turn);
-        let camera = robot * robot_from_camera();
-        let eye: [f64; 3] = (camera * Point3::origin()).coords.into();
-        for beam in 1..=100 {
-            let (col, row) = (320.0 * at(beam, 1), 240.0 * at(beam, 2));
-            let ray = Vector3::new(col, row, CAMERA.focal_px).normalize();
-            cast.push((eye, (camera.rotation * ray).into()));
-        }
+        guesses.push(robot * robot_from_camera());
     }
-    let _ = criterion.bench_function("500 x 100 rays, 4 cm", |bencher| {
+    let beams: Vec<_> = (1..=100)
+        .map(|beam| {
+            let (col, row) = (320.0 * at(beam, 1), 240.0 * at(beam, 2));
+            Vector3::new(col, row, CAMERA.focal_px).normalize()
+        })
+        .collect();
+    let _ = criterion.bench_function("500 x 100 rays, 4 cm, one by one", |bencher| {
         bencher.iter(|| {
-            let ranges = cast
-                .iter()
-                .filter_map(|&(eye, along)| field.cast(eye, along, 5.0));
+            let rays =
+                (guesses.iter()).flat_map(|camera| beams.iter().map(move |ray| (camera, ray)));
+            let ranges = rays.filter_map(|(camera, ray)| {
+                let eye = (camera * Point3::origin()).coords.into();
+                field.cast(eye, (camera.rotation * ray).into(), 5.0)
+            });
             ranges.sum::<f64>()
+        });
+    });
+    let _ = criterion.bench_function("500 x 100 rays, 4 cm, side by side", |bencher| {
+        bencher.iter(|| {
+            let mut ends = Lanes::ZERO;
+            for cameras in guesses.as_chunks::<LANES>().0 {
+                let eyes = cameras.map(|camera| camera.translation.vector);
+                let eyes = std::array::from_fn(|a| eyes.map(|eye| eye[a]));
+                let eyes = field.in_voxels(&eyes);
+                for ray in &beams {
+                    let along = cameras.map(|camera| camera.rotation * ray);
+                    let along = std::array::from_fn(|a| along.map(|v| v[a] as f32).into());
+                    ends += field.cast_side_by_side(&eyes, &along, Lanes::splat(5.0));
+                }
+            }
+            ends
         });
     });
 }

@@ -1,5 +1,6 @@
 //! The particle filter: move, weigh, draw anew.
 
+use mapping::volume::LANES;
 use nalgebra::Isometry3;
 use rayon::prelude::*;
 
@@ -13,9 +14,8 @@ use super::resampling::{low_variance, resample};
 use super::static_map::StaticMap;
 use super::weights::{effective_number, weigh};
 
-/// Particles that a thread takes at least: the cost of a few hundred rays.
-const PER_THREAD: usize = 32;
-
+/// Groups of particles that a thread takes at least: the cost of a thousand rays.
+const GROUPS_PER_THREAD: usize = 4;
 /// One in so many of those that are drawn anywhere is drawn at the place that is believed.
 const BELIEVED_ANEW: usize = 10;
 
@@ -107,16 +107,23 @@ impl Filter {
         let seed = self.config.seed;
         self.likelihoods
             .resize(self.particles.len(), LogLikelihood::default());
-        (self.particles.par_iter_mut())
-            .zip(self.likelihoods.par_iter_mut())
+        (self.particles.par_chunks_mut(LANES))
+            .zip(self.likelihoods.par_chunks_mut(LANES))
             .enumerate()
-            .with_min_len(PER_THREAD)
-            .for_each(|(index, (particle, likelihood))| {
+            .with_min_len(GROUPS_PER_THREAD)
+            .for_each(|(group, (particles, likelihoods))| {
                 if let Some(motion) = motion {
-                    let mut stream = Stream::new(seed, step, Purpose::Motion, index);
-                    motion.sample(&mut particle.pose, &mut stream);
+                    for (lane, particle) in particles.iter_mut().enumerate() {
+                        let index = group * LANES + lane;
+                        let mut stream = Stream::new(seed, step, Purpose::Motion, index);
+                        motion.sample(&mut particle.pose, &mut stream);
+                    }
                 }
-                *likelihood = observation.log_likelihood(&particle.pose, map);
+                // The last group may be smaller.
+                let poses =
+                    std::array::from_fn(|lane| particles[lane.min(particles.len() - 1)].pose);
+                let found = observation.log_likelihoods(&poses, map);
+                likelihoods.copy_from_slice(&found[..likelihoods.len()]);
             });
         weigh(
             &mut self.particles,

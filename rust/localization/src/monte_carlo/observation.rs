@@ -2,23 +2,25 @@
 //!
 //! `p(o | x) = p(r | x) p(z | x) p(phi | x) p(theta | x)`, as sums of logarithms.
 
+use mapping::volume::{LANES, Lanes};
 use nalgebra::{Point3, Vector3};
 
 use super::MonteCarloConfig;
 use super::beams::{Beam, Beams};
 use super::fit::Fit;
+use super::gauss::{NO_SIGMAS, gauss, splat};
+use super::guesses::Guesses;
 use super::motion::Reading;
 use super::particle::TorsoPose;
 use super::static_map::StaticMap;
 
-/// Beams of which the likelihoods are multiplied before their logarithm is taken: each lies between 1e-3 and 1e2.
-const FACTORS: usize = 8;
+/// Beams of which the likelihoods are multiplied before their logarithm is taken: each lies between 1e-9 and 1e9, and their
+/// product is in single precision.
+const FACTORS: usize = 4;
 /// A torso is looked for ground below it down to so many times its height.
 const GROUND_BELOW: f64 = 1.5;
 /// Share of heights that have nothing to do with the map's ground: beside an edge, on what is not in it.
 const ANY_HEIGHT: f64 = 0.05;
-/// Beyond so many standard deviations a Gaussian is nothing.
-const NO_SIGMAS: f64 = 6.0;
 
 /// Logarithm of a frame's likelihood.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -98,31 +100,44 @@ impl Observation {
         self.sole_m = reading.torso_from_robot.translation.vector.into();
     }
 
-    /// The frame's likelihood from a guess. Allocates nothing.
-    pub(super) fn log_likelihood(&self, pose: &TorsoPose, map: &StaticMap) -> LogLikelihood {
-        let isometry = pose.isometry();
-        let turn = isometry.rotation.to_rotation_matrix();
-        let row = |a: usize| [turn[(a, 0)], turn[(a, 1)], turn[(a, 2)]];
-        let rows = [row(0), row(1), row(2)];
-        let turned = |v: &[f64; 3]| [dot(&rows[0], v), dot(&rows[1], v), dot(&rows[2], v)];
-        let placed = |v: &[f64; 3]| beyond(&pose.place_m, &turned(v), 1.0);
-        let eye = placed(&self.origin_m);
+    /// The frame's likelihood from each of eight guesses, in single precision. Allocates nothing.
+    pub(super) fn log_likelihoods(
+        &self,
+        poses: &[TorsoPose; LANES],
+        map: &StaticMap,
+    ) -> [LogLikelihood; LANES] {
+        let guesses = Guesses::of(poses);
+        let eyes_m = guesses.placed(&self.origin_m);
         let ranges = match &map.distances {
-            None => self.product(|ray| {
-                // How far beyond the measured range the map's surface lies makes no difference.
-                let cast = map.ranges.cast(eye, turned(&ray.direction), ray.far_m);
-                self.beam_likelihood(ray, cast.unwrap_or(f64::INFINITY))
-            }),
+            None => {
+                let eyes = map.ranges.in_voxels(&eyes_m);
+                self.product(|ray| {
+                    let along = guesses.turned(&ray.direction);
+                    // How far beyond the measured range the map's surface lies makes no difference.
+                    let reach_m = splat(ray.far_m);
+                    let mapped_m = map.ranges.cast_side_by_side(&eyes, &along, reach_m);
+                    self.beam_likelihood(ray, mapped_m)
+                })
+            }
             Some(field) => self.product(|ray| {
-                let along = turned(&ray.direction);
-                let end = beyond(&eye, &along, ray.range_m);
-                ray.hit * gauss(field.distance_m(end) * ray.per_noise) + ray.short + self.random
+                let along = guesses.turned(&ray.direction).map(Lanes::to_array);
+                let ends_m = Lanes::from(std::array::from_fn::<_, LANES, _>(|lane| {
+                    let end_m =
+                        |a: usize| eyes_m[a][lane] + f64::from(along[a][lane]) * ray.range_m;
+                    field.distance_m([end_m(0), end_m(1), end_m(2)]) as f32
+                }));
+                let near = gauss(ends_m * splat(ray.per_noise));
+                splat(ray.hit) * near + splat(ray.short + self.random)
             }),
         };
-        LogLikelihood {
-            ranges,
-            body: self.body_log_likelihood(pose, placed(&self.sole_m), map),
-        }
+        let (ranges, body) = (
+            ranges.to_array(),
+            self.body(poses, &guesses, map).to_array(),
+        );
+        std::array::from_fn(|lane| LogLikelihood {
+            ranges: f64::from(ranges[lane]),
+            body: f64::from(body[lane]),
+        })
     }
 
     /// How well a pose explains the frame, by the beams off the ground. None where too few beams can tell.
@@ -140,57 +155,48 @@ impl Observation {
 
     /// Likelihood of a beam where the map has its end at `mapped_m`.
     #[inline]
-    fn beam_likelihood(&self, ray: &Ray, mapped_m: f64) -> f64 {
-        let off_m = mapped_m - ray.range_m;
-        let before = if off_m > 0.0 { ray.short } else { 0.0 };
-        ray.hit * gauss(off_m * ray.per_noise) + before + self.random
+    fn beam_likelihood(&self, ray: &Ray, mapped_m: Lanes) -> Lanes {
+        let off_m = mapped_m - splat(ray.range_m);
+        let before = off_m.simd_gt(Lanes::ZERO) & splat(ray.short);
+        splat(ray.hit) * gauss(off_m * splat(ray.per_noise)) + before + splat(self.random)
     }
 
     /// Logarithm of the product over all rays.
     #[inline]
-    fn product(&self, likelihood: impl Fn(&Ray) -> f64) -> f64 {
-        (self.rays.chunks(FACTORS))
-            .map(|rays| rays.iter().map(&likelihood).product::<f64>().ln())
-            .sum()
+    fn product(&self, likelihood: impl Fn(&Ray) -> Lanes) -> Lanes {
+        let mut sum = Lanes::ZERO;
+        for rays in self.rays.chunks(FACTORS) {
+            let mut product = Lanes::ONE;
+            for ray in rays {
+                product *= likelihood(ray);
+            }
+            sum += product.ln();
+        }
+        sum
     }
 
-    fn body_log_likelihood(&self, pose: &TorsoPose, sole_m: [f64; 3], map: &StaticMap) -> f64 {
-        let attitude = [pose.roll_rad, pose.pitch_rad]
-            .into_iter()
-            .zip(self.attitude_rad)
-            .map(|(guess, measured)| -0.5 * ((guess - measured) / self.attitude_noise_rad).powi(2));
-        let above = [sole_m[0], sole_m[1], pose.place_m[2]];
-        let reach_m = GROUND_BELOW * self.height_m;
-        let height = match map.ranges.cast(above, [0.0, 0.0, -1.0], reach_m) {
-            Some(height_m) => gauss((height_m - self.height_m) / self.height_noise_m),
-            None => 0.0,
-        };
-        attitude.sum::<f64>() + ((1.0 - ANY_HEIGHT) * height + ANY_HEIGHT * 1e-2).ln()
-    }
-}
-
-#[inline]
-fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// So far along a direction.
-#[inline]
-fn beyond(from: &[f64; 3], along: &[f64; 3], by: f64) -> [f64; 3] {
-    [
-        from[0] + along[0] * by,
-        from[1] + along[1] * by,
-        from[2] + along[2] * by,
-    ]
-}
-
-/// `exp(-u^2 / 2)`.
-#[inline]
-fn gauss(sigmas: f64) -> f64 {
-    if sigmas.abs() < NO_SIGMAS {
-        (-0.5 * sigmas * sigmas).exp()
-    } else {
-        0.0
+    /// Logarithm of the likelihood of height, roll and pitch.
+    fn body(&self, poses: &[TorsoPose; LANES], guesses: &Guesses, map: &StaticMap) -> Lanes {
+        let [measured_roll, measured_pitch] = self.attitude_rad;
+        let attitude = poses.map(|pose| {
+            let off = [
+                pose.roll_rad - measured_roll,
+                pose.pitch_rad - measured_pitch,
+            ];
+            let squares = off.map(|off| (off / self.attitude_noise_rad).powi(2));
+            (-0.5 * (squares[0] + squares[1])) as f32
+        });
+        let [x, y, _] = guesses.placed(&self.sole_m);
+        let above = map
+            .ranges
+            .in_voxels(&[x, y, poses.map(|pose| pose.place_m[2])]);
+        let down = [0.0, 0.0, -1.0].map(Lanes::splat);
+        let reach_m = splat(GROUND_BELOW * self.height_m);
+        let height_m = map.ranges.cast_side_by_side(&above, &down, reach_m);
+        let off_m = height_m - splat(self.height_m);
+        let height = gauss(off_m * splat(1.0 / self.height_noise_m));
+        let any = splat(ANY_HEIGHT * 1e-2);
+        Lanes::from(attitude) + (splat(1.0 - ANY_HEIGHT) * height + any).ln()
     }
 }
 
@@ -253,7 +259,8 @@ mod tests {
             .product();
         let mut first = observation.clone();
         first.rays.truncate(40);
-        let found = first.log_likelihood(&truth, &map).ranges;
+        let [found, ..] = first.log_likelihoods(&[truth; LANES], &map);
+        let found = found.ranges;
         assert!(
             (found - product.ln()).abs() < 1e-3,
             "{found} {}",
@@ -275,7 +282,9 @@ mod tests {
                 4 => wrong.pitch_rad += by,
                 _ => wrong.yaw_rad += by,
             }
-            let (right, wrong) = (observation.log_likelihood(&truth, &map), observation.log_likelihood(&wrong, &map));
+            let mut poses = [truth; LANES];
+            poses[3] = wrong;
+            let [right, _, _, wrong, ..] = observation.log_likelihoods(&poses, &map);
             prop_assert!(right.ranges > wrong.ranges + 5.0, "{right:?} {wrong:?}");
             // Height, roll and pitch are measured by themselves; the others are not.
             if (2..5).contains(&axis) { prop_assert!(right.body > wrong.body + 2.0, "{right:?} {wrong:?}"); }
@@ -292,7 +301,9 @@ mod tests {
             long.range_m += 0.4;
             long.far_m += 0.4;
         }
-        let of = |observation: &Observation| observation.log_likelihood(&truth, &map).ranges;
+        let of = |observation: &Observation| {
+            observation.log_likelihoods(&[truth; LANES], &map)[0].ranges
+        };
         assert!(of(&observation) > of(&short) && of(&short) > of(&long) + 5.0);
         let fit = observation.fit(&truth, &map).unwrap();
         assert!(fit.lenient() > 0.97 && fit.strict() > 0.97);

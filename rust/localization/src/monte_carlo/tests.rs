@@ -90,25 +90,34 @@ fn any_number_of_threads_gives_the_same_bits() {
 
 #[test]
 fn in_a_corridor_that_looks_the_same_everywhere_the_spread_along_it_grows_and_across_it_does_not() {
+    const SEEDS: u64 = 6;
+    const FRAMES: usize = 150;
     let world = World::walled(14.0, 1.2);
-    let config = MonteCarloConfig::default();
-    let at = PlanarPose::new(4.0, 0.6, 0.0);
-    let localizer =
-        MonteCarloLocalizer::new(world.map(&config), Some(start(&at, 0.0)), config).unwrap();
-    let mut walk = Walk::new(&world, localizer, at, 0.0);
-    // As wrong as the motion model says, and no more.
-    walk.drift = [1.0, 0.0];
-    let mut inside = 0;
-    for _ in 0..150 {
-        let _ = walk.step(0.022, 0.0);
-        let belief = walk.localizer.belief().unwrap();
-        let off = (belief.torso.place_m[0] - walk.truth.x_m).abs();
-        inside += usize::from(off < 2.5 * belief.covariance.m11.sqrt());
+    // One filter's spread along is chance: by the mean of several.
+    let (mut along, mut inside) = (0.0, 0);
+    for seed in 0..SEEDS {
+        let config = MonteCarloConfig {
+            seed,
+            ..MonteCarloConfig::default()
+        };
+        let at = PlanarPose::new(4.0, 0.6, 0.0);
+        let localizer =
+            MonteCarloLocalizer::new(world.map(&config), Some(start(&at, 0.0)), config).unwrap();
+        let mut walk = Walk::new(&world, localizer, at, 0.0);
+        // As wrong as the motion model says, and no more.
+        walk.drift = [1.0, 0.0];
+        for _ in 0..FRAMES {
+            let _ = walk.step(0.022, 0.0);
+            let belief = walk.localizer.belief().unwrap();
+            let off = (belief.torso.place_m[0] - walk.truth.x_m).abs();
+            inside += usize::from(off < 2.5 * belief.covariance.m11.sqrt());
+        }
+        let covariance = walk.localizer.belief().unwrap().covariance;
+        along += covariance.m11.sqrt() / SEEDS as f64;
+        assert!(covariance.m22.sqrt() < 0.03, "{covariance}");
     }
-    let belief = walk.localizer.belief().unwrap();
-    let (along, across) = (belief.covariance.m11.sqrt(), belief.covariance.m22.sqrt());
-    assert!(along > 0.06 && across < 0.03, "{along} {across}");
-    assert!(inside > 135, "{inside}");
+    assert!(along > 0.06, "{along}");
+    assert!(inside * 10 > SEEDS as usize * FRAMES * 9, "{inside}");
 }
 
 /// Frames until the estimate is within 0.1 m and 0.1 rad, on the right level, and stays so for 2 s.
