@@ -17,6 +17,7 @@ __all__ = [
     "Octree",
     "Pilot",
     "Planes",
+    "RangeField",
     "Scan",
     "Segmenter",
     "Situation",
@@ -216,6 +217,16 @@ class Octree:
     def size_bytes(self) -> int: ...
     @property
     def seconds(self) -> float: ...
+
+@final
+class RangeField:
+    def __new__(cls, octree: Octree) -> RangeField: ...
+    def cast(
+        self,
+        origins: NDArray[np.float64],
+        directions: NDArray[np.float64],
+        max_range: float,
+    ) -> NDArray[np.float32]: ...
 
 @final
 class FloorView:

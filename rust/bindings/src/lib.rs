@@ -8,6 +8,7 @@ mod octree;
 mod pilot;
 mod pose;
 mod products;
+mod ranges;
 mod segmenter;
 mod situation;
 mod stairs;
@@ -28,6 +29,8 @@ mod _core {
     use super::pilot::{PyPilot, PyTick};
     #[pymodule_export]
     use super::products::{PyBodyState, PyFloorView, PyPlanes};
+    #[pymodule_export]
+    use super::ranges::PyRangeField;
     #[pymodule_export]
     use super::segmenter::PySegmenter;
     #[pymodule_export]

@@ -221,7 +221,10 @@ pub(crate) fn rows(
 }
 
 /// The rows of an (n, 3) array.
-fn triples<'a>(name: &str, array: &'a PyReadonlyArray2<'_, f64>) -> PyResult<&'a [[f64; 3]]> {
+pub(crate) fn triples<'a>(
+    name: &str,
+    array: &'a PyReadonlyArray2<'_, f64>,
+) -> PyResult<&'a [[f64; 3]]> {
     if array.as_array().ncols() != 3 || !array.is_c_contiguous() {
         return Err(PyValueError::new_err(format!(
             "{name} must be (n, 3) and lie row by row in memory"

@@ -10,7 +10,7 @@ use localization::{
     StaticMap,
 };
 use mapping::volume::SolidVoxels;
-use mapping::volume::octree::{Leaf, Octree};
+use mapping::volume::octree::Octree;
 use mapping::{Averaging, Fog, TwoMaps, WorldModel};
 use planning::{AStar, Guided, Planner};
 use robot::{Body, Side};
@@ -152,15 +152,7 @@ pub(crate) fn localizer(
 
 /// The occupied voxels of a map as a dense grid.
 fn solid(map: &Octree) -> Result<SolidVoxels, PilotError> {
-    let resolution_m = map.config().resolution;
-    let cube = |leaf: Leaf| {
-        let half_m = 0.5 * f64::from(leaf.edge()) * resolution_m;
-        let centre_m = map.centre_m(&leaf);
-        [-half_m, half_m].map(|off_m| centre_m.map(|at_m| at_m + off_m))
-    };
-    let cubes: Vec<_> = (map.leaves().filter(Leaf::is_occupied)).map(cube).collect();
-    SolidVoxels::of_boxes(&cubes, resolution_m)
-        .map_err(|error| PilotError::Settings(format!("static map: {error}")))
+    SolidVoxels::occupied(map).map_err(|error| PilotError::Settings(format!("static map: {error}")))
 }
 
 pub(crate) fn planner(

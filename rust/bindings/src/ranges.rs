@@ -1,0 +1,63 @@
+//! Rays through a map that does not change, as the localizer `monte_carlo` casts them.
+
+use mapping::volume::{LANES, Lanes, RangeField, SolidVoxels};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::error::{bad_setting, failed, unpanicked};
+use crate::octree::{PyOctree, triples};
+
+/// How far rays get among the occupied voxels of an octree.
+#[pyclass(name = "RangeField", module = "treadwell._core")]
+pub(crate) struct PyRangeField(RangeField);
+
+#[pymethods]
+impl PyRangeField {
+    /// Of an octree as it is now.
+    #[new]
+    fn new(py: Python<'_>, octree: &PyOctree) -> PyResult<Self> {
+        let tree = octree.tree();
+        let field = py
+            .detach(|| unpanicked(|| Ok(RangeField::new(&SolidVoxels::occupied(&tree)?))))
+            .map_err(|error| failed(py, &error))?
+            .map_err(|error: mapping::volume::SolidError| bad_setting(py, &error))?;
+        Ok(Self(field))
+    }
+
+    /// For rays from (n, 3) m along unit vectors (n, 3): how far it is to where each enters an occupied voxel, (n,) m, infinity
+    /// where there is none within `max_range`. Eight rays at a time are followed side by side.
+    fn cast<'py>(
+        &self,
+        py: Python<'py>,
+        origins: &Bound<'_, PyArray2<f64>>,
+        directions: &Bound<'_, PyArray2<f64>>,
+        max_range: f64,
+    ) -> PyResult<Bound<'py, PyArray1<f32>>> {
+        let (origins, directions) = (origins.readonly(), directions.readonly());
+        let origins = triples("origins", &origins)?;
+        let directions = triples("directions", &directions)?;
+        if origins.len() != directions.len() || max_range <= 0.0 || max_range.is_nan() {
+            return Err(PyValueError::new_err(
+                "origins and directions must be as many, max_range > 0",
+            ));
+        }
+        let (field, mut ends_m) = (&self.0, vec![0.0; origins.len()]);
+        let cast = || {
+            for (first, ends_m) in ends_m.chunks_mut(LANES).enumerate() {
+                let ray = |lane: usize| first * LANES + lane.min(ends_m.len() - 1);
+                let of = |a: usize, rows: &[[f64; 3]]| {
+                    std::array::from_fn::<f64, LANES, _>(|lane| rows[ray(lane)][a])
+                };
+                let from = field.in_voxels(&std::array::from_fn(|a| of(a, origins)));
+                let along = std::array::from_fn(|a| of(a, directions).map(|v| v as f32).into());
+                let reach_m = Lanes::splat(max_range as f32);
+                let found_m = field.cast_side_by_side(&from, &along, reach_m).to_array();
+                ends_m.copy_from_slice(&found_m[..ends_m.len()]);
+            }
+        };
+        py.detach(|| unpanicked(cast))
+            .map_err(|error| failed(py, &error))?;
+        Ok(ends_m.into_pyarray(py))
+    }
+}
