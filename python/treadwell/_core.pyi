@@ -28,6 +28,7 @@ __all__ = [
     "Tick",
     "Walker",
     "WorldModel",
+    "squared_distances",
     "swept_clearance",
     "version",
 ]
@@ -38,6 +39,7 @@ _Edge = tuple[_Point, _Point]
 _Fit = tuple[int, float, float]
 _Footstep = tuple[str, float, float, float, float, float, float]
 
+def squared_distances(blocked: NDArray[np.bool_], /) -> NDArray[np.uint32]: ...
 def swept_clearance(
     path: NDArray[np.float64], outline: NDArray[np.float64], radius: float
 ) -> float: ...

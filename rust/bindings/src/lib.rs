@@ -2,6 +2,7 @@
 
 mod clearance;
 mod components;
+mod distance;
 mod error;
 mod observation;
 mod octree;
@@ -23,6 +24,8 @@ mod _core {
 
     #[pymodule_export]
     use super::clearance::swept_clearance;
+    #[pymodule_export]
+    use super::distance::squared_distances;
     #[pymodule_export]
     use super::octree::PyOctree;
     #[pymodule_export]
