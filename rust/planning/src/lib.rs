@@ -14,6 +14,7 @@ mod legs;
 mod levels;
 mod line;
 pub mod links;
+mod neighbours;
 mod plan;
 mod portals;
 mod refusal;

@@ -6,9 +6,10 @@ use std::collections::BinaryHeap;
 use stairs::{ClimbingConfig, Unfit};
 
 use crate::legs::link_between;
+use crate::neighbours::{ANYWHERE, for_each_neighbour};
 use crate::portals::{Fit, Portals};
 use crate::route::Ends;
-use crate::search::{Route, Search, for_each_neighbour};
+use crate::search::{Route, Search};
 use crate::terrain::Terrain;
 use crate::{Goal, NoWay, Refusal};
 
@@ -242,7 +243,7 @@ fn widest_way(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Widest {
                 nearest_cells,
             };
         }
-        for_each_neighbour(&open, terrain.cols, cell, |next, _| {
+        for_each_neighbour(&open, terrain.cols, (cell, ANYWHERE), |next, _, _| {
             if !seen[next] {
                 // Where the robot already stands too near it may leave: that does not narrow the way.
                 let leaving = terrain.weights[next].is_finite();

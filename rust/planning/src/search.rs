@@ -3,6 +3,7 @@
 use std::f64::consts::SQRT_2;
 
 use crate::links::Links;
+use crate::neighbours::{ANYWHERE, Heading, for_each_neighbour};
 
 /// No cell before this one.
 const NONE: u32 = u32::MAX;
@@ -55,6 +56,8 @@ struct Node {
     heuristic: f64,
     parent: u32,
     round: u32,
+    /// In which direction it was come upon.
+    heading: Heading,
 }
 
 impl Search {
@@ -95,7 +98,7 @@ impl Search {
         let nodes = links.map_or(0, Links::nodes).max(weights.len());
         self.begin(nodes);
         let mut best: Option<(f64, usize)> = None;
-        self.reach(start, 0.0, NONE, heuristic(start), 0);
+        self.reach(start, 0.0, (NONE, ANYWHERE), heuristic(start), 0);
         let mut bucket = 0;
         while bucket < self.buckets.len() {
             if best.is_some_and(|(cost, _)| bucket as f64 * BUCKET >= cost) {
@@ -124,20 +127,21 @@ impl Search {
             } else {
                 1.0
             };
-            for_each_neighbour(weights, cols, here, |next, length| {
+            let come = (here, node.heading);
+            for_each_neighbour(weights, cols, come, |next, length, heading| {
                 let through = cost + length * 0.5 * f64::from(weight + weights[next]);
                 let known = self.nodes[next];
                 if known.round != self.round {
-                    self.reach(next, through, cell, heuristic(next), bucket);
+                    self.reach(next, through, (cell, heading), heuristic(next), bucket);
                 } else if through < known.cost {
-                    self.reach(next, through, cell, known.heuristic, bucket);
+                    self.reach(next, through, (cell, heading), known.heuristic, bucket);
                 }
             });
             for (index, link) in links.into_iter().flat_map(|links| links.from(here)) {
                 let (next, through) = (link.to as usize, cost + link.cost);
                 let known = self.nodes[next];
                 if open(index) && (known.round != self.round || through < known.cost) {
-                    self.reach(next, through, cell, heuristic(next), bucket);
+                    self.reach(next, through, (cell, ANYWHERE), heuristic(next), bucket);
                 }
             }
         }
@@ -154,6 +158,7 @@ impl Search {
                 heuristic: 0.0,
                 parent: NONE,
                 round: 0,
+                heading: ANYWHERE,
             };
             self.nodes = vec![unreached; nodes];
             self.round = 0;
@@ -166,19 +171,32 @@ impl Search {
     }
 
     #[inline]
-    fn reach(&mut self, cell: usize, cost: f64, parent: u32, heuristic: f64, now: usize) {
+    fn reach(
+        &mut self,
+        cell: usize,
+        cost: f64,
+        (parent, heading): (u32, Heading),
+        heuristic: f64,
+        now: usize,
+    ) {
         self.nodes[cell] = Node {
             cost,
             heuristic,
             parent,
             round: self.round,
+            heading,
         };
         // Rounding must not put it where the search has passed.
-        let bucket = (((cost + heuristic) / BUCKET) as usize).max(now);
+        let bucket = (((cost + heuristic) / BUCKET) as u32 as usize).max(now);
         if bucket >= self.buckets.len() {
-            self.buckets.resize_with(bucket + 1, Vec::new);
+            self.more_buckets(bucket + 1);
         }
         self.buckets[bucket].push((cost, cell as u32));
+    }
+
+    #[cold]
+    fn more_buckets(&mut self, count: usize) {
+        self.buckets.resize_with(count, Vec::new);
     }
 
     fn back_from(&self, end: usize) -> Vec<u32> {
@@ -190,46 +208,6 @@ impl Search {
         }
         cells.reverse();
         cells
-    }
-}
-
-/// Calls `visit` with every free neighbour of a cell and the length of the step.
-#[inline]
-pub(crate) fn for_each_neighbour(
-    weights: &[f32],
-    cols: usize,
-    cell: usize,
-    mut visit: impl FnMut(usize, f64),
-) {
-    let col = cell % cols;
-    let free = |index: usize| weights.get(index).is_some_and(|weight| weight.is_finite());
-    // Row 0 has nothing below it: the index wraps around and is free nowhere.
-    let (below, above) = (cell.wrapping_sub(cols), cell + cols);
-    let west = col > 0 && free(cell - 1);
-    let east = col + 1 < cols && free(cell + 1);
-    let south = free(below);
-    let north = free(above);
-    let sides = [
-        (west, cell.wrapping_sub(1)),
-        (east, cell + 1),
-        (south, below),
-        (north, above),
-    ];
-    for (open, next) in sides {
-        if open {
-            visit(next, 1.0);
-        }
-    }
-    let corners = [
-        (west && south, below.wrapping_sub(1)),
-        (east && south, below.wrapping_add(1)),
-        (west && north, above.wrapping_sub(1)),
-        (east && north, above + 1),
-    ];
-    for (open, next) in corners {
-        if open && free(next) {
-            visit(next, SQRT_2);
-        }
     }
 }
 
@@ -266,7 +244,7 @@ mod tests {
                 prop_assert!(expanded <= search.expanded + COLS);
                 for pair in found.cells.windows(2) {
                     let mut adjacent = false;
-                    for_each_neighbour(&weights, COLS, pair[0] as usize, |cell, _| {
+                    for_each_neighbour(&weights, COLS, (pair[0] as usize, ANYWHERE), |cell, _, _| {
                         adjacent |= cell == pair[1] as usize;
                     });
                     prop_assert!(adjacent);
