@@ -86,6 +86,12 @@ impl Slabs {
         }
     }
 
+    /// Whether it goes along the same axis as another one, and the same way.
+    #[inline]
+    pub(super) const fn goes_like(&self, other: &Self) -> bool {
+        self.along_x == other.along_x && self.forward == other.forward
+    }
+
     /// Storage index of the cell at v in a slab.
     #[inline]
     pub(super) const fn index(&self, slab: i32, v: i64) -> usize {

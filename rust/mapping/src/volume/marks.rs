@@ -72,12 +72,13 @@ impl Marks {
                 let cell = part.last[1] as usize * self.size.cols + part.last[0] as usize;
                 self.hits[cell] |= 1 << part.last[2];
             }
-            strip[count] = Slabs::new(&part, self.size.cols);
-            count += 1;
-            if count == together {
+            let ray = Slabs::new(&part, self.size.cols);
+            if count == together || count > 0 && !ray.goes_like(&strip[0]) {
                 self.walk(&strip[..count], settled);
                 count = 0;
             }
+            strip[count] = ray;
+            count += 1;
         }
         self.walk(&strip[..count], settled);
         self.gaps.clear();

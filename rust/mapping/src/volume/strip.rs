@@ -62,8 +62,7 @@ impl Bundle {
         };
         let mut alike = !others.is_empty() && first.length >= SHORTEST;
         for ray in others {
-            alike &= ray.along_x == first.along_x
-                && ray.forward == first.forward
+            alike &= ray.goes_like(first)
                 && ray.start == first.start
                 && ray.index(0, 0) == first.index(0, 0)
                 && ray.length >= SHORTEST;
