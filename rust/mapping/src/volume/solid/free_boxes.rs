@@ -122,6 +122,8 @@ mod tests {
     const SIZE: [usize; 3] = [9, 7, 6];
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
+
         #[test]
         fn boxes_are_free_and_the_largest_of_their_shape(
             solid in prop::collection::btree_set((0..SIZE[0], 0..SIZE[1], 0..SIZE[2]), 1..12),

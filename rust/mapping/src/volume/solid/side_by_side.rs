@@ -174,7 +174,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(1000))]
+        #![proptest_config(ProptestConfig::with_cases(300))]
 
         #[test]
         fn rays_side_by_side_end_where_each_ends_alone(boxes in boxes(), rays in prop::array::uniform8(ray())) {
