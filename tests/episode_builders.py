@@ -1,5 +1,6 @@
 """Small courses, finished results and traces for the tests of judge, score and recorders."""
 
+import warnings
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -156,3 +157,13 @@ def flight(steps: int = 4, **changes: object) -> tuple[StairTrace, ...]:
         }
         stairs.append(StairTrace(**facts | {"front_fitted": i == 0} | edges | changes))
     return tuple(stairs)
+
+
+def entities(path: Path) -> set[str]:
+    """Return the entities of a recording."""
+    from rerun.chunk import RrdReader
+
+    with warnings.catch_warnings():
+        # A file whose writer was stopped has no table of contents; reading it takes longer.
+        warnings.simplefilter("ignore")
+        return {str(chunk.entity_path) for chunk in RrdReader(path).stream().to_chunks()}

@@ -4,14 +4,12 @@ import signal
 import subprocess
 import sys
 import time
-import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
-from episode_builders import BOX, STEP, World, flight, qrio, trace, world
+from episode_builders import BOX, STEP, World, entities, flight, qrio, trace, world
 
-from treadwell.episode import Episode
 from treadwell.errors import InputError, RecordingError
 from treadwell.judging.ground_truth import Sole
 from treadwell.protocols import Footstep
@@ -21,7 +19,6 @@ from treadwell.recording.file import cut_to_whole_messages, whole_length
 from treadwell.recording.layout import CLIMB, PATH
 from treadwell.recording.recorder import NAME, Recorder
 from treadwell.recording.trace import Trace
-from treadwell.recording.tracing import trace_of
 
 FRAME = 80_000_000
 
@@ -33,15 +30,6 @@ def made() -> World:
 
 def recorder(folder: Path, made: World) -> Recorder:
     return Recorder(folder / NAME, made.model, made.course, made.scenario, qrio())
-
-
-def entities(path: Path) -> set[str]:
-    from rerun.chunk import RrdReader
-
-    with warnings.catch_warnings():
-        # A file whose writer was stopped has no table of contents; reading it takes longer.
-        warnings.simplefilter("ignore")
-        return {str(chunk.entity_path) for chunk in RrdReader(path).stream().to_chunks()}
 
 
 def test_a_recording_holds_world_map_camera_states_and_plots(tmp_path: Path, made: World) -> None:
@@ -66,35 +54,6 @@ def test_a_recording_holds_world_map_camera_states_and_plots(tmp_path: Path, mad
         "/error",
         "/timing",
     } <= found
-
-
-def test_both_maps_and_the_guesses_of_a_robot_in_a_known_house_are_recorded(tmp_path: Path) -> None:
-    episode = Episode("two_levels", seed=0, overrides=("navigation.world_model=octree",))
-    assert episode.static_map is not None
-    writer = Recorder(
-        tmp_path / NAME,
-        episode.course.model,
-        episode.course,
-        episode.scenario,
-        episode.robot,
-        episode.static_map,
-    )
-    guesses = 0
-    for step in episode:
-        made = trace_of(episode, step)
-        assert np.isfinite(made.guesses).all()
-        assert np.isfinite(made.occupied).all()
-        guesses = len(made.guesses)
-        writer.frame(made)
-        if len(made.occupied):
-            break
-    writer.close()
-    assert guesses == 500
-    # What was seen is where something stands: not far above the walls, not below the floor.
-    assert len(made.occupied)
-    assert -0.2 < made.occupied[:, 2].min() <= made.occupied[:, 2].max() < 0.8
-    maps = {f"/world/maps/{name}" for name in ("static", "local", "guesses")}
-    assert maps <= entities(tmp_path / NAME)
 
 
 def test_stairs_climbs_landings_and_missteps_are_in_the_recording(

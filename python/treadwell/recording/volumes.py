@@ -30,7 +30,7 @@ class Volumes:
             static_map: what the robot knows of the place beforehand.
             height: m, what has the darkest and the brightest colour.
         """
-        self._rows, self._frames = rows, 0
+        self._rows, self._until_local = rows, 0
         if static_map is not None:
             centres, sides = static_map.occupied()
             shades = height_colours(centres[:, 2].astype(np.float32), *height)
@@ -45,7 +45,9 @@ class Volumes:
 
     def log(self, trace: Trace) -> None:
         """Write a camera frame's; the time is set."""
-        if self._frames % _LOCAL_STRIDE == 0 and len(trace.occupied):
+        self._until_local -= 1
+        if self._until_local < 0 and len(trace.occupied):
+            self._until_local = _LOCAL_STRIDE - 1
             self._rows.log(
                 "world/maps/local",
                 rr.Boxes3D,
@@ -54,7 +56,6 @@ class Volumes:
                 colors=[_LOCAL],
                 fill_mode=[rr.components.FillMode.Solid],
             )
-        self._frames += 1
         if len(trace.guesses):
             self._rows.log(
                 "world/maps/guesses",
