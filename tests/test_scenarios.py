@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import treadwell
+from treadwell.judging.verdict import Verdict
 from treadwell.recording.verification import verify_run
 from treadwell.runner import Run
 from treadwell.scenario.loading import load_scenario, scenario_names
@@ -26,6 +27,7 @@ WALKED = {
     "beam_low": "refused",
     "slope_up": "goal_reached",
     "slope_down": "goal_reached",
+    "narrow_passage": "goal_reached",
 }
 CLIMBED = (
     "stairs_up",
@@ -130,6 +132,45 @@ def test_a_scenario_ends_as_it_expects_without_a_fall_or_a_collision(
 def test_plain_physics_steps_to_the_same_states(run: Runner, name: str) -> None:
     done = run(name, SEEDS[0])
     assert verify_run(Path(done.folder)).problems == ()
+
+
+def passage(robot: str, footprint: str, width: float) -> tuple[Verdict | None, int, set[str]]:
+    """Return how it ends at a passage of a width, the collisions, and the states on the way."""
+    sides = (0.02 + 0.5 * width, 0.02 - 0.5 * width)
+    overrides = (
+        f"navigation.a_star.footprint={footprint}",
+        f"course.0.from=[0.9,{sides[0]:.3f}]",
+        f"course.1.to=[0.9,{sides[1]:.3f}]",
+    )
+    episode = treadwell.Episode("narrow_passage", robot=robot, seed=2, overrides=overrides)
+    states = {step.state for step in episode}
+    return episode.verdict, len(episode.judge.collisions), states
+
+
+@pytest.mark.parametrize("robot", ["nao", "qrio"])
+def test_what_is_too_narrow_for_the_circle_is_passed_sideways(robot: str) -> None:
+    verdict, collisions, states = passage(robot, "oriented", 0.33)
+    assert verdict is not None
+    assert (verdict.outcome, collisions) == ("goal_reached", 0)
+    assert "sidle" in states
+
+
+@pytest.mark.parametrize("robot", ["nao", "qrio"])
+def test_what_is_too_narrow_for_the_circle_is_refused_by_it(robot: str) -> None:
+    verdict, collisions, states = passage(robot, "circle", 0.33)
+    assert verdict is not None
+    assert (verdict.outcome, collisions) == ("refused", 0)
+    # Whoever stands in the mouth already does not count what is too near there as narrow.
+    assert (verdict.reason or "").partition(": ")[0] in {"too_narrow", "blocked"}
+    assert "sidle" not in states
+
+
+@pytest.mark.parametrize("robot", ["nao", "qrio"])
+def test_what_is_wide_enough_for_the_circle_is_walked_straight_ahead(robot: str) -> None:
+    verdict, collisions, states = passage(robot, "circle", 0.44)
+    assert verdict is not None
+    assert (verdict.outcome, collisions) == ("goal_reached", 0)
+    assert "sidle" not in states
 
 
 def test_a_refusal_says_in_a_word_and_a_sentence_what_is_in_the_way(run: Runner) -> None:

@@ -20,7 +20,7 @@ from treadwell.runner import Run
 
 PHASES: Final[dict[str, tuple[tuple[str, ...], float]]] = {
     "search": (("look_around", "locate", "turn", "search"), 5.0),
-    "align": (("walk", "align"), 5.0),
+    "align": (("walk", "sidle", "align"), 5.0),
     "approach": (("approach",), 5.0),
     "climb": (("climb", "step_back"), 24.0),
     "finish": (("finish", "arrive"), 5.0),

@@ -75,7 +75,7 @@ def describe(
                 "window": camera.triangulation.window,
             },
         },
-        "body": {"radius": file.body.radius, "height": file.body.height},
+        "body": file.body.model_dump(exclude={"torso"}),
         "play": file.encoders.play,
         "gait": dict(file.gait),
     }

@@ -40,11 +40,17 @@ class RobotTable(Table):
 
 
 class BodyTable(Table):
-    """`[body]`: the link that is the torso; radius and height (m) of the cylinder around it all."""
+    """`[body]`: the link that is the torso; radius and height (m) of the cylinder around it all.
+
+    `depth` (front to back) and `width`: of the upright box that holds it while it walks sideways,
+    m; the cylinder's where they are not given.
+    """
 
     torso: Name
     radius: Positive
     height: Positive
+    depth: Positive | None = None
+    width: Positive | None = None
 
 
 class SoleTable(Table):

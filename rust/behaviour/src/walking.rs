@@ -8,6 +8,7 @@ pub(crate) mod gaze;
 mod legs;
 mod locate;
 mod progress;
+mod sidle;
 mod state;
 mod states;
 mod track;
@@ -143,7 +144,9 @@ impl WalkingBehaviour {
         let path = situation.plan.and_then(|plan| plan.way.as_ref().ok());
         let track = path.and_then(|path| {
             let track = Track::new(path, &pose, self.config.lookahead)?;
-            Some((path, self.lengthened(track, &pose, situation)))
+            let straight = path.sidles.is_empty();
+            let lengthened = |track| self.lengthened(track, &pose, situation);
+            Some((path, if straight { lengthened(track) } else { track }))
         });
         let passed_ns = self
             .time_ns
@@ -264,7 +267,7 @@ impl WalkingBehaviour {
         let radius_m = moment.situation.goal.radius_m;
         let way_done = moment
             .track
-            .map_or(moment.no_way(), |(_, track)| track.remaining_m < PATH_END_M);
+            .map_or(moment.no_way(), |(_, track)| track.whole_m() < PATH_END_M);
         moment.situation.last_goal
             && (distance_m <= self.config.arrive_share * radius_m
                 || (way_done && moment.is_in_the_disc()))

@@ -131,6 +131,8 @@ fn describe(links: Vec<LinkDescription>, left: Leg, right: Leg) -> Body {
         body: Extent {
             radius: 0.14,
             height: 0.58,
+            depth: None,
+            width: None,
         },
         play: 0.0,
         gait: serde_json::Value::Null,

@@ -170,7 +170,8 @@ pub(crate) fn planner(
                 table(tables, "climbing")?,
                 feet,
                 size.radius,
-            )?;
+            )?
+            .with_rectangle([size.depth, size.width].map(|m| m.unwrap_or(2.0 * size.radius)));
             Ok(match static_map {
                 Some(map) => Box::new(Guided::new(near, &solid(map)?, size.height)?),
                 None => Box::new(near),

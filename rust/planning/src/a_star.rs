@@ -10,8 +10,9 @@ use crate::plan::place_of;
 use crate::portals::{Portals, Scene};
 use crate::search::Search;
 use crate::seek::Seek;
+use crate::slits::Rectangle;
 use crate::terrain::{Needs, Terrain};
-use crate::{AStarConfig, Goal, Plan, PlanError, Planner};
+use crate::{AStarConfig, Footprint, Goal, Plan, PlanError, Planner};
 
 /// Plans by A* on the floor and obstacle grid, and over the stairs that join its levels.
 #[derive(Debug, Clone)]
@@ -51,6 +52,7 @@ impl AStar {
             limits,
             body_m: radius_m + config.margin,
             feet_m: 0.5 * feet.pair_width_m + config.foot_margin,
+            turned: None,
         };
         Ok(Self {
             config,
@@ -62,6 +64,18 @@ impl AStar {
             seek: Seek::default(),
             kept: None,
         })
+    }
+
+    /// The same planner for a robot that is as deep from front to back and as wide while it walks sideways, m: used with the footprint
+    /// `oriented`.
+    #[must_use]
+    pub fn with_rectangle(mut self, [depth_m, width_m]: [f64; 2]) -> Self {
+        let turns = self.config.footprint == Footprint::Oriented;
+        self.terrain.needs.turned = turns.then_some(Rectangle {
+            half_depth_m: 0.5 * depth_m + self.config.margin,
+            half_width_m: 0.5 * width_m + self.config.margin,
+        });
+        self
     }
 
     /// Room that the robot needs around its middle, m.
@@ -96,6 +110,7 @@ impl Planner for AStar {
         let settled = stairs.stairs.is_empty();
         let kept = self.rest(&stand, goal);
         let kept = match kept {
+            Some(rest) if rest.in_slit() => return Ok(self.hold(rest)),
             Some(rest) if rest.certain && settled && !rest.revealed => return Ok(self.hold(rest)),
             other => other,
         };
@@ -125,5 +140,10 @@ impl AStar {
             looked_m: self.seek.looked_m(),
         };
         self.portals.read(&scene, stairs);
+        let stuck = (self.terrain.index_at(stand.at_m))
+            .is_some_and(|start| self.portals.links.from(start).next().is_none());
+        if stuck && self.terrain.is_in_slit(&stand, &self.config) {
+            self.terrain.open_escape(stand.at_m, &self.config);
+        }
     }
 }

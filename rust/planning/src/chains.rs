@@ -62,6 +62,7 @@ impl Portals {
                 leave_m: None,
                 fit,
                 at_goal: false,
+                turned_rad: None,
             };
             let landing = Landing { stair, face, after };
             self.end(scene, entry, way, &landing, cost_m);

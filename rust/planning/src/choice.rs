@@ -20,6 +20,14 @@ pub(crate) struct Rest {
     pub(crate) revealed: bool,
 }
 
+impl Rest {
+    /// Whether the robot is on a leg sideways: until its end no other way is better.
+    pub(crate) fn in_slit(&self) -> bool {
+        let first = self.draft.sidles.first();
+        self.certain && first.is_some_and(|sidle| sidle.from_point == 0)
+    }
+}
+
 impl AStar {
     /// What is left of the path before where it holds.
     pub(crate) fn rest(&mut self, stand: &Stand, goal: &Goal) -> Option<Rest> {
@@ -31,7 +39,7 @@ impl AStar {
             return None;
         }
         let draft = kept.rest(&self.terrain, &self.portals, stand, &self.config)?;
-        let path = draft.annotate(&self.terrain, self.config.climb_cost);
+        let path = draft.annotate(&self.terrain, &self.config);
         Some(Rest {
             revealed: unknown_in(&path) < kept.unknown,
             certain: kept.end.is_certain(),
@@ -59,7 +67,7 @@ impl AStar {
                 };
             }
         };
-        let path = new.draft.annotate(&self.terrain, self.config.climb_cost);
+        let path = new.draft.annotate(&self.terrain, &self.config);
         let Some(rest) = kept else {
             return self.follow(new, path);
         };

@@ -3,12 +3,27 @@
 use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
 
+/// What has to stay clear of obstacles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Footprint {
+    /// The upright cylinder around the robot, whichever way it faces (002, III.D).
+    #[default]
+    Circle,
+    /// The same, and where there is no room for it the rectangle that holds the robot's body while it walks sideways.
+    Oriented,
+}
+
 /// Parameters of A* on the floor and obstacle grid: `[navigation.a_star]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AStarConfig {
     /// Radius of the upright cylinder that must stay clear of obstacles, m; default: the robot's own.
     pub radius: Option<f64>,
+    /// `circle`, or `oriented`: sideways through what is narrower than the circle.
+    pub footprint: Footprint,
+    /// What a metre sideways costs more.
+    pub sideways_cost: f64,
     /// Distance kept beyond the radius, m: sway, and what the map and the pose are wrong by.
     pub margin: f64,
     /// Up to this far beyond radius and margin, being near to an obstacle costs, m.
@@ -58,6 +73,8 @@ impl Default for AStarConfig {
     fn default() -> Self {
         Self {
             radius: None,
+            footprint: Footprint::Circle,
+            sideways_cost: 1.5,
             margin: 0.03,
             soft_range: 0.16,
             soft_cost: 1.5,
@@ -92,6 +109,7 @@ impl AStarConfig {
         }
         let not_negative = [
             ("margin", self.margin),
+            ("sideways_cost", self.sideways_cost),
             ("soft_range", self.soft_range),
             ("soft_cost", self.soft_cost),
             ("unknown_cost", self.unknown_cost),

@@ -6,7 +6,7 @@ use crate::line::Line;
 use crate::portals::{Portals, Stride};
 use crate::room::{SAME_M, distance_m};
 use crate::terrain::Terrain;
-use crate::{AStarConfig, Climb, Goal};
+use crate::{AStarConfig, Climb, Goal, Sidle};
 
 /// How far ahead on the path the robot is looked for, m: a path may come back to where it passed.
 const PROGRESS_M: f64 = 0.6;
@@ -15,6 +15,8 @@ const HORIZON_M: f64 = 1.0;
 /// An edge that moved by more than this is another one, m, rad.
 const MOVED_M: f64 = 0.03;
 const TURNED_RAD: f64 = 0.25;
+/// Room may seem this much less without a new plan, m, or half a cell.
+pub(crate) const SLACK_M: f64 = 0.03;
 /// So is one whose stair's height, or whose rise, differs by more than this, m.
 const LIFTED_M: f64 = 0.012;
 
@@ -72,7 +74,8 @@ impl Kept {
             let level_m = (climb.from_point == 0).then_some(stand.height_m);
             refresh(climb, level_m, tread, &mut draft.points_m, portals)?;
         }
-        (holds(&draft, terrain) && walks_on_level(&draft, terrain)).then_some(draft)
+        let holds = holds(&draft, terrain) && slits_hold(&draft, terrain, config);
+        (holds && walks_on_level(&draft, terrain)).then_some(draft)
     }
 }
 
@@ -80,7 +83,7 @@ impl Kept {
 fn holds(draft: &Draft, terrain: &Terrain) -> bool {
     let half_m = 0.5 * terrain.lattice.cell_m;
     let needs = &terrain.needs;
-    let least_m = (needs.body_m - half_m).max(needs.body_m - 0.03);
+    let least_m = (needs.body_m - half_m).max(needs.body_m - SLACK_M);
     let least_edge_m = needs.feet_m - half_m;
     draft.points_m.iter().enumerate().all(|(i, point)| {
         let Some(index) = terrain.index_at(*point) else {
@@ -91,6 +94,18 @@ fn holds(draft: &Draft, terrain: &Terrain) -> bool {
             && terrain.edge_clearance_m(index) >= least_edge_m
             && !terrain.levels.edge[index];
         roomy || at_stairs || terrain.weights[index].is_finite()
+    })
+}
+
+/// Whether there is room sideways where the robot is to walk so, by the same measure.
+fn slits_hold(draft: &Draft, terrain: &Terrain, config: &AStarConfig) -> bool {
+    let slack_m = (0.5 * terrain.lattice.cell_m).min(SLACK_M);
+    draft.sidles.iter().all(|sidle| {
+        let mut points = draft.points_m[sidle.from_point..=sidle.to_point].iter();
+        points.all(|&at_m| {
+            let weight = terrain.sideways_weight(at_m, sidle.heading_rad, slack_m, config);
+            weight.is_some()
+        })
     })
 }
 
@@ -233,9 +248,16 @@ fn cut(draft: &Draft, passed: usize, here: [f64; 2]) -> Draft {
         to_point: shifted(climb.to_point),
         steps: climb.steps[passed.saturating_sub(climb.from_point)..].to_vec(),
     });
+    let sidles = draft.sidles.iter().filter(|sidle| sidle.to_point > passed);
+    let sidles = sidles.map(|sidle| Sidle {
+        from_point: shifted(sidle.from_point),
+        to_point: shifted(sidle.to_point),
+        ..*sidle
+    });
     let spans = draft.spans.iter().filter(|span| span[1] > passed);
     Draft {
         climbs: climbs.collect(),
+        sidles: sidles.collect(),
         spans: spans.map(|span| span.map(shifted)).collect(),
         points_m,
     }

@@ -1,10 +1,12 @@
 //! From a route to a path: legs that are walked and legs that are climbed.
 
 use crate::portals::{Fit, Portals, Stride, Way};
+use crate::room::distance_m;
 use crate::search::Route;
 use crate::shortcut::{lay, walk};
+use crate::slits::TURNS_RAD;
 use crate::terrain::Terrain;
-use crate::{Climb, Path};
+use crate::{AStarConfig, Climb, Path, Sidle};
 
 /// A step begins where the one before it ended when it is no further away than this, m.
 const SAME_PLACE_M: f64 = 0.01;
@@ -14,7 +16,8 @@ const SAME_PLACE_M: f64 = 0.01;
 pub(crate) struct Draft {
     pub(crate) points_m: Vec<[f64; 2]>,
     pub(crate) climbs: Vec<Climb>,
-    /// Ranges of points at stairs, first and last, with what is walked close to edges.
+    pub(crate) sidles: Vec<Sidle>,
+    /// Ranges of points at stairs or in slits, first and last, with what is walked close to edges.
     pub(crate) spans: Vec<[usize; 2]>,
 }
 
@@ -89,7 +92,13 @@ impl Draft {
         if let Some(leave_m) = way.leave_m {
             lay(&mut self.points_m, leave_m, cell_m);
         }
-        self.spans.push([begin, self.points_m.len() - 1]);
+        let end = self.points_m.len() - 1;
+        self.spans.push([begin, end]);
+        self.sidles.extend(way.turned_rad.map(|heading_rad| Sidle {
+            from_point: begin,
+            to_point: end,
+            heading_rad,
+        }));
     }
 
     /// Number of steps.
@@ -116,8 +125,14 @@ impl Draft {
         self.spans.iter().any(here).then_some(before)
     }
 
+    /// The leg that is walked sideways to which the piece from a point to the next belongs.
+    fn sidle_at(&self, piece: usize) -> Option<&Sidle> {
+        let holds = |sidle: &&Sidle| (sidle.from_point..sidle.to_point).contains(&piece);
+        self.sidles.iter().find(holds)
+    }
+
     /// With clearance, unknown parts and cost under this terrain.
-    pub(crate) fn annotate(&self, terrain: &Terrain, climb_cost: f64) -> Path {
+    pub(crate) fn annotate(&self, terrain: &Terrain, config: &AStarConfig) -> Path {
         let points_m = self.points_m.clone();
         let index = |point: &[f64; 2]| terrain.index_at(*point);
         let unknown = points_m
@@ -131,8 +146,13 @@ impl Draft {
         let pieces = points_m.windows(2).enumerate();
         let walked_m: f64 = pieces
             .map(|(i, pair)| {
-                if self.at_stairs(i) {
-                    (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])
+                if let Some(sidle) = self.sidle_at(i) {
+                    distance_m(pair[0], pair[1])
+                        * terrain
+                            .sideways_weight(pair[1], sidle.heading_rad, 0.0, config)
+                            .unwrap_or(1.0 + config.sideways_cost)
+                } else if self.at_stairs(i) {
+                    distance_m(pair[0], pair[1])
                 } else {
                     let cost = terrain.straight_cost_m(pair[0], pair[1]);
                     cost.unwrap_or(f64::INFINITY)
@@ -144,7 +164,10 @@ impl Draft {
             unknown,
             clearance_m,
             climbs: self.climbs.clone(),
-            cost_m: walked_m + climb_cost * self.steps() as f64,
+            sidles: self.sidles.clone(),
+            cost_m: walked_m
+                + config.climb_cost * self.steps() as f64
+                + config.turn_cost * TURNS_RAD * self.sidles.len() as f64,
         }
     }
 }

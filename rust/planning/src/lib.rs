@@ -23,6 +23,7 @@ mod route;
 pub mod search;
 mod seek;
 mod shortcut;
+mod slits;
 mod slopes;
 mod specks;
 mod terrain;
@@ -30,6 +31,6 @@ mod treads;
 mod verge;
 
 pub use a_star::AStar;
-pub use config::AStarConfig;
+pub use config::{AStarConfig, Footprint};
 pub use guide::Guided;
-pub use plan::{Climb, Goal, NoWay, Path, Plan, PlanError, Planner, Refusal, Step};
+pub use plan::{Climb, Goal, NoWay, Path, Plan, PlanError, Planner, Refusal, Sidle, Step};

@@ -67,7 +67,18 @@ pub struct Climb {
     pub steps: Vec<Step>,
 }
 
-/// A path on the ground: legs that are walked, and between them legs that are climbed.
+/// A leg of a path that is walked sideways, straight, through what is too narrow to be walked straight ahead.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sidle {
+    /// Index of the path's point at which the robot has turned.
+    pub from_point: usize,
+    /// Index of the path's point at which it may turn back.
+    pub to_point: usize,
+    /// Where it faces in between, rad, in the map.
+    pub heading_rad: f64,
+}
+
+/// A path on the ground: legs that are walked, and between them legs that are climbed or walked sideways.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Path {
     /// Points in the map frame from the robot to the goal, m, no further apart than a cell's diagonal.
@@ -78,6 +89,8 @@ pub struct Path {
     pub clearance_m: Vec<f64>,
     /// The legs that are climbed, in their order; all else is walked.
     pub climbs: Vec<Climb>,
+    /// The legs that are walked sideways, in their order.
+    pub sidles: Vec<Sidle>,
     /// What it costs, in metres of open known floor.
     pub cost_m: f64,
 }

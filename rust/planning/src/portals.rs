@@ -1,5 +1,5 @@
 //! Where levels join: ways over the edges of stairs, square to each, from the cell where the robot lines up to the cell
-//! where it walks on.
+//! where it walks on. And ways through slits.
 
 use geometry::{Map, angle_between};
 use stairs::{ClimbingConfig, Feet, Stair, Staircase, Unfit};
@@ -56,7 +56,7 @@ pub(crate) enum Fit {
     Broken,
 }
 
-/// A link over stairs.
+/// A link over stairs, or through a slit.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Way {
     pub(crate) first: usize,
@@ -68,9 +68,11 @@ pub(crate) struct Way {
     pub(crate) fit: Fit,
     /// Whether it ends at the goal; otherwise what comes behind its last stair is not known.
     pub(crate) at_goal: bool,
+    /// The heading with which it is walked sideways, rad: it leads through a slit, and over no stair.
+    pub(crate) turned_rad: Option<f64>,
 }
 
-/// All ways over stairs. Reused.
+/// All ways over stairs and through slits. Reused.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Portals {
     pub(crate) links: Links,
@@ -112,6 +114,7 @@ impl Portals {
             self.enter_from_floor(scene, face);
             self.leave_to_floor(scene, face);
         }
+        self.slip_through(scene);
     }
 
     /// The way of a link.

@@ -102,7 +102,8 @@ pub(crate) fn explain(
     start: usize,
     goal: &Goal,
 ) -> NoWay {
-    let needed_m = terrain.needs.body_m;
+    let turned_m = terrain.needs.turned.map(|turned| turned.half_depth_m);
+    let needed_m = turned_m.map_or(terrain.needs.body_m, |m| m.min(terrain.needs.body_m));
     let widest = widest_way(terrain, ends, start);
     let gap_m = 2.0 * widest.clearance_m;
     let needed = 2.0 * needed_m;

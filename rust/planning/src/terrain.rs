@@ -8,6 +8,7 @@ use crate::AStarConfig;
 use crate::distance::{DistanceField, NOTHING_NEAR};
 use crate::judged::Judged;
 use crate::levels::{Levels, Limits, Stand};
+use crate::slits::Rectangle;
 use crate::specks::Specks;
 use crate::treads::Treads;
 use crate::verge::{Seen, Verge};
@@ -21,6 +22,8 @@ pub(crate) struct Needs {
     pub(crate) feet_m: f64,
     /// Of the ground that it walks on.
     pub(crate) limits: Limits,
+    /// To obstacles while it walks sideways, where it may.
+    pub(crate) turned: Option<Rectangle>,
 }
 
 /// The floor view as the planner reads it, row by row. Reused.
@@ -121,7 +124,13 @@ impl Terrain {
         if self.levels.any {
             self.edge_distance.compute(&self.levels.edge, self.cols);
         }
-        self.weigh(stand.at_m, config);
+        self.weigh(config);
+        if let Some(start) = self.index_at(stand.at_m) {
+            self.clearance_at_start_m = self.clearance_m(start);
+        }
+        if !self.is_in_slit(stand, config) {
+            self.open_escape(stand.at_m, config);
+        }
     }
 
     /// What ends higher above the robot's feet than a step is an obstacle to its body, flat as its top may be.
@@ -135,8 +144,8 @@ impl Terrain {
         }
     }
 
-    /// What a length costs, by clearance, escape and what is unseen.
-    fn weigh(&mut self, start_m: [f64; 2], config: &AStarConfig) {
+    /// What a length costs, by clearance and what is unseen.
+    fn weigh(&mut self, config: &AStarConfig) {
         let cell_m = self.lattice.cell_m;
         fill(
             &mut self.by_squared,
@@ -173,17 +182,15 @@ impl Terrain {
                 }
             }
         }
-        self.open_escape(start_m, config);
     }
 
     /// Where the robot already stands too near to something it may leave, but come no nearer.
-    fn open_escape(&mut self, start_m: [f64; 2], config: &AStarConfig) {
+    pub(crate) fn open_escape(&mut self, start_m: [f64; 2], config: &AStarConfig) {
         let Some(start) = self.index_at(start_m) else {
             return;
         };
         let Needs { body_m, feet_m, .. } = self.needs;
         let (at_start_m, to_edge_m) = (self.clearance_m(start), self.edge_clearance_m(start));
-        self.clearance_at_start_m = at_start_m;
         if at_start_m >= body_m && to_edge_m >= feet_m {
             return;
         }

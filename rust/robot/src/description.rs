@@ -268,6 +268,12 @@ pub struct Extent {
     pub radius: f64,
     /// Height of the top of the head while it stands, m.
     pub height: f64,
+    /// From front to back, and across, the upright box that holds the robot while it walks sideways, m; default: the cylinder's.
+    #[serde(default)]
+    pub depth: Option<f64>,
+    /// The same across.
+    #[serde(default)]
+    pub width: Option<f64>,
 }
 
 #[cfg(test)]

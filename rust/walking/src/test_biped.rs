@@ -106,6 +106,8 @@ pub(crate) fn description() -> Description {
         body: Extent {
             radius: 0.14,
             height: 0.5,
+            depth: None,
+            width: None,
         },
         play: 0.0,
         gait: serde_json::Value::Null,

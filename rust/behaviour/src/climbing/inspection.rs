@@ -124,6 +124,7 @@ pub(crate) fn straight_plan(from: &PlanarPose, to_m: [f64; 2]) -> Plan {
             unknown: vec![false; points_m.len()],
             clearance_m: vec![ROOM_M; points_m.len()],
             climbs: Vec::new(),
+            sidles: Vec::new(),
             cost_m: distance_m([from.x_m, from.y_m], to_m),
             points_m,
         }),

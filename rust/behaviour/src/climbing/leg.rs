@@ -80,6 +80,12 @@ impl<'a> Leg<'a> {
             unknown: path.unknown.iter().take(kept).copied().collect(),
             clearance_m: path.clearance_m.iter().take(kept).copied().collect(),
             climbs: Vec::new(),
+            sidles: path
+                .sidles
+                .iter()
+                .filter(|sidle| sidle.to_point < kept)
+                .copied()
+                .collect(),
             cost_m: path.cost_m,
         };
         cut.points_m.push([self.align.x_m, self.align.y_m]);

@@ -5,7 +5,8 @@ use std::collections::BinaryHeap;
 use geometry::{Cell, Grid, Lattice, PlanarPose, Pose};
 use localization::Estimate;
 use mapping::{FloorView, Surface};
-use planning::{Goal, NoWay, Path, Plan, Refusal};
+use planning::{AStar, Goal, NoWay, Path, Plan, Planner, Refusal};
+use stairs::Staircase;
 
 use crate::{
     Behaviour, Decision, Gaze, Motion, Outcome, Situation, WalkingBehaviour, WalkingConfig,
@@ -15,6 +16,8 @@ pub(crate) const TICK_NS: u64 = 10_000_000;
 const EYE_HEIGHT_M: f64 = 0.46;
 const BODY_RADIUS_M: f64 = 0.14;
 const CELL_M: f64 = 0.04;
+/// A planner is asked every so many frames.
+const PLANNED_FRAMES: u64 = 4;
 const CELLS: usize = 120;
 
 /// The plane with all that stands on it: discs of x, y, radius in metres.
@@ -30,6 +33,10 @@ pub(crate) struct Simulation {
     pub(crate) ends_at_the_rim: bool,
     /// Whether the planner says that there is no way.
     pub(crate) closed: bool,
+    /// Plans instead of the Dijkstra here.
+    pub(crate) planner: Option<AStar>,
+    /// Boxes: their lowest and highest corner, m.
+    pub(crate) boxes: Vec<[[f64; 2]; 2]>,
     pub(crate) pose: PlanarPose,
     pub(crate) goal: Goal,
     pub(crate) last_goal: bool,
@@ -59,6 +66,8 @@ impl Simulation {
             unseen_edge_m: None,
             ends_at_the_rim: false,
             closed: false,
+            planner: None,
+            boxes: Vec::new(),
             pose: start,
             goal: Goal {
                 x_m: goal[0],
@@ -109,7 +118,7 @@ impl Simulation {
                 time_ns: self.time_ns,
                 estimate: &estimate,
                 view: &self.view,
-                stairs: &stairs::Staircase::default(),
+                stairs: &Staircase::default(),
                 stepping: crate::Stepping {
                     stumbled: self.stumbled,
                     ..crate::Stepping::default()
@@ -177,9 +186,13 @@ impl Simulation {
 
     fn truth(&self, [x, y]: [f64; 2]) -> Surface {
         let within = |discs: &[[f64; 3]]| discs.iter().any(|d| (d[0] - x).hypot(d[1] - y) < d[2]);
+        let boxed = self
+            .boxes
+            .iter()
+            .any(|[low, high]| (low[0]..high[0]).contains(&x) && (low[1]..high[1]).contains(&y));
         if within(&self.holes) {
             Surface::Unknown
-        } else if within(&self.obstacles) {
+        } else if boxed || within(&self.obstacles) {
             Surface::Obstacle(0.3)
         } else {
             Surface::Floor(0.0)
@@ -212,6 +225,15 @@ impl Simulation {
     }
 
     fn make_plan(&mut self) {
+        if let Some(planner) = &mut self.planner {
+            if !self.frames.is_multiple_of(PLANNED_FRAMES) && self.plan.is_some() {
+                return;
+            }
+            let start = Pose::from_yaw(self.pose.x_m, self.pose.y_m, 0.0, self.pose.yaw_rad);
+            let plan = planner.plan(&self.view, &Staircase::default(), &start, &self.goal);
+            self.plan = Some(plan.unwrap());
+            return;
+        }
         let blocked_cells = self
             .view
             .cells

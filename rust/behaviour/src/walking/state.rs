@@ -9,6 +9,8 @@ pub(crate) enum State {
     Walk,
     /// Turns on the spot.
     Turn,
+    /// Walks sideways.
+    Sidle,
     /// Stands because something appeared or the way is gone.
     Stop,
     /// Stands at the goal.
@@ -24,10 +26,11 @@ pub(crate) enum State {
 impl State {
     /// All of them.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 8] = [
+    pub(crate) const ALL: [Self; 9] = [
         Self::LookAround,
         Self::Walk,
         Self::Turn,
+        Self::Sidle,
         Self::Stop,
         Self::Arrive,
         Self::Refuse,
@@ -41,6 +44,7 @@ impl State {
             Self::LookAround => "look_around",
             Self::Walk => "walk",
             Self::Turn => "turn",
+            Self::Sidle => "sidle",
             Self::Stop => "stop",
             Self::Arrive => "arrive",
             Self::Refuse => "refuse",
@@ -51,14 +55,14 @@ impl State {
 
     /// Whether the feet may move.
     pub(crate) const fn moves(self) -> bool {
-        matches!(self, Self::Walk | Self::Turn | Self::Locate)
+        matches!(self, Self::Walk | Self::Turn | Self::Sidle | Self::Locate)
     }
 
     /// Whether `next` may follow. Refusing is final; one who has arrived can only have slipped out again.
     pub(crate) const fn may_become(self, next: Self) -> bool {
         match self {
             Self::LookAround => !matches!(next, Self::Stop),
-            Self::Walk | Self::Turn | Self::Stop => true,
+            Self::Walk | Self::Turn | Self::Sidle | Self::Stop => true,
             Self::Arrive => matches!(next, Self::Stop),
             Self::Blind => matches!(
                 next,

@@ -36,6 +36,7 @@ impl WalkingBehaviour {
             State::LookAround => self.look_around(moment),
             State::Walk => self.walk(moment),
             State::Turn => self.turn(moment),
+            State::Sidle => self.sidle(moment),
             State::Stop => self.stop(moment),
             State::Arrive => self.arrive(moment),
             State::Refuse => {
@@ -110,6 +111,10 @@ impl WalkingBehaviour {
             self.look(Sweep::at(moment.bearing_rad(place_m), &self.config));
             return Motion::Stand;
         }
+        if moment.is_at_sidle() {
+            self.enter(State::Sidle);
+            return Motion::Stand;
+        }
         if self.must_turn(track) {
             self.enter(State::Turn);
         }
@@ -180,7 +185,7 @@ impl WalkingBehaviour {
     }
 
     /// Looks at what is new on the way, and at the watchdog; a motion when that ends the state.
-    fn check_way(&mut self, moment: &Moment<'_>) -> Option<Motion> {
+    pub(super) fn check_way(&mut self, moment: &Moment<'_>) -> Option<Motion> {
         let (path, track) = moment.track.as_ref()?;
         if moment.new_frame {
             let (view, stairs) = (moment.situation.view, moment.situation.stairs);
@@ -195,7 +200,7 @@ impl WalkingBehaviour {
             }
         }
         let detour = moment.situation.plan.is_some_and(|plan| plan.replanned);
-        let (remaining_m, passed_s) = (track.remaining_m, moment.passed_s);
+        let (remaining_m, passed_s) = (track.whole_m(), moment.passed_s);
         match self
             .progress
             .watch(remaining_m, detour, passed_s, &self.config)
@@ -213,7 +218,7 @@ impl WalkingBehaviour {
     }
 
     /// Just after a goal was passed the plan is not there yet; else the way is gone.
-    fn without_way(&mut self, moment: &Moment<'_>) -> Motion {
+    pub(super) fn without_way(&mut self, moment: &Moment<'_>) -> Motion {
         let waiting = moment.situation.plan.is_none() && self.no_plan_s < HOLD_S;
         if waiting {
             return self.motion.clone();

@@ -5,14 +5,17 @@ use planning::Path;
 
 use crate::Velocity;
 use crate::walking::WalkingConfig;
+use crate::walking::sidle::next_sidle;
 
 /// The path from the robot's place on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Track {
     /// Index of the path's point next to the robot.
     pub(crate) nearest: usize,
-    /// From the robot along the path to its end, m.
+    /// From the robot along the path to its end, or to where it has to turn to walk sideways, m,
     pub(crate) remaining_m: f64,
+    /// and from there on to its end, m.
+    pub(crate) beyond_m: f64,
     /// The point to steer to, in the robot's frame, m.
     pub(crate) target_m: [f64; 2],
     /// The nearest point of the path, in the robot's frame, m.
@@ -34,12 +37,14 @@ impl Track {
             let [x, y] = in_robot(index);
             x.hypot(y)
         };
-        let nearest =
-            (0..path.points_m.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b)))?;
+        let all = path.points_m.len();
+        let end = next_sidle(path, map_from_robot).map_or(all, |sidle| sidle.from_point + 1);
+        let end = end.min(all);
+        let nearest = (0..end).min_by(|&a, &b| distance(a).total_cmp(&distance(b)))?;
         let mut target_m = in_robot(nearest);
         let mut clearance_m = clearance(path, nearest);
         let mut along_m = 0.0;
-        for index in nearest + 1..path.points_m.len() {
+        for index in nearest + 1..end {
             let step_m = length(path, index);
             if along_m < lookahead_m {
                 target_m = in_robot(index);
@@ -50,10 +55,16 @@ impl Track {
         Some(Self {
             nearest,
             remaining_m: distance(nearest) + along_m,
+            beyond_m: (end..all).map(|index| length(path, index)).sum(),
             target_m,
             offset_m: in_robot(nearest),
             clearance_m,
         })
+    }
+
+    /// What is left of the path, m.
+    pub(crate) fn whole_m(&self) -> f64 {
+        self.remaining_m + self.beyond_m
     }
 
     /// The same way with a last straight piece to this place, in the robot's frame, m.
@@ -155,6 +166,7 @@ pub(crate) mod tests {
             unknown: vec![false; points_m.len()],
             clearance_m: vec![1.0; points_m.len()],
             climbs: Vec::new(),
+            sidles: Vec::new(),
             cost_m: length_m,
             points_m,
         }

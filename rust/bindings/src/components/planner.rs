@@ -89,6 +89,7 @@ fn describe(points_m: Vec<[f64; 2]>, view: &FloorView) -> Path {
         unknown,
         clearance_m,
         climbs: Vec::new(),
+        sidles: Vec::new(),
         cost_m,
     }
 }

@@ -63,6 +63,7 @@ fn terrain(higher_m: f32) -> Terrain {
         step_m: 0.05,
     };
     let mut terrain = Terrain::new(Needs {
+        turned: None,
         body_m: 0.1,
         feet_m: 0.08,
         limits,
@@ -87,6 +88,7 @@ fn what_is_walked_behind_the_last_step_lies_as_high_as_that() {
     let draft = Draft {
         points_m: vec![[0.1, 0.05], [0.3, 0.05], [0.5, 0.05], [0.8, 0.05]],
         climbs: vec![climb],
+        sidles: Vec::new(),
         spans: vec![[0, 3]],
     };
     assert!(walks_on_level(&draft, &terrain(0.017)));

@@ -20,6 +20,7 @@ fn plan(aside_m: f64) -> Plan {
     };
     let path = Path {
         climbs: vec![climb],
+        sidles: Vec::new(),
         ..Path::default()
     };
     Plan {

@@ -1,0 +1,211 @@
+//! Sideways through what is too narrow to be walked straight ahead: turn before it, then side steps with the heading kept.
+
+use geometry::{PlanarPose, angle_between};
+use planning::{Path, Sidle};
+
+use super::state::State;
+use super::track::turn_speed;
+use super::{Moment, WalkingBehaviour};
+use crate::walking::gaze::glance;
+use crate::{Motion, Velocity};
+
+/// A leg sideways is over when less than this is left of it, m.
+const DONE_M: f64 = 0.02;
+/// It begins when the robot is this near to where it has to turn, m.
+const THERE_M: f64 = 0.03;
+/// The robot turns on the spot until its heading is no further off than this, rad,
+const TURNED_RAD: f64 = 0.06;
+/// and again when it is further off than this, rad.
+const ASTRAY_RAD: f64 = 0.2;
+/// Further beside the leg than this it goes on only once it is back, m.
+const BESIDE_M: f64 = 0.03;
+
+/// The robot on a leg sideways.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct OnLeg {
+    /// What is left of it, m.
+    left_m: f64,
+    /// The leg's direction, in the robot's frame.
+    along: [f64; 2],
+    /// From the robot to the leg, square to it, in the robot's frame, m.
+    beside_m: [f64; 2],
+    /// By how much its heading is to change, rad.
+    turn_rad: f64,
+}
+
+impl OnLeg {
+    fn new(path: &Path, sidle: &Sidle, pose: &PlanarPose) -> Option<Self> {
+        let robot_from_map = pose.inverse();
+        let in_robot = |point: usize| {
+            let [x, y] = *path.points_m.get(point)?;
+            Some(robot_from_map.apply(x, y))
+        };
+        let ((x0, y0), (x1, y1)) = (in_robot(sidle.from_point)?, in_robot(sidle.to_point)?);
+        let length_m = (x1 - x0).hypot(y1 - y0);
+        if length_m < 1e-6 {
+            return None;
+        }
+        let along = [(x1 - x0) / length_m, (y1 - y0) / length_m];
+        let left_m = x1 * along[0] + y1 * along[1];
+        Some(Self {
+            left_m,
+            along,
+            beside_m: [x1 - left_m * along[0], y1 - left_m * along[1]],
+            turn_rad: angle_between(pose.yaw_rad, sidle.heading_rad),
+        })
+    }
+}
+
+/// The first leg sideways of a path that the robot has not come to the end of.
+pub(super) fn next_sidle<'a>(path: &'a Path, pose: &PlanarPose) -> Option<&'a Sidle> {
+    let over = |sidle: &&Sidle| {
+        let on_leg = OnLeg::new(path, sidle, pose);
+        sidle.from_point == 0 && on_leg.is_none_or(|on_leg| on_leg.left_m < DONE_M)
+    };
+    path.sidles.iter().find(|sidle| !over(sidle))
+}
+
+impl Moment<'_> {
+    /// Whether the robot is on a leg sideways, or where one begins.
+    pub(super) fn is_at_sidle(&self) -> bool {
+        self.track.is_some_and(|(path, track)| {
+            next_sidle(path, &self.pose)
+                .is_some_and(|sidle| sidle.from_point == 0 || track.remaining_m < THERE_M)
+        })
+    }
+}
+
+impl WalkingBehaviour {
+    pub(super) fn sidle(&mut self, moment: &Moment<'_>) -> Motion {
+        let Some((path, _)) = moment.track else {
+            return self.without_way(moment);
+        };
+        if let Some(motion) = self.check_way(moment) {
+            return motion;
+        }
+        let on_leg = next_sidle(path, &moment.pose)
+            .filter(|_| moment.is_at_sidle())
+            .and_then(|sidle| OnLeg::new(path, sidle, &moment.pose));
+        let Some(on_leg) = on_leg else {
+            self.enter(State::Walk);
+            return Motion::Stand;
+        };
+        self.idle_s = 0.0;
+        let bearing_rad = on_leg.along[1].atan2(on_leg.along[0]);
+        let gaze = glance(self.elapsed_s, bearing_rad, &self.config);
+        self.gazer
+            .turn(gaze, moment.passed_s, self.config.gaze_speed);
+        Motion::Walk(self.sidestep(&on_leg))
+    }
+
+    fn sidestep(&self, on_leg: &OnLeg) -> Velocity {
+        let turning = matches!(&self.motion, Motion::Walk(before)
+            if before.x_mps == 0.0 && before.y_mps == 0.0);
+        let allowed_rad = if turning { TURNED_RAD } else { ASTRAY_RAD };
+        if on_leg.turn_rad.abs() > allowed_rad {
+            return Velocity {
+                yaw_radps: turn_speed(on_leg.turn_rad, &self.config),
+                ..Velocity::default()
+            };
+        }
+        let OnLeg {
+            along, beside_m, ..
+        } = on_leg;
+        let side_mps = self.config.side_speed;
+        let aside_m = beside_m[0].hypot(beside_m[1]);
+        let along_mps = side_mps * (1.0 - aside_m / BESIDE_M).max(0.0);
+        let back = |axis: usize| (beside_m[axis]).clamp(-side_mps, side_mps);
+        Velocity {
+            x_mps: along_mps * along[0] + back(0),
+            y_mps: along_mps * along[1] + back(1),
+            yaw_radps: on_leg.turn_rad,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Outcome;
+    use crate::walking::simulation::Simulation;
+    use planning::{AStar, AStarConfig, Footprint};
+    use proptest::prelude::*;
+    use stairs::{ClimbingConfig, Feet};
+
+    /// Of the robot from front to back and across, and the radius of the planner's circle, m.
+    const BOX_M: [f64; 2] = [0.2, 0.35];
+    const RADIUS_M: f64 = 0.14;
+    /// Where in its cell a wall ends the map does not tell: half a cell, m.
+    const HALF_M: f64 = 0.02;
+
+    /// Before a wall with a gap of some width.
+    fn before_a_gap(start: PlanarPose, gap_m: f64, footprint: Footprint) -> Simulation {
+        let mut simulation = Simulation::new(start, [1.4, 0.0]);
+        let half_m = 0.5 * gap_m;
+        simulation.boxes = vec![[[0.6, half_m], [0.68, 2.4]], [[0.6, -2.4], [0.68, -half_m]]];
+        let config = AStarConfig {
+            footprint,
+            ..AStarConfig::default()
+        };
+        let feet = Feet {
+            length_m: 0.105,
+            pair_width_m: 0.16,
+            stance_m: 0.085,
+        };
+        let planner = AStar::new(config, ClimbingConfig::default(), feet, RADIUS_M).unwrap();
+        simulation.planner = Some(planner.with_rectangle(BOX_M));
+        simulation
+    }
+
+    /// How deep the corners of the wall reached into the robot, m, below 0 where none did: into its circle while it walks ahead or
+    /// turns, into its box while it walks sideways.
+    fn deepest_m(simulation: &Simulation, motion: &Motion) -> f64 {
+        let sideways = matches!(motion, Motion::Walk(v) if v.y_mps.abs() > v.x_mps.abs());
+        let corners = simulation.boxes.iter().flat_map(|[low, high]| {
+            let y = if low[1] > 0.0 { low[1] } else { high[1] };
+            [[low[0], y], [high[0], y]]
+        });
+        let robot_from_map = simulation.pose.inverse();
+        let inside = corners.map(|[x, y]| {
+            let (x, y) = robot_from_map.apply(x, y);
+            if sideways {
+                (0.5 * BOX_M[0] - x.abs()).min(0.5 * BOX_M[1] - y.abs())
+            } else {
+                RADIUS_M - HALF_M - x.hypot(y)
+            }
+        });
+        inside.fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(3))]
+
+        #[test]
+        fn what_is_too_narrow_straight_ahead_is_passed_sideways_without_contact(
+            x in -0.5..0.1f64, y in -0.4..0.4f64, yaw in -3.1..3.1f64,
+        ) {
+            let mut simulation = before_a_gap(PlanarPose::new(x, y, yaw), 0.28, Footprint::Oriented);
+            let mut outcome = None;
+            while outcome.is_none() && simulation.time_ns < 150_000_000_000 {
+                let decision = simulation.tick();
+                outcome = decision.outcome;
+                let deepest_m = deepest_m(&simulation, &decision.command.motion);
+                prop_assert!(deepest_m < 0.0, "{} at {:?}: {:?}", deepest_m, simulation.pose, simulation.states);
+            }
+            prop_assert_eq!(outcome, Some(Outcome::GoalReached), "{:?}", simulation.states);
+            prop_assert!(simulation.was_in("sidle"));
+        }
+    }
+
+    #[test]
+    fn the_circle_refuses_it_and_what_is_wide_is_walked_straight_ahead() {
+        let mut narrow = before_a_gap(PlanarPose::default(), 0.28, Footprint::Circle);
+        let (outcome, _) = narrow.run(150.0);
+        assert!(
+            matches!(outcome, Some(Outcome::Refused(reason)) if reason.starts_with("too_narrow: "))
+        );
+        let mut wide = before_a_gap(PlanarPose::default(), 0.5, Footprint::Oriented);
+        assert_eq!(wide.run(150.0).0, Some(Outcome::GoalReached));
+        assert!(!wide.was_in("sidle"));
+    }
+}
