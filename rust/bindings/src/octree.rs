@@ -144,11 +144,7 @@ impl PyOctree {
         let (origins, directions) = (origins.readonly(), directions.readonly());
         let origins = triples("origins", &origins)?;
         let directions = triples("directions", &directions)?;
-        if origins.len() != directions.len() || max_range <= 0.0 || max_range.is_nan() {
-            return Err(PyValueError::new_err(
-                "origins and directions must be as many, max_range > 0",
-            ));
-        }
+        must_be_rays(origins, directions, max_range)?;
         let (tree, max_range_m) = (&self.tree, max_range);
         let sighting = Sighting {
             max_range_m,
@@ -218,6 +214,20 @@ pub(crate) fn rows(
     let count = points.len();
     let points = points.into_flattened().into_pyarray(py);
     Ok((points.reshape([count, 3])?, numbers.into_pyarray(py)))
+}
+
+/// Refuses what makes no rays: as many origins as directions, and a reach.
+pub(crate) fn must_be_rays(
+    origins: &[[f64; 3]],
+    directions: &[[f64; 3]],
+    max_range: f64,
+) -> PyResult<()> {
+    if origins.len() != directions.len() || max_range <= 0.0 || max_range.is_nan() {
+        return Err(PyValueError::new_err(
+            "origins and directions must be as many, max_range > 0",
+        ));
+    }
+    Ok(())
 }
 
 /// The rows of an (n, 3) array.

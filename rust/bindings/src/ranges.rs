@@ -2,11 +2,10 @@
 
 use mapping::volume::{LANES, Lanes, RangeField, SolidVoxels};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::error::{bad_setting, failed, unpanicked};
-use crate::octree::{PyOctree, triples};
+use crate::octree::{PyOctree, must_be_rays, triples};
 
 /// How far rays get among the occupied voxels of an octree.
 #[pyclass(name = "RangeField", module = "treadwell._core")]
@@ -37,11 +36,7 @@ impl PyRangeField {
         let (origins, directions) = (origins.readonly(), directions.readonly());
         let origins = triples("origins", &origins)?;
         let directions = triples("directions", &directions)?;
-        if origins.len() != directions.len() || max_range <= 0.0 || max_range.is_nan() {
-            return Err(PyValueError::new_err(
-                "origins and directions must be as many, max_range > 0",
-            ));
-        }
+        must_be_rays(origins, directions, max_range)?;
         let (field, mut ends_m) = (&self.0, vec![0.0; origins.len()]);
         let cast = || {
             for (first, ends_m) in ends_m.chunks_mut(LANES).enumerate() {
