@@ -19,10 +19,22 @@ impl StairClimbing {
     /// Looks at what comes after the next step.
     pub(super) fn begin_look(&mut self, here: &Here<'_>) {
         const AHEAD_M: f64 = 0.2;
-        let step = self.flight.second().or(self.flight.first());
+        let step = self.edge_to_watch().or(self.flight.first());
         let place_m = step.map_or([AHEAD_M, 0.0], |step| self.crossed_at_m(here, step));
         self.head.look_at([place_m[0].max(0.15), place_m[1]]);
         self.phase(Phase::Look);
+    }
+
+    /// Of the edges behind the next one that are wanted the first that is not well measured.
+    fn edge_to_measure(&self) -> Option<&Step> {
+        let wanted = self.config.edges_ahead as usize;
+        let mut behind = self.flight.steps().iter().skip(1).take(wanted);
+        behind.find(|step| !self.is_well_measured(step))
+    }
+
+    /// The edge behind the next one that most is to be learnt of.
+    fn edge_to_watch(&self) -> Option<&Step> {
+        self.edge_to_measure().or(self.flight.second())
     }
 
     /// Where the robot will cross a step's front edge, in its frame, m.
@@ -43,8 +55,8 @@ impl StairClimbing {
                 }
             }
             Phase::Step => {
-                let second = self.flight.second();
-                let place_m = second.map_or([0.3, 0.0], |step| self.crossed_at_m(here, step));
+                let watched = self.edge_to_watch();
+                let place_m = watched.map_or([0.3, 0.0], |step| self.crossed_at_m(here, step));
                 self.head.turn_to(place_m, here.passed_s);
                 if here.new_frame {
                     self.go_on_without_a_stop(here);
@@ -56,11 +68,12 @@ impl StairClimbing {
         self.stepper.motion()
     }
 
-    /// Whether a glance will do: the step behind the next one was well measured, or the way leads on without a step.
+    /// Whether a glance will do: what is behind the next step was well measured, or the way leads on without a step.
     fn knows_enough(&self, here: &Here<'_>) -> bool {
         match (self.flight.first(), self.flight.second()) {
             (None, _) => here.has_level_way(),
-            (Some(_), second) => second.is_some_and(|second| self.is_well_measured(second)),
+            (Some(_), None) => false,
+            (Some(_), Some(_)) => self.edge_to_measure().is_none(),
         }
     }
 

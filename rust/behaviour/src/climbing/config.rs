@@ -20,6 +20,8 @@ pub struct StairClimbingConfig {
     pub edge_sigma: f64,
     /// and its heading as this, rad.
     pub heading_sigma: f64,
+    /// Edges behind the next one that are looked at before it is stepped by: more for a camera that sees nothing near its feet.
+    pub edges_ahead: u32,
     /// How far from `approach_x` the toes may be when a step is taken, m.
     pub near_tolerance: f64,
     /// How far from square to the edge the robot may be when a step is taken, rad.
@@ -52,6 +54,7 @@ impl Default for StairClimbingConfig {
             edge_frames: 4,
             edge_sigma: 0.006,
             heading_sigma: 0.045,
+            edges_ahead: 1,
             near_tolerance: 0.012,
             aligned: 0.09,
             longest_stride: 0.15,
@@ -95,6 +98,13 @@ impl StairClimbingConfig {
             "navigation.stair_climbing.gaze_steep",
             "from 0.5 to 1.5",
             steep,
+        )?;
+        let ahead = self.edges_ahead;
+        require(
+            ahead > 0,
+            "navigation.stair_climbing.edges_ahead",
+            "> 0",
+            ahead,
         )?;
         let tries = self.tries;
         require(tries > 0, "navigation.stair_climbing.tries", "> 0", tries)
