@@ -86,6 +86,9 @@ pub struct ParameterSet {
     pub back_x_limit: f64,
     /// Where the toes should be past that edge, m.
     pub back_x_desired: f64,
+    /// Longest way of the robot's middle in one step onto a stair, m: not in Table I. With legs whose hips stretch back little, the
+    /// ankle behind comes to its end as its foot is lifted off a lower step.
+    pub longest_stride: f64,
 }
 
 /// What the robot climbs: `[navigation.climbing]`, used by planner and behaviour alike.
@@ -121,6 +124,7 @@ impl Default for ClimbingConfig {
                 front_x_limit: -0.025,
                 back_x_limit: -0.005,
                 back_x_desired: -0.015,
+                longest_stride: 0.15,
             },
             descend: ParameterSet {
                 step_min_z: -0.050,
@@ -130,6 +134,7 @@ impl Default for ClimbingConfig {
                 front_x_limit: 0.015,
                 back_x_limit: 0.025,
                 back_x_desired: 0.015,
+                longest_stride: 0.15,
             },
         }
     }
@@ -154,6 +159,11 @@ impl ClimbingConfig {
         ] {
             let key = format!("navigation.climbing.{name}");
             require(value.is_finite() && value >= 0.0, &key, ">= 0", value)?;
+        }
+        for (set, parameters) in [("ascend", &self.ascend), ("descend", &self.descend)] {
+            let key = format!("navigation.climbing.{set}.longest_stride");
+            let stride = parameters.longest_stride;
+            require(stride.is_finite() && stride > 0.0, &key, "> 0", stride)?;
         }
         let level_x = self.level_x;
         let key = "navigation.climbing.level_x";

@@ -26,8 +26,6 @@ pub struct StairClimbingConfig {
     pub near_tolerance: f64,
     /// How far from square to the edge the robot may be when a step is taken, rad.
     pub aligned: f64,
-    /// Longest way of the robot's middle in one step onto a stair, m.
-    pub longest_stride: f64,
     /// Highest step, up or down, that is climbed without a stop: a knee that lifts the body from far below the next step bears no
     /// more than this, m.
     pub run_rise: f64,
@@ -57,7 +55,6 @@ impl Default for StairClimbingConfig {
             edges_ahead: 1,
             near_tolerance: 0.012,
             aligned: 0.09,
-            longest_stride: 0.15,
             run_rise: 0.042,
             step_forward: 0.09,
             step_side: 0.03,
@@ -79,7 +76,6 @@ impl StairClimbingConfig {
             ("heading_sigma", self.heading_sigma),
             ("near_tolerance", self.near_tolerance),
             ("aligned", self.aligned),
-            ("longest_stride", self.longest_stride),
             ("run_rise", self.run_rise),
             ("step_forward", self.step_forward),
             ("step_side", self.step_side),

@@ -179,9 +179,10 @@ impl Before<'_> {
             _ => 0.0,
         };
         let slack_m = half_pair_m * turn_rad.sin().abs();
-        let least_m = self.climbing.set_for(next.rise_m).front_x_limit + slack_m;
+        let set = self.climbing.set_for(next.rise_m);
+        let least_m = set.front_x_limit + slack_m;
         let here_m = next.stair.front.beyond_m([self.pose.x_m, self.pose.y_m]);
-        let stride_m = self.config.longest_stride + here_m - half_m;
+        let stride_m = set.longest_stride + here_m - half_m;
         let mut heel_m = footing.heel_m.min(stride_m).max(least_m);
         if let Onward::Edge { depth_m, rise_m } = onward {
             let limit_m = self.climbing.set_for(rise_m).back_x_limit - slack_m;

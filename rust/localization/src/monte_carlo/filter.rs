@@ -61,13 +61,13 @@ impl Filter {
         }));
     }
 
-    /// Guesses everywhere.
-    pub(super) fn start_anywhere(&mut self, map: &StaticMap, reading: &Reading) {
+    /// Guesses everywhere, other ones at another step.
+    pub(super) fn start_anywhere(&mut self, map: &StaticMap, reading: &Reading, step: u64) {
         let count = self.config.most_particles;
         let seed = self.config.seed;
         self.particles.clear();
         self.particles.extend((0..count).filter_map(|index| {
-            let mut stream = Stream::new(seed, 0, Purpose::Start, index);
+            let mut stream = Stream::new(seed, step, Purpose::Start, index);
             let pose = anywhere(map, reading, &mut stream)?;
             let weight = 1.0 / count as f64;
             Some(Particle { pose, weight })

@@ -45,13 +45,19 @@ pub(super) struct Search {
 }
 
 impl Search {
-    pub(super) fn anywhere(config: &MonteCarloConfig, map: &StaticMap, reading: &Reading) -> Self {
+    /// Begins at this step of the localizer.
+    pub(super) fn anywhere(
+        config: &MonteCarloConfig,
+        map: &StaticMap,
+        reading: &Reading,
+        step: u64,
+    ) -> Self {
         let config = MonteCarloConfig {
             seed: config.seed ^ OTHER_SEED,
             ..config.clone()
         };
         let mut filter = Filter::new(&config);
-        filter.start_anywhere(map, reading);
+        filter.start_anywhere(map, reading, step);
         Self {
             filter,
             config,

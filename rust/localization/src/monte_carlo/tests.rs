@@ -136,6 +136,23 @@ fn frames_to_find(walk: &mut Walk<'_>, most: usize) -> Option<usize> {
 }
 
 #[test]
+fn a_search_that_is_begun_again_guesses_elsewhere() {
+    let world = World::two_levels();
+    let config = MonteCarloConfig::default();
+    let map = world.map(&config);
+    let localizer = MonteCarloLocalizer::new(map.clone(), None, config.clone()).unwrap();
+    let mut walk = Walk::new(&world, localizer, PlanarPose::new(2.6, 1.2, 0.3), 0.0);
+    let _ = walk.step(0.0, 0.0);
+    let reading = walk.localizer.last.unwrap();
+    let places = |step| -> Vec<_> {
+        let search = Search::anywhere(&config, &map, &reading, step);
+        search.particles().map(|one| one.pose.place_m).collect()
+    };
+    assert_eq!(places(3), places(3));
+    assert_ne!(places(3), places(4));
+}
+
+#[test]
 fn on_two_levels_the_right_place_is_found_from_anywhere_in_9_of_10() {
     let world = World::two_levels();
     let places = [
