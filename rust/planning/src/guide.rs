@@ -8,6 +8,7 @@ use mapping::FloorView;
 use mapping::volume::SolidVoxels;
 use stairs::Staircase;
 
+use crate::keep::SLACK_M;
 use crate::plan::place_of;
 use crate::shortcut::lay;
 use crate::{AStar, Goal, Path, Plan, PlanError, Planner};
@@ -100,19 +101,42 @@ impl Guided {
         None
     }
 
-    /// Takes note of what stands in the window that the map does not have, on the robot's level.
-    fn note_obstacles(&mut self, robot_m: [f64; 3]) {
-        let needed_m = self.near.needed_m();
+    /// Room at a place more than the robot needs, m: less than none where something stands that the map may not have. `None` outside
+    /// the window, on another level, and at steps.
+    fn spare_m(&self, place: u32, robot_m: [f64; 3]) -> Option<f64> {
+        let [x, y, z] = self.floors.at_m(place);
+        if (z - robot_m[2]).abs() > LEVEL_M || self.floors.is_at_step(place) {
+            return None;
+        }
+        let near = (x - robot_m[0]).hypot(y - robot_m[1]) < OWN_M;
+        let clearance_m = self.near.clearance_m(x, y)?;
+        Some(if near {
+            0.0
+        } else {
+            clearance_m - self.near.needed_m()
+        })
+    }
+
+    /// Takes note of what stands in the window that the map does not have, on the robot's level, and looks for the way anew.
+    fn look_again(&mut self, robot_m: [f64; 3], goal: &Goal) {
         for place in 0..self.floors.len() as u32 {
-            let [x, y, z] = self.floors.at_m(place);
-            let near = (x - robot_m[0]).hypot(y - robot_m[1]) < OWN_M;
-            if (z - robot_m[2]).abs() > LEVEL_M || self.floors.is_at_step(place) {
-                continue;
-            }
-            if let Some(clearance_m) = self.near.clearance_m(x, y) {
-                self.blocked[place as usize] = clearance_m < needed_m && !near;
+            if let Some(spare_m) = self.spare_m(place, robot_m) {
+                self.blocked[place as usize] = spare_m < 0.0;
             }
         }
+        self.floors.aim(goal, &self.blocked, &mut self.field);
+        self.sent = None;
+    }
+
+    /// Whether something stands in the guide's way beyond where the planner is sent: what lies before that is the planner's to see.
+    fn meets_something(&self, way: &[u32], robot_m: [f64; 3]) -> bool {
+        let Some((_, sent)) = self.sent else {
+            return false;
+        };
+        let beyond = way.iter().skip_while(|place| **place != sent);
+        beyond
+            .filter_map(|place| self.spare_m(*place, robot_m))
+            .any(|spare_m| spare_m < -SLACK_M)
     }
 
     /// The place where the planner is sent by now.
@@ -151,6 +175,35 @@ impl Guided {
     }
 }
 
+/// What a plan is made of.
+struct Near<'a> {
+    view: &'a FloorView,
+    stairs: &'a Staircase,
+    start: &'a Pose<Map, Robot>,
+    /// Where the robot stands, m.
+    at_m: [f64; 3],
+}
+
+impl Guided {
+    /// One plan along the guide's way, and whether that way is broken.
+    fn plan_near(&mut self, near: &Near<'_>, goal: &Goal) -> Result<(Plan, bool), PlanError> {
+        let way = self.send(near.at_m, goal);
+        let target = self.sent.filter(|_| way.is_some());
+        let mut plan = (self.near).plan(
+            &self.prior.laid_under(near.view, near.at_m),
+            near.stairs,
+            near.start,
+            target.as_ref().map_or(goal, |(g, _)| g),
+        )?;
+        let meets = (way.as_ref()).is_some_and(|way| self.meets_something(way, near.at_m));
+        let broken = plan.way.is_err() || meets;
+        if let (Ok(path), Some(way), Some(sent)) = (&mut plan.way, &way, target) {
+            self.lengthen(path, way, sent, near.view.lattice.cell_m);
+        }
+        Ok((plan, broken))
+    }
+}
+
 impl Planner for Guided {
     fn plan(
         &mut self,
@@ -166,22 +219,19 @@ impl Planner for Guided {
             self.floors.aim(goal, &self.blocked, &mut self.field);
             (self.goal, self.sent) = (Some(*goal), None);
         }
-        let way = self.send(at_m, goal);
-        let target = self.sent.filter(|_| way.is_some());
-        let mut plan = (self.near).plan(
-            &self.prior.laid_under(view, at_m),
+        let near = Near {
+            view,
             stairs,
             start,
-            target.as_ref().map_or(goal, |(g, _)| g),
-        )?;
-        if plan.way.is_err() {
-            self.note_obstacles(at_m);
-            self.floors.aim(goal, &self.blocked, &mut self.field);
-            self.sent = None;
+            at_m,
+        };
+        let (plan, broken) = self.plan_near(&near, goal)?;
+        if !broken {
+            return Ok(plan);
         }
-        if let (Ok(path), Some(way), Some(sent)) = (&mut plan.way, &way, target) {
-            self.lengthen(path, way, sent, view.lattice.cell_m);
-        }
+        // What breaks a way is avoided by the plan that has it, not by the one after the next frame.
+        self.look_again(at_m, goal);
+        let (plan, _) = self.plan_near(&near, goal)?;
         Ok(plan)
     }
 

@@ -114,9 +114,8 @@ impl MonteCarloLocalizer {
         if !doubted && self.search.is_none() {
             return;
         }
-        let search = (self.search).get_or_insert_with(|| {
-            Search::anywhere(&self.config, &self.map, reading, self.step)
-        });
+        let search = (self.search)
+            .get_or_insert_with(|| Search::anywhere(&self.config, &self.map, reading, self.step));
         let news = since.map_or(1.0, |(before, _)| {
             search::news(before, reading, &self.config)
         });
