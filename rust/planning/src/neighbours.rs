@@ -2,102 +2,170 @@
 
 use std::f64::consts::SQRT_2;
 
-/// The direction of a step: west, east, south, north, then south west, south east, north west, north east.
-pub(crate) type Heading = u8;
-/// No step led here.
-pub(crate) const ANYWHERE: Heading = 8;
+use wide::f32x4;
 
-const WEST: u8 = 1;
-const EAST: u8 = 1 << 1;
-const SOUTH: u8 = 1 << 2;
-const NORTH: u8 = 1 << 3;
-const SOUTH_WEST: u8 = 1 << 4;
-const SOUTH_EAST: u8 = 1 << 5;
-const NORTH_WEST: u8 = 1 << 6;
-const NORTH_EAST: u8 = 1 << 7;
+use crate::steps::{Block, EASTERN, MIDDLE, Steps, Trail, WESTERN};
 
-/// For each heading the cell from which the step led and those of its neighbours that are neighbours here, too, and which it came
-/// upon by a straight step: that costs less than to go by this cell, whatever the weights.
-const BEHIND: [u8; 9] = [
-    EAST | SOUTH_EAST | NORTH_EAST,
-    WEST | SOUTH_WEST | NORTH_WEST,
-    NORTH | NORTH_WEST | NORTH_EAST,
-    SOUTH | SOUTH_WEST | SOUTH_EAST,
-    NORTH | EAST | NORTH_EAST,
-    NORTH | WEST | NORTH_WEST,
-    SOUTH | EAST | SOUTH_EAST,
-    SOUTH | WEST | SOUTH_WEST,
-    0,
-];
+/// How long the eight steps are, cells.
+const LENGTHS: [f64; 8] = [1.0, 1.0, 1.0, 1.0, SQRT_2, SQRT_2, SQRT_2, SQRT_2];
 
-/// Calls `visit` with every free neighbour of a cell, the length of the step and its heading; but for those behind, where a step
-/// led to the cell.
-#[inline]
-pub(crate) fn for_each_neighbour(
-    weights: &[f32],
+/// The cells of a grid, row by row, with what a length costs there: infinite where it may not be entered.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Cells<'a> {
+    weights: &'a [f32],
     cols: usize,
-    (cell, heading): (usize, Heading),
-    mut visit: impl FnMut(usize, f64, Heading),
-) {
-    let col = cell % cols;
-    // Row 0 has nothing below it: the index wraps around and is free nowhere.
-    let (below, above) = (cell.wrapping_sub(cols), cell + cols);
-    let [south_west, south, south_east] = free_about(weights, below);
-    let [west, _, east] = free_about(weights, cell);
-    let [north_west, north, north_east] = free_about(weights, above);
-    let (west, east) = (west && col > 0, east && col + 1 < cols);
-    let open = [
-        west,
-        east,
-        south,
-        north,
-        south_west && west && south,
-        south_east && east && south,
-        north_west && west && north,
-        north_east && east && north,
-    ];
-    let neighbours = [
-        cell.wrapping_sub(1),
-        cell + 1,
-        below,
-        above,
-        below.wrapping_sub(1),
-        below.wrapping_add(1),
-        above.wrapping_sub(1),
-        above + 1,
-    ];
-    let mut steps = 0;
-    for (at, open) in open.into_iter().enumerate() {
-        steps |= u8::from(open) << at;
-    }
-    steps &= !BEHIND[usize::from(heading)];
-    while steps != 0 {
-        let at = steps.trailing_zeros() as Heading;
-        steps &= steps - 1;
-        let length = if at < 4 { 1.0 } else { SQRT_2 };
-        visit(neighbours[usize::from(at)], length, at);
-    }
+    /// One over the columns in units of 2^-64, rounded up: tells a row's first cell without a division.
+    per_col: u64,
+    /// What leads from a cell's index to those of its neighbours, wrapping around.
+    offsets: [usize; 8],
 }
 
-/// Whether the cells before, at and behind an index are free.
-#[inline]
-fn free_about(weights: &[f32], index: usize) -> [bool; 3] {
-    let first = index.wrapping_sub(1);
-    if let Some(&[before, here, behind]) = weights.get(first..first.wrapping_add(3)) {
-        return [before, here, behind].map(f32::is_finite);
+impl<'a> Cells<'a> {
+    pub(crate) fn new(weights: &'a [f32], cols: usize) -> Self {
+        let per_col = (u64::MAX / cols.max(1) as u64).wrapping_add(1);
+        let (below, above) = (cols.wrapping_neg(), cols);
+        let beside = |row: usize| [row.wrapping_sub(1), row.wrapping_add(1)];
+        let [west, east] = beside(0);
+        let ([south_west, south_east], [north_west, north_east]) = (beside(below), beside(above));
+        Self {
+            weights,
+            cols,
+            per_col,
+            offsets: [
+                west, east, below, above, south_west, south_east, north_west, north_east,
+            ],
+        }
     }
-    let free = |index: usize| weights.get(index).is_some_and(|weight| weight.is_finite());
-    [free(first), free(index), free(index.wrapping_add(1))]
+
+    /// What a length costs in a cell, which may be where a way starts that nothing may enter.
+    #[inline]
+    pub(crate) fn weight_to_leave(&self, cell: usize) -> f32 {
+        let weight = self.weights[cell];
+        if weight.is_finite() { weight } else { 1.0 }
+    }
+
+    /// Whether a cell is the first of its row (Lemire, Kaser and Kurz 2019: exact for indices of 32 bits).
+    #[inline]
+    fn begins_row(&self, cell: usize) -> bool {
+        (cell as u64).wrapping_mul(self.per_col) <= self.per_col.wrapping_sub(1)
+    }
+
+    /// Which cells about one are free, and whether all of them cost as much as it does.
+    #[inline]
+    fn about(&self, cell: usize) -> (Block, bool) {
+        let [below, here, above] = [cell.wrapping_sub(self.cols), cell, cell + self.cols]
+            .map(|middle| self.three_about(middle));
+        let same = f32x4::splat(self.weights[cell]);
+        let (mut free, mut alike) = (0, 0);
+        for (row, weights) in [below, here, above].into_iter().enumerate() {
+            let three = |lanes: f32x4| (lanes.to_bitmask() as usize & 0b111) << (3 * row);
+            free |= three(weights.simd_lt(f32x4::splat(f32::INFINITY)));
+            alike |= three(weights.simd_eq(same));
+        }
+        let alike = (free & !alike) & !MIDDLE == 0;
+        if self.begins_row(cell) {
+            free &= !WESTERN;
+        }
+        if self.begins_row(cell + 1) {
+            free &= !EASTERN;
+        }
+        (free, alike)
+    }
+
+    /// The weights before, at and behind an index; the fourth is anything.
+    #[inline]
+    fn three_about(&self, index: usize) -> f32x4 {
+        let first = index.wrapping_sub(1);
+        // Row 0 has nothing below it: the index wraps around and is free nowhere.
+        if let Some(four) = self.weights.get(first..first.wrapping_add(4))
+            && let Some(&four) = four.first_chunk::<4>()
+        {
+            return f32x4::new(four);
+        }
+        self.at_end(first)
+    }
+
+    #[cold]
+    fn at_end(&self, first: usize) -> f32x4 {
+        let at = |index: usize| self.weights.get(index).copied().unwrap_or(f32::INFINITY);
+        f32x4::new(std::array::from_fn(|lane| at(first.wrapping_add(lane))))
+    }
+
+    /// Calls `visit` with every free neighbour of a cell, the length of the step and its trail; but for those that another way reaches for
+    /// less.
+    #[inline]
+    pub(crate) fn for_each_neighbour(
+        &self,
+        (cell, trail): (usize, Trail),
+        mut visit: impl FnMut(usize, f64, Trail),
+    ) {
+        let (free, alike) = self.about(cell);
+        for (at, trail) in Steps::from(free, alike, trail) {
+            visit(cell.wrapping_add(self.offsets[at]), LENGTHS[at], trail);
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::collections::{HashSet, VecDeque};
+
     use super::*;
     use proptest::prelude::*;
 
+    use crate::steps::ANYWHERE;
+
     const COLS: usize = 5;
 
+    /// What the ways from a cell cost, by all steps there are.
+    fn costs_from(start: usize, weights: &[f32]) -> Vec<f64> {
+        let cells = Cells::new(weights, COLS);
+        let mut costs = vec![f64::INFINITY; weights.len()];
+        costs[start] = 0.0;
+        let mut queue = VecDeque::from([start]);
+        while let Some(cell) = queue.pop_front() {
+            cells.for_each_neighbour((cell, ANYWHERE), |next, length, _| {
+                let through = costs[cell] + length * 0.5 * f64::from(weights[cell] + weights[next]);
+                if through < costs[next] - 1e-9 {
+                    costs[next] = through;
+                    queue.push_back(next);
+                }
+            });
+        }
+        costs
+    }
+
     proptest! {
+        #[test]
+        fn what_is_left_out_costs_half_a_cell_more(
+            blocked in prop::collection::vec(prop::bool::weighted(0.2), COLS * 7),
+            dear in 0..COLS * 7,
+            start in 0..COLS * 7,
+        ) {
+            // Two regions of one weight each.
+            let weight = |(cell, &blocked): (usize, &bool)| match (blocked && cell != start, cell < dear) {
+                (true, _) => f32::INFINITY,
+                (_, true) => 1.0,
+                (_, false) => 1.5,
+            };
+            let weights: Vec<f32> = blocked.iter().enumerate().map(weight).collect();
+            let (cells, costs) = (Cells::new(&weights, COLS), costs_from(start, &weights));
+            // Every trail by which a cheapest way comes to a cell.
+            let (mut seen, mut queue) = (HashSet::new(), vec![(start, ANYWHERE)]);
+            while let Some((cell, trail)) = queue.pop() {
+                let mut ahead = vec![];
+                cells.for_each_neighbour((cell, trail), |next, _, trail| ahead.push((next, trail)));
+                cells.for_each_neighbour((cell, ANYWHERE), |next, length, _| {
+                    let through = costs[cell] + length * 0.5 * f64::from(weights[cell] + weights[next]);
+                    match ahead.iter().find(|on| on.0 == next) {
+                        Some(&on) if through < costs[next] + 1e-9 && seen.insert(on) => queue.push(on),
+                        Some(_) => {}
+                        None => assert!(through > costs[next] + 0.5 || next == start),
+                    }
+                });
+            }
+        }
+
         #[test]
         fn what_is_behind_was_nearer_from_the_cell_before(
             weights in prop::collection::vec(prop_oneof![4 => 1.0..9.0f32, 1 => Just(f32::INFINITY)], COLS * 4),
@@ -105,12 +173,13 @@ mod tests {
         ) {
             let cost = |from: usize, to: usize, length: f64| length * 0.5 * f64::from(weights[from] + weights[to]);
             prop_assume!(weights[before].is_finite());
+            let cells = Cells::new(&weights, COLS);
             let mut from_before = vec![];
-            for_each_neighbour(&weights, COLS, (before, ANYWHERE), |next, length, heading| from_before.push((next, length, heading)));
+            cells.for_each_neighbour((before, ANYWHERE), |next, length, heading| from_before.push((next, length, heading)));
             for &(cell, length, heading) in &from_before {
                 let (mut ahead, mut all) = (vec![], vec![]);
-                for_each_neighbour(&weights, COLS, (cell, heading), |next, _, _| ahead.push(next));
-                for_each_neighbour(&weights, COLS, (cell, ANYWHERE), |next, length, _| all.push((next, length)));
+                cells.for_each_neighbour((cell, heading), |next, _, _| ahead.push(next));
+                cells.for_each_neighbour((cell, ANYWHERE), |next, length, _| all.push((next, length)));
                 for (next, on) in all.into_iter().filter(|(next, _)| !ahead.contains(next) && *next != before) {
                     let straight = from_before.iter().find(|step| step.0 == next).unwrap();
                     let by_cell = cost(before, cell, length) + cost(cell, next, on);

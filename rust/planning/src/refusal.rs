@@ -6,10 +6,11 @@ use std::collections::BinaryHeap;
 use stairs::{ClimbingConfig, Unfit};
 
 use crate::legs::link_between;
-use crate::neighbours::{ANYWHERE, for_each_neighbour};
+use crate::neighbours::Cells;
 use crate::portals::{Fit, Portals};
 use crate::route::Ends;
 use crate::search::{Route, Search};
+use crate::steps::ANYWHERE;
 use crate::terrain::Terrain;
 use crate::{Goal, NoWay, Refusal};
 
@@ -227,6 +228,7 @@ fn widest_way(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Widest {
     let open: Vec<f32> = stops
         .map(|(&blocked, &edge)| if blocked || edge { f32::INFINITY } else { 1.0 })
         .collect();
+    let cells = Cells::new(&open, terrain.cols);
     let mut seen = vec![false; open.len()];
     let mut queue = BinaryHeap::from([(u32::MAX, Reverse(start))]);
     let mut nearest_cells = f64::INFINITY;
@@ -244,7 +246,7 @@ fn widest_way(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Widest {
                 nearest_cells,
             };
         }
-        for_each_neighbour(&open, terrain.cols, (cell, ANYWHERE), |next, _, _| {
+        cells.for_each_neighbour((cell, ANYWHERE), |next, _, _| {
             if !seen[next] {
                 // Where the robot already stands too near it may leave: that does not narrow the way.
                 let leaving = terrain.weights[next].is_finite();

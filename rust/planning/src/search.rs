@@ -3,7 +3,9 @@
 use std::f64::consts::SQRT_2;
 
 use crate::links::Links;
-use crate::neighbours::{ANYWHERE, Heading, for_each_neighbour};
+use crate::neighbours::Cells;
+use crate::queue::{Entry, Queue};
+use crate::steps::ANYWHERE;
 
 /// No cell before this one.
 const NONE: u32 = u32::MAX;
@@ -34,30 +36,14 @@ pub struct Graph<'a> {
     pub links: Option<&'a Links>,
 }
 
-/// Width of a bucket of the queue, in cells.
-const BUCKET: f64 = 0.5;
-
-/// Arrays of a search. Reused; nothing is cleared between searches.
+/// Arrays of a search. Reused; only what the last search touched is cleared.
 #[derive(Debug, Clone, Default)]
 pub struct Search {
-    nodes: Vec<Node>,
-    round: u32,
-    /// Cells to expand, by the estimated cost through them; within a bucket the last one first. What is expanded too early
-    /// in its bucket is expanded again, so that the result is exact.
-    buckets: Vec<Vec<(f64, u32)>>,
+    known: Known,
+    /// What is expanded too early in its bucket is expanded again, so that the result is exact.
+    queue: Queue,
     /// Cells expanded by the last search.
     pub expanded: usize,
-}
-
-/// What a search knows of a cell; valid where `round` is the search's.
-#[derive(Debug, Clone, Copy)]
-struct Node {
-    cost: f64,
-    heuristic: f64,
-    parent: u32,
-    round: u32,
-    /// In which direction it was come upon.
-    heading: Heading,
 }
 
 impl Search {
@@ -95,116 +81,103 @@ impl Search {
             cols,
             links,
         } = graph;
+        let cells = Cells::new(weights, cols);
         let nodes = links.map_or(0, Links::nodes).max(weights.len());
-        self.begin(nodes);
-        let mut best: Option<(f64, usize)> = None;
-        self.reach(start, 0.0, (NONE, ANYWHERE), heuristic(start), 0);
-        let mut bucket = 0;
-        while bucket < self.buckets.len() {
-            if best.is_some_and(|(cost, _)| bucket as f64 * BUCKET >= cost) {
-                break;
-            }
-            let Some((cost, cell)) = self.buckets[bucket].pop() else {
-                bucket += 1;
-                continue;
-            };
+        let Self {
+            known,
+            queue,
+            expanded,
+        } = self;
+        known.begin(nodes, start);
+        *expanded = 0;
+        let first = Entry {
+            cost: 0.0,
+            cell: start as u32,
+            trail: ANYWHERE,
+        };
+        queue.begin(heuristic(start), first);
+        let (mut best, mut last) = (f64::INFINITY, None);
+        while let Some(Entry { cost, cell, trail }) = queue.pop(best) {
             let here = cell as usize;
-            let node = self.nodes[here];
-            if cost > node.cost || best.is_some_and(|(b, _)| cost + node.heuristic >= b) {
+            if cost > known.costs[here] || last.is_some() && cost + heuristic(here) >= best {
                 continue; // reached more cheaply since, or no use
             }
-            self.expanded += 1;
+            *expanded += 1;
             if let Some(end) = ending(here)
-                && best.is_none_or(|(known, _)| cost + end < known)
+                && cost + end < best
             {
-                best = Some((cost + end, here));
+                (best, last) = (cost + end, Some(here));
             }
             if here >= weights.len() {
                 continue; // no cell: nothing leads on
             }
-            let weight = if weights[here].is_finite() {
-                weights[here]
-            } else {
-                1.0
-            };
-            let come = (here, node.heading);
-            for_each_neighbour(weights, cols, come, |next, length, heading| {
-                let through = cost + length * 0.5 * f64::from(weight + weights[next]);
-                let known = self.nodes[next];
-                if known.round != self.round {
-                    self.reach(next, through, (cell, heading), heuristic(next), bucket);
-                } else if through < known.cost {
-                    self.reach(next, through, (cell, heading), known.heuristic, bucket);
+            let mut reach = |next: usize, cost: f64, trail| {
+                if cost < known.costs[next] {
+                    known.reach(next, cost, cell);
+                    let cell = next as u32;
+                    queue.push(cost + heuristic(next), Entry { cost, cell, trail });
                 }
+            };
+            let weight = cells.weight_to_leave(here);
+            cells.for_each_neighbour((here, trail), |next, length, trail| {
+                let step = length * 0.5 * f64::from(weight + weights[next]);
+                reach(next, cost + step, trail);
             });
             for (index, link) in links.into_iter().flat_map(|links| links.from(here)) {
-                let (next, through) = (link.to as usize, cost + link.cost);
-                let known = self.nodes[next];
-                if open(index) && (known.round != self.round || through < known.cost) {
-                    self.reach(next, through, (cell, ANYWHERE), heuristic(next), bucket);
+                if open(index) {
+                    reach(link.to as usize, cost + link.cost, ANYWHERE);
                 }
             }
         }
-        best.map(|(cost, end)| Route {
-            cells: self.back_from(end),
-            cost,
+        last.map(|end| Route {
+            cells: known.back_from(end),
+            cost: best,
         })
     }
+}
 
-    fn begin(&mut self, nodes: usize) {
-        if self.nodes.len() < nodes || self.round == u32::MAX {
-            let unreached = Node {
-                cost: 0.0,
-                heuristic: 0.0,
-                parent: NONE,
-                round: 0,
-                heading: ANYWHERE,
-            };
-            self.nodes = vec![unreached; nodes];
-            self.round = 0;
+/// What a search knows of the cells.
+#[derive(Debug, Clone, Default)]
+struct Known {
+    /// Infinite where it was not.
+    costs: Vec<f64>,
+    /// By which cell it was reached; old where it was not.
+    parents: Vec<u32>,
+    /// The cells that it reached, and one place more.
+    reached: Vec<u32>,
+    count: usize,
+}
+
+impl Known {
+    /// Forgets all but the start.
+    fn begin(&mut self, nodes: usize, start: usize) {
+        for &cell in &self.reached[..self.count] {
+            self.costs[cell as usize] = f64::INFINITY;
         }
-        self.round += 1;
-        for bucket in &mut self.buckets {
-            bucket.clear();
+        self.count = 0;
+        if self.costs.len() < nodes {
+            self.costs.resize(nodes, f64::INFINITY);
+            self.parents.resize(nodes, NONE);
+            self.reached.resize(nodes + 1, NONE);
         }
-        self.expanded = 0;
+        self.reach(start, 0.0, NONE);
     }
 
     #[inline]
-    fn reach(
-        &mut self,
-        cell: usize,
-        cost: f64,
-        (parent, heading): (u32, Heading),
-        heuristic: f64,
-        now: usize,
-    ) {
-        self.nodes[cell] = Node {
-            cost,
-            heuristic,
-            parent,
-            round: self.round,
-            heading,
-        };
-        // Rounding must not put it where the search has passed.
-        let bucket = (((cost + heuristic) / BUCKET) as u32 as usize).max(now);
-        if bucket >= self.buckets.len() {
-            self.more_buckets(bucket + 1);
-        }
-        self.buckets[bucket].push((cost, cell as u32));
-    }
-
-    #[cold]
-    fn more_buckets(&mut self, count: usize) {
-        self.buckets.resize_with(count, Vec::new);
+    fn reach(&mut self, cell: usize, cost: f64, parent: u32) {
+        // Whether it is a new one cannot be foretold: it is noted anyway, and counted where it is.
+        self.reached[self.count] = cell as u32;
+        self.count += usize::from(self.costs[cell].is_infinite());
+        self.costs[cell] = cost;
+        self.parents[cell] = parent;
     }
 
     fn back_from(&self, end: usize) -> Vec<u32> {
         let mut cells = vec![end as u32];
-        let mut parent = self.nodes[end].parent;
+        let mut parent = self.parents[end];
         while parent != NONE {
             cells.push(parent);
-            parent = self.nodes[parent as usize].parent;
+            parent = self.parents[parent as usize];
         }
         cells.reverse();
         cells
@@ -244,7 +217,7 @@ mod tests {
                 prop_assert!(expanded <= search.expanded + COLS);
                 for pair in found.cells.windows(2) {
                     let mut adjacent = false;
-                    for_each_neighbour(&weights, COLS, (pair[0] as usize, ANYWHERE), |cell, _, _| {
+                    Cells::new(&weights, COLS).for_each_neighbour((pair[0] as usize, ANYWHERE), |cell, _, _| {
                         adjacent |= cell == pair[1] as usize;
                     });
                     prop_assert!(adjacent);
