@@ -159,6 +159,18 @@ impl Floors {
         (self.steps(place)).any(|(next, _)| (self.height_m[next as usize] - height_m).abs() > 0.01)
     }
 
+    /// For each column whether a step is no further away than `near_m`, m.
+    pub(super) fn columns_near_steps(&self, near_m: f64) -> Vec<bool> {
+        let mut near = vec![false; self.cols * self.rows];
+        for place in (0..self.len() as u32).filter(|place| self.is_at_step(*place)) {
+            let [x, y, _] = self.at_m(place);
+            for (beside, _) in self.around([x, y], near_m) {
+                near[self.column[beside as usize] as usize] = true;
+            }
+        }
+        near
+    }
+
     /// The way from everywhere to a goal (Dijkstra), but through places that are `blocked`.
     pub(super) fn aim(&self, goal: &Goal, blocked: &[bool], field: &mut Field) {
         field.cost_m.clear();

@@ -11,28 +11,36 @@ const LEVEL_M: f64 = 0.02;
 const OTHER_LEVEL_M: f64 = 0.5;
 /// What is lower above the robot's floor is no obstacle, m.
 const STEP_M: f64 = 0.1;
+/// So far from the map's steps nothing that is seen is a riser, m: the robot may be as far off, and its camera at an angle.
+const STAIRS_M: f64 = 0.25;
 /// Prior floor counts as seen so often.
 const SIGHTINGS: u16 = u16::MAX;
 
-/// Lays the map's floor and obstacles, on the robot's level, under what was seen.
+/// Lays the map's floor and obstacles, on the robot's level, under what was seen, and says of what was seen that it is no riser.
 #[derive(Debug, Clone)]
 pub(super) struct Prior {
     solid: SolidVoxels,
     /// Of a body without a width.
     floors: Floors,
+    /// For each column whether steps of the map are near.
+    has_steps: Vec<bool>,
     height_m: f64,
 }
 
 impl Prior {
     pub(super) fn new(solid: &SolidVoxels, height_m: f64) -> Self {
+        let floors = Floors::new(solid, [0.0, height_m]);
         Self {
-            floors: Floors::new(solid, [0.0, height_m]),
+            has_steps: floors.columns_near_steps(STAIRS_M),
+            floors,
             solid: solid.clone(),
             height_m,
         }
     }
 
     /// A view, with the map's floor and obstacles where it is unknown. The floor has the height that the robot believes to stand on.
+    /// What stands on floor of the map, away from its steps, is as tall as the robot: who would have to come near to see that a low
+    /// thing is no riser sees someone who has stepped in the way too late.
     pub(super) fn laid_under(&self, view: &FloorView, robot_m: [f64; 3]) -> FloorView {
         let mut laid = view.clone();
         let Some(under) = self.floors.under(robot_m, |_| true) else {
@@ -41,22 +49,28 @@ impl Prior {
         let [.., level_m] = self.floors.at_m(under);
         let area = laid.cells.area();
         for cell in area.cells() {
-            if view.cell(cell) != Surface::Unknown {
-                continue;
-            }
-            let at_m = laid.lattice.center_of(cell);
-            let (surface, sightings) = match self.surface(at_m, level_m) {
-                Surface::Unknown => continue,
-                Surface::Floor(_) => (Surface::Floor(robot_m[2] as f32), SIGHTINGS),
-                Surface::Obstacle(_) => (Surface::Obstacle((robot_m[2] + self.height_m) as f32), 0),
-            };
-            if let (Some(slot), Some(count)) =
+            let (Some(slot), Some(count)) =
                 (laid.cells.get_mut(cell), laid.sightings.get_mut(cell))
-            {
-                (*slot, *count) = (surface, sightings);
+            else {
+                continue;
+            };
+            let at_m = laid.lattice.center_of(cell);
+            let tall = Surface::Obstacle((robot_m[2] + self.height_m) as f32);
+            match (*slot, self.surface(at_m, level_m)) {
+                (Surface::Unknown, Surface::Floor(_)) => {
+                    (*slot, *count) = (Surface::Floor(robot_m[2] as f32), SIGHTINGS);
+                }
+                (Surface::Unknown, Surface::Obstacle(_)) => (*slot, *count) = (tall, 0),
+                (Surface::Obstacle(_), Surface::Floor(_)) if !self.has_steps(at_m) => *slot = tall,
+                _ => {}
             }
         }
         laid
+    }
+
+    /// Whether steps of the map are near a place.
+    fn has_steps(&self, at_m: [f64; 2]) -> bool {
+        (self.floors.column_at(at_m)).is_none_or(|column| self.has_steps[column])
     }
 
     /// What the map has at a place for who stands on a level, m.
@@ -120,7 +134,29 @@ mod tests {
         assert_eq!(above.at(0.3, 0.3), Surface::Unknown);
         // What was seen stays.
         let mut seen = view;
-        seen.cells.values_mut().fill(Surface::Obstacle(0.2));
+        seen.cells.values_mut().fill(Surface::Floor(0.03));
         assert_eq!(prior.laid_under(&seen, [0.6, 0.3, 0.0]), seen);
+    }
+
+    #[test]
+    fn what_stands_on_the_maps_floor_is_no_riser_but_beside_steps_it_may_be() {
+        let boxes = [
+            [[0.0, 0.0, -0.04], [2.0, 1.0, 0.0]],
+            [[1.6, 0.0, 0.0], [2.0, 1.0, 0.04]],
+        ];
+        let prior = Prior::new(&SolidVoxels::of_boxes(&boxes, 0.04).unwrap(), 0.58);
+        let view = FloorView {
+            lattice: Lattice {
+                origin_m: [0.0, 0.0],
+                cell_m: 0.04,
+            },
+            cells: Grid::filled(50, 25, Surface::Obstacle(0.05)),
+            sightings: Grid::filled(50, 25, 3),
+            gradients: Grid::filled(50, 25, [0.0; 2]),
+        };
+        let laid = prior.laid_under(&view, [0.6, 0.3, 0.0]);
+        assert_eq!(laid.at(1.0, 0.5), Surface::Obstacle(0.58));
+        assert_eq!(laid.at(1.5, 0.5), Surface::Obstacle(0.05));
+        assert_eq!(laid.sightings, view.sightings);
     }
 }
