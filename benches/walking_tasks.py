@@ -50,6 +50,7 @@ class Job:
     pushed: float
     slope: float
     told: bool = False
+    head_kg: float = 0.0
 
 
 def straight(_rng: np.random.Generator, _job: Job) -> Plan:

@@ -3,6 +3,7 @@
     python benches/walking_trials.py straight --trials 200 --workers 2
     python benches/walking_trials.py push_sideways --impulse 1.5 --trials 100 --first-seed 5000
     python benches/walking_trials.py climb_up climb_down --rise 0.05 --x-error 0.01 --trials 40
+    python benches/walking_trials.py wander --robot nao --impulse 0 --head-weight 0.25
 
 Every seed draws friction (0.6 to 1.0), masses (all off by up to 10 %, each link by 3 % more),
 encoder offsets, the IMU's biases, and the task's own numbers; every noise is on. A trial is lost
@@ -91,6 +92,8 @@ class World:
         scale = rng.uniform(0.97, 1.03, model.nbody)
         model.body_mass *= scale
         model.body_inertia *= scale[:, None]
+        # Where the head's own mass is; the controller does not know of it.
+        model.body_mass[model.cam_bodyid[model.camera(robot.file.camera.name).id]] += job.head_kg
         mujoco.mj_setConst(model, mujoco.MjData(model))
         self.simulation = Simulation(model, robot, Start(height=self.start_height))
         self.sensors = Sensors(model, robot, scenario.sensors, streams)
@@ -238,6 +241,7 @@ def main() -> int:
     parser.add_argument("--pushed", type=float, default=0.0, help="every 2 to 4 s on stairs, N s")
     parser.add_argument("--slope", type=float, default=5.0, help="degrees")
     parser.add_argument("--told", action="store_true", help="where the slope is")
+    parser.add_argument("--head-weight", type=float, default=0.0, help="more on the head, kg")
     parser.add_argument("--gait", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--json", type=Path, help="file for all trials")
     arguments = parser.parse_args()
@@ -256,6 +260,7 @@ def main() -> int:
         pushed=arguments.pushed,
         slope=arguments.slope,
         told=arguments.told,
+        head_kg=arguments.head_weight,
     )
     results = []
     for task in arguments.task:
