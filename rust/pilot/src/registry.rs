@@ -163,22 +163,21 @@ pub(crate) fn planner(
 ) -> Result<Box<dyn Planner>, PilotError> {
     let tables = &settings.navigation.tables;
     let size = &body.description().body;
-    match settings.navigation.planner.as_str() {
-        "a_star" => {
-            let near = AStar::new(
-                table(tables, "a_star")?,
-                table(tables, "climbing")?,
-                feet,
-                size.radius,
-            )?
-            .with_rectangle([size.depth, size.width].map(|m| m.unwrap_or(2.0 * size.radius)));
-            Ok(match static_map {
-                Some(map) => Box::new(Guided::new(near, &solid(map)?, size.height)?),
-                None => Box::new(near),
-            })
-        }
-        other => Err(unknown("planner", other, "a_star")),
-    }
+    let a_star = || {
+        let (config, climbing) = (table(tables, "a_star")?, table(tables, "climbing")?);
+        let near = AStar::new(config, climbing, feet, size.radius)?;
+        let sides = [size.depth, size.width].map(|m| m.unwrap_or(2.0 * size.radius));
+        Ok::<_, PilotError>(near.with_rectangle(sides))
+    };
+    let near = match settings.navigation.planner.as_str() {
+        "a_star" => a_star()?,
+        "voronoi" => a_star()?.along_voronoi(table(tables, "voronoi")?)?,
+        other => return Err(unknown("planner", other, "a_star, voronoi")),
+    };
+    Ok(match static_map {
+        Some(map) => Box::new(Guided::new(near, &solid(map)?, size.height)?),
+        None => Box::new(near),
+    })
 }
 
 /// The body's feet, side by side as the walker stands on them.

@@ -12,7 +12,8 @@ use crate::search::Search;
 use crate::seek::Seek;
 use crate::slits::Rectangle;
 use crate::terrain::{Needs, Terrain};
-use crate::{AStarConfig, Footprint, Goal, Plan, PlanError, Planner};
+use crate::voronoi::VoronoiField;
+use crate::{AStarConfig, Footprint, Goal, Plan, PlanError, Planner, VoronoiConfig};
 
 /// Plans by A* on the floor and obstacle grid, and over the stairs that join its levels.
 #[derive(Debug, Clone)]
@@ -76,6 +77,13 @@ impl AStar {
             half_width_m: 0.5 * width_m + self.config.margin,
         });
         self
+    }
+
+    /// The same planner on the lines of the generalized Voronoi diagram: with as much room to either side as there is.
+    pub fn along_voronoi(mut self, config: VoronoiConfig) -> Result<Self, ConfigError> {
+        config.check()?;
+        self.terrain.voronoi = Some(VoronoiField::new(config));
+        Ok(self)
     }
 
     /// Room that the robot needs around its middle, m.

@@ -31,8 +31,10 @@ mod steps;
 mod terrain;
 mod treads;
 mod verge;
+mod voronoi;
 
 pub use a_star::AStar;
 pub use config::{AStarConfig, Footprint};
 pub use guide::Guided;
 pub use plan::{Climb, Goal, NoWay, Path, Plan, PlanError, Planner, Refusal, Sidle, Step};
+pub use voronoi::VoronoiConfig;

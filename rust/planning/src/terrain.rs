@@ -12,6 +12,7 @@ use crate::slits::Rectangle;
 use crate::specks::Specks;
 use crate::treads::Treads;
 use crate::verge::{Seen, Verge};
+use crate::voronoi::VoronoiField;
 
 /// Room that the robot needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,6 +46,8 @@ pub(crate) struct Terrain {
     treads: Treads,
     pub(crate) judged: Judged,
     verge: Verge,
+    /// Where the way is to keep to the lines with most room.
+    pub(crate) voronoi: Option<VoronoiField>,
     /// What a length costs in a cell: 1 on open known floor, infinite where the robot may not be.
     pub(crate) weights: Vec<f32>,
     specks: Specks,
@@ -73,6 +76,7 @@ impl Terrain {
             treads: Treads::default(),
             judged: Judged::default(),
             verge: Verge::default(),
+            voronoi: None,
             weights: Vec::new(),
             specks: Specks::default(),
             by_squared: Vec::new(),
@@ -164,6 +168,9 @@ impl Terrain {
             };
             self.weights
                 .push(self.by_squared[furthest.min(squared as usize)] + unseen);
+        }
+        if let Some(field) = &mut self.voronoi {
+            field.weigh(&mut self.weights, &self.distance, (self.cols, cell_m));
         }
         if self.levels.any {
             let soft_m = 0.5 * config.soft_range;

@@ -4,7 +4,7 @@
 
 use geometry::{Cell, Grid, Lattice, Map, PlanarPose, Pose, Robot};
 use mapping::{FloorView, Surface};
-use planning::{AStar, AStarConfig, Goal, Path, Plan, PlanError, Planner, Refusal};
+use planning::{AStar, AStarConfig, Goal, Path, Plan, PlanError, Planner, Refusal, VoronoiConfig};
 use proptest::prelude::*;
 use stairs::{ClimbingConfig, Feet, Staircase};
 
@@ -348,4 +348,49 @@ fn what_is_no_number_is_refused() {
         .plan(&floor(), &Staircase::default(), &away, &goal(1.0, 0.0))
         .unwrap();
     assert_eq!(lost.way.unwrap_err().refusal, Refusal::NoPath);
+}
+
+/// Where a path is across a corridor from one row of obstacles to another, m from its middle, away from its ends.
+fn off_middle_m(path: &Path, middle_m: f64) -> f64 {
+    let inner = path
+        .points_m
+        .iter()
+        .filter(|at| (0.6..1.2).contains(&at[0]));
+    inner.map(|at| (at[1] - middle_m).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn along_the_diagram_the_way_keeps_to_the_middle_of_a_corridor() {
+    let mut view = floor();
+    paint(&mut view, [-0.2, 0.4], [1.4, 0.6], Surface::Obstacle(0.5));
+    paint(&mut view, [-0.2, -0.9], [1.4, -0.7], Surface::Obstacle(0.5));
+    let goal = goal(1.7, 0.1);
+    let short = way(&mut planner(), &view, START, &goal);
+    let mut planner = planner().along_voronoi(VoronoiConfig::default()).unwrap();
+    let roomy = way(&mut planner, &view, START, &goal);
+    assert!(off_middle_m(&short, -0.15) > 0.12);
+    assert!(
+        off_middle_m(&roomy, -0.15) < CELL + 1e-9,
+        "{:?}",
+        roomy.points_m
+    );
+}
+
+proptest! {
+    #[test]
+    fn along_the_diagram_there_is_a_way_where_there_is_one(
+        boxes in prop::collection::vec((-1.9..1.5f64, -1.9..1.5f64, 0.05..0.6f64, 0.05..0.6f64), 0..14),
+    ) {
+        let mut view = floor();
+        for (x, y, w, h) in boxes {
+            if x > 0.2 || y > 0.2 || x + w < -0.2 || y + h < -0.2 {
+                paint(&mut view, [x, y], [x + w, y + h], Surface::Obstacle(0.5));
+            }
+        }
+        let goal = goal(1.6, 1.6);
+        let any = plan(&mut planner(), &view, START, &goal).way;
+        let mut planner = planner().along_voronoi(VoronoiConfig::default()).unwrap();
+        let roomy = plan(&mut planner, &view, START, &goal).way;
+        prop_assert_eq!(any.is_ok(), roomy.is_ok());
+    }
 }
