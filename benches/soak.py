@@ -1,0 +1,60 @@
+"""Hours of simulated time in one process: does its memory grow?
+
+    python benches/soak.py --hours 10
+    python benches/soak.py --hours 1 --scenarios slalom visitor_nao
+
+Episodes one after the other, with all that a run without recording does. Prints the resident memory
+after each, and by how much it grew from the end of the first tenth of the time to the end.
+"""
+
+import argparse
+import gc
+import json
+import os
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from treadwell.runner import run
+
+SCENARIOS = ("slalom", "stairs_up", "visitor_nao")
+PAGE = os.sysconf("SC_PAGE_SIZE")
+
+
+def resident_mb() -> float:
+    """Return what of this process is in memory, MB."""
+    gc.collect()
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
+    return pages * PAGE / 1e6
+
+
+def main() -> int:
+    """Run episodes for the time that was asked for; 1 where memory grew by more than is allowed."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--hours", type=float, default=10.0, help="of simulated time")
+    parser.add_argument("--scenarios", nargs="+", default=SCENARIOS)
+    parser.add_argument("--first-seed", type=int, default=0)
+    parser.add_argument("--allowed", type=float, default=10.0, help="growth, MB")
+    arguments = parser.parse_args()
+    simulated_s, warm_mb, seed = 0.0, None, arguments.first_seed
+    begin, wanted_s = time.perf_counter(), 3600.0 * arguments.hours
+    while simulated_s < wanted_s:
+        scenario = arguments.scenarios[seed % len(arguments.scenarios)]
+        with tempfile.TemporaryDirectory() as folder:
+            done = run(scenario, seed=seed, record=False, out=Path(folder) / "run")
+        simulated_s += done.result.simulated_seconds
+        seed += 1
+        now_mb = resident_mb()
+        if warm_mb is None and simulated_s >= 0.1 * wanted_s:
+            warm_mb = now_mb
+        row = {"episodes": seed - arguments.first_seed, "simulated_h": simulated_s / 3600.0}
+        print(json.dumps(row | {"resident_mb": round(now_mb, 1)}), flush=True)
+    grown_mb = now_mb - (now_mb if warm_mb is None else warm_mb)
+    wall_s = round(time.perf_counter() - begin)
+    print(json.dumps({"grown_mb": round(grown_mb, 2), "wall_s": wall_s}))
+    return int(grown_mb > arguments.allowed)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
