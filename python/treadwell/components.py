@@ -25,7 +25,7 @@ COMPONENTS: Final[dict[str, dict[str, str]]] = {
     },
     "planner": {
         "a_star": "A* on the grid by clearance; levels join by climbs, unknown cells have a price",
-        "voronoi": "the same along the lines with most room to either side (Voronoi field, Dolgov 2008)",
+        "voronoi": "the same along the lines with most room to either side (Dolgov 2008)",
     },
     "behaviour": {
         "stair_climbing": "walks where it can, climbs where stairs lead on, both feet on each step",
