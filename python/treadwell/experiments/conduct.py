@@ -3,10 +3,7 @@
 import json
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
 from dataclasses import asdict, dataclass
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, Final
 
@@ -19,6 +16,8 @@ from treadwell.experiments.experiment import Case, Experiment, Picture, Table
 from treadwell.judging.result import write_whole
 from treadwell.recording.run_folder import make_experiment_folder
 from treadwell.runner import Run, run_episode
+from treadwell.workers.answers import Answer, Done, Raised
+from treadwell.workers.pool import Pool
 
 SCHEMA: Final = "treadwell.experiment/1"
 
@@ -168,25 +167,40 @@ def _one_by_one(jobs: Sequence[Job], progress: Callable[[str], Progress]) -> Ite
 
 def _side_by_side(jobs: Sequence[Job], workers: int) -> Iterator[Run]:
     """Do the runs in processes of their own, in the order of the jobs, up to an interruption."""
-    # A fresh interpreter each: a fork would copy the threads of the simulator's libraries half.
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
-        futures = [pool.submit(_done, job) for job in jobs]
+    waiting: dict[int, Run] = {}
+    following = 0
+    with Pool(_numbered, workers) as pool:
+        for numbered in enumerate(jobs):
+            pool.submit(numbered)
         try:
-            for number, (job, future) in enumerate(zip(jobs, futures, strict=True), start=1):
-                done = future.result()
-                if done.outcome == "interrupted":
-                    break
-                told = f"{done.outcome} {done.result.reason or ''}"
-                _tell(f"{_title(number, len(jobs), job)}: {told}")
-                yield done
+            for (number, _), answer in pool.answers():
+                waiting[number] = _run_of(answer)
+                while following in waiting:
+                    done = waiting.pop(following)
+                    told = f"{done.outcome} {done.result.reason or ''}"
+                    _tell(f"{_title(following + 1, len(jobs), jobs[following])}: {told}")
+                    following += 1
+                    yield done
         except KeyboardInterrupt:
             pass
-        except BrokenProcessPool:
-            raise SimulationError(
-                "a process that runs episodes ended by itself (out of memory?): fewer --workers"
-            ) from None
-        finally:
-            pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _numbered(numbered: tuple[int, Job]) -> Run:
+    return _done(numbered[1])
+
+
+def _run_of(answer: Answer) -> Run:
+    """Return the run that was done.
+
+    Raises:
+        TreadwellError: it could not be.
+    """
+    if isinstance(answer, Done):
+        run: Run = answer.value
+        return run
+    if isinstance(answer, Raised):
+        raise answer.error or SimulationError(answer.reason)
+    raise SimulationError(f"a process that runs episodes failed: {answer.reason}")
 
 
 def _title(number: int, of: int, job: Job) -> str:

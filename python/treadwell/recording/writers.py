@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from treadwell.episode import Episode, Step
 from treadwell.errors import InputError, RecordingError
@@ -124,6 +124,18 @@ class Writers:
         finally:
             if self._recorder is not None:
                 self._recorder.close()
+
+
+class NoWriters:
+    """Takes what `Writers` takes of an episode on its way, and writes nothing."""
+
+    records: Final = False
+
+    def tick(self, step: Step) -> None:
+        """Take in a control tick."""
+
+    def frame(self, trace: Trace) -> None:
+        """Take in a camera frame."""
 
 
 def open_viewer(episode: Episode) -> Any:  # noqa: ANN401 - MuJoCo's viewer has no types
