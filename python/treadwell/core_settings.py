@@ -31,7 +31,7 @@ def core_settings(scenario: Scenario, robot: Robot, course: Course) -> str:
     places.append({"position": list(goal.position), "radius": goal.radius, "height": goal.height})
     place = course.start
     known = {"position": list(place.position), "height": place.height, "yaw": place.yaw}
-    parameters = _over(robot.file.navigation, scenario.navigation.parameters())
+    parameters = navigation_parameters(scenario, robot)
     settings = {
         "robot": robot.description(),
         "start": known if scenario.start.known else None,
@@ -52,6 +52,11 @@ def told_map(scenario: Scenario, course: Course) -> Octree | None:
     where = str(scenario.path or scenario.name)
     table = scenario.navigation.parameters().get("static_map", {})
     return static_map(course, map_resolution(table, where), where)
+
+
+def navigation_parameters(scenario: Scenario, robot: Robot) -> dict[str, Any]:
+    """Return the components' parameters: the robot's own, and a scenario's over them."""
+    return _over(robot.file.navigation, scenario.navigation.parameters())
 
 
 def _over(own: dict[str, Any], asked: dict[str, Any]) -> dict[str, Any]:

@@ -10,6 +10,14 @@ from typing import Annotated
 
 import typer
 
+from treadwell.cli import sweep_verbs
+from treadwell.cli.options import (
+    JsonOption,
+    RobotOption,
+    ScenarioArgument,
+    SeedOption,
+    SetOption,
+)
 from treadwell.cli.output import ERROR, FAILED, INTERRUPTED, PASSED, guarded, write_json
 
 app = typer.Typer(
@@ -22,29 +30,6 @@ app = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,  # rich takes longer to import than all else together
 )
-
-ScenarioArgument = Annotated[
-    str,
-    typer.Argument(
-        metavar="SCENARIO", help="A file, or the name of one that `treadwell list` shows."
-    ),
-]
-RobotOption = Annotated[
-    str | None,
-    typer.Option("--robot", metavar="NAME", help="A robot's name or folder, not the file's."),
-]
-SeedOption = Annotated[
-    int | None, typer.Option("--seed", metavar="N", min=0, help="Seed of all that is random.")
-]
-SetOption = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--set", metavar="KEY=VALUE", help="Change a key: course.stairs.rise=0.04. Repeatable."
-    ),
-]
-JsonOption = Annotated[
-    bool, typer.Option("--json", help="Write JSON to standard output, and nothing else there.")
-]
 
 
 class What(StrEnum):
@@ -234,6 +219,10 @@ def bench(
     else:
         cli_bench.show(document)
     return PASSED
+
+
+app.command(epilog=sweep_verbs.SWEEP_EXAMPLE)(sweep_verbs.sweep)
+app.command(epilog=sweep_verbs.COMPARE_EXAMPLE)(sweep_verbs.compare)
 
 
 def execute(arguments: Sequence[str]) -> int:

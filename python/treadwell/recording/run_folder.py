@@ -43,6 +43,16 @@ def make_experiment_folder(out: Path | None, experiment: str) -> Path:
     return _make(out, f"experiment-{experiment}")
 
 
+def sweep_folder(out: Path | None, name: str) -> Path:
+    """Return the folder of a sweep, which may be there already: a sweep goes on.
+
+    Args:
+        out: where; None: a new one, `runs/sweep-<name>-<time>/`.
+        name: of its first scenario or its suite.
+    """
+    return out or _unused(RUNS / f"sweep-{name}-{time.strftime('%Y%m%d-%H%M%S')}")
+
+
 def _make(out: Path | None, stem: str) -> Path:
     folder = out
     if folder is None:

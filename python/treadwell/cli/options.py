@@ -1,0 +1,28 @@
+"""Arguments and options that several verbs share."""
+
+from typing import Annotated
+
+import typer
+
+ScenarioArgument = Annotated[
+    str,
+    typer.Argument(
+        metavar="SCENARIO", help="A file, or the name of one that `treadwell list` shows."
+    ),
+]
+RobotOption = Annotated[
+    str | None,
+    typer.Option("--robot", metavar="NAME", help="A robot's name or folder, not the file's."),
+]
+SeedOption = Annotated[
+    int | None, typer.Option("--seed", metavar="N", min=0, help="Seed of all that is random.")
+]
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set", metavar="KEY=VALUE", help="Change a key: course.stairs.rise=0.04. Repeatable."
+    ),
+]
+JsonOption = Annotated[
+    bool, typer.Option("--json", help="Write JSON to standard output, and nothing else there.")
+]

@@ -1,0 +1,105 @@
+"""The options of the verbs `sweep` and `compare`."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Final
+
+import typer
+
+from treadwell.cli.options import JsonOption, RobotOption, SetOption
+
+SWEEP_EXAMPLE: Final = (
+    "Example: treadwell sweep slalom doorway --episodes 20 "
+    "--vary navigation.world_model=fog,averaging --out runs/maps"
+)
+COMPARE_EXAMPLE: Final = "Example: treadwell compare runs/maps --out comparison.md"
+
+
+class Where(StrEnum):
+    """Where a sweep can run."""
+
+    LOCAL = "local"
+    RAY = "ray"
+
+
+def sweep(  # noqa: PLR0913 - one an option
+    scenarios: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="SCENARIO...", help="Files or names; none with --suite."),
+    ] = None,
+    *,
+    episodes: Annotated[
+        int | None,
+        typer.Option("--episodes", metavar="N", min=1, help="Seeds of each, 0 to N-1."),
+    ] = None,
+    first_seed: Annotated[
+        int, typer.Option("--first-seed", metavar="N", min=0, help="The first seed, if not 0.")
+    ] = 0,
+    suite: Annotated[
+        str | None, typer.Option("--suite", metavar="NAME", help="A frozen list of episodes.")
+    ] = None,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option("--vary", metavar="KEY=A,B,C", help="A variant for each value. Repeatable."),
+    ] = None,
+    settings: SetOption = None,
+    robot: RobotOption = None,
+    workers: Annotated[
+        int | None,
+        typer.Option("--workers", metavar="K", min=1, help="Episodes at a time; default: cores."),
+    ] = None,
+    engine: Annotated[
+        Where, typer.Option("--engine", help="This machine, or a Ray cluster.")
+    ] = Where.LOCAL,
+    timeout: Annotated[
+        float, typer.Option("--timeout", metavar="S", min=1.0, help="Seconds for an episode.")
+    ] = 600.0,
+    memory: Annotated[
+        float, typer.Option("--memory", metavar="GB", min=0.5, help="Memory for an episode.")
+    ] = 4.0,
+    keep: Annotated[
+        int,
+        typer.Option("--keep", metavar="N", min=0, help="First seeds kept even if all went well."),
+    ] = 3,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", help="Its folder; one that is there goes on."),
+    ] = None,
+    as_json: JsonOption = False,
+) -> int:
+    """Run many episodes, side by side; the same command goes on where it was stopped."""
+    from treadwell.cli import sweep as cli_sweep
+
+    asked = cli_sweep.Asked(
+        scenarios=tuple(scenarios or ()),
+        suite=suite,
+        episodes=episodes,
+        first_seed=first_seed,
+        robot=robot,
+        settings=tuple(settings or ()),
+        vary=tuple(vary or ()),
+    )
+    return cli_sweep.sweep(
+        asked,
+        engine=engine.value,
+        workers=workers,
+        care=cli_sweep.care(timeout, memory, keep),
+        out=out,
+        as_json=as_json,
+    )
+
+
+def compare(
+    sweep_dirs: Annotated[
+        list[Path], typer.Argument(metavar="SWEEP_DIR...", help="Sweeps' folders.")
+    ],
+    *,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="FILE.md", help="Write the tables there.")
+    ] = None,
+    as_json: JsonOption = False,
+) -> int:
+    """Put sweeps, and the variants of each, side by side; paired by scenario and seed."""
+    from treadwell.cli import compare as cli_compare
+
+    return cli_compare.compare(sweep_dirs, out=out, as_json=as_json)

@@ -1,0 +1,1 @@
+"""Sweeps side by side: figures with intervals, and differences only where a paired test says so."""

@@ -1,0 +1,119 @@
+"""Candidates side by side: each one's figures, and where it differs from the first."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from statistics import fmean, median
+from typing import Any, Final
+
+from treadwell.comparing.metrics import METRICS, Metric
+from treadwell.comparing.statistics import holm, mcnemar, permutation, wilson
+from treadwell.sweeps.row import Row
+
+SCHEMA: Final = "treadwell.comparison/1"
+LEVEL: Final = 0.05
+"""Of all tests together: a p below it, after Holm's correction, is a difference."""
+
+Pair = tuple[str, str, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """One side: a sweep, or a variant of one.
+
+    Attributes:
+        name: what it is called in the tables.
+        rows: its episodes.
+    """
+
+    name: str
+    rows: tuple[Row, ...]
+
+
+def compared(candidates: Sequence[Candidate]) -> dict[str, Any]:
+    """Return the comparison as plain data.
+
+    Args:
+        candidates: the first is what the others are held against.
+    """
+    scenarios = list(dict.fromkeys(row.scenario for one in candidates for row in one.rows))
+    return {
+        "schema": SCHEMA,
+        "candidates": [
+            {
+                "name": one.name,
+                "episodes": len(one.rows),
+                "figures": {metric.name: figure(metric, one.rows) for metric in METRICS},
+                "scenarios": {
+                    name: figure(METRICS[0], [row for row in one.rows if row.scenario == name])
+                    for name in scenarios
+                },
+            }
+            for one in candidates
+        ],
+        "differences": differences(candidates),
+    }
+
+
+def figure(metric: Metric, rows: Sequence[Row]) -> dict[str, Any]:
+    """Return a metric over rows: `value` (None of nothing) and `count`; of a share the interval."""
+    found = [value for value in map(metric.of, rows) if value is not None]
+    if metric.kind == "share":
+        yes = sum(map(bool, found))
+        low, high = wilson(yes, len(found))
+        share = yes / len(found) if found else None
+        return {"value": share, "count": len(found), "yes": yes, "low": low, "high": high}
+    middle = fmean if metric.kind == "mean" else median
+    return {"value": float(middle(found)) if found else None, "count": len(found)}
+
+
+def differences(candidates: Sequence[Candidate]) -> list[dict[str, Any]]:
+    """Return each metric of each candidate against the first, by the pairs that both have."""
+    if not candidates:
+        return []
+    robots = [{row.robot for row in one.rows} for one in candidates]
+    # Where robots are compared with each other, the same seed on the same scenario is a pair.
+    by_robot = any(len(names) > 1 for names in robots)
+    first = _by_pair(candidates[0], by_robot=by_robot)
+    found: list[dict[str, Any]] = []
+    for other in candidates[1:]:
+        second = _by_pair(other, by_robot=by_robot)
+        pairs = [(first[key], second[key]) for key in sorted(first.keys() & second.keys())]
+        found += [_difference(metric, pairs, candidates[0], other) for metric in METRICS]
+    tested = [one for one in found if one["p"] is not None]
+    for one, p in zip(tested, holm([one["p"] for one in tested]), strict=True):
+        one["p_corrected"] = p
+        if p < LEVEL:
+            one["verdict"] = one.pop("tendency")
+    for one in found:
+        one.pop("tendency", None)
+    return found
+
+
+def _by_pair(candidate: Candidate, *, by_robot: bool) -> dict[Pair, Row]:
+    return {(row.scenario, row.robot if by_robot else "", row.seed): row for row in candidate.rows}
+
+
+def _difference(
+    metric: Metric, pairs: Sequence[tuple[Row, Row]], first: Candidate, other: Candidate
+) -> dict[str, Any]:
+    """Return one test: mean difference (other minus first), p, and which way it would be."""
+    values = [(metric.of(a), metric.of(b)) for a, b in pairs]
+    both = [(float(a), float(b)) for a, b in values if a is not None and b is not None]
+    steps = [b - a for a, b in both]
+    if metric.kind == "share":
+        p = mcnemar(sum(step < 0 for step in steps), sum(step > 0 for step in steps))
+    else:
+        p = permutation(steps)
+    mean = fmean(steps) if steps else None
+    rises = mean is not None and mean > 0
+    return {
+        "metric": metric.name,
+        "first": first.name,
+        "other": other.name,
+        "pairs": len(both),
+        "difference": mean,
+        "p": p if both else None,
+        "p_corrected": None,
+        "verdict": "no difference shown",
+        "tendency": "better" if rises == (metric.better == "more") else "worse",
+    }

@@ -1,0 +1,72 @@
+"""The sides of a comparison: finished sweeps, each variant a side of its own."""
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from treadwell.comparing.comparison import Candidate
+from treadwell.errors import InputError
+from treadwell.sweeps import journal
+from treadwell.sweeps.folder import RESULTS
+from treadwell.sweeps.request import SCHEMA
+from treadwell.sweeps.row import Row, row_of
+
+
+def candidates(folders: Sequence[Path]) -> list[Candidate]:
+    """Return each variant of each sweep, in the order in which they were given.
+
+    Raises:
+        InputError: one is no finished sweep, or is given twice.
+    """
+    places = [folder.resolve() for folder in folders]
+    if len(set(places)) < len(places):
+        raise InputError("compare: a sweep is given twice")
+    found: list[Candidate] = []
+    for folder, place in zip(folders, places, strict=True):
+        document = read_results(folder)
+        rows = [_row(folder, row) for row in document["episodes"]]
+        for variant in dict.fromkeys(str(line.get("variant", "")) for line in document["lines"]):
+            words = [place.name] if len(folders) > 1 or not variant else []
+            name = " ".join([*words, *([variant] if variant else [])])
+            of_it = tuple(row for row in rows if row.variant == variant)
+            found.append(Candidate(_unused(name, [one.name for one in found], folder), of_it))
+    return found
+
+
+def read_results(folder: Path) -> dict[str, Any]:
+    """Return what a sweep's `results.json` holds.
+
+    Raises:
+        InputError: there is none, or it is none.
+    """
+    file = folder / RESULTS
+    if not folder.is_dir():
+        raise InputError(f"{folder}: there is no such sweep")
+    if not file.is_file():
+        if (folder / journal.NAME).is_file():
+            raise InputError(f"{folder}: the sweep is not finished; its command goes on with it")
+        raise InputError(f"{folder}: not a sweep, there is no {RESULTS}")
+    try:
+        document = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError) as error:
+        raise InputError(f"{file}: cannot be read: {error}") from None
+    good = isinstance(document, dict) and document.get("schema") == SCHEMA
+    if not good or not all(isinstance(document.get(key), list) for key in ("lines", "episodes")):
+        raise InputError(f"{file}: not of schema {SCHEMA}")
+    if not all(isinstance(line, dict) for line in document["lines"]):
+        raise InputError(f"{file}: not of schema {SCHEMA}")
+    return dict(document)
+
+
+def _row(folder: Path, document: object) -> Row:
+    try:
+        if isinstance(document, dict):
+            return row_of(document)
+    except TypeError:
+        pass
+    raise InputError(f"{folder / RESULTS}: an episode that is not as this version writes it")
+
+
+def _unused(name: str, taken: Sequence[str], folder: Path) -> str:
+    return name if name not in taken else f"{folder} {name}"

@@ -1,0 +1,241 @@
+"""The folder of a sweep: what was asked for, the journal, recordings, and the results."""
+
+import fcntl
+import json
+import os
+import shutil
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Final, Self
+
+from treadwell.errors import InputError, RecordingError
+from treadwell.judging.result import write_whole
+from treadwell.sweeps import journal
+from treadwell.sweeps.request import SCHEMA, Key, Request
+from treadwell.sweeps.row import Row, row_of
+
+ASKED: Final = "sweep.json"
+RESULTS: Final = "results.json"
+TABLE: Final = "episodes.parquet"
+EPISODES: Final = "episodes"
+_LOCK: Final = ".lock"
+_DOING: Final = ".doing"
+
+
+class SweepFolder:
+    """A sweep's folder while a process works on it, and no other; a context manager.
+
+    Attributes:
+        path: of the folder.
+        rows: of the episodes that are done, in the order in which they were.
+    """
+
+    def __init__(self, path: Path, request: Request) -> None:
+        """Take the folder: a new one, an empty one, or one whose sweep goes on.
+
+        Raises:
+            InputError: it holds something else, another process has it, or its sweep is another.
+            RecordingError: it cannot be written.
+        """
+        self.path, self._request = path, request
+        self._lock = self._take()
+        try:
+            self._agree()
+            self._journal = journal.Journal(path / journal.NAME)
+            self.rows = [self._row(row) for row in self._journal.rows]
+            self._check_rows()
+            self._tidy()
+        except BaseException:
+            os.close(self._lock)
+            raise
+
+    def __enter__(self) -> Self:
+        """Begin."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Give the folder up."""
+        self._journal.close()
+        shutil.rmtree(self.path / _DOING, ignore_errors=True)
+        os.close(self._lock)
+
+    def place(self, key: Key) -> Path:
+        """Return a folder, not there yet, for an episode that is going to be recorded."""
+        place = self.path / _DOING / self.name(key)
+        shutil.rmtree(place, ignore_errors=True)
+        place.parent.mkdir(exist_ok=True)
+        return place.resolve()
+
+    def keep(self, key: Key) -> str | None:
+        """Keep what was recorded of an episode; return its folder within the sweep's."""
+        made, kept = self.path / _DOING / self.name(key), self.path / EPISODES / self.name(key)
+        if not made.is_dir():
+            return None
+        kept.parent.mkdir(exist_ok=True)
+        made.rename(kept)
+        return str(kept.relative_to(self.path))
+
+    def drop(self, key: Key) -> None:
+        """Throw away what was recorded of an episode."""
+        shutil.rmtree(self.path / _DOING / self.name(key), ignore_errors=True)
+
+    def append(self, row: Row) -> None:
+        """Note an episode's end.
+
+        Raises:
+            RecordingError: it could not be written.
+        """
+        self._journal.append(row.document())
+        self.rows.append(row)
+
+    def name(self, key: Key) -> str:
+        """Return the name of an episode's folder."""
+        numbers = [line.variant for line in self._request.lines if line.variant]
+        variants = list(dict.fromkeys(numbers))
+        variant = f"-v{variants.index(key.variant) + 1}" if key.variant else ""
+        return f"{key.scenario}-{key.robot}{variant}-{key.seed}"
+
+    def ordered(self) -> list[Row]:
+        """Return the rows line by line in the order of the request, then by seed."""
+        return sorted(self.rows, key=lambda row: (self._request.line_of(row.key), row.seed))
+
+    def finish(self, document: dict[str, Any]) -> None:
+        """Write the results.
+
+        Raises:
+            RecordingError: they could not be written.
+        """
+        try:
+            write_table(self.path / TABLE, self.ordered())
+            write_whole(self.path / RESULTS, json.dumps(document, indent=1, allow_nan=False) + "\n")
+        except OSError as error:
+            raise RecordingError(f"{self.path}: cannot be written: {error}") from error
+
+    def _take(self) -> int:
+        path = self.path
+        try:
+            there = path.exists() and (not path.is_dir() or any(path.iterdir()))
+            if there and not (path / ASKED).is_file() and not (path / _LOCK).is_file():
+                raise InputError(f"--out: {path} exists already and holds no sweep")
+            path.mkdir(parents=True, exist_ok=True)
+            handle = os.open(path / _LOCK, os.O_RDWR | os.O_CREAT, 0o644)
+        except OSError as error:
+            raise InputError(f"--out: {path}: {error.strerror}") from None
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            os.close(handle)
+            raise InputError(f"--out: {path}: another process is working on this sweep") from None
+        return handle
+
+    def _agree(self) -> None:
+        """Write what is asked for, or hold it against what was asked for before."""
+        asked = self._request.document()
+        file = self.path / ASKED
+        try:
+            if file.is_file():
+                _check_same(file, read_asked(file), asked)
+            write_whole(file, json.dumps(asked, indent=2) + "\n")
+        except OSError as error:
+            raise RecordingError(f"{file}: cannot be written: {error}") from error
+
+    def _row(self, document: dict[str, Any]) -> Row:
+        try:
+            return row_of(document)
+        except TypeError:
+            raise InputError(f"{self.path / journal.NAME}: not the rows of this version") from None
+
+    def _check_rows(self) -> None:
+        keys = [row.key for row in self.rows]
+        if len(set(keys)) < len(keys) or not set(keys) <= set(self._request.keys()):
+            raise InputError(f"{self.path / journal.NAME}: rows that were not asked for, or twice")
+
+    def _tidy(self) -> None:
+        """Remove what a killed process left half done."""
+        shutil.rmtree(self.path / _DOING, ignore_errors=True)
+        kept = {row.folder for row in self.rows}
+        for folder in (self.path / EPISODES).glob("*"):
+            if str(folder.relative_to(self.path)) not in kept:
+                shutil.rmtree(folder, ignore_errors=True)
+
+
+def read_asked(file: Path) -> dict[str, Any]:
+    """Return what a `sweep.json` holds.
+
+    Raises:
+        InputError: it is no such file.
+    """
+    try:
+        document = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise InputError(f"{file}: cannot be read: {error}") from None
+    if not isinstance(document, dict) or document.get("schema") != SCHEMA:
+        raise InputError(f"{file}: not a sweep of schema {SCHEMA}")
+    return document
+
+
+def _check_same(file: Path, before: dict[str, Any], now: dict[str, Any]) -> None:
+    """Refuse to go on with another sweep; more seeds are the same sweep.
+
+    Raises:
+        InputError: something differs; the message says what.
+    """
+
+    def refuse(what: str, old: object, new: object) -> None:
+        raise InputError(
+            f"{file}: the sweep here is another: {what} was {old}, now {new}; give another --out"
+        )
+
+    for key in ("version", "build"):
+        if before.get(key) != now[key]:
+            refuse(f"treadwell's {key}", before.get(key), now[key])
+    old, new = before.get("lines", []), now["lines"]
+    if len(old) != len(new):
+        refuse("the number of scenarios and variants", len(old), len(new))
+    for a, b in zip(old, new, strict=True):
+        for key in ("scenario", "robot", "variant", "settings", "hash"):
+            if a.get(key) != b[key]:
+                refuse(f"{key} of {b['scenario']}", a.get(key), b[key])
+        if not set(a.get("seeds", [])) <= set(b["seeds"]):
+            refuse("episodes", _extent(a["seeds"]), _extent(b["seeds"]))
+
+
+def _extent(seeds: list[int]) -> str:
+    return f"{len(seeds)} from seed {seeds[0]} on" if seeds else "none"
+
+
+def write_table(file: Path, rows: list[Row]) -> None:
+    """Write rows as Parquet, whole or not at all.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
+    # Late, because pyarrow takes a while to import.
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    kinds = {"str": pa.string(), "int": pa.int64(), "float": pa.float64(), "bool": pa.bool_()}
+    names = {name: str(kind) for name, kind in Row.__annotations__.items()}
+    schema = pa.schema([(name, kinds[_plain(kind)]) for name, kind in names.items()])
+    table = pa.Table.from_pylist([row.document() for row in rows], schema=schema)
+    temporary = file.with_name(f".{file.name}")
+    try:
+        pq.write_table(table, temporary)
+        with temporary.open("rb") as opened:
+            os.fsync(opened.fileno())
+        temporary.replace(file)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def _plain(kind: str) -> str:
+    """Return `float` of `float | None` and of `<class 'float'>`."""
+    for name in ("bool", "float", "int", "str"):
+        if name in kind:
+            return name
+    raise TypeError(kind)

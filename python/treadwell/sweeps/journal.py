@@ -1,0 +1,89 @@
+"""The journal of a sweep: one line a finished episode, on the disk before the next is looked at."""
+
+import errno
+import json
+import os
+from pathlib import Path
+from typing import Any, Final
+
+from treadwell.errors import InputError, RecordingError
+
+NAME: Final = "journal.jsonl"
+
+
+class Journal:
+    """Appends rows, and knows those that were there. One process at a time may have it open.
+
+    A line counts when its end is there: what a kill left of the last one is cut off.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Open the file, a new one where there is none, and read it.
+
+        Raises:
+            InputError: a line before the last is broken.
+            RecordingError: it cannot be opened.
+        """
+        self._path = path
+        try:
+            new = not path.exists()
+            self._file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
+            if new:
+                _sync_folder(path.parent)
+            content = path.read_bytes()
+        except OSError as error:
+            raise RecordingError(f"{path}: {error.strerror}") from error
+        whole = content.rfind(b"\n") + 1
+        if whole < len(content):
+            os.ftruncate(self._file, whole)
+        self._size = whole
+        self.rows: list[dict[str, Any]] = [
+            self._read(number, line)
+            for number, line in enumerate(content[:whole].splitlines(), start=1)
+        ]
+
+    def append(self, row: dict[str, Any]) -> None:
+        """Write a row; when this returns it is on the disk.
+
+        Raises:
+            RecordingError: it could not be written; the file is as it was before.
+        """
+        line = json.dumps(row, allow_nan=False, separators=(",", ":")).encode() + b"\n"
+        try:
+            _write(self._file, line)
+        except OSError as error:
+            os.ftruncate(self._file, self._size)
+            raise RecordingError(
+                f"{self._path}: cannot be written: {error.strerror}; what was done before is kept"
+            ) from error
+        self._size += len(line)
+        self.rows.append(row)
+
+    def close(self) -> None:
+        """Close the file."""
+        os.close(self._file)
+
+    def _read(self, number: int, line: bytes) -> dict[str, Any]:
+        try:
+            row = json.loads(line)
+        except ValueError:
+            row = None
+        if not isinstance(row, dict):
+            raise InputError(f"{self._path}: line {number}: not a row of a sweep")
+        return row
+
+
+def _write(file: int, line: bytes) -> None:
+    """Write a line and wait until it is on the disk."""
+    if os.write(file, line) < len(line):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    os.fsync(file)
+
+
+def _sync_folder(folder: Path) -> None:
+    """Make sure that a new file's name is on the disk."""
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)

@@ -1,0 +1,184 @@
+"""What a sweep is asked for: lines of scenario, robot and variant, and the seeds of each."""
+
+import hashlib
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from treadwell import __version__
+from treadwell.data import PACKAGE
+from treadwell.errors import InputError
+from treadwell.robot.load import load_robot
+from treadwell.scenario.loading import find_scenario, load_scenario
+from treadwell.sweeps.variants import variants
+
+SCHEMA: Final = "treadwell.sweep/1"
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Key:
+    """One episode of a sweep: the scenario's name, the robot's, the variant and the seed."""
+
+    scenario: str
+    robot: str
+    variant: str
+    seed: int
+
+    @property
+    def text(self) -> str:
+        """One line that says it."""
+        words = (self.scenario, self.robot, *([self.variant] if self.variant else []))
+        return f"{' '.join(words)} seed {self.seed}"
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A scenario with a robot and settings, over seeds.
+
+    Attributes:
+        file: the scenario's file, absolute.
+        scenario: its name.
+        robot: the robot's name.
+        robot_given: as the user gave it; None: the file's.
+        variant: its settings of `--vary` as one text; empty where nothing varies.
+        settings: `KEY=VALUE` each, those of `--set` and of the variant.
+        seeds: of its episodes.
+        foreign: whether a component is the user's own Python class.
+        hash: of the file, the robot's folder and what the scenario becomes.
+    """
+
+    file: Path
+    scenario: str
+    robot: str
+    robot_given: str | None
+    variant: str
+    settings: tuple[str, ...]
+    seeds: tuple[int, ...]
+    foreign: bool
+    hash: str
+
+    def keys(self) -> list[Key]:
+        """Return its episodes."""
+        return [Key(self.scenario, self.robot, self.variant, seed) for seed in self.seeds]
+
+    def identity(self) -> dict[str, Any]:
+        """Return all but the seeds as plain data: what a resumed sweep must have in common."""
+        return {
+            "scenario": self.scenario,
+            "robot": self.robot,
+            "variant": self.variant,
+            "settings": list(self.settings),
+            "hash": self.hash,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """A sweep: its lines, in the order of the results."""
+
+    lines: tuple[Line, ...]
+
+    def keys(self) -> list[Key]:
+        """Return all episodes, seed by seed so that the lines grow side by side."""
+        places = [(seed, line) for line in self.lines for seed in line.seeds]
+        order = {id(line): number for number, line in enumerate(self.lines)}
+        places.sort(key=lambda place: (place[0], order[id(place[1])]))
+        return [Key(line.scenario, line.robot, line.variant, seed) for seed, line in places]
+
+    def line_of(self, key: Key) -> int:
+        """Return the index of an episode's line."""
+        for number, line in enumerate(self.lines):
+            if (line.scenario, line.robot, line.variant) == (key.scenario, key.robot, key.variant):
+                return number
+        raise KeyError(key)
+
+    def document(self) -> dict[str, Any]:
+        """Return it as plain data: what `sweep.json` holds."""
+        return {
+            "schema": SCHEMA,
+            "version": __version__,
+            "build": build_hash(),
+            "lines": [{**line.identity(), "seeds": list(line.seeds)} for line in self.lines],
+        }
+
+
+def crossed(
+    scenarios: Sequence[str],
+    *,
+    seeds: range,
+    robot: str | None = None,
+    settings: Sequence[str] = (),
+    vary: Sequence[str] = (),
+) -> Request:
+    """Return every scenario with every variant over the same seeds.
+
+    Raises:
+        InputError: a scenario, a robot or a setting is bad, or two lines would be the same.
+    """
+    lines = [
+        make_line(name, seeds, robot, tuple(settings), chosen)
+        for name in scenarios
+        for chosen in variants(vary)
+    ]
+    return checked(lines)
+
+
+def checked(lines: Sequence[Line]) -> Request:
+    """Return lines as a request.
+
+    Raises:
+        InputError: two of them have the same name.
+    """
+    seen: dict[tuple[str, str, str], Line] = {}
+    for line in lines:
+        name = (line.scenario, line.robot, line.variant)
+        if name in seen:
+            files = " and ".join(sorted({str(seen[name].file), str(line.file)}))
+            raise InputError(f"sweep: {' '.join(filter(None, name))} is there twice ({files})")
+        seen[name] = line
+    return Request(tuple(lines))
+
+
+def make_line(
+    name: str,
+    seeds: Sequence[int],
+    robot: str | None,
+    settings: tuple[str, ...],
+    variant: tuple[str, ...] = (),
+) -> Line:
+    """Return a line, its scenario read and checked with the first seed.
+
+    Raises:
+        InputError: the scenario, the robot or a setting is bad.
+    """
+    file = find_scenario(name).resolve()
+    both = (*settings, *variant)
+    made = load_scenario(file, robot=robot, seed=seeds[0], overrides=both)
+    loaded = load_robot(made.robot)
+    content = hashlib.sha256(file.read_bytes())
+    for path in sorted(loaded.folder.glob("*")):
+        if path.is_file():
+            content.update(path.read_bytes())
+    content.update(json.dumps([made.configuration(), both, robot]).encode())
+    return Line(
+        file=file,
+        scenario=made.name,
+        robot=loaded.name,
+        robot_given=robot,
+        variant=", ".join(variant),
+        settings=both,
+        seeds=tuple(seeds),
+        foreign=any(":" in component for component in made.navigation.slots().values()),
+        hash=content.hexdigest()[:16],
+    )
+
+
+def build_hash() -> str:
+    """Return a hash of the package's code: episodes of two builds are not one sweep."""
+    content = hashlib.sha256()
+    files = [*PACKAGE.rglob("*.py"), *PACKAGE.glob("_core*.so"), *PACKAGE.glob("_core*.pyd")]
+    for path in sorted(files):
+        content.update(path.read_bytes())
+    return content.hexdigest()[:16]

@@ -1,0 +1,46 @@
+"""What a sweep's rows come to: counts for each line, and the document `results.json`."""
+
+from collections import Counter
+from collections.abc import Sequence
+from statistics import median
+from typing import Any
+
+from treadwell.sweeps.request import Request
+from treadwell.sweeps.row import Row
+
+
+def results_document(request: Request, rows: Sequence[Row]) -> dict[str, Any]:
+    """Return what `results.json` holds: what was asked for, a summary of each line, every row."""
+    return {
+        **request.document(),
+        "passed": all(row.success for row in rows),
+        "summary": [
+            {
+                "scenario": line.scenario,
+                "robot": line.robot,
+                "variant": line.variant,
+                **summary([row for row in rows if row.key in set(line.keys())]),
+            }
+            for line in request.lines
+        ],
+        "episodes": [row.document() for row in rows],
+    }
+
+
+def summary(rows: Sequence[Row]) -> dict[str, Any]:
+    """Return counts over rows, and the median time of those that succeeded."""
+    times = [row.simulated_seconds for row in rows if row.success and row.simulated_seconds]
+    known = [row.solvable for row in rows if row.solvable is not None]
+    return {
+        "episodes": len(rows),
+        "successes": sum(row.success for row in rows),
+        "passed": sum(row.passed for row in rows),
+        "justified": sum(row.justified for row in rows),
+        "solvable": sum(known),
+        "solvable_known": len(known),
+        "falls": sum((row.falls or 0) > 0 for row in rows),
+        "collisions": sum(row.collisions or 0 for row in rows),
+        "outcomes": dict(sorted(Counter(row.outcome for row in rows).items())),
+        "not_reproduced": [row.key.text for row in rows if row.reproduced is False],
+        "simulated_seconds_median": median(times) if times else None,
+    }
