@@ -18,7 +18,7 @@ from typing import Any, Final, Self
 from treadwell.workers.answers import Answer, Died
 from treadwell.workers.child import BEGUN, serve
 
-START_SECONDS: Final = 120.0
+START_SECONDS: Final = 300.0
 """Within which a new process has to be ready to work, on however busy a machine."""
 _LONGEST_WAIT: Final = 1.0
 _JOIN_SECONDS: Final = 5.0

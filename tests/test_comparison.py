@@ -1,0 +1,151 @@
+"""Comparisons: figures, pairs by scenario and seed, and differences that a test has to show."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from sweep_builders import row
+
+from treadwell.cli.app import execute
+from treadwell.comparing.comparison import Candidate, compared, differences, figure
+from treadwell.comparing.metrics import METRICS
+from treadwell.comparing.sides import candidates
+from treadwell.errors import InputError
+from treadwell.sweeps.request import SCHEMA
+from treadwell.sweeps.row import Row
+
+BY_NAME = {metric.name: metric for metric in METRICS}
+FAILED = {"outcome": "fell", "passed": False, "success": False, "falls": 1}
+
+
+def side(name: str, *rows: Row) -> Candidate:
+    return Candidate(name, rows)
+
+
+def test_of(found: list[dict[str, Any]], metric: str) -> dict[str, Any]:
+    return next(one for one in found if one["metric"] == metric)
+
+
+test_of.__test__ = False  # type: ignore[attr-defined]
+
+
+def test_figures_are_of_those_that_have_them() -> None:
+    rows = [row(0), row(1), row(2, **FAILED)]
+    success = figure(BY_NAME["success"], rows)
+    assert (success["yes"], success["count"]) == (2, 3)
+    assert success["low"] < 2 / 3 < success["high"]
+    assert figure(BY_NAME["time"], rows) == {"value": 30.5, "count": 2}
+    assert figure(BY_NAME["fall"], rows)["yes"] == 1
+    assert figure(BY_NAME["core_ms"], rows) == {"value": None, "count": 0}
+
+
+def test_a_justified_refusal_is_a_success_without_a_time() -> None:
+    refused = row(0, outcome="refused", passed=False, justified=True)
+    assert figure(BY_NAME["success"], [refused])["yes"] == 1
+    assert figure(BY_NAME["time"], [refused])["count"] == 0
+
+
+def test_a_clear_difference_is_called_one_and_its_direction() -> None:
+    first = side("a", *(row(i, path_efficiency=0.9) for i in range(20)))
+    slower = side(
+        "b", *(row(i, simulated_seconds=33.0 + i, path_efficiency=0.9) for i in range(20))
+    )
+    found = differences([first, slower])
+    assert test_of(found, "time")["verdict"] == "worse"
+    assert test_of(found, "time")["difference"] == pytest.approx(3.0)
+    assert test_of(differences([slower, first]), "time")["verdict"] == "better"
+    assert {one["verdict"] for one in found if one["metric"] != "time"} == {"no difference shown"}
+    assert test_of(found, "height_error")["p"] is None
+
+
+def test_failures_that_could_be_chance_are_no_difference() -> None:
+    first = side("a", *(row(i) for i in range(30)))
+
+    def failing(count: int) -> Candidate:
+        return side("b", *(row(i, **FAILED) if i < count else row(i) for i in range(30)))
+
+    few = test_of(differences([first, failing(4)]), "success")
+    assert few["p"] == pytest.approx(0.125)
+    assert few["verdict"] == "no difference shown"
+    many = test_of(differences([first, failing(12)]), "success")
+    assert many["verdict"] == "worse"
+    assert many["p_corrected"] > many["p"]
+
+
+def test_pairs_are_the_same_scenario_and_seed() -> None:
+    first = side("a", *(row(i) for i in range(5)), row(7, scenario="doorway"))
+    second = side("b", *(row(i) for i in range(3, 9)))
+    assert test_of(differences([first, second]), "success")["pairs"] == 2
+    qrio, nao = row(0), row(0, robot="nao")
+    assert test_of(differences([side("a", qrio), side("b", nao)]), "success")["pairs"] == 1
+    both = [side("a", qrio, nao), side("b", replace(qrio), replace(nao))]
+    assert test_of(differences(both), "success")["pairs"] == 2
+    assert compared([])["differences"] == []
+
+
+@pytest.fixture
+def sweeps(tmp_path: Path) -> list[Path]:
+    """Two sweeps of twenty episodes, the second with two variants."""
+    folders = []
+    for name, variants in (("one", [""]), ("two", ["x=1", "x=2"])):
+        rows = [
+            row(i, variant=v, simulated_seconds=30.0 + i + 5 * (v == "x=2"))
+            for v in variants
+            for i in range(20)
+        ]
+        document = {
+            "schema": SCHEMA,
+            "lines": [{"variant": variant} for variant in variants],
+            "episodes": [one.document() for one in rows],
+        }
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "results.json").write_text(json.dumps(document))
+        folders.append(tmp_path / name)
+    return folders
+
+
+def test_variants_are_sides_of_their_own(sweeps: list[Path]) -> None:
+    assert [one.name for one in candidates(sweeps)] == ["one", "two x=1", "two x=2"]
+    assert [one.name for one in candidates(sweeps[1:])] == ["x=1", "x=2"]
+    assert [one.name for one in candidates(sweeps[:1])] == ["one"]
+
+
+def test_the_command_shows_tables_json_and_markdown(
+    sweeps: list[Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    names, out = [str(folder) for folder in sweeps], tmp_path / "comparison.md"
+    assert execute(["compare", *names, "--json", "--out", str(out)]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["schema"] == "treadwell.comparison/1"
+    assert len(document["differences"]) == 2 * len(METRICS)
+    text = out.read_text()
+    assert "| one | 20 | 100.0 % (83.9 to 100.0) |" in text
+    assert "| two x=2 | time s | +5.0 | 20 | " in text
+    assert execute(["compare", *names]) == 0
+    shown = capsys.readouterr()
+    assert "worse" in shown.out
+    assert "Holm" in shown.err
+
+
+def test_what_is_no_finished_sweep_is_bad_input(sweeps: list[Path], tmp_path: Path) -> None:
+    for folders, what in (
+        ([tmp_path / "nowhere"], "no such sweep"),
+        ([tmp_path], "not a sweep"),
+        ([sweeps[0], sweeps[0]], "given twice"),
+    ):
+        with pytest.raises(InputError, match=what):
+            candidates(folders)
+    (tmp_path / "journal.jsonl").write_text("")
+    with pytest.raises(InputError, match="not finished"):
+        candidates([tmp_path])
+    for broken in ("no", "[]", '{"schema": "treadwell.sweep/1"}'):
+        (tmp_path / "results.json").write_text(broken)
+        with pytest.raises(InputError, match=r"results\.json"):
+            candidates([tmp_path])
+    good = {"schema": SCHEMA, "lines": [{}], "episodes": [{"seed": 1}]}
+    (tmp_path / "results.json").write_text(json.dumps(good))
+    with pytest.raises(InputError, match="an episode that is not"):
+        candidates([tmp_path])
+    assert execute(["compare", str(sweeps[0]), "--out", str(tmp_path / "no" / "x.md")]) == 2

@@ -1,0 +1,50 @@
+"""The same sweep on a Ray cluster of two nodes; skipped where Ray is not installed."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from sweep_builders import short
+
+from treadwell.cli.app import execute
+from treadwell.sweeps import ray_engine as engines
+from treadwell.sweeps.conduct import Care, conduct
+from treadwell.sweeps.engine import local_engine
+from treadwell.sweeps.request import crossed
+
+CLOCK = {"wall_seconds", "core_ms", "folder", "reproduced"}
+
+
+@pytest.fixture
+def cluster(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Two nodes of one processor each, on this machine."""
+    ray = pytest.importorskip("ray", reason="the extra `ray` is not installed")
+    from ray.cluster_utils import Cluster
+
+    monkeypatch.setenv("RAY_USAGE_STATS_ENABLED", "0")
+    made = Cluster(initialize_head=True, head_node_args={"num_cpus": 1, "include_dashboard": False})
+    made.add_node(num_cpus=1)
+    ray.init(address=made.address, log_to_driver=False)
+    yield
+    ray.shutdown()
+    made.shutdown()
+
+
+@pytest.mark.filterwarnings("ignore")  # Ray leaves files open, and warns of its own changes
+def test_on_two_nodes_episodes_come_out_as_on_one_machine(cluster: None, tmp_path: Path) -> None:  # noqa: ARG001
+    request = crossed([short(tmp_path)], seeds=range(4))
+    care = Care(keep=1)
+    there = conduct(request, tmp_path / "ray", lambda: engines.ray_engine(None), care=care)
+    here = conduct(request, tmp_path / "local", lambda: local_engine(1), care=care)
+    for a, b in zip(there["episodes"], here["episodes"], strict=True):
+        assert {k: a[k] for k in a.keys() - CLOCK} == {k: b[k] for k in b.keys() - CLOCK}
+        assert (tmp_path / "ray" / a["folder"] / "recording.rrd").is_file()
+
+
+def test_without_ray_the_command_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(__import__("sys").modules, "ray", None)
+    asked = ["sweep", short(tmp_path), "--episodes", "1", "--engine", "ray"]
+    assert execute([*asked, "--out", str(tmp_path / "out")]) == 2
+    assert "pip install 'treadwell[ray]'" in capsys.readouterr().err

@@ -1,0 +1,175 @@
+"""Whether there is a way: the true course, the robot's published limits."""
+
+import re
+from pathlib import Path
+
+import pytest
+from episode_builders import qrio, scenario
+
+from treadwell.course.build import build_course
+from treadwell.judging.solvable import Limits, is_solvable, limits_of
+from treadwell.judging.true_ground import TrueGround, edges_of
+from treadwell.robot.load import load_robot
+from treadwell.scenario.loading import load_scenario
+
+ROOT = Path(__file__).parents[1]
+WALLS = """
+[[course]]
+kind = "wall"
+from = [-1.0, {y}]
+to = [3.0, {y}]
+height = 0.6
+[[course]]
+kind = "wall"
+from = [-1.0, -{y}]
+to = [3.0, -{y}]
+height = 0.6
+[[course]]
+kind = "wall"
+from = [-1.0, -{y}]
+to = [-1.0, {y}]
+height = 0.6
+"""
+
+
+def solvable(course: str, goal: str = "position = [2.0, 0.0]", walls: float = 0.5) -> bool:
+    made = scenario(WALLS.format(y=walls) + course, goal)
+    return is_solvable(made, build_course(made, qrio()), qrio())
+
+
+def stairs(rise: float = 0.03, tread: float = 0.12, width: float = 0.9, steps: int = 3) -> str:
+    return f"""
+[[course]]
+kind = "stairs"
+position = [0.6, 0.0]
+steps = {steps}
+rise = {rise}
+tread = {tread}
+width = {width}
+landing = 1.5
+"""
+
+
+def gap(width: float) -> str:
+    y = 0.5 - width
+    return f'[[course]]\nkind = "wall"\nfrom = [1.0, {-0.5}]\nto = [1.0, {y}]\nheight = 0.5\n'
+
+
+def test_a_gap_wider_than_the_robot_is_a_way_and_a_narrower_one_is_none() -> None:
+    """Its cylinder is 28 cm across; the grid's cells are 3 cm."""
+    assert solvable("")
+    assert solvable(gap(0.38))
+    assert not solvable(gap(0.26))
+
+
+def test_a_beam_above_the_head_is_a_way_and_one_below_is_none() -> None:
+    beam = '[[course]]\nkind = "box"\nposition = [1.0, 0.0]\nsize = [0.1, 1.0, 0.1]\nbase = {}\n'
+    assert solvable(beam.format(0.62))
+    assert not solvable(beam.format(0.5))
+
+
+@pytest.mark.parametrize(
+    ("changes", "way"),
+    [
+        ({}, True),
+        ({"rise": 0.052}, True),
+        ({"rise": 0.054}, False),
+        ({"tread": 0.095}, True),
+        ({"tread": 0.07}, False),
+        ({"width": 0.26}, True),
+        ({"width": 0.17}, False),
+    ],
+)
+def test_stairs_are_a_way_within_the_limits_of_rise_tread_and_width(
+    changes: dict[str, float], way: bool
+) -> None:
+    assert solvable(stairs(**changes), "position = [1.9, 0.0]") is way  # type: ignore[arg-type]
+
+
+def test_a_drop_is_no_way_and_a_way_around_it_is() -> None:
+    high = '[[course]]\nkind = "platform"\nposition = [0.0, 0.0]\nsize = [1.2, 0.96, 0.2]\n'
+    assert not solvable(high)
+    assert not solvable(stairs(rise=0.05, steps=4), "position = [1.9, 0.0]\nheight = 0.0")
+
+
+def test_a_point_to_pass_has_to_be_reached_too() -> None:
+    made = "position = [2.0, 0.0]\nvia = [[1.0, {}]]\nradius = 0.1"
+    assert solvable("", made.format(0.2))
+    assert not solvable("", made.format(0.48))
+
+
+def test_what_may_be_gone_keeps_nobody_from_a_way() -> None:
+    closed = gap(0.1).replace("height", 'name = "door"\nheight')
+    assert not solvable(closed)
+    assert solvable(closed + '[[event]]\nat = 1.0\ndo = "remove"\nname = "door"\n')
+
+
+@pytest.mark.parametrize(
+    ("name", "way"),
+    [
+        ("slalom", True),
+        ("boxed_in", False),
+        ("basin", True),
+        ("basin_narrow", False),
+        ("stairs_spiral", True),
+        ("slope_down", True),
+        ("stairs_too_high", False),
+        ("narrow_passage", True),
+    ],
+)
+def test_the_scenarios_are_solvable_or_not_as_they_were_made(name: str, way: bool) -> None:
+    made = load_scenario(name)
+    robot = load_robot(made.robot)
+    assert is_solvable(made, build_course(made, robot), robot) is way
+
+
+def test_most_random_courses_are_solvable_for_both_robots() -> None:
+    for robot in (qrio(), load_robot("nao")):
+        for name in ("random_flat", "random_stairs"):
+            made = [load_scenario(name, seed=seed, robot=robot.name) for seed in range(6)]
+            found = [is_solvable(one, build_course(one, robot), robot) for one in made]
+            assert sum(found) >= 5, (name, robot.name)
+
+
+def test_the_limits_are_the_cores_own_where_a_robot_publishes_none() -> None:
+    source = (ROOT / "rust" / "stairs" / "src" / "config.rs").read_text()
+    defaults = source.partition("impl Default for ClimbingConfig")[2]
+    up, _, down = defaults.partition("descend: ParameterSet")
+    limits = limits_of(scenario(), qrio())
+
+    def core(text: str, key: str) -> float:
+        found = re.search(rf"\b{key}: (-?[\d.]+)", text)
+        assert found
+        return float(found[1])
+
+    assert limits.floor_max == core(defaults, "floor_max")
+    assert limits.tolerance == core(defaults, "tolerance")
+    assert limits.side_room == core(defaults, "side_room")
+    assert limits.up.highest == core(up, "step_max_z")
+    assert limits.down.highest == -core(down, "step_min_z")
+    for one, text in ((limits.up, up), (limits.down, down)):
+        assert one.front_x_limit == core(text, "front_x_limit")
+        assert one.back_x_limit == core(text, "back_x_limit")
+
+
+def test_a_robot_that_walks_sideways_needs_less_width() -> None:
+    made, robot = load_scenario("narrow_passage"), load_robot("nao")
+    assert limits_of(made, robot).radius == pytest.approx(0.115)
+    assert limits_of(scenario(), robot).radius == robot.file.body.radius
+    assert isinstance(limits_of(made, robot), Limits)
+
+
+def test_the_ground_knows_surfaces_above_each_other_and_what_lies_on_them() -> None:
+    made = scenario(
+        '[[course]]\nkind = "platform"\nposition = [1.0, 0.0]\nsize = [0.6, 1.0, 0.03]\n'
+        '[[course]]\nkind = "box"\nposition = [1.0, 0.3]\nsize = [0.2, 0.2, 0.4]\n'
+    )
+    ground = TrueGround(build_course(made, qrio()), [(0.0, 0.0)], radius=0.14, tall=0.58)
+    row, column = ground.index(1.0, -0.1)
+    assert ground.height[1, row, column] == pytest.approx(0.03)
+    assert not ground.free[0, row, column]
+    assert ground.free[1, row, column]
+    assert not ground.free[:, ground.index(1.0, 0.3)[0], column].any()
+    x, y = ground.centre(row, column)
+    assert (x, y) == pytest.approx((1.0, -0.1), abs=ground.cell)
+    assert [abs(normal).max() for _, _, normal in edges_of(ground.tops[0])] == [1.0] * 4

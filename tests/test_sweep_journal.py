@@ -1,0 +1,43 @@
+"""The journal: a line counts when its end is there."""
+
+from pathlib import Path
+
+import pytest
+
+from treadwell.errors import InputError, RecordingError
+from treadwell.sweeps.journal import Journal
+
+
+def test_what_was_appended_is_there_again(tmp_path: Path) -> None:
+    path = tmp_path / "journal.jsonl"
+    first = Journal(path)
+    first.append({"seed": 1})
+    first.append({"seed": 2})
+    first.close()
+    second = Journal(path)
+    assert second.rows == [{"seed": 1}, {"seed": 2}]
+    second.close()
+
+
+def test_half_a_line_is_cut_off(tmp_path: Path) -> None:
+    path = tmp_path / "journal.jsonl"
+    whole = b'{"seed":1}\n'
+    for half in (b"{", b'{"seed":2}', b'{"se\xff'):
+        path.write_bytes(whole + half)
+        journal = Journal(path)
+        journal.append({"seed": 3})
+        journal.close()
+        assert path.read_bytes() == whole + b'{"seed":3}\n'
+
+
+def test_a_broken_line_before_the_last_is_bad_input(tmp_path: Path) -> None:
+    path = tmp_path / "journal.jsonl"
+    for broken in (b"no\n{}\n", b"{}\n[1]\n"):
+        path.write_bytes(broken)
+        with pytest.raises(InputError, match=r"line [12]: not a row"):
+            Journal(path)
+
+
+def test_a_journal_that_cannot_be_is_told(tmp_path: Path) -> None:
+    with pytest.raises(RecordingError):
+        Journal(tmp_path / "nowhere" / "journal.jsonl")
