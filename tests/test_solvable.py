@@ -89,7 +89,8 @@ def test_stairs_are_a_way_within_the_limits_of_rise_tread_and_width(
 def test_a_drop_is_no_way_and_a_way_around_it_is() -> None:
     high = '[[course]]\nkind = "platform"\nposition = [0.0, 0.0]\nsize = [1.2, 0.96, 0.2]\n'
     assert not solvable(high)
-    assert not solvable(stairs(rise=0.05, steps=4), "position = [1.9, 0.0]\nheight = 0.0")
+    down = stairs(rise=0.05, steps=4).replace("[0.6, 0.0]", "[1.1, 0.0]\nyaw = 3.1415926")
+    assert solvable(high + down.replace("landing = 1.5", "landing = 0.15"))
 
 
 def test_a_point_to_pass_has_to_be_reached_too() -> None:
