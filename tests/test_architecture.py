@@ -11,11 +11,18 @@ LONGEST_FILE = 400
 # Tested through what uses them, by the test named.
 TESTED_BY = {
     "protocols": "test_components.py",
+    "cli.compare": "test_comparison.py",
+    "cli.options": "test_cli.py",
+    "cli.sweep": "test_sweeps.py",
+    "cli.sweep_verbs": "test_sweeps.py",
     "course.check": "test_course.py",
     "course.levels": "test_course.py",
     "course.pieces": "test_course.py",
     "recording.products": "test_recording.py",
     "recording.stair_shapes": "test_recording.py",
+    "sweeps.folder": "test_sweeps.py",
+    "sweeps.job": "test_sweeps.py",
+    "sweeps.summary": "test_sweeps.py",
     "scenario.messages": "test_scenario.py",
     "scenario.types": "test_scenario.py",
 }

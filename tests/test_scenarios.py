@@ -71,8 +71,11 @@ IN_A_KNOWN_HOUSE = (
     "kidnapped",
     "underpass",
 )
+DRAWN = ("random_flat", "random_stairs")
+"""Too many courses for a test: `treadwell sweep` runs them."""
 EXPECTED = {
     **WALKED,
+    **dict.fromkeys(DRAWN, "goal_reached"),
     **dict.fromkeys(IN_A_KNOWN_HOUSE, "goal_reached"),
     **dict.fromkeys(LOOKED_AT, "goal_reached"),
     **dict.fromkeys(CLIMBED, "goal_reached"),

@@ -79,6 +79,7 @@ def test_it_holds_models_scenarios_types_and_one_extension(wheel: Path) -> None:
         assert f"treadwell/{needed}" in names
     for path in (ROOT / "scenarios").glob("*.toml"):
         assert f"treadwell/scenarios/{path.name}" in names
+    assert "treadwell/scenarios/suites/leaderboard.toml" in names
     assert [name for name in names if name.endswith(".so")] == ["treadwell/_core.abi3.so"]
     assert not [name for name in names if "__pycache__" in name or "tests/" in name]
     assert "cp311-abi3" in wheel.name
