@@ -18,6 +18,7 @@ from treadwell.runner import Run
 
 ALWAYS = {
     "result.json", "trajectory.tum", "trajectory_truth.tum", "map.png", "model.mjb", "physics.npz",
+    "map.npz", "scenario.toml",
 }  # fmt: skip
 RECORDED = {"recording.rrd", "observations.mcap"}
 SECONDS = ("time_limit=2",)

@@ -11,9 +11,11 @@ from test_cdr import observation
 
 from treadwell.judging.ground_truth import pose_matrix
 from treadwell.judging.result import Result, read_result
+from treadwell.recording.map_file import write_map
 from treadwell.recording.map_picture import draw_map
 from treadwell.recording.observation_log import ObservationLog
 from treadwell.recording.recorder import Recorder
+from treadwell.recording.scenario_file import write_scenario
 from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.trajectory import Trajectory
 from treadwell.recording.verification import verify, verify_run
@@ -43,6 +45,8 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     made.simulation.save_audit(folder)
     told = result(made.scenario, simulated_seconds=0.01 * TICKS, version=version())
     draw_map(folder / "map.png", made.course, told, grid(), trajectory, trajectory, StairMemory())
+    write_map(folder / "map.npz", grid(), np.empty((0, 4), np.float32))
+    write_scenario(folder / "scenario.toml", made.scenario)
     told.write(folder / "result.json")
     return folder
 
@@ -79,6 +83,8 @@ def test_a_run_without_recordings_passes(copy: Path) -> None:
         "trajectory.tum",
         "trajectory_truth.tum",
         "map.png",
+        "map.npz",
+        "scenario.toml",
         "model.mjb",
         "physics.npz",
         "recording.rrd",

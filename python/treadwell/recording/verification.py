@@ -12,11 +12,16 @@ from treadwell.errors import InputError
 from treadwell.judging.result import Result, read_result
 from treadwell.physics.audit import STEPS_PER_TICK, replay_audit
 from treadwell.recording.file import whole_length
+from treadwell.recording.map_file import NAME as MAP
+from treadwell.recording.map_file import read_map
 from treadwell.recording.map_picture import NAME as PICTURE
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
 from treadwell.recording.observation_log import read_header, read_observations
 from treadwell.recording.recorder import NAME as RECORDING
+from treadwell.recording.scenario_file import NAME as SCENARIO
+from treadwell.recording.scenario_file import without_nothing
 from treadwell.recording.trajectory import ESTIMATE, TRUTH, read_trajectory
+from treadwell.scenario.loading import read_toml
 
 RESULT: Final = "result.json"
 _PNG: Final = b"\x89PNG\r\n\x1a\n"
@@ -68,6 +73,8 @@ def verify_run(folder: Path) -> Verification:
     if rows and result is not None and rows[-1] > result.simulated_seconds + 1e-6:
         problems.append(f"{ESTIMATE}: goes on after the end of the run")
     _picture(folder, problems)
+    _map(folder, problems)
+    _scenario(folder, result, problems)
     _recordings(folder, result, ticks, problems)
     steps = (ticks or 0) * STEPS_PER_TICK if difference is None else difference
     return Verification(folder, tuple(problems), steps, difference)
@@ -129,6 +136,23 @@ def _picture(folder: Path, problems: list[str]) -> None:
         return
     if not content.startswith(_PNG) or b"IEND" not in content[-12:]:
         problems.append(f"{folder / PICTURE}: is no whole PNG file")
+
+
+def _map(folder: Path, problems: list[str]) -> None:
+    try:
+        read_map(folder / MAP)
+    except InputError as error:
+        problems.append(str(error))
+
+
+def _scenario(folder: Path, result: Result | None, problems: list[str]) -> None:
+    try:
+        table = read_toml(folder / SCENARIO)
+    except InputError as error:
+        problems.append(str(error))
+        return
+    if result is not None and table != without_nothing(result.configuration):
+        problems.append(f"{folder / SCENARIO}: is not the configuration in {RESULT}")
 
 
 def _recordings(

@@ -4,11 +4,18 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+import numpy as np
+from numpy.typing import NDArray
+
 from treadwell.episode import Episode, Step
-from treadwell.errors import InputError, RecordingError
+from treadwell.errors import CoreError, InputError, RecordingError
 from treadwell.judging.map_memory import RememberedMap
 from treadwell.judging.result import Result
+from treadwell.recording.map_file import NAME as MAP
+from treadwell.recording.map_file import write_map
 from treadwell.recording.map_picture import draw_map
+from treadwell.recording.scenario_file import NAME as SCENARIO
+from treadwell.recording.scenario_file import write_scenario
 from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.trace import Trace
 from treadwell.recording.trajectory import ESTIMATE, TRUTH, Trajectory
@@ -104,6 +111,8 @@ class Writers:
             lambda: draw_map(
                 folder / "map.png", episode.course, result, remembered, estimate, truth, stairs
             ),
+            lambda: write_map(folder / MAP, remembered, occupied(episode)),
+            lambda: write_scenario(folder / SCENARIO, episode.scenario),
             lambda: result.write(folder / "result.json"),
         ]
         first: Exception | None = None
@@ -136,6 +145,15 @@ class NoWriters:
 
     def frame(self, trace: Trace) -> None:
         """Take in a camera frame."""
+
+
+def occupied(episode: Episode) -> NDArray[np.float32]:
+    """Return middle and side of each cube that the core holds to be occupied, (n, 4) m."""
+    try:
+        middles, sides = episode.pilot.occupied()
+    except CoreError:  # a core that has failed tells no more
+        return np.empty((0, 4), np.float32)
+    return np.column_stack([middles, sides]).astype(np.float32)
 
 
 def open_viewer(episode: Episode) -> Any:  # noqa: ANN401 - MuJoCo's viewer has no types

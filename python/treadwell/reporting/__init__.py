@@ -1,0 +1,1 @@
+"""`treadwell report`: one HTML file of a run, of several, or of a sweep."""
