@@ -40,6 +40,16 @@ class What(StrEnum):
     COMPONENTS = "components"
 
 
+class To(StrEnum):
+    """What `export` can write."""
+
+    OCTOMAP = "octomap"
+    MAP_SERVER = "map_server"
+    PLY = "ply"
+    TUM = "tum"
+    MCAP = "mcap"
+
+
 @app.callback(invoke_without_command=True)
 def _options(
     *, version: Annotated[bool, typer.Option("--version", help="Show the version.")] = False
@@ -156,6 +166,58 @@ def verify(
         for name, found in faults.items():
             typer.echo(f"{name}: {'; '.join(found) if found else 'whole, the same states'}")
     return FAILED if any(faults.values()) else PASSED
+
+
+@app.command(epilog="Example: treadwell report runs/latest --video runs/latest/run.mp4")
+def report(
+    run_dirs: Annotated[
+        list[Path], typer.Argument(metavar="RUN_DIR...", help="Runs' folders, or a sweep's.")
+    ],
+    *,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out", metavar="FILE", help="The page; default: report.html in the only folder."
+        ),
+    ] = None,
+    video: Annotated[
+        Path | None,
+        typer.Option("--video", metavar="FILE", help="Also write a film: .mp4 or .gif."),
+    ] = None,
+    as_json: JsonOption = False,
+) -> int:
+    """Write a page on a run, on several, or on a sweep; it opens with no network."""
+    from treadwell.cli import report as cli_report
+
+    document = cli_report.reported(run_dirs, out=out, video=video)
+    if as_json:
+        write_json(document)
+    return PASSED
+
+
+@app.command(epilog="Example: treadwell export runs/latest --to octomap --out maps")
+def export(
+    run_dir: Annotated[
+        Path,
+        typer.Argument(
+            metavar="RUN_DIR", help="A run's folder; for octomap a scenario, too: its course."
+        ),
+    ],
+    *,
+    to: Annotated[To, typer.Option("--to", help="The format.")],
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", help="Where to; default: export-... in the run's."),
+    ] = None,
+    as_json: JsonOption = False,
+) -> int:
+    """Write files that other tools open: maps, clouds, ways, messages."""
+    from treadwell.cli import export as cli_export
+
+    document = cli_export.exported(run_dir, to.value, out)
+    if as_json:
+        write_json(document)
+    return PASSED
 
 
 @app.command(epilog="Example: treadwell experiment stairs --seeds 5 --out runs/stairs")

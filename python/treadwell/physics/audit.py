@@ -104,11 +104,11 @@ def replay_audit(folder: Path) -> int | None:
     Raises:
         InputError: a file is missing or broken, or they do not belong together.
     """
-    model, arrays = _load(folder)
+    model, arrays = load_audit(folder)
     data = mujoco.MjData(model)
     mujoco.mj_setState(model, data, arrays["state0"], STATE)
     events = {int(step): row for row, step in enumerate(arrays.get("event_step", ()))}
-    fields = [(arrays[key], _field(model, data, key)) for key in _event_keys(arrays)]
+    fields = [(arrays[key], _field(model, data, key)) for key in event_keys(arrays)]
     for step, ctrl in enumerate(arrays["ctrl"]):
         if step in events:
             for rows, array in fields:
@@ -123,7 +123,12 @@ def replay_audit(folder: Path) -> int | None:
     return None
 
 
-def _load(folder: Path) -> tuple[mujoco.MjModel, dict[str, NDArray[Any]]]:
+def load_audit(folder: Path) -> tuple[mujoco.MjModel, dict[str, NDArray[Any]]]:
+    """Return the model and the arrays of an audit.
+
+    Raises:
+        InputError: a file is missing or broken, or they do not belong together.
+    """
     try:
         model = mujoco.MjModel.from_binary_path(str(folder / "model.mjb"))
     except ValueError as error:
@@ -151,12 +156,13 @@ def _fits(model: mujoco.MjModel, arrays: dict[str, NDArray[Any]]) -> bool:
         and state0.shape == (mujoco.mj_stateSize(model, STATE),)
         and all(
             arrays[key].shape == (len(events), *_field(model, data, key).shape)
-            for key in _event_keys(arrays)
+            for key in event_keys(arrays)
         )
     )
 
 
-def _event_keys(arrays: dict[str, NDArray[Any]]) -> list[str]:
+def event_keys(arrays: dict[str, NDArray[Any]]) -> list[str]:
+    """Return which arrays of an audit hold what events set."""
     return [key for key in arrays if key not in ("state0", "ctrl", "qpos", "event_step")]
 
 

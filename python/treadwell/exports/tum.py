@@ -1,0 +1,24 @@
+"""Trajectories as the TUM RGB-D benchmark has them, which evo opens.
+
+A run's folder has them in this format already: they are read, checked and written, so that what
+comes out is whole. evo's absolute pose error of the two, without alignment, is the translation
+error in `result.json`: both take the distance in three dimensions at every camera frame.
+"""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from treadwell.recording.trajectory import ESTIMATE, TRUTH, Trajectory, read_trajectory
+
+
+def export_tum(source: Path, out: Path) -> Sequence[Path]:
+    """Write `trajectory.tum` and `trajectory_truth.tum`.
+
+    Raises:
+        InputError: one of them is missing or broken.
+        OSError: a file cannot be written.
+    """
+    ways = [(name, read_trajectory(source / name)) for name in (ESTIMATE, TRUTH)]
+    for name, rows in ways:
+        Trajectory([tuple(row) for row in rows.tolist()]).write(out / name)
+    return [out / name for name, _ in ways]

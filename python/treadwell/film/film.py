@@ -1,0 +1,213 @@
+"""A film of a run: the robot from behind, the map beside it; MP4, or GIF by the file's ending."""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from treadwell.errors import InputError, RecordingError
+from treadwell.film.follower import Follower, follow
+from treadwell.film.plan_panel import PlanPanel
+from treadwell.film.poses import TICK_S, RecordedPoses
+from treadwell.film.ray_camera import Disc, RayCamera
+from treadwell.judging.result import Result, read_result
+from treadwell.recording.map_file import NAME as MAP
+from treadwell.recording.map_file import read_map
+from treadwell.recording.trajectory import ESTIMATE, TRUTH, read_trajectory
+
+Picture = NDArray[np.uint8]
+SUFFIXES: Final = (".mp4", ".gif")
+FRAMES_A_SECOND: Final = 10
+LONGEST_S: Final = 20.0
+"""Seconds that a film lasts at most; a longer run is shown so many times faster."""
+_SIZE, _PLAN = (432, 320), (288, 320)
+"""Pixels: multiples of 16, which the encoder wants."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Scene:
+    """What a run's pictures are drawn from."""
+
+    poses: RecordedPoses
+    follower: Follower
+    camera: RayCamera
+    result: Result
+
+    def picture(self, row: int) -> Picture:
+        """Return what the following camera sees at a row of the audit."""
+        return self.camera.picture(self.poses.set(row), self.follower.eye(row))
+
+    def heading(self, row: int) -> float:
+        """Return the true heading of the robot's root, rad."""
+        matrix = self.poses.set(row).xmat[self.poses.root()].reshape(3, 3)
+        return math.atan2(matrix[1, 0], matrix[0, 0])
+
+
+def scene_of(folder: Path, size: tuple[int, int] = _SIZE) -> Scene:
+    """Return what pictures of a run are drawn from.
+
+    Args:
+        folder: the run's.
+        size: width and height of a picture, pixels.
+
+    Raises:
+        InputError: result or audit are missing or broken, or the run ended before its first tick.
+    """
+    result = read_result(folder / "result.json")
+    poses = RecordedPoses(folder)
+    if not poses.count:
+        raise InputError(f"{folder / 'physics.npz'}: not one tick was run")
+    x, y, radius = goal_of(result, folder)
+    camera = RayCamera(poses.model, size, Disc(x, y, radius))
+    return Scene(poses, follow(poses), camera, result)
+
+
+def goal_of(result: Result, folder: Path) -> tuple[float, float, float]:
+    """Return x, y and radius of the goal, m.
+
+    Raises:
+        InputError: the configuration has none.
+    """
+    try:
+        goal = result.configuration["goal"]
+        x, y, radius = (float(v) for v in (*goal["position"], goal["radius"]))
+    except (KeyError, TypeError, ValueError):
+        raise InputError(f"{folder / 'result.json'}: configuration.goal: there is none") from None
+    return x, y, radius
+
+
+def write_film(
+    folder: Path, path: Path, progress: Callable[[int, int], None] | None = None
+) -> float:
+    """Write a film of a run.
+
+    Args:
+        folder: the run's.
+        path: of the film; `.mp4` or `.gif`.
+        progress: is told frames done and frames in all.
+
+    Returns:
+        How many times faster than the run the film is.
+
+    Raises:
+        InputError: the run lacks what is drawn, or the ending is none of these, or the encoder is
+            not installed.
+        RecordingError: the film cannot be written.
+    """
+    encode = _encoder(path)
+    scene = scene_of(folder)
+    seconds = scene.poses.count * TICK_S
+    speed = max(1.0, math.ceil(seconds / LONGEST_S))
+    step = round(speed / FRAMES_A_SECOND / TICK_S)
+    rows = [*range(0, scene.poses.count, step), scene.poses.count - 1]
+    frames = _frames(scene, _plan(folder, scene), rows, speed, progress)
+    try:
+        encode(path, frames)
+    except OSError as error:
+        path.unlink(missing_ok=True)
+        raise RecordingError(f"{path}: cannot be written: {error.strerror or error}") from None
+    except BaseException:
+        path.unlink(missing_ok=True)
+        raise
+    return speed
+
+
+def _plan(folder: Path, scene: Scene) -> PlanPanel:
+    """Return the map's panel, of what is there of it."""
+    try:
+        surface = read_map(folder / MAP).surface
+    except InputError:
+        surface = None
+    ways = []
+    for name in (TRUTH, ESTIMATE):
+        try:
+            ways.append(read_trajectory(folder / name)[:, :4])
+        except InputError:
+            ways.append(np.empty((0, 4)))
+    return PlanPanel(_PLAN, surface, ways[0], ways[1], goal_of(scene.result, folder))
+
+
+def _frames(
+    scene: Scene,
+    plan: PlanPanel,
+    rows: list[int],
+    speed: float,
+    progress: Callable[[int, int], None] | None,
+) -> Iterator[Picture]:
+    font = ImageFont.load_default(15)
+    for number, row in enumerate(rows):
+        time_s = (row + 1) * TICK_S
+        both = np.hstack([scene.picture(row), plan.at(time_s, scene.heading(row))])
+        frame = Image.fromarray(both)
+        text = f"{time_s:5.1f} s   {state_at(scene.result, time_s)}"
+        text += f"   {speed:g} x" if speed > 1.0 else ""
+        ImageDraw.Draw(frame).text(
+            (10, 8), text, font=font, fill=(20, 22, 28), stroke_width=2, stroke_fill=(240, 242, 245)
+        )
+        yield np.asarray(frame, np.uint8)
+        if progress is not None:
+            progress(number + 1, len(rows))
+
+
+def state_at(result: Result, time_s: float) -> str:
+    """Return the behaviour's state at a time."""
+    states = [entry.state for entry in result.behaviour if entry.time <= time_s]
+    return states[-1] if states else ""
+
+
+def _encoder(path: Path) -> Callable[[Path, Iterator[Picture]], None]:
+    """Return what writes a film with this ending."""
+    suffix = path.suffix.lower()
+    if suffix == ".gif":
+        return _write_gif
+    if suffix != ".mp4":
+        raise InputError(f"--video: {path}: must end in {' or '.join(SUFFIXES)}")
+    try:
+        import imageio_ffmpeg  # noqa: F401
+    except ImportError:
+        raise InputError(
+            "--video: an MP4 needs the extra `video`: pip install 'treadwell[video]'; "
+            "a name that ends in .gif needs nothing"
+        ) from None
+    return _write_mp4
+
+
+def _write_mp4(path: Path, frames: Iterator[Picture]) -> None:
+    import imageio_ffmpeg
+
+    size = (_SIZE[0] + _PLAN[0], _SIZE[1])
+    writer = imageio_ffmpeg.write_frames(
+        str(path), size, fps=FRAMES_A_SECOND, quality=6, ffmpeg_log_level="error"
+    )
+    writer.send(None)
+    try:
+        for frame in frames:
+            writer.send(np.ascontiguousarray(frame))
+    finally:
+        writer.close()
+    if not path.is_file() or path.stat().st_size == 0:
+        raise OSError(None, "the encoder wrote nothing")
+
+
+def _write_gif(path: Path, frames: Iterator[Picture]) -> None:
+    palette = None
+    pictures = []
+    for frame in frames:
+        picture = Image.fromarray(frame)
+        if palette is None:
+            palette = picture.quantize(128)
+        # One palette for all: what stands still then does not flicker, and is stored once.
+        pictures.append(picture.quantize(palette=palette, dither=Image.Dither.NONE))
+    pictures[0].save(
+        path,
+        save_all=True,
+        append_images=pictures[1:],
+        duration=round(1000 / FRAMES_A_SECOND),
+        loop=0,
+        optimize=False,
+    )
