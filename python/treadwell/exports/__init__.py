@@ -1,1 +1,1 @@
-"""`treadwell export`: a run's maps, clouds, ways and measurements in files that other tools open."""
+"""`treadwell export`: a run's maps, clouds, ways and measurements for other tools."""

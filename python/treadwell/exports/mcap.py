@@ -85,17 +85,8 @@ def _write(path: Path, told: list[Told]) -> None:
 
 def _messages(source: Path, schemas: Any) -> Iterator[Told]:  # noqa: ANN401
     estimate, truth = (read_trajectory(source / name) for name in (ESTIMATE, TRUTH))
-    for topic, child, rows in (
-        ("/estimate", "robot", estimate),
-        ("/truth", "robot_true", truth),
-    ):
-        for row in rows:
-            pose = _pose(schemas, row[1:4], row[4:8])
-            when = _time(schemas, _ns(row[0]))
-            made = schemas.PoseInFrame(timestamp=when, frame_id="map", pose=pose)
-            yield Told(_ns(row[0]), topic, made)
-            yield Told(_ns(row[0]), "/tf", _transform(schemas, _ns(row[0]), child, row[1:8]))
-    last = _ns(estimate[-1, 0]) if len(estimate) else 0
+    for topic, child, rows in (("/estimate", "robot", estimate), ("/truth", "robot_true", truth)):
+        yield from _way(schemas, topic, child, rows)
     for entry in read_result(source / "result.json").behaviour:
         when = _time(schemas, _ns(entry.time))
         line = schemas.Log(
@@ -104,16 +95,30 @@ def _messages(source: Path, schemas: Any) -> Iterator[Told]:  # noqa: ANN401
         yield Told(_ns(entry.time), "/behaviour", line)
     if (source / MAP).is_file():
         surface = read_map(source / MAP).surface
+        last = _ns(estimate[-1, 0]) if len(estimate) else 0
         if surface.kind.any():
             yield Told(last, "/map", _grid(schemas, seen_part(surface, source), last))
     if (source / RECORDING).is_file():
         for frame in seen_points(source):
             yield from _seen(schemas, frame)
     if (source / OBSERVATIONS).is_file():
-        for observation in read_observations(source / OBSERVATIONS):
-            if observation.depth is not None:
-                time_ns, depth = observation.depth.arrival_ns, observation.depth.depth
-                yield Told(time_ns, "/camera/depth", _image(schemas, time_ns, depth))
+        yield from _depth(schemas, source / OBSERVATIONS)
+
+
+def _way(schemas: Any, topic: str, child: str, rows: NDArray[np.float64]) -> Iterator[Told]:  # noqa: ANN401
+    for row in rows:
+        time_ns = _ns(row[0])
+        pose = _pose(schemas, row[1:4], row[4:8])
+        made = schemas.PoseInFrame(timestamp=_time(schemas, time_ns), frame_id="map", pose=pose)
+        yield Told(time_ns, topic, made)
+        yield Told(time_ns, "/tf", _transform(schemas, time_ns, child, row[1:8]))
+
+
+def _depth(schemas: Any, path: Path) -> Iterator[Told]:  # noqa: ANN401
+    for observation in read_observations(path):
+        if observation.depth is not None:
+            time_ns, depth = observation.depth.arrival_ns, observation.depth.depth
+            yield Told(time_ns, "/camera/depth", _image(schemas, time_ns, depth))
 
 
 def _seen(schemas: Any, frame: SeenPoints) -> Iterator[Told]:  # noqa: ANN401

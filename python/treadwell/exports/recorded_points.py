@@ -5,6 +5,7 @@ The recording has every third pixel of each camera frame, in the map frame, and 
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -76,12 +77,7 @@ def _lists(table: Any, name: str, width: int) -> list[NDArray[np.float64]]:  # n
     column = table.column(name)
     ends = column.offsets.to_numpy()
     flat = column.values.flatten().to_numpy(zero_copy_only=False).reshape(-1, width)
-    # A column that is a part of a longer one begins with values that are not its own.
-    first = int(ends[0]) if column.values.offset == 0 else 0
-    return [
-        np.array(flat[a - int(ends[0]) + first : b - int(ends[0]) + first], np.float64)
-        for a, b in zip(ends[:-1], ends[1:], strict=True)
-    ]
+    return [np.array(flat[begin:end], np.float64) for begin, end in pairwise(ends)]
 
 
 def _pose(place: NDArray[np.float64], turn: NDArray[np.float64]) -> NDArray[np.float64]:

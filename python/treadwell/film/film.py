@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import Final
 
@@ -168,7 +169,7 @@ def _encoder(path: Path) -> Callable[[Path, Iterator[Picture]], None]:
     if suffix != ".mp4":
         raise InputError(f"--video: {path}: must end in {' or '.join(SUFFIXES)}")
     try:
-        import imageio_ffmpeg  # noqa: F401
+        import_module("imageio_ffmpeg")
     except ImportError:
         raise InputError(
             "--video: an MP4 needs the extra `video`: pip install 'treadwell[video]'; "
@@ -178,8 +179,7 @@ def _encoder(path: Path) -> Callable[[Path, Iterator[Picture]], None]:
 
 
 def _write_mp4(path: Path, frames: Iterator[Picture]) -> None:
-    import imageio_ffmpeg
-
+    imageio_ffmpeg = import_module("imageio_ffmpeg")
     size = (_SIZE[0] + _PLAN[0], _SIZE[1])
     writer = imageio_ffmpeg.write_frames(
         str(path), size, fps=FRAMES_A_SECOND, quality=6, ffmpeg_log_level="error"

@@ -51,7 +51,7 @@ def follow(poses: RecordedPoses) -> Follower:
         # The root's pose is in qpos itself, but not that of a robot without a free joint.
         track[row] = poses.set(row).xpos[root]
     height = max(0.2, float(track[0, 2] - _floor(poses, track[0])))
-    places = _smoothed(track) + [0.0, 0.0, 0.1 * height]
+    places = _smoothed(track) + np.array([0.0, 0.0, 0.1 * height])
     away = max(_NEAREST, _HEIGHTS_AWAY * height)
     way = track[-1, :2] - track[0, :2]
     heading = math.atan2(way[1], way[0]) if np.hypot(*way) > 0.1 else 0.0

@@ -83,9 +83,9 @@ class RayCamera:
         colour, geom = self._shot(data, eye, column.ravel(), row.ravel())
         picture = colour.reshape(self.height, self.width, 3)
         edge = _edges(geom.reshape(self.height, self.width))
-        row, column = np.nonzero(edge)
-        if row.size:
-            parts = [self._shot(data, eye, column + dx, row + dy)[0] for dx, dy in _SUBPIXELS]
+        down, across = np.nonzero(edge)
+        if down.size:
+            parts = [self._shot(data, eye, across + dx, down + dy)[0] for dx, dy in _SUBPIXELS]
             picture[edge] = np.mean([picture[edge], *parts], axis=0)
         return np.asarray(np.clip(255.0 * picture + 0.5, 0.0, 255.0), np.uint8)
 

@@ -1,0 +1,134 @@
+"""What a run's folder still has: everything that can be read, and a sentence for what cannot."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from treadwell.errors import InputError
+from treadwell.judging.result import Result, read_result
+from treadwell.recording.map_picture import NAME as PICTURE
+from treadwell.recording.observation_log import NAME as OBSERVATIONS
+from treadwell.recording.observation_log import read_header, read_observations
+from treadwell.recording.recorder import NAME as RECORDING
+from treadwell.recording.trajectory import ESTIMATE, TRUTH, read_trajectory
+
+RESULT: Final = "result.json"
+KNOWN: Final = (
+    RESULT, ESTIMATE, TRUTH, PICTURE, RECORDING, OBSERVATIONS, "model.mjb", "physics.npz",
+    "map.npz", "scenario.toml",
+)  # fmt: skip
+"""Files of a run."""
+_OPTIONAL: Final = (RECORDING, OBSERVATIONS)
+"""What `--no-record` leaves out, both together."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RunData:
+    """A run as far as its folder tells.
+
+    Attributes:
+        folder: the run's.
+        result: None where the run was cut off before it was written.
+        header: scenario, robot, seed and version as the observations say; for a run without result.
+        problems: a sentence for each thing that is missing or broken.
+        estimate: (n, 8) the believed trajectory; without rows where it is missing.
+        truth: (n, 8) the true one.
+        seen_seconds: s, the time of the last observation; None where that does not matter.
+    """
+
+    folder: Path
+    result: Result | None
+    header: dict[str, str]
+    problems: list[str]
+    estimate: NDArray[np.float64]
+    truth: NDArray[np.float64]
+    seen_seconds: float | None = None
+
+    @property
+    def passed(self) -> bool:
+        """Whether it met its expectations; a run without a result did not."""
+        return self.result is not None and self.result.passed
+
+    def name(self, key: str) -> str:
+        """Return `scenario`, `robot`, `seed` or `version` as text; a dash where nothing says it."""
+        if self.result is not None:
+            return str(getattr(self.result, key))
+        return self.header.get(key, "–")
+
+
+def read_run(folder: Path) -> RunData:
+    """Read a run's folder.
+
+    Raises:
+        InputError: there is no such folder, nothing in it is a run's, or its result is broken.
+    """
+    if not folder.is_dir():
+        raise InputError(f"{folder}: there is no such run")
+    if not any((folder / name).is_file() for name in KNOWN):
+        raise InputError(f"{folder}: no run's folder: it has none of {', '.join(KNOWN)}")
+    problems = _missing(folder)
+    result = read_result(folder / RESULT) if (folder / RESULT).is_file() else None
+    header: dict[str, str] = {}
+    seen: float | None = None
+    if result is None:
+        header, seen = _of_observations(folder / OBSERVATIONS, problems)
+    ways = []
+    for name in (ESTIMATE, TRUTH):
+        try:
+            ways.append(read_trajectory(folder / name))
+        except InputError as error:
+            if (folder / name).is_file():
+                problems.append(str(error))
+            ways.append(np.empty((0, 8)))
+    return RunData(folder, result, header, problems, ways[0], ways[1], seen)
+
+
+def _missing(folder: Path) -> list[str]:
+    gone = [name for name in KNOWN if not (folder / name).is_file()]
+    if set(_OPTIONAL) <= set(gone):
+        gone = [name for name in gone if name not in _OPTIONAL]
+    problems = [f"{name} is missing" for name in gone]
+    if RESULT in gone:
+        problems.insert(0, "the run was cut off before its end: it has no result")
+    return problems
+
+
+def _of_observations(path: Path, problems: list[str]) -> tuple[dict[str, str], float | None]:
+    """Return what was run and until when, of a run without a result."""
+    if not path.is_file():
+        return {}, None
+    header: dict[str, str] = {}
+    last: int | None = None
+    try:
+        header = read_header(path)
+    except InputError as error:
+        problems.append(str(error))
+    try:
+        for observation in read_observations(path):
+            last = observation.time_ns
+    except InputError as error:
+        problems.append(str(error))
+    return header, None if last is None else 1e-9 * last
+
+
+def pose_errors(run: RunData) -> tuple[NDArray[np.float64], ...]:
+    """Return times (n,) s, errors of place (n,) m and of heading (n,) rad; empty without both.
+
+    As in `result.json`: the distance in three dimensions, and the turn about the upright axis.
+    """
+    common, ours, theirs = np.intersect1d(run.estimate[:, 0], run.truth[:, 0], return_indices=True)
+    believed, true = run.estimate[ours], run.truth[theirs]
+    with np.errstate(over="ignore", invalid="ignore"):
+        place = np.linalg.norm(believed[:, 1:4] - true[:, 1:4], axis=1)
+        turn = headings(believed) - headings(true)
+        return common, place, np.abs(np.arctan2(np.sin(turn), np.cos(turn)))
+
+
+def headings(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the headings (n,) rad of trajectory rows (n, 8)."""
+    x, y, z, w = rows[:, 4:8].T
+    angle: NDArray[np.float64] = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+    return angle

@@ -1,0 +1,156 @@
+"""The folder of a sweep as far as a page needs it: rows of episodes, whatever keys they lack."""
+
+import json
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from treadwell.errors import InputError
+
+ASKED, RESULTS = "sweep.json", "results.json"
+_LARGEST: Final = 500_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class EpisodeRow:
+    """One episode of a sweep.
+
+    Attributes:
+        scenario, robot, variant, seed, outcome, reason: as text; empty where unknown.
+        success: it met its expectations, or refused where there is no way.
+        end: (x, y) m where the robot was in the end; None: not known.
+        folder: of the kept run; None where it was not kept or is gone.
+        settings: `KEY=VALUE` that the variant stands for.
+        seconds: simulated; None: not known.
+        error: mean error of localization, m; None: not known.
+    """
+
+    scenario: str
+    robot: str
+    variant: str
+    seed: str
+    outcome: str
+    reason: str
+    success: bool
+    end: tuple[float, float] | None
+    folder: Path | None
+    settings: tuple[str, ...]
+    seconds: float | None
+    error: float | None
+
+    @property
+    def line(self) -> tuple[str, str, str]:
+        """What its line of the table is about: scenario, robot, variant."""
+        return self.scenario, self.robot, self.variant
+
+
+@dataclass(frozen=True, slots=True)
+class SweepData:
+    """A sweep: its folder, what was asked for, and its rows."""
+
+    folder: Path
+    asked: dict[str, Any]
+    rows: tuple[EpisodeRow, ...]
+    problems: tuple[str, ...]
+
+
+def is_sweep(folder: Path) -> bool:
+    """Whether a folder is a sweep's."""
+    return (folder / RESULTS).is_file() or (folder / ASKED).is_file()
+
+
+def read_sweep(folder: Path) -> SweepData:
+    """Read a sweep's folder.
+
+    Raises:
+        InputError: a file is broken.
+    """
+    problems: list[str] = []
+    asked = _document(folder / ASKED, problems)
+    found = _document(folder / RESULTS, problems)
+    episodes = found.get("episodes", []) if isinstance(found, dict) else found
+    if not isinstance(episodes, list) or not all(isinstance(row, dict) for row in episodes):
+        raise InputError(f"{folder / RESULTS}: episodes: must be a list of tables")
+    settings = _settings(asked)
+    rows = tuple(_row(folder, row, settings) for row in episodes)
+    if not rows:
+        problems.append("no episode is done yet")
+    return SweepData(folder, asked if isinstance(asked, dict) else {}, rows, tuple(problems))
+
+
+def _document(path: Path, problems: list[str]) -> Any:  # noqa: ANN401 - any JSON
+    if not path.is_file():
+        problems.append(f"{path.name} is missing")
+        return {}
+    try:
+        if path.stat().st_size > _LARGEST:
+            raise InputError(f"{path}: larger than {_LARGEST} bytes, which is the limit")
+        return json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    except (ValueError, RecursionError):
+        raise InputError(f"{path}: is no JSON") from None
+
+
+def _settings(asked: Any) -> dict[tuple[str, str, str], tuple[str, ...]]:  # noqa: ANN401
+    lines = asked.get("lines", []) if isinstance(asked, dict) else []
+    return {
+        (_text(line, "scenario"), _text(line, "robot"), _text(line, "variant")): tuple(
+            str(each) for each in line.get("settings") or ()
+        )
+        for line in (lines if isinstance(lines, list) else [])
+        if isinstance(line, dict)
+    }
+
+
+def _row(
+    folder: Path, row: dict[str, Any], settings: dict[tuple[str, str, str], tuple[str, ...]]
+) -> EpisodeRow:
+    key = (_text(row, "scenario"), _text(row, "robot"), _text(row, "variant"))
+    place = row.get("end_position")
+    if not isinstance(place, list) or len(place) < 2:
+        place = [row.get("end_x"), row.get("end_y")]
+    x, y = _number(place[0]), _number(place[1])
+    success = row.get("success", row.get("passed"))
+    return EpisodeRow(
+        *key,
+        seed=_text(row, "seed"),
+        outcome=_text(row, "outcome"),
+        reason=_text(row, "reason"),
+        success=bool(success),
+        end=None if x is None or y is None else (x, y),
+        folder=_kept(folder, row.get("folder", row.get("run", row.get("path")))),
+        settings=settings.get(key, ()),
+        seconds=_number(row.get("simulated_seconds")),
+        error=_number(row.get("translation_error_mean")),
+    )
+
+
+def _kept(folder: Path, named: Any) -> Path | None:  # noqa: ANN401
+    """Return the folder of a kept run, which lies in the sweep's."""
+    if not isinstance(named, str) or not named or "\x00" in named:
+        return None
+    try:
+        path = folder / named
+        inside = path.resolve().is_relative_to(folder.resolve())
+        return path if inside and path.is_dir() else None
+    except (OSError, RuntimeError, ValueError):
+        return None
+
+
+def _text(row: dict[str, Any], key: str) -> str:
+    value = row.get(key)
+    if isinstance(value, dict):
+        return ", ".join(f"{name}={item}" for name, item in value.items())
+    return "" if value is None else str(value)
+
+
+def _number(value: Any) -> float | None:  # noqa: ANN401
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    try:
+        number = float(value)
+    except OverflowError:
+        return None
+    return number if math.isfinite(number) else None
