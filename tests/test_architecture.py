@@ -15,6 +15,8 @@ TESTED_BY = {
     "cli.options": "test_cli.py",
     "cli.sweep": "test_sweeps.py",
     "cli.sweep_verbs": "test_sweeps.py",
+    "cli.export": "test_exports.py",
+    "cli.report": "test_reporting.py",
     "course.check": "test_course.py",
     "course.levels": "test_course.py",
     "course.pieces": "test_course.py",

@@ -108,7 +108,7 @@ def _of_map(stored: StoredMap, source: Path) -> Octree:
     ground = float(np.nanmin(top)) if top.size else 0.0
     for (x, y), height in zip(centres[obstacle], surface.height[obstacle], strict=True):
         high = float(height) if np.isfinite(height) else ground
-        levels = int(np.clip(np.ceil((high - ground) / surface.cell), 1, _MOST_LEVELS))
+        levels = int(np.clip(np.ceil((high - ground) / surface.cell - 1e-3), 1, _MOST_LEVELS))
         z = high - 1e-6 - surface.cell * np.arange(levels)
         tree.occupy(np.column_stack([np.full(levels, x), np.full(levels, y), z]))
     return tree

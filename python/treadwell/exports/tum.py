@@ -8,6 +8,7 @@ error in `result.json`: both take the distance in three dimensions at every came
 from collections.abc import Sequence
 from pathlib import Path
 
+from treadwell.errors import InputError
 from treadwell.recording.trajectory import ESTIMATE, TRUTH, Trajectory, read_trajectory
 
 
@@ -15,10 +16,13 @@ def export_tum(source: Path, out: Path) -> Sequence[Path]:
     """Write `trajectory.tum` and `trajectory_truth.tum`.
 
     Raises:
-        InputError: one of them is missing or broken.
+        InputError: one of them is missing, broken or without a pose.
         OSError: a file cannot be written.
     """
     ways = [(name, read_trajectory(source / name)) for name in (ESTIMATE, TRUTH)]
+    for name, rows in ways:
+        if not len(rows):
+            raise InputError(f"{source / name}: has not one pose")
     for name, rows in ways:
         Trajectory([tuple(row) for row in rows.tolist()]).write(out / name)
     return [out / name for name, _ in ways]

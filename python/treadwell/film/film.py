@@ -108,6 +108,7 @@ def write_film(
     rows = [*range(0, scene.poses.count, step), scene.poses.count - 1]
     frames = _frames(scene, _plan(folder, scene), rows, speed, progress)
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         encode(path, frames)
     except OSError as error:
         path.unlink(missing_ok=True)

@@ -57,6 +57,6 @@ def _title(runs: Sequence[RunSection], sweeps: Sequence[SweepSection]) -> str:
         return runs[0].title
     if len(sweeps) == 1 and not runs:
         return sweeps[0].title
-    parts = [f"{len(runs)} runs"] if runs else []
+    parts = [f"{len(runs)} run{'s' if len(runs) > 1 else ''}"] if runs else []
     parts += [f"{len(sweeps)} sweep{'s' if len(sweeps) > 1 else ''}"] if sweeps else []
     return " and ".join(parts)
