@@ -6,7 +6,7 @@ import pytest
 
 from treadwell.data import data_folder
 from treadwell.errors import InputError
-from treadwell.robot.file import read_robot_file
+from treadwell.robot.reading import read_robot_file
 
 QRIO = data_folder("models") / "qrio" / "robot.toml"
 
@@ -16,7 +16,7 @@ BROKEN = [
     ("[head]", "[head", "TOML"),
     ("kp = 150.0", "kp = 0.0", r"motors\.hip_and_knee\.kp.*greater than 0, got 0"),
     ("kp = 150.0", "kp = nan", r"motors\.hip_and_knee\.kp"),
-    ("kp = 150.0", "kb = 150.0", r"motors\.hip_and_knee\.kb: unknown key"),
+    ("kp = 150.0", "kb = 150.0", r"motors\.hip_and_knee\.kb: unknown key; allowed are .*kp, kv"),
     ("period = 0.08", "period = 0.085", "multiple of the control tick"),
     ("stall_torque = 1.4", "stall_torque = 0.4", "must not be below peak_torque"),
     ("period = 0.08", "period = 0.08\npool = 3", "pool must divide width and height, got 3"),

@@ -31,6 +31,9 @@ app = typer.Typer(
     rich_markup_mode=None,  # rich takes longer to import than all else together
 )
 
+robot_app = typer.Typer(help="What a robot's folder holds.", no_args_is_help=True)
+app.add_typer(robot_app, name="robot")
+
 
 class What(StrEnum):
     """What `list` can show."""
@@ -285,6 +288,23 @@ def bench(
 
 app.command(epilog=sweep_verbs.SWEEP_EXAMPLE)(sweep_verbs.sweep)
 app.command(epilog=sweep_verbs.COMPARE_EXAMPLE)(sweep_verbs.compare)
+
+
+@robot_app.command("check", epilog="Example: treadwell robot check my_robot --walk")
+def robot_check(
+    folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="With an MJCF and robot.toml.")],
+    *,
+    walk: Annotated[bool, typer.Option("--walk", help="Let it walk a metre, too.")] = False,
+    template: Annotated[
+        bool,
+        typer.Option("--write-template", help="Write a draft of robot.toml from the MJCF first."),
+    ] = False,
+    as_json: JsonOption = False,
+) -> int:
+    """Report what a robot's folder holds, what is missing, and what its gait can do."""
+    from treadwell.cli import robot as cli_robot
+
+    return cli_robot.check(folder, walk=walk, template=template, as_json=as_json)
 
 
 def execute(arguments: Sequence[str]) -> int:

@@ -70,7 +70,10 @@ def _check_joints(mjcf: Path, model: mujoco.MjModel) -> None:
             raise InputError(f"{mjcf}: joint {name!r} must be a hinge")
         low, high = model.jnt_range[joint]
         if not model.jnt_limited[joint] or low >= high:
-            raise InputError(f"{mjcf}: joint {name!r} needs a range, got {low:g} to {high:g}")
+            raise InputError(
+                f"{mjcf}: joint {name!r} needs a range, got {low:g} to {high:g}; "
+                "it may also stand in robot.toml, [ranges]"
+            )
 
 
 def _check_ties(mjcf: Path, model: mujoco.MjModel) -> None:
@@ -215,7 +218,9 @@ class _Checker:
     def _check_stand(self) -> None:
         model = self.model
         if "stand" not in [model.key(i).name for i in range(model.nkey)]:
-            raise InputError(f"{self.mjcf}: has no keyframe 'stand'")
+            raise InputError(
+                f"{self.mjcf}: has no keyframe 'stand', and robot.toml no table [stand]"
+            )
         angles = model.key("stand").qpos[7:]
         for name, joint in self.joints.items():
             low, high = model.jnt_range[joint]

@@ -1,8 +1,6 @@
 """The parsed `robot.toml` of a robot's folder: what the MJCF cannot say of the robot."""
 
 import json
-import tomllib
-from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
@@ -11,12 +9,9 @@ from pydantic import (
     Field,
     FiniteFloat,
     StringConstraints,
-    ValidationError,
     field_validator,
     model_validator,
 )
-
-from treadwell.errors import InputError
 
 Name = Annotated[str, StringConstraints(min_length=1, max_length=100)]
 Positive = Annotated[FiniteFloat, Field(gt=0.0)]
@@ -73,8 +68,8 @@ class SensorsTable(Table):
 class LegTable(Table):
     """`[legs.*]`: joints from the hip down (yaw, roll, pitch, knee, ankle pitch, ankle roll).
 
-    `forces` names the contact sensor of the sole: its net force, and where that acts. Without
-    `sensors`, there is one under each corner of the sole.
+    `forces` names the contact sensor of the sole: its net force, and where that acts; it is added
+    where the MJCF has none. Without `sensors`, there is one under each corner of the sole.
     """
 
     joints: tuple[Name, Name, Name, Name, Name, Name]
@@ -84,10 +79,20 @@ class LegTable(Table):
 
 
 class LegsTable(Table):
-    """`[legs]`: both."""
+    """`[legs]`: both. A `forces` that is not named is `left_sole_forces`, `right_sole_forces`."""
 
     left: LegTable
     right: LegTable
+
+    @model_validator(mode="before")
+    @classmethod
+    def _name_forces(cls, table: Any) -> Any:
+        if not isinstance(table, dict):
+            return table
+        return {
+            side: {"forces": f"{side}_sole_forces", **leg} if isinstance(leg, dict) else leg
+            for side, leg in table.items()
+        }
 
 
 class TrunkTable(Table):
@@ -111,11 +116,16 @@ class ArmsTable(Table):
 
 
 class ImuTable(Table):
-    """`[imu]`: the site, its sensors, standard deviations per axis: rad/s and m/s²."""
+    """`[imu]`: the site, its sensors, standard deviations per axis: rad/s and m/s².
 
-    site: Name
-    gyro: Name
-    accelerometer: Name
+    With `link` and `position` (m) the site is added; sensors are where the MJCF has none.
+    """
+
+    site: Name = "imu"
+    link: Name | None = None
+    position: Position = (0.0, 0.0, 0.0)
+    gyro: Name = "gyro"
+    accelerometer: Name = "accelerometer"
     gyro_noise: NotNegative = 0.0
     gyro_bias: NotNegative = 0.0
     accelerometer_noise: NotNegative = 0.0
@@ -184,8 +194,21 @@ class StructuredLightTable(Table):
         return self
 
 
+class MountTable(Table):
+    """`[camera.mount]`: the link that carries a camera which the MJCF does not have.
+
+    `position` of the lens in the link's frame, m; it looks along the link's x, tipped `down`, rad.
+    """
+
+    link: Name
+    position: Position
+    down: FiniteFloat = 0.0
+
+
 class CameraTable(Table):
     """`[camera]`: a camera of the MJCF; image size (pixels), fields of view (rad), period (s).
+
+    With `mount` it is added to the MJCF.
 
     `sensor` names the table that says how it errs. The core takes `pool` pixels a side for one.
     """
@@ -198,6 +221,7 @@ class CameraTable(Table):
     vertical_fov: Annotated[FiniteFloat, Field(gt=0.0, lt=3.0)]
     period: Positive
     pool: Annotated[int, Field(ge=1, le=8)] = 1
+    mount: MountTable | None = None
     stereo: StereoTable | None = None
     structured_light: StructuredLightTable | None = None
 
@@ -224,7 +248,9 @@ class CameraTable(Table):
 class MotorsTable(Table):
     """`[motors.*]`: torques (N·m), speed (rad/s) and servo gains that some joints share.
 
-    `stall_torque` is where the torque-speed line starts; without it, at `peak_torque`.
+    `stall_torque` is where the torque-speed line starts; without it, at `peak_torque`. The joints'
+    own `damping` (N·m·s/rad), dry `friction` (N·m) and `armature` (kg·m²) are the MJCF's where they
+    are not given.
     """
 
     joints: Annotated[tuple[Name, ...], Field(min_length=1)]
@@ -233,6 +259,9 @@ class MotorsTable(Table):
     no_load_speed: Positive
     kp: Positive
     kv: NotNegative
+    damping: NotNegative | None = None
+    friction: NotNegative | None = None
+    armature: NotNegative | None = None
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -242,15 +271,21 @@ class MotorsTable(Table):
 
 
 class RobotFile(Table):
-    """The whole file. `gait` goes to the walker as it is; a scenario goes over `navigation`."""
+    """The whole file. `gait` goes to the walker as it is; a scenario goes over `navigation`.
+
+    `stand` (joint to angle, rad; 0 for the others) stands for a keyframe, `ranges` (joint to its
+    least and largest angle, rad) for those that the MJCF does not have.
+    """
 
     robot: RobotTable
+    stand: dict[Name, FiniteFloat] = {}
+    ranges: dict[Name, tuple[FiniteFloat, FiniteFloat]] = {}
     body: BodyTable
     legs: LegsTable
     trunk: TrunkTable = TrunkTable()
     head: HeadTable
     arms: ArmsTable = ArmsTable()
-    imu: ImuTable
+    imu: ImuTable = ImuTable()
     encoders: EncodersTable = EncodersTable()
     feet: FeetTable = FeetTable()
     camera: CameraTable
@@ -266,34 +301,3 @@ class RobotFile(Table):
         except (TypeError, ValueError) as error:
             raise ValueError("must hold finite numbers, strings, booleans and lists") from error
         return table
-
-
-def read_robot_file(path: Path) -> RobotFile:
-    """Read and check a `robot.toml`.
-
-    Raises:
-        InputError: the file is missing, no TOML, or does not have the form above.
-    """
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: is no valid TOML: {error}") from error
-    try:
-        return RobotFile.model_validate(table)
-    except ValidationError as error:
-        raise InputError("\n".join(_lines(path, error))) from error
-
-
-def _lines(path: Path, error: ValidationError) -> list[str]:
-    """Return a line for each thing that is wrong: the file, the key, what it is and was."""
-    lines = []
-    for item in error.errors():
-        key = ".".join(str(part) for part in item["loc"])
-        message = item["msg"].removeprefix("Value error, ")
-        found = "" if isinstance(item["input"], dict | BaseModel) else f", got {item['input']!r}"
-        if item["type"] == "extra_forbidden":
-            message, found = "unknown key", ""
-        lines.append(f"{path}: {key}: {message}{found}")
-    return lines

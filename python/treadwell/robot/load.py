@@ -13,13 +13,12 @@ from numpy.typing import NDArray
 from treadwell.data import data_folder
 from treadwell.errors import InputError
 from treadwell.physics.motors import MotorLimits
+from treadwell.robot.additions import STAND, complete
 from treadwell.robot.check import check_robot
 from treadwell.robot.description import describe
-from treadwell.robot.file import MotorsTable, RobotFile, read_robot_file
+from treadwell.robot.file import MotorsTable, RobotFile
 from treadwell.robot.followers import followers
-
-STAND = "stand"
-"""Name of the keyframe of the MJCF in which the robot stands upright."""
+from treadwell.robot.reading import read_robot_file
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +31,8 @@ class Robot:
         name: the folder's name.
         folder: where its files are.
         file: the parsed `robot.toml`.
-        nominal: the compiled MJCF, alone in an empty world. Not to be changed.
+        nominal: the compiled MJCF with what `robot.toml` adds, alone in an empty world. Not to be
+            changed.
     """
 
     name: str
@@ -45,7 +45,8 @@ class Robot:
 
         Its keyframes are left out: they would not fit a model with more joints.
         """
-        spec = _read_spec(self.folder / self.file.robot.model)
+        spec = read_spec(self.folder / self.file.robot.model)
+        complete(spec, self.file, self.folder / "robot.toml")
         for key in list(spec.keys):
             spec.delete(key)
         return spec
@@ -120,12 +121,22 @@ def load_robot(name_or_path: str | Path) -> Robot:
     Raises:
         InputError: there is no such robot, or its files are broken or do not fit each other.
     """
-    folder = _find(name_or_path)
+    return load_folder(_find(name_or_path))
+
+
+def load_folder(folder: Path) -> Robot:
+    """Load and check the robot of a folder.
+
+    Raises:
+        InputError: its files are broken or do not fit each other.
+    """
     path = folder / "robot.toml"
     file = read_robot_file(path)
     model_path = folder / file.robot.model
     try:
-        nominal = _read_spec(model_path).compile()
+        spec = read_spec(model_path)
+        complete(spec, file, path)
+        nominal = spec.compile()
     except ValueError as error:
         raise InputError(f"{model_path}: MuJoCo cannot compile it: {_one_line(error)}") from error
     check_robot(path, model_path, nominal, file)
@@ -154,7 +165,12 @@ def _find(name_or_path: str | Path) -> Path:
     )
 
 
-def _read_spec(path: Path) -> mujoco.MjSpec:
+def read_spec(path: Path) -> mujoco.MjSpec:
+    """Read an MJCF.
+
+    Raises:
+        InputError: it is missing or broken.
+    """
     if not path.is_file():
         raise InputError(f"{path}: the robot's model is missing (robot.model in robot.toml)")
     try:

@@ -4,6 +4,7 @@ mod clearance;
 mod components;
 mod distance;
 mod error;
+mod legs;
 mod observation;
 mod octree;
 mod pilot;
@@ -26,6 +27,8 @@ mod _core {
     use super::clearance::swept_clearance;
     #[pymodule_export]
     use super::distance::squared_distances;
+    #[pymodule_export]
+    use super::legs::PyLegs;
     #[pymodule_export]
     use super::octree::PyOctree;
     #[pymodule_export]

@@ -56,6 +56,11 @@ impl Leg {
         &self.geometry.hip
     }
 
+    /// From hip to knee, and from knee to ankle, m.
+    pub const fn lengths_m(&self) -> (f64, f64) {
+        (self.geometry.thigh_m, self.geometry.shank_m)
+    }
+
     /// Longest distance from hip to ankle, m.
     pub const fn max_length_m(&self) -> f64 {
         self.max_length_m
@@ -308,5 +313,19 @@ mod tests {
         apart.links[3].position = [0.02, 0.0, 0.0];
         let error = Leg::new(&Body::new(apart).unwrap(), Side::Left, 0.985).unwrap_err();
         assert!(error.to_string().contains("must meet"), "{error}");
+    }
+
+    #[test]
+    fn hip_axes_that_miss_each_other_by_a_tenth_of_a_millimetre_put_the_sole_that_near() {
+        let mut apart = description();
+        apart.links[3].position = [1e-4, 0.0, 0.0];
+        let body = Body::new(apart).unwrap();
+        let leg = Leg::new(&body, Side::Left, 0.985).unwrap();
+        let wanted = Isometry3::translation(0.03, 0.05, -0.22);
+        let found = leg.solve(&wanted);
+        assert!(found.reached);
+        let sole = sole_at(&body, Side::Left, &found.angles_rad);
+        let off = wanted.inverse() * sole;
+        assert!(off.translation.vector.norm() < 2e-4, "{off}");
     }
 }

@@ -1,0 +1,234 @@
+"""What the legs of a robot can do: where the gait's closed form reaches, and what joints bear."""
+
+import json
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from treadwell._core import Legs
+from treadwell.robot.load import Robot
+
+Floats = NDArray[np.float64]
+
+TREAD_M = 0.12
+"""Depth of the steps that are tried: one is as far ahead of the other."""
+TRANSFER = 0.75
+"""How far the weight has gone to the foot ahead when the one behind lifts off."""
+HIGHEST_M, RISE_STEP_M = 0.12, 0.005
+FARTHEST_M, REACH_STEP_M = 0.4, 0.005
+MOST_TURN_RAD, TURN_STEP_RAD = 1.5, 0.05
+LOWERING_M = 0.002
+"""Steps in which the hips are lowered until both soles are reached."""
+LOWEST_SHARE = 0.4
+"""The hips are lowered to this share of their height at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rise:
+    """A step up or down, both soles on the ground, all the weight on the leg that lifts or lowers.
+
+    Attributes:
+        height_m: of the step; below zero: down.
+        reached: whether both soles get there, and a foot over the edge.
+        hips_m: how high the hips are over the sole that carries, m.
+        torque_share: the largest share of a motor's peak torque that holding still takes.
+        joint: the joint that bears it.
+        knee_torque_nm: what the knee bears.
+    """
+
+    height_m: float
+    reached: bool
+    hips_m: float
+    torque_share: float
+    joint: str
+    knee_torque_nm: float
+
+    @property
+    def possible(self) -> bool:
+        """Whether the legs reach and the motors hold."""
+        return self.reached and self.torque_share <= 1.0
+
+
+class Reach:
+    """Tries postures of a robot's legs: statics alone, nothing moves.
+
+    Attributes:
+        gait: `[gait]` with its defaults.
+        legs: the closed form of both legs.
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        """Build the closed form.
+
+        Raises:
+            InputError: the legs do not have the axes that it needs, or the gait a bad setting.
+        """
+        self._robot = robot
+        self.legs = Legs(json.dumps(robot.description()))
+        self.gait: dict[str, float] = json.loads(self.legs.gait_json)
+        self._model = robot.spec().compile()
+        self._model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
+        self._data = mujoco.MjData(self._model)
+        self._hip_m = float(self.legs.lengths("left")[0][2])
+        self._width_m = self.gait["stance_width"]
+
+    def longest_step_m(self) -> float:
+        """Return the longest step forward that keeps the hips at the gait's height, m."""
+        half = 0.5 * self._width_m
+        return _greatest(
+            lambda x: self._level([(x / 2, half, 0.0), (-x / 2, -half, 0.0)]),
+            FARTHEST_M,
+            REACH_STEP_M,
+        )
+
+    def widest_step_m(self) -> float:
+        """Return by how much the feet may be farther apart than side by side, m."""
+
+        def reached(extra: float) -> bool:
+            half = 0.5 * (self._width_m + extra)
+            return self._level([(0.0, half, 0.0), (0.0, -half, 0.0)])
+
+        return _greatest(reached, FARTHEST_M, REACH_STEP_M)
+
+    def largest_turn_rad(self) -> float:
+        """Return by how much one foot may be turned outwards against the other, rad."""
+        half = 0.5 * self._width_m
+        soles = [(0.0, half, 0.0), (0.0, -half, 0.0)]
+        return _greatest(
+            lambda turn: self._level(soles, (turn / 2, -turn / 2)), MOST_TURN_RAD, TURN_STEP_RAD
+        )
+
+    def rises(self, direction: float) -> list[Rise]:
+        """Return steps of growing height, up (1) or down (-1), to the first that is not possible."""
+        found = []
+        for number in range(1, round(HIGHEST_M / RISE_STEP_M) + 1):
+            found.append(self.rise(direction * number * RISE_STEP_M))
+            if not found[-1].possible:
+                break
+        return found
+
+    def rise(self, height_m: float) -> Rise:
+        """Try one step: the left foot is on it, a tread ahead; the right one behind.
+
+        Up, the left leg lifts the body until the right foot comes free; down, the right leg lowers
+        it until the left foot stands.
+        """
+        half = 0.5 * self._width_m
+        soles = [(TREAD_M, half, height_m), (0.0, -half, 0.0)]
+        carries = 0 if height_m > 0.0 else 1
+        over = self._over(soles, carries)
+        # Who walks has not come all the way when the foot behind lifts off, and has set out for the
+        # foot ahead when that one lands.
+        behind, ahead = self._over(soles, 1), self._over(soles, 0)
+        lifting = behind + (TRANSFER if carries == 0 else 1.0 - TRANSFER) * (ahead - behind)
+        hips = self._lowered(soles, lifting, soles[carries][2])
+        if hips is None:
+            return Rise(height_m, False, math.nan, math.nan, "", math.nan)
+        reached = self._swings(soles, height_m)
+        self._pose(soles, over, hips)
+        shares = self._shares(carries, over)
+        joint = max(shares, key=lambda name: shares[name][0])
+        leg = (self._robot.file.legs.left, self._robot.file.legs.right)[carries]
+        return Rise(
+            height_m,
+            reached,
+            hips - soles[carries][2],
+            shares[joint][0],
+            joint,
+            shares[leg.joints[3]][1],
+        )
+
+    def _over(self, soles: list[tuple[float, float, float]], carries: int) -> Floats:
+        """Return where the weight is when one foot carries it all, (x, y)."""
+        sign = 1.0 - 2.0 * carries
+        x, y, _ = soles[carries]
+        return np.array([x, y - sign * self.gait["support_inward"]])
+
+    def _swings(self, soles: list[tuple[float, float, float]], height_m: float) -> bool:
+        """Whether the left foot gets there from beside the right one, which carries."""
+        over = self._over(soles, 1)
+        hips = self._lowered(soles, over, 0.0)
+        if hips is None:
+            return False
+        (x, y, _), right = soles[0], soles[1]
+        lifted = max(height_m, 0.0) + self.gait["climb_clearance"]
+        return all(
+            self._pose([(share * x, y, lifted), right], over, hips) for share in (0.0, 0.5, 1.0)
+        )
+
+    def _level(
+        self, soles: list[tuple[float, float, float]], yaws: tuple[float, float] = (0.0, 0.0)
+    ) -> bool:
+        """Whether both soles are reached, the weight between them, the hips at their height."""
+        middle = np.array(soles)[:, :2].mean(axis=0)
+        return self._pose(soles, middle, self.gait["hip_height"], yaws)
+
+    def _lowered(
+        self, soles: list[tuple[float, float, float]], over: Floats, ground_m: float
+    ) -> float | None:
+        """Return the greatest height of the hips at which both soles are reached, or None."""
+        full = self.gait["hip_height"]
+        for number in range(int((1.0 - LOWEST_SHARE) * full / LOWERING_M)):
+            hips = ground_m + full - number * LOWERING_M
+            if self._pose(soles, over, hips):
+                return hips
+        return None
+
+    def _pose(
+        self,
+        soles: list[tuple[float, float, float]],
+        over: Floats,
+        hips_m: float,
+        yaws: tuple[float, float] = (0.0, 0.0),
+    ) -> bool:
+        """Pose the model: soles there, upright, centre of mass `over`; whether all is reached."""
+        model, data, robot = self._model, self._data, self._robot
+        root = np.array([0.0, 0.0, hips_m - self._hip_m])
+        data.qpos[:] = robot.stand_qpos
+        reached = True
+        for _ in range(3):
+            data.qpos[:3], data.qpos[3:7] = root, (1.0, 0.0, 0.0, 0.0)
+            mujoco.mj_kinematics(model, data)
+            mujoco.mj_comPos(model, data)
+            root[:2] = over - (data.subtree_com[1][:2] - data.qpos[:2])
+            reached = True
+            legs = (robot.file.legs.left, robot.file.legs.right)
+            for side, leg, sole, yaw in zip(("left", "right"), legs, soles, yaws, strict=True):
+                x, y, z = (float(value) for value in np.array(sole) - root)
+                angles, found = self.legs.solve(side, (x, y, z), yaw)
+                reached = reached and found
+                for joint, angle in zip(leg.joints, angles, strict=True):
+                    data.qpos[model.joint(joint).qposadr[0]] = angle
+        data.qpos[:3] = root
+        return reached
+
+    def _shares(self, carries: int, over: Floats) -> dict[str, tuple[float, float]]:
+        """Return (share of the peak, N·m) of the leg's joints, all the weight on one sole."""
+        model, data, robot = self._model, self._data, self._robot
+        leg = (robot.file.legs.left, robot.file.legs.right)[carries]
+        data.qvel[:] = 0.0
+        mujoco.mj_forward(model, data)
+        link = model.body(leg.sole.link).id
+        sole = data.xpos[link] + data.xmat[link].reshape(3, 3) @ np.array(leg.sole.position)
+        jacobian = np.zeros((3, model.nv))
+        mujoco.mj_jac(model, data, jacobian, None, np.array([*over, sole[2]]), link)
+        weight = float(model.body_subtreemass[1]) * -float(model.opt.gravity[2])
+        torques = data.qfrc_bias - weight * jacobian[2]
+        shares = {}
+        for name in leg.joints:
+            order = robot.joints.index(name)
+            torque = float(torques[model.joint(name).dofadr[0]])
+            shares[name] = (abs(torque) / float(robot.limits.peak_torque[order]), abs(torque))
+        return shares
+
+
+def _greatest(holds: Callable[[float], bool], most: float, step: float) -> float:
+    """Return the greatest multiple of a step up to which all hold."""
+    number = 0
+    while (number + 1) * step <= most and holds((number + 1) * step):
+        number += 1
+    return number * step

@@ -1,0 +1,291 @@
+"""A report on a robot's folder: what was found, what is missing, what its gait can do."""
+
+import math
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from treadwell.errors import InputError
+from treadwell.robot.anatomy import Anatomy
+from treadwell.robot.file import SoleTable
+from treadwell.robot.load import Robot, load_folder, read_spec
+from treadwell.robot.reach import Reach, Rise
+from treadwell.robot.reading import required_keys
+
+SCHEMA = "treadwell.robot/1"
+SOLE_APART_M = 0.006
+"""By how much a sole may differ from what touches the ground before the report says so."""
+
+
+def report_on(folder: Path) -> dict[str, Any]:
+    """Return a report on a robot's folder as plain data.
+
+    It goes as far as the folder lets it: an MJCF alone gives its own part.
+
+    Args:
+        folder: with an MJCF, and a `robot.toml` or not.
+
+    Raises:
+        InputError: there is no folder, or no MJCF that MuJoCo reads.
+    """
+    if not folder.is_dir():
+        raise InputError(f"{folder}: there is no such folder")
+    mjcf = find_mjcf(folder)
+    bare = compile_alone(mjcf)
+    document: dict[str, Any] = {
+        "schema": SCHEMA,
+        "folder": str(folder),
+        "name": folder.resolve().name,
+        "model": mjcf.name,
+        "problems": [],
+        "notes": [],
+    }
+    robot = None
+    try:
+        robot = load_folder(folder)
+    except InputError as error:
+        document["problems"] += str(error).splitlines()
+        if not (folder / "robot.toml").exists():
+            document["problems"] = [f"{folder / 'robot.toml'}: is missing", *required_keys()]
+    anatomy = Anatomy.of(bare if robot is None else robot.nominal)
+    document |= _found(anatomy)
+    if robot is not None:
+        document |= _told(robot, anatomy, document)
+        try:
+            document["gait"] = _gait(robot)
+        except InputError as error:
+            document["problems"] += str(error).splitlines()
+    document["fits"] = not document["problems"]
+    return document
+
+
+def find_mjcf(folder: Path) -> Path:
+    """Return the MJCF of a folder: the one that `robot.toml` names, or else the only one.
+
+    Raises:
+        InputError: there is none, or no telling which.
+    """
+    try:
+        named = tomllib.loads((folder / "robot.toml").read_text(encoding="utf-8"))
+        name = named["robot"]["model"]
+        if isinstance(name, str) and (folder / Path(name).name).is_file():
+            return folder / Path(name).name
+    except (OSError, ValueError, KeyError, TypeError):
+        pass
+    files = sorted(folder.glob("*.xml"))
+    same = [file for file in files if file.stem == folder.resolve().name]
+    if len(files) == 1 or same:
+        return (same or files)[0]
+    raise InputError(
+        f"{folder}: has {'no MJCF (*.xml)' if not files else f'{len(files)} MJCF files'}; name "
+        f"the robot's {folder.resolve().name}.xml, or say [robot] model = in a robot.toml"
+    )
+
+
+def compile_alone(mjcf: Path) -> mujoco.MjModel:
+    """Compile an MJCF as it is.
+
+    Raises:
+        InputError: MuJoCo cannot.
+    """
+    try:
+        return read_spec(mjcf).compile()
+    except ValueError as error:
+        raise InputError(f"{mjcf}: MuJoCo cannot compile it: {' '.join(str(error).split())}") from (
+            error
+        )
+
+
+def _found(anatomy: Anatomy) -> dict[str, Any]:
+    """Return what the model shows by itself."""
+    model = anatomy.model
+    links = [
+        {"name": model.body(body).name, "mass": float(model.body_mass[body])}
+        for body in range(1, model.nbody)
+    ]
+    legs = anatomy.legs()
+    chains = {
+        side: {"joints": [_joint(anatomy, name) for name in leg.joints], "foot": leg.foot}
+        for side, leg in legs.items()
+    }
+    unlike = ["there are no two legs of six hinges, one on each side"]
+    if len(legs) == 2:
+        unlike = anatomy.differences(legs["left"].joints, legs["right"].joints)
+    return {
+        "mass": {"total": float(sum(link["mass"] for link in links)), "links": links},
+        "legs": chains,
+        "mirrored": not unlike,
+        "unlike": unlike,
+        "soles": {side: _sole(*leg.sole) for side, leg in legs.items()},
+        "actuators": [_actuator(model, number) for number in range(model.nu)],
+        "cameras": [model.camera(number).name for number in range(model.ncam)],
+        "sites": [model.site(number).name for number in range(model.nsite)],
+        "keyframes": [model.key(number).name for number in range(model.nkey)],
+        "without_range": [
+            model.joint(joint).name
+            for joint in range(model.njnt)
+            if model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_HINGE and not model.jnt_limited[joint]
+        ],
+    }
+
+
+def _joint(anatomy: Anatomy, name: str) -> dict[str, Any]:
+    model = anatomy.model
+    joint = model.joint(name).id
+    limited = bool(model.jnt_limited[joint])
+    return {
+        "name": name,
+        "axis": [round(float(value), 4) + 0.0 for value in anatomy.axis(joint)],
+        "range": [float(value) for value in model.jnt_range[joint]] if limited else None,
+    }
+
+
+def _sole(position: tuple[float, float, float], length: float, width: float) -> dict[str, Any]:
+    return {"position": [round(v, 5) for v in position], "length": length, "width": width}
+
+
+def _actuator(model: mujoco.MjModel, number: int) -> dict[str, Any]:
+    on_joint = model.actuator_trntype[number] == mujoco.mjtTrn.mjTRN_JOINT
+    servo = model.actuator_biastype[number] != mujoco.mjtBias.mjBIAS_NONE
+    bounds = model.actuator_forcerange[number] if servo else model.actuator_ctrlrange[number]
+    return {
+        "name": model.actuator(number).name,
+        "joint": model.joint(int(model.actuator_trnid[number, 0])).name if on_joint else None,
+        "kind": "servo" if servo else "motor",
+        "torque": float(bounds[1]) if bounds[0] < bounds[1] else None,
+        "stiffness": float(model.actuator_gainprm[number, 0]) if servo else None,
+    }
+
+
+def _told(robot: Robot, anatomy: Anatomy, document: dict[str, Any]) -> dict[str, Any]:
+    """Return what `robot.toml` says of the model, and write notes where the two differ."""
+    file, limits = robot.file, robot.limits
+    legs = {"left": file.legs.left, "right": file.legs.right}
+    for side, leg in legs.items():
+        seen = anatomy.sole(robot.nominal.body(leg.sole.link).id)
+        apart = _apart(leg.sole, seen)
+        if apart > SOLE_APART_M:
+            document["notes"].append(
+                f"legs.{side}.sole: differs by {1e3 * apart:.0f} mm from what touches the ground, "
+                f"{1e3 * seen[1]:.0f} x {1e3 * seen[2]:.0f} mm"
+            )
+    data = mujoco.MjData(robot.nominal)
+    data.qpos[:] = robot.stand_qpos
+    mujoco.mj_kinematics(robot.nominal, data)
+    mujoco.mj_comPos(robot.nominal, data)
+    mujoco.mj_camlight(robot.nominal, data)
+    camera = robot.nominal.camera(file.camera.name).id
+    looks = -data.cam_xmat[camera].reshape(3, 3)[:, 2]
+    soles = {
+        side: {**leg.sole.model_dump(exclude={"link"}), "position": list(leg.sole.position)}
+        for side, leg in legs.items()
+    }
+    return {
+        "legs": {
+            side: {"joints": [_joint(anatomy, name) for name in leg.joints], "foot": leg.sole.link}
+            for side, leg in legs.items()
+        },
+        "unlike": anatomy.differences(legs["left"].joints, legs["right"].joints),
+        "soles": soles,
+        "motors": [
+            {
+                "joint": name,
+                "peak_torque": float(limits.peak_torque[order]),
+                "no_load_speed": float(limits.no_load_speed[order]),
+                "kp": float(limits.kp[order]),
+                "kv": float(limits.kv[order]),
+            }
+            for order, name in enumerate(robot.joints)
+        ],
+        "camera": {
+            "name": file.camera.name,
+            "link": robot.nominal.body(int(robot.nominal.cam_bodyid[camera])).name,
+            "height": float(data.cam_xpos[camera][2]),
+            "ahead": float(data.cam_xpos[camera][0]),
+            "down": math.atan2(-float(looks[2]), float(np.hypot(looks[0], looks[1]))),
+            "fields_of_view": [file.camera.horizontal_fov, file.camera.vertical_fov],
+            "size": [file.camera.width, file.camera.height],
+            "period": file.camera.period,
+            "sensor": file.camera.sensor,
+        },
+        "imu": {"site": file.imu.site, "link": _site_link(robot, file.imu.site)},
+        "stand": {
+            "height_of_mass": float(data.subtree_com[1][2]),
+            "mass_ahead_of_soles": _ahead(robot, data),
+        },
+    }
+
+
+def _site_link(robot: Robot, site: str) -> str:
+    model = robot.nominal
+    return str(model.body(int(model.site_bodyid[model.site(site).id])).name)
+
+
+def _ahead(robot: Robot, data: mujoco.MjData) -> float:
+    """Return how far the centre of mass is ahead of the soles' middle in the stance, m."""
+    middle = 0.0
+    for leg in (robot.file.legs.left, robot.file.legs.right):
+        link = robot.nominal.body(leg.sole.link).id
+        rotation = data.xmat[link].reshape(3, 3)
+        middle += 0.5 * float(data.xpos[link][0] + rotation[0] @ np.array(leg.sole.position))
+    return float(data.subtree_com[1][0]) - middle
+
+
+def _apart(told: SoleTable, seen: tuple[tuple[float, float, float], float, float]) -> float:
+    """Return the largest distance between the edges of two rectangles, m."""
+    position, length, width = seen
+    ends = []
+    for centre, size, other, extent in (
+        (told.position[0], told.length, position[0], length),
+        (told.position[1], told.width, position[1], width),
+    ):
+        ends += [abs(centre - other + sign * 0.5 * (size - extent)) for sign in (-1, 1)]
+    return max(*ends, abs(told.position[2] - position[2]))
+
+
+def _gait(robot: Robot) -> dict[str, Any]:
+    """Return what the gait asks for, and what the legs could do."""
+    reach = Reach(robot)
+    gait = reach.gait
+    hip, thigh, shank, ankle = reach.legs.lengths("left")
+    up, down = reach.rises(1.0), reach.rises(-1.0)
+    return {
+        "thigh": thigh,
+        "shank": shank,
+        "ankle_height": ankle,
+        "hips_apart": 2.0 * abs(float(hip[1])),
+        "hip_height": gait["hip_height"],
+        "speed": gait["max_forward"] / gait["step_time"],
+        "step": {"asked": gait["max_forward"], "reached": reach.longest_step_m()},
+        "sideways": {"asked": gait["max_sideways"], "reached": reach.widest_step_m()},
+        "turn": {"asked": gait["max_turn"], "reached": reach.largest_turn_rad()},
+        "up": {"asked": gait["climb_rise"], **_steps(up)},
+        "down": {"asked": gait["climb_rise"], **_steps(down)},
+    }
+
+
+def _steps(rises: list[Rise]) -> dict[str, Any]:
+    possible = [rise for rise in rises if rise.possible]
+    last = rises[-1]
+    ends = None
+    if not last.possible:
+        ends = f"the {last.joint} bears {last.torque_share:.1f} of its peak torque"
+        if not last.reached:
+            ends = "the legs do not reach"
+    return {
+        "highest": abs(possible[-1].height_m) if possible else 0.0,
+        "ends": ends,
+        "steps": [
+            {
+                "height": abs(rise.height_m),
+                "hips": rise.hips_m,
+                "knee_torque": rise.knee_torque_nm,
+                "share": rise.torque_share,
+                "joint": rise.joint,
+            }
+            for rise in possible
+        ],
+    }

@@ -1,0 +1,78 @@
+//! The legs' closed form alone, and the gait that a robot's folder asks for: what can be reached, before anything walks.
+
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use numpy::{PyArray1, ToPyArray};
+use pyo3::prelude::*;
+use robot::{Body, Description, Side};
+use walking::GaitConfig;
+use walking::leg::Leg;
+use walking::stance::Stance;
+
+use crate::error::bad_setting;
+
+/// Two legs and their gait.
+#[pyclass(frozen, name = "Legs", module = "treadwell._core")]
+pub(crate) struct PyLegs {
+    legs: [Leg; 2],
+    gait: GaitConfig,
+}
+
+fn index(py: Python<'_>, side: &str) -> PyResult<usize> {
+    match side {
+        "left" => Ok(Side::Left.index()),
+        "right" => Ok(Side::Right.index()),
+        other => Err(bad_setting(
+            py,
+            &format_args!("side must be left or right, got {other}"),
+        )),
+    }
+}
+
+#[pymethods]
+impl PyLegs {
+    #[new]
+    fn new(py: Python<'_>, description_json: &str) -> PyResult<Self> {
+        let description: Description =
+            serde_json::from_str(description_json).map_err(|error| bad_setting(py, &error))?;
+        let body = Body::new(description).map_err(|error| bad_setting(py, &error))?;
+        let stance = Stance::upright(&body).map_err(|error| bad_setting(py, &error))?;
+        let gait = GaitConfig::read(&body.description().gait, &stance)
+            .map_err(|error| bad_setting(py, &error))?;
+        let leg = |side| {
+            Leg::new(&body, side, gait.max_extension).map_err(|error| bad_setting(py, &error))
+        };
+        Ok(Self {
+            legs: [leg(Side::Left)?, leg(Side::Right)?],
+            gait,
+        })
+    }
+
+    /// Joint angles (6,) rad from the hip down that put the sole of `side` at (x m, y m, z m) in the torso's frame, level and
+    /// turned by `yaw` rad; and whether length and ranges let it get there.
+    #[pyo3(signature = (side, place, yaw=0.0))]
+    fn solve<'py>(
+        &self,
+        py: Python<'py>,
+        side: &str,
+        place: (f64, f64, f64),
+        yaw: f64,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, bool)> {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw);
+        let pose = Isometry3::from_parts(Translation3::new(place.0, place.1, place.2), turn);
+        let found = self.legs[index(py, side)?].solve(&pose);
+        Ok((found.angles_rad.to_pyarray(py), found.reached))
+    }
+
+    /// Of one leg: where its hip is in the torso's frame (x, y, z), thigh, shank, and the ankle's height over the sole, m.
+    fn lengths(&self, py: Python<'_>, side: &str) -> PyResult<([f64; 3], f64, f64, f64)> {
+        let leg = &self.legs[index(py, side)?];
+        let (thigh_m, shank_m) = leg.lengths_m();
+        Ok(((*leg.hip()).into(), thigh_m, shank_m, leg.ankle_height_m()))
+    }
+
+    /// `[gait]` with its defaults, as JSON.
+    #[getter]
+    fn gait_json(&self, py: Python<'_>) -> PyResult<String> {
+        serde_json::to_string(&self.gait).map_err(|error| bad_setting(py, &error))
+    }
+}
