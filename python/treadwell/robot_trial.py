@@ -4,10 +4,20 @@ from pathlib import Path
 from typing import Any
 
 from treadwell.episode import Episode
+from treadwell.errors import InputError
 from treadwell.scenario.model import Scenario
 
 DISTANCE_M = 1.0
 TIME_LIMIT_S = 60.0
+
+
+def refused(folder: str | Path) -> list[str]:
+    """Return what the navigation refuses of a robot that fits its own files, a line each."""
+    try:
+        Episode(_scenario(folder, 0))
+    except InputError as error:
+        return str(error).splitlines()
+    return []
 
 
 def walk_a_metre(folder: str | Path, seed: int = 0) -> dict[str, Any]:
@@ -20,18 +30,7 @@ def walk_a_metre(folder: str | Path, seed: int = 0) -> dict[str, Any]:
     Raises:
         InputError: the robot cannot be built.
     """
-    scenario = Scenario.model_validate(
-        {
-            "schema": 1,
-            "name": "a metre",
-            "robot": str(folder),
-            "seed": seed,
-            "time_limit": TIME_LIMIT_S,
-            "start": {"position": [0.0, 0.0]},
-            "goal": {"position": [DISTANCE_M, 0.0]},
-        }
-    )
-    episode = Episode(scenario)
+    episode = Episode(_scenario(folder, seed))
     first = last = None
     for step in episode:
         if step.state == "walk":
@@ -50,3 +49,17 @@ def walk_a_metre(folder: str | Path, seed: int = 0) -> dict[str, Any]:
         "seconds": 1e-9 * episode.simulation.time_ns,
         "falls": episode.judge.falls,
     }
+
+
+def _scenario(folder: str | Path, seed: int) -> Scenario:
+    return Scenario.model_validate(
+        {
+            "schema": 1,
+            "name": "a-metre",
+            "robot": str(folder),
+            "seed": seed,
+            "time_limit": TIME_LIMIT_S,
+            "start": {"position": [0.0, 0.0]},
+            "goal": {"position": [DISTANCE_M, 0.0]},
+        }
+    )

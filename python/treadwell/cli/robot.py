@@ -26,6 +26,11 @@ def check(folder: Path, *, walk: bool, template: bool, as_json: bool) -> int:
 
         write_message(f"wrote {write_template(folder)}: read it through, it is a guess")
     document = report_on(folder)
+    if document["fits"]:
+        from treadwell.robot_trial import refused
+
+        document["problems"] += refused(folder)
+        document["fits"] = not document["problems"]
     if walk and document["fits"]:
         from treadwell.robot_trial import walk_a_metre
 
@@ -50,7 +55,7 @@ def _show(document: Mapping[str, Any]) -> None:
     if "walk" in document:
         walk = document["walk"]
         rows = [(key, _number(value)) for key, value in walk.items() if value is not None]
-        write_table("a metre straight ahead, in MuJoCo", ("", ""), rows)
+        write_table("a metre ahead", ("", ""), rows)
     for title, lines in (("notes", document["notes"]), ("problems", document["problems"])):
         if lines:
             write_table(title, ("",), [(line,) for line in lines])
@@ -105,7 +110,9 @@ def _show_legs(document: Mapping[str, Any]) -> None:
     ]
     write_table("soles", ("", "size", "centre in the link", "link"), soles)
     if document["unlike"]:
-        write_table("the legs are no mirror images", ("",), [(line,) for line in document["unlike"]])
+        write_table(
+            "the legs are no mirror images", ("",), [(line,) for line in document["unlike"]]
+        )
 
 
 def _show_senses(document: Mapping[str, Any]) -> None:
@@ -174,7 +181,11 @@ def _show_gait(gait: Mapping[str, Any]) -> None:
             )
         )
     rows.append(("speed", f"{gait['speed']:.2f} m/s", ""))
-    write_table("what the gait can do (statics, treads of 120 mm)", ("", "", ""), rows)
+    write_table(
+        "what the gait can do (statics on treads of 120 mm: nothing moves or touches)",
+        ("", "", ""),
+        rows,
+    )
 
 
 def _number(value: object) -> str:

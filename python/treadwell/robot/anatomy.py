@@ -10,7 +10,9 @@ Floats = NDArray[np.float64]
 
 LEG_JOINTS = 6
 ALIKE_M = 1e-3
-"""By how much the legs may differ as mirror images, m, rad."""
+"""By how much the places of joints may differ from mirror images, m, and axes, as a cosine."""
+ALIKE_RAD = 0.02
+"""By how much ranges may: a NAO's published ones differ by 0.01."""
 SOLE_DEPTH_M = 0.003
 """What of a foot is this near to its lowest point belongs to the sole."""
 
@@ -125,7 +127,7 @@ class Anatomy:
                 continue
             low, high = (float(bound) for bound in self.model.jnt_range[a])
             wanted = (low, high) if along > 0.0 else (-high, -low)
-            if not np.allclose(wanted, self.model.jnt_range[b], atol=ALIKE_M):
+            if not np.allclose(wanted, self.model.jnt_range[b], atol=ALIKE_RAD):
                 found.append(f"{one} and {other}: ranges are not mirrored")
         return found
 

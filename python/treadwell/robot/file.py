@@ -86,7 +86,7 @@ class LegsTable(Table):
 
     @model_validator(mode="before")
     @classmethod
-    def _name_forces(cls, table: Any) -> Any:
+    def _name_forces(cls, table: object) -> object:
         if not isinstance(table, dict):
             return table
         return {

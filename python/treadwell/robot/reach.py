@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 
 from treadwell._core import Legs
 from treadwell.robot.load import Robot
+from treadwell.robot.step_blocks import TREAD_M, Steps, add_steps
 
 Floats = NDArray[np.float64]
 
-TREAD_M = 0.12
-"""Depth of the steps that are tried: one is as far ahead of the other."""
 TRANSFER = 0.75
 """How far the weight has gone to the foot ahead when the one behind lifts off."""
+MOST_TORQUE = 0.9
+"""Of the peak: the rest is for balance."""
 HIGHEST_M, RISE_STEP_M = 0.12, 0.005
 FARTHEST_M, REACH_STEP_M = 0.4, 0.005
 MOST_TURN_RAD, TURN_STEP_RAD = 1.5, 0.05
@@ -38,6 +39,7 @@ class Rise:
         torque_share: the largest share of a motor's peak torque that holding still takes.
         joint: the joint that bears it.
         knee_torque_nm: what the knee bears.
+        touches: a link other than a foot that would touch a step, or None.
     """
 
     height_m: float
@@ -46,11 +48,12 @@ class Rise:
     torque_share: float
     joint: str
     knee_torque_nm: float
+    touches: str | None = None
 
     @property
     def possible(self) -> bool:
-        """Whether the legs reach and the motors hold."""
-        return self.reached and self.torque_share <= 1.0
+        """Whether the legs reach, nothing touches, and the motors hold."""
+        return self.reached and self.touches is None and self.torque_share <= MOST_TORQUE
 
 
 class Reach:
@@ -70,7 +73,10 @@ class Reach:
         self._robot = robot
         self.legs = Legs(json.dumps(robot.description()))
         self.gait: dict[str, float] = json.loads(self.legs.gait_json)
-        self._model = robot.spec().compile()
+        spec = robot.spec()
+        steps = add_steps(spec)
+        self._model = spec.compile()
+        self._steps = Steps(self._model, robot, steps)
         self._model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
         self._data = mujoco.MjData(self._model)
         self._hip_m = float(self.legs.lengths("left")[0][2])
@@ -103,7 +109,7 @@ class Reach:
         )
 
     def rises(self, direction: float) -> list[Rise]:
-        """Return steps of growing height, up (1) or down (-1), to the first that is not possible."""
+        """Return steps up (1) or down (-1), ever higher, to the first that is not possible."""
         found = []
         for number in range(1, round(HIGHEST_M / RISE_STEP_M) + 1):
             found.append(self.rise(direction * number * RISE_STEP_M))
@@ -128,8 +134,12 @@ class Reach:
         hips = self._lowered(soles, lifting, soles[carries][2])
         if hips is None:
             return Rise(height_m, False, math.nan, math.nan, "", math.nan)
+        self._steps.place(self._data, height_m)
+        self._pose(soles, lifting, hips)
+        touches = self._steps.touched(self._data)
         reached = self._swings(soles, height_m)
         self._pose(soles, over, hips)
+        touches = touches or self._steps.touched(self._data)
         shares = self._shares(carries, over)
         joint = max(shares, key=lambda name: shares[name][0])
         leg = (self._robot.file.legs.left, self._robot.file.legs.right)[carries]
@@ -140,6 +150,7 @@ class Reach:
             shares[joint][0],
             joint,
             shares[leg.joints[3]][1],
+            touches,
         )
 
     def _over(self, soles: list[tuple[float, float, float]], carries: int) -> Floats:
@@ -204,6 +215,7 @@ class Reach:
                 for joint, angle in zip(leg.joints, angles, strict=True):
                     data.qpos[model.joint(joint).qposadr[0]] = angle
         data.qpos[:3] = root
+        mujoco.mj_kinematics(model, data)
         return reached
 
     def _shares(self, carries: int, over: Floats) -> dict[str, tuple[float, float]]:

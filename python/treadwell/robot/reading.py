@@ -38,7 +38,7 @@ def required_keys() -> list[str]:
     return lines
 
 
-def _needs(annotation: Any) -> str:
+def _needs(annotation: object) -> str:
     if not (isinstance(annotation, type) and issubclass(annotation, BaseModel)):
         return ", a table of tables"
     keys = [key for key, field in annotation.model_fields.items() if field.is_required()]

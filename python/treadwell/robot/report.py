@@ -273,6 +273,8 @@ def _steps(rises: list[Rise]) -> dict[str, Any]:
     ends = None
     if not last.possible:
         ends = f"the {last.joint} bears {last.torque_share:.1f} of its peak torque"
+        if last.touches is not None:
+            ends = f"{last.touches} touches a step"
         if not last.reached:
             ends = "the legs do not reach"
     return {

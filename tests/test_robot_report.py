@@ -1,0 +1,118 @@
+"""Claims about `treadwell robot check`: what it finds, what it misses, and the exit status."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from robot_builders import foreign_robot, qrio_copy
+
+from treadwell.cli.app import execute
+from treadwell.cli.robot import check
+from treadwell.robot.report import report_on
+
+TABLES = ("robot", "body", "legs", "head", "camera", "motors")
+
+
+@pytest.fixture(scope="module")
+def qrio(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    return report_on(qrio_copy(tmp_path_factory.mktemp("report")))
+
+
+def test_a_folder_that_fits_is_said_to_fit_with_what_is_known_of_qrio(qrio: dict[str, Any]) -> None:
+    assert qrio["fits"]
+    assert not qrio["problems"]
+    assert not qrio["notes"]
+    assert qrio["mass"]["total"] == pytest.approx(7.0)
+    assert qrio["gait"]["thigh"] == pytest.approx(0.1)
+    assert qrio["gait"]["shank"] == pytest.approx(0.105)
+    assert qrio["camera"]["height"] == pytest.approx(0.5, abs=0.01)
+    assert qrio["soles"]["left"]["length"] == pytest.approx(0.105)
+    assert qrio["mirrored"]
+    # Published: steps of 50 mm.
+    assert qrio["gait"]["up"]["highest"] >= 0.05
+    assert qrio["gait"]["down"]["highest"] >= 0.05
+    assert json.loads(json.dumps(qrio, allow_nan=False)) == qrio
+
+
+def test_a_bare_model_is_reported_with_what_a_robot_toml_needs(tmp_path: Path) -> None:
+    folder = qrio_copy(tmp_path)
+    (folder / "robot.toml").unlink()
+    report = report_on(folder)
+    assert not report["fits"]
+    assert "is missing" in report["problems"][0]
+    assert [line.split(":")[0] for line in report["problems"][1:]] == list(TABLES)
+    assert report["legs"]["left"]["joints"][3]["name"] == "left_knee_pitch"
+    assert report["mass"]["total"] == pytest.approx(7.0)
+
+
+def test_every_unknown_and_missing_key_has_its_line(tmp_path: Path) -> None:
+    folder = qrio_copy(tmp_path)
+    path = folder / "robot.toml"
+    text = path.read_text(encoding="utf-8").replace('tilt = "neck_tilt"', 'nod = "neck_tilt"')
+    path.write_text(text, encoding="utf-8")
+    problems = report_on(folder)["problems"]
+    assert any("head.tilt: is missing" in line for line in problems)
+    assert any("head.nod: unknown key; allowed are pan, tilt" in line for line in problems)
+
+
+def test_a_sole_that_is_not_where_the_foot_touches_is_noted(tmp_path: Path) -> None:
+    folder = qrio_copy(tmp_path)
+    path = folder / "robot.toml"
+    text = path.read_text(encoding="utf-8").replace("length = 0.105", "length = 0.14")
+    path.write_text(text, encoding="utf-8")
+    notes = report_on(folder)["notes"]
+    assert any("legs.left.sole: differs by 18 mm" in line for line in notes), notes
+
+
+def test_the_verb_ends_with_0_where_it_fits_and_with_2_where_not(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = foreign_robot(tmp_path)
+    assert execute(["robot", "check", str(folder)]) == 0
+    shown = capsys.readouterr().out
+    for word in ("qrio: fits", "7.000 kg", "left_knee_pitch", "highest step up", "105 x 75 mm"):
+        assert word in shown
+    path = folder / "robot.toml"
+    path.write_text(path.read_text(encoding="utf-8") + "\n[fly]\n", encoding="utf-8")
+    assert execute(["robot", "check", str(folder), "--json"]) == 2
+    document = json.loads(capsys.readouterr().out)
+    assert any("fly: unknown key" in line for line in document["problems"])
+    assert document["mass"]["total"] == pytest.approx(7.0)
+
+
+def test_what_only_the_core_refuses_is_a_problem_too(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for wrong in ("[navigation.fog]\ncel = 0.04\n", ""):
+        folder = qrio_copy(tmp_path / ("fog" if wrong else "gait"))
+        path = folder / "robot.toml"
+        text = path.read_text(encoding="utf-8")
+        text = text.replace("[gait]", wrong + "[gait]" + ("" if wrong else "\nstep_tme = 1.0"))
+        path.write_text(text, encoding="utf-8")
+        assert check(folder, walk=False, template=False, as_json=True) == 2
+        problems = json.loads(capsys.readouterr().out)["problems"]
+        assert any(("cel" if wrong else "step_tme") in line for line in problems), problems
+
+
+@pytest.mark.parametrize(
+    ("prepare", "word"),
+    [
+        (lambda _: None, "no such folder"),
+        (lambda folder: folder.mkdir(), "no MJCF"),
+        (lambda folder: [folder.mkdir(), *((folder / f"{n}.xml").touch() for n in "ab")], "2 MJCF"),
+        (
+            lambda folder: [folder.mkdir(), (folder / "a.xml").write_text("<mujoco><x/></mujoco>")],
+            "MuJoCo cannot",
+        ),
+    ],
+)
+def test_a_folder_without_a_model_is_bad_input(
+    tmp_path: Path, prepare: Callable[[Path], object], word: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    prepare(tmp_path / "robot")
+    assert execute(["robot", "check", str(tmp_path / "robot"), "--json"]) == 2
+    captured = capsys.readouterr()
+    assert word in json.loads(captured.out)["error"]
+    assert "Traceback" not in captured.err
