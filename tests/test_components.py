@@ -257,7 +257,7 @@ class BadView:
         ("behaviour", marching((0.1, 0.0, 0.0)), "behaviour: .*velocity must be None"),
         ("behaviour", Decision("x", footsteps=((1, 2),)), "behaviour: "),  # type: ignore[arg-type]
         ("localizer", (0.0, 0.0, 0.0), "localizer: "),
-        ("localizer", (0.0, 0.0, np.nan, 0.0), "localizer: estimate must be finite"),
+        ("localizer", (0.0, 0.0, np.nan, 0.0), "localizer: Odd: .*estimate must be finite"),
         ("segmenter", segmentation(labels=np.zeros(5, np.uint16)), "6336 values, got 5"),
         ("segmenter", segmentation(labels=np.ones(6336, np.uint16)), "at most 0, got 1"),
         ("segmenter", segmentation(robot_from_camera=np.eye(3)), "segmenter: .*finite"),

@@ -28,6 +28,7 @@ __all__ = [
     "Tick",
     "Walker",
     "WorldModel",
+    "added_components",
     "squared_distances",
     "swept_clearance",
     "version",
@@ -39,6 +40,7 @@ _Edge = tuple[_Point, _Point]
 _Fit = tuple[int, float, float]
 _Footstep = tuple[str, float, float, float, float, float, float]
 
+def added_components() -> list[tuple[str, str, str]]: ...
 def squared_distances(blocked: NDArray[np.bool_], /) -> NDArray[np.uint32]: ...
 def swept_clearance(
     path: NDArray[np.float64], outline: NDArray[np.float64], radius: float

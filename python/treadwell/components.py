@@ -1,4 +1,7 @@
-"""The components that a scenario can name, with one line each: the one list of them in Python."""
+"""The components that a scenario can name, with one line each: the one list of them in Python.
+
+What others add to it is in `additions`.
+"""
 
 import re
 from typing import Final
@@ -50,8 +53,19 @@ CLASS_NAME: Final = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*", re
 
 
 def is_component(slot: str, name: str) -> bool:
-    """Say whether `name` can stand in `slot`: one of the list, or `package.module:Class`."""
-    return name in COMPONENTS[slot] or (len(name) <= 256 and bool(CLASS_NAME.fullmatch(name)))
+    """Say whether `name` can stand in `slot`: a component's, or `package.module:Class`."""
+    return (
+        name in COMPONENTS[slot]
+        or (len(name) <= 256 and bool(CLASS_NAME.fullmatch(name)))
+        or name in known(slot)
+    )
+
+
+def known(slot: str) -> dict[str, str]:
+    """Return name -> one line, of all that can stand in `slot`: the list, and what others add."""
+    from treadwell.additions import additions
+
+    return {**COMPONENTS[slot], **additions(slot)}
 
 
 def parameter_tables() -> list[str]:

@@ -2,13 +2,16 @@
 
 import json
 import re
+from collections.abc import Collection
 from typing import Any
 
 from treadwell._core import Octree, Pilot
+from treadwell.additions import compiled
 from treadwell.components import COMPONENTS
 from treadwell.course.build import Course
 from treadwell.course.static_map import map_resolution, static_map
 from treadwell.errors import InputError
+from treadwell.guard import Guard
 from treadwell.plugins import check_component, load_component
 from treadwell.robot.load import Robot
 from treadwell.scenario.messages import nearest
@@ -96,9 +99,25 @@ def user_components(scenario: Scenario, given: dict[str, object]) -> dict[str, A
             slot, name, scenario.navigation.parameters().get(name.partition(":")[2], {})
         )
         for slot, name in scenario.navigation.slots().items()
-        if slot not in given and name not in COMPONENTS[slot]
+        if slot not in given and name not in COMPONENTS[slot] and name not in compiled(slot)
     }
     return {**loaded, **given}
+
+
+def guards(
+    scenario: Scenario, components: dict[str, object], objects: Collection[str]
+) -> dict[str, Guard]:
+    """Return the user's components as the core gets them: with a limit on each call.
+
+    Args:
+        scenario: names those that it brings, and has the limit.
+        components: what `user_components` returned.
+        objects: slots of those that the caller brought as objects; they are called by their class.
+    """
+    names = scenario.navigation.slots()
+    names |= {slot: type(components[slot]).__name__ for slot in objects}
+    limit_s = scenario.navigation.call_limit
+    return {slot: Guard(slot, names[slot], part, limit_s) for slot, part in components.items()}
 
 
 def build_core(

@@ -7,9 +7,17 @@ from pathlib import Path
 from time import perf_counter
 
 from treadwell._core import Pilot
-from treadwell.core_settings import build_core, core_settings, told_map, user_components
+from treadwell.core_settings import (
+    build_core,
+    core_settings,
+    guards,
+    told_map,
+    user_components,
+)
 from treadwell.course.build import build_course
 from treadwell.course.events import Events
+from treadwell.errors import CoreError
+from treadwell.guard import blamed
 from treadwell.judging.judge import Judge
 from treadwell.judging.truth_localizer import TruthLocalizer
 from treadwell.judging.verdict import Referee, Verdict
@@ -69,6 +77,7 @@ class Episode:
         scenario: as it is run, with overrides and draws applied.
         robot, course, simulation, sensors, events, judge, referee: the parts of the harness.
         pilot: the core.
+        guards: slot -> what stands between the core and a component of the user's.
         static_map: what the core was told of the course; None where nothing in it asks for one.
         ablation: whether anything in the core was given the truth.
         verdict: how it ended, None while it goes on.
@@ -119,6 +128,8 @@ class Episode:
         self.seconds: dict[str, list[float]] = {name: [] for name in ("physics", "depth")}
         self.seconds |= {name: [] for name in Pilot.stages}
         given = user_components(scenario, dict(components))
+        self.guards = guards(scenario, given, set(components))
+        given.update(self.guards)
         self.ablation = scenario.navigation.localizer == "truth" and "localizer" not in given
         if self.ablation:
             given["localizer"] = TruthLocalizer(self.judge, self.simulation.data)
@@ -139,7 +150,11 @@ class Episode:
         observation = self.sensors.observe(simulation.data, time_ns, simulation.motors)
         if observation.depth is not None:
             self.seconds["depth"].append(perf_counter() - begin)
-        tick = self.pilot.tick(observation)
+        try:
+            tick = self.pilot.tick(observation)
+        except CoreError as error:
+            named = blamed(error, self.guards)
+            raise named from named.__cause__
         for stage, seconds in zip(Pilot.stages, self.pilot.timing, strict=True):
             if not math.isnan(seconds):
                 self.seconds[stage].append(seconds)

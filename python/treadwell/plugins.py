@@ -1,8 +1,9 @@
-"""User components: found by `package.module:Class`, made, and checked for their methods."""
+"""User components: found by name or `package.module:Class`, made, checked for their methods."""
 
 import importlib
 from typing import Any
 
+from treadwell.additions import class_of
 from treadwell.components import COMPONENTS
 from treadwell.errors import InputError
 
@@ -21,14 +22,14 @@ def load_component(slot: str, name: str, parameters: dict[str, Any]) -> object:
 
     Args:
         slot: which component it is to be.
-        name: `package.module:Class`.
-        parameters: keyword arguments for the class: its table `[navigation.Class]`.
+        name: `package.module:Class`, or the name that an installed package gives it.
+        parameters: keyword arguments for the class: its table `[navigation.Class]`, or of the name.
 
     Raises:
         InputError: there is no such module or class, it cannot be made, or a method is missing.
     """
     where = f"navigation.{slot}"
-    module_name, _, class_name = name.partition(":")
+    module_name, _, class_name = (name if ":" in name else class_of(slot, name)).partition(":")
     try:
         module = importlib.import_module(module_name)
     except Exception as error:

@@ -20,6 +20,7 @@ from treadwell.judging.score import PoseErrors, map_counts, surfaces, timing, tr
 from treadwell.judging.step_watch import KnownTop, StepError, StepWatch
 from treadwell.judging.verdict import Verdict
 from treadwell.judging.watch import Watch
+from treadwell.physics.simulation import TICK_NS
 from treadwell.recording.run_folder import make_run_folder
 from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.trace import Trace
@@ -207,7 +208,9 @@ def _played(
     except KeyboardInterrupt:
         verdict = Verdict("interrupted", "interrupted: the run was interrupted")
     except (CoreError, SimulationError) as error:
-        verdict = Verdict("error", f"error: {error} at {1e-9 * episode.simulation.time_ns:.2f} s")
+        time_ns = episode.simulation.time_ns
+        when = f"at tick {time_ns // TICK_NS} ({1e-9 * time_ns:.2f} s)"
+        verdict = Verdict("error", f"error: {error} {when}")
     except TreadwellError as error:
         verdict = Verdict("error", f"error: {error}")
         problem = error

@@ -62,6 +62,6 @@ def _robots() -> list[dict[str, str]]:
 
 
 def _components() -> dict[str, dict[str, str]]:
-    from treadwell.components import COMPONENTS
+    from treadwell.components import COMPONENTS, known
 
-    return {slot: dict(names) for slot, names in COMPONENTS.items()}
+    return {slot: known(slot) for slot in COMPONENTS}

@@ -8,7 +8,7 @@ from typing import Any, Final
 from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
-from treadwell.components import COMPONENTS, parameter_tables
+from treadwell.components import known, parameter_tables
 from treadwell.scenario.elements import ELEMENTS
 from treadwell.scenario.events import EVENTS
 from treadwell.scenario.model import Expect, Goal, Navigation, Physics, Scenario, Sensors, Start
@@ -108,7 +108,7 @@ def describe(error: ErrorDetails, raw: Mapping[str, Any]) -> str:
             found, str(context["expected"]).replace("'", "").replace(" or ", ", ").split(", ")
         )
     elif kind == "component":
-        text += nearest(found, COMPONENTS[context["among"]])
+        text += nearest(found, known(context["among"]))
     elif kind == "string_pattern_mismatch":
         text = {
             "name": "must be up to 64 letters, digits, - or _ (an element's may have spaces, "

@@ -13,7 +13,7 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
-from treadwell.components import COMPONENTS, is_component, parameter_tables
+from treadwell.components import COMPONENTS, is_component, known, parameter_tables
 from treadwell.scenario.elements import Element
 from treadwell.scenario.events import Add, Event
 from treadwell.scenario.types import (
@@ -92,6 +92,8 @@ class Navigation(Table):
     localizer: str = "odometry"
     planner: str = "a_star"
     behaviour: str = "stair_climbing"
+    call_limit: Annotated[Seconds, Field(gt=0.0)] = 30.0
+    """Seconds of wall-clock time that one call of a component in Python may take."""
 
     @field_validator("world_model", "segmenter", "localizer", "planner", "behaviour")
     @classmethod
@@ -101,13 +103,13 @@ class Navigation(Table):
             raise PydanticCustomError(
                 "component",
                 "must be {names} or 'package.module:Class'",
-                {"names": ", ".join(COMPONENTS[slot]), "among": slot},
+                {"names": ", ".join(known(slot)), "among": slot},
             )
         return value
 
     @model_validator(mode="after")
     def _tables_are_parameters(self) -> Self:
-        own = {value.rpartition(":")[2] for value in self.slots().values() if ":" in value}
+        own = {value.rpartition(":")[2] for value in self.slots().values()}
         for key, value in (self.model_extra or {}).items():
             if key not in {*parameter_tables(), *own}:
                 raise PydanticCustomError("extra_forbidden", "unknown key", {"key": key})

@@ -19,38 +19,52 @@ mod world_model;
 
 use pyo3::prelude::*;
 
+/// Puts everything into a module. A core of the user's own calls it for its `_core`, after it added its components.
+pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(clearance::swept_clearance, module)?)?;
+    module.add_function(wrap_pyfunction!(distance::squared_distances, module)?)?;
+    module.add_function(wrap_pyfunction!(version, module)?)?;
+    module.add_function(wrap_pyfunction!(added_components, module)?)?;
+    module.add_class::<legs::PyLegs>()?;
+    module.add_class::<octree::PyOctree>()?;
+    module.add_class::<pilot::PyPilot>()?;
+    module.add_class::<pilot::PyTick>()?;
+    module.add_class::<products::PyBodyState>()?;
+    module.add_class::<products::PyFloorView>()?;
+    module.add_class::<products::PyPlanes>()?;
+    module.add_class::<ranges::PyRangeField>()?;
+    module.add_class::<segmenter::PySegmenter>()?;
+    module.add_class::<situation::PyGoal>()?;
+    module.add_class::<situation::PyScan>()?;
+    module.add_class::<situation::PySituation>()?;
+    module.add_class::<stairs::PyClimb>()?;
+    module.add_class::<stairs::PyStair>()?;
+    module.add_class::<stairs::PyStaircase>()?;
+    module.add_class::<stairs::PyStep>()?;
+    module.add_class::<stairs::PyStepping>()?;
+    module.add_class::<walker::PyWalker>()?;
+    module.add_class::<world_model::PyOccupancyGrid>()?;
+    module.add_class::<world_model::PyWorldModel>()
+}
+
+/// Version of the core; equal to the package's.
+#[pyfunction]
+const fn version() -> &'static str {
+    env!("CARGO_PKG_VERSION")
+}
+
+/// Slot, name and one line of each component that was added to those of the registry.
+#[pyfunction]
+fn added_components() -> Vec<(&'static str, &'static str, &'static str)> {
+    let all = ::pilot::added();
+    all.iter()
+        .map(|one| (one.maker.slot(), one.name, one.about))
+        .collect()
+}
+
+/// The module itself.
+#[cfg(feature = "module")]
 #[pymodule]
-mod _core {
-    use pyo3::prelude::*;
-
-    #[pymodule_export]
-    use super::clearance::swept_clearance;
-    #[pymodule_export]
-    use super::distance::squared_distances;
-    #[pymodule_export]
-    use super::legs::PyLegs;
-    #[pymodule_export]
-    use super::octree::PyOctree;
-    #[pymodule_export]
-    use super::pilot::{PyPilot, PyTick};
-    #[pymodule_export]
-    use super::products::{PyBodyState, PyFloorView, PyPlanes};
-    #[pymodule_export]
-    use super::ranges::PyRangeField;
-    #[pymodule_export]
-    use super::segmenter::PySegmenter;
-    #[pymodule_export]
-    use super::situation::{PyGoal, PyScan, PySituation};
-    #[pymodule_export]
-    use super::stairs::{PyClimb, PyStair, PyStaircase, PyStep, PyStepping};
-    #[pymodule_export]
-    use super::walker::PyWalker;
-    #[pymodule_export]
-    use super::world_model::{PyOccupancyGrid, PyWorldModel};
-
-    /// Version of the core; equal to the package's.
-    #[pyfunction]
-    fn version() -> &'static str {
-        env!("CARGO_PKG_VERSION")
-    }
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    fill(module)
 }

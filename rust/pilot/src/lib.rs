@@ -1,5 +1,6 @@
 //! One tick through all floors. Wires the stages together and contains no algorithm.
 
+mod added;
 mod error;
 mod goals;
 mod perception;
@@ -9,6 +10,7 @@ mod tables;
 mod tick;
 mod timing;
 
+pub use added::{Added, Make, Maker, Making, add, added};
 pub use error::PilotError;
 pub use perception::Perception;
 pub use registry::{Components, segmenter, world_model};

@@ -12,6 +12,7 @@ use sensing::{Frame, Intrinsics, Observation, Scan, SelfFilter};
 use walking::relief::{Mapped, Slopes};
 use walking::{JointTargets, Walker};
 
+use crate::added::{self, Making};
 use crate::goals::Goals;
 use crate::perception::{Perception, TakenBy};
 use crate::registry::{self, Components};
@@ -57,7 +58,7 @@ impl Pilot {
     pub fn new(
         settings: &Settings,
         static_map: Option<&Arc<Octree>>,
-        given: Components,
+        mut given: Components,
     ) -> Result<Self, PilotError> {
         let body = Body::new(settings.robot.clone())?;
         let walker = Walker::new(&body)?;
@@ -65,6 +66,14 @@ impl Pilot {
         let mount = &body.description().camera;
         let camera = Intrinsics::from(mount);
         let scan = Scan::pooled(camera, mount.pool);
+        let making = Making {
+            settings,
+            body: &body,
+            feet,
+            camera: scan.camera,
+            static_map,
+        };
+        added::fill(&mut given, &making)?;
         let tables = &settings.navigation.tables;
         let segmenter = given.segmenter.map_or_else(
             || registry::segmenter(&settings.navigation.segmenter, tables, scan.camera),

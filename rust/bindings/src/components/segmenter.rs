@@ -49,6 +49,11 @@ fn read_segmentation(answer: &Bound<'_, PyAny>, scan: &Scan, planes: &mut Planes
             "labels must have {expected} values, got {found}"
         )));
     }
+    if heights.iter().flatten().any(|height| !height.is_finite()) {
+        return Err(PyValueError::new_err(
+            "floor_heights must be finite or None",
+        ));
+    }
     if let Some(label) = labels
         .iter()
         .find(|&&label| usize::from(label) > heights.len())

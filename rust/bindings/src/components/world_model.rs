@@ -45,6 +45,24 @@ impl PythonWorldModel {
     }
 }
 
+/// Cells that a view can have at most: 80 m by 80 m of the usual size.
+const MOST_CELLS: usize = 4_000_000;
+
+fn read_lattice(object: &Bound<'_, PyAny>) -> PyResult<Lattice> {
+    let py = object.py();
+    let origin_m: [f64; 2] = object.getattr(intern!(py, "origin"))?.extract()?;
+    let cell_m: f64 = object.getattr(intern!(py, "cell"))?.extract()?;
+    if !origin_m.iter().all(|value| value.is_finite()) {
+        return Err(PyValueError::new_err("origin must be finite"));
+    }
+    if !(cell_m.is_finite() && cell_m > 0.0) {
+        return Err(PyValueError::new_err(format!(
+            "cell must be > 0, got {cell_m}"
+        )));
+    }
+    Ok(Lattice { origin_m, cell_m })
+}
+
 fn read_view(object: &Bound<'_, PyAny>, into: &mut FloorView) -> PyResult<()> {
     let py = object.py();
     let kind: PyReadonlyArray2<'_, u8> = object.getattr(intern!(py, "kind"))?.extract()?;
@@ -57,9 +75,13 @@ fn read_view(object: &Bound<'_, PyAny>, into: &mut FloorView) -> PyResult<()> {
             height.dim()
         )));
     }
-    into.lattice.origin_m = object.getattr(intern!(py, "origin"))?.extract()?;
-    into.lattice.cell_m = object.getattr(intern!(py, "cell"))?.extract()?;
     let (rows, cols) = kind.dim();
+    if rows * cols > MOST_CELLS {
+        return Err(PyValueError::new_err(format!(
+            "a view may have {MOST_CELLS} cells at most, got {rows} x {cols}"
+        )));
+    }
+    into.lattice = read_lattice(object)?;
     if (into.cells.rows(), into.cells.cols()) != (rows, cols) {
         into.cells = Grid::filled(cols, rows, Surface::Unknown);
         into.sightings = Grid::filled(cols, rows, 0);
@@ -69,6 +91,11 @@ fn read_view(object: &Bound<'_, PyAny>, into: &mut FloorView) -> PyResult<()> {
     for ((slot, &kind), &height) in into.cells.values_mut().iter_mut().zip(kind).zip(height) {
         *slot = match kind {
             0 => Surface::Unknown,
+            1 | 2 if !height.is_finite() => {
+                return Err(PyValueError::new_err(
+                    "height must be finite where kind is 1 or 2",
+                ));
+            }
             1 => Surface::Floor(height),
             2 => Surface::Obstacle(height),
             other => {

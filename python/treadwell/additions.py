@@ -1,0 +1,62 @@
+"""Components that others add by name: installed packages, and a core of the user's own."""
+
+import sys
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
+from typing import Final
+
+from treadwell.components import COMPONENTS
+from treadwell.errors import InputError
+
+GROUP: Final = "treadwell.components"
+"""Group of the entry points; one is named `slot.name`, as in `planner.beeline`."""
+
+
+def installed(slot: str) -> dict[str, tuple[EntryPoint, ...]]:
+    """Return name -> the entry points that bring it, of the packages that are installed."""
+    found: dict[str, tuple[EntryPoint, ...]] = {}
+    for point in _entry_points(tuple(sys.path)):
+        of, _, name = point.name.partition(".")
+        if of == slot and name.isidentifier() and name not in COMPONENTS[slot]:
+            found[name] = (*found.get(name, ()), point)
+    return found
+
+
+def compiled(slot: str) -> dict[str, str]:
+    """Return name -> one line, of the components that a core of the user's own adds."""
+    from treadwell._core import added_components
+
+    return {name: about for of, name, about in added_components() if of == slot}
+
+
+def additions(slot: str) -> dict[str, str]:
+    """Return name -> one line, of all that is there beside `COMPONENTS`."""
+    packages = {name: _origin(points[0]) for name, points in installed(slot).items()}
+    return {**packages, **compiled(slot)}
+
+
+def class_of(slot: str, name: str) -> str:
+    """Return `package.module:Class` of an installed component.
+
+    Raises:
+        InputError: there is none of the name, or two packages bring it.
+    """
+    points = installed(slot).get(name, ())
+    values = {point.value for point in points}
+    if len(values) > 1:
+        origins = " and ".join(sorted(_origin(point) for point in points))
+        raise InputError(f"navigation.{slot}: {name} is brought by {origins}")
+    if not values:
+        raise InputError(f"navigation.{slot}: no installed package brings {name}")
+    return values.pop()
+
+
+@cache
+def _entry_points(_path: tuple[str, ...]) -> tuple[EntryPoint, ...]:
+    """Return the group's entry points; packages are looked up once for a search path."""
+    return tuple(entry_points(group=GROUP))
+
+
+def _origin(point: EntryPoint) -> str:
+    package = "" if point.dist is None else f"{point.dist.name} {point.dist.version}: "
+    return f"{package}{point.value}"
