@@ -6,8 +6,11 @@
 ...     step.observation.depth, step.estimate.pose, step.command
 """
 
+import os
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
+
+from treadwell.gymnasium_hook import register_with_gymnasium
 
 if TYPE_CHECKING:
     from treadwell.episode import Episode
@@ -15,6 +18,13 @@ if TYPE_CHECKING:
 
 __version__ = version("treadwell")
 __all__ = ["Episode", "__version__", "run"]
+
+if os.environ.get("TREADWELL_CORE"):
+    from treadwell.own_core import use
+
+    use(os.environ["TREADWELL_CORE"])
+
+register_with_gymnasium()
 
 _HOMES = {"Episode": "treadwell.episode", "run": "treadwell.runner"}
 

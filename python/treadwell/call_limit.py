@@ -11,7 +11,7 @@ AGAIN_S = 1.0
 
 
 class CallTimeoutError(BaseException):
-    """A call took too long. No `Exception`: `except Exception` in what is called lets it through."""
+    """A call took too long. No `Exception`: the `except Exception` of a component lets it pass."""
 
 
 class CallLimit:

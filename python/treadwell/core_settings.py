@@ -96,7 +96,7 @@ def user_components(scenario: Scenario, given: dict[str, object]) -> dict[str, A
         )
     loaded = {
         slot: load_component(
-            slot, name, scenario.navigation.parameters().get(name.partition(":")[2], {})
+            slot, name, scenario.navigation.parameters().get(name.rpartition(":")[2], {})
         )
         for slot, name in scenario.navigation.slots().items()
         if slot not in given and name not in COMPONENTS[slot] and name not in compiled(slot)

@@ -1,0 +1,121 @@
+"""What an agent can do: walk with a velocity and look, or put one foot after the other."""
+
+from typing import Any, Final, Protocol
+
+import gymnasium
+import numpy as np
+
+from treadwell._core import Situation
+from treadwell.protocols import Decision, Footstep
+
+FASTEST: Final = (0.15, 0.1, 0.5)
+"""(forward m/s, left m/s, counter-clockwise rad/s) that 1 stands for."""
+STILL: Final = 0.05
+"""To ask for less than this of each is to stand."""
+WIDEST_PAN_RAD: Final = 0.8
+LONGEST_STEP: Final = (0.1, 0.03, 0.3, 0.05)
+"""(forward m, outwards m, turn outwards rad, height m) that 1 stands for."""
+LONGEST_STEP_TICKS: Final = 600
+"""Control ticks after which a footstep that has not landed is given up."""
+
+
+class Actions(Protocol):
+    """A kind of action."""
+
+    @property
+    def space(self) -> gymnasium.Space[Any]:
+        """What actions there are."""
+
+    def decision(self, action: Any) -> Decision:  # noqa: ANN401 - an element of the space
+        """Return what the behaviour decides while the action is on."""
+
+    def is_over(self, ticks: int, situation: Situation) -> bool:
+        """Say whether the action is done, so many control ticks after it began."""
+
+
+def gaze_of(pan: float, down: float) -> tuple[float, float]:
+    """Return (pan to the left, down from the horizon), rad, for two numbers from -1 to 1.
+
+    0 is straight ahead and 0.5 rad down, -1 the horizon.
+    """
+    return (WIDEST_PAN_RAD * float(pan), 0.5 + 0.5 * float(down))
+
+
+class VelocityActions:
+    """(forward, left, counter-clockwise, pan, down), from -1 to 1; one camera period long.
+
+    1 is what `FASTEST` says; the walker keeps it within what the gait can do.
+    """
+
+    def __init__(self, period_ticks: int) -> None:
+        """Take the camera's period, control ticks."""
+        self.space = gymnasium.spaces.Box(-1.0, 1.0, (5,), np.float32)
+        self._period_ticks = period_ticks
+
+    def decision(self, action: Any) -> Decision:  # noqa: ANN401
+        """Walk, or stand where next to nothing is asked for."""
+        gaze = gaze_of(action[3], action[4])
+        if max(abs(float(value)) for value in action[:3]) < STILL:
+            return Decision("stand", gaze=gaze)
+        ahead, left, turn = (
+            most * float(share) for most, share in zip(FASTEST, action[:3], strict=True)
+        )
+        return Decision("walk", velocity=(ahead, left, turn), gaze=gaze)
+
+    def is_over(self, ticks: int, _situation: Situation) -> bool:
+        """After a camera period."""
+        return ticks >= self._period_ticks
+
+
+class FootstepActions:
+    """One footstep: `foot`, where to put it (`step`), and `gaze`; over when the robot stands again.
+
+    `foot`: 0 to stand for a camera period, 1 left, 2 right. `step`: (forward, outwards, turn
+    outwards, height of the surface there) from -1 to 1, from where the foot stands beside the
+    other; 1 is what `LONGEST_STEP` says, and inwards a foot does not go.
+    """
+
+    def __init__(self, period_ticks: int, stance_m: float, sole_m: float) -> None:
+        """Take the camera's period, the distance between the feet, and the length of a sole."""
+        self.space = gymnasium.spaces.Dict(
+            {
+                "foot": gymnasium.spaces.Discrete(3),
+                "step": gymnasium.spaces.Box(-1.0, 1.0, (4,), np.float32),
+                "gaze": gymnasium.spaces.Box(-1.0, 1.0, (2,), np.float32),
+            }
+        )
+        self._period_ticks = period_ticks
+        self._half_stance_m = 0.5 * stance_m
+        self._half_sole_m = 0.5 * sole_m
+        self._steps = False
+        self._lifted = False
+
+    def decision(self, action: Any) -> Decision:  # noqa: ANN401
+        """Take the step, or stand."""
+        gaze = gaze_of(*action["gaze"])
+        foot = int(action["foot"])
+        self._steps, self._lifted = foot > 0, False
+        if not self._steps:
+            return Decision("stand", gaze=gaze)
+        shares = (float(value) for value in action["step"])
+        ahead, outwards, turn, height = (
+            most * share for most, share in zip(LONGEST_STEP, shares, strict=True)
+        )
+        side, sign = ("left", 1.0) if foot == 1 else ("right", -1.0)
+        step = Footstep(
+            side,
+            ahead,
+            sign * (self._half_stance_m + max(0.0, outwards)),
+            sign * max(0.0, turn),
+            height,
+            -self._half_sole_m,
+            self._half_sole_m,
+        )
+        return Decision("step", footsteps=(step,), gaze=gaze)
+
+    def is_over(self, ticks: int, situation: Situation) -> bool:
+        """When the robot stands again, after a camera period where it did nothing else."""
+        if not self._steps:
+            return ticks >= self._period_ticks
+        self._lifted |= not situation.standing
+        return (self._lifted and situation.standing) or ticks >= LONGEST_STEP_TICKS

@@ -1,0 +1,193 @@
+"""A scenario as a Gymnasium environment: the agent takes the place of the behaviour."""
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any, Final, Literal
+
+import gymnasium
+import numpy as np
+from numpy.typing import NDArray
+
+from treadwell.environment.actions import Actions, FootstepActions, VelocityActions
+from treadwell.environment.commanded import Commanded, NoPlanner
+from treadwell.environment.observations import Observed, observation_space, observed
+from treadwell.environment.top_view import TopView
+from treadwell.episode import Episode, Step
+from treadwell.errors import CoreError, InputError, SimulationError
+from treadwell.judging.verdict import Verdict
+from treadwell.physics.simulation import TICK_NS
+from treadwell.scenario.loading import load_scenario
+
+GOAL_REWARD: Final = 10.0
+FALL_REWARD: Final = -10.0
+COLLISION_REWARD: Final = -1.0
+
+
+class CourseEnv(gymnasium.Env[Observed, Any]):
+    """One episode after the other on a scenario's course.
+
+    The reward is the way (m) by which the robot came nearer to the goal, past the via points;
+    `GOAL_REWARD`, `FALL_REWARD` and, for each new collision, `COLLISION_REWARD`. It and the end of
+    an episode come from the judge, which knows the truth; observations have none of it. An episode
+    is truncated when the scenario's time limit is over, terminated by any other verdict.
+    """
+
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 12}  # noqa: RUF012 - as Env has it
+
+    def __init__(
+        self,
+        scenario: str = "obstacle_course",
+        robot: str | None = None,
+        *,
+        actions: Literal["velocity", "footsteps"] = "velocity",
+        overrides: Sequence[str] = (),
+        render_mode: str | None = None,
+    ) -> None:
+        """Read the scenario; nothing is built before `reset`.
+
+        Args:
+            scenario: a name or a path.
+            robot: instead of the scenario's.
+            actions: what the agent does.
+            overrides: settings `KEY=VALUE`, as `--set` takes them.
+            render_mode: None, or `rgb_array`: the course from above.
+
+        Raises:
+            InputError: anything of it is bad.
+        """
+        if render_mode not in {None, *self.metadata["render_modes"]}:
+            raise InputError(f"render_mode: found {render_mode!r}; must be 'rgb_array' or None")
+        if actions not in {"velocity", "footsteps"}:
+            raise InputError(f"actions: found {actions!r}; must be 'velocity' or 'footsteps'")
+        self.render_mode = render_mode
+        self._asked: dict[str, Any] = {"robot": robot, "overrides": tuple(overrides)}
+        self._scenario = scenario
+        self._kind = actions
+        self._episode: Episode | None = None
+        self._view: TopView | None = None
+        self._step: Step | None = None
+        self._begin(load_scenario(scenario, **self._asked).seed)
+        assert self._episode is not None
+        self.observation_space = observation_space(self._episode.robot)
+        self.action_space = self._actions.space
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observed, dict[str, Any]]:
+        """Begin an episode.
+
+        Args:
+            seed: of this environment's random numbers, of which each episode's seed is drawn.
+            options: `scenario_seed` is the episode's own seed instead, that of `run --seed`.
+        """
+        super().reset(seed=seed)
+        drawn = int(self.np_random.integers(2**31))
+        self._begin(int((options or {}).get("scenario_seed", drawn)))
+        while self._step is None or self._depth is None:
+            self._tick()
+        return self._observed(), self._info()
+
+    def step(self, action: Any) -> tuple[Observed, float, bool, bool, dict[str, Any]]:  # noqa: ANN401
+        """Do an action and return observation, reward, terminated, truncated and info."""
+        episode = self._episode
+        if episode is None or self._step is None or self._verdict is not None:
+            raise gymnasium.error.ResetNeeded("call reset before step")
+        before, hits = self._to_go(), len(episode.judge.collisions)
+        self._behaviour.decision = self._actions.decision(action)
+        ticks, verdict = 0, None
+        while verdict is None:
+            verdict = self._tick()
+            ticks += 1
+            situation = self._behaviour.situation
+            over = situation is not None and self._actions.is_over(ticks, situation)
+            if over and not self._behaviour.arrived:  # after the arrival nothing can be done
+                break
+        reward = before - self._to_go()
+        reward += COLLISION_REWARD * (len(episode.judge.collisions) - hits)
+        outcome = None if verdict is None else verdict.outcome
+        reward += {"goal_reached": GOAL_REWARD, "fell": FALL_REWARD}.get(outcome or "", 0.0)
+        truncated = outcome == "timed_out"
+        ended = outcome is not None and not truncated
+        return self._observed(), float(reward), ended, truncated, self._info()
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """Return the course from above, (h, w, 3); None without a render mode."""
+        if self.render_mode is None or self._episode is None:
+            return None
+        if self._view is None:
+            self._view = TopView(self._episode)
+        picture = self._view.draw()
+        if self._step is not None:
+            self._view.mark(picture, self._step.estimate.pose[:2])
+        return picture
+
+    def close(self) -> None:
+        """Let the physics and the core go."""
+        self._episode = self._view = None
+        self._step = None
+
+    def _begin(self, seed: int) -> None:
+        made = load_scenario(self._scenario, seed=seed, **self._asked)
+        self._behaviour = Commanded(made.goal.height)
+        self._episode = Episode(made, behaviour=self._behaviour, planner=NoPlanner())
+        self._view = None
+        self._verdict: Verdict | None = None
+        self._step = None
+        self._depth: NDArray[np.float32] | None = None
+        self._actions = self._make_actions(self._episode)
+
+    def _make_actions(self, episode: Episode) -> Actions:
+        file = episode.robot.file
+        period_ticks = max(1, round(1e9 * file.camera.period / TICK_NS))
+        if self._kind == "velocity":
+            return VelocityActions(period_ticks)
+        left, right = episode.judge.truth.soles(episode.simulation.data)
+        stance_m = math.dist((left.x, left.y), (right.x, right.y))
+        soles = [leg.sole.length for leg in (file.legs.left, file.legs.right)]
+        return FootstepActions(period_ticks, stance_m, min(soles))
+
+    def _tick(self) -> Verdict | None:
+        """Go on by a control tick and return how it all ended, None while it goes on."""
+        assert self._episode is not None
+        try:
+            self._step = self._episode.tick()
+        except (CoreError, SimulationError) as error:
+            if self._step is None or self._depth is None:
+                raise
+            self._verdict = Verdict("error", f"error: {error}")
+            return self._verdict
+        self._verdict = self._episode.verdict
+        if self._step.observation.depth is not None:
+            self._depth = self._step.observation.depth.depth
+        elif self._verdict is not None and self._depth is None:
+            height, width = self.observation_space["depth"].shape  # type: ignore[index]
+            self._depth = np.full((height, width), np.nan, dtype=np.float32)
+        return self._verdict
+
+    def _to_go(self) -> float:
+        """Return the true way to the goal past the via points that are left, m."""
+        assert self._episode is not None
+        goal, frame = self._episode.scenario.goal, self._episode.judge.frame
+        places = (*goal.via, goal.position)
+        left = places[min(self._episode.pilot.goals_passed, len(places) - 1) :]
+        way = [(frame.x, frame.y), *left]
+        return sum(math.dist(a, b) for a, b in pairwise(way))
+
+    def _observed(self) -> Observed:
+        assert self._episode is not None
+        assert self._step is not None
+        assert self._depth is not None
+        return observed(self._step, self._depth, self._episode.goal, self._episode.pilot.gaze)
+
+    def _info(self) -> dict[str, Any]:
+        assert self._step is not None
+        assert self._episode is not None
+        verdict = self._verdict
+        return {
+            "time": 1e-9 * self._step.time_ns,
+            "scenario_seed": self._episode.scenario.seed,
+            "state": self._step.state,
+            "outcome": "" if verdict is None else verdict.outcome,
+            "reason": "" if verdict is None else verdict.reason or "",
+        }
