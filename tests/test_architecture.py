@@ -17,6 +17,7 @@ TESTED_BY = {
     "cli.sweep_verbs": "test_sweeps.py",
     "cli.export": "test_exports.py",
     "cli.report": "test_reporting.py",
+    "gymnasium_hook": "test_environment.py",
     "course.check": "test_course.py",
     "course.levels": "test_course.py",
     "course.pieces": "test_course.py",
