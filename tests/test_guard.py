@@ -12,8 +12,9 @@ import treadwell
 from treadwell.errors import CoreError, InputError
 from treadwell.guard import Guard, blamed
 from treadwell.plugins import METHODS
-from treadwell.protocols import Decision
+from treadwell.protocols import Decision, Footstep, Plan
 
+STEP = Footstep("left", 0.04, 0.042, 0.0, 0.0, -0.05, 0.05)
 SHORT = ("time_limit=0.6", "navigation.call_limit=0.3")
 
 
@@ -133,8 +134,10 @@ class View:
 @pytest.mark.parametrize(
     ("view", "message"),
     [
-        (View(cell=0.0), "cell must be > 0"),
-        (View(cell=float("nan")), "cell must be > 0"),
+        (View(cell=0.0), "cell must be from"),
+        (View(cell=1e-300), "cell must be from"),
+        (View(origin=(1e9, 0.0)), "origin must be finite and within 10000, got 1000000000"),
+        (View(cell=float("nan")), "cell must be from"),
         (View(origin=(float("inf"), 0.0)), "origin must be finite"),
         (View(height=np.full((40, 40), np.nan, np.float32)), "height must be finite where"),
         (View(kind=np.full((40, 40), 7, np.uint8)), "kind must be 0, 1 or 2, got 7"),
@@ -154,5 +157,31 @@ def test_a_view_that_makes_no_sense_is_refused(view: View, message: str) -> None
 
     episode = treadwell.Episode("open_floor", overrides=("time_limit=1.2",), world_model=Model())
     with pytest.raises(CoreError, match=f"world_model: Model: .*{message}"):
+        for _ in episode:
+            pass
+
+
+@pytest.mark.parametrize(
+    ("slot", "method", "answer", "message"),
+    [
+        ("localizer", "estimate", (1e9, 0.0, 0.0, 0.0), "estimate must be finite and within"),
+        ("planner", "plan", Plan(np.full((2, 2), 1e9)), "path must be finite and within"),
+        ("planner", "plan", Plan(np.zeros((100_001, 2))), "path may have 100000 points at most"),
+        ("behaviour", "next", Decision("x", velocity=(1e9, 0.0, 0.0)), "velocity must be finite"),
+        ("behaviour", "next", Decision("x", gaze=(0.0, 1e9)), "gaze must be finite and within"),
+        ("behaviour", "next", Decision("x" * 101), "100 characters at most"),
+        ("behaviour", "next", Decision("x", footsteps=(STEP,) * 1001), "1000 footsteps at most"),
+        ("behaviour", "next", Decision("x", footsteps=(STEP._replace(x=1e9),)), "within 100"),
+    ],
+)
+def test_an_answer_beyond_all_bounds_is_refused(
+    slot: str, method: str, answer: object, message: str
+) -> None:
+    """A pose a million kilometres away once took all memory, and the program with it."""
+    methods: dict[str, Any] = dict.fromkeys(METHODS[slot], lambda *_: None)
+    part = type("Wild", (), methods | {method: lambda *_: answer})()
+    parts: dict[str, Any] = {slot: part}
+    episode = treadwell.Episode("open_floor", overrides=("time_limit=1.2",), **parts)
+    with pytest.raises(CoreError, match=f"{slot}: Wild: .*{message}"):
         for _ in episode:
             pass

@@ -6,6 +6,7 @@ mod planner;
 mod segmenter;
 mod world_model;
 
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 pub(crate) use behaviour::behaviour;
@@ -22,4 +23,20 @@ fn sentence(error: &PyErr) -> String {
             .repr()
             .map_or_else(|_| error.to_string(), |text| text.to_string())
     })
+}
+
+/// Metres from the map's origin within which everything lies. Farther away the core's grids and queues have no room.
+const FARTHEST_M: f64 = 10_000.0;
+
+/// Refuses a number of Python's that is none, or beyond `most` of either sign.
+fn check_within(what: &str, values: impl IntoIterator<Item = f64>, most: f64) -> PyResult<()> {
+    match values
+        .into_iter()
+        .find(|value| value.is_nan() || value.abs() > most)
+    {
+        None => Ok(()),
+        Some(value) => Err(PyValueError::new_err(format!(
+            "{what} must be finite and within {most}, got {value:?}"
+        ))),
+    }
 }

@@ -10,7 +10,7 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use robot::Side;
 
-use super::sentence;
+use super::{check_within, sentence};
 use crate::situation::PySituation;
 use crate::stairs::FlatFootstep;
 
@@ -21,6 +21,11 @@ struct PythonBehaviour {
 }
 
 const MOST_STATES: usize = 256;
+/// Characters of a state's name.
+const LONGEST_NAME: usize = 100;
+/// What no velocity, angle or length of a decision is beyond, m, rad and s.
+const LARGEST: f64 = 100.0;
+const MOST_FOOTSTEPS: usize = 1000;
 
 /// Wraps an object with the method of `treadwell.protocols.Behaviour`.
 pub(crate) fn behaviour(object: Py<PyAny>) -> Box<dyn Behaviour> {
@@ -34,6 +39,11 @@ impl PythonBehaviour {
     fn state(&mut self, name: String) -> PyResult<&'static str> {
         if let Some(known) = self.states.iter().find(|known| **known == name) {
             return Ok(known);
+        }
+        if name.len() > LONGEST_NAME {
+            return Err(PyValueError::new_err(format!(
+                "a state's name may have {LONGEST_NAME} characters at most"
+            )));
         }
         if self.states.len() == MOST_STATES {
             return Err(PyValueError::new_err(format!(
@@ -52,9 +62,7 @@ impl PythonBehaviour {
             .bind(py)
             .call_method1(intern!(py, "next"), argument)?;
         let [pan_rad, down_rad]: [f64; 2] = answer.getattr(intern!(py, "gaze"))?.extract()?;
-        if ![pan_rad, down_rad].iter().all(|value| value.is_finite()) {
-            return Err(PyValueError::new_err("gaze must be finite"));
-        }
+        check_within("gaze", [pan_rad, down_rad], LARGEST)?;
         let motion = read_motion(&answer)?;
         let outcome: Option<String> = answer.getattr(intern!(py, "outcome"))?.extract()?;
         let outcome = outcome.map(|text| match text.as_str() {
@@ -78,7 +86,14 @@ impl PythonBehaviour {
 fn read_motion(answer: &Bound<'_, PyAny>) -> PyResult<Motion> {
     let py = answer.py();
     let velocity: Option<[f64; 3]> = answer.getattr(intern!(py, "velocity"))?.extract()?;
-    let listed: Vec<FlatFootstep> = answer.getattr(intern!(py, "footsteps"))?.extract()?;
+    let listed = answer.getattr(intern!(py, "footsteps"))?;
+    let count = listed.len()?;
+    if count > MOST_FOOTSTEPS {
+        return Err(PyValueError::new_err(format!(
+            "there may be {MOST_FOOTSTEPS} footsteps at most, got {count}"
+        )));
+    }
+    let listed: Vec<FlatFootstep> = listed.extract()?;
     if !listed.is_empty() {
         return match velocity {
             None => listed
@@ -94,12 +109,7 @@ fn read_motion(answer: &Bound<'_, PyAny>) -> PyResult<Motion> {
     let Some([x_mps, y_mps, yaw_radps]) = velocity else {
         return Ok(Motion::Stand);
     };
-    if ![x_mps, y_mps, yaw_radps]
-        .iter()
-        .all(|value| value.is_finite())
-    {
-        return Err(PyValueError::new_err("velocity must be finite"));
-    }
+    check_within("velocity", [x_mps, y_mps, yaw_radps], LARGEST)?;
     Ok(Motion::Walk(Velocity {
         x_mps,
         y_mps,
@@ -117,12 +127,8 @@ fn footstep((side, x_m, y_m, yaw_rad, height_m, from_m, to_m): FlatFootstep) -> 
             )));
         }
     };
-    if ![x_m, y_m, yaw_rad, height_m, from_m, to_m]
-        .iter()
-        .all(|value| value.is_finite())
-    {
-        return Err(PyValueError::new_err("footsteps must be finite"));
-    }
+    let numbers = [x_m, y_m, yaw_rad, height_m, from_m, to_m];
+    check_within("footsteps", numbers, LARGEST)?;
     if from_m >= to_m {
         return Err(PyValueError::new_err(format!(
             "a footstep's bearing_from must be below its bearing_to, got {from_m} and {to_m}"

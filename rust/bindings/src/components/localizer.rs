@@ -7,7 +7,7 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use segmentation::Planes;
 
-use super::sentence;
+use super::{FARTHEST_M, check_within, sentence};
 use crate::products::{PyBodyState, PyFloorView, PyPlanes};
 
 struct PythonLocalizer(Py<PyAny>);
@@ -15,6 +15,19 @@ struct PythonLocalizer(Py<PyAny>);
 /// Wraps an object with the methods of `treadwell.protocols.Localizer`.
 pub(crate) fn localizer(object: Py<PyAny>) -> Box<dyn Localizer> {
     Box::new(PythonLocalizer(object))
+}
+
+impl PythonLocalizer {
+    /// x, y and z, m, and yaw, rad.
+    fn pose(&self, py: Python<'_>, body: &BodyState) -> PyResult<[f64; 4]> {
+        let argument = (PyBodyState(body.clone()),);
+        let pose: [f64; 4] = self
+            .0
+            .call_method1(py, intern!(py, "estimate"), argument)?
+            .extract(py)?;
+        check_within("estimate", pose, FARTHEST_M)?;
+        Ok(pose)
+    }
 }
 
 impl Localizer for PythonLocalizer {
@@ -38,18 +51,8 @@ impl Localizer for PythonLocalizer {
     }
 
     fn estimate(&mut self, body: &BodyState) -> Result<Estimate, LocalizerError> {
-        let [x, y, z, yaw]: [f64; 4] = Python::attach(|py| {
-            self.0
-                .call_method1(py, intern!(py, "estimate"), (PyBodyState(body.clone()),))
-                .and_then(|pose| pose.extract(py))
-                .map_err(|error| LocalizerError::Failed(sentence(&error)))
-        })?;
-        if ![x, y, z, yaw].iter().all(|value| value.is_finite()) {
-            return Err(LocalizerError::Failed(format!(
-                "estimate must be finite, got {:?}",
-                [x, y, z, yaw]
-            )));
-        }
+        let [x, y, z, yaw] = Python::attach(|py| self.pose(py, body))
+            .map_err(|error| LocalizerError::Failed(sentence(&error)))?;
         let map_from_robot = Pose::<_, Robot>::from_yaw(x, y, z, yaw);
         Ok(Estimate {
             time_ns: body.time_ns,

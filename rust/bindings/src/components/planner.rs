@@ -9,10 +9,13 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use stairs::Staircase;
 
-use super::sentence;
+use super::{FARTHEST_M, check_within, sentence};
 use crate::products::{PyFloorView, flat};
 use crate::situation::PyGoal;
 use crate::stairs::PyStaircase;
+
+/// Points that a path can have at most: 4 km in steps of a cell.
+const MOST_POINTS: usize = 100_000;
 
 struct PythonPlanner(Py<PyAny>);
 
@@ -60,9 +63,13 @@ impl PythonPlanner {
                 points.dim()
             )));
         }
-        if points.iter().any(|value| !value.is_finite()) {
-            return Err(PyValueError::new_err("path must be finite"));
+        if points.nrows() > MOST_POINTS {
+            return Err(PyValueError::new_err(format!(
+                "path may have {MOST_POINTS} points at most, got {}",
+                points.nrows()
+            )));
         }
+        check_within("path", points.iter().copied(), FARTHEST_M)?;
         let points_m: Vec<[f64; 2]> = points
             .rows()
             .into_iter()

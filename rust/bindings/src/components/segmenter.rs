@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use segmentation::{PlaneRegion, Planes, SegmentError, Segmenter};
 use sensing::Scan;
 
-use super::sentence;
+use super::{FARTHEST_M, check_within, sentence};
 use crate::pose::rigid;
 use crate::situation::PyScan;
 
@@ -49,11 +49,11 @@ fn read_segmentation(answer: &Bound<'_, PyAny>, scan: &Scan, planes: &mut Planes
             "labels must have {expected} values, got {found}"
         )));
     }
-    if heights.iter().flatten().any(|height| !height.is_finite()) {
-        return Err(PyValueError::new_err(
-            "floor_heights must be finite or None",
-        ));
-    }
+    check_within(
+        "floor_heights",
+        heights.iter().flatten().copied(),
+        FARTHEST_M,
+    )?;
     if let Some(label) = labels
         .iter()
         .find(|&&label| usize::from(label) > heights.len())

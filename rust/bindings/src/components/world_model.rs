@@ -1,5 +1,7 @@
 //! A world model of the user's.
 
+use std::ops::RangeInclusive;
+
 use geometry::{Grid, Lattice, Map, Pose, Robot};
 use mapping::{FloorView, Insertion, MapError, Surface, WorldModel};
 use numpy::PyReadonlyArray2;
@@ -8,7 +10,7 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use segmentation::Planes;
 
-use super::sentence;
+use super::{FARTHEST_M, check_within, sentence};
 use crate::products::{PyPlanes, flat};
 
 struct PythonWorldModel {
@@ -48,16 +50,18 @@ impl PythonWorldModel {
 /// Cells that a view can have at most: 80 m by 80 m of the usual size.
 const MOST_CELLS: usize = 4_000_000;
 
+const CELL_SIDES_M: RangeInclusive<f64> = 0.001..=10.0;
+
 fn read_lattice(object: &Bound<'_, PyAny>) -> PyResult<Lattice> {
     let py = object.py();
     let origin_m: [f64; 2] = object.getattr(intern!(py, "origin"))?.extract()?;
     let cell_m: f64 = object.getattr(intern!(py, "cell"))?.extract()?;
-    if !origin_m.iter().all(|value| value.is_finite()) {
-        return Err(PyValueError::new_err("origin must be finite"));
-    }
-    if !(cell_m.is_finite() && cell_m > 0.0) {
+    check_within("origin", origin_m, FARTHEST_M)?;
+    if !CELL_SIDES_M.contains(&cell_m) {
         return Err(PyValueError::new_err(format!(
-            "cell must be > 0, got {cell_m}"
+            "cell must be from {} to {} m, got {cell_m:?}",
+            CELL_SIDES_M.start(),
+            CELL_SIDES_M.end()
         )));
     }
     Ok(Lattice { origin_m, cell_m })
@@ -91,10 +95,10 @@ fn read_view(object: &Bound<'_, PyAny>, into: &mut FloorView) -> PyResult<()> {
     for ((slot, &kind), &height) in into.cells.values_mut().iter_mut().zip(kind).zip(height) {
         *slot = match kind {
             0 => Surface::Unknown,
-            1 | 2 if !height.is_finite() => {
-                return Err(PyValueError::new_err(
-                    "height must be finite where kind is 1 or 2",
-                ));
+            1 | 2 if height.is_nan() || f64::from(height.abs()) > FARTHEST_M => {
+                return Err(PyValueError::new_err(format!(
+                    "height must be finite where kind is 1 or 2, got {height:?}"
+                )));
             }
             1 => Surface::Floor(height),
             2 => Surface::Obstacle(height),
