@@ -15,6 +15,7 @@ from treadwell.course.build import LEVEL_TOLERANCE, Course
 from treadwell.course.outlines import Floats
 from treadwell.judging.true_ground import BARELY, Mask, TrueGround, edges_of
 from treadwell.robot.load import Robot
+from treadwell.scenario.events import Kidnap
 from treadwell.scenario.model import Scenario
 
 PROBE: Final = 0.005
@@ -96,14 +97,18 @@ def limits_of(scenario: Scenario, robot: Robot) -> Limits:
     )
 
 
-def is_solvable(scenario: Scenario, course: Course, robot: Robot) -> bool:
+def is_solvable(scenario: Scenario, course: Course, robot: Robot) -> bool | None:
     """Say whether a way leads from the start over all points to pass to the goal.
+
+    None where the robot is carried elsewhere on the way: from where, the search does not know.
 
     Args:
         scenario: as it is run.
         course: built from it.
         robot: whose limits hold.
     """
+    if any(isinstance(event, Kidnap) for event in scenario.event):
+        return None
     limits = limits_of(scenario, robot)
     stops = [scenario.start.position, *scenario.goal.via, scenario.goal.position]
     ground = TrueGround(course, stops, radius=limits.radius, tall=limits.tall)

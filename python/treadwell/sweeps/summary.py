@@ -11,6 +11,9 @@ from treadwell.sweeps.row import Row
 
 def results_document(request: Request, rows: Sequence[Row]) -> dict[str, Any]:
     """Return what `results.json` holds: what was asked for, a summary of each line, every row."""
+    by_line: dict[int, list[Row]] = {number: [] for number in range(len(request.lines))}
+    for row in rows:
+        by_line[request.line_of(row.key)].append(row)
     return {
         **request.document(),
         "passed": all(row.success for row in rows),
@@ -19,9 +22,9 @@ def results_document(request: Request, rows: Sequence[Row]) -> dict[str, Any]:
                 "scenario": line.scenario,
                 "robot": line.robot,
                 "variant": line.variant,
-                **summary([row for row in rows if row.key in set(line.keys())]),
+                **summary(by_line[number]),
             }
-            for line in request.lines
+            for number, line in enumerate(request.lines)
         ],
         "episodes": [row.document() for row in rows],
     }
