@@ -4,7 +4,7 @@
 use super::ray::Part;
 
 /// Fraction bits of the fixed-point coordinates: 2^-44 of a voxel, and room for half a million voxels.
-pub(super) const BITS: u32 = 44;
+const BITS: u32 = 44;
 const ONE: i64 = 1 << BITS;
 /// Fraction bits of the slope of height over the lesser axis.
 const SLOPE_BITS: u32 = 32;
@@ -14,20 +14,14 @@ const MOST_LAYERS: i64 = 65 * ONE;
 
 /// A segment within the grid, cut at every border of the axis along which it goes further: u. Within such a slab it
 /// crosses at most one border of the other axis, v. No error adds up beyond 2^-37 of a voxel.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Slabs {
-    /// Whether u is x.
-    pub(super) along_x: bool,
-    /// Whether it goes towards higher u.
-    pub(super) forward: bool,
     /// Slabs after the first.
-    pub(super) count: i32,
-    /// How far it goes along u, in voxels.
-    pub(super) length: f64,
+    count: i32,
     /// v and height where it starts, at the first border, and from border to border; fixed point.
-    pub(super) start: [i64; 2],
-    pub(super) at_border: [i64; 2],
-    pub(super) step: [i64; 2],
+    start: [i64; 2],
+    at_border: [i64; 2],
+    step: [i64; 2],
     first: [i64; 2],
     last: [i64; 2],
     /// Height over v.
@@ -63,10 +57,7 @@ impl Slabs {
             (dz / dv * f64::from(2.0_f32.powi(SLOPE_BITS as i32))) as i64
         };
         Self {
-            along_x,
-            forward,
             count,
-            length: du.abs(),
             start: [fixed(from[v]), fixed(from[2])],
             at_border: [
                 fixed(from[v] + to_border * dv),
@@ -84,18 +75,6 @@ impl Slabs {
             u_stride: if forward { stride(u) } else { -stride(u) },
             v_stride: stride(v),
         }
-    }
-
-    /// Whether it goes along the same axis as another one, and the same way.
-    #[inline]
-    pub(super) const fn goes_like(&self, other: &Self) -> bool {
-        self.along_x == other.along_x && self.forward == other.forward
-    }
-
-    /// Storage index of the cell at v in a slab.
-    #[inline]
-    pub(super) const fn index(&self, slab: i32, v: i64) -> usize {
-        (self.u_index + slab as i64 * self.u_stride + v * self.v_stride) as usize
     }
 
     /// Calls `visit(index, layers)` for every cell that the segment passes in slabs `from` to before `end`: `index` is

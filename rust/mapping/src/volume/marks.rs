@@ -3,15 +3,21 @@
 use geometry::{Cell, CellArea};
 
 use super::columns::Slabs;
+use super::fan::Fan;
 use super::locator::Locator;
 use super::occupancy::{Placement, Ray, Size};
 use super::picture::Sight;
 use super::projected::Projector;
-use super::ray::Part;
+use super::ray::{Part, Reach};
 use super::reaches::Reaches;
-use super::strip::{Gaps, RAYS};
+use super::sweep::{Marked, Sweep, Way};
 use super::voxels::{Column, Voxels};
 use crate::surface::Clearing;
+
+/// Fewer rays of one way are followed one by one.
+const FEW: usize = 64;
+/// Voxels that a ray goes ahead at most; more than a grid has.
+const FARTHEST: f64 = 1e6;
 
 /// Marks of the frame that is being inserted. Empty between frames.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,7 +26,9 @@ pub(super) struct Marks {
     /// One bit a layer: hit, or passed, by a ray.
     hits: Vec<u64>,
     passed: Vec<u64>,
-    gaps: Gaps,
+    /// Rays along x and along y, towards more and towards less, and the ends of all of them.
+    fans: [Fan; 4],
+    ends: Vec<[f64; 3]>,
     reaches: Reaches,
 }
 
@@ -32,7 +40,8 @@ impl Marks {
             size,
             hits: vec![0; cells],
             passed: vec![0; cells],
-            gaps: Gaps::default(),
+            fans: Default::default(),
+            ends: Vec::new(),
             reaches: Reaches::default(),
         }
     }
@@ -55,34 +64,23 @@ impl Marks {
         clearing: Clearing,
         settled: &[u64],
     ) -> CellArea {
-        let size = self.size.voxels();
-        let mut area = CellArea::EMPTY;
-        let mut strip = [Slabs::default(); RAYS];
-        let together = match clearing {
-            Clearing::EveryRay => 1,
-            Clearing::Shared | Clearing::Projected => RAYS,
-        };
-        let mut count = 0;
-        for (end, hit) in rays {
-            let Some(part) = Part::inside(eye, end, size) else {
-                continue;
+        let mut reach = Reach::new(eye, self.size.voxels());
+        let shared = clearing != Clearing::EveryRay && eye.iter().all(|at| at.abs() < FARTHEST);
+        let first = eye.map(f64::floor);
+        rays.for_each(|(end, hit)| {
+            let Some(inside) = reach.add(end) else {
+                return;
             };
-            part.add_to(&mut area);
-            if hit && part.ends_inside {
-                let cell = part.last[1] as usize * self.size.cols + part.last[0] as usize;
-                self.hits[cell] |= 1 << part.last[2];
+            if let Some([col, row, layer]) = inside.filter(|_| hit) {
+                self.hits[row as usize * self.size.cols + col as usize] |= 1 << layer;
             }
-            let ray = Slabs::new(&part, self.size.cols);
-            if count == together || count > 0 && !ray.goes_like(&strip[0]) {
-                self.walk(&strip[..count], settled);
-                count = 0;
+            let last = inside.map_or_else(|| end.map(f64::floor), |voxel| voxel.map(f64::from));
+            if !(shared && self.gather([eye, end], [first, last])) {
+                self.walk(eye, end);
             }
-            strip[count] = ray;
-            count += 1;
-        }
-        self.walk(&strip[..count], settled);
-        self.gaps.clear();
-        area
+        });
+        self.sweep(eye, settled);
+        reach.area()
     }
 
     /// The same for the rays of a picture, each with its pixel: looks from the voxels into the picture, and leaves out what is
@@ -125,15 +123,52 @@ impl Marks {
         area
     }
 
-    /// Marks the voxels that the rays of a strip pass.
-    fn walk(&mut self, strip: &[Slabs], settled: &[u64]) {
-        let (hits, passed) = (&self.hits, &mut self.passed);
-        let known = |cell: usize| hits[cell] | passed[cell] | settled[cell];
-        self.gaps.find(strip, known, self.size);
-        for ray in strip {
-            for &[from, end] in self.gaps.spans() {
-                ray.visit(from, end, |cell, layers| passed[cell] |= layers);
+    /// Takes a ray into the fan of its way, unless it is too steep; given its ends and their voxels.
+    #[inline]
+    fn gather(&mut self, [eye, end]: [[f64; 3]; 2], [first, last]: [[f64; 3]; 2]) -> bool {
+        let [dx, dy, dz]: [f64; 3] = std::array::from_fn(|axis| end[axis] - eye[axis]);
+        let along_x = dx.abs() >= dy.abs();
+        let (ahead, across, axis) = if along_x { (dx, dy, 0) } else { (dy, dx, 1) };
+        let per_slab = 1.0 / ahead.abs();
+        let slabs = (last[axis] - first[axis]).abs().min(FARTHEST) as u32;
+        let ray = self.ends.len() as u32;
+        let fan = &mut self.fans[usize::from(!along_x) * 2 + usize::from(ahead < 0.0)];
+        let taken = fan.take([across * per_slab, dz * per_slab], slabs, ray);
+        if taken {
+            self.ends.push(end);
+        }
+        taken
+    }
+
+    /// Marks what the rays in the fans pass, and forgets them.
+    fn sweep(&mut self, eye: [f64; 3], settled: &[u64]) {
+        for (number, fan) in self.fans.iter_mut().enumerate() {
+            let way = Way {
+                along_x: number < 2,
+                forward: number % 2 == 0,
+            };
+            let mut marked = Marked {
+                hits: &self.hits,
+                passed: &mut self.passed,
+                settled,
+            };
+            let sweep = Sweep::new(way, eye, &self.ends, self.size);
+            if fan.len() < FEW {
+                (fan.reaching(0)).for_each(|ray| sweep.walk(ray, 0..i32::MAX, &mut marked));
+            } else {
+                sweep.mark(fan, &mut marked);
             }
+            fan.clear();
+        }
+        self.ends.clear();
+    }
+
+    /// Marks the voxels that a ray passes.
+    fn walk(&mut self, eye: [f64; 3], end: [f64; 3]) {
+        if let Some(part) = Part::inside(eye, end, self.size.voxels()) {
+            Slabs::new(&part, self.size.cols).visit(0, i32::MAX, |cell, layers| {
+                self.passed[cell] |= layers;
+            });
         }
     }
 

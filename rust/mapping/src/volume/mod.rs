@@ -1,6 +1,7 @@
 //! Volumes: the voxel occupancy grid, its sensor model and its rays.
 
 mod columns;
+mod fan;
 mod frustum;
 mod locator;
 mod marks;
@@ -9,10 +10,11 @@ pub mod octree;
 mod picture;
 mod probability;
 mod projected;
+mod raster;
 mod ray;
 mod reaches;
 mod solid;
-mod strip;
+mod sweep;
 mod voxels;
 
 pub(crate) use locator::Locator;

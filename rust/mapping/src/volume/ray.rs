@@ -49,6 +49,65 @@ impl Part {
     }
 }
 
+/// The cells over which rays from one eye lie. Most rays end in the grid, and need not be cut.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reach {
+    eye: [f64; 3],
+    size: [i32; 3],
+    eye_inside: bool,
+    /// Around the ends in the grid: lowest and highest column and row.
+    low: [i32; 2],
+    high: [i32; 2],
+    /// Around the parts of the others.
+    area: CellArea,
+}
+
+impl Reach {
+    /// Of no ray yet.
+    pub(super) fn new(eye: [f64; 3], size: [i32; 3]) -> Self {
+        Self {
+            eye,
+            size,
+            eye_inside: contains(size, eye),
+            low: [i32::MAX; 2],
+            high: [i32::MIN; 2],
+            area: CellArea::EMPTY,
+        }
+    }
+
+    /// Takes in a ray: its last voxel where it ends in the grid; `None` where it does not meet it.
+    #[inline]
+    pub(super) fn add(&mut self, end: [f64; 3]) -> Option<Option<[i32; 3]>> {
+        if self.eye_inside && contains(self.size, end) {
+            let last = end.map(|at| at as i32);
+            for axis in 0..2 {
+                self.low[axis] = self.low[axis].min(last[axis]);
+                self.high[axis] = self.high[axis].max(last[axis]);
+            }
+            return Some(Some(last));
+        }
+        self.add_part(end)
+    }
+
+    #[cold]
+    fn add_part(&mut self, end: [f64; 3]) -> Option<Option<[i32; 3]>> {
+        let part = Part::inside(self.eye, end, self.size)?;
+        part.add_to(&mut self.area);
+        Some(part.ends_inside.then_some(part.last))
+    }
+
+    /// The cells of all rays.
+    pub(super) fn area(mut self) -> CellArea {
+        if self.low[0] <= self.high[0] {
+            let [col, row, _] = self.eye.map(|at| at as i32);
+            for [col, row] in [self.low, self.high, [col, row]] {
+                self.area.include(Cell::new(col, row));
+            }
+        }
+        self.area
+    }
+}
+
 #[inline]
 fn contains(size: [i32; 3], at: [f64; 3]) -> bool {
     (0..3).all(|a| at[a] >= 0.0 && at[a] < f64::from(size[a]))

@@ -21,7 +21,6 @@ const FARTHEST: f64 = 1e12;
 pub(super) struct Workspace {
     marks: Marks,
     window: Window,
-    ends: Vec<([f64; 3], bool)>,
 }
 
 impl Default for Workspace {
@@ -34,7 +33,6 @@ impl Default for Workspace {
         Self {
             marks: Marks::new(nothing),
             window: Window::default(),
-            ends: Vec::new(),
         }
     }
 }
@@ -47,15 +45,8 @@ struct Bounds {
 }
 
 impl Bounds {
-    /// Around the eye and the ends, made of whole bricks; none where all of it is beyond what a tree can hold.
-    fn around(eye: [f64; 3], ends: &[([f64; 3], bool)]) -> Option<Self> {
-        let (mut low, mut high) = (eye, eye);
-        for (end, _) in ends {
-            for axis in 0..3 {
-                low[axis] = low[axis].min(end[axis]);
-                high[axis] = high[axis].max(end[axis]);
-            }
-        }
+    /// Around what lies between two points, made of whole bricks; none where all of it is beyond what a tree can hold.
+    fn around([low, high]: [[f64; 3]; 2]) -> Option<Self> {
         let span = f64::from(SPAN);
         let outside = |axis: usize| high[axis] < 0.0 || low[axis] >= span;
         if (0..3).any(outside) {
@@ -87,6 +78,49 @@ fn seen_from(low: [i32; 3], at: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|axis| at[axis] - f64::from(low[axis]))
 }
 
+/// Where beams end, in voxels, and whether something was seen there.
+#[derive(Debug, Clone, Copy)]
+struct Ends<'a> {
+    rays: &'a [Ray],
+    per_m: f64,
+}
+
+impl<'a> Ends<'a> {
+    #[inline]
+    fn of(self, ray: &Ray) -> ([f64; 3], bool) {
+        (in_voxels(ray.end_m, self.per_m), ray.hit)
+    }
+
+    fn iter(self) -> impl Iterator<Item = ([f64; 3], bool)> + 'a {
+        self.rays.iter().map(move |ray| self.of(ray))
+    }
+
+    /// The lowest and the highest corner of the box around the eye and all ends.
+    fn corners(self, eye: [f64; 3]) -> Result<[[f64; 3]; 2], OctreeError> {
+        let (mut low, mut high, mut all_usable) = (eye, eye, true);
+        self.iter().for_each(|(end, _)| {
+            for axis in 0..3 {
+                let at = end[axis];
+                all_usable &= at.abs() < FARTHEST;
+                low[axis] = if at < low[axis] { at } else { low[axis] };
+                high[axis] = if at > high[axis] { at } else { high[axis] };
+            }
+        });
+        if all_usable {
+            return Ok([low, high]);
+        }
+        let index = self.iter().position(|(end, _)| !usable(&end));
+        Err(OctreeError::Point {
+            index: index.unwrap_or_default(),
+        })
+    }
+}
+
+/// Whether a point is where beams may begin and end.
+fn usable(at: &[f64; 3]) -> bool {
+    at.iter().all(|at| at.abs() < FARTHEST)
+}
+
 impl Octree {
     /// Takes in the beams of one frame, all from `eye_m`, as the beam model of 002 says: the last voxel of a beam is occupied, all
     /// others up to it are free. Per frame each voxel is updated once, and occupied wins; per point by every beam.
@@ -99,31 +133,21 @@ impl Octree {
     ) -> Result<(), OctreeError> {
         let per_m = self.per_m();
         let eye = in_voxels(eye_m, per_m);
-        let mut ends = std::mem::take(&mut self.workspace.ends);
-        ends.clear();
-        ends.extend(
-            rays.iter()
-                .map(|ray| (in_voxels(ray.end_m, per_m), ray.hit)),
-        );
-        let usable = |at: &[f64; 3]| at.iter().all(|at| at.abs() < FARTHEST);
-        let result = if !usable(&eye) {
-            Err(OctreeError::Eye)
-        } else if let Some(index) = ends.iter().position(|(end, _)| !usable(end)) {
-            Err(OctreeError::Point { index })
-        } else {
-            match update {
-                Update::PerFrame => self.insert_frame(eye, &ends),
-                Update::PerPoint => self.insert_each(eye, &ends),
-            }
-            Ok(())
-        };
-        self.workspace.ends = ends;
-        result
+        if !usable(&eye) {
+            return Err(OctreeError::Eye);
+        }
+        let ends = Ends { rays, per_m };
+        let corners = ends.corners(eye)?;
+        match update {
+            Update::PerFrame => self.insert_frame(eye, ends, corners),
+            Update::PerPoint => self.insert_each(eye, ends),
+        }
+        Ok(())
     }
 
     /// Per point: every beam at once.
-    fn insert_each(&mut self, eye: [f64; 3], ends: &[([f64; 3], bool)]) {
-        for &(end, hit) in ends {
+    fn insert_each(&mut self, eye: [f64; 3], ends: Ends<'_>) {
+        for (end, hit) in ends.iter() {
             let Some(walk) = VoxelWalk::new(eye, end, [SPAN; 3]) else {
                 continue;
             };
@@ -137,17 +161,19 @@ impl Octree {
     }
 
     /// Per frame: part of space by part of space.
-    fn insert_frame(&mut self, eye: [f64; 3], ends: &[([f64; 3], bool)]) {
-        let Some(bounds) = Bounds::around(eye, ends) else {
+    fn insert_frame(&mut self, eye: [f64; 3], ends: Ends<'_>, corners: [[f64; 3]; 2]) {
+        let Some(bounds) = Bounds::around(corners) else {
             return;
         };
         let size = bounds.size();
         if (0..3).all(|axis| size[axis] <= TILE[axis]) {
-            self.insert_tile(bounds, eye, ends.iter().copied());
+            self.insert_tile(bounds, eye, ends.iter());
             return;
         }
         for (number, rays) in through_tiles(bounds, eye, ends) {
-            let rays = rays.into_iter().map(|ray| ends[ray as usize]);
+            let rays = rays
+                .into_iter()
+                .map(|ray| ends.of(&ends.rays[ray as usize]));
             self.insert_tile(bounds.tile(number), eye, rays);
         }
     }
@@ -236,11 +262,7 @@ impl Octree {
 }
 
 /// Which rays pass which tiles, in a fixed order.
-fn through_tiles(
-    bounds: Bounds,
-    eye: [f64; 3],
-    ends: &[([f64; 3], bool)],
-) -> BTreeMap<[i32; 3], Vec<u32>> {
+fn through_tiles(bounds: Bounds, eye: [f64; 3], ends: Ends<'_>) -> BTreeMap<[i32; 3], Vec<u32>> {
     let size = bounds.size();
     let count = std::array::from_fn(|axis| (size[axis] + TILE[axis] - 1) / TILE[axis]);
     let in_tiles = |at: [f64; 3]| {
@@ -248,7 +270,7 @@ fn through_tiles(
         std::array::from_fn(|axis| at[axis] / f64::from(TILE[axis]))
     };
     let mut tiles = BTreeMap::<_, Vec<u32>>::new();
-    for (ray, &(end, _)) in ends.iter().enumerate() {
+    for (ray, (end, _)) in ends.iter().enumerate() {
         for tile in VoxelWalk::new(in_tiles(eye), in_tiles(end), count)
             .into_iter()
             .flatten()
