@@ -212,7 +212,8 @@ def test_after_kill_9_at_any_time_no_episode_is_lost_or_doubled(tmp_path: Path) 
     document, kills = killed_sweep(Path(short(tmp_path)), tmp_path / "out", kills=KILLS, episodes=8)
     assert 1 <= kills <= KILLS
     assert [row["seed"] for row in document["episodes"]] == list(range(8))
-    rows = [row_of(json.loads(line)) for line in (tmp_path / "out/journal.jsonl").open()]
+    lines = (tmp_path / "out" / "journal.jsonl").read_text().splitlines()
+    rows = [row_of(json.loads(line)) for line in lines]
     assert len({row.key for row in rows}) == len(rows) == 8
     folders = {row["folder"] for row in document["episodes"]}
     assert {f"episodes/{path.name}" for path in (tmp_path / "out/episodes").iterdir()} == folders
