@@ -38,6 +38,7 @@ def core(tmp_path_factory: pytest.TempPathFactory) -> Path:
     manifest = folder / "Cargo.toml"
     manifest.write_text(manifest.read_text().replace("../../", f"{ROOT}/"))
     shutil.copy(ROOT / "Cargo.lock", folder)  # the same versions: nothing is compiled twice
+    cargo("fmt", "--check", folder=folder)
     cargo("test", "--lib", folder=folder)
     cargo("build", folder=folder)
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
