@@ -130,3 +130,9 @@ def test_a_robot_that_has_nothing_to_be_seen_is_seen_as_what_collides(tmp_path: 
     text = (robot / "qrio.xml").read_text(encoding="utf-8").replace('group="2"', 'group="4"')
     (robot / "qrio.xml").write_text(text, encoding="utf-8")
     assert (load_robot(robot).nominal.geom_group == 2).all()
+
+
+def test_the_floor_of_a_scene_is_no_part_of_a_robot(tmp_path: Path) -> None:
+    floor = '<worldbody><geom name="floor" type="plane" size="1 1 1"/>'
+    model = load_robot(_with(tmp_path, "qrio.xml", "<worldbody>", floor)).nominal
+    assert model.ngeom == load_robot("qrio").nominal.ngeom

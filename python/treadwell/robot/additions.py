@@ -1,7 +1,7 @@
 """What a `robot.toml` adds to its MJCF: so that a model from elsewhere serves as it is.
 
-Whatever the MJCF has counts. Only what it lacks is added, from tables that say it, and then the
-whole is checked as if the MJCF had had it.
+Whatever the MJCF has of the robot counts. Only what it lacks is added, from tables that say it, and
+then the whole is checked as if the MJCF had had it.
 """
 
 import math
@@ -38,6 +38,7 @@ def complete(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> None:
     Raises:
         InputError: a table of `robot.toml` adds what the MJCF has, or to what it has not.
     """
+    _leave_out_world(spec)
     _add_options(spec)
     _name_base(spec)
     _add_joint_numbers(spec, file, toml)
@@ -49,6 +50,12 @@ def complete(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> None:
     _show_shapes(spec)
     # The last: for it, the rest is compiled.
     _add_stand(spec, file, toml)
+
+
+def _leave_out_world(spec: mujoco.MjSpec) -> None:
+    """Leave out what stands on the world and not on the robot, as the floor of a scene does."""
+    for geom in list(spec.worldbody.geoms):
+        spec.delete(geom)
 
 
 def _add_options(spec: mujoco.MjSpec) -> None:
