@@ -13,6 +13,7 @@ __all__ = [
     "Climb",
     "FloorView",
     "Goal",
+    "Legs",
     "OccupancyGrid",
     "Octree",
     "Pilot",
