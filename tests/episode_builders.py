@@ -11,11 +11,11 @@ import mujoco
 import numpy as np
 
 from treadwell.course.build import Course, build_course
-from treadwell.judging.ground_truth import pose_matrix
 from treadwell.judging.map_memory import RememberedMap
 from treadwell.judging.result import Result
 from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import Simulation, Start
+from treadwell.poses import pose_matrix
 from treadwell.recording.trace import StairTrace, Trace
 from treadwell.robot.load import Robot, load_robot
 from treadwell.scenario.loading import load_scenario

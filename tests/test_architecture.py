@@ -10,6 +10,7 @@ ROOT = Path(__file__).resolve().parent.parent
 LONGEST_FILE = 400
 # Tested through what uses them, by the test named.
 TESTED_BY = {
+    "cli.verify": "test_difference.py",
     "protocols": "test_components.py",
     "cli.compare": "test_comparison.py",
     "cli.options": "test_cli.py",

@@ -8,7 +8,8 @@ from episode_builders import qrio, world
 from hypothesis import given
 from hypothesis import strategies as st
 
-from treadwell.judging.ground_truth import GroundTruth, Sole, pose_matrix, wrapped
+from treadwell.judging.ground_truth import GroundTruth, Sole, wrapped
+from treadwell.poses import pose_matrix
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.7, -2.5, math.pi])

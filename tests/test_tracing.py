@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import treadwell
-from treadwell.judging.ground_truth import pose_matrix
+from treadwell.poses import pose_matrix
 from treadwell.recording.trace import Trace
 from treadwell.recording.tracing import trace_of, transformed
 

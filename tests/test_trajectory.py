@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from treadwell.errors import InputError
-from treadwell.judging.ground_truth import pose_matrix
+from treadwell.poses import pose_matrix
 from treadwell.recording.trajectory import Trajectory, quaternion, read_trajectory
 
 

@@ -7,7 +7,7 @@ import pytest
 from user_parts import Legs
 
 import treadwell
-from treadwell.judging.ground_truth import pose_matrix
+from treadwell.poses import pose_matrix
 
 TRUTH = "navigation.localizer=truth"
 

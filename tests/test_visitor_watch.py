@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 from episode_builders import qrio, trace, world
 
-from treadwell.judging.ground_truth import pose_matrix
 from treadwell.judging.visitor_watch import SEEN_POINTS, Avoidance, VisitorWatch
 from treadwell.judging.watch import Watch
+from treadwell.poses import pose_matrix
 
 VISITOR = """
 [[event]]

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from episode_builders import qrio, trace, world
 
-from treadwell.judging.ground_truth import pose_matrix
 from treadwell.judging.map_memory import FLOOR, OBSTACLE
 from treadwell.judging.walk_watch import Walk, WalkWatch
 from treadwell.judging.watch import Watch
+from treadwell.poses import pose_matrix
 
 COURSE = """
 [[course]]

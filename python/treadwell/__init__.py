@@ -14,10 +14,11 @@ from treadwell.gymnasium_hook import register_with_gymnasium
 
 if TYPE_CHECKING:
     from treadwell.episode import Episode
+    from treadwell.replaying.replay import replay
     from treadwell.runner import run
 
 __version__ = version("treadwell")
-__all__ = ["Episode", "__version__", "run"]
+__all__ = ["Episode", "__version__", "replay", "run"]
 
 if os.environ.get("TREADWELL_CORE"):
     from treadwell.own_core import use
@@ -26,7 +27,11 @@ if os.environ.get("TREADWELL_CORE"):
 
 register_with_gymnasium()
 
-_HOMES = {"Episode": "treadwell.episode", "run": "treadwell.runner"}
+_HOMES = {
+    "Episode": "treadwell.episode",
+    "replay": "treadwell.replaying.replay",
+    "run": "treadwell.runner",
+}
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401 - whatever the name means

@@ -2,20 +2,23 @@
 
 import json
 import re
-from collections.abc import Collection
-from typing import Any
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 from treadwell._core import Octree, Pilot
 from treadwell.additions import compiled
 from treadwell.components import COMPONENTS
-from treadwell.course.build import Course
-from treadwell.course.static_map import map_resolution, static_map
 from treadwell.errors import InputError
 from treadwell.guard import Guard
 from treadwell.plugins import check_component, load_component
-from treadwell.robot.load import Robot
 from treadwell.scenario.messages import nearest
-from treadwell.scenario.model import Scenario
+from treadwell.scenario.model import Navigation, Scenario
+
+if TYPE_CHECKING:
+    # A replay tells the core the same without MuJoCo, which these two need.
+    from treadwell.course.build import Course
+    from treadwell.robot.load import Robot
 
 MAPPED = frozenset({"monte_carlo", "octree"})
 """Components that are told a static map."""
@@ -24,7 +27,24 @@ TOLD = ("odometry", "matching")
 """Localizers that cannot find where the robot is, but have to be told where it starts."""
 
 
-def core_settings(scenario: Scenario, robot: Robot, course: Course) -> str:
+@dataclass(frozen=True, slots=True, eq=False)
+class CoreInput:
+    """All that a core is made of: with it a recording can make the same one again.
+
+    Attributes:
+        settings: what `core_settings` returned.
+        robot_navigation: the robot's own parameters, over which a scenario's go.
+        static_map: what `told_map` returned.
+        given: slot -> `package.module:Class` of an object that the caller brought.
+    """
+
+    settings: str
+    robot_navigation: Mapping[str, Any] = field(default_factory=dict)
+    static_map: Octree | None = None
+    given: Mapping[str, str] = field(default_factory=dict)
+
+
+def core_settings(scenario: Scenario, robot: "Robot", course: "Course") -> str:
     """Return robot, start, goals and navigation as JSON. No truth but the start, where it is known.
 
     Of a start that is not known the core is told nothing.
@@ -34,17 +54,26 @@ def core_settings(scenario: Scenario, robot: Robot, course: Course) -> str:
     places.append({"position": list(goal.position), "radius": goal.radius, "height": goal.height})
     place = course.start
     known = {"position": list(place.position), "height": place.height, "yaw": place.yaw}
-    parameters = navigation_parameters(scenario, robot)
     settings = {
         "robot": robot.description(),
         "start": known if scenario.start.known else None,
         "goals": places,
-        "navigation": {**scenario.navigation.slots(), **parameters},
+        "navigation": navigation_settings(scenario.navigation, robot.file.navigation),
     }
     return json.dumps(settings, allow_nan=False)
 
 
-def told_map(scenario: Scenario, course: Course) -> Octree | None:
+def navigation_settings(navigation: Navigation, of_robot: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the table `navigation` of the core's settings.
+
+    Args:
+        navigation: the scenario's table.
+        of_robot: the robot's own parameters.
+    """
+    return {**navigation.slots(), **_over(of_robot, navigation.parameters())}
+
+
+def told_map(scenario: Scenario, course: "Course") -> Octree | None:
     """Return the map that a component needs to be told, None when none does.
 
     Raises:
@@ -52,17 +81,19 @@ def told_map(scenario: Scenario, course: Course) -> Octree | None:
     """
     if not MAPPED & set(scenario.navigation.slots().values()):
         return None
+    from treadwell.course.static_map import map_resolution, static_map
+
     where = str(scenario.path or scenario.name)
     table = scenario.navigation.parameters().get("static_map", {})
     return static_map(course, map_resolution(table, where), where)
 
 
-def navigation_parameters(scenario: Scenario, robot: Robot) -> dict[str, Any]:
+def navigation_parameters(scenario: Scenario, robot: "Robot") -> dict[str, Any]:
     """Return the components' parameters: the robot's own, and a scenario's over them."""
     return _over(robot.file.navigation, scenario.navigation.parameters())
 
 
-def _over(own: dict[str, Any], asked: dict[str, Any]) -> dict[str, Any]:
+def _over(own: Mapping[str, Any], asked: Mapping[str, Any]) -> dict[str, Any]:
     """Return a robot's own parameters with a scenario's over them, table by table."""
     both = dict(own)
     for key, value in asked.items():

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
-from treadwell._core import Pilot
+from treadwell._core import Octree, Pilot
 from treadwell.core_settings import (
+    CoreInput,
     build_core,
     core_settings,
     guards,
@@ -24,6 +25,7 @@ from treadwell.judging.verdict import Referee, Verdict
 from treadwell.observation import Observation
 from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import TICK_NS, Simulation, Start
+from treadwell.plugins import class_path
 from treadwell.protocols import Footstep, Pose
 from treadwell.random_streams import RandomStreams
 from treadwell.robot.load import load_robot
@@ -57,6 +59,8 @@ class Step:
         state: name of the behaviour's state.
         footsteps: careful steps that its feet are told to take, in the robot's frame as it was
             when they were listed first; empty while it walks or stands.
+        outcome: what it declares: `goal_reached`, `refused` or None.
+        reason: why it refuses.
     """
 
     time_ns: int
@@ -65,6 +69,8 @@ class Step:
     command: JointTargets
     state: str
     footsteps: tuple[Footstep, ...] = ()
+    outcome: str | None = None
+    reason: str | None = None
 
 
 class Episode:
@@ -78,7 +84,7 @@ class Episode:
         robot, course, simulation, sensors, events, judge, referee: the parts of the harness.
         pilot: the core.
         guards: slot -> what stands between the core and a component of the user's.
-        static_map: what the core was told of the course; None where nothing in it asks for one.
+        core_input: what the core was made of.
         ablation: whether anything in the core was given the truth.
         verdict: how it ended, None while it goes on.
         seconds: stage -> seconds that it took, one a tick at which it ran.
@@ -127,6 +133,7 @@ class Episode:
         self.verdict: Verdict | None = None
         self.seconds: dict[str, list[float]] = {name: [] for name in ("physics", "depth")}
         self.seconds |= {name: [] for name in Pilot.stages}
+        brought = {slot: class_path(component) for slot, component in components.items()}
         given = user_components(scenario, dict(components))
         self.guards = guards(scenario, given, set(components))
         given.update(self.guards)
@@ -134,8 +141,9 @@ class Episode:
         if self.ablation:
             given["localizer"] = TruthLocalizer(self.judge, self.simulation.data)
         settings = core_settings(scenario, self.robot, self.course)
-        self.static_map = told_map(scenario, self.course)
-        self.pilot = build_core(scenario, settings, given, self.static_map)
+        static_map = told_map(scenario, self.course)
+        self.core_input = CoreInput(settings, self.robot.file.navigation, static_map, brought)
+        self.pilot = build_core(scenario, settings, given, static_map)
 
     def tick(self) -> Step:
         """Go on by one control tick.
@@ -174,7 +182,14 @@ class Episode:
             command,
             tick.state,
             tuple(Footstep(*listed) for listed in tick.footsteps),
+            tick.outcome,
+            tick.reason,
         )
+
+    @property
+    def static_map(self) -> Octree | None:
+        """What the core was told of the course; None where nothing in it asks for one."""
+        return self.core_input.static_map
 
     @property
     def goal(self) -> tuple[float, float]:

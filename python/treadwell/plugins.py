@@ -57,3 +57,9 @@ def check_component(slot: str, component: object) -> None:
     if missing:
         kind = type(component).__name__
         raise InputError(f"{slot}: {kind} has no method {', '.join(missing)}")
+
+
+def class_path(component: object) -> str:
+    """Return the class of an object as `package.module:Class`."""
+    kind = type(component)
+    return f"{kind.__module__}:{kind.__qualname__}"

@@ -15,8 +15,9 @@ from treadwell.errors import CoreError, SimulationError, TreadwellError
 from treadwell.interruption import Interruption
 from treadwell.judging.clearance import least_clearance
 from treadwell.judging.map_memory import MapMemory, RememberedMap
+from treadwell.judging.measures import PoseErrors, timing
 from treadwell.judging.result import CollisionEntry, Result, StateEntry
-from treadwell.judging.score import PoseErrors, map_counts, surfaces, timing, true_cells
+from treadwell.judging.score import map_counts, surfaces, true_cells
 from treadwell.judging.step_watch import KnownTop, StepError, StepWatch
 from treadwell.judging.verdict import Verdict
 from treadwell.judging.watch import Watch

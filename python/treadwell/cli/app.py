@@ -18,7 +18,7 @@ from treadwell.cli.options import (
     SeedOption,
     SetOption,
 )
-from treadwell.cli.output import ERROR, FAILED, INTERRUPTED, PASSED, guarded, write_json
+from treadwell.cli.output import ERROR, INTERRUPTED, PASSED, guarded, write_json
 
 app = typer.Typer(
     name="treadwell",
@@ -153,22 +153,38 @@ def inspect(
 def verify(
     run_dirs: Annotated[list[Path], typer.Argument(metavar="RUN_DIR...", help="Runs' folders.")],
     *,
+    against: Annotated[
+        Path | None,
+        typer.Option("--against", metavar="RUN_DIR", help="Say where each first differs from it."),
+    ] = None,
     as_json: JsonOption = False,
 ) -> int:
     """Check that a run's files are whole, and that plain MuJoCo steps to the same states."""
-    from treadwell.errors import InputError
-    from treadwell.recording.verification import verify as verify_runs
+    from treadwell.cli import verify as cli_verify
 
-    for run_dir in run_dirs:
-        if not run_dir.is_dir():
-            raise InputError(f"{run_dir}: there is no such run")
-    faults = {str(found.folder): list(found.problems) for found in verify_runs(run_dirs)}
-    if as_json:
-        write_json({name: {"whole": not found, "faults": found} for name, found in faults.items()})
-    else:
-        for name, found in faults.items():
-            typer.echo(f"{name}: {'; '.join(found) if found else 'whole, the same states'}")
-    return FAILED if any(faults.values()) else PASSED
+    return cli_verify.verify(run_dirs, against=against, as_json=as_json)
+
+
+@app.command(epilog="Example: treadwell replay runs/latest --set navigation.world_model=averaging")
+def replay(
+    run_dir: Annotated[Path, typer.Argument(metavar="RUN_DIR", help="A run's folder.")],
+    *,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="KEY=VALUE", help="Another navigation.planner=..., say. Repeatable."
+        ),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", help="Its folder; default: a new one beside."),
+    ] = None,
+    as_json: JsonOption = False,
+) -> int:
+    """Run the core again over what a run recorded, without MuJoCo, and compare its answers."""
+    from treadwell.cli import replay as cli_replay
+
+    return cli_replay.replay(run_dir, settings=settings or [], out=out, as_json=as_json)
 
 
 @app.command(epilog="Example: treadwell report runs/latest --video runs/latest/run.mp4")

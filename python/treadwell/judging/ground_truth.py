@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell.poses import pose_matrix
 from treadwell.robot.load import Robot
 
 Floats = NDArray[np.float64]
@@ -48,15 +49,6 @@ class GroundFrame:
     def matrix(self) -> Floats:
         """Return world_from_robot, (4, 4)."""
         return pose_matrix(self.x, self.y, self.z, self.yaw)
-
-
-def pose_matrix(x: float, y: float, z: float, yaw: float) -> Floats:
-    """Return the pose of a frame that is turned about z only, (4, 4)."""
-    c, s = math.cos(yaw), math.sin(yaw)
-    return np.array(
-        [[c, -s, 0.0, x], [s, c, 0.0, y], [0.0, 0.0, 1.0, z], [0.0, 0.0, 0.0, 1.0]],
-        dtype=np.float64,
-    )
 
 
 class GroundTruth:

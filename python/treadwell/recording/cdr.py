@@ -1,4 +1,4 @@
-"""The two messages of `observations.mcap` as CDR, the encoding of ROS 2, and back."""
+"""What the senses told: two messages of `observations.mcap` as CDR (of ROS 2), and back."""
 
 import struct
 from typing import Final

@@ -2,45 +2,63 @@
 
 Channel `/observation` has one `treadwell_msgs/msg/Observation` a control tick, `/depth` one
 `sensor_msgs/msg/Image` (32FC1, metres, NaN where nothing was seen) a camera frame: log time is its
-arrival, publish time its exposure. Both are CDR with their ROS 2 definition inside, so that common
-readers open them. Metadata `treadwell` says what was run; attachments hold the configuration and
-the robot's description.
+arrival, publish time its exposure. `/command` (`JointTargets`) and `/estimate` (`Estimate`) are
+what the core answered to the tick's observation; `/truth` (`geometry_msgs/msg/PoseStamped`) is
+where the robot truly stood when the tick was over. All are CDR with their ROS 2 definition inside,
+so that common readers open them. Metadata `treadwell` says what was run, with hashes; attachments
+hold the configuration, the robot's description, and what the core was made of.
+
+What `replay` hands to the core comes from `read_observations` alone, which skips all else.
 """
 
 import hashlib
 import json
 import struct
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import BinaryIO, Final
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any, Final
 
-from mcap.exceptions import McapError
-from mcap.reader import NonSeekingReader
 from mcap.writer import CompressionType, Writer
 
 from treadwell import __version__
+from treadwell._core import Octree
+from treadwell._core import version as core_version
 from treadwell.errors import InputError, RecordingError
 from treadwell.observation import Observation
-from treadwell.recording import cdr
-from treadwell.robot.load import Robot
+from treadwell.recording import cdr, messages
+from treadwell.recording.log_file import BrokenLogError, Front, read_front, read_messages
 from treadwell.scenario.model import Scenario
 
+if TYPE_CHECKING:
+    from treadwell.core_settings import CoreInput
+    from treadwell.robot.load import Robot
+
 NAME: Final = "observations.mcap"
+CONFIGURATION, ROBOT, CORE, STATIC_MAP = (
+    "configuration.json",
+    "robot.json",
+    "core.json",
+    "static_map.ot",
+)
+"""Names of the attachments."""
 _CHUNK: Final = 1 << 18
-_LARGEST_RECORD: Final = 1 << 26
 
 
 class ObservationLog:
     """Writes the file as the run goes on; what reached it stays readable."""
 
-    def __init__(self, folder: Path, scenario: Scenario, robot: Robot) -> None:
+    def __init__(
+        self, folder: Path, scenario: Scenario, robot: "Robot", core: "CoreInput | None" = None
+    ) -> None:
         """Open the file and write what is run.
 
         Args:
             folder: the run's.
             scenario: as it is run.
             robot: the robot.
+            core: what the core was made of; without it the file cannot be replayed.
 
         Raises:
             RecordingError: the file cannot be written.
@@ -54,8 +72,14 @@ class ObservationLog:
             writer.start(profile="ros2", library=f"treadwell {__version__}")
             self._observation = self._channel("/observation", "Observation", cdr.OBSERVATION)
             self._depth = self._channel("/depth", "sensor_msgs/msg/Image", cdr.IMAGE)
+            self._command = self._channel("/command", "JointTargets", messages.COMMAND)
+            self._estimate = self._channel("/estimate", "Estimate", messages.ESTIMATE)
+            pose = "geometry_msgs/msg/PoseStamped"
+            self._truth = self._channel("/truth", pose, messages.TRUTH)
             words = {
                 "version": __version__,
+                "core_version": core_version(),
+                "scenario_hash": hash_of(scenario.configuration()),
                 "scenario": scenario.name,
                 "seed": str(scenario.seed),
                 "robot": robot.name,
@@ -63,12 +87,15 @@ class ObservationLog:
                 "joints": ",".join(robot.joints),
             }
             writer.add_metadata("treadwell", words)
-            for name, table in (
-                ("configuration.json", scenario.configuration()),
-                ("robot.json", robot.description()),
-            ):
+            tables = {CONFIGURATION: scenario.configuration(), ROBOT: robot.description()}
+            if core is not None:
+                tables[CORE] = _core_table(core)
+            for name, table in tables.items():
                 text = json.dumps(table, allow_nan=False).encode()
                 writer.add_attachment(0, 0, name, "application/json", text)
+            if core is not None and core.static_map is not None:
+                told = _octree_bytes(core.static_map)
+                writer.add_attachment(0, 0, STATIC_MAP, "application/octet-stream", told)
         except OSError as error:
             raise self._failed(error) from error
 
@@ -86,6 +113,42 @@ class ObservationLog:
                 self._writer.add_message(
                     self._depth, frame.arrival_ns, cdr.encode_image(frame), frame.exposure_ns
                 )
+        except OSError as error:
+            raise self._failed(error) from error
+
+    def write_answer(self, time_ns: int, command: bytes, estimate: bytes) -> None:
+        """Append what the core answered to a tick's observation.
+
+        Args:
+            time_ns: the observation's, nanoseconds since the start.
+            command: the message `COMMAND`.
+            estimate: the message `ESTIMATE`.
+
+        Raises:
+            RecordingError: the file cannot be written.
+        """
+        try:
+            self._writer.add_message(self._command, time_ns, command, time_ns)
+            self._writer.add_message(self._estimate, time_ns, estimate, time_ns)
+        except OSError as error:
+            raise self._failed(error) from error
+
+    def write_truth(
+        self, time_ns: int, position: tuple[float, ...], quaternion: tuple[float, ...]
+    ) -> None:
+        """Append where the robot truly stands.
+
+        Args:
+            time_ns: nanoseconds since the start.
+            position: x, y, z m, of the robot's frame in the map.
+            quaternion: x, y, z, w.
+
+        Raises:
+            RecordingError: the file cannot be written.
+        """
+        message = messages.encode_truth(time_ns, position, quaternion)
+        try:
+            self._writer.add_message(self._truth, time_ns, message, time_ns)
         except OSError as error:
             raise self._failed(error) from error
 
@@ -119,7 +182,7 @@ class ObservationLog:
 
 
 def read_observations(path: Path) -> Iterator[Observation]:
-    """Return a file's observations in order.
+    """Return a file's observations in order: all that a replayed core is given, and no truth.
 
     A file that breaks off gives what it has, and then raises.
 
@@ -127,23 +190,53 @@ def read_observations(path: Path) -> Iterator[Observation]:
         InputError: the file is missing, breaks off, or is none of this kind.
     """
     waiting: Observation | None = None
-    with _opened(path) as file:
-        try:
-            reader = NonSeekingReader(file, record_size_limit=_LARGEST_RECORD)
-            for _, channel, message in reader.iter_messages(log_time_order=False):
-                if channel.topic == "/observation":
-                    if waiting is not None:
-                        yield waiting
-                    waiting = cdr.decode(message.data)
-                elif channel.topic == "/depth" and waiting is not None:
-                    frame = cdr.decode_image(message.data, message.publish_time, message.log_time)
-                    waiting = replace(waiting, depth=frame)
-        except (McapError, ValueError, struct.error, EOFError, IndexError) as error:
-            if waiting is not None:
-                yield waiting
-            raise InputError(f"{path}: breaks off or is no recording: {error}") from error
+    try:
+        for message in read_messages(path, ("/observation", "/depth")):
+            if message.topic == "/observation":
+                if waiting is not None:
+                    yield waiting
+                    waiting = None
+                waiting = cdr.decode(message.data)
+            elif waiting is not None:
+                frame = cdr.decode_image(message.data, message.publish_ns, message.log_ns)
+                waiting = replace(waiting, depth=frame)
+    except BrokenLogError:
+        if waiting is not None:
+            yield waiting
+        raise
+    except (ValueError, struct.error) as error:
+        raise BrokenLogError(f"{path}: is no recording: {error}", 0) from None
     if waiting is not None:
         yield waiting
+
+
+def read_answers(path: Path) -> Iterator[tuple[bytes, bytes]]:
+    """Return what the core answered to each observation: the messages `COMMAND` and `ESTIMATE`.
+
+    Raises:
+        InputError: the file is missing, breaks off, or is none of this kind.
+    """
+    command = b""
+    for message in read_messages(path, ("/command", "/estimate")):
+        if message.topic == "/command":
+            command = message.data
+        else:
+            yield command, message.data
+
+
+def read_truth(path: Path) -> Iterator[tuple[float, ...]]:
+    """Return where the robot truly stood after each tick: x, y, z m and x, y, z, w.
+
+    For scores; nothing of it may enter the core.
+
+    Raises:
+        InputError: the file is missing, breaks off, or is none of this kind.
+    """
+    for message in read_messages(path, ("/truth",)):
+        try:
+            yield messages.decode_truth(message.data)
+        except ValueError as error:
+            raise BrokenLogError(f"{path}: is no recording: {error}", 0) from None
 
 
 def read_header(path: Path) -> dict[str, str]:
@@ -152,15 +245,54 @@ def read_header(path: Path) -> dict[str, str]:
     Raises:
         InputError: the file is missing, or is none of this kind.
     """
-    with _opened(path) as file:
+    return header_of(read_front(path), path)
+
+
+def header_of(front: Front, path: Path) -> dict[str, str]:
+    """Return what the metadata of a file's front says was run.
+
+    Raises:
+        InputError: there is none.
+    """
+    if "treadwell" not in front.metadata:
+        raise InputError(f"{path}: was not written by treadwell")
+    return front.metadata["treadwell"]
+
+
+def read_octree(content: bytes, where: str) -> Octree:
+    """Return the octree of an attachment.
+
+    Raises:
+        InputError: it is none.
+    """
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / STATIC_MAP
+        path.write_bytes(content)
         try:
-            reader = NonSeekingReader(file, record_size_limit=_LARGEST_RECORD)
-            for record in reader.iter_metadata():
-                if record.name == "treadwell":
-                    return dict(record.metadata)
-        except (McapError, ValueError, struct.error, EOFError, IndexError) as error:
-            raise InputError(f"{path}: breaks off or is no recording: {error}") from error
-    raise InputError(f"{path}: was not written by treadwell")
+            return Octree.read(str(path))
+        except InputError as error:
+            raise InputError(f"{where}: {error}") from None
+
+
+def hash_of(configuration: Mapping[str, Any]) -> str:
+    """Return the SHA-256 of a scenario as it is run, its keys sorted."""
+    table = json.dumps(configuration, allow_nan=False, sort_keys=True)
+    return hashlib.sha256(table.encode()).hexdigest()
+
+
+def _octree_bytes(octree: Octree) -> bytes:
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / STATIC_MAP
+        octree.write(str(path))
+        return path.read_bytes()
+
+
+def _core_table(core: "CoreInput") -> dict[str, Any]:
+    return {
+        "settings": json.loads(core.settings),
+        "robot_navigation": dict(core.robot_navigation),
+        "given": dict(core.given),
+    }
 
 
 def folder_hash(folder: Path) -> str:
@@ -170,10 +302,3 @@ def folder_hash(folder: Path) -> str:
         digest.update(path.relative_to(folder).as_posix().encode() + b"\0")
         digest.update(path.read_bytes() + b"\0")
     return digest.hexdigest()
-
-
-def _opened(path: Path) -> BinaryIO:
-    try:
-        return path.open("rb")
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None

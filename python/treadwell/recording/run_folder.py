@@ -53,6 +53,21 @@ def sweep_folder(out: Path | None, name: str) -> Path:
     return out or _unused(RUNS / f"sweep-{name}-{time.strftime('%Y%m%d-%H%M%S')}")
 
 
+def make_folder_beside(out: Path | None, run_dir: Path, word: str) -> Path:
+    """Return a new, empty folder for what is made of a run afterwards.
+
+    Args:
+        out: where; None: `<run>-<word>` beside the run's folder.
+        run_dir: the run's folder.
+        word: what is made.
+
+    Raises:
+        InputError: there is something already, or no folder can be made there.
+    """
+    beside = run_dir.resolve()
+    return _make(out or _unused(beside.with_name(f"{beside.name}-{word}")), "")
+
+
 def _make(out: Path | None, stem: str) -> Path:
     folder = out
     if folder is None:

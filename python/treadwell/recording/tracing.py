@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from treadwell._core import Pilot, Stair
 from treadwell.episode import Episode, Step
-from treadwell.judging.ground_truth import pose_matrix
+from treadwell.poses import pose_matrix
 from treadwell.recording.trace import StairTrace, Trace
 
 _MOST_GUESSES = 1000

@@ -1,6 +1,7 @@
 """`treadwell verify`: a run's files are whole, belong together, and plain MuJoCo agrees."""
 
 import zipfile
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,9 +15,10 @@ from treadwell.physics.audit import STEPS_PER_TICK, replay_audit
 from treadwell.recording.file import whole_length
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import read_map
+from treadwell.recording.log_file import read_front, read_messages
 from treadwell.recording.map_picture import NAME as PICTURE
+from treadwell.recording.observation_log import CORE, hash_of, header_of, read_observations
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
-from treadwell.recording.observation_log import read_header, read_observations
 from treadwell.recording.recorder import NAME as RECORDING
 from treadwell.recording.scenario_file import NAME as SCENARIO
 from treadwell.recording.scenario_file import without_nothing
@@ -26,6 +28,8 @@ from treadwell.scenario.loading import read_toml
 RESULT: Final = "result.json"
 _PNG: Final = b"\x89PNG\r\n\x1a\n"
 _TICK: Final = 0.01
+_BESIDE: Final = ("/command", "/estimate", "/truth")
+"""Topics that have one message for each observation."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,12 +185,19 @@ def _observations(
     path: Path, result: Result | None, ticks: int | None, problems: list[str]
 ) -> None:
     try:
-        header = read_header(path)
+        front = read_front(path)
+        header = header_of(front, path)
         count = sum(1 for _ in read_observations(path))
+        others = Counter(message.topic for message in read_messages(path, _BESIDE))
     except InputError as error:
         problems.append(str(error))
         return
+    if CORE in front.attachments and any(others[topic] != count for topic in _BESIDE):
+        found = ", ".join(f"{others[topic]} of {topic}" for topic in _BESIDE)
+        problems.append(f"{path}: {count} observations, but {found}")
     if result is not None:
+        if hash_of(result.configuration) != header.get("scenario_hash"):
+            problems.append(f"{path}: its scenario is not the configuration in {RESULT}")
         of_result: dict[str, Any] = {
             "scenario": result.scenario,
             "robot": result.robot,

@@ -16,9 +16,10 @@ from treadwell.recording.map_file import write_map
 from treadwell.recording.map_picture import draw_map
 from treadwell.recording.scenario_file import NAME as SCENARIO
 from treadwell.recording.scenario_file import write_scenario
+from treadwell.recording.messages import encode_command, encode_estimate
 from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.trace import Trace
-from treadwell.recording.trajectory import ESTIMATE, TRUTH, Trajectory
+from treadwell.recording.trajectory import ESTIMATE, TRUTH, Trajectory, quaternion
 
 if TYPE_CHECKING:
     from treadwell.recording.observation_log import ObservationLog
@@ -62,7 +63,9 @@ class Writers:
                 episode.robot,
                 episode.static_map,
             )
-            self._observations = observation_log.ObservationLog(folder, made, episode.robot)
+            self._observations = observation_log.ObservationLog(
+                folder, made, episode.robot, episode.core_input
+            )
 
     @property
     def records(self) -> bool:
@@ -76,9 +79,23 @@ class Writers:
             RecordingError: a file does not take it any more.
         """
         if self._observations is not None:
-            self._observations.write(step.observation)
+            self._log(self._observations, step)
         if self._viewer is not None and step.observation.depth is not None:
             self._viewer.sync()
+
+    def _log(self, log: "ObservationLog", step: Step) -> None:
+        now, command, belief = step.time_ns, step.command, step.estimate
+        log.write(step.observation)
+        log.write_answer(
+            now,
+            encode_command(now, command.position, command.velocity, command.torque),
+            encode_estimate(
+                now, belief.pose, belief.odometry, step.state, step.outcome, step.reason
+            ),
+        )
+        truth = self._episode.judge.frame.matrix()
+        place = tuple(truth[:3, 3].tolist())
+        log.write_truth(self._episode.simulation.time_ns, place, quaternion(truth[:3, :3]))
 
     def frame(self, trace: Trace) -> None:
         """Take in a camera frame.

@@ -1,0 +1,78 @@
+"""The verb `replay`: the core over a run's observations, and whether it answered the same."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from treadwell.cli.output import (
+    ERROR,
+    FAILED,
+    INTERRUPTED,
+    PASSED,
+    write_json,
+    write_message,
+    write_table,
+)
+from treadwell.cli.progress import Progress
+
+
+def replay(run_dir: Path, *, settings: Sequence[str], out: Path | None, as_json: bool) -> int:
+    """Replay a run, write what came of it, and return the exit status.
+
+    Args:
+        run_dir: the run's folder.
+        settings: `KEY=VALUE` each.
+        out: the replay's folder.
+        as_json: write `result.json` to standard output instead of a table.
+    """
+    from treadwell.replaying.replay import replay as replay_run
+
+    with Progress(run_dir.name) as progress:
+        done = replay_run(run_dir, overrides=settings, out=out, progress=progress)
+    document = done.result.document()
+    facts = document["replay"]
+    if as_json:
+        write_json(document)
+    else:
+        show(document)
+    if facts["broken"]:
+        write_message(f"warning:   {facts['broken']}")
+    write_message(f"replay:    {done.folder}")
+    if done.interrupted:
+        return INTERRUPTED
+    if facts["error"]:
+        return ERROR
+    return PASSED if done.passed else FAILED
+
+
+def show(document: Mapping[str, Any]) -> None:
+    """Write the result as a table."""
+    facts = document["replay"]
+    error = ((document.get("localization") or {}).get("translation_error") or {}).get("mean")
+    rows: list[tuple[str, object]] = [
+        ("replayed", f"{document['simulated_seconds']:.2f} s, {facts['observations']} ticks"),
+        ("compared with the recording", compared(facts)),
+        ("declared", facts["declared"]),
+        ("reason", facts["reason"]),
+        ("error", facts["error"]),
+        ("real-time factor", f"{document['real_time_factor']:.1f}"),
+        ("core's share of the time", f"{_share(document):.0%}"),
+        ("localization error, mean", None if error is None else f"{error:.3f} m"),
+    ]
+    title = f"{document['scenario']} with {document['robot']}, seed {document['seed']}, replayed"
+    write_table(title, ("", ""), [row for row in rows if row[1] not in (None, "")])
+
+
+def compared(facts: Mapping[str, Any]) -> str:
+    """Return the sentence that says whether core and recording agree."""
+    first = facts["first_difference"]
+    if first is not None:
+        return f"first difference at tick {first['tick']} ({first['time']:.2f} s): {first['what']}"
+    if not facts["compared"]:
+        return "it holds no answers to compare with"
+    return f"the same in all {facts['compared']} ticks, bit for bit"
+
+
+def _share(document: Mapping[str, Any]) -> float:
+    core, wall = float(document["replay"]["core_seconds"]), float(document["wall_seconds"])
+    return core / max(wall, 1e-9)

@@ -1,0 +1,65 @@
+"""What is measured of an episode without the simulator: errors of the pose, times of the stages."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from treadwell.judging.result import LocalizationErrors, Spread, Timing
+
+Floats = NDArray[np.float64]
+
+
+class PoseErrors:
+    """Collects the poses of one camera frame after another."""
+
+    def __init__(self) -> None:
+        """Begin with none."""
+        self._rows: list[tuple[float, float, float]] = []
+
+    def add(self, estimate: Floats, odometry: Floats, truth: Floats) -> None:
+        """Take in what was believed and what was so; (4, 4) each.
+
+        Args:
+            estimate: map_from_robot.
+            odometry: the same by leg odometry alone, from the same start.
+            truth: world_from_robot.
+        """
+        turn = truth[:3, :3].T @ estimate[:3, :3]
+        self._rows.append(
+            (
+                float(np.linalg.norm(estimate[:3, 3] - truth[:3, 3])),
+                abs(float(np.arctan2(turn[1, 0], turn[0, 0]))),
+                float(np.linalg.norm(odometry[:3, 3] - truth[:3, 3])),
+            )
+        )
+
+    def errors(self) -> LocalizationErrors | None:
+        """Return the errors so far, None without a pose."""
+        if not self._rows:
+            return None
+        translation, heading, odometry = (spread(column) for column in np.array(self._rows).T)
+        return LocalizationErrors(
+            translation_error=translation,
+            heading_error=heading,
+            odometry_translation_error=odometry,
+        )
+
+
+def spread(values: Floats) -> Spread:
+    """Return mean, standard deviation and maximum of values (n,), n > 0."""
+    return Spread(mean=float(values.mean()), std=float(values.std()), max=float(values.max()))
+
+
+def timing(seconds: Sequence[float]) -> Timing:
+    """Return the table of a stage's times, given in seconds; NaN where it did not run."""
+    values = 1e3 * np.asarray(seconds, dtype=np.float64)
+    values = values[np.isfinite(values)]
+    if not values.size:
+        return Timing()
+    return Timing(
+        median=float(np.median(values)),
+        p99=float(np.percentile(values, 99)),
+        max=float(values.max()),
+        count=int(values.size),
+    )

@@ -1,0 +1,215 @@
+"""Reading an MCAP file from front to back: bounded, and up to where it breaks off.
+
+The records are framed here and not by the `mcap` package: its reader believes every length that a
+file states, a few bytes that unpack to gigabytes among them, and takes ten times as long.
+"""
+
+import struct
+import zlib
+from collections.abc import Container, Iterator
+from dataclasses import dataclass, field
+from io import BytesIO
+from pathlib import Path
+from typing import BinaryIO, Final, NamedTuple
+
+import zstandard
+from mcap.data_stream import ReadDataStream
+from mcap.exceptions import McapError
+from mcap.opcode import Opcode
+from mcap.records import Attachment, Channel, Chunk, Metadata
+
+from treadwell.errors import InputError
+
+LARGEST_RECORD: Final = 1 << 26
+"""Bytes of one record, and of what a chunk unpacks to."""
+MOST_CHANNELS: Final = 1000
+MOST_ATTACHMENTS: Final = 100
+_MAGIC: Final = b"\x89MCAP0\r\n"
+_FRAME: Final = struct.Struct("<BQ")
+_MESSAGE: Final = struct.Struct("<HIQQ")
+_FAULTS: Final = (
+    McapError,
+    ValueError,
+    struct.error,
+    EOFError,
+    IndexError,
+    OSError,
+    OverflowError,
+    zstandard.ZstdError,
+)
+
+
+class BrokenLogError(InputError):
+    """A log that breaks off: what came before is good.
+
+    Attributes:
+        lost_bytes: bytes of the file behind the last whole record.
+    """
+
+    def __init__(self, message: str, lost_bytes: int) -> None:
+        """Keep both."""
+        super().__init__(message)
+        self.lost_bytes = lost_bytes
+
+
+class Message(NamedTuple):
+    """One message of a log; times in nanoseconds since the start."""
+
+    topic: str
+    log_ns: int
+    publish_ns: int
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Front:
+    """What stands before the first message.
+
+    Attributes:
+        metadata: name -> key -> value.
+        attachments: name -> content.
+    """
+
+    metadata: dict[str, dict[str, str]] = field(default_factory=dict)
+    attachments: dict[str, bytes] = field(default_factory=dict)
+
+
+def read_front(path: Path) -> Front:
+    """Return metadata and attachments of a log.
+
+    Raises:
+        InputError: the file is missing, or is no MCAP file.
+    """
+    front = Front()
+    with _opened(path) as file:
+        try:
+            for opcode, content in _records(file, path):
+                if opcode == Opcode.METADATA:
+                    metadata = Metadata.read(ReadDataStream(BytesIO(content)))
+                    front.metadata[metadata.name] = dict(metadata.metadata)
+                elif opcode == Opcode.ATTACHMENT:
+                    if zlib.crc32(content[:-4]) != int.from_bytes(content[-4:], "little"):
+                        raise ValueError("an attachment whose checksum is wrong")
+                    attachment = Attachment.read(ReadDataStream(BytesIO(content)))
+                    front.attachments[attachment.name] = attachment.data
+                if opcode in (Opcode.CHUNK, Opcode.MESSAGE, Opcode.DATA_END):
+                    break
+                if len(front.metadata) + len(front.attachments) > MOST_ATTACHMENTS:
+                    raise ValueError(f"more than {MOST_ATTACHMENTS} attachments")
+        except _FAULTS as error:
+            raise InputError(f"{path}: breaks off or is no recording: {_line(error)}") from None
+    return front
+
+
+def read_messages(path: Path, topics: Container[str]) -> Iterator[Message]:
+    """Return the messages of some topics, in the order in which they were written.
+
+    Raises:
+        BrokenLogError: the file breaks off, after all that is whole was given.
+        InputError: the file is missing.
+    """
+    channels: dict[int, str | None] = {}
+    with _opened(path) as file:
+        whole, size = 0, path.stat().st_size
+        try:
+            for opcode, content in _records(file, path):
+                if opcode == Opcode.CHUNK:
+                    yield from _messages(_unpacked(content), channels, topics)
+                elif opcode in (Opcode.MESSAGE, Opcode.CHANNEL):
+                    message = _taken(opcode, content, channels, topics)
+                    if message is not None:
+                        yield message
+                whole = file.tell()
+        except _FAULTS as error:
+            raise BrokenLogError(
+                f"{path}: breaks off or is no recording: {_line(error)}", size - whole
+            ) from None
+
+
+def _records(file: BinaryIO, path: Path) -> Iterator[tuple[int, bytes]]:
+    """Return operation and content of each record."""
+    if file.read(len(_MAGIC)) != _MAGIC:
+        raise ValueError("it does not begin like an MCAP file")
+    size = path.stat().st_size
+    opcode = 0
+    while opcode != Opcode.FOOTER:
+        head = file.read(_FRAME.size)
+        if len(head) < _FRAME.size:
+            raise EOFError("there is no end")
+        opcode, length = _FRAME.unpack(head)
+        if length > size - file.tell():
+            raise EOFError("a record breaks off")
+        if length > LARGEST_RECORD:
+            raise ValueError(f"a record of {length} bytes, {LARGEST_RECORD} are allowed")
+        yield opcode, file.read(length)
+    if file.read(len(_MAGIC)) != _MAGIC:
+        raise EOFError("there is no end")
+
+
+def _unpacked(content: bytes) -> bytes:
+    """Return the records of a chunk."""
+    chunk = Chunk.read(ReadDataStream(BytesIO(content)))
+    data: bytes = chunk.data
+    if chunk.uncompressed_size > LARGEST_RECORD:
+        raise ValueError(f"a chunk of {chunk.uncompressed_size} bytes")
+    if chunk.compression == "zstd":
+        # What the compressed data says of its size is believed by zstandard: both must agree.
+        if zstandard.get_frame_parameters(data).content_size > LARGEST_RECORD:
+            raise ValueError("a chunk that unpacks to more than it says")
+        data = zstandard.decompress(data, max_output_size=chunk.uncompressed_size)
+    elif chunk.compression:
+        raise ValueError(f"a chunk packed by {chunk.compression[:20]!r}, only zstd is read")
+    if len(data) != chunk.uncompressed_size:
+        raise ValueError("a chunk of another size than it says")
+    if chunk.uncompressed_crc and zlib.crc32(data) != chunk.uncompressed_crc:
+        raise ValueError("a chunk whose checksum is wrong")
+    return data
+
+
+def _messages(
+    data: bytes, channels: dict[int, str | None], topics: Container[str]
+) -> Iterator[Message]:
+    at, end = 0, len(data)
+    while at < end:
+        opcode, length = _FRAME.unpack_from(data, at)
+        at += _FRAME.size
+        if length > end - at:
+            raise EOFError("a record of a chunk breaks off")
+        message = _taken(opcode, data[at : at + length], channels, topics)
+        if message is not None:
+            yield message
+        at += length
+
+
+def _taken(
+    opcode: int, content: bytes, channels: dict[int, str | None], topics: Container[str]
+) -> Message | None:
+    """Return a message of the topics; learn a channel."""
+    if opcode == Opcode.MESSAGE:
+        number, _, log_ns, publish_ns = _MESSAGE.unpack_from(content)
+        if number not in channels:
+            raise ValueError("a message of a channel that was not told before")
+        topic = channels[number]
+        if topic is not None:
+            return Message(topic, log_ns, publish_ns, content[_MESSAGE.size :])
+    elif opcode == Opcode.CHANNEL:
+        channel = Channel.read(ReadDataStream(BytesIO(content)))
+        channels[channel.id] = channel.topic if channel.topic in topics else None
+        if len(channels) > MOST_CHANNELS:
+            raise ValueError(f"more than {MOST_CHANNELS} channels")
+    return None
+
+
+def _opened(path: Path) -> BinaryIO:
+    try:
+        if not path.is_file():
+            raise InputError(f"{path}: cannot be read: no such file")
+        return path.open("rb")
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    except ValueError:
+        raise InputError(f"{path}: cannot be read: not a file's name") from None
+
+
+def _line(error: Exception) -> str:
+    return " ".join(str(error).split())[:200] or type(error).__name__
