@@ -81,7 +81,9 @@ def main() -> None:
         document, killed = killed_sweep(
             scenario, out, kills=options.kills, episodes=options.episodes
         )
-        lines = [json.loads(line)["seed"] for line in (out / "journal.jsonl").read_text().splitlines()]
+        lines = [
+            json.loads(line)["seed"] for line in (out / "journal.jsonl").read_text().splitlines()
+        ]
     lost = set(range(options.episodes)) - {row["seed"] for row in document["episodes"]}
     doubled = len(lines) - len(set(lines))
     sys.stdout.write(

@@ -69,10 +69,11 @@ def main() -> int:
         totals["core"] += found["replay"]["core_seconds"]
         for stage, spent in found["timing_ms"].items():
             stages[stage] += 1e-3 * spent["median"] * spent["count"]
+        cpu, wall = simulated / found["cpu_seconds"], found["real_time_factor"]
+        share = found["replay"]["core_seconds"] / found["wall_seconds"]
         print(
             f"{number + 1:4d} {scenario:16s} {robot:5s} {'same' if found['same'] else 'DIFFERS'}"
-            f"  {simulated / found['cpu_seconds']:5.1f}x cpu  {found['real_time_factor']:5.1f}x wall"
-            f"  core {found['replay']['core_seconds'] / found['wall_seconds']:.0%}",
+            f"  {cpu:5.1f}x cpu  {wall:5.1f}x wall  core {share:.0%}",
             flush=True,
         )
     simulated = totals["simulated"]

@@ -10,8 +10,8 @@ from episode_builders import grid, qrio, result, trace, world
 from test_cdr import observation
 
 from treadwell.judging.result import Result, read_result
-from treadwell.recording.map_file import write_map
 from treadwell.poses import pose_matrix
+from treadwell.recording.map_file import write_map
 from treadwell.recording.map_picture import draw_map
 from treadwell.recording.observation_log import ObservationLog
 from treadwell.recording.recorder import Recorder

@@ -1,5 +1,6 @@
 """Meshes and MJCF worlds from files that a scenario names: read with care, as plain pieces."""
 
+import hashlib
 import warnings
 from pathlib import Path
 
@@ -10,7 +11,12 @@ from treadwell.course.outlines import Floats
 from treadwell.course.pieces import Piece, Top, about_z, level
 from treadwell.course.xml import check_xml
 from treadwell.errors import InputError
+from treadwell.limited import limited
 from treadwell.scenario.elements import Mesh
+
+MESH_SUFFIXES = (".stl", ".obj")
+MOST_BESIDE = 2000
+"""Files of a folder that are looked at."""
 
 
 def one_line(error: Exception) -> str:
@@ -30,10 +36,87 @@ def compiled(spec: mujoco.MjSpec, what: str) -> mujoco.MjModel:
             model = spec.compile()
     except (ValueError, RuntimeError, MemoryError) as error:
         raise InputError(f"{what}: MuJoCo cannot build it: {one_line(error)}") from None
-    for field in ("body_pos", "body_mass", "body_inertia", "geom_pos", "geom_size", "mesh_vert"):
-        if not np.isfinite(getattr(model, field)).all():
-            raise InputError(f"{what}: {field} is not finite")
+    check_finite(model, what)
     return model
+
+
+def check_finite(model: mujoco.MjModel, what: str) -> None:
+    """Refuse a model with a number that is none.
+
+    Raises:
+        InputError: NaN or infinity is in it; names the field.
+    """
+    for owner in (model, model.opt, model.stat):
+        for field in dir(owner):
+            value = None if field.startswith("_") else getattr(owner, field)
+            if isinstance(value, np.ndarray | float):
+                numbers = np.asarray(value)
+                if numbers.dtype.kind == "f" and not np.isfinite(numbers).all():
+                    raise InputError(f"{what}: a number is not finite ({field})")
+
+
+def check_builds(path: Path, what: str) -> None:
+    """Let a child process with limits build what a stranger's file holds, once for each content.
+
+    Args:
+        path: an MJCF file, or a mesh.
+        what: begins the message.
+
+    Raises:
+        InputError: it cannot be built, or not within the limits.
+    """
+    key = _content_key(path)
+    if key not in _BUILT:
+        limited("build", [str(path), what], what)
+        _BUILT.add(key)
+
+
+_BUILT: set[str] = set()
+"""Contents of folders of files that were built within the limits."""
+
+
+def _content_key(path: Path) -> str:
+    """Return a hash of a file, and of all beside it by name, size and time."""
+    digest = hashlib.sha256(str(path).encode())
+    beside = sorted(p for p in path.parent.rglob("*") if p.is_file())
+    for other in beside[:MOST_BESIDE]:
+        stat = other.stat()
+        digest.update(f"{other}\0{stat.st_size}\0{stat.st_mtime_ns}\0".encode())
+    return digest.hexdigest()
+
+
+def build_files(path: str, what: str) -> bool:
+    """Build an MJCF file or a mesh alone, and allocate its state: what a child process does.
+
+    Raises:
+        InputError: MuJoCo cannot, or a number is not finite.
+    """
+    suffix = Path(path).suffix.lower()
+    spec = _mesh_spec(Path(path)) if suffix in MESH_SUFFIXES else read_spec(Path(path), what)
+    mujoco.MjData(compiled(spec, what))
+    return True
+
+
+def read_spec(path: Path, what: str) -> mujoco.MjSpec:
+    """Return the specification of an MJCF file.
+
+    Raises:
+        InputError: MuJoCo cannot read it.
+    """
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return mujoco.MjSpec.from_file(str(path))
+    except (ValueError, RuntimeError, MemoryError) as error:
+        raise InputError(f"{what}: MuJoCo cannot read it: {one_line(error)}") from None
+
+
+def _mesh_spec(path: Path) -> mujoco.MjSpec:
+    spec = mujoco.MjSpec()
+    asset = spec.add_mesh(name="mesh", file=str(path))
+    asset.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+    spec.worldbody.add_geom(name="mesh", type=mujoco.mjtGeom.mjGEOM_MESH, meshname="mesh")
+    return spec
 
 
 def mesh_piece(mesh: Mesh, folder: Path, what: str) -> tuple[Piece, Floats, Floats]:
@@ -44,11 +127,9 @@ def mesh_piece(mesh: Mesh, folder: Path, what: str) -> tuple[Piece, Floats, Floa
     Raises:
         InputError: the file is broken.
     """
-    spec = mujoco.MjSpec()
-    asset = spec.add_mesh(name="mesh", file=str((folder / mesh.file).resolve()))
-    asset.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
-    spec.worldbody.add_geom(name="mesh", type=mujoco.mjtGeom.mjGEOM_MESH, meshname="mesh")
-    model = compiled(spec, what)
+    path = (folder / mesh.file).resolve()
+    check_builds(path, what)
+    model = compiled(_mesh_spec(path), what)
     rotation = np.zeros(9)
     mujoco.mju_quat2Mat(rotation, model.geom("mesh").quat)
     cosine, sine = np.cos(mesh.yaw), np.sin(mesh.yaw)
@@ -71,12 +152,8 @@ def read_mjcf(folder: Path, file: str, what: str) -> mujoco.MjSpec:
     """
     path = (folder / file).resolve()
     check_xml(path, folder.resolve(), what)
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            spec = mujoco.MjSpec.from_file(str(path))
-    except (ValueError, RuntimeError) as error:
-        raise InputError(f"{what}: MuJoCo cannot read it: {one_line(error)}") from None
+    check_builds(path, what)
+    spec = read_spec(path, what)
     for items in (spec.keys, spec.actuators, spec.sensors, spec.cameras):
         for item in list(items):
             spec.delete(item)

@@ -1,16 +1,26 @@
 """A stranger's MJCF file, looked at before MuJoCo reads it: bounded, and inside one folder."""
 
-import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Final
+from xml.etree.ElementTree import Element, ParseError
+
+from defusedxml import ElementTree
+from defusedxml.common import DefusedXmlException
 
 from treadwell.errors import InputError
 
 MOST_ELEMENTS: Final = 20_000
+"""Elements of all files together, each as often as `<replicate>` makes it."""
+DEEPEST: Final = 200
 MOST_BYTES: Final = 5_000_000
 MOST_FILES: Final = 20
 MOST_REPLICAS: Final = 2_000
 MOST_HEIGHTS: Final = 4_000_000
+LARGEST_ASSET: Final = 50_000_000
+"""Bytes of a mesh, a texture or a height field."""
+LARGEST_ASSETS: Final = 200_000_000
+"""Bytes of all of them."""
+ROOTS: Final = ("mujoco", "mujocoinclude")
 REFUSED: Final = {"extension", "plugin", "composite", "flexcomp", "flex", "skin"}
 FILE_ATTRIBUTES: Final = (
     "file",
@@ -25,6 +35,57 @@ FILE_ATTRIBUTES: Final = (
 FOLDER_ATTRIBUTES: Final = ("meshdir", "texturedir", "assetdir")
 
 
+class _Bounds:
+    """Counts what the files of one model make of each other."""
+
+    def __init__(self, folder: Path, what: str) -> None:
+        self.folder, self.what = folder, what
+        self.elements, self.bytes = 0, 0
+        self.assets: set[Path] = set()
+
+    def fail(self, message: str) -> None:
+        raise InputError(f"{self.what}: {message}")
+
+    def count(self, node: Element, key: str) -> int:
+        try:
+            return abs(int(node.attrib.get(key, "0")))
+        except ValueError:
+            raise InputError(f"{self.what}: {key} of <{node.tag}> is not a whole number") from None
+
+    def add_element(self, node: Element, copies: int, depth: int) -> int:
+        """Take an element in that stands there so often; return how often its children do."""
+        self.elements += copies
+        if node.tag in REFUSED:
+            self.fail(f"<{node.tag}> is not allowed")
+        if node.tag == "replicate":
+            copies *= max(1, self.count(node, "count"))
+            if copies > MOST_REPLICAS:
+                self.fail(f"<replicate> of more than {MOST_REPLICAS} copies")
+        if node.tag == "hfield":
+            cells = self.count(node, "nrow") * self.count(node, "ncol")
+            if cells > MOST_HEIGHTS:
+                self.fail(f"<hfield> of more than {MOST_HEIGHTS} heights")
+        if self.elements > MOST_ELEMENTS:
+            self.fail(f"more than {MOST_ELEMENTS} XML elements")
+        if depth > DEEPEST:
+            self.fail(f"nested deeper than {DEEPEST}")
+        return copies
+
+    def add_file(self, path: Path, name: str) -> None:
+        """Take a file in that is named: inside the folder, and not too large."""
+        if not path.is_relative_to(self.folder):
+            self.fail(f"{name!r} lies outside the folder {self.folder.name!r}")
+        if path in self.assets or not path.exists():
+            return  # MuJoCo says which one is missing
+        if not path.is_file():
+            self.fail(f"{name!r} is no file")
+        self.assets.add(path)
+        size = path.stat().st_size
+        self.bytes += size
+        if size > LARGEST_ASSET or self.bytes > LARGEST_ASSETS:
+            self.fail(f"{name!r} and the others are larger than {LARGEST_ASSETS} bytes")
+
+
 def check_xml(path: Path, folder: Path, what: str) -> None:
     """Check an MJCF file and all that it includes.
 
@@ -36,70 +97,69 @@ def check_xml(path: Path, folder: Path, what: str) -> None:
     Raises:
         InputError: it is broken, names files outside the folder, or could grow without bounds.
     """
-    todo, seen = [path], {path}
+    folder = folder.resolve()
+    bounds = _Bounds(folder, what)
+    if not path.resolve().is_relative_to(folder):
+        bounds.fail(f"lies outside the folder {folder.name!r}")
+    todo, seen = [(path.resolve(), 1)], {path.resolve()}
     while todo:
-        current = todo.pop()
-        tree = list(_read(current, what).iter())
-        if len(tree) > MOST_ELEMENTS:
-            raise InputError(f"{what}: more than {MOST_ELEMENTS} XML elements")
-        _check_sizes(tree, what)
-        for include in _check_files(tree, current, folder, what):
-            if include not in seen:
-                seen.add(include)
-                todo.append(include)
+        current, copies = todo.pop()
+        for include, times in _check_file(current, copies, bounds):
+            if include in seen:
+                # What is included twice stands there twice; a circle would have no end.
+                bounds.fail(f"{include.name!r} is included more than once")
+            seen.add(include)
+            todo.append((include, times))
         if len(seen) > MOST_FILES:
-            raise InputError(f"{what}: more than {MOST_FILES} files")
+            bounds.fail(f"more than {MOST_FILES} files")
 
 
-def _read(path: Path, what: str) -> ET.Element:
-    try:
-        if path.stat().st_size > MOST_BYTES:
-            raise InputError(f"{what}: larger than {MOST_BYTES} bytes")
-        content = path.read_bytes()
-        # Entities are how a small file grows large; MJCF has no use for them.
-        if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
-            raise InputError(f"{what}: has a DOCTYPE or an entity, which is not allowed")
-        return ET.fromstring(content)
-    except (OSError, ET.ParseError, ValueError) as error:
-        raise InputError(f"{what}: {' '.join(str(error).split())[:300]}") from None
-
-
-def _check_sizes(tree: list[ET.Element], what: str) -> None:
-    """Refuse what multiplies, and what can run code."""
-    replicas = 1
-    for node in tree:
-        if node.tag in REFUSED:
-            raise InputError(f"{what}: <{node.tag}> is not allowed in a course")
-        if node.tag == "replicate":
-            replicas *= max(1, _count(node, "count", what))
-        if node.tag == "hfield":
-            cells = _count(node, "nrow", what) * _count(node, "ncol", what)
-            if cells > MOST_HEIGHTS:
-                raise InputError(f"{what}: <hfield> of more than {MOST_HEIGHTS} heights")
-    if replicas > MOST_REPLICAS:
-        raise InputError(f"{what}: <replicate> of more than {MOST_REPLICAS} copies")
-
-
-def _check_files(tree: list[ET.Element], path: Path, folder: Path, what: str) -> list[Path]:
-    """Refuse files outside the folder; return the ones that are included."""
+def _check_file(path: Path, copies: int, bounds: _Bounds) -> list[tuple[Path, int]]:
+    """Check a file alone; return what it includes, and how often."""
+    root = _read(path, bounds.what)
+    if root.tag not in ROOTS:
+        bounds.fail(f"begins with <{str(root.tag)[:50]}>, must be <mujoco>")
     places = [path.parent]
-    for node in tree:
+    for node in root.iter():
         places += [path.parent / node.attrib[k] for k in FOLDER_ATTRIBUTES if k in node.attrib]
     includes = []
-    for node in tree:
+    todo = [(root, copies, 1)]
+    while todo:
+        node, times, depth = todo.pop()
+        times = bounds.add_element(node, times, depth)
         for key in FILE_ATTRIBUTES:
             if key not in node.attrib or (key == "model" and node.tag != "model"):
                 continue
-            named = [(place / node.attrib[key]).resolve() for place in places]
-            if not all(file.is_relative_to(folder) for file in named):
-                raise InputError(f"{what}: {node.attrib[key]!r} lies outside the scenario's folder")
-            if node.tag == "include":
-                includes.append(named[0])
+            name = node.attrib[key]
+            named = [_resolved(place, name, bounds) for place in places]
+            for file in named:
+                bounds.add_file(file, name)
+            if node.tag in ("include", "model") and key == "file":
+                includes.append((next((f for f in named if f.is_file()), named[0]), times))
+        todo += [(child, times, depth + 1) for child in node]
     return includes
 
 
-def _count(node: ET.Element, key: str, what: str) -> int:
+def _resolved(place: Path, name: str, bounds: _Bounds) -> Path:
     try:
-        return abs(int(node.attrib.get(key, "0")))
-    except ValueError:
-        raise InputError(f"{what}: {key} of <{node.tag}> is not a whole number") from None
+        return (place / name).resolve()
+    except (OSError, RuntimeError, ValueError):
+        raise InputError(f"{bounds.what}: {name[:100]!r} is no file's name") from None
+
+
+def _read(path: Path, what: str) -> Element:
+    try:
+        if not path.is_file():
+            raise InputError(f"{what}: {path.name}: there is no such file")
+        if path.stat().st_size > MOST_BYTES:
+            raise InputError(f"{what}: larger than {MOST_BYTES} bytes")
+        # As MuJoCo reads it: whatever encoding the file claims to have.
+        text = path.read_bytes().decode()
+        root: Element = ElementTree.fromstring(text.removeprefix("\ufeff"), forbid_dtd=True)
+    except DefusedXmlException:
+        raise InputError(f"{what}: has a DOCTYPE or an entity, which is not allowed") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{what}: not UTF-8") from None
+    except (OSError, ParseError, ValueError, RecursionError, LookupError) as error:
+        raise InputError(f"{what}: {' '.join(str(error).split())[:300]}") from None
+    return root

@@ -10,8 +10,11 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 
 from treadwell.errors import InputError
+from treadwell.files import read_text
 from treadwell.scenario.model import Expect
 
+LARGEST_RESULT: Final = 100_000_000
+"""Bytes."""
 SCHEMA: Final = "treadwell.result/1"
 STAGES: Final = (
     "physics",
@@ -195,12 +198,7 @@ def read_result(path: Path) -> Result:
     Raises:
         InputError: it is missing, no JSON, or not of this schema.
     """
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise InputError(f"{path}: not UTF-8") from None
+    text = read_text(path, LARGEST_RESULT)
     try:
         return Result.model_validate_json(text)
     except ValidationError as error:

@@ -2,17 +2,23 @@
 
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
+from zipfile import ZIP_STORED, BadZipFile, ZipFile
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.errors import InputError
+from treadwell.limited import Limits, limited
 
 STEPS_PER_TICK = 5
 """Physics steps between two rows of `qpos`: one control tick."""
 STATE = mujoco.mjtState.mjSTATE_INTEGRATION
+MOST_ARRAYS = 100
+LEAST_ROW = 8 * 12
+"""Bytes of a row of `ctrl`: a robot has more motors than its legs' twelve."""
+FIXED_SECONDS, STEP_SECONDS = 3, 1e-3
+"""Of the processor's time that an audit may take, and more for each step; ten times the usual."""
 DATA_FIELDS = ("xfrc_applied", "qpos", "qvel", "mocap_pos", "mocap_quat")
 """Fields of MuJoCo's data that an event may set; any other name is a field of the model."""
 _OWN_KEYS = ("qpos", "qvel")
@@ -121,6 +127,51 @@ def replay_audit(folder: Path) -> int | None:
         if rest == 0 and not np.array_equal(arrays["qpos"][tick - 1], data.qpos):
             return tick - 1
     return None
+
+
+def replay_limited(folder: Path) -> tuple[int, int | None]:
+    """Do what `replay_audit` does in a child process: a model may be made to crash MuJoCo.
+
+    Returns:
+        The rows of `qpos`, and the first that differs, or None if all are the same.
+
+    Raises:
+        InputError: a file is missing or broken, or takes more than an audit of its size should.
+    """
+    path, model = folder / "physics.npz", folder / "model.mjb"
+    if not model.is_file():
+        raise InputError(f"{model}: is missing or broken")
+    seconds = FIXED_SECONDS + int(STEP_SECONDS * _steps(path))
+    limits = Limits(cpu_seconds=seconds, deadline_seconds=60.0 + 10.0 * seconds)
+    rows, different = limited("audit", [str(folder)], str(model), limits)
+    return int(rows), None if different is None else int(different)
+
+
+def replay_lengths(folder: str) -> tuple[int, int | None]:
+    """Return what `replay_limited` returns: the part that the child does."""
+    different = replay_audit(Path(folder))
+    with np.load(Path(folder) / "physics.npz", allow_pickle=False) as file:
+        return len(file["qpos"]), different
+
+
+def _steps(path: Path) -> int:
+    """Return how many physics steps an audit can have at most, by the bytes of its file.
+
+    Raises:
+        InputError: it is no archive as `save` writes it, whose arrays are as large as the file.
+    """
+    try:
+        if not path.is_file():
+            raise InputError(f"{path}: is missing or broken: there is no such file")
+        with ZipFile(path) as archive:
+            members = archive.infolist()
+        packed = any(member.compress_type != ZIP_STORED for member in members)
+    except (OSError, ValueError, EOFError, BadZipFile, NotImplementedError) as error:
+        raise InputError(f"{path}: is missing or broken: {error}") from None
+    if packed or len(members) > MOST_ARRAYS:
+        raise InputError(f"{path}: is missing or broken: is not as a run writes it")
+    ctrl = next((member.file_size for member in members if member.filename == "ctrl.npy"), 0)
+    return int(min(ctrl, path.stat().st_size)) // LEAST_ROW
 
 
 def load_audit(folder: Path) -> tuple[mujoco.MjModel, dict[str, NDArray[Any]]]:

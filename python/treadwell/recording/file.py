@@ -11,6 +11,8 @@ _MAGIC: Final = b"RRF2"
 _HEADER: Final = 12
 _MESSAGE: Final = struct.Struct("<QQ")
 """Before each message: its kind and its length in bytes."""
+_MOST_MESSAGES: Final = 500_000
+"""A recording of an hour has a tenth; nothing but empty ones would be read for minutes."""
 _FOOTER: Final = 32
 """Bytes behind the last message of a finished file."""
 _FOOTER_MARK: Final = b"RRF2FOOT"
@@ -28,13 +30,14 @@ def whole_length(path: Path) -> int:
     with path.open("rb") as file:
         if file.read(len(_MAGIC)) != _MAGIC or size < _HEADER:
             return 0
-        end = _HEADER
-        while end + _MESSAGE.size <= size:
+        end, count = _HEADER, 0
+        while count < _MOST_MESSAGES and end + _MESSAGE.size <= size:
             file.seek(end)
             _, length = _MESSAGE.unpack(file.read(_MESSAGE.size))
             if end + _MESSAGE.size + length > size:
                 break
             end += _MESSAGE.size + length
+            count += 1
         file.seek(max(0, size - _FOOTER))
         finished = _FOOTER_MARK in file.read(_FOOTER)
     return size if finished and size - end == _FOOTER else end

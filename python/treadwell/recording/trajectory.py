@@ -7,8 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.errors import InputError
+from treadwell.files import read_text
 from treadwell.judging.result import write_whole
 
+LARGEST_FILE = 100_000_000
+"""Bytes."""
 ESTIMATE, TRUTH = "trajectory.tum", "trajectory_truth.tum"
 """Names of the two files in a run's folder."""
 
@@ -55,12 +58,7 @@ def read_trajectory(path: Path) -> NDArray[np.float64]:
     Raises:
         InputError: it is missing, or a line is not of eight finite numbers, or time goes back.
     """
-    try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise InputError(f"{path}: not UTF-8") from None
+    lines = read_text(path, LARGEST_FILE).splitlines()
     rows: list[list[float]] = []
     for number, line in enumerate(lines, start=1):
         if not line.strip() or line.startswith("#"):

@@ -1,21 +1,19 @@
 """`treadwell verify`: a run's files are whole, belong together, and plain MuJoCo agrees."""
 
-import zipfile
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-import numpy as np
-
 from treadwell.errors import InputError
+from treadwell.files import read_content
 from treadwell.judging.result import Result, read_result
-from treadwell.physics.audit import STEPS_PER_TICK, replay_audit
+from treadwell.physics.audit import STEPS_PER_TICK, replay_limited
 from treadwell.recording.file import whole_length
+from treadwell.recording.log_file import read_front, read_messages
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import read_map
-from treadwell.recording.log_file import read_front, read_messages
 from treadwell.recording.map_picture import NAME as PICTURE
 from treadwell.recording.observation_log import CORE, hash_of, header_of, read_observations
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
@@ -27,6 +25,8 @@ from treadwell.scenario.loading import read_toml
 
 RESULT: Final = "result.json"
 _PNG: Final = b"\x89PNG\r\n\x1a\n"
+_LARGEST_PICTURE: Final = 100_000_000
+"""Bytes."""
 _TICK: Final = 0.01
 _BESIDE: Final = ("/command", "/estimate", "/truth")
 """Topics that have one message for each observation."""
@@ -113,14 +113,9 @@ def _trajectories(folder: Path, problems: list[str]) -> list[float]:
 def _audit(folder: Path, problems: list[str]) -> tuple[int | None, int | None]:
     """Return the control ticks in the audit, and the first step that differs."""
     try:
-        row = replay_audit(folder)
-        with np.load(folder / "physics.npz", allow_pickle=False) as file:
-            ticks = len(file["qpos"])
+        ticks, row = replay_limited(folder)
     except InputError as error:
         problems.append(str(error))
-        return None, None
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
-        problems.append(f"{folder / 'physics.npz'}: is broken: {_one_line(error)}")
         return None, None
     if row is None:
         return ticks, None
@@ -134,9 +129,9 @@ def _audit(folder: Path, problems: list[str]) -> tuple[int | None, int | None]:
 
 def _picture(folder: Path, problems: list[str]) -> None:
     try:
-        content = (folder / PICTURE).read_bytes()
-    except OSError as error:
-        problems.append(f"{folder / PICTURE}: cannot be read: {error.strerror}")
+        content = read_content(folder / PICTURE, _LARGEST_PICTURE)
+    except InputError as error:
+        problems.append(str(error))
         return
     if not content.startswith(_PNG) or b"IEND" not in content[-12:]:
         problems.append(f"{folder / PICTURE}: is no whole PNG file")
@@ -209,7 +204,3 @@ def _observations(
             problems.append(f"{path}: {', '.join(wrong)} not as in {RESULT}")
     if ticks is not None and count != ticks:
         problems.append(f"{path}: {count} observations, but {ticks} control ticks")
-
-
-def _one_line(error: Exception) -> str:
-    return " ".join(str(error).split())

@@ -14,9 +14,9 @@ from treadwell.judging.result import Result
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import write_map
 from treadwell.recording.map_picture import draw_map
+from treadwell.recording.messages import encode_command, encode_estimate
 from treadwell.recording.scenario_file import NAME as SCENARIO
 from treadwell.recording.scenario_file import write_scenario
-from treadwell.recording.messages import encode_command, encode_estimate
 from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.trace import Trace
 from treadwell.recording.trajectory import ESTIMATE, TRUTH, Trajectory, quaternion

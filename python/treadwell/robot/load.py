@@ -10,6 +10,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell.course.assets import check_builds, compiled, read_spec
+from treadwell.course.xml import check_xml
 from treadwell.data import data_folder
 from treadwell.errors import InputError
 from treadwell.physics.motors import MotorLimits
@@ -19,6 +21,10 @@ from treadwell.robot.description import describe
 from treadwell.robot.file import MotorsTable, RobotFile
 from treadwell.robot.followers import followers
 from treadwell.robot.reading import read_robot_file
+
+MOST_FILES = 2000
+LARGEST_FOLDER = 500 << 20
+"""Files of a robot's folder, and their bytes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +51,8 @@ class Robot:
 
         Its keyframes are left out: they would not fit a model with more joints.
         """
-        spec = read_spec(self.folder / self.file.robot.model)
+        path = self.folder / self.file.robot.model
+        spec = read_spec(path, str(path))
         complete(spec, self.file, self.folder / "robot.toml")
         for key in list(spec.keys):
             spec.delete(key)
@@ -133,12 +140,9 @@ def load_folder(folder: Path) -> Robot:
     path = folder / "robot.toml"
     file = read_robot_file(path)
     model_path = folder / file.robot.model
-    try:
-        spec = read_spec(model_path)
-        complete(spec, file, path)
-        nominal = spec.compile()
-    except ValueError as error:
-        raise InputError(f"{model_path}: MuJoCo cannot compile it: {_one_line(error)}") from error
+    spec = robot_spec(folder, model_path)
+    complete(spec, file, path)
+    nominal = compiled(spec, str(model_path))
     check_robot(path, model_path, nominal, file)
     return Robot(name=folder.resolve().name, folder=folder, file=file, nominal=nominal)
 
@@ -165,19 +169,33 @@ def _find(name_or_path: str | Path) -> Path:
     )
 
 
-def read_spec(path: Path) -> mujoco.MjSpec:
-    """Read an MJCF.
+def robot_spec(folder: Path, model_path: Path) -> mujoco.MjSpec:
+    """Read the MJCF of a robot's folder, a stranger's after a child process has built it.
 
     Raises:
-        InputError: it is missing or broken.
+        InputError: it is missing, broken, too large, or reaches out of its folder.
     """
-    if not path.is_file():
-        raise InputError(f"{path}: the robot's model is missing (robot.model in robot.toml)")
-    try:
-        return mujoco.MjSpec.from_file(str(path))
-    except ValueError as error:
-        raise InputError(f"{path}: MuJoCo cannot read it: {_one_line(error)}") from error
+    _check_folder(folder)
+    if not model_path.is_file():
+        raise InputError(f"{model_path}: the robot's model is missing (robot.model in robot.toml)")
+    check_xml(model_path, folder, str(model_path))
+    if not folder.resolve().is_relative_to(data_folder("models").resolve()):
+        check_builds(model_path.resolve(), str(model_path))
+    return read_spec(model_path, str(model_path))
 
 
-def _one_line(error: Exception) -> str:
-    return " ".join(str(error).split())
+def _check_folder(folder: Path) -> None:
+    """Refuse a folder that holds more than a robot's.
+
+    Raises:
+        InputError: too many files, or too large ones.
+    """
+    count = size = 0
+    for path in folder.rglob("*"):
+        if path.is_file():
+            count, size = count + 1, size + path.stat().st_size
+        if count > MOST_FILES or size > LARGEST_FOLDER:
+            raise InputError(
+                f"{folder}: a robot's folder may have {MOST_FILES} files and "
+                f"{LARGEST_FOLDER >> 20} MB, this one has more"
+            )

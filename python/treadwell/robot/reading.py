@@ -1,6 +1,5 @@
 """Reading a `robot.toml`, and a line for each thing that is wrong with it."""
 
-import tomllib
 from pathlib import Path
 from types import NoneType
 from typing import Any, get_args
@@ -9,6 +8,7 @@ from pydantic import BaseModel, ValidationError
 
 from treadwell.errors import InputError
 from treadwell.robot.file import RobotFile
+from treadwell.scenario.loading import read_toml
 
 
 def read_robot_file(path: Path) -> RobotFile:
@@ -17,16 +17,13 @@ def read_robot_file(path: Path) -> RobotFile:
     Raises:
         InputError: the file is missing, no TOML, or does not have the form above.
     """
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: is no valid TOML: {error}") from error
+    table = read_toml(path)
     try:
         return RobotFile.model_validate(table)
     except ValidationError as error:
         raise InputError("\n".join(_lines(path, error))) from error
+    except RecursionError:
+        raise InputError(f"{path}: nested too deep") from None
 
 
 def required_keys() -> list[str]:

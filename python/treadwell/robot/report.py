@@ -8,10 +8,11 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from treadwell.course.assets import compiled
 from treadwell.errors import InputError
 from treadwell.robot.anatomy import Anatomy
 from treadwell.robot.file import SoleTable
-from treadwell.robot.load import Robot, load_folder, read_spec
+from treadwell.robot.load import Robot, load_folder, robot_spec
 from treadwell.robot.reach import Reach, Rise
 from treadwell.robot.reading import required_keys
 
@@ -91,12 +92,7 @@ def compile_alone(mjcf: Path) -> mujoco.MjModel:
     Raises:
         InputError: MuJoCo cannot.
     """
-    try:
-        return read_spec(mjcf).compile()
-    except ValueError as error:
-        raise InputError(f"{mjcf}: MuJoCo cannot compile it: {' '.join(str(error).split())}") from (
-            error
-        )
+    return compiled(robot_spec(mjcf.parent, mjcf), str(mjcf))
 
 
 def _found(anatomy: Anatomy) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """Reading a scenario: find the file, read it, apply flags, settings and draws, check everything."""
 
+import re
 import tomllib
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,6 +10,7 @@ from pydantic import ValidationError
 
 from treadwell.data import data_folder
 from treadwell.errors import InputError
+from treadwell.files import read_content
 from treadwell.scenario.elements import Mesh, Mjcf
 from treadwell.scenario.events import Add
 from treadwell.scenario.messages import describe, dotted, nearest, report, shortened, shown
@@ -19,6 +21,10 @@ LARGEST_FILE: Final = 1_000_000
 """Bytes of a scenario file."""
 LARGEST_ASSET: Final = 50_000_000
 """Bytes of a mesh or an MJCF file."""
+LONGEST_KEY: Final = 100
+"""Words of a dotted key."""
+_BLANKS: Final = re.compile(rb"[ \t\"']+")
+_LONG_KEY: Final = re.compile(rb"(?:[^\s.,=\[\]{}#]{0,100}\.){%d}" % LONGEST_KEY)
 SUFFIXES: Final = {"mesh": (".stl", ".obj"), "mjcf": (".xml", ".mjcf")}
 
 
@@ -102,13 +108,10 @@ def read_toml(path: Path) -> dict[str, Any]:
     Raises:
         InputError: too large, unreadable, not UTF-8 or not TOML; with the line.
     """
-    try:
-        with path.open("rb") as file:
-            content = file.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    if len(content) > LARGEST_FILE:
-        raise InputError(f"{path}: larger than {LARGEST_FILE} bytes, which is the limit")
+    content = read_content(path, LARGEST_FILE)
+    if _LONG_KEY.search(_BLANKS.sub(b"", content)):
+        # The parser takes minutes for one of some thousands.
+        raise InputError(f"{path}: nested too deep: a key of more than {LONGEST_KEY} words")
     try:
         return tomllib.loads(content.decode())
     except UnicodeDecodeError as error:
