@@ -5,6 +5,7 @@ import json
 import re
 import shutil
 import subprocess
+import sys
 import threading
 from collections.abc import Iterator
 from html.parser import HTMLParser
@@ -19,7 +20,7 @@ from test_repeat import typed
 from treadwell.cli.app import execute
 from treadwell.errors import InputError, RecordingError
 from treadwell.judging.result import read_result
-from treadwell.reporting import images, page, sections
+from treadwell.reporting import images, page, sections, strip
 from treadwell.reporting.report import report
 from treadwell.reporting.run_data import KNOWN, pose_errors, read_run
 
@@ -234,6 +235,27 @@ def test_a_large_picture_becomes_smaller(tmp_path: Path) -> None:
     uri = images.picture_uri(path)
     assert uri.startswith("data:image/jpeg;base64,")
     assert len(uri) < 1_000_000
+
+
+def test_a_model_that_kills_the_drawing_does_not_kill_the_page(
+    copy: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    code = "import os, signal; os.kill(os.getpid(), signal.SIGSEGV)"
+    monkeypatch.setattr(images.sys, "executable", shutil.which("false") or "false")
+    assert "cannot be drawn" in report([copy]).read_text()
+    run = subprocess.run
+
+    def dies(_words: list[str], **options: Any) -> Any:  # noqa: ANN401
+        return run([sys.executable, "-c", code], **options)
+
+    monkeypatch.undo()
+    monkeypatch.setattr(images.subprocess, "run", dies)
+    assert "cannot be drawn" in report([copy]).read_text()
+
+
+def test_the_strip_goes_from_the_beginning_to_the_end() -> None:
+    captions = [caption for _, caption in strip.shots(recorded_run())]
+    assert [caption.split()[0] for caption in captions] == ["0.0", "1.0", "2.0", "3.0"]
 
 
 def test_long_tables_are_cut_and_counted(copy: Path) -> None:

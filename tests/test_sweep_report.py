@@ -91,6 +91,9 @@ def test_a_kept_run_is_linked_and_nothing_outside_the_folder(tmp_path: Path) -> 
     shutil.copytree(plain_run(), tmp_path / "plain")
     found = Page(report([folder]).read_text())
     assert [each for each in found.addresses() if not each.startswith("data:")] == ["kept/"]
+    report([folder / "kept"])
+    found = Page(report([folder]).read_text())
+    assert "kept/report.html" in found.addresses()
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -111,7 +112,8 @@ def write_film(
         path.parent.mkdir(parents=True, exist_ok=True)
         encode(path, frames)
     except OSError as error:
-        path.unlink(missing_ok=True)
+        with suppress(OSError):
+            path.unlink(missing_ok=True)
         raise RecordingError(f"{path}: cannot be written: {error.strerror or error}") from None
     except BaseException:
         path.unlink(missing_ok=True)

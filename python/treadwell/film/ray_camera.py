@@ -20,7 +20,7 @@ _SQUARE: Final = 0.25
 _GOAL: Final = np.array([0.55, 0.85, 0.25])
 _DEFAULT: Final = (0.5, 0.5, 0.5, 1.0)
 """MuJoCo's colour of a geom that has none of its own: then its material's counts."""
-_LAMP: Final = np.array([-1.2, -0.9, 3.2])
+_LAMP: Final = np.array([-0.7, -0.5, 3.2])
 """Metres from what is looked at to the lamp."""
 _AMBIENT, _SHADE = 0.52, 0.17
 """Light that comes from everywhere, and the share of the lamp's that reaches into a shadow."""

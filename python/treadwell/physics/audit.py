@@ -1,5 +1,6 @@
 """The audit: what plain MuJoCo needs to step to the same states as a run did, and that it does."""
 
+import logging
 from pathlib import Path
 from typing import Any
 from zipfile import ZIP_STORED, BadZipFile, ZipFile
@@ -10,6 +11,9 @@ from numpy.typing import NDArray
 
 from treadwell.errors import InputError
 from treadwell.limited import Limits, limited
+
+# By default MuJoCo appends its warnings to a file in the current folder.
+mujoco.set_mju_user_warning(logging.getLogger(__name__).warning)
 
 STEPS_PER_TICK = 5
 """Physics steps between two rows of `qpos`: one control tick."""

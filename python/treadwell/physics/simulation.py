@@ -1,6 +1,5 @@
 """The physics of one episode: the robot at its start, stepped by its motors alone, and audited."""
 
-import logging
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,9 +18,6 @@ TICK_NS = 10_000_000
 """The control tick, nanoseconds."""
 
 _SENSORS = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
-
-# By default MuJoCo appends its warnings to a file in the current folder.
-mujoco.set_mju_user_warning(logging.getLogger(__name__).warning)
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,9 @@
 
 import base64
 import io
+import json
+import subprocess
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,10 +19,8 @@ _LARGEST: Final = 400_000
 _WIDEST: Final = 1400
 """Pixels."""
 _LARGEST_VIDEO: Final = 6_000_000
-_STRIP: Final = (320, 256)
-"""Pixels of a picture of the strip."""
-_MOMENTS: Final = (0.0, 0.33, 0.67, 1.0)
-"""Of the run, of which the strip has pictures."""
+_LONGEST_S: Final = 120.0
+"""Seconds that drawing a run's pictures may take."""
 _TYPES: Final = {".mp4": "video/mp4", ".gif": "image/gif"}
 
 
@@ -44,7 +45,7 @@ def picture_uri(path: Path) -> str:
             if len(content) <= _LARGEST and picture.width <= 2 * _WIDEST:
                 return _uri("image/png", content)
             picture.thumbnail((_WIDEST, 4 * _WIDEST))
-            return _jpeg(picture)
+            return jpeg_uri(picture)
     except OSError as error:
         told = "is no whole PNG file" if error.strerror is None else error.strerror
         raise InputError(f"{path}: {told}") from None
@@ -55,21 +56,21 @@ def picture_uri(path: Path) -> str:
 def strip(folder: Path) -> Sequence[Shot]:
     """Return pictures of a run's course, from its beginning to its end.
 
+    They are drawn in a process of their own: MuJoCo dies of some models that were changed on
+    purpose, and the page is to come all the same.
+
     Raises:
         InputError: result or audit are missing or broken.
     """
-    from treadwell.film.film import scene_of, state_at
-    from treadwell.film.poses import TICK_S
-
-    scene = scene_of(folder, _STRIP)
-    shots = []
-    for share in _MOMENTS:
-        row = round(share * (scene.poses.count - 1))
-        time_s = (row + 1) * TICK_S
-        picture = Image.fromarray(scene.picture(row))
-        caption = f"{time_s:.1f} s {state_at(scene.result, time_s)}".rstrip()
-        shots.append(Shot(_jpeg(picture), caption))
-    return shots
+    words = [sys.executable, "-P", "-m", "treadwell.reporting.strip", str(folder.absolute())]
+    try:
+        done = subprocess.run(words, capture_output=True, timeout=_LONGEST_S, check=False)
+        document = json.loads(done.stdout)
+        if "error" in document:
+            raise InputError(str(document["error"]))
+        return [Shot(*pair) for pair in document["shots"]]
+    except (OSError, ValueError, subprocess.TimeoutExpired):
+        raise InputError(f"{folder / 'model.mjb'}: cannot be drawn; it may be broken") from None
 
 
 def film_uri(path: Path) -> str | None:
@@ -79,7 +80,8 @@ def film_uri(path: Path) -> str | None:
     return _uri(_TYPES[path.suffix.lower()], path.read_bytes())
 
 
-def _jpeg(picture: Image.Image) -> str:
+def jpeg_uri(picture: Image.Image) -> str:
+    """Return a picture as a data URI."""
     buffer = io.BytesIO()
     picture.convert("RGB").save(buffer, "JPEG", quality=85)
     return _uri("image/jpeg", buffer.getvalue())

@@ -110,12 +110,6 @@ def _words(failed: list[EpisodeRow]) -> TableData:
 
 
 def _failure(row: EpisodeRow, page: Path) -> Failure:
-    link = ""
-    if row.folder is not None:
-        try:
-            link = row.folder.resolve().relative_to(page.resolve().parent).as_posix() + "/"
-        except ValueError:
-            link = ""
     sets = [word for setting in row.settings for word in ("--set", setting)]
     robot = ["--robot", row.robot] if row.robot else []
     words = ["treadwell", "run", row.scenario, *robot, "--seed", row.seed, *sets]
@@ -128,5 +122,16 @@ def _failure(row: EpisodeRow, page: Path) -> Failure:
         row.outcome.replace("_", " "),
         row.reason,
         shlex.join(words) if known else "",
-        link,
+        _link(row.folder, page),
     )
+
+
+def _link(folder: Path | None, page: Path) -> str:
+    """Return where a kept run is, seen from the page: its own page where it has one."""
+    if folder is None:
+        return ""
+    try:
+        place = folder.resolve().relative_to(page.resolve().parent).as_posix()
+    except ValueError:
+        return ""
+    return f"{place}/report.html" if (folder / "report.html").is_file() else f"{place}/"
