@@ -63,7 +63,7 @@ impl Fan {
     pub(super) fn take(&mut self, slopes: [f64; 2], reach: u32, ray: u32) -> bool {
         let taken = slopes[1].abs() < STEEPEST;
         if taken {
-            let slopes = slopes.map(|slope| slope as f32);
+            let slopes = [slopes[0] as f32, slopes[1] as f32];
             self.beams.push(Beam { slopes, reach, ray });
         }
         taken

@@ -71,11 +71,10 @@ impl Marks {
             let Some(inside) = reach.add(end) else {
                 return;
             };
-            if let Some([col, row, layer]) = inside.filter(|_| hit) {
+            if let (Some([col, row, layer]), true) = (inside, hit) {
                 self.hits[row as usize * self.size.cols + col as usize] |= 1 << layer;
             }
-            let last = inside.map_or_else(|| end.map(f64::floor), |voxel| voxel.map(f64::from));
-            if !(shared && self.gather([eye, end], [first, last])) {
+            if !(shared && self.gather([eye, first], end, inside)) {
                 self.walk(eye, end);
             }
         });
@@ -123,14 +122,20 @@ impl Marks {
         area
     }
 
-    /// Takes a ray into the fan of its way, unless it is too steep; given its ends and their voxels.
+    /// Takes a ray into the fan of its way, unless it is too steep: by the eye and its voxel, the end, and its voxel if inside.
     #[inline]
-    fn gather(&mut self, [eye, end]: [[f64; 3]; 2], [first, last]: [[f64; 3]; 2]) -> bool {
-        let [dx, dy, dz]: [f64; 3] = std::array::from_fn(|axis| end[axis] - eye[axis]);
+    fn gather(
+        &mut self,
+        [eye, first]: [[f64; 3]; 2],
+        end: [f64; 3],
+        inside: Option<[i32; 3]>,
+    ) -> bool {
+        let (dx, dy, dz) = (end[0] - eye[0], end[1] - eye[1], end[2] - eye[2]);
         let along_x = dx.abs() >= dy.abs();
         let (ahead, across, axis) = if along_x { (dx, dy, 0) } else { (dy, dx, 1) };
+        let last = inside.map_or_else(|| end[axis].floor(), |voxel| f64::from(voxel[axis]));
+        let slabs = (last - first[axis]).abs().min(FARTHEST) as u32;
         let per_slab = 1.0 / ahead.abs();
-        let slabs = (last[axis] - first[axis]).abs().min(FARTHEST) as u32;
         let ray = self.ends.len() as u32;
         let fan = &mut self.fans[usize::from(!along_x) * 2 + usize::from(ahead < 0.0)];
         let taken = fan.take([across * per_slab, dz * per_slab], slabs, ray);

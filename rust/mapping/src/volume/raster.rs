@@ -58,11 +58,14 @@ impl Raster {
         let mut words = [0; BLOCK * BLOCKS + 1];
         let of_all = self.blocks.chunks_exact(self.cols.max(1));
         for (all, blocks) in words.as_chunks_mut::<BLOCK>().0.iter_mut().zip(of_all) {
-            let mut rows = [0; BLOCK];
-            for block in &blocks[cols.clone()] {
-                rows = std::array::from_fn(|word| rows[word] | block[word]);
+            let [mut a, mut b, mut c, mut d] = [0; BLOCK];
+            for block in &blocks[cols.start..cols.end] {
+                a |= block[0];
+                b |= block[1];
+                c |= block[2];
+                d |= block[3];
             }
-            *all = rows;
+            *all = [a, b, c, d];
         }
         Rows { words }
     }

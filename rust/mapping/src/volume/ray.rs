@@ -79,7 +79,7 @@ impl Reach {
     #[inline]
     pub(super) fn add(&mut self, end: [f64; 3]) -> Option<Option<[i32; 3]>> {
         if self.eye_inside && contains(self.size, end) {
-            let last = end.map(|at| at as i32);
+            let last = [end[0] as i32, end[1] as i32, end[2] as i32];
             for axis in 0..2 {
                 self.low[axis] = self.low[axis].min(last[axis]);
                 self.high[axis] = self.high[axis].max(last[axis]);

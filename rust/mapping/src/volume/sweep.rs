@@ -119,7 +119,7 @@ impl<'a> Sweep<'a> {
         let last = self.size.voxels()[self.axes[0]] - 1;
         let both = [slab - 1, slab].map(|slab| (self.ahead(slab)).clamp(0, last));
         for line in self.lines(fan.grain(), [enter; 2]) {
-            let cells = both.map(|ahead| self.cell(ahead, line));
+            let cells = [self.cell(both[0], line), self.cell(both[1], line)];
             let open = !(marked.known(cells[0]) & marked.known(cells[1]));
             let cols = within(fan.grain(), 0, self.beside(line), enter);
             if cols.is_empty() || open == 0 {
@@ -131,9 +131,8 @@ impl<'a> Sweep<'a> {
             for layer in bits(open & self.layers(fan.grain(), ends, [enter; 2])) {
                 found |= u64::from(rows.meet(&bands[layer])) << layer;
             }
-            for cell in cells {
-                marked.passed[cell] |= found;
-            }
+            marked.passed[cells[0]] |= found;
+            marked.passed[cells[1]] |= found;
         }
     }
 
@@ -173,8 +172,9 @@ impl<'a> Sweep<'a> {
         let (eye, end) = (self.eye, self.ends[ray]);
         let ahead = (end[self.axes[0]] - eye[self.axes[0]]).abs();
         let (mut from, mut to) = (enter - NEAR, leave.min(ahead) + NEAR);
-        for (axis, low) in [self.axes[1], 2].into_iter().zip(voxel) {
-            let low = low as f64 - eye[axis];
+        for way in 0..2 {
+            let axis = [self.axes[1], 2][way];
+            let low = voxel[way] as f64 - eye[axis];
             let beside = end[axis] - eye[axis];
             let (low, high) = ((low - NEAR) * ahead, (low + 1.0 + NEAR) * ahead);
             let (a, b) = (beside * from, beside * to);
@@ -193,8 +193,9 @@ impl<'a> Sweep<'a> {
     pub(super) fn walk(&self, ray: usize, slabs: Range<i32>, marked: &mut Marked<'_>) {
         if let Some(part) = Part::inside(self.eye, self.ends[ray], self.size.voxels()) {
             let before = (part.first[self.axes[0]] - self.first).abs();
-            let [from, to] = [slabs.start, slabs.end].map(|slab| (slab - before).max(0));
-            Slabs::new(&part, self.size.cols).visit(from, to, |cell, layers| {
+            let from_first = |slab: i32| (slab - before).max(0);
+            let (from, end) = (from_first(slabs.start), from_first(slabs.end));
+            Slabs::new(&part, self.size.cols).visit(from, end, |cell, layers| {
                 marked.passed[cell] |= layers;
             });
         }
@@ -265,7 +266,8 @@ fn units(eye: f64, [low, high]: [f64; 2], count: i32) -> Range<usize> {
 /// How far some bins are from the eye's axis between two depths.
 #[inline]
 fn spread(grain: &Grain, way: usize, bins: [usize; 2], depths: [f64; 2]) -> [f64; 2] {
-    let [low, high] = bins.map(|bin| grain.lowest[way] + bin as f64 / grain.per_slope);
+    let slope = |bin: usize| grain.lowest[way] + bin as f64 / grain.per_slope;
+    let [low, high] = [slope(bins[0]), slope(bins[1])];
     let [near, far] = depths;
     [(low * near).min(low * far), (high * near).max(high * far)]
 }
@@ -285,7 +287,8 @@ fn within(grain: &Grain, way: usize, low: f64, depth: f64) -> Range<usize> {
 /// The bins of which a part lies, or almost does, between `low` and `low + 1` voxels beside the eye's axis, between two depths.
 #[inline]
 fn around(grain: &Grain, way: usize, low: f64, [near, far]: [f64; 2]) -> Range<usize> {
-    let [near, far] = [near, far].map(|depth| grain.per_slope / depth.max(TOUCHED));
+    let per_voxel = |depth: f64| grain.per_slope / depth.max(TOUCHED);
+    let (near, far) = (per_voxel(near), per_voxel(far));
     let (low, high) = (low - NEAR, low + 1.0 + NEAR);
     let origin = grain.lowest[way] * grain.per_slope;
     let start = (low * near).min(low * far) - origin - MARGIN;

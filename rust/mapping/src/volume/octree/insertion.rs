@@ -75,7 +75,11 @@ impl Bounds {
 /// A point as seen from the corner of a box.
 #[inline]
 fn seen_from(low: [i32; 3], at: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|axis| at[axis] - f64::from(low[axis]))
+    [
+        at[0] - f64::from(low[0]),
+        at[1] - f64::from(low[1]),
+        at[2] - f64::from(low[2]),
+    ]
 }
 
 /// Where beams end, in voxels, and whether something was seen there.

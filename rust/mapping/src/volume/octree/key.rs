@@ -41,7 +41,12 @@ pub(super) fn shared_levels(a: Key, b: Key) -> u32 {
 /// A point of the map frame in voxels from the corner of all.
 #[inline]
 pub(super) fn in_voxels(point_m: [f64; 3], per_m: f64) -> [f64; 3] {
-    point_m.map(|at_m| at_m * per_m + CENTRE)
+    let [x_m, y_m, z_m] = point_m;
+    [
+        x_m * per_m + CENTRE,
+        y_m * per_m + CENTRE,
+        z_m * per_m + CENTRE,
+    ]
 }
 
 /// The voxel that holds a point given in voxels; none beyond what a tree can hold.
