@@ -3,6 +3,8 @@
 use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
 
+use crate::surface::require_usable_side;
+
 /// Parameters of the averaged height map: `[navigation.averaging]`. Where a key is one of `[navigation.fog]`, too, it means the
 /// same and has the same default, so that both are compared on equal terms.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -50,6 +52,7 @@ impl AveragingConfig {
         ] {
             require(value > 0.0 && value.is_finite(), &name(key), "> 0", value)?;
         }
+        require_usable_side(&name("cell"), self.cell)?;
         for (key, value) in [
             ("match_gate", self.match_gate),
             ("footprint", self.footprint),

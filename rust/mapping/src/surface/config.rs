@@ -151,6 +151,7 @@ impl FogConfig {
             require(value > low && value < high, &name(key), &allowed, value)
         };
         positive("cell", self.cell)?;
+        require_usable_side(&name("cell"), self.cell)?;
         require(
             (4..=2000).contains(&self.cells),
             &name("cells"),
@@ -164,6 +165,7 @@ impl FogConfig {
             self.layers,
         )?;
         positive("layer", self.layer)?;
+        require_usable_side(&name("layer"), self.layer)?;
         let origin = self.layer_origin;
         require(origin.is_finite(), &name("layer_origin"), "finite", origin)?;
         let below = self.layers_below;
@@ -203,6 +205,12 @@ impl FogConfig {
     }
 }
 
+/// A side of a cell, m, finer than any robot sees, or coarser than what it walks on, makes maps that take for ever or say nothing.
+pub(crate) fn require_usable_side(name: &str, side_m: f64) -> Result<(), ConfigError> {
+    let usable = (0.001..=10.0).contains(&side_m);
+    require(usable, name, "0.001 to 10", side_m)
+}
+
 fn name(key: &str) -> String {
     format!("navigation.fog.{key}")
 }
@@ -227,6 +235,13 @@ mod tests {
                 ..base()
             }),
             "navigation.fog.cell must be > 0, got 0"
+        );
+        assert_eq!(
+            refused(FogConfig {
+                cell: 1e-12,
+                ..base()
+            }),
+            "navigation.fog.cell must be 0.001 to 10, got 0.000000000001"
         );
         assert!(
             refused(FogConfig {

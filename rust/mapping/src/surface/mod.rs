@@ -12,6 +12,7 @@ mod stood;
 mod tilts;
 mod window;
 
+pub(crate) use config::require_usable_side;
 pub use config::{Clearing, FogConfig, Update};
 pub use floor::FloorGrid;
 pub use fog::Fog;
