@@ -76,6 +76,7 @@ SCENARIOS: Final[dict[str, Make]] = NO_FILE | {
     "long name": text(HEAD.replace('"x"', f'"{"x" * 10_000}"')),
     "schema 2": text(HEAD.replace("schema = 1", "schema = 2")),
     "schema as a word": text(HEAD.replace("schema = 1", 'schema = "1"')),
+    "a cell of an atom": toml("[navigation.fog]\ncell = 1e-12"),
     "NaN in the start": text(HEAD.replace("[start]", "[start]\nyaw = nan")),
     "infinity in the goal": text(HEAD.replace("[goal]", "[goal]\nposition = [inf, 0.0]")),
     "a far goal": text(HEAD.replace("[goal]", "[goal]\nposition = [1e308, 0.0]")),
