@@ -18,8 +18,8 @@ pub enum Update {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Default)]
 #[serde(rename_all = "snake_case")]
 pub enum Clearing {
-    /// Where neighbours can only pass what is marked or as free as can be, none of them is followed. The map is that of `EveryRay`
-    /// to the last bit.
+    /// Where a voxel is surely passed by one of many rays it is marked at once; rays are followed where that is not sure. The map
+    /// is that of `EveryRay` to the last bit.
     #[default]
     Shared,
     /// Each by itself: what the others are compared with.

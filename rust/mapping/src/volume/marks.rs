@@ -8,7 +8,7 @@ use super::locator::Locator;
 use super::occupancy::{Placement, Ray, Size};
 use super::picture::Sight;
 use super::projected::Projector;
-use super::ray::{Part, Reach};
+use super::ray::{Last, Part, Reach};
 use super::reaches::Reaches;
 use super::sweep::{Marked, Sweep, Way};
 use super::voxels::{Column, Voxels};
@@ -68,7 +68,7 @@ impl Marks {
         let shared = clearing != Clearing::EveryRay && eye.iter().all(|at| at.abs() < FARTHEST);
         let first = eye.map(f64::floor);
         rays.for_each(|(end, hit)| {
-            let Some(inside) = reach.add(end) else {
+            let Some(Last(inside)) = reach.add(end) else {
                 return;
             };
             if let (Some([col, row, layer]), true) = (inside, hit) {

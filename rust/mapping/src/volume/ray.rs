@@ -49,6 +49,10 @@ impl Part {
     }
 }
 
+/// The voxel in which a ray that meets the grid ends, if that is in the grid.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Last(pub(super) Option<[i32; 3]>);
+
 /// The cells over which rays from one eye lie. Most rays end in the grid, and need not be cut.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reach {
@@ -77,23 +81,22 @@ impl Reach {
 
     /// Takes in a ray: its last voxel where it ends in the grid; `None` where it does not meet it.
     #[inline]
-    pub(super) fn add(&mut self, end: [f64; 3]) -> Option<Option<[i32; 3]>> {
+    pub(super) fn add(&mut self, end: [f64; 3]) -> Option<Last> {
         if self.eye_inside && contains(self.size, end) {
             let last = [end[0] as i32, end[1] as i32, end[2] as i32];
-            for axis in 0..2 {
-                self.low[axis] = self.low[axis].min(last[axis]);
-                self.high[axis] = self.high[axis].max(last[axis]);
-            }
-            return Some(Some(last));
+            let [col, row, _] = last;
+            self.low = [self.low[0].min(col), self.low[1].min(row)];
+            self.high = [self.high[0].max(col), self.high[1].max(row)];
+            return Some(Last(Some(last)));
         }
         self.add_part(end)
     }
 
     #[cold]
-    fn add_part(&mut self, end: [f64; 3]) -> Option<Option<[i32; 3]>> {
+    fn add_part(&mut self, end: [f64; 3]) -> Option<Last> {
         let part = Part::inside(self.eye, end, self.size)?;
         part.add_to(&mut self.area);
-        Some(part.ends_inside.then_some(part.last))
+        Some(Last(part.ends_inside.then_some(part.last)))
     }
 
     /// The cells of all rays.
