@@ -150,7 +150,6 @@ impl FogConfig {
             let allowed = format!("> {low} and < {high}");
             require(value > low && value < high, &name(key), &allowed, value)
         };
-        positive("cell", self.cell)?;
         require_usable_side(&name("cell"), self.cell)?;
         require(
             (4..=2000).contains(&self.cells),
@@ -164,7 +163,6 @@ impl FogConfig {
             "1 to 64",
             self.layers,
         )?;
-        positive("layer", self.layer)?;
         require_usable_side(&name("layer"), self.layer)?;
         let origin = self.layer_origin;
         require(origin.is_finite(), &name("layer_origin"), "finite", origin)?;
@@ -207,6 +205,7 @@ impl FogConfig {
 
 /// A side of a cell, m, finer than any robot sees, or coarser than what it walks on, makes maps that take for ever or say nothing.
 pub(crate) fn require_usable_side(name: &str, side_m: f64) -> Result<(), ConfigError> {
+    require(side_m > 0.0 && side_m.is_finite(), name, "> 0", side_m)?;
     let usable = (0.001..=10.0).contains(&side_m);
     require(usable, name, "0.001 to 10", side_m)
 }

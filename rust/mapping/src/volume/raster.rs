@@ -137,7 +137,9 @@ mod tests {
         ) {
             let mut raster = Raster::default();
             raster.resize([9, ROWS]);
-            set.iter().for_each(|&(col, row)| raster.set(col, row));
+            for &(col, row) in &set {
+                raster.set(col, row);
+            }
             let cols = cols.0.min(cols.1)..cols.1;
             let of_cols: Vec<_> = set.iter().filter(|(col, _)| cols.contains(col)).map(|&(_, row)| row).collect();
             let found = raster.rows(cols);
