@@ -13,6 +13,7 @@ TESTED_BY = {
     "cli.verify": "test_difference.py",
     "protocols": "test_components.py",
     "cli.compare": "test_comparison.py",
+    "comparing.tables": "test_comparison.py",
     "cli.options": "test_cli.py",
     "cli.sweep": "test_sweeps.py",
     "cli.sweep_verbs": "test_sweeps.py",

@@ -152,3 +152,17 @@ def test_a_sweep_and_a_run_share_a_page(tmp_path: Path) -> None:
 def test_a_row_knows_its_line() -> None:
     made = EpisodeRow("a", "b", "c", "1", "fell", "", False, None, None, (), None, None)
     assert made.line == ("a", "b", "c")
+
+
+def test_a_finished_sweep_shows_its_variants_side_by_side_and_how_to_repeat_it(
+    tmp_path: Path,
+) -> None:
+    folder = tmp_path / "planners"
+    vary = "navigation.planner=a_star,voronoi"
+    words = ["sweep", "open_floor", "--episodes", "1", "--set", "time_limit=0.3", "--vary", vary]
+    assert execute([*words, "--keep", "1", "--workers", "1", "--out", str(folder)]) == 1
+    found = Page(report([folder]).read_text())
+    assert "Comparison" in found.texts
+    assert "Against navigation.planner=a_star" in found.texts
+    again = next(text for text in found.texts if text.startswith("treadwell sweep"))
+    assert shlex.split(again) == ["treadwell", *words]

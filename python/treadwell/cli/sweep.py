@@ -1,6 +1,7 @@
 """The verb `sweep`: many episodes with a bar of successes so far, and the counts as a table."""
 
 import os
+import shlex
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -32,6 +33,18 @@ class Asked:
     def name(self) -> str:
         """What a folder is called after."""
         return self.suite or Path(self.scenarios[0]).stem
+
+    @property
+    def command(self) -> str:
+        """What asks for the same again, but for the folder."""
+        words = ["treadwell", "sweep", *self.scenarios]
+        words += ["--suite", self.suite] if self.suite else []
+        words += ["--episodes", str(self.episodes)] if self.episodes is not None else []
+        words += ["--first-seed", str(self.first_seed)] if self.first_seed else []
+        words += ["--robot", self.robot] if self.robot else []
+        words += [word for setting in self.settings for word in ("--set", setting)]
+        words += [word for one in self.vary for word in ("--vary", one)]
+        return shlex.join(words)
 
     def request(self) -> Request:
         """Return the sweep.
@@ -93,7 +106,9 @@ def sweep(
     with SweepProgress(len(request.keys())) as progress:
         try:
             made = _engine(engine, workers)
-            document = conduct(request, folder, made, care=care, progress=progress)
+            document = conduct(
+                request, folder, made, care=care, progress=progress, command=asked.command
+            )
         except KeyboardInterrupt:
             write_message(
                 f"{progress.done} of {len(request.keys())} episodes are done; "

@@ -47,12 +47,13 @@ class EpisodeRow:
 
 @dataclass(frozen=True, slots=True)
 class SweepData:
-    """A sweep: its folder, what was asked for, and its rows."""
+    """A sweep: its folder, what was asked for, the command that asks for it again, and its rows."""
 
     folder: Path
     asked: dict[str, Any]
     rows: tuple[EpisodeRow, ...]
     problems: tuple[str, ...]
+    command: str = ""
 
 
 def is_sweep(folder: Path) -> bool:
@@ -76,7 +77,9 @@ def read_sweep(folder: Path) -> SweepData:
     rows = tuple(_row(folder, row, settings) for row in episodes)
     if not rows:
         problems.append("no episode is done yet")
-    return SweepData(folder, asked if isinstance(asked, dict) else {}, rows, tuple(problems))
+    command = _text(found, "command") if isinstance(found, dict) else ""
+    told = asked if isinstance(asked, dict) else {}
+    return SweepData(folder, told, rows, tuple(problems), command)
 
 
 def _document(path: Path, problems: list[str]) -> Any:  # noqa: ANN401 - any JSON

@@ -8,6 +8,10 @@ from typing import Final
 
 from markupsafe import Markup
 
+from treadwell.comparing.comparison import compared
+from treadwell.comparing.sides import candidates
+from treadwell.comparing.tables import comparison_tables
+from treadwell.errors import InputError
 from treadwell.reporting.course_plan import course_plan
 from treadwell.reporting.sections import TableData
 from treadwell.reporting.sweep_data import EpisodeRow, SweepData
@@ -45,6 +49,9 @@ class SweepSection:
     failures: list[Failure]
     more_failures: int
     plans: list[Markup]
+    command: str
+    comparison: list[TableData]
+    kept: list[tuple[str, str]]
 
 
 def sweep_section(sweep: SweepData, anchor: str, page: Path) -> SweepSection:
@@ -74,7 +81,28 @@ def sweep_section(sweep: SweepData, anchor: str, page: Path) -> SweepSection:
         failures=[_failure(row, page) for row in failed[:_MOST_FAILURES]],
         more_failures=max(0, len(failed) - _MOST_FAILURES),
         plans=plans,
+        command=sweep.command,
+        comparison=_comparison(sweep),
+        kept=[
+            (" ".join(filter(None, (*row.line, row.seed))), link)
+            for row in sweep.rows
+            if row.success and (link := _link(row.folder, page))
+        ],
     )
+
+
+def _comparison(sweep: SweepData) -> list[TableData]:
+    """Return the variants of a finished sweep side by side; nothing where it has only one."""
+    try:
+        sides = candidates([sweep.folder])
+    except InputError:
+        return []
+    if len(sides) < 2:
+        return []
+    return [
+        TableData(table.title, table.header, table.rows, " ".join(table.notes))
+        for table in comparison_tables(compared(sides))
+    ]
 
 
 def _lines(rows: tuple[EpisodeRow, ...], lines: list[tuple[str, str, str]]) -> TableData:

@@ -57,6 +57,7 @@ def conduct(
     *,
     care: Care | None = None,
     progress: Progress | None = None,
+    command: str = "",
 ) -> dict[str, Any]:
     """Do what is left of a sweep, write its results, and return them.
 
@@ -66,6 +67,7 @@ def conduct(
         engine: makes what does the episodes; it is only made where something is left to do.
         care: limits, and what is kept.
         progress: is told of each episode.
+        command: what asks for the same again; stands in the results.
 
     Raises:
         InputError: the folder cannot be taken, or no episode of a line can be built.
@@ -78,7 +80,7 @@ def conduct(
             with engine() as made:
                 sweep.check(made)
                 sweep.run(made)
-        document = results_document(request, folder.ordered())
+        document = results_document(request, folder.ordered(), command)
         folder.finish(document)
     return document
 

@@ -9,13 +9,14 @@ from treadwell.sweeps.request import Request
 from treadwell.sweeps.row import Row
 
 
-def results_document(request: Request, rows: Sequence[Row]) -> dict[str, Any]:
+def results_document(request: Request, rows: Sequence[Row], command: str = "") -> dict[str, Any]:
     """Return what `results.json` holds: what was asked for, a summary of each line, every row."""
     by_line: dict[int, list[Row]] = {number: [] for number in range(len(request.lines))}
     for row in rows:
         by_line[request.line_of(row.key)].append(row)
     return {
         **request.document(),
+        "command": command,
         "passed": all(row.success for row in rows),
         "summary": [
             {

@@ -1,0 +1,93 @@
+"""A comparison as tables: for the terminal, Markdown and the page on a sweep."""
+
+from typing import Any
+
+from treadwell.comparing.comparison import LEVEL
+from treadwell.comparing.metrics import METRICS, Metric
+from treadwell.experiments.experiment import NOTHING, Table
+
+
+def comparison_tables(document: dict[str, Any]) -> list[Table]:
+    """Return what `compared` found as tables, without those that would be empty."""
+    tables = (_figures(document), _scenarios(document), _differences(document))
+    return [table for table in tables if table.rows]
+
+
+def _figures(document: dict[str, Any]) -> Table:
+    """Each candidate's figures; a column of which nobody has anything is left out."""
+    sides = document["candidates"]
+    shown = [
+        metric
+        for metric in METRICS
+        if any(side["figures"][metric.name]["value"] is not None for side in sides)
+    ]
+    rows = [
+        (
+            side["name"],
+            str(side["episodes"]),
+            *(_figure(metric, side["figures"][metric.name]) for metric in shown),
+        )
+        for side in sides
+    ]
+    return Table(
+        "Comparison",
+        ("", "episodes", *(metric.title for metric in shown)),
+        tuple(rows),
+        ("Shares with Wilson's 95 % interval; time and path efficiency of those that arrived.",),
+    )
+
+
+def _figure(metric: Metric, figure: dict[str, Any]) -> str:
+    value = figure["value"]
+    if value is None:
+        return NOTHING
+    if metric.kind == "share":
+        low, high = 100 * figure["low"], 100 * figure["high"]
+        return f"{100 * value:.1f} % ({low:.1f} to {high:.1f})"
+    return f"{value:.{metric.digits}f}"
+
+
+def _scenarios(document: dict[str, Any]) -> Table:
+    """Successes by scenario, where there are several."""
+    sides = document["candidates"]
+    names = list(sides[0]["scenarios"]) if sides else []
+    rows = [
+        (
+            name,
+            *(f"{s['scenarios'][name]['yes']} of {s['scenarios'][name]['count']}" for s in sides),
+        )
+        for name in names
+        if len(names) > 1
+    ]
+    return Table("Successes", ("", *(side["name"] for side in sides)), tuple(rows))
+
+
+def _differences(document: dict[str, Any]) -> Table:
+    """What differs from the first candidate, and what does not."""
+    titles = {metric.name: metric for metric in METRICS}
+    rows = []
+    for one in document["differences"]:
+        metric = titles[one["metric"]]
+        if one["p"] is None or (one["difference"] == 0 and one["p"] == 1.0):
+            continue
+        scale, unit = (100, " %") if metric.kind == "share" else (1, "")
+        rows.append(
+            (
+                one["other"],
+                metric.title,
+                f"{scale * one['difference']:+.{metric.digits}f}{unit}",
+                str(one["pairs"]),
+                f"{one['p_corrected']:.3g}",
+                one["verdict"],
+            )
+        )
+    first = document["candidates"][0]["name"] if document["candidates"] else ""
+    return Table(
+        f"Against {first}",
+        ("", "figure", "difference", "pairs", "p", ""),
+        tuple(rows),
+        (
+            "Pairs: the same scenario and seed. McNemar's exact test of shares, a permutation test "
+            f"of the rest, all corrected after Holm; a difference is one below {LEVEL:g}.",
+        ),
+    )
