@@ -96,7 +96,10 @@ def run(
     )
 
 
-@app.command(epilog="Example: treadwell check scenarios/slalom.toml --set goal.radius=0.1")
+@app.command(
+    short_help="Say what a scenario file would build, or what is wrong.",
+    epilog="Example: treadwell check scenarios/slalom.toml --set goal.radius=0.1",
+)
 def check(
     scenario: ScenarioArgument,
     *,
@@ -116,7 +119,11 @@ def check(
     return PASSED
 
 
-@app.command("list", epilog="Example: treadwell list components")
+@app.command(
+    "list",
+    short_help="Show the scenarios, robots and components there are.",
+    epilog="Example: treadwell list components",
+)
 def list_(
     what: Annotated[What | None, typer.Argument(help="One of the three; all without it.")] = None,
     *,
@@ -149,7 +156,10 @@ def inspect(
     return PASSED
 
 
-@app.command(epilog="Example: treadwell verify runs/*")
+@app.command(
+    short_help="Check a run's files, and step its physics again.",
+    epilog="Example: treadwell verify runs/*",
+)
 def verify(
     run_dirs: Annotated[list[Path], typer.Argument(metavar="RUN_DIR...", help="Runs' folders.")],
     *,
@@ -165,7 +175,10 @@ def verify(
     return cli_verify.verify(run_dirs, against=against, as_json=as_json)
 
 
-@app.command(epilog="Example: treadwell replay runs/latest --set navigation.world_model=averaging")
+@app.command(
+    short_help="Run the core again over what a run recorded.",
+    epilog="Example: treadwell replay runs/latest --set navigation.world_model=averaging",
+)
 def replay(
     run_dir: Annotated[Path, typer.Argument(metavar="RUN_DIR", help="A run's folder.")],
     *,
@@ -187,7 +200,10 @@ def replay(
     return cli_replay.replay(run_dir, settings=settings or [], out=out, as_json=as_json)
 
 
-@app.command(epilog="Example: treadwell report runs/latest --video runs/latest/run.mp4")
+@app.command(
+    short_help="Write a page on a run, on several, or on a sweep.",
+    epilog="Example: treadwell report runs/latest --video runs/latest/run.mp4",
+)
 def report(
     run_dirs: Annotated[
         list[Path], typer.Argument(metavar="RUN_DIR...", help="Runs' folders, or a sweep's.")
@@ -214,7 +230,10 @@ def report(
     return PASSED
 
 
-@app.command(epilog="Example: treadwell export runs/latest --to octomap --out maps")
+@app.command(
+    short_help="Write files that other tools open.",
+    epilog="Example: treadwell export runs/latest --to octomap --out maps",
+)
 def export(
     run_dir: Annotated[
         Path,
@@ -239,7 +258,10 @@ def export(
     return PASSED
 
 
-@app.command(epilog="Example: treadwell experiment stairs --seeds 5 --out runs/stairs")
+@app.command(
+    short_help="Run a paper's experiments, its figures beside ours.",
+    epilog="Example: treadwell experiment stairs --seeds 5 --out runs/stairs",
+)
 def experiment(
     name: Annotated[
         str, typer.Argument(metavar="NAME", help="Which experiment: fog, nao, stairs.")
@@ -278,7 +300,10 @@ def experiment(
     )
 
 
-@app.command(epilog="Example: treadwell bench occupancy --frames frames/f320.bin")
+@app.command(
+    short_help="Time the core on a fixed workload.",
+    epilog="Example: treadwell bench occupancy --frames frames/f320.bin",
+)
 def bench(
     names: Annotated[
         list[str] | None,
@@ -302,8 +327,12 @@ def bench(
     return PASSED
 
 
-app.command(epilog=sweep_verbs.SWEEP_EXAMPLE)(sweep_verbs.sweep)
-app.command(epilog=sweep_verbs.COMPARE_EXAMPLE)(sweep_verbs.compare)
+app.command(short_help="Run many episodes, on all cores.", epilog=sweep_verbs.SWEEP_EXAMPLE)(
+    sweep_verbs.sweep
+)
+app.command(
+    short_help="Put sweeps and their variants side by side.", epilog=sweep_verbs.COMPARE_EXAMPLE
+)(sweep_verbs.compare)
 
 
 @robot_app.command("check", epilog="Example: treadwell robot check my_robot --walk")
