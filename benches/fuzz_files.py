@@ -32,7 +32,7 @@ from treadwell.recording.file import whole_length
 from treadwell.recording.observation_log import read_answers, read_observations
 from treadwell.recording.trajectory import read_trajectory
 from treadwell.replaying.source import open_source
-from treadwell.robot.file import read_robot_file
+from treadwell.robot.reading import read_robot_file
 from treadwell.scenario.loading import load_scenario
 
 LONGEST_SECONDS = 5.0
