@@ -4,6 +4,7 @@ use geometry::{ConfigError, Map, Pose, Robot, require};
 use mapping::FloorView;
 use stairs::{ClimbingConfig, Feet, Staircase};
 
+use crate::goal_level::GoalLevel;
 use crate::keep::Kept;
 use crate::levels::{Limits, Stand};
 use crate::plan::place_of;
@@ -25,6 +26,7 @@ pub struct AStar {
     pub(crate) portals: Portals,
     pub(crate) search: Search,
     pub(crate) seek: Seek,
+    pub(crate) goal_level: GoalLevel,
     pub(crate) kept: Option<Kept>,
 }
 
@@ -63,6 +65,7 @@ impl AStar {
             portals: Portals::default(),
             search: Search::default(),
             seek: Seek::default(),
+            goal_level: GoalLevel::default(),
             kept: None,
         })
     }
@@ -113,16 +116,21 @@ impl Planner for AStar {
             heading_rad: start.yaw_rad,
             gradient: view.gradient_at(start.x_m, start.y_m),
         };
-        self.seek.begin(goal);
-        self.look(view, stairs, stand, goal);
+        let levelled = self.goal_level.of(goal, view, &stand);
+        self.seek.begin(&levelled);
+        self.look(view, stairs, stand, &levelled);
         let settled = stairs.stairs.is_empty();
-        let kept = self.rest(&stand, goal);
+        let kept = self.rest(&stand, &levelled);
         let kept = match kept {
             Some(rest) if rest.in_slit() => return Ok(self.hold(rest)),
             Some(rest) if rest.certain && settled && !rest.revealed => return Ok(self.hold(rest)),
             other => other,
         };
-        let found = self.find(&stand, goal);
+        let mut found = self.find(&stand, &levelled);
+        if found.is_err() && self.goal_level.is_seen() {
+            let anywhere = self.goal_level.give_up(goal);
+            found = self.find(&stand, &anywhere);
+        }
         Ok(self.choose(kept, found, &start))
     }
 

@@ -7,6 +7,7 @@ mod config;
 pub mod distance;
 mod faces;
 mod find;
+mod goal_level;
 mod guide;
 mod judged;
 mod keep;

@@ -126,6 +126,17 @@ impl Border {
         [self.seen.weight(), self.left.weight, self.right.weight]
     }
 
+    /// Weight of all sightings.
+    pub(crate) const fn weight(&self) -> f64 {
+        self.seen.weight() + self.unseen.weight()
+    }
+
+    /// Direction from front to back, square to it; nothing where nothing is known.
+    pub(crate) fn across(&self) -> Vector2<f64> {
+        let along = self.along();
+        Vector2::new(along.y, -along.x)
+    }
+
     /// Direction from right to left; nothing where nothing is known.
     pub(crate) fn along(&self) -> Vector2<f64> {
         let line = self.seen.line().or_else(|| self.unseen.line());
@@ -136,7 +147,7 @@ impl Border {
     /// `outward` says: 1 for the back, -1 for the front. Sightings that did not see it count against it only where they go
     /// on beyond it: from near by, only what lies behind a front is in view.
     pub(crate) fn ends(&self, hull: &Outline, outward: f64) -> Option<[Point2<f64>; 2]> {
-        let all = self.seen.weight() + self.unseen.weight();
+        let all = self.weight();
         let mostly_seen = self.seen.weight() > BELIEVED * all;
         let goes_on = |seen: &Line| {
             let unseen = self.unseen.line();

@@ -1,6 +1,7 @@
 //! Stairs (003): extracted from horizontal planes, their edges fitted to the disparities, merged while the robot stands,
 //! remembered while it steps, and where feet fit on them.
 
+mod aspect;
 mod border;
 mod boundary;
 mod conditions;

@@ -3,23 +3,19 @@
 use geometry::{Map, Outline, Point, Pose, Robot};
 use nalgebra::{Point2, Vector3};
 
+use crate::aspect::{Aspect, Aspects};
 use crate::border::{Border, Weights};
 use crate::extract::Sighting;
 use crate::{Edge, Sides, Stair};
 
 /// Sightings that a tread is worth after a step: those that follow soon weigh more.
 const REMEMBERED_SIGHTINGS: f64 = 2.0;
-/// Fronts that point further apart than this are different sides, cosine.
-const SAME_SIDE: f64 = 0.82;
-/// How far beyond its back the robot must be for the back to become the front, m.
-const TURN_ROUND_M: f64 = 0.05;
 
 /// Sums over the sightings of one tread. Sums commute: the order of sightings does not matter.
 #[derive(Debug, Clone)]
 pub(crate) struct Tread {
     hull: Outline,
-    front: Border,
-    back: Border,
+    aspects: Aspects,
     weight: f64,
     reference: Vector3<f64>,
     // Sightings, with those before a step worth less.
@@ -61,8 +57,10 @@ impl Tread {
         };
         let mut tread = Self {
             hull: Outline::hull(&corners).ok()?,
-            front: border(&stair.front, seen.front),
-            back: border(&stair.back, seen.back),
+            aspects: Aspects::new(
+                border(&stair.front, seen.front),
+                border(&stair.back, seen.back),
+            ),
             weight,
             reference: stair.reference.inner.coords * weight,
             worth: 1.0,
@@ -78,18 +76,7 @@ impl Tread {
 
     /// Adds another tread that is the same one.
     pub(crate) fn add(&mut self, other: &Self) {
-        let mut other = other.clone();
-        let agreement = self.front.along().dot(&other.front.along());
-        if agreement < -SAME_SIDE {
-            other.turn_round();
-        }
-        if agreement.abs() > SAME_SIDE {
-            self.front.add_border(&other.front);
-            self.back.add_border(&other.back);
-        } else if other.weight > self.weight {
-            // Seen from another side: the sides of the one that is known better.
-            (self.front, self.back) = (other.front, other.back);
-        }
+        self.aspects.add(&other.aspects);
         let corners: Vec<_> = [&self.hull, &other.hull]
             .iter()
             .flat_map(|hull| hull.corners())
@@ -113,8 +100,7 @@ impl Tread {
         self.steps_ago = self.steps_ago.saturating_add(1);
         let factor = REMEMBERED_SIGHTINGS / self.worth;
         if factor < 1.0 {
-            self.front.scale(factor);
-            self.back.scale(factor);
+            self.aspects.scale(factor);
             self.weight *= factor;
             self.reference *= factor;
             self.worth = REMEMBERED_SIGHTINGS;
@@ -122,17 +108,9 @@ impl Tread {
         self.shape();
     }
 
-    fn turn_round(&mut self) {
-        self.front.reverse();
-        self.back.reverse();
-        std::mem::swap(&mut self.front, &mut self.back);
-    }
-
     /// Makes the side on which the robot is the front.
     pub(crate) fn face(&mut self, robot: &Point2<f64>) {
-        let beyond = |stair: Stair<Map>| stair.back.beyond_m([robot.x, robot.y]) > TURN_ROUND_M;
-        if self.stair().is_some_and(beyond) {
-            self.turn_round();
+        if self.aspects.face(&self.hull, robot) {
             self.shape();
         }
     }
@@ -171,11 +149,15 @@ impl Tread {
     /// were seen, with the margins that the hull has beyond it.
     fn sum(&self) -> Option<Stair<Map>> {
         let reference = self.reference / self.weight;
+        let Aspect {
+            front: before,
+            back: behind,
+        } = self.aspects.present();
         let [front, back] = [
-            self.front.ends(&self.hull, -1.0)?,
-            self.back.ends(&self.hull, 1.0)?,
+            before.ends(&self.hull, -1.0)?,
+            behind.ends(&self.hull, 1.0)?,
         ];
-        let along = self.front.along();
+        let along = before.along();
         let span = |p: &Point2<f64>| along.dot(&p.coords);
         let corners = self.hull.corners().iter().map(span);
         let (least, most) = corners.fold((f64::MAX, f64::MIN), |(a, b), s| (a.min(s), b.max(s)));
@@ -187,8 +169,8 @@ impl Tread {
             right: at(&right),
         };
         let ([front_seen, ..], [back_seen, left_seen, right_seen]) =
-            (self.front.seen_weights(), self.back.seen_weights());
-        let [_, left_too, right_too] = self.front.seen_weights();
+            (before.seen_weights(), behind.seen_weights());
+        let [_, left_too, right_too] = before.seen_weights();
         Some(Stair {
             front: edge(front),
             back: edge(back),

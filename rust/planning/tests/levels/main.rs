@@ -5,5 +5,6 @@
 mod border;
 mod climbs;
 mod course;
+mod goals;
 mod ground;
 mod slopes;
