@@ -15,9 +15,9 @@ from treadwell.robot.load import load_robot
 from treadwell.scenario.loading import load_scenario
 
 
-def told(*overrides: str, seed: int | None = None) -> dict[str, Any]:
+def told(*overrides: str, seed: int | None = None, scenario: str = "slalom") -> dict[str, Any]:
     robot = load_robot("qrio")
-    made = load_scenario("slalom", seed=seed, overrides=overrides)
+    made = load_scenario(scenario, seed=seed, overrides=overrides)
     document: dict[str, Any] = json.loads(core_settings(made, robot, build_course(made, robot)))
     return document
 
@@ -57,6 +57,19 @@ def test_goals_come_in_order_the_via_points_first() -> None:
     assert [goal["position"] for goal in document["goals"]] == [[0.4, 0.5], [1.0, 0.6], [2.8, 0.0]]
     assert {goal["radius"] for goal in document["goals"]} == {0.2}
     assert document["goals"][-1]["height"] == 0.0
+
+
+def test_a_goal_without_a_height_lies_on_the_highest_surface_there() -> None:
+    rises = [told(scenario="random_stairs", seed=seed)["goals"][-1]["height"] for seed in (1, 2)]
+    for seed, height in zip((1, 2), rises, strict=True):
+        made = load_scenario("random_stairs", seed=seed)
+        stairs = made.course[0].model_dump()
+        assert height == pytest.approx(stairs["steps"] * stairs["rise"], abs=1e-6)
+    assert rises[0] != rises[1]
+    on_the_floor = told("goal.position=[0.3, 0.4]", scenario="random_stairs", seed=1)
+    assert on_the_floor["goals"][-1]["height"] is None
+    under = told("goal.height=0.0", "goal.position=[0.3, 0.4]", scenario="random_stairs", seed=1)
+    assert under["goals"][-1]["height"] == 0.0
 
 
 def test_a_table_of_parameters_goes_through_untouched() -> None:

@@ -44,14 +44,21 @@ class CoreInput:
     given: Mapping[str, str] = field(default_factory=dict)
 
 
+_SAME_LEVEL = 0.02
+"""Metres: heights so near are one level."""
+
+
 def core_settings(scenario: Scenario, robot: "Robot", course: "Course") -> str:
     """Return robot, start, goals and navigation as JSON. No truth but the start, where it is known.
 
-    Of a start that is not known the core is told nothing.
+    Of a start that is not known the core is told nothing. A goal that lies on another level than
+    the start is told with its height, also where the scenario leaves it at the highest surface.
     """
     goal = scenario.goal
+    other_level = abs(course.goal_height - course.start.height) > _SAME_LEVEL
+    goal_height = course.goal_height if goal.height is None and other_level else goal.height
     places = [{"position": list(via), "radius": goal.radius} for via in goal.via]
-    places.append({"position": list(goal.position), "radius": goal.radius, "height": goal.height})
+    places.append({"position": list(goal.position), "radius": goal.radius, "height": goal_height})
     place = course.start
     known = {"position": list(place.position), "height": place.height, "yaw": place.yaw}
     settings = {

@@ -51,6 +51,7 @@ class Goal(Table):
 
     position: Point2 = (2.0, 0.0)
     height: Height | None = None
+    """The level, as of the start. Scored only where it is given."""
     radius: Length = 0.15
     via: Annotated[tuple[Point2, ...], Field(strict=False, max_length=100)] = ()
     """Points to pass in this order, each within `radius`, before the goal."""
