@@ -10,8 +10,11 @@ use crate::line::Line;
 use crate::view::View;
 use crate::{Edge, EdgeFit, EdgeModel, Stair, StairsConfig};
 
-/// Edges fitted in a frame: the nearest in view.
+/// Edges fitted in a frame: those in view that the robot, going straight on, would cross first.
 const FITTED: usize = 2;
+/// An edge along the robot's way counts as one that it meets at this cosine: the sides of a staircase lie near all the way up,
+/// and are not climbed.
+const GLANCING: f64 = 0.1;
 /// Edges that are kept.
 const KEPT: usize = 16;
 /// Levels of one edge may differ by this from those that it was fitted with, m: less than half of the lowest step. An edge
@@ -31,7 +34,8 @@ pub(crate) struct Fits {
 
 /// An edge to be fitted: the guess in the robot's frame, and the levels before and behind it.
 struct Wanted {
-    away_m: f64,
+    /// How far ahead the robot's way crosses its line, m.
+    ahead_m: f64,
     guess: Edge<Robot>,
     heights_m: [f64; 2],
 }
@@ -65,7 +69,7 @@ impl Fits {
         config: &StairsConfig,
     ) {
         let mut wanted = wanted(stairs, view, map_from_robot, config);
-        wanted.sort_by(|a, b| a.away_m.total_cmp(&b.away_m));
+        wanted.sort_by(|a, b| a.ahead_m.total_cmp(&b.ahead_m));
         let map_from_camera = *map_from_robot * planes.robot_from_camera;
         let rise_m = map_from_robot.origin().inner.z;
         for Wanted {
@@ -166,7 +170,7 @@ fn wanted(
             && (stair.seen_ends.front > 0 || stair.front_fit.is_some())
             && view.contains(&guess.middle().inner);
         shows.then_some(Wanted {
-            away_m,
+            ahead_m: away_m / guess.across().x.max(GLANCING),
             guess,
             heights_m: [near_m, far_m],
         })
@@ -301,5 +305,35 @@ mod tests {
         ));
         assert!(near(ends_m(&floor([-1.4, 0.2]), None), [-1.4, 0.2]));
         assert!(near(ends_m(&floor([-0.3, 0.3]), Some(&tread)), [-0.3, 0.3]));
+    }
+
+    /// Floor on both sides of a staircase whose sides the robot sees nearer than the steps.
+    #[test]
+    fn of_steps_ahead_and_the_sides_of_the_stairs_the_steps_are_fitted() {
+        let mut planes = Planes::new(CAMERA.width * CAMERA.height);
+        planes.robot_from_camera = camera_pose(0.0, 0.8);
+        let view = View::new(&planes, CAMERA);
+        let stair = |right: [f64; 2], left: [f64; 2], deep: [f64; 2], z_m: f64| {
+            let edge = |by: f64| Edge {
+                left: Point::<Robot>::new(left[0] + by * deep[0], left[1] + by * deep[1], z_m),
+                right: Point::<Robot>::new(right[0] + by * deep[0], right[1] + by * deep[1], z_m),
+            };
+            let mut seen = Stair::seen(edge(0.0), edge(1.0), edge(0.5).middle(), 100);
+            seen.seen_ends.front = 100;
+            seen.transformed(&Pose::identity())
+        };
+        let step = |x_m: f64, z_m| stair([x_m, -0.15], [x_m, 0.15], [0.11, 0.0], z_m);
+        let stairs = [
+            stair([0.3, -0.15], [0.9, -0.15], [0.0, -0.5], -0.03),
+            step(0.5, 0.03),
+            stair([0.9, 0.15], [0.3, 0.15], [0.0, 0.5], -0.03),
+            step(0.61, 0.06),
+        ];
+        let here = Pose::identity();
+        let mut wanted = wanted(&stairs, &view, &here, &StairsConfig::default());
+        assert_eq!(wanted.len(), stairs.len());
+        wanted.sort_by(|a, b| a.ahead_m.total_cmp(&b.ahead_m));
+        let heights_m = wanted.iter().take(FITTED).map(|edge| edge.heights_m[1]);
+        assert_eq!(heights_m.collect::<Vec<_>>(), [0.03, 0.06]);
     }
 }
