@@ -129,9 +129,10 @@ pub(crate) fn range_m(scene: &Scene<'_>, line: &Line) -> f64 {
     }
 }
 
-/// Width of a stair at its front edge, its margins included, m.
+/// Width of a stair at its front edge, m, with the room beside it where it was not seen to end: as those judge it who climb it.
 pub(crate) fn width_m(line: &Line, stair: &Stair<Map>) -> f64 {
-    2.0 * line.half_m() + stair.left_margin_m.max(0.0) + stair.right_margin_m.max(0.0)
+    let [left_m, right_m] = stair.room_beside_m();
+    2.0 * line.half_m() + left_m.max(0.0) + right_m.max(0.0)
 }
 
 /// Where an edge is crossed: in its middle, or all along it.
