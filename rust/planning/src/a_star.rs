@@ -4,6 +4,7 @@ use geometry::{ConfigError, Map, Pose, Robot, require};
 use mapping::FloorView;
 use stairs::{ClimbingConfig, Feet, Staircase};
 
+use crate::beyond::Beyond;
 use crate::goal_level::GoalLevel;
 use crate::keep::Kept;
 use crate::levels::{Limits, Stand};
@@ -27,6 +28,7 @@ pub struct AStar {
     pub(crate) search: Search,
     pub(crate) seek: Seek,
     pub(crate) goal_level: GoalLevel,
+    pub(crate) beyond: Beyond,
     pub(crate) kept: Option<Kept>,
 }
 
@@ -66,6 +68,7 @@ impl AStar {
             search: Search::default(),
             seek: Seek::default(),
             goal_level: GoalLevel::default(),
+            beyond: Beyond::default(),
             kept: None,
         })
     }
@@ -119,6 +122,7 @@ impl Planner for AStar {
         let levelled = self.goal_level.of(goal, view, &stand);
         self.seek.begin(&levelled);
         self.look(view, stairs, stand, &levelled);
+        self.beyond.look(&self.terrain, goal);
         let settled = stairs.stairs.is_empty();
         let kept = self.rest(&stand, &levelled);
         let kept = match kept {

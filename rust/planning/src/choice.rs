@@ -73,8 +73,8 @@ impl AStar {
         };
         let cost_m = |path: &Path| path.cost_m + self.config.turn_cost * turn_rad(path, start);
         let (new_m, rest_m) = (cost_m(&path), cost_m(&rest.path));
-        let further_m =
-            beyond_m(&path, new.end, &new.goal) - beyond_m(&rest.path, rest.end, &new.goal);
+        let further_m = self.beyond_m(&path, new.end, &new.goal)
+            - self.beyond_m(&rest.path, rest.end, &new.goal);
         let worse = new_m + further_m >= self.config.better * rest_m;
         let stays = match (rest.certain, new.end.is_certain()) {
             (true, true) => worse,
@@ -103,6 +103,15 @@ impl AStar {
         }
     }
 
+    /// What is left behind the end of a path, m. Paths end where the window did when they were found, one further on than the
+    /// other.
+    fn beyond_m(&self, path: &Path, end: End, goal: &Goal) -> f64 {
+        match (end, path.points_m.last()) {
+            (End::Border, Some(&end_m)) => self.beyond.left_m(end_m, goal),
+            _ => 0.0,
+        }
+    }
+
     /// Takes a new path.
     fn follow(&mut self, new: Kept, path: Path) -> Plan {
         self.kept = Some(Kept {
@@ -119,14 +128,6 @@ impl AStar {
 /// How many of a path's points were not seen.
 fn unknown_in(path: &Path) -> usize {
     path.unknown.iter().filter(|&&unknown| unknown).count()
-}
-
-/// What is left behind the end of a path, m. Paths end where the window did when they were found, one further on than the other.
-fn beyond_m(path: &Path, end: End, goal: &Goal) -> f64 {
-    match (end, path.points_m.last()) {
-        (End::Border, Some([x, y])) => (goal.x_m - x).hypot(goal.y_m - y),
-        _ => 0.0,
-    }
 }
 
 /// How far the robot has to turn to set off on a path, rad.

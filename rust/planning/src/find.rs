@@ -52,7 +52,13 @@ impl AStar {
     /// there if they were other than they look from afar; else to where more is to be seen.
     fn route(&mut self, stand: &Stand, start: usize, goal: &Goal) -> Result<Found, NoWay> {
         let (terrain, portals) = (&self.terrain, &self.portals);
-        let ends = Ends::new(terrain, goal, stand.height_m, self.config.climb_cost);
+        let ends = Ends::new(
+            terrain,
+            &self.beyond,
+            goal,
+            stand.height_m,
+            self.config.climb_cost,
+        );
         let search = &mut self.search;
         let known = run(search, terrain, portals, &ends, start, Fit::Holds);
         let hoped = |route: &Route| {

@@ -1,6 +1,7 @@
 //! The way: distance transform, clearance by the robot's radius, levels and the climbs that join them, A*.
 
 mod a_star;
+mod beyond;
 mod chains;
 mod choice;
 mod config;

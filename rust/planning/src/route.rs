@@ -1,6 +1,7 @@
 //! Routes to the goal: where they may end, in the goal's disc, or at the window's border when the goal lies outside.
 
 use crate::Goal;
+use crate::beyond::Beyond;
 use crate::keep::End;
 use crate::legs::link_between;
 use crate::portals::{Fit, Portals};
@@ -20,6 +21,7 @@ const RISE_M: f64 = 0.03;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ends<'a> {
     terrain: &'a Terrain,
+    beyond: &'a Beyond,
     goal: Goal,
     /// What ending where nothing was seen costs on top, in cells: the level is another one there, and no way up is known.
     blind: f64,
@@ -31,7 +33,13 @@ pub(crate) struct Ends<'a> {
 
 impl<'a> Ends<'a> {
     /// Ends for a robot that stands `height_m` high, m; `climb_cost` as configured.
-    pub(crate) fn new(terrain: &'a Terrain, goal: &Goal, height_m: f64, climb_cost: f64) -> Self {
+    pub(crate) fn new(
+        terrain: &'a Terrain,
+        beyond: &'a Beyond,
+        goal: &Goal,
+        height_m: f64,
+        climb_cost: f64,
+    ) -> Self {
         let missing_m = goal
             .height_m
             .map_or(0.0, |goal_m| (goal_m - height_m).abs());
@@ -43,6 +51,7 @@ impl<'a> Ends<'a> {
         let middle = terrain.index_at([goal.x_m, goal.y_m]);
         Self {
             terrain,
+            beyond,
             blind: blind_m / terrain.lattice.cell_m,
             goal: *goal,
             middle,
@@ -56,7 +65,7 @@ impl<'a> Ends<'a> {
             return Some(0.0); // the end of a climb; its link has the cost
         }
         if !self.inside {
-            return self.terrain.on_border(index).then(|| self.remaining(index));
+            return self.terrain.on_border(index).then(|| self.left(index));
         }
         if !self.holds(index) {
             return None;
@@ -106,6 +115,13 @@ impl<'a> Ends<'a> {
             return 0.0;
         }
         self.away(index)
+    }
+
+    /// How long the way from the window's border on is, in cells.
+    fn left(&self, index: usize) -> f64 {
+        let left_m = self.beyond.left_m(self.terrain.center_m(index), &self.goal);
+        self.remaining(index)
+            .max(left_m / self.terrain.lattice.cell_m)
     }
 
     /// Octile distance from a cell to the goal's middle, in cells.

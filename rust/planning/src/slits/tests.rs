@@ -197,7 +197,13 @@ fn house() -> impl Strategy<Value = FloorView> {
 /// Cost of the cheapest route over what a planner has just read.
 fn cost(planner: &mut AStar, start: [f64; 2]) -> f64 {
     let (terrain, portals) = (&planner.terrain, &planner.portals);
-    let ends = Ends::new(terrain, &GOAL, 0.0, planner.config.climb_cost);
+    let ends = Ends::new(
+        terrain,
+        &planner.beyond,
+        &GOAL,
+        0.0,
+        planner.config.climb_cost,
+    );
     let start = terrain.index_at(start).unwrap();
     let route = run(
         &mut planner.search,

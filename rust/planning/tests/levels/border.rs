@@ -1,8 +1,9 @@
 //! Goals that lie beyond the window.
 
 use crate::course::{Course, goal, goal_at, plan, planner, way};
+use geometry::Cell;
 use mapping::Surface;
-use planning::Path;
+use planning::{Goal, Path};
 
 #[test]
 fn a_way_up_that_may_go_on_is_not_given_up_for_known_ground_that_leads_away() {
@@ -33,4 +34,51 @@ fn a_shorter_way_is_taken_though_the_window_has_moved_on_and_its_border_is_furth
     let through = plan(&mut planner, &course, [0.0; 3], 0.0, &far);
     let through = through.way.unwrap();
     assert!(highest_m(&through) < 0.1, "{:?}", through.points_m);
+}
+
+/// Walls, as rectangles: a blind alley, 5 m deep, open to the left, with the goal behind its end.
+const ALLEY: [[[f64; 2]; 2]; 3] = [
+    [[-1.0, -0.7], [4.0, -0.6]],
+    [[-1.0, 0.6], [4.0, 0.7]],
+    [[4.0, -0.7], [4.1, 0.7]],
+];
+
+/// What is seen of them through a window around the robot. What is outside is not remembered.
+fn seen_from(at_m: [f64; 2], walls: &[[[f64; 2]; 2]]) -> Course {
+    let mut course = Course::floor();
+    let cell_m = course.view.lattice.cell_m;
+    course.view.lattice.origin_m = at_m.map(|m| (m / cell_m).round() * cell_m - 2.0);
+    for [low, high] in walls {
+        course.paint(*low, *high, Surface::Obstacle(0.5));
+    }
+    course
+}
+
+/// Metres walked until the goal is reached, 200 at most, by one who plans anew every 10 cm.
+fn walked_m(walls: &[[[f64; 2]; 2]], goal: &Goal) -> f64 {
+    const STRIDE_M: f64 = 0.1;
+    let mut planner = planner();
+    let (mut at, mut walked_m) = ([0.0, 0.0], 0.0);
+    while walked_m < 200.0 && (goal.x_m - at[0]).hypot(goal.y_m - at[1]) > goal.radius_m {
+        let course = seen_from(at, walls);
+        let here = course.view.cell(Cell::new(50, 50));
+        assert!(matches!(here, Surface::Floor(_)), "in a wall at {at:?}");
+        let plan = plan(&mut planner, &course, [at[0], at[1], 0.0], 0.0, goal);
+        let path = plan.way.unwrap();
+        let ahead = |point: &&[f64; 2]| (point[0] - at[0]).hypot(point[1] - at[1]) >= STRIDE_M;
+        let next = path.points_m.iter().find(ahead);
+        at = *next.or(path.points_m.last()).unwrap();
+        walked_m += STRIDE_M;
+    }
+    walked_m
+}
+
+#[test]
+fn the_way_out_of_a_blind_alley_that_is_larger_than_the_window_is_found() {
+    let behind = goal(5.2, 0.0);
+    let straight_m = walked_m(&[], &behind);
+    assert!(straight_m < 6.0, "{straight_m}");
+    // In, out and around are 13 m.
+    let out_m = walked_m(&ALLEY, &behind);
+    assert!(out_m < 20.0, "{out_m}");
 }

@@ -1,0 +1,193 @@
+//! What was seen of the ground beyond the window while it was in it: how far it is from the window's border to the goal.
+//!
+//! Without this the robot would hope for a way that it found closed as soon as that has left the window, and go to and fro for ever.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use geometry::Lattice;
+
+use crate::Goal;
+use crate::distance::{DistanceField, NOTHING_NEAR};
+use crate::terrain::Terrain;
+
+/// Cells of the ground around the place where the robot was first: as large as the window's, so many on a side.
+const SIDE: usize = 512;
+/// The way is looked for over every third of them, each way.
+const APART: usize = 3;
+const NODES: usize = SIDE / APART;
+/// So much less room than the robot needs is taken for enough, in cells: the way may lead between the nodes.
+const SLACK: f64 = 1.5;
+/// It is looked for after so many plans at most.
+const PLANS: u32 = 8;
+/// Steps to the eight neighbours: columns, rows, and their length in nodes.
+const STEPS: [(isize, isize, f32); 8] = [
+    (1, 0, 1.0),
+    (-1, 0, 1.0),
+    (0, 1, 1.0),
+    (0, -1, 1.0),
+    (1, 1, std::f32::consts::SQRT_2),
+    (1, -1, std::f32::consts::SQRT_2),
+    (-1, 1, std::f32::consts::SQRT_2),
+    (-1, -1, std::f32::consts::SQRT_2),
+];
+
+/// The ground around as it was when it was seen last.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Beyond {
+    /// Where the cells lie.
+    lattice: Option<Lattice>,
+    blocked: Vec<bool>,
+    distance: DistanceField,
+    /// Length of the way from each node to the goal, in nodes; infinite where none leads.
+    to_goal: Vec<f32>,
+    queue: BinaryHeap<Reverse<(u32, u32)>>,
+    goal: Option<Goal>,
+    plans: u32,
+    /// Whether the field says more than the straight line does.
+    matters: bool,
+}
+
+impl Beyond {
+    /// Takes in what the window shows. Afterwards the field leads to the goal.
+    pub(crate) fn look(&mut self, terrain: &Terrain, goal: &Goal) {
+        self.take_in(terrain);
+        self.plans = self.plans.saturating_add(1);
+        if terrain.index_at([goal.x_m, goal.y_m]).is_some() {
+            self.matters = false;
+        } else if self.goal != Some(*goal) || self.plans >= PLANS {
+            (self.goal, self.plans) = (Some(*goal), 0);
+            self.matters = self.is_blocked_outside(terrain);
+            if self.matters {
+                self.aim(goal, terrain.needs.body_m / terrain.lattice.cell_m - SLACK);
+            }
+        }
+    }
+
+    /// Length of the way from a place to the goal, m, as far as is known: the straight line where nothing is.
+    pub(crate) fn left_m(&self, at_m: [f64; 2], goal: &Goal) -> f64 {
+        let straight_m = (goal.x_m - at_m[0]).hypot(goal.y_m - at_m[1]);
+        let known_m = self.lattice.filter(|_| self.matters).and_then(|lattice| {
+            let [col, row] = cell_at(&lattice, at_m)?.map(|at| at / APART);
+            let around = NEAR
+                .iter()
+                .filter_map(|&(cols, rows)| node(col, row, cols, rows));
+            let least = around
+                .map(|node| self.to_goal[node])
+                .fold(f32::INFINITY, f32::min);
+            Some(f64::from(least) * APART as f64 * lattice.cell_m)
+        });
+        known_m
+            .filter(|m| m.is_finite())
+            .map_or(straight_m, |known_m| known_m.max(straight_m))
+    }
+
+    fn take_in(&mut self, terrain: &Terrain) {
+        let window = &terrain.lattice;
+        let lattice = *self.lattice.get_or_insert_with(|| {
+            self.blocked = vec![false; SIDE * SIDE];
+            self.to_goal = vec![f32::INFINITY; NODES * NODES];
+            let before_m = (SIDE - terrain.cols) as f64 / 2.0 * window.cell_m;
+            Lattice {
+                origin_m: window.origin_m.map(|origin_m| origin_m - before_m),
+                cell_m: window.cell_m,
+            }
+        });
+        for (index, &unknown) in terrain.unknown.iter().enumerate() {
+            if let Some([col, row]) =
+                cell_at(&lattice, terrain.center_m(index)).filter(|_| !unknown)
+            {
+                self.blocked[row * SIDE + col] = terrain.blocked[index];
+            }
+        }
+    }
+
+    fn is_blocked_outside(&self, terrain: &Terrain) -> bool {
+        let Some(lattice) = self.lattice else {
+            return false;
+        };
+        let outside = |cell: usize| {
+            let middle_m = |at: usize| (at as f64 + 0.5) * lattice.cell_m;
+            let [x, y] = lattice.origin_m;
+            let at_m = [x + middle_m(cell % SIDE), y + middle_m(cell / SIDE)];
+            terrain.index_at(at_m).is_none()
+        };
+        let mut blocked = self
+            .blocked
+            .iter()
+            .enumerate()
+            .filter(|(_, blocked)| **blocked);
+        blocked.any(|(cell, _)| outside(cell))
+    }
+
+    /// Dijkstra's algorithm from the goal, for a body that needs so much room, in cells.
+    fn aim(&mut self, goal: &Goal, room: f64) {
+        self.to_goal.fill(f32::INFINITY);
+        self.queue.clear();
+        let at = self
+            .lattice
+            .and_then(|lattice| cell_at(&lattice, [goal.x_m, goal.y_m]));
+        let Some(goal) = at
+            .map(|at| at.map(|at| at / APART))
+            .and_then(|[col, row]| node(col, row, 0, 0))
+        else {
+            return;
+        };
+        self.distance.compute(&self.blocked, SIDE);
+        self.to_goal[goal] = 0.0;
+        self.queue.push(Reverse((0, goal as u32)));
+        while let Some(Reverse((length, from))) = self.queue.pop() {
+            let from = from as usize;
+            if f32::from_bits(length) > self.to_goal[from] {
+                continue;
+            }
+            for (cols, rows, step) in STEPS {
+                let further = self.to_goal[from] + step;
+                if let Some(to) = node(from % NODES, from / NODES, cols, rows)
+                    && further < self.to_goal[to]
+                    && self.has_room(to, room)
+                {
+                    self.to_goal[to] = further;
+                    // Positive numbers are in the order of their bits.
+                    self.queue.push(Reverse((further.to_bits(), to as u32)));
+                }
+            }
+        }
+    }
+
+    fn has_room(&self, node: usize, room: f64) -> bool {
+        let [col, row] = [node % NODES, node / NODES].map(|at| at * APART + APART / 2);
+        let squared = self.distance.squared(row * SIDE + col);
+        squared == NOTHING_NEAR || f64::from(squared) >= room * room
+    }
+}
+
+/// A node and its neighbours.
+const NEAR: [(isize, isize); 9] = [
+    (0, 0),
+    (1, 0),
+    (-1, 0),
+    (0, 1),
+    (0, -1),
+    (1, 1),
+    (1, -1),
+    (-1, 1),
+    (-1, -1),
+];
+
+/// Column and row of a place among the cells.
+fn cell_at(lattice: &Lattice, at_m: [f64; 2]) -> Option<[usize; 2]> {
+    let at = |axis: usize| ((at_m[axis] - lattice.origin_m[axis]) / lattice.cell_m).floor();
+    let inside = |at: &f64| (0.0..SIDE as f64).contains(at);
+    let place = [at(0), at(1)];
+    place
+        .iter()
+        .all(inside)
+        .then(|| place.map(|at| at as usize))
+}
+
+/// A node so many columns and rows from another.
+fn node(col: usize, row: usize, cols: isize, rows: isize) -> Option<usize> {
+    let (col, row) = (col.checked_add_signed(cols)?, row.checked_add_signed(rows)?);
+    (col < NODES && row < NODES).then_some(row * NODES + col)
+}
