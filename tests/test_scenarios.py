@@ -18,6 +18,7 @@ WALKED = {
     "open_floor": "goal_reached",
     "slalom": "goal_reached",
     "blind_zone": "goal_reached",
+    "blind_alley": "goal_reached",
     "doorway": "goal_reached",
     "curtain": "goal_reached",
     "visitor": "goal_reached",

@@ -18,6 +18,8 @@ const APART: usize = 3;
 const NODES: usize = SIDE / APART;
 /// So much less room than the robot needs is taken for enough, in cells: the way may lead between the nodes.
 const SLACK: f64 = 1.5;
+/// From so near it is believed that something has gone, m. From afar parts of a wall are floor for a while.
+const NEAR_M: f64 = 1.2;
 /// It is looked for after so many plans at most.
 const PLANS: u32 = 8;
 /// Steps to the eight neighbours: columns, rows, and their length in nodes.
@@ -49,9 +51,9 @@ pub(crate) struct Beyond {
 }
 
 impl Beyond {
-    /// Takes in what the window shows. Afterwards the field leads to the goal.
-    pub(crate) fn look(&mut self, terrain: &Terrain, goal: &Goal) {
-        self.take_in(terrain);
+    /// Takes in what the window shows to a robot that stands at a place, m. Afterwards the field leads to the goal.
+    pub(crate) fn look(&mut self, terrain: &Terrain, robot_m: [f64; 2], goal: &Goal) {
+        self.take_in(terrain, robot_m);
         self.plans = self.plans.saturating_add(1);
         if terrain.index_at([goal.x_m, goal.y_m]).is_some() {
             self.matters = false;
@@ -69,7 +71,7 @@ impl Beyond {
         let straight_m = (goal.x_m - at_m[0]).hypot(goal.y_m - at_m[1]);
         let known_m = self.lattice.filter(|_| self.matters).and_then(|lattice| {
             let [col, row] = cell_at(&lattice, at_m)?.map(|at| at / APART);
-            let around = NEAR
+            let around = AROUND
                 .iter()
                 .filter_map(|&(cols, rows)| node(col, row, cols, rows));
             let least = around
@@ -82,7 +84,7 @@ impl Beyond {
             .map_or(straight_m, |known_m| known_m.max(straight_m))
     }
 
-    fn take_in(&mut self, terrain: &Terrain) {
+    fn take_in(&mut self, terrain: &Terrain, robot_m: [f64; 2]) {
         let window = &terrain.lattice;
         let lattice = *self.lattice.get_or_insert_with(|| {
             self.blocked = vec![false; SIDE * SIDE];
@@ -94,10 +96,11 @@ impl Beyond {
             }
         });
         for (index, &unknown) in terrain.unknown.iter().enumerate() {
-            if let Some([col, row]) =
-                cell_at(&lattice, terrain.center_m(index)).filter(|_| !unknown)
-            {
-                self.blocked[row * SIDE + col] = terrain.blocked[index];
+            let at_m = terrain.center_m(index);
+            let near = (at_m[0] - robot_m[0]).hypot(at_m[1] - robot_m[1]) < NEAR_M;
+            if let Some([col, row]) = cell_at(&lattice, at_m).filter(|_| !unknown) {
+                let known = &mut self.blocked[row * SIDE + col];
+                *known = terrain.blocked[index] || *known && !near;
             }
         }
     }
@@ -163,7 +166,7 @@ impl Beyond {
 }
 
 /// A node and its neighbours.
-const NEAR: [(isize, isize); 9] = [
+const AROUND: [(isize, isize); 9] = [
     (0, 0),
     (1, 0),
     (-1, 0),
