@@ -168,12 +168,16 @@ class Pool:
             busy = [worker for worker in self._workers if worker.task is not None]
             if not busy:
                 return
-            for worker, task, answer in self._heard(busy):
+            heard = self._heard(busy)
+            # All that ended leave before anything is handed out: one that is on its way out, and
+            # looks idle, would be given work that ends with it.
+            for worker, task, answer in heard:
                 if isinstance(answer, Died):
                     self._workers.remove(worker)
                 elif task.fresh:
                     self._retire(worker)
-                self._hand_out()
+            self._hand_out()
+            for _, task, answer in heard:
                 yield task.item, answer
 
     def _heard(self, busy: list[_Worker]) -> list[tuple[_Worker, _Task, Answer]]:
