@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -241,14 +242,20 @@ def test_the_command_says_how_it_went_and_how_it_goes_on(
 def test_ctrl_c_ends_the_workers_and_keeps_what_was_done(tmp_path: Path) -> None:
     scenario, out = short(tmp_path), tmp_path / "out"
     command = [sys.executable, "-m", "treadwell.cli.app", "sweep", scenario, "--episodes", "200"]
+
+    def heed() -> None:  # whoever runs the tests in the background may have it ignored
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
     with subprocess.Popen(
-        [*command, "--workers", "1", "--keep", "0", "--out", str(out)], stderr=subprocess.PIPE
+        [*command, "--workers", "1", "--keep", "0", "--out", str(out)],
+        stderr=subprocess.PIPE,
+        preexec_fn=heed,
     ) as process:
         journal = out / "journal.jsonl"
         while not journal.is_file() or not journal.stat().st_size:
             time.sleep(0.05)
             assert process.poll() is None
-        process.send_signal(2)
+        process.send_signal(signal.SIGINT)
         _, error = process.communicate(timeout=30)
     assert process.returncode == 130
     assert f"--out {out} goes on" in error.decode()

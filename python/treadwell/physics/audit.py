@@ -18,6 +18,8 @@ mujoco.set_mju_user_warning(logging.getLogger(__name__).warning)
 STEPS_PER_TICK = 5
 """Physics steps between two rows of `qpos`: one control tick."""
 STATE = mujoco.mjtState.mjSTATE_INTEGRATION
+LARGEST_MODEL = 500 << 20
+"""Bytes of a model: as many as those of all files of a robot may have."""
 MOST_ARRAYS = 100
 LEAST_ROW = 8 * 12
 """Bytes of a row of `ctrl`: a robot has more motors than its legs' twelve."""
@@ -145,6 +147,10 @@ def replay_limited(folder: Path) -> tuple[int, int | None]:
     path, model = folder / "physics.npz", folder / "model.mjb"
     if not model.is_file():
         raise InputError(f"{model}: is missing or broken")
+    if model.stat().st_size > LARGEST_MODEL:
+        raise InputError(
+            f"{model}: is missing or broken: larger than {LARGEST_MODEL} bytes, which is the limit"
+        )
     seconds = FIXED_SECONDS + int(STEP_SECONDS * _steps(path))
     limits = Limits(cpu_seconds=seconds, deadline_seconds=60.0 + 10.0 * seconds)
     rows, different = limited("audit", [str(folder)], str(model), limits)
