@@ -99,7 +99,7 @@ impl Search {
         let (mut best, mut last) = (f64::INFINITY, None);
         while let Some(Entry { cost, cell, trail }) = queue.pop(best) {
             let here = cell as usize;
-            if cost > known.costs[here] || last.is_some() && cost + heuristic(here) >= best {
+            if cost > known.cost(here) || last.is_some() && cost + heuristic(here) >= best {
                 continue; // reached more cheaply since, or no use
             }
             *expanded += 1;
@@ -112,7 +112,7 @@ impl Search {
                 continue; // no cell: nothing leads on
             }
             let mut reach = |next: usize, cost: f64, trail| {
-                if cost < known.costs[next] {
+                if cost < known.cost(next) {
                     known.reach(next, cost, cell);
                     let cell = next as u32;
                     queue.push(cost + heuristic(next), Entry { cost, cell, trail });
@@ -136,48 +136,69 @@ impl Search {
     }
 }
 
+/// What is known of a cell or node.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    /// Of the cheapest way there that was found.
+    cost: f64,
+    /// By which cell it was reached.
+    parent: u32,
+    /// In which search.
+    search: u32,
+}
+
 /// What a search knows of the cells.
 #[derive(Debug, Clone, Default)]
 struct Known {
-    /// Infinite where it was not.
-    costs: Vec<f64>,
-    /// By which cell it was reached; old where it was not.
-    parents: Vec<u32>,
-    /// The cells that it reached, and one place more.
-    reached: Vec<u32>,
-    count: usize,
+    /// Those of earlier searches count as unknown.
+    nodes: Vec<Node>,
+    search: u32,
 }
 
 impl Known {
     /// Forgets all but the start.
     fn begin(&mut self, nodes: usize, start: usize) {
-        for &cell in &self.reached[..self.count] {
-            self.costs[cell as usize] = f64::INFINITY;
+        let unknown = Node {
+            cost: f64::INFINITY,
+            parent: NONE,
+            search: 0,
+        };
+        if self.search == u32::MAX {
+            self.nodes.fill(unknown);
+            self.search = 0;
         }
-        self.count = 0;
-        if self.costs.len() < nodes {
-            self.costs.resize(nodes, f64::INFINITY);
-            self.parents.resize(nodes, NONE);
-            self.reached.resize(nodes + 1, NONE);
+        self.search += 1;
+        if self.nodes.len() < nodes {
+            self.nodes.resize(nodes, unknown);
         }
         self.reach(start, 0.0, NONE);
     }
 
     #[inline]
+    fn cost(&self, cell: usize) -> f64 {
+        let node = &self.nodes[cell];
+        if node.search == self.search {
+            node.cost
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    #[inline]
     fn reach(&mut self, cell: usize, cost: f64, parent: u32) {
-        // Whether it is a new one cannot be foretold: it is noted anyway, and counted where it is.
-        self.reached[self.count] = cell as u32;
-        self.count += usize::from(self.costs[cell].is_infinite());
-        self.costs[cell] = cost;
-        self.parents[cell] = parent;
+        self.nodes[cell] = Node {
+            cost,
+            parent,
+            search: self.search,
+        };
     }
 
     fn back_from(&self, end: usize) -> Vec<u32> {
         let mut cells = vec![end as u32];
-        let mut parent = self.parents[end];
+        let mut parent = self.nodes[end].parent;
         while parent != NONE {
             cells.push(parent);
-            parent = self.parents[parent as usize];
+            parent = self.nodes[parent as usize].parent;
         }
         cells.reverse();
         cells
