@@ -10,8 +10,9 @@ use crate::tread::Tread;
 use crate::view::{Shows, View};
 use crate::{Stair, StairsConfig};
 
-/// Places of a tread that must be seen to tell that it is not there.
-const LOOKED_AT: usize = 6;
+/// Places of a tread that must be seen to tell that it is not there, of five by five: more than a strip along each side, which shows what
+/// lies beside a tread that is taken for wider than it is, and may be all that is not too near to be seen.
+const LOOKED_AT: usize = 11;
 /// Share of them that must show something lower.
 const SEEN_THROUGH: f64 = 0.6;
 
