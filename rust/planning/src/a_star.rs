@@ -7,6 +7,7 @@ use stairs::{ClimbingConfig, Feet, Staircase};
 use crate::beyond::Beyond;
 use crate::goal_level::GoalLevel;
 use crate::keep::Kept;
+use crate::landing::Landing;
 use crate::levels::{Limits, Stand};
 use crate::plan::place_of;
 use crate::portals::{Portals, Scene};
@@ -28,6 +29,7 @@ pub struct AStar {
     pub(crate) search: Search,
     pub(crate) seek: Seek,
     pub(crate) goal_level: GoalLevel,
+    landing: Landing,
     pub(crate) beyond: Beyond,
     pub(crate) kept: Option<Kept>,
 }
@@ -68,6 +70,7 @@ impl AStar {
             search: Search::default(),
             seek: Seek::default(),
             goal_level: GoalLevel::default(),
+            landing: Landing::default(),
             beyond: Beyond::default(),
             kept: None,
         })
@@ -147,6 +150,8 @@ impl Planner for AStar {
 impl AStar {
     /// Reads the view and the stairs.
     fn look(&mut self, view: &FloorView, stairs: &Staircase, stand: Stand, goal: &Goal) {
+        let levels = (stand.height_m, goal);
+        let stairs = (self.landing).read(stairs, view, levels, self.config.step_sightings);
         self.terrain
             .read(view, stairs, &stand, goal.height_m, &self.config);
         let scene = Scene {

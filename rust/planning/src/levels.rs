@@ -3,6 +3,7 @@
 use mapping::{FloorView, Surface};
 
 use crate::AStarConfig;
+use crate::rims::Rims;
 use crate::slopes::Slopes;
 use crate::treads::Treads;
 
@@ -49,6 +50,7 @@ pub(crate) struct Levels {
     /// Whether there is any edge.
     pub(crate) any: bool,
     gaps: Vec<(usize, f32)>,
+    rims: Rims,
     pub(crate) slopes: Slopes,
 }
 
@@ -85,7 +87,11 @@ impl Levels {
         self.open.clear();
         self.open.resize(self.height_m.len(), false);
         let cols = view.cells.cols();
-        self.mark_rims(cols, treads, stand.height_m, limits.floor_m);
+        let seen = (self.height_m.as_slice(), cols);
+        for index in (self.rims).read(seen, treads, stand.height_m, limits.floor_m) {
+            self.edge[index] = true;
+            self.any = true;
+        }
         self.mark_differences(cols, limits);
         self.mark_shadows(cols, limits);
         for index in self.slopes.too_steep() {
@@ -118,27 +124,6 @@ impl Levels {
         }
         for &(index, height) in &self.gaps {
             self.height_m[index] = height;
-        }
-    }
-
-    /// The cells of a stair on another level beside what was not seen: it is stepped on over its edges only.
-    fn mark_rims(&mut self, cols: usize, treads: &Treads, height_m: f64, max_step: f64) {
-        for index in treads.cells() {
-            let (col, len) = (index % cols, self.height_m.len());
-            let beside = [
-                (col > 0, index.wrapping_sub(1)),
-                (col + 1 < cols, index + 1),
-                (true, index.wrapping_sub(cols)),
-                (true, index + cols),
-            ];
-            if (f64::from(self.height_m[index]) - height_m).abs() <= max_step {
-                continue;
-            }
-            let unseen = |next: usize| next < len && self.height_m[next].is_nan();
-            if beside.iter().any(|&(inside, next)| inside && unseen(next)) {
-                self.edge[index] = true;
-                self.any = true;
-            }
         }
     }
 

@@ -74,7 +74,7 @@ impl<'a> Ends<'a> {
             (Some(height), Some(level)) => (level - height).abs() <= LEVEL_M,
             _ => true,
         };
-        let blind = if self.terrain.unknown[index] {
+        let blind = if self.is_blind(index) {
             self.blind
         } else {
             0.0
@@ -101,12 +101,8 @@ impl<'a> Ends<'a> {
 
     /// Whether ending in a cell is but a hope: the goal's level was not seen there.
     pub(crate) fn is_blind(&self, index: usize) -> bool {
-        self.blind > 0.0
-            && self
-                .terrain
-                .unknown
-                .get(index)
-                .is_some_and(|&unknown| unknown)
+        let seen = |index| self.terrain.level_m(index).is_some();
+        self.blind > 0.0 && index < self.terrain.weights.len() && !seen(index)
     }
 
     /// The least that a way from a node on costs: octile distance to the goal's middle, in cells; 0 at the end of a climb.

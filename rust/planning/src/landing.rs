@@ -1,0 +1,91 @@
+//! A landing of which a part was seen: it is taken to go on to the goal on it, as far as nothing that was seen speaks against that.
+//!
+//! While the robot looks at the steps, the far end of a landing is out of view. Without this, unseen ground that is walked to beside the
+//! stairs would be as good a place to end as unseen ground behind their last step.
+
+use geometry::{Map, Point};
+use mapping::{FloorView, Surface};
+use stairs::{Edge, Stair, Staircase};
+
+use crate::Goal;
+use crate::line::Line;
+use crate::room::SAME_M;
+use crate::route::LEVEL_M;
+
+/// No landing is taken to go on further than this, m.
+const FARTHEST_M: f64 = 1.5;
+
+/// The stairs with such a landing. Reused.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Landing {
+    stairs: Staircase,
+}
+
+impl Landing {
+    /// The stairs for a robot at `robot_m`; cells that were seen in fewer than `sightings` frames say nothing.
+    pub(crate) fn read(
+        &mut self,
+        stairs: &Staircase,
+        view: &FloorView,
+        (robot_m, goal): (f64, &Goal),
+        sightings: u16,
+    ) -> &Staircase {
+        self.stairs.clone_from(stairs);
+        let same = |a_m: f64, b_m: f64| (a_m - b_m).abs() <= LEVEL_M;
+        let Some(goal_m) = goal.height_m.filter(|&goal_m| !same(goal_m, robot_m)) else {
+            return &self.stairs;
+        };
+        for stair in &mut self.stairs.stairs {
+            if same(stair.height_m(), goal_m)
+                && let Some(missing_m) = missing_m(stair, goal)
+                && goes_on(stair, missing_m, view, sightings)
+            {
+                lengthen(stair, missing_m);
+            }
+        }
+        &self.stairs
+    }
+}
+
+/// How much deeper a stair would be if the goal's disc were on it, m, where it lies straight behind.
+fn missing_m(stair: &Stair<Map>, goal: &Goal) -> Option<f64> {
+    let (front, at_m) = (Line::of(&stair.front), [goal.x_m, goal.y_m]);
+    let straight = front.offset_m(at_m).abs() <= front.half_m();
+    let missing_m = Line::of(&stair.back).beyond_m(at_m) + goal.radius_m;
+    let wanted = straight && front.beyond_m(at_m) > 0.0 && stair.back_fit.is_none();
+    (wanted && (0.0..=FARTHEST_M).contains(&missing_m)).then_some(missing_m)
+}
+
+/// Whether no floor of another level was seen where it would go on.
+fn goes_on(stair: &Stair<Map>, missing_m: f64, view: &FloorView, sightings: u16) -> bool {
+    let (back, cell_m) = (Line::of(&stair.back), view.lattice.cell_m);
+    // Beside its edges a tread's cells may have either height.
+    let half_m = (back.half_m() - cell_m).max(0.0);
+    let (rows, cols) = (missing_m / cell_m, 2.0 * half_m / cell_m);
+    let level = |at_m: [f64; 2]| {
+        let cell = view.lattice.cell_at(at_m[0], at_m[1]);
+        let index = view.cells.index(cell)?;
+        match view.cells.values()[index] {
+            Surface::Floor(height_m) if view.sightings.values()[index] >= sightings => {
+                Some(f64::from(height_m))
+            }
+            _ => None,
+        }
+    };
+    (1..=rows as usize).all(|row| {
+        (0..=cols as usize).all(|col| {
+            let at_m = back.at(col as f64 * cell_m - half_m, row as f64 * cell_m);
+            level(at_m).is_none_or(|level_m| (level_m - stair.height_m()).abs() <= SAME_M)
+        })
+    })
+}
+
+fn lengthen(stair: &mut Stair<Map>, by_m: f64) {
+    let (sin, cos) = stair.back.heading_rad().sin_cos();
+    let moved =
+        |p: &Point<Map>| Point::new(p.inner.x + by_m * cos, p.inner.y + by_m * sin, p.inner.z);
+    stair.back = Edge {
+        left: moved(&stair.back.left),
+        right: moved(&stair.back.right),
+    };
+}
