@@ -122,7 +122,7 @@ mod tests {
         }
         let view = view(places[places.len() - 1] - 2.0, surface);
         let mut treads = Treads::default();
-        treads.read(&view, &Staircase::default());
+        treads.read(&view, &Staircase::default(), 0.05);
         let (mut blocked, mut unknown) = (vec![true; 800], vec![false; 800]);
         let stand = Stand {
             at_m: [0.0; 2],

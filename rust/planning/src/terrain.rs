@@ -95,7 +95,7 @@ impl Terrain {
     ) {
         self.lattice = view.lattice;
         (self.cols, self.rows) = (view.cells.cols(), view.cells.rows());
-        self.treads.read(view, stairs);
+        self.treads.read(view, stairs, self.needs.limits.step_m);
         let (blocked, unknown) = (&mut self.blocked, &mut self.unknown);
         self.treads.read_surfaces(view, blocked, unknown);
         let floor_m = self.needs.limits.floor_m;
@@ -137,12 +137,13 @@ impl Terrain {
         }
     }
 
-    /// What ends higher above the robot's feet than a step is an obstacle to its body, flat as its top may be.
+    /// What ends higher above the robot's feet than a step is an obstacle to its body, flat as its top may be, unless it is part of a
+    /// staircase.
     fn block_tall(&mut self, stand: &Stand) {
         let highest_m = stand.height_m + self.needs.limits.step_m;
         for (index, &edge) in self.levels.edge.iter().enumerate() {
             let tall = f64::from(self.levels.height_m[index]) > highest_m;
-            if edge && tall && !self.treads.is_near(index) {
+            if edge && tall && !self.treads.is_near_climbable(index) {
                 self.blocked[index] = true;
             }
         }

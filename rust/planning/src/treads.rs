@@ -7,6 +7,9 @@ use stairs::{Stair, Staircase};
 /// An obstacle on a stair is higher than it by more than this, m: a riser that is taken for one is not.
 const OBSTACLE_M: f32 = 0.05;
 
+/// Stairs this near to each other may be steps of one staircase, m.
+const NEXT_M: f64 = 0.15;
+
 /// The cells of all stairs. Reused.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Treads {
@@ -14,27 +17,41 @@ pub(crate) struct Treads {
     height_m: Vec<f32>,
     /// Height of the highest stair within a cell of it, m.
     near_m: Vec<f32>,
+    /// Whether a cell lies within a cell of a stair that nothing known is a step up to: the top of a box, as far as can be told.
+    apart: Vec<bool>,
     any: bool,
 }
 
 impl Treads {
-    /// Finds the cells of each stair.
-    pub(crate) fn read(&mut self, view: &FloorView, stairs: &Staircase) {
+    /// Finds the cells of each stair; `step_m`: what can be climbed in one step.
+    pub(crate) fn read(&mut self, view: &FloorView, stairs: &Staircase, step_m: f64) {
         let (cols, rows) = (view.cells.cols(), view.cells.rows());
         self.any = !stairs.stairs.is_empty();
         self.height_m.clear();
         self.near_m.clear();
+        self.apart.clear();
         if !self.any {
             return;
         }
         self.height_m.resize(cols * rows, f32::NAN);
         self.near_m.resize(cols * rows, f32::NEG_INFINITY);
+        self.apart.resize(cols * rows, false);
         for stair in &stairs.stairs {
-            self.add(stair, &view.lattice, cols, rows);
+            let apart = !stairs
+                .stairs
+                .iter()
+                .any(|other| leads_to(other, stair, step_m));
+            self.add((stair, apart), &view.lattice, cols, rows);
         }
     }
 
-    fn add(&mut self, stair: &Stair<Map>, lattice: &Lattice, cols: usize, rows: usize) {
+    fn add(
+        &mut self,
+        (stair, apart): (&Stair<Map>, bool),
+        lattice: &Lattice,
+        cols: usize,
+        rows: usize,
+    ) {
         let outline = Outline::of(stair);
         let (min, max) = outline.bounds_m();
         let low = lattice.cell_at(min[0] - lattice.cell_m, min[1] - lattice.cell_m);
@@ -45,6 +62,10 @@ impl Treads {
                 let outside_m = outline.outside_m(lattice.center_of(Cell::new(col, row)));
                 let index = row as usize * cols + col as usize;
                 if outside_m <= lattice.cell_m {
+                    // Of two, the higher one says what the cell is.
+                    if height > self.near_m[index] {
+                        self.apart[index] = apart;
+                    }
                     self.near_m[index] = self.near_m[index].max(height);
                 }
                 // Where two overlap, the higher one hides the other.
@@ -68,6 +89,11 @@ impl Treads {
     /// Whether a cell lies in a stair's outline or within a cell of it.
     pub(crate) fn is_near(&self, index: usize) -> bool {
         self.any && self.near_m[index] > f32::NEG_INFINITY
+    }
+
+    /// Whether a cell lies near to a stair that something known may lead to.
+    pub(crate) fn is_near_climbable(&self, index: usize) -> bool {
+        self.is_near(index) && !self.apart[index]
     }
 
     /// The cells of stairs.
@@ -107,6 +133,18 @@ impl Treads {
             unknown.push(riser && !self.covers(index));
         }
     }
+}
+
+/// Whether a stair is a step up to another one: near to it, and lower by no more than can be climbed.
+fn leads_to(from: &Stair<Map>, to: &Stair<Map>, step_m: f64) -> bool {
+    let rise_m = to.height_m() - from.height_m();
+    let [a, b] = [from, to].map(Outline::of);
+    let corner_near = |a: &Outline, b: &Outline| {
+        b.corners_m
+            .iter()
+            .any(|&corner| a.outside_m(corner) <= NEXT_M)
+    };
+    rise_m > 0.0 && rise_m <= step_m && (corner_near(&a, &b) || corner_near(&b, &a))
 }
 
 /// A stair seen from above.

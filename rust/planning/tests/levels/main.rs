@@ -7,4 +7,5 @@ mod climbs;
 mod course;
 mod goals;
 mod ground;
+mod landings;
 mod slopes;
