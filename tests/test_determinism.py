@@ -11,6 +11,8 @@ import pytest
 
 import treadwell
 
+pytestmark = pytest.mark.slow
+
 SCENARIO, SEED, LIMIT = "slalom", 6, "time_limit=16"
 TIMED = {"wall_seconds", "real_time_factor", "physics_real_time_factor", "timing_ms"}
 

@@ -18,7 +18,7 @@ PAGES = sorted((ROOT / "docs" / "how_to").glob("*.md"))
 MOST_LINES = 120
 """Two screens."""
 STATUS = "__status__"
-pytestmark = pytest.mark.timeout(600)
+pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
 
 
 def blocks(text: str) -> Iterator[tuple[str, list[str]]]:

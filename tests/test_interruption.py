@@ -19,6 +19,8 @@ from treadwell.interruption import Interruption
 from treadwell.recording.observation_log import read_observations
 from treadwell.recording.verification import verify_run
 
+pytestmark = pytest.mark.slow
+
 LONG = ("run", "slalom", "--seed", "1", "--set", "time_limit=60")
 
 

@@ -14,7 +14,7 @@ from treadwell.own_core import MODULE, OwnCore
 
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLE = ROOT / "examples" / "own_planner"
-pytestmark = pytest.mark.timeout(900)
+pytestmark = [pytest.mark.slow, pytest.mark.timeout(900)]
 
 
 def cargo(*words: str, folder: Path) -> None:

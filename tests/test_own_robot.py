@@ -21,10 +21,13 @@ from treadwell.robot_trial import walk_a_metre
 DATA = Path(os.environ.get("TREADWELL_DATA", "")) / "robot_op3"
 TOLD = Path(__file__).parent / "data" / "op3" / "robot.toml"
 
-pytestmark = pytest.mark.skipif(
-    not os.environ.get("TREADWELL_DATA") or not (DATA / "op3_novis.xml").is_file(),
-    reason="TREADWELL_DATA does not say where robot_op3 is",
-)
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(
+        not os.environ.get("TREADWELL_DATA") or not (DATA / "op3_novis.xml").is_file(),
+        reason="TREADWELL_DATA does not say where robot_op3 is",
+    ),
+]
 
 
 def model_folder(folder: Path) -> Path:

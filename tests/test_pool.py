@@ -5,12 +5,15 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
+from multiprocessing.connection import wait
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from treadwell.errors import InputError
+from treadwell.workers import pool as pool_module
 from treadwell.workers.answers import Answer, Died, Done, Raised
 from treadwell.workers.child import one_line
 from treadwell.workers.pool import Limits, Pool
@@ -77,6 +80,56 @@ def test_work_that_dies_hangs_or_raises_takes_nothing_along() -> None:
     assert found["sleep"] == Died("took longer than 1 s", timed_out=True)
     assert found["raise"] == Raised("ValueError: no way")
     assert isinstance(found["function"], Raised)
+
+
+def found_together(monkeypatch: pytest.MonkeyPatch, ended: Callable[[list[Any]], None]) -> None:
+    """Let the pool look at its workers for the first time when `ended` returns."""
+    first = iter([True])
+
+    def wait_(watched: list[Any], patience: float) -> list[Any]:
+        if next(first, False):
+            ended(watched)
+        return list(wait(watched, patience))
+
+    monkeypatch.setattr(pool_module, "wait", wait_)
+
+
+def test_workers_that_die_in_the_same_moment_are_both_replaced(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def died(watched: list[Any]) -> None:
+        for sentinel in watched[1::2]:
+            wait([sentinel])
+
+    found_together(monkeypatch, died)
+    with Pool(work, 2) as pool:
+        for item in (("exit", 1), ("exit", 2), ("return", 3), ("return", 4)):
+            pool.submit(item)
+        found = {value: answer for (_, value), answer in pool.answers()}
+    assert found == {
+        1: Died("its process ended with status 1"),
+        2: Died("its process ended with status 2"),
+        3: Done(3),
+        4: Done(4),
+    }
+
+
+def test_a_worker_that_did_something_fresh_is_given_nothing_more_when_another_ends_with_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def answered(watched: list[Any]) -> None:
+        for connection in watched[::2]:
+            wait([connection])
+        time.sleep(1.0)  # they say first that they have begun
+
+    found_together(monkeypatch, answered)
+    with Pool(work, 2) as pool:
+        for value in (1, 2):
+            pool.submit(("return", value), fresh=True)
+        for value in (3, 4):
+            pool.submit(("return", value), Limits(seconds=20.0))
+        found = {value: answer for (_, value), answer in pool.answers()}
+    assert found == {value: Done(value) for value in (1, 2, 3, 4)}
 
 
 def test_an_error_of_treadwells_comes_back_as_it_is() -> None:

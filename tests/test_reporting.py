@@ -24,6 +24,8 @@ from treadwell.reporting import images, page, sections, strip
 from treadwell.reporting.report import report
 from treadwell.reporting.run_data import KNOWN, pose_errors, read_run
 
+pytestmark = pytest.mark.slow
+
 HOSTILE = "</p><script>alert('1')</script><img src=http://evil.example/x.png onerror=alert(2)>"
 
 

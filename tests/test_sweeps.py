@@ -22,6 +22,8 @@ from treadwell.sweeps.engine import local_engine
 from treadwell.sweeps.request import Request, crossed
 from treadwell.sweeps.row import COLUMNS, TIMED, Row, digest, row_of
 
+pytestmark = pytest.mark.slow
+
 HERE = Path(__file__).parent
 CLOCK = {"wall_seconds", "core_ms", "folder", "reproduced"}
 
