@@ -48,7 +48,7 @@ fn ours(search: &mut Search, weights: &[f32]) -> Option<f64> {
     let index = |[col, row]: [usize; 2]| row * SIDE + col;
     let goal = index(GOAL);
     let away = |cell: usize| {
-        let off = |at: usize, goal: usize| at as f64 - goal as f64;
+        let off = |at: usize, goal: usize| f64::from(at as i32 - goal as i32);
         octile(off(cell % SIDE, GOAL[0]), off(cell / SIDE, GOAL[1]))
     };
     let ending = |cell: usize| (cell == goal).then_some(0.0);

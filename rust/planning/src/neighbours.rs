@@ -1,13 +1,22 @@
 //! Steps from a cell to its eight neighbours.
 
-use std::f64::consts::SQRT_2;
+use std::f64::consts::FRAC_1_SQRT_2;
 
 use wide::f32x4;
 
 use crate::steps::{Block, EASTERN, MIDDLE, Steps, Trail, WESTERN};
 
-/// How long the eight steps are, cells.
-const LENGTHS: [f64; 8] = [1.0, 1.0, 1.0, 1.0, SQRT_2, SQRT_2, SQRT_2, SQRT_2];
+/// Half of how long the eight steps are, cells: what each of their two cells has of it.
+const HALF_LENGTHS: [f64; 8] = [
+    0.5,
+    0.5,
+    0.5,
+    0.5,
+    FRAC_1_SQRT_2,
+    FRAC_1_SQRT_2,
+    FRAC_1_SQRT_2,
+    FRAC_1_SQRT_2,
+];
 
 /// The cells of a grid, row by row, with what a length costs there: infinite where it may not be entered.
 #[derive(Debug, Clone, Copy)]
@@ -91,8 +100,8 @@ impl<'a> Cells<'a> {
         f32x4::new(std::array::from_fn(|lane| at(first.wrapping_add(lane))))
     }
 
-    /// Calls `visit` with every free neighbour of a cell, the length of the step and its trail; but for those that another way reaches for
-    /// less.
+    /// Calls `visit` with every free neighbour of a cell, half the length of the step and its trail; but for those that another way
+    /// reaches for less.
     #[inline]
     pub(crate) fn for_each_neighbour(
         &self,
@@ -101,7 +110,7 @@ impl<'a> Cells<'a> {
     ) {
         let (free, alike) = self.about(cell);
         for (at, trail) in Steps::from(free, alike, trail) {
-            visit(cell.wrapping_add(self.offsets[at]), LENGTHS[at], trail);
+            visit(cell.wrapping_add(self.offsets[at]), HALF_LENGTHS[at], trail);
         }
     }
 }
@@ -124,8 +133,8 @@ mod tests {
         costs[start] = 0.0;
         let mut queue = VecDeque::from([start]);
         while let Some(cell) = queue.pop_front() {
-            cells.for_each_neighbour((cell, ANYWHERE), |next, length, _| {
-                let through = costs[cell] + length * 0.5 * f64::from(weights[cell] + weights[next]);
+            cells.for_each_neighbour((cell, ANYWHERE), |next, half_length, _| {
+                let through = costs[cell] + half_length * f64::from(weights[cell] + weights[next]);
                 if through < costs[next] - 1e-9 {
                     costs[next] = through;
                     queue.push_back(next);
@@ -155,8 +164,8 @@ mod tests {
             while let Some((cell, trail)) = queue.pop() {
                 let mut ahead = vec![];
                 cells.for_each_neighbour((cell, trail), |next, _, trail| ahead.push((next, trail)));
-                cells.for_each_neighbour((cell, ANYWHERE), |next, length, _| {
-                    let through = costs[cell] + length * 0.5 * f64::from(weights[cell] + weights[next]);
+                cells.for_each_neighbour((cell, ANYWHERE), |next, half_length, _| {
+                    let through = costs[cell] + half_length * f64::from(weights[cell] + weights[next]);
                     match ahead.iter().find(|on| on.0 == next) {
                         Some(&on) if through < costs[next] + 1e-9 && seen.insert(on) => queue.push(on),
                         Some(_) => {}
@@ -171,18 +180,18 @@ mod tests {
             weights in prop::collection::vec(prop_oneof![4 => 1.0..9.0f32, 1 => Just(f32::INFINITY)], COLS * 4),
             before in 0..COLS * 4,
         ) {
-            let cost = |from: usize, to: usize, length: f64| length * 0.5 * f64::from(weights[from] + weights[to]);
+            let cost = |from: usize, to: usize, half_length: f64| half_length * f64::from(weights[from] + weights[to]);
             prop_assume!(weights[before].is_finite());
             let cells = Cells::new(&weights, COLS);
             let mut from_before = vec![];
-            cells.for_each_neighbour((before, ANYWHERE), |next, length, heading| from_before.push((next, length, heading)));
-            for &(cell, length, heading) in &from_before {
+            cells.for_each_neighbour((before, ANYWHERE), |next, half_length, heading| from_before.push((next, half_length, heading)));
+            for &(cell, half_length, heading) in &from_before {
                 let (mut ahead, mut all) = (vec![], vec![]);
                 cells.for_each_neighbour((cell, heading), |next, _, _| ahead.push(next));
-                cells.for_each_neighbour((cell, ANYWHERE), |next, length, _| all.push((next, length)));
+                cells.for_each_neighbour((cell, ANYWHERE), |next, half_length, _| all.push((next, half_length)));
                 for (next, on) in all.into_iter().filter(|(next, _)| !ahead.contains(next) && *next != before) {
                     let straight = from_before.iter().find(|step| step.0 == next).unwrap();
-                    let by_cell = cost(before, cell, length) + cost(cell, next, on);
+                    let by_cell = cost(before, cell, half_length) + cost(cell, next, on);
                     prop_assert!(cost(before, next, straight.1) < by_cell);
                 }
             }

@@ -17,11 +17,13 @@ pub(crate) struct Entry {
 /// Entries by estimate; within a bucket the last one first. Reused.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Queue {
+    /// Bucket `now`, whose entries are taken: kept apart, as most of what is taken came in just before.
+    taken: Vec<Entry>,
+    /// The others; `now` and all before are empty.
     buckets: Vec<Vec<Entry>>,
-    /// All before are empty.
     now: usize,
-    /// The last one that came into this bucket: what is taken next is mostly what came last, and need not go through memory.
-    held: Option<Entry>,
+    /// The first bucket that holds nothing of use.
+    end: usize,
 }
 
 impl Queue {
@@ -31,38 +33,39 @@ impl Queue {
             left.clear();
         }
         self.now = bucket_of(estimate);
-        self.held = Some(entry);
+        self.end = usize::MAX;
+        self.taken.clear();
+        self.taken.push(entry);
+    }
+
+    /// Nothing estimated at this and more is taken from now on.
+    pub(crate) fn end_at(&mut self, enough: f64) {
+        self.end = (enough / WIDTH).ceil() as usize;
     }
 
     #[inline]
     pub(crate) fn push(&mut self, estimate: f64, entry: Entry) {
         // Rounding must not put it where the search has passed.
-        let bucket = bucket_of(estimate).max(self.now);
-        let entry = if bucket == self.now {
-            let Some(before) = self.held.replace(entry) else {
-                return;
-            };
-            before
-        } else {
-            entry
-        };
+        let bucket = bucket_of(estimate);
+        if bucket <= self.now {
+            self.taken.push(entry);
+            return;
+        }
         if bucket >= self.buckets.len() {
             self.more_buckets(bucket + 1);
         }
         self.buckets[bucket].push(entry);
     }
 
-    /// Takes the next entry, unless all that are left are estimated at `enough` and more.
+    /// Takes the next entry, unless what is left is estimated too high.
     #[inline]
-    pub(crate) fn pop(&mut self, enough: f64) -> Option<Entry> {
-        while (self.now as f64) * WIDTH < enough {
-            if let Some(entry) = self.held.take() {
-                return Some(entry);
-            }
-            if let Some(entry) = self.buckets.get_mut(self.now)?.pop() {
+    pub(crate) fn pop(&mut self) -> Option<Entry> {
+        while self.now < self.end {
+            if let Some(entry) = self.taken.pop() {
                 return Some(entry);
             }
             self.now += 1;
+            std::mem::swap(&mut self.taken, self.buckets.get_mut(self.now)?);
         }
         None
     }

@@ -97,7 +97,7 @@ impl Search {
         };
         queue.begin(heuristic(start), first);
         let (mut best, mut last) = (f64::INFINITY, None);
-        while let Some(Entry { cost, cell, trail }) = queue.pop(best) {
+        while let Some(Entry { cost, cell, trail }) = queue.pop() {
             let here = cell as usize;
             if cost > known.cost(here) || last.is_some() && cost + heuristic(here) >= best {
                 continue; // reached more cheaply since, or no use
@@ -107,6 +107,7 @@ impl Search {
                 && cost + end < best
             {
                 (best, last) = (cost + end, Some(here));
+                queue.end_at(best);
             }
             if here >= weights.len() {
                 continue; // no cell: nothing leads on
@@ -119,8 +120,8 @@ impl Search {
                 }
             };
             let weight = cells.weight_to_leave(here);
-            cells.for_each_neighbour((here, trail), |next, length, trail| {
-                let step = length * 0.5 * f64::from(weight + weights[next]);
+            cells.for_each_neighbour((here, trail), |next, half_length, trail| {
+                let step = half_length * f64::from(weight + weights[next]);
                 reach(next, cost + step, trail);
             });
             for (index, link) in links.into_iter().flat_map(|links| links.from(here)) {
@@ -177,11 +178,9 @@ impl Known {
     #[inline]
     fn cost(&self, cell: usize) -> f64 {
         let node = &self.nodes[cell];
-        if node.search == self.search {
-            node.cost
-        } else {
-            f64::INFINITY
-        }
+        // No branch of its own: it would be as hard to guess as the comparison that follows.
+        let known = node.search == self.search;
+        std::hint::select_unpredictable(known, node.cost, f64::INFINITY)
     }
 
     #[inline]

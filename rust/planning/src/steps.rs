@@ -42,7 +42,9 @@ static NEXT: [[Trail; 16]; TRAILS] = next();
 /// Steps that lead on from the middle of a block.
 #[derive(Debug)]
 pub(crate) struct Steps {
-    left: Onward,
+    left: u32,
+    /// Three bits higher, which of them rule out a turn.
+    leans: u32,
     next: &'static [Trail; 16],
 }
 
@@ -50,8 +52,10 @@ impl Steps {
     #[inline]
     pub(crate) fn from(free: Block, alike: bool, trail: Trail) -> Self {
         let block = (free & !MIDDLE) | if alike { MIDDLE } else { 0 };
+        let onward = u32::from(ONWARD[usize::from(trail)][block]);
         Self {
-            left: ONWARD[usize::from(trail)][block],
+            left: onward & 0xff,
+            leans: onward >> 5,
             next: &NEXT[usize::from(trail)],
         }
     }
@@ -63,13 +67,13 @@ impl Iterator for Steps {
 
     #[inline]
     fn next(&mut self) -> Option<(usize, Trail)> {
-        if self.left.trailing_zeros() >= 8 {
+        if self.left == 0 {
             return None;
         }
-        let at = self.left.trailing_zeros() as usize;
-        let leans = usize::from(self.left >> at >> 5 & 0b1000);
+        let at = self.left.trailing_zeros() as usize % 8;
+        let leans = (self.leans >> at & 0b1000) as usize;
         self.left &= self.left - 1;
-        Some((at, self.next[(at % 8) | leans]))
+        Some((at, self.next[at | leans]))
     }
 }
 
