@@ -12,12 +12,13 @@ from treadwell.episode import Episode
 from treadwell.errors import RecordingError
 from treadwell.experiments import nao_cases as cases
 from treadwell.experiments.nao import NAO, nao_tables
+from treadwell.experiments.nao_filters import with_other_draws
 from treadwell.experiments.nao_localization import binned, found_after, in_hallway
 from treadwell.experiments.nao_maps import local_map
 from treadwell.experiments.nao_pictures import draw_errors, nao_pictures
 from treadwell.judging.result import CollisionEntry, MapCounts
 from treadwell.judging.visitor_watch import Avoidance
-from treadwell.judging.walk_watch import Unmapped, Walk
+from treadwell.judging.walk_watch import Unmapped, Walk, WalkWatch
 from treadwell.runner import Run, run_episode
 from treadwell.scenario.loading import load_scenario
 
@@ -55,8 +56,21 @@ def test_the_rise_in_the_hallway_is_that_of_the_frames_in_it() -> None:
     assert not in_hallway(first).any()
     assert in_hallway(second).all()
     runs = {cases.walked(1, "octree"): watched(first, first), cases.filtered(1): watched(second)}
-    row = rows_of(nao_tables, runs, "Error in the hallway")["ours, 2 runs"]
+    row = rows_of(nao_tables, runs, "Error in the hallway")["ours, 2 filters"]
     assert row == ("30", "10", "+20", "20 to 20", "10")
+
+
+def test_other_filters_see_the_data_of_one_walk(tmp_path: Path) -> None:
+    overrides = ("navigation.world_model=octree", "time_limit=14.0")
+    episode = Episode("nao_1", seed=0, overrides=overrides)
+    done = run_episode(episode, out=tmp_path / "run", watch=WalkWatch)
+    same = with_other_draws(done, 0)
+    np.testing.assert_allclose(same.findings.believed, done.findings.believed, atol=1e-8)
+    (tmp_path / "run-replayed").rename(tmp_path / "run-replayed-0")
+    other = with_other_draws(done, 7)
+    assert np.abs(other.findings.believed - done.findings.believed).max() > 1e-6
+    np.testing.assert_array_equal(other.findings.true, done.findings.true)
+    np.testing.assert_array_equal(other.findings.odometry, done.findings.odometry)
 
 
 def test_bins_have_the_mean_of_their_frames_over_all_runs() -> None:

@@ -149,10 +149,11 @@ def _job(case: Case, seed: int, folder: Path) -> Job:
 
 
 def _done(job: Job, progress: Progress | None = None) -> Run:
-    episode = Episode(job.scenario, seed=job.seed, overrides=job.case.overrides)
-    return run_episode(
-        episode, out=job.folder, record=False, progress=progress, watch=job.case.watch
-    )
+    case = job.case
+    episode = Episode(job.scenario, seed=job.seed, overrides=case.overrides)
+    record = case.afterwards is not None
+    done = run_episode(episode, out=job.folder, record=record, progress=progress, watch=case.watch)
+    return done if case.afterwards is None else case.afterwards(done)
 
 
 def _one_by_one(jobs: Sequence[Job], progress: Callable[[str], Progress]) -> Iterator[Run]:

@@ -29,6 +29,7 @@ class Case:
         overrides: settings `KEY=VALUE`, as `--set` takes them.
         share: of the seeds asked for; 5 runs five times as many, 0.5 every second one.
         watch: what looks at each camera frame of its runs.
+        afterwards: makes another run of one that was recorded for it; it can be pickled.
     """
 
     name: str
@@ -36,6 +37,7 @@ class Case:
     overrides: tuple[str, ...] = ()
     share: float = 1.0
     watch: type[Watch] | None = None
+    afterwards: Callable[[Run], Run] | None = None
 
     def seeds(self, asked: range) -> range:
         """Return the seeds to run where these are asked for; at least one."""

@@ -1,16 +1,18 @@
 """What the experiment `nao` runs: a NAO with a map of a house on two levels (Maier 2012)."""
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Final
 
 from treadwell.experiments.experiment import NOTHING, Case
+from treadwell.experiments.nao_filters import with_other_draws
 from treadwell.judging.visitor_watch import VisitorWatch
 from treadwell.judging.walk_watch import WalkWatch
 
 WORLD_MODELS: Final = ("octree", "fog")
 """The paper's map and the one of Gutmann 2005; both on the same scenarios."""
 FILTERS: Final = 5
-"""Runs of one walk, each with random numbers of its own in the filter."""
+"""Filters over one walk, each with random numbers of its own."""
 ROBOTS: Final = ("nao", "qrio")
 
 
@@ -44,7 +46,7 @@ def walked(number: int, model: str) -> str:
 
 
 def filtered(draw: int) -> str:
-    """Return the name of the case of scenario 1 with other random numbers in the filter."""
+    """Return the name of the case of scenario 1 as seen by a filter with other random numbers."""
     return f"nao_1_filter_{draw}"
 
 
@@ -57,10 +59,15 @@ def _walk(number: int, model: str) -> Case:
 
 
 def _filter(draw: int) -> Case:
-    """Return a walk of the first seed alone; scenario 1 itself is the draw 0."""
-    setting = f"navigation.monte_carlo.seed={draw}"
-    name = filtered(draw)
-    return Case(name, "nao_1", (*_model("octree"), setting), share=0.0, watch=WalkWatch)
+    """Return the walk of the first seed alone; its own filter is the draw 0."""
+    return Case(
+        filtered(draw),
+        "nao_1",
+        _model("octree"),
+        share=0.0,
+        watch=WalkWatch,
+        afterwards=partial(with_other_draws, draw=draw),
+    )
 
 
 VISITOR: Final = "visitor_nao"

@@ -80,7 +80,7 @@ def _accuracy(runs: Sequence[Run], walks: Sequence[Walk]) -> tuple[str, ...]:
 
 
 def filter_walks(results: Results) -> list[Walk]:
-    """Return the walks of scenario 1 with the first seed, each with other draws in the filter."""
+    """Return the walk of scenario 1 with the first seed as each of the filters believed it."""
     names = [cases.walked(1, "octree"), *(cases.filtered(i) for i in range(1, cases.FILTERS))]
     walks = [run.findings for name in names for run in results.get(name, ())[:1]]
     return [walk for walk in walks if len(walk.times)]
@@ -119,17 +119,16 @@ def hallway(results: Results) -> Table:
         rows = (
             ("the paper", "100", "60", "+40", NOTHING, NOTHING),
             ("wanted", NOTHING, NOTHING, "at most +20", NOTHING, "at most 30"),
-            (f"ours, {len(walks)} runs", *ours, *spread),
+            (f"ours, {len(walks)} filters", *ours, *spread),
         )
     return Table(
         "Error in the hallway, mm (Fig. 5)",
-        ("", "in the hallway", "elsewhere", "rise", "bins of 10 s", "run to run, sd"),
+        ("", "in the hallway", "elsewhere", "rise", "bins of 10 s", "filter to filter, sd"),
         rows,
         (
-            "Scenario 1 of one seed, with other random numbers in the filter (`navigation."
-            "monte_carlo.seed`) in each run; course, friction and the senses' random numbers "
-            "are the same. The robot walks by what each filter believes, so that the data part "
-            "once the beliefs do: the paper ran its filters over one set of data.",
+            "Filters over the same data: scenario 1 of one seed, recorded as the robot walked by "
+            "the first of them; the others replay it with other random numbers "
+            "(`navigation.monte_carlo.seed`), as the paper did.",
         ),
     )
 
