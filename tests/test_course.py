@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from treadwell.course.assets import read_mjcf
 from treadwell.course.build import Course, build_course
 from treadwell.course.geometry import COLOURS, GROUND, PARKED
-from treadwell.course.outlines import clipped, convex_outline, rectangle, signed_distance
+from treadwell.course.outlines import rectangle, signed_distance
 from treadwell.course.plan import all_elements
 from treadwell.course.scatter import LOWEST, Ground
 from treadwell.course.stairs import stairs_pieces, treads_of
@@ -370,23 +370,3 @@ def test_entities_are_refused_before_they_grow(tmp_path: Path) -> None:
     path.write_text('<!DOCTYPE a [<!ENTITY b "c">]><mujoco>&b;</mujoco>')
     with pytest.raises(InputError, match="DOCTYPE"):
         check_xml(path, tmp_path, "room")
-
-
-POINTS = st.lists(st.tuples(st.floats(-5, 5), st.floats(-5, 5)), min_size=3, max_size=12)
-
-
-@given(points=POINTS)
-def test_an_outline_contains_every_point_it_is_made_of(points: list[tuple[float, float]]) -> None:
-    array = np.array(points)
-    outline = convex_outline(array)
-    if len(outline) >= 3:
-        assert (signed_distance(outline, array) < 1e-6).all()
-
-
-@given(angle=st.floats(-3, 3), offset=st.floats(-0.9, 0.9))
-def test_what_is_clipped_lies_behind_the_line(angle: float, offset: float) -> None:
-    square = rectangle((0.0, 0.0), 0.0, (-1.0, 1.0), 2.0)
-    normal = np.array([math.cos(angle), math.sin(angle)])
-    kept = clipped(square, normal * offset, normal)
-    assert ((kept - normal * offset) @ normal < 1e-9).all()
-    assert (signed_distance(square, kept) < 1e-9).all()

@@ -12,6 +12,7 @@ from treadwell.course.outlines import (
     convex_outline,
     heading,
     left_of,
+    near,
     rectangle,
     signed_distance,
 )
@@ -77,7 +78,10 @@ class Top:
 
     def contains(self, points: Floats) -> npt.NDArray[np.bool_]:
         """Say for each point (n, 2) whether it lies above or under this surface."""
-        return signed_distance(self.polygon[:, :2], points) <= 1e-9
+        outline, inside = self.polygon[:, :2], np.zeros(len(points), dtype=bool)
+        close = near(outline, points, 1e-9)
+        inside[close] = signed_distance(outline, points[close]) <= 1e-9
+        return inside
 
     def height_at(self, points: Floats) -> Floats:
         """Return the height of the surface's plane at the points (n, 2), metres."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from treadwell.course.outlines import Floats, convex_outline, signed_distance
+from treadwell.course.outlines import Floats, convex_outline, near, signed_distance
 from treadwell.course.pieces import Piece, simple_pieces
 from treadwell.errors import InputError
 from treadwell.random_streams import stream
@@ -195,7 +195,6 @@ class Ground:
     def _block(self, free: npt.NDArray[np.bool_], outlines: Sequence[Floats]) -> None:
         for outline in outlines:
             polygon = convex_outline(outline)
-            lower, upper = polygon.min(axis=0) - self._reach, polygon.max(axis=0) + self._reach
-            near = ((self._points >= lower) & (self._points <= upper)).all(axis=1)
-            close = signed_distance(polygon, self._points[near]) < self._reach
-            free.ravel()[np.flatnonzero(near)[close]] = False
+            close = near(polygon, self._points, self._reach)
+            taken = signed_distance(polygon, self._points[close]) < self._reach
+            free.ravel()[close[taken]] = False

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.course.build import Course, CourseElement
-from treadwell.course.outlines import signed_distance
+from treadwell.course.outlines import near, signed_distance
 from treadwell.course.pieces import Top
 from treadwell.judging.map_memory import FLOOR, OBSTACLE, RememberedMap
 from treadwell.judging.result import MapCounts, SurfaceEntry
@@ -69,11 +69,12 @@ def true_cells(
     elements = _present(course, places)
     for element, offset in elements:
         for top in element.tops:
-            points = centres - offset[:2]
-            distance = signed_distance(top.polygon[:, :2], points)
-            clear &= np.abs(distance) >= half_diagonal
-            level = top.height_at(points) + offset[2]
-            height = np.where((distance <= 0.0) & (level > height), level, height)
+            points, outline = centres - offset[:2], top.polygon[:, :2]
+            close = near(outline, points, half_diagonal)
+            distance = signed_distance(outline, points[close])
+            clear[close] &= np.abs(distance) >= half_diagonal
+            level = np.where(distance <= 0.0, top.height_at(points[close]) + offset[2], 0.0)
+            height[close] = np.maximum(level, height[close])
     obstacle = np.zeros((len(_CORNERS), len(centres)), dtype=bool)
     lid = np.full(len(centres), np.nan)
     for element, offset in elements:
@@ -84,18 +85,18 @@ def true_cells(
             bottom = float(piece.vertices[:, 2].min() + offset[2])
             top_z = float(piece.vertices[:, 2].max() + offset[2])
             # Cells farther off than one of their own are clear of it.
-            near = _near(centres - offset[:2], piece.outline, remembered.cell)
-            floor = height[near]
+            close = near(piece.outline, centres - offset[:2], remembered.cell)
+            floor = height[close]
             matters = (bottom < floor + headroom) & (top_z > floor + 1e-6)
             for inside, corner in zip(obstacle, _CORNERS, strict=True):
-                points = centres[near] + 0.5 * remembered.cell * np.array(corner) - offset[:2]
+                points = centres[close] + 0.5 * remembered.cell * np.array(corner) - offset[:2]
                 distance = signed_distance(piece.outline, points)
                 here = matters & (distance <= 0.0)
-                inside[near] |= here
+                inside[close] |= here
                 if corner == _CENTRE:
                     if has_lid:
-                        lid[near[here]] = np.fmax(lid[near[here]], top_z)
-                    clear[near] &= ~matters | (distance >= half_diagonal)
+                        lid[close[here]] = np.fmax(lid[close[here]], top_z)
+                    clear[close] &= ~matters | (distance >= half_diagonal)
     shape = remembered.kind.shape
     return TrueCells(
         floor=(clear & ~obstacle[0]).reshape(shape),
@@ -104,12 +105,6 @@ def true_cells(
         whole=np.all(obstacle, axis=0).reshape(shape),
         lid=lid.reshape(shape),
     )
-
-
-def _near(points: Floats, outline: Floats, margin: float) -> NDArray[np.intp]:
-    """Return which points (n, 2) lie in the box around an outline or within a margin of it, m."""
-    low, high = outline.min(axis=0) - margin, outline.max(axis=0) + margin
-    return np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))
 
 
 def map_counts(remembered: RememberedMap, truth: TrueCells) -> MapCounts:
@@ -189,16 +184,19 @@ def _interior(top: Top, centres: Floats, cell: float, usable: Bools) -> Bools:
     may be, those that lie on it whole: a cell at an edge may have the next surface's height.
     """
     polygon = top.polygon[:, :2]
-    inner: Bools = usable & (signed_distance(polygon, centres) <= -cell * np.sqrt(0.5))
-    if inner.any():
-        return inner
+    inside: Bools = np.zeros(len(centres), dtype=bool)
+    close = near(polygon, centres, 0.0)
+    close = close[usable[close]]
+    inside[close] = -signed_distance(polygon, centres[close]) >= cell * np.sqrt(0.5)
+    if inside.any():
+        return inside
     edges = np.roll(polygon, -1, axis=0) - polygon
     inward = np.column_stack([-edges[:, 1], edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
     # A square reaches so far from its centre towards each edge.
     reach = cell / 2 * np.abs(inward).sum(axis=1)
-    depth = ((centres[:, None, :] - polygon[None]) * inward[None]).sum(axis=-1)
-    whole: Bools = usable & (depth >= reach - 1e-9).all(axis=1)
-    return whole
+    depth = ((centres[close][:, None, :] - polygon[None]) * inward[None]).sum(axis=-1)
+    inside[close] = (depth >= reach - 1e-9).all(axis=1)
+    return inside
 
 
 def _covered(points: Floats, top: Top, offset: Floats, tops: Sequence[PlacedTop]) -> Bools:

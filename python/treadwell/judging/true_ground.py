@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from treadwell.course.build import Course, CourseElement
-from treadwell.course.outlines import Floats, signed_distance
+from treadwell.course.outlines import Floats, near, signed_distance
 from treadwell.course.pieces import Top
 
 CELL: Final = 0.03
@@ -53,7 +53,6 @@ class TrueGround:
         self._radius, self._tall = radius, tall
         self._solids = [_solids(element) for element in self._elements]
         self.tops = [top for element in self._elements for top in element.tops]
-        self._boxes = [_box(top.polygon[:, :2]) for top in self.tops]
         corners = [np.array(stops)]
         corners += [piece.vertices[:, :2] for e in self._elements for piece in e.pieces]
         everything = np.vstack(corners)
@@ -76,10 +75,7 @@ class TrueGround:
         found = np.full((len(self.tops) + 1, len(points)), np.nan)
         found[0] = 0.0
         for number, top in enumerate(self.tops, start=1):
-            near = _within(points, *self._boxes[number - 1])
-            if not len(near):
-                continue
-            over = near[top.contains(points[near])]
+            over = np.flatnonzero(top.contains(points))
             found[number, over] = top.height_at(points[over])
         first = 1
         for element, solids in zip(self._elements, self._solids, strict=True):
@@ -141,9 +137,8 @@ class TrueGround:
         for element, solids in zip(self._elements, self._solids, strict=True):
             least = LEG_ROOM if element.tops else 0.01
             for solid in solids:
-                lower, upper = solid.box
-                near = _within(points, lower - self._radius, upper + self._radius)
-                close = near[signed_distance(solid.outline, points[near]) < self._radius]
+                close = near(solid.outline, points, self._radius)
+                close = close[signed_distance(solid.outline, points[close]) < self._radius]
                 there = level[:, close]
                 free[:, close] &= ~((solid.high > there + least) & (solid.low < there + self._tall))
         return free
@@ -167,7 +162,6 @@ class _Solid:
     """A piece: its outline from above, and from where to where it reaches, metres."""
 
     outline: Floats
-    box: tuple[Floats, Floats]
     low: float
     high: float
     upright: bool
@@ -177,7 +171,6 @@ def _solids(element: CourseElement) -> list[_Solid]:
     return [
         _Solid(
             piece.outline,
-            _box(piece.outline),
             float(piece.vertices[:, 2].min()),
             float(piece.vertices[:, 2].max()),
             piece.is_upright,
@@ -186,27 +179,15 @@ def _solids(element: CourseElement) -> list[_Solid]:
     ]
 
 
-def _box(outline: Floats) -> tuple[Floats, Floats]:
-    """Return the lowest and the highest corner of the upright rectangle around an outline."""
-    return outline.min(axis=0), outline.max(axis=0)
-
-
 def _bury(found: Floats, points: Floats, solid: _Solid, own: range) -> None:
     """Take away the surfaces that a solid lies on, in place; `own` are its element's."""
-    near = _within(points, *solid.box)
-    if not len(near):
-        return
-    inside = near[signed_distance(solid.outline, points[near]) < 0.0]
+    close = near(solid.outline, points, 0.0)
+    inside = close[signed_distance(solid.outline, points[close]) < 0.0]
     levels = found[:, inside]
     buried = (solid.low <= levels + BARELY) & (levels < solid.high - 5 * BARELY)
     if not solid.upright:
         buried[own.start : own.stop] = False  # a slope lies in the box around it
     found[:, inside] = np.where(buried, np.nan, levels)
-
-
-def _within(points: Floats, low: Floats, high: Floats) -> npt.NDArray[np.intp]:
-    """Return the indices of the points (n, 2) in an upright rectangle."""
-    return np.flatnonzero(((points >= low - 1e-9) & (points <= high + 1e-9)).all(axis=1))
 
 
 def edges_of(top: Top) -> list[tuple[Floats, Floats, Floats]]:

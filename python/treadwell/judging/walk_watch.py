@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.course.build import CourseElement
-from treadwell.course.outlines import signed_distance
+from treadwell.course.outlines import near, signed_distance
 from treadwell.course.static_map import RESOLUTION, static_map
 from treadwell.episode import Episode
 from treadwell.judging.map_memory import FLOOR, OBSTACLE, MapMemory, RememberedMap
@@ -130,8 +130,9 @@ class WalkWatch:
         for element in course.elements:
             if element.present and not element.walkable:
                 for piece in element.pieces:
-                    near = signed_distance(piece.outline, centres) < CLEAR_M
-                    clear &= ~near.reshape(clear.shape)
+                    close = near(piece.outline, centres, CLEAR_M)
+                    beside = signed_distance(piece.outline, centres[close]) < CLEAR_M
+                    clear.flat[close[beside]] = False
         return clear
 
     def _static(self, level: float) -> Floats:
@@ -169,7 +170,8 @@ def _found(element: CourseElement, remembered: RememberedMap) -> Unmapped:
     centres = remembered.centres().reshape(-1, 2)
     inside = np.zeros(len(centres), dtype=bool)
     for piece in element.pieces:
-        inside |= signed_distance(piece.outline, centres) <= 0.0
+        close = near(piece.outline, centres, 0.0)
+        inside[close] |= signed_distance(piece.outline, centres[close]) <= 0.0
     heights = np.concatenate([piece.vertices[:, 2] for piece in element.pieces])
     with np.errstate(invalid="ignore"):
         lid = remembered.height.ravel() > 0.5 * (heights.min() + heights.max())
