@@ -69,10 +69,8 @@ class Recorder:
         self._path = path
         self._frames, self._broken = 0, False
         top = max((t.height for _, t in course.tops()), default=0.0)
-        goal = (*scenario.goal.position, course.goal_height)
         begin = (*course.start.position, course.start.height)
-        centre = tuple((a + b) / 2 for a, b in zip(begin, goal, strict=True))
-        extent = float(np.hypot(goal[0] - begin[0], goal[1] - begin[1])) + 1.0
+        centre, extent = _middle_and_extent(scenario, course)
         try:
             path.touch()
             if room(path) < _SPARE_BYTES:
@@ -82,9 +80,8 @@ class Recorder:
                 recording_id=f"{scenario.name}-{robot.name}-{scenario.seed}",
                 send_properties=False,
             )
-            above = (centre[0], centre[1], centre[2] + 0.15)
             views = blueprint(
-                above, extent, feet=begin if top > 0.0 else None, maps=static_map is not None
+                centre, extent, feet=begin if top > 0.0 else None, maps=static_map is not None
             )
             self._stream.save(path, views)
         except (OSError, RuntimeError) as error:
@@ -233,6 +230,20 @@ def inspect(run_dir: Path, *, web: bool = False) -> None:
         raise RecordingError(
             f"the viewer ended with status {status}; where there is no display, use --web"
         )
+
+
+def _middle_and_extent(
+    scenario: Scenario, course: Course
+) -> tuple[tuple[float, float, float], float]:
+    """Return the middle of the way and of all that stands there, world m, and its diagonal, m."""
+    start = (*course.start.position, course.start.height)
+    goal = (*scenario.goal.position, course.goal_height)
+    corners = [piece.vertices for one in course.elements if one.present for piece in one.pieces]
+    everything = np.vstack([start, goal, *corners])
+    low, high = everything.min(axis=0), everything.max(axis=0)
+    x, y = ((low + high) / 2)[:2].tolist()
+    height = 0.5 * (start[2] + goal[2]) + 0.15
+    return (x, y, height), float(np.linalg.norm((high - low)[:2]))
 
 
 def _reason(error: Exception) -> str:

@@ -9,6 +9,8 @@ from treadwell.recording.frame_log import FrameLog
 from treadwell.recording.layout import ESTIMATE, height_colours
 from treadwell.recording.trace import Trace
 
+Floats = NDArray[np.floating]
+
 _LOCAL_STRIDE = 12
 """Of so many camera frames, about two seconds, one has its local map recorded."""
 _FAINT = 90
@@ -32,12 +34,12 @@ class Volumes:
         """
         self._rows, self._until_local = rows, 0
         if static_map is not None:
-            centres, sides = static_map.occupied()
+            centres, halves = bars(*static_map.occupied())
             shades = height_colours(centres[:, 2].astype(np.float32), *height)
             opacity = np.full((len(shades), 1), _FAINT, dtype=np.uint8)
             boxes = rr.Boxes3D(
                 centers=centres,
-                half_sizes=_halves(sides),
+                half_sizes=halves,
                 colors=np.hstack([shades, opacity]),
                 fill_mode=rr.components.FillMode.Solid,
             )
@@ -48,11 +50,12 @@ class Volumes:
         self._until_local -= 1
         if self._until_local < 0 and len(trace.occupied):
             self._until_local = _LOCAL_STRIDE - 1
+            centres, halves = bars(trace.occupied[:, :3], trace.occupied[:, 3])
             self._rows.log(
                 "world/maps/local",
                 rr.Boxes3D,
-                centers=trace.occupied[:, :3],
-                half_sizes=_halves(trace.occupied[:, 3]),
+                centers=centres,
+                half_sizes=halves,
                 colors=[_LOCAL],
                 fill_mode=[rr.components.FillMode.Solid],
             )
@@ -67,11 +70,38 @@ class Volumes:
             )
 
 
-def _halves(sides: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return the half sizes (n, 3) of cubes."""
-    return np.repeat(sides[:, None] / 2, 3, axis=1)
+def bars(centres: Floats, sides: Floats) -> tuple[Floats, Floats]:
+    """Join voxels of one size that lie side by side: first those in a row, then rows alike.
+
+    A viewer draws some ten thousand boxes at most, and a house has more voxels.
+
+    Args:
+        centres: (n, 3) m.
+        sides: (n,) m.
+
+    Returns:
+        Centres and half sizes of boxes that fill the same space, (m, 3) each, m.
+    """
+    halves = np.repeat(sides[:, None] / 2, 3, axis=1)
+    if not len(centres):
+        return centres, halves
+    for along, across in ((0, 1), (1, 0)):
+        # In micrometres, so that what lies side by side compares as equal.
+        at, half = (np.rint(1e6 * values).astype(np.int64) for values in (centres, halves))
+        keys = (at[:, along], at[:, across], half[:, across], half[:, 2], at[:, 2])
+        order = np.lexsort(keys)
+        begin, end = (at[order, along] + sign * half[order, along] for sign in (-1, 1))
+        same = begin[1:] == end[:-1]
+        for key in keys[1:]:
+            same &= np.diff(key[order]) == 0
+        first = np.flatnonzero(np.r_[True, ~same])
+        last = np.r_[first[1:], len(order)] - 1
+        centres, halves = centres[order[first]], halves[order[first]]
+        centres[:, along] = 0.5e-6 * (begin[first] + end[last])
+        halves[:, along] = 0.5e-6 * (end[last] - begin[first])
+    return centres, halves
 
 
-def _headings(yaw: NDArray[np.floating]) -> NDArray[np.floating]:
+def _headings(yaw: Floats) -> Floats:
     """Return short arrows (n, 3) that point to headings, rad."""
     return 0.08 * np.column_stack([np.cos(yaw), np.sin(yaw), np.zeros_like(yaw)])
