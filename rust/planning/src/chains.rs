@@ -7,7 +7,7 @@ use crate::Step;
 use crate::faces::{After, GROUND_DEPTH_M};
 use crate::line::{Line, ground_behind};
 use crate::portals::{Entry, Fit, Landing, Portals, Scene, Stride, Way};
-use crate::room::{SAME_M, clear, distance_m, inside_m, range_m, run_to_cell, walk_m, width_m};
+use crate::room::{SAME_M, crowding, distance_m, inside_m, range_m, run_to_cell, walk_m, width_m};
 use crate::route::{LEVEL_M, PULL};
 
 /// Heels come to stand this far beyond an edge where no limit says better, m.
@@ -38,17 +38,16 @@ impl Portals {
             if fixed {
                 stride.from_m = at_m;
             }
-            if !clear(scene, stride.from_m, level_m) || !clear(scene, stride.to_m, stair.height_m())
-            {
+            let Some(stride_m) = stride_cost_m(scene, at_m, &stride, level_m) else {
                 break;
-            }
+            };
             let told = entry.level_seen || self.strides.len() > first;
             let doubt = doubt_of(scene, entry, &stride, told);
             if let (Doubt::Looked, Some((way, landing, cost_m))) = (doubt, &before) {
                 self.hope(scene, entry, *way, landing, *cost_m);
             }
             fit = fit.max(doubt.fit());
-            cost_m += walk_m(at_m, stride.from_m) + walk_m(stride.from_m, stride.to_m);
+            cost_m += stride_m;
             // What is higher than a step may turn out to be several.
             let steps = (stride.step.rise_m.abs() / RISE_M).max(1.0);
             let steps = if stride.limit.is_some() { steps } else { 1.0 };
@@ -190,6 +189,13 @@ impl Portals {
         let _ = self.links.add(from, to, cost);
         self.ways.push(way);
     }
+}
+
+/// What the way over a step costs by its length and by what stands beside it, m; `None` where the body has no room.
+fn stride_cost_m(scene: &Scene<'_>, at_m: [f64; 2], stride: &Stride, level_m: f64) -> Option<f64> {
+    let below = crowding(scene, stride.from_m, level_m)?;
+    let above = crowding(scene, stride.to_m, stride.step.stair.height_m())?;
+    Some(below * walk_m(at_m, stride.from_m) + above * walk_m(stride.from_m, stride.to_m))
 }
 
 /// What is thought of the limit that a step breaks.

@@ -305,12 +305,10 @@ fn fill(
     table.clear();
     for squared in 0_u32.. {
         let clearance_m = clearance_m(f64::from(squared).sqrt());
-        let spare = (clearance_m - needed_m) / soft_m.max(1e-9);
-        let near = (1.0 - spare).max(0.0);
-        let weight = (1.0 + config.soft_cost * near * near) as f32;
+        let weight = config.weight(clearance_m - needed_m, soft_m) as f32;
         let allowed = clearance_m >= needed_m;
         table.push(if allowed { weight } else { f32::INFINITY });
-        if allowed && near <= 0.0 {
+        if allowed && weight <= 1.0 {
             break;
         }
     }

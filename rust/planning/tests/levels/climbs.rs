@@ -2,6 +2,7 @@
 
 use crate::course::{self, Course, FEET, goal, goal_at, plan, planner, refused, way};
 use geometry::Map;
+use mapping::Surface;
 use planning::{Path, Planner as _, Refusal};
 
 /// All crossings of a path, in their order.
@@ -86,6 +87,26 @@ fn a_sill_across_the_stage_is_crossed_where_the_path_comes() {
         for crossing in crossings(&path) {
             assert!((crossing[1] - y).abs() < 0.06, "{crossing:?} for {y}");
         }
+    }
+}
+
+#[test]
+fn between_two_cheeks_a_staircase_is_climbed_away_from_both() {
+    let mut course = Course::floor();
+    for i in 0..4 {
+        let x = 0.8 + 0.12 * f64::from(i);
+        course.stair(x, 0.12, 0.03 * f64::from(i + 1), 0.8);
+    }
+    course.paint([1.16, -0.4], [1.96, 0.4], Surface::Floor(0.12));
+    let wall = Surface::Obstacle(0.6);
+    for y in [-0.48, 0.4] {
+        course.paint([0.8, y], [1.96, y + 0.08], wall);
+    }
+    let from_the_side = [0.3, 0.5, 0.0];
+    let path = course::way_from(&course, from_the_side, 0.0, &goal_at(1.6, 0.0, 0.12));
+    assert_eq!(crossings(&path).len(), 4);
+    for [_, y] in crossings(&path) {
+        assert!(y.abs() < 0.12, "{y}: the cheek begins at 0.4");
     }
 }
 
