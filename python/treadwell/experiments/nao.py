@@ -1,5 +1,6 @@
 """A NAO in a house on two levels, with a depth camera and a map (Maier et al., Humanoids 2012)."""
 
+from statistics import median
 from typing import Final
 
 from treadwell.experiments import nao_cases as cases
@@ -9,7 +10,7 @@ from treadwell.experiments.nao_maps import local_map, visitors
 from treadwell.experiments.nao_pictures import nao_pictures
 from treadwell.experiments.stairs import reasons
 
-_STAGES: Final = ("segment", "localize", "map", "plan")
+_STAGES: Final = ("segment", "localize", "map", "stairs", "plan")
 
 
 def _claims(results: Results) -> Table:
@@ -42,18 +43,25 @@ def _frame_times(results: Results) -> Table:
         for one in cases.SCENARIOS
         for run in results.get(cases.walked(one.number, "octree"), ())
     ]
-    medians = {
-        stage: [one[stage].median for one in runs if stage in one and one[stage].count]
+    # A frame comes with one control tick in sixteen: most of those that are slow at localizing.
+    times = {
+        stage: [
+            one[stage].p99 if stage == "localize" else one[stage].median
+            for one in runs
+            if stage in one and one[stage].count
+        ]
         for stage in _STAGES
     }
-    ours = tuple(middle(medians[stage], 2) for stage in _STAGES)
+    whole = sum(median(values) for values in times.values() if values)
+    ours = (*(middle(times[stage], 2) for stage in _STAGES), f"{whole:.1f}")
     return Table(
-        "Planes, localization, map and plan, ms a frame",
-        ("the paper", "wanted", *_STAGES),
+        "Planes, localization, map, stairs and plan, ms a frame",
+        ("the paper", "wanted", *_STAGES, "in all"),
         (("167 in all, 4 cores", "15 in all", *ours),) if runs else (),
         (
-            "Medians over the runs of scenarios 1 to 3 of each run's median; one core each. "
-            "Localize: of all control ticks, most of them without a frame.",
+            "Medians over the runs of scenarios 1 to 3 of each run's median, of localize of its "
+            "99th percentile over all control ticks, one in sixteen of which has a frame; one core "
+            "each.",
         ),
     )
 
