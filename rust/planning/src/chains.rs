@@ -7,7 +7,9 @@ use crate::Step;
 use crate::faces::{After, GROUND_DEPTH_M};
 use crate::line::{Line, ground_behind};
 use crate::portals::{Entry, Fit, Landing, Portals, Scene, Stride, Way};
-use crate::room::{SAME_M, crowding, distance_m, inside_m, range_m, run_to_cell, walk_m, width_m};
+use crate::room::{
+    SAME_M, distance_m, inside_m, range_m, run_to_cell, walk_m, weight_on_stairs, width_m,
+};
 use crate::route::{LEVEL_M, PULL};
 
 /// Heels come to stand this far beyond an edge where no limit says better, m.
@@ -193,8 +195,8 @@ impl Portals {
 
 /// What the way over a step costs by its length and by what stands beside it, m; `None` where the body has no room.
 fn stride_cost_m(scene: &Scene<'_>, at_m: [f64; 2], stride: &Stride, level_m: f64) -> Option<f64> {
-    let below = crowding(scene, stride.from_m, level_m)?;
-    let above = crowding(scene, stride.to_m, stride.step.stair.height_m())?;
+    let below = weight_on_stairs(scene, stride.from_m, level_m)?;
+    let above = weight_on_stairs(scene, stride.to_m, stride.step.stair.height_m())?;
     Some(below * walk_m(at_m, stride.from_m) + above * walk_m(stride.from_m, stride.to_m))
 }
 

@@ -101,9 +101,10 @@ impl Default for AStarConfig {
 }
 
 impl AStarConfig {
-    /// What a length costs that lies `spare_m` farther from an obstacle than it has to: falls to 1 over `soft_m`.
+    /// What a length costs that lies `spare_m` farther from an obstacle than it has to, at most what it costs where nothing is to spare:
+    /// falls to 1 over `soft_m`.
     pub(crate) fn weight(&self, spare_m: f64, soft_m: f64) -> f64 {
-        let near = (1.0 - spare_m / soft_m.max(1e-9)).max(0.0);
+        let near = (1.0 - spare_m / soft_m.max(1e-9)).clamp(0.0, 1.0);
         1.0 + self.soft_cost * near * near
     }
 

@@ -17,8 +17,8 @@ pub(crate) struct Entry {
 /// Entries by estimate; within a bucket the last one first. Reused.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Queue {
-    /// Bucket `now`, whose entries are taken: kept apart, as most of what is taken came in just before.
-    taken: Vec<Entry>,
+    /// Bucket `now`, from which entries are taken: kept apart, as most of what is taken came in just before.
+    current: Vec<Entry>,
     /// The others; `now` and all before are empty.
     buckets: Vec<Vec<Entry>>,
     now: usize,
@@ -34,8 +34,8 @@ impl Queue {
         }
         self.now = bucket_of(estimate);
         self.end = usize::MAX;
-        self.taken.clear();
-        self.taken.push(entry);
+        self.current.clear();
+        self.current.push(entry);
     }
 
     /// Nothing estimated at this and more is taken from now on.
@@ -45,10 +45,10 @@ impl Queue {
 
     #[inline]
     pub(crate) fn push(&mut self, estimate: f64, entry: Entry) {
-        // Rounding must not put it where the search has passed.
         let bucket = bucket_of(estimate);
+        // Rounding must not put it where the search has passed.
         if bucket <= self.now {
-            self.taken.push(entry);
+            self.current.push(entry);
             return;
         }
         if bucket >= self.buckets.len() {
@@ -61,11 +61,11 @@ impl Queue {
     #[inline]
     pub(crate) fn pop(&mut self) -> Option<Entry> {
         while self.now < self.end {
-            if let Some(entry) = self.taken.pop() {
+            if let Some(entry) = self.current.pop() {
                 return Some(entry);
             }
             self.now += 1;
-            std::mem::swap(&mut self.taken, self.buckets.get_mut(self.now)?);
+            std::mem::swap(&mut self.current, self.buckets.get_mut(self.now)?);
         }
         None
     }

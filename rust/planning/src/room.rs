@@ -1,6 +1,6 @@
 //! Room at edges: where the robot lines up, where it may cross, where it walks on.
 
-use geometry::{Cell, CellArea, Lattice, Map};
+use geometry::{Lattice, Map};
 use mapping::Surface;
 use stairs::Stair;
 
@@ -89,42 +89,22 @@ pub(crate) fn walkable(scene: &Scene<'_>, from_m: [f64; 2], to_m: [f64; 2], leve
 
 /// What a length costs at a place on stairs by what stands beside it, as on a floor: 1 where nothing is near; `None` where the body
 /// has no room. What is hardly higher than the next tread may be a riser, and is not looked at.
-pub(crate) fn crowding(scene: &Scene<'_>, at_m: [f64; 2], level_m: f64) -> Option<f64> {
-    let terrain = scene.terrain;
-    let known_m = terrain.clearance_m(terrain.index_at(at_m)?);
-    let needed_m = terrain.needs.body_m.min(terrain.clearance_at_start_m);
-    let matters_m = needed_m + scene.config.soft_range;
-    if known_m >= matters_m {
+pub(crate) fn weight_on_stairs(scene: &Scene<'_>, at_m: [f64; 2], level_m: f64) -> Option<f64> {
+    let (terrain, soft_m) = (scene.terrain, scene.config.soft_range);
+    let body_m = terrain.needs.body_m;
+    let any_m = terrain.clearance_m(terrain.index_at(at_m)?);
+    if any_m >= body_m + soft_m {
         return Some(1.0);
     }
-    let room_m = room_m(scene, at_m, level_m, matters_m);
-    let spare_m = room_m.max(known_m) - needed_m;
-    (spare_m >= 0.0).then(|| {
-        scene
-            .config
-            .weight(room_m - needed_m, scene.config.soft_range)
-    })
-}
-
-/// How far from a place on stairs the nearest thing stands that is no riser, m; at most `most_m`.
-fn room_m(scene: &Scene<'_>, at_m: [f64; 2], level_m: f64, most_m: f64) -> f64 {
-    let (lattice, cells) = (&scene.view.lattice, &scene.view.cells);
-    let area = CellArea {
-        min: lattice.cell_at(at_m[0] - most_m, at_m[1] - most_m),
-        max: lattice.cell_at(at_m[0] + most_m, at_m[1] + most_m),
-    };
-    let stands = |&cell: &Cell| {
-        let tall = match scene.view.cell(cell) {
-            Surface::Obstacle(top) => f64::from(top) > level_m + RISER_M,
-            _ => false,
-        };
-        tall && cells.index(cell).is_some_and(|i| scene.terrain.blocked[i])
-    };
-    let away_m = |cell| distance_m(lattice.center_of(cell), at_m);
-    area.cells()
-        .filter(stands)
-        .map(away_m)
-        .fold(most_m, f64::min)
+    let standing = terrain.obstacles_near(at_m, body_m + soft_m).filter(|&place_m| {
+        let cell = scene.view.lattice.cell_at(place_m[0], place_m[1]);
+        matches!(scene.view.cell(cell), Surface::Obstacle(top) if f64::from(top) > level_m + RISER_M)
+    });
+    let standing_m = standing.map(|place_m| distance_m(place_m, at_m));
+    // Between the middles of cells nothing may be too near that is so from the place itself.
+    let clearance_m = standing_m.fold(f64::INFINITY, f64::min).max(any_m);
+    let needed_m = body_m.min(terrain.clearance_at_start_m);
+    (clearance_m >= needed_m).then(|| scene.config.weight(clearance_m - body_m, soft_m))
 }
 
 /// How far from its middle an edge may be crossed, m.

@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use geometry::{CellArea, wrap_angle};
+use geometry::{Cell, CellArea, wrap_angle};
 
 use crate::AStarConfig;
 use crate::keep::SLACK_M;
@@ -63,24 +63,29 @@ impl Terrain {
                 spare_m = spare_m.min(ahead_m - half_depth_m);
             }
         }
-        let near = 1.0 - spare_m / config.soft_range.max(1e-9);
         let unseen = if self.unknown[index] {
             config.unknown_cost
         } else {
             0.0
         };
-        Some(1.0 + config.sideways_cost + config.soft_cost * near * near + unseen)
+        Some(config.weight(spare_m, config.soft_range) + config.sideways_cost + unseen)
     }
 
     /// Centres of the blocked cells within a square around a place, m.
-    fn obstacles_near(
+    pub(crate) fn obstacles_near(
         &self,
         [x, y]: [f64; 2],
         reach_m: f64,
     ) -> impl Iterator<Item = [f64; 2]> + '_ {
+        // A range may be large; the window is not.
+        let last = [self.cols, self.rows].map(|cells| cells as i32 - 1);
+        let corner = |x_m: f64, y_m: f64| {
+            let cell = self.lattice.cell_at(x_m, y_m);
+            Cell::new(cell.col.min(last[0]).max(0), cell.row.min(last[1]).max(0))
+        };
         let area = CellArea {
-            min: self.lattice.cell_at(x - reach_m, y - reach_m),
-            max: self.lattice.cell_at(x + reach_m, y + reach_m),
+            min: corner(x - reach_m, y - reach_m),
+            max: corner(x + reach_m, y + reach_m),
         };
         area.cells().filter_map(|cell| {
             let col = usize::try_from(cell.col).ok().filter(|&c| c < self.cols)?;

@@ -43,7 +43,7 @@ static NEXT: [[Trail; 16]; TRAILS] = next();
 #[derive(Debug)]
 pub(crate) struct Steps {
     left: u32,
-    /// Three bits higher, which of them rule out a turn.
+    /// Three bits higher, which of them rule out a turn: shifted down by a step's number, bit 3 is the 8 to add to it in `next`.
     leans: u32,
     next: &'static [Trail; 16],
 }

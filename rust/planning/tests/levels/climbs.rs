@@ -3,7 +3,8 @@
 use crate::course::{self, Course, FEET, goal, goal_at, plan, planner, refused, way};
 use geometry::Map;
 use mapping::Surface;
-use planning::{Path, Planner as _, Refusal};
+use planning::{AStar, AStarConfig, Path, Planner as _, Refusal};
+use stairs::ClimbingConfig;
 
 /// All crossings of a path, in their order.
 fn crossings(path: &Path) -> Vec<[f64; 2]> {
@@ -102,12 +103,29 @@ fn between_two_cheeks_a_staircase_is_climbed_away_from_both() {
     for y in [-0.48, 0.4] {
         course.paint([0.8, y], [1.96, y + 0.08], wall);
     }
-    let from_the_side = [0.3, 0.5, 0.0];
-    let path = course::way_from(&course, from_the_side, 0.0, &goal_at(1.6, 0.0, 0.12));
-    assert_eq!(crossings(&path).len(), 4);
-    for [_, y] in crossings(&path) {
-        assert!(y.abs() < 0.12, "{y}: the cheek begins at 0.4");
+    let goal = goal_at(1.6, 0.0, 0.12);
+    for start in [[0.3, 0.5, 0.0], [0.6, 0.24, 0.0]] {
+        let path = course::way_from(&course, start, 0.0, &goal);
+        assert_eq!(crossings(&path).len(), 4);
+        for [_, y] in crossings(&path) {
+            assert!(y.abs() < 0.12, "{y}: the cheek begins at 0.4");
+        }
     }
+    // Where being near costs nothing, it goes as near as it may.
+    let config = AStarConfig {
+        soft_range: 0.0,
+        judge_range: 10.0,
+        ..AStarConfig::default()
+    };
+    let mut near = AStar::new(config, ClimbingConfig::default(), FEET, 0.14).unwrap();
+    let path = plan(&mut near, &course, [0.3, 0.5, 0.0], 0.0, &goal)
+        .way
+        .unwrap();
+    assert!(
+        crossings(&path)
+            .iter()
+            .all(|[_, y]| (0.12..0.24).contains(y))
+    );
 }
 
 #[test]
