@@ -10,13 +10,15 @@ from experiment_builders import MADE, rows_of, watched
 
 from treadwell.episode import Episode
 from treadwell.errors import RecordingError
+from treadwell.experiments import conduct as conducting
 from treadwell.experiments import nao_cases as cases
+from treadwell.experiments.experiment import Case, Experiment
 from treadwell.experiments.nao import NAO, nao_tables
 from treadwell.experiments.nao_filters import with_other_draws
-from treadwell.experiments.nao_localization import binned, found_after, in_hallway
+from treadwell.experiments.nao_localization import binned, filter_walks, found_after, in_hallway
 from treadwell.experiments.nao_maps import local_map
 from treadwell.experiments.nao_pictures import draw_errors, nao_pictures
-from treadwell.judging.result import CollisionEntry, MapCounts
+from treadwell.judging.result import CollisionEntry, MapCounts, Timing
 from treadwell.judging.visitor_watch import Avoidance
 from treadwell.judging.walk_watch import Unmapped, Walk, WalkWatch
 from treadwell.runner import Run, run_episode
@@ -144,7 +146,7 @@ def test_every_case_can_be_loaded_with_its_settings() -> None:
 def test_the_error_over_time_is_drawn_of_the_runs_of_one_seed(tmp_path: Path) -> None:
     runs = {cases.walked(1, "fog"): watched(walk(0.1)), cases.filtered(2): watched(walk(0.1, 0.2))}
     (picture,) = nao_pictures(runs, tmp_path)
-    assert picture.title.startswith("Error of 1 runs")
+    assert picture.title.startswith("Error of 1 filters")
     assert picture.path.read_bytes().startswith(b"\x89PNG")
     with pytest.raises(RecordingError, match="cannot be written"):
         draw_errors(tmp_path / "no folder" / "errors.png", [walk(0.1)])
@@ -163,3 +165,43 @@ def test_a_walk_of_half_a_second_is_drawn_and_stands_in_the_tables(tmp_path: Pat
     assert 0.0 <= float(row[4]) < 0.1
     (row,) = local_map({name: [done]}).rows
     assert row[1].endswith("of 6")
+
+
+def test_the_time_of_a_frame_is_the_sum_of_its_stages_where_all_are_known() -> None:
+    times = {
+        stage: Timing(median=ms, p99=3.0 * ms, max=9.0, count=5)
+        for stage, ms in (("segment", 1.0), ("localize", 0.5), ("map", 2.0), ("stairs", 0.1))
+    }
+    for plan, whole in ((Timing(median=4.0, p99=9.0, max=9.0, count=5), "8.6"), (None, "-")):
+        made = times if plan is None else times | {"plan": plan}
+        run = Run(result(MADE, timing_ms=made), Path("folder"), findings=walk(0.1))
+        rows = rows_of(nao_tables, {cases.walked(1, "octree"): [run]}, "Planes, localization")
+        assert rows["167 in all, 4 cores"][-1] == whole
+
+
+def test_a_walk_with_other_frames_than_its_replay_is_an_error(tmp_path: Path) -> None:
+    overrides = ("navigation.world_model=octree", "time_limit=0.5")
+    episode = Episode("nao_1", seed=0, overrides=overrides)
+    done = run_episode(episode, out=tmp_path / "run", watch=WalkWatch)
+    short = replace(done, findings=walk(0.0))
+    failed = with_other_draws(short, 1)
+    assert failed.outcome == "error"
+    assert failed.result.reason == "error: 5 camera frames replayed of 1"
+    assert not failed.passed
+    runs = {cases.filtered(1): [failed], cases.filtered(2): [done]}
+    assert len(filter_walks(runs)) == 1
+
+
+def test_an_interrupted_walk_is_not_replayed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def never(_run: Run) -> Run:
+        raise AssertionError
+
+    stopped = Run(result(MADE).model_copy(update={"outcome": "interrupted"}), Path("folder"))
+    monkeypatch.setattr(conducting, "run_episode", lambda *_args, **_kwargs: stopped)
+    case = Case("one", "slalom", afterwards=never)
+    experiment = Experiment("one", "one", (case,), tables=lambda _results: ())
+    report = conducting.conduct(experiment, range(1), tmp_path / "report")
+    assert report.interrupted
+    assert (tmp_path / "report" / "experiment.json").is_file()

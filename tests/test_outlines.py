@@ -38,5 +38,9 @@ def test_what_is_not_near_an_outline_is_farther_from_it_than_the_margin(
 ) -> None:
     outline, points = convex_outline(np.array(corners)), np.array(places)
     assume(len(outline) >= 3)
-    far = np.setdiff1d(np.arange(len(points)), near(outline, points, margin))
+    close = near(outline, points, margin)
+    far = np.setdiff1d(np.arange(len(points)), close)
     assert (signed_distance(outline, points[far]) > margin - 1e-12).all()
+    # And what is near lies in the box around it.
+    aside = np.abs(points[close] - (outline.min(axis=0) + outline.max(axis=0)) / 2)
+    assert (aside <= np.ptp(outline, axis=0) / 2 + margin + 1e-12).all()

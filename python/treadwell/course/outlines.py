@@ -79,7 +79,7 @@ def signed_distance(polygon: Floats, points: Floats) -> Floats:
 
 
 def near(outline: Floats, points: Floats, margin: float) -> npt.NDArray[np.intp]:
-    """Return which points (n, 2) lie in the box around an outline or within a margin of it, m.
+    """Return the indices (k,) of the points (n, 2) in the box around an outline and a margin, m.
 
     What is asked of an outline is asked of these alone: a map has a hundred times as many cells.
     """

@@ -1,6 +1,7 @@
 """The elements of a course as plain geometry: solid convex pieces, and the tops to walk on."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final, Literal
 
@@ -102,6 +103,18 @@ class Top:
     def height(self) -> float:
         """The mean height of its corners, metres: the height itself where it is level."""
         return float(self.polygon[:, 2].mean())
+
+
+def bounds(pieces: Iterable[Piece], places: Floats) -> tuple[Floats, Floats]:
+    """Return the lowest and the highest corner of pieces and places, metres.
+
+    Args:
+        pieces: in the world frame.
+        places: (n, 3) world, or (n, 2) for the corners as seen from above; n at least 1.
+    """
+    axes = places.shape[1]
+    everything = np.vstack([places, *(piece.vertices[:, :axes] for piece in pieces)])
+    return everything.min(axis=0), everything.max(axis=0)
 
 
 def block(name: str, outline: Floats, yaw: float, bottom: float, top: float) -> Piece:

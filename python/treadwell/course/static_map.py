@@ -10,6 +10,7 @@ import numpy as np
 from treadwell._core import Octree
 from treadwell.course.build import Course, CourseElement
 from treadwell.course.outlines import Floats
+from treadwell.course.pieces import bounds
 from treadwell.errors import InputError
 
 MARGIN: Final = 1.0
@@ -88,11 +89,10 @@ def static_map(course: Course, resolution: float, where: str) -> Octree:
 
 def _extent(course: Course, mapped: list[CourseElement]) -> tuple[Floats, Floats]:
     """Return the lowest and the highest corner of what is mapped, with the margin, metres."""
-    points = [np.array([[*course.start.position, course.start.height]])]
-    points += [piece.vertices for element in mapped for piece in element.pieces]
-    everything = np.vstack(points)
+    start = np.array([[*course.start.position, course.start.height]])
+    low, high = bounds((piece for element in mapped for piece in element.pieces), start)
     margin = np.array([MARGIN, MARGIN, 0.0])
-    low, high = np.min(everything, axis=0) - margin, np.max(everything, axis=0) + margin
+    low, high = low - margin, high + margin
     low[2] = min(low[2], 0.0)
     return low, high
 

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.course.outlines import Floats, convex_outline, rectangle, signed_distance
+from treadwell.course.pieces import bounds
 from treadwell.episode import Episode
 
 LONG_SIDE: Final = 320
@@ -27,11 +28,11 @@ class TopView:
         """Choose what is in the picture: the course, the start and the goal."""
         self._episode = episode
         goal = episode.scenario.goal
-        places = [np.array([episode.course.start.position, goal.position, *goal.via])]
-        elements = [element for element in episode.course.elements if element.present]
-        places += [piece.vertices[:, :2] for element in elements for piece in element.pieces]
-        points = np.concatenate(places)
-        low, high = points.min(axis=0) - MARGIN_M, points.max(axis=0) + MARGIN_M
+        course = episode.course
+        places = np.array([course.start.position, goal.position, *goal.via])
+        pieces = [piece for one in course.elements if one.present for piece in one.pieces]
+        low, high = bounds(pieces, places)
+        low, high = low - MARGIN_M, high + MARGIN_M
         self._cell = float((high - low).max()) / LONG_SIDE
         cols, rows = (max(1, math.ceil(size / self._cell)) for size in high - low)
         xs = low[0] + (np.arange(cols) + 0.5) * self._cell

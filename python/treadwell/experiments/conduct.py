@@ -153,7 +153,8 @@ def _done(job: Job, progress: Progress | None = None) -> Run:
     episode = Episode(job.scenario, seed=job.seed, overrides=case.overrides)
     record = case.afterwards is not None
     done = run_episode(episode, out=job.folder, record=record, progress=progress, watch=case.watch)
-    return done if case.afterwards is None else case.afterwards(done)
+    whole = done.outcome not in {"interrupted", "error"}
+    return case.afterwards(done) if case.afterwards is not None and whole else done
 
 
 def _one_by_one(jobs: Sequence[Job], progress: Callable[[str], Progress]) -> Iterator[Run]:

@@ -82,8 +82,8 @@ def _accuracy(runs: Sequence[Run], walks: Sequence[Walk]) -> tuple[str, ...]:
 def filter_walks(results: Results) -> list[Walk]:
     """Return the walk of scenario 1 with the first seed as each of the filters believed it."""
     names = [cases.walked(1, "octree"), *(cases.filtered(i) for i in range(1, cases.FILTERS))]
-    walks = [run.findings for name in names for run in results.get(name, ())[:1]]
-    return [walk for walk in walks if len(walk.times)]
+    runs = [run for name in names for run in results.get(name, ())[:1]]
+    return [run.findings for run in runs if run.outcome != "error" and len(run.findings.times)]
 
 
 def binned(walks: Sequence[Walk]) -> Floats:
@@ -126,9 +126,9 @@ def hallway(results: Results) -> Table:
         ("", "in the hallway", "elsewhere", "rise", "bins of 10 s", "filter to filter, sd"),
         rows,
         (
-            "Filters over the same data: scenario 1 of one seed, recorded as the robot walked by "
-            "the first of them; the others replay it with other random numbers "
-            "(`navigation.monte_carlo.seed`), as the paper did.",
+            "Filters over the same data, as in the paper: scenario 1 of one seed, which the robot "
+            "walks by the first of them; for each other one the walk is repeated, bit for bit, "
+            "recorded, and replayed with `navigation.monte_carlo.seed` of its own.",
         ),
     )
 

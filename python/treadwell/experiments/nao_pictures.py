@@ -48,7 +48,7 @@ def nao_pictures(results: Results, folder: Path) -> list[Picture]:
                     pictures.append(Picture(f"{title}, map {model}", path))
     if walks := filter_walks(results):
         draw_errors(folder / "errors.png", walks)
-        title = f"Error of {len(walks)} runs of scenario 1 over time (Fig. 5)"
+        title = f"Error of {len(walks)} filters over one walk of scenario 1 (Fig. 5)"
         pictures.append(Picture(title, folder / "errors.png"))
     return pictures
 
@@ -134,7 +134,7 @@ def draw_errors(path: Path, walks: list[Walk]) -> None:
     )
     axes.axhline(6.0, color=_LOCAL, linestyle="--", linewidth=1.0, label="the paper, elsewhere")
     axes.axhline(10.0, color=_LOCAL, linewidth=1.0, label="the paper, in the hallway")
-    axes.set_xlabel(f"time (s); bins of {BIN_S:g} s; grey: in the hallway, first run")
+    axes.set_xlabel(f"time (s); bins of {BIN_S:g} s; grey: in the hallway")
     axes.set_ylabel("error in the plane (cm)")
     axes.set_ylim(0.0, max(12.0, 105 * max(float(walk.errors().max()) for walk in walks)))
     axes.legend(loc="upper right", fontsize=8)

@@ -157,8 +157,10 @@ def surfaces(
     entries = []
     for element, top, offset in tops:
         # What another top covers is not walked on.
-        free = ~_covered(centres, top, offset, tops)
-        cells = _interior(top, centres - offset[:2], remembered.cell, usable & free)
+        close = near(top.polygon[:, :2], centres - offset[:2], 0.0)
+        free = usable.copy()
+        free[close] &= ~_covered(centres[close], top, offset, tops)
+        cells = _interior(top, centres - offset[:2], remembered.cell, free)
         if not cells.any() and not _is_passed(passed, top, offset, tops):
             continue
         truth = top.height + offset[2]

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from treadwell.course.build import Course, CourseElement
 from treadwell.course.outlines import Floats, near, signed_distance
-from treadwell.course.pieces import Top
+from treadwell.course.pieces import Top, bounds
 
 CELL: Final = 0.03
 """Metres; more on courses that are very large."""
@@ -53,10 +53,9 @@ class TrueGround:
         self._radius, self._tall = radius, tall
         self._solids = [_solids(element) for element in self._elements]
         self.tops = [top for element in self._elements for top in element.tops]
-        corners = [np.array(stops)]
-        corners += [piece.vertices[:, :2] for e in self._elements for piece in e.pieces]
-        everything = np.vstack(corners)
-        low, high = everything.min(axis=0) - MARGIN, everything.max(axis=0) + MARGIN
+        pieces = (piece for element in self._elements for piece in element.pieces)
+        low, high = bounds(pieces, np.array(stops))
+        low, high = low - MARGIN, high + MARGIN
         self.cell = max(CELL, float((high - low).max()) / MOST_CELLS)
         self.origin = low
         x = np.arange(low[0], high[0], self.cell)

@@ -10,6 +10,7 @@ import numpy as np
 
 from treadwell._core import Octree
 from treadwell.course.build import Course
+from treadwell.course.pieces import bounds
 from treadwell.errors import InputError, RecordingError
 from treadwell.recording.file import cut_to_whole_messages, room
 from treadwell.recording.trace import Trace
@@ -27,6 +28,8 @@ _LONGEST_WAIT: Final = 0.2
 _FLUSH_SECONDS: Final = 10.0
 _SPARE_BYTES: Final = 16_000_000
 """Room that must be left for what is logged between two looks."""
+_LEGS_M: Final = 0.15
+"""Height of what is looked at above the ground: about the robot's knees."""
 _WALLS: Final = 0.35
 """Opacity of walls: what happens behind them is to be seen."""
 _ABANDONED: Final[list[object]] = []
@@ -235,15 +238,18 @@ def inspect(run_dir: Path, *, web: bool = False) -> None:
 def _middle_and_extent(
     scenario: Scenario, course: Course
 ) -> tuple[tuple[float, float, float], float]:
-    """Return the middle of the way and of all that stands there, world m, and its diagonal, m."""
-    start = (*course.start.position, course.start.height)
-    goal = (*scenario.goal.position, course.goal_height)
-    corners = [piece.vertices for one in course.elements if one.present for piece in one.pieces]
-    everything = np.vstack([start, goal, *corners])
-    low, high = everything.min(axis=0), everything.max(axis=0)
-    x, y = ((low + high) / 2)[:2].tolist()
-    height = 0.5 * (start[2] + goal[2]) + 0.15
-    return (x, y, height), float(np.linalg.norm((high - low)[:2]))
+    """Return what the first view looks at, world m, and the diagonal of all that it holds, m.
+
+    That is the middle of the way's stops and of what stands there as seen from above, at the
+    robot's knees, half way between the levels of start and goal.
+    """
+    goal = scenario.goal
+    stops = np.array([course.start.position, *goal.via, goal.position])
+    pieces = [piece for one in course.elements if one.present for piece in one.pieces]
+    low, high = bounds(pieces, stops)
+    x, y = (0.5 * (low + high)).tolist()
+    height = 0.5 * (course.start.height + course.goal_height) + _LEGS_M
+    return (x, y, height), float(np.linalg.norm(high - low))
 
 
 def _reason(error: Exception) -> str:

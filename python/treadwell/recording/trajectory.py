@@ -75,6 +75,13 @@ def read_trajectory(path: Path) -> NDArray[np.float64]:
     return np.array(rows, dtype=np.float64).reshape(-1, 8)
 
 
+def headings(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the headings (n,) rad of trajectory rows (n, 8)."""
+    x, y, z, w = rows[:, 4:8].T
+    angle: NDArray[np.float64] = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+    return angle
+
+
 def quaternion(rotation: NDArray[np.float64]) -> tuple[float, float, float, float]:
     """Return x, y, z, w of a rotation (3, 3), w not negative (Shepperd's method)."""
     m = rotation.tolist()

@@ -73,10 +73,11 @@ class Volumes:
 def bars(centres: Floats, sides: Floats) -> tuple[Floats, Floats]:
     """Join voxels of one size that lie side by side: first those in a row, then rows alike.
 
-    A viewer draws some ten thousand boxes at most, and a house has more voxels.
+    A viewer draws some ten thousand boxes at most, and a house has more voxels. Layers stay apart:
+    their heights are their colours.
 
     Args:
-        centres: (n, 3) m.
+        centres: (n, 3) m, of an octree's voxels.
         sides: (n,) m.
 
     Returns:
@@ -85,9 +86,10 @@ def bars(centres: Floats, sides: Floats) -> tuple[Floats, Floats]:
     halves = np.repeat(sides[:, None] / 2, 3, axis=1)
     if not len(centres):
         return centres, halves
+    unit = halves.min()
     for along, across in ((0, 1), (1, 0)):
-        # In micrometres, so that what lies side by side compares as equal.
-        at, half = (np.rint(1e6 * values).astype(np.int64) for values in (centres, halves))
+        # Counted in the least half side, of which all are multiples: equal is equal then.
+        at, half = (np.rint(values / unit).astype(np.int64) for values in (centres, halves))
         keys = (at[:, along], at[:, across], half[:, across], half[:, 2], at[:, 2])
         order = np.lexsort(keys)
         begin, end = (at[order, along] + sign * half[order, along] for sign in (-1, 1))
@@ -97,8 +99,8 @@ def bars(centres: Floats, sides: Floats) -> tuple[Floats, Floats]:
         first = np.flatnonzero(np.r_[True, ~same])
         last = np.r_[first[1:], len(order)] - 1
         centres, halves = centres[order[first]], halves[order[first]]
-        centres[:, along] = 0.5e-6 * (begin[first] + end[last])
-        halves[:, along] = 0.5e-6 * (end[last] - begin[first])
+        centres[:, along] = 0.5 * unit * (begin[first] + end[last])
+        halves[:, along] = 0.5 * unit * (end[last] - begin[first])
     return centres, halves
 
 

@@ -13,7 +13,7 @@ from treadwell.recording.map_picture import NAME as PICTURE
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
 from treadwell.recording.observation_log import read_header, read_observations
 from treadwell.recording.recorder import NAME as RECORDING
-from treadwell.recording.trajectory import ESTIMATE, TRUTH, read_trajectory
+from treadwell.recording.trajectory import ESTIMATE, TRUTH, headings, read_trajectory
 
 RESULT: Final = "result.json"
 KNOWN: Final = (
@@ -125,10 +125,3 @@ def pose_errors(run: RunData) -> tuple[NDArray[np.float64], ...]:
         place = np.linalg.norm(believed[:, 1:4] - true[:, 1:4], axis=1)
         turn = headings(believed) - headings(true)
         return common, place, np.abs(np.arctan2(np.sin(turn), np.cos(turn)))
-
-
-def headings(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the headings (n,) rad of trajectory rows (n, 8)."""
-    x, y, z, w = rows[:, 4:8].T
-    angle: NDArray[np.float64] = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
-    return angle
