@@ -90,7 +90,7 @@ def blueprint(
         maps: whether the robot was told a map, for a view of it.
     """
     x, y, z = centre
-    away = max(1.3, 0.75 * extent)  # then all of it is in view
+    away = max(1.3, 0.8 * extent)  # then all of it is in view
     world = rrb.Spatial3DView(
         origin="/world",
         contents=["+ $origin/**", "- $origin/maps/static/**", "- $origin/maps/local/**"],
