@@ -134,6 +134,17 @@ impl Filter {
         Belief::of(&self.particles, &mut self.bins, &self.config)
     }
 
+    /// Some of the guesses, moved without error.
+    pub(super) fn some_moved(&self, motion: Option<&Motion>) -> [TorsoPose; LANES] {
+        std::array::from_fn(|lane| {
+            let mut pose = self.particles[lane * self.particles.len() / LANES].pose;
+            if let Some(motion) = motion {
+                motion.apply(&mut pose, &[0.0; 6]);
+            }
+            pose
+        })
+    }
+
     /// Draws anew where few guesses weigh much: as many as their spread needs.
     pub(super) fn resample(&mut self, step: u64) {
         let config = &self.config;

@@ -1,7 +1,7 @@
 //! How well a place explains a frame.
 
 /// A range fits within so many standard deviations.
-const MATCH_SIGMAS: f64 = 3.0;
+pub(super) const MATCH_SIGMAS: f64 = 3.0;
 /// What ends before the map's surface counts so much against a pose as what ends behind it.
 const BEFORE_COUNTS: f64 = 0.03;
 /// Fewer beams off the ground do not tell whether a frame fits.

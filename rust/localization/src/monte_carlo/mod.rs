@@ -11,6 +11,7 @@ mod gauss;
 mod ground;
 mod guesses;
 mod motion;
+mod novelty;
 mod observation;
 mod particle;
 mod random;
@@ -169,7 +170,7 @@ impl Localizer for MonteCarloLocalizer {
         self.observation
             .set((&self.beams, 0.0), &reading, &self.map, &self.config);
         if let Some(tracking) = &mut self.tracking {
-            tracking.update(motion.as_ref(), &self.observation, &self.map, self.step);
+            tracking.update(motion.as_ref(), &mut self.observation, &self.map, self.step);
         }
         self.look_elsewhere(before.as_ref().zip(motion.as_ref()), &reading);
         if let Some(belief) = self.belief() {

@@ -11,6 +11,7 @@ use super::fit::Fit;
 use super::gauss::{NO_SIGMAS, gauss, splat};
 use super::guesses::Guesses;
 use super::motion::Reading;
+use super::novelty::End;
 use super::particle::TorsoPose;
 use super::static_map::StaticMap;
 
@@ -35,22 +36,26 @@ pub(super) struct LogLikelihood {
 /// `p(r | m) = hit N(r; m, sigma) + [r < m] short l exp(-l r) + random / r_max`. What stands in the way and is not mapped makes
 /// `r` shorter (Thrun, Burgard, Fox 2005, 6.3); its normalization over `0..m` is left out.
 #[derive(Debug, Clone, Copy)]
-struct Ray {
-    direction: [f64; 3],
-    range_m: f64,
+pub(super) struct Ray {
+    pub(super) direction: [f64; 3],
+    pub(super) range_m: f64,
     /// From here on a surface is too far to have been measured, m.
-    far_m: f64,
-    per_noise: f64,
+    pub(super) far_m: f64,
+    pub(super) per_noise: f64,
     hit: f64,
     short: f64,
-    is_ground: bool,
+    pub(super) is_ground: bool,
 }
 
 /// Everything that a frame says.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Observation {
-    origin_m: [f64; 3],
-    rays: Vec<Ray>,
+    pub(super) origin_m: [f64; 3],
+    pub(super) rays: Vec<Ray>,
+    /// Rays that end on what is not mapped: no part of the likelihood.
+    pub(super) left_out: Vec<Ray>,
+    /// Room to find them.
+    pub(super) ends: Vec<End>,
     random: f64,
     reach_m: f64,
     height_m: f64,
@@ -76,6 +81,7 @@ impl Observation {
         self.reach_m = config.reach[1];
         self.random = random / self.reach_m;
         self.rays.clear();
+        self.left_out.clear();
         self.rays.extend(beams.drawn.iter().map(|beam: &Beam| {
             let noise_m = beam.noise_m.hypot(blur_m);
             let per_noise = 1.0 / noise_m;
@@ -145,7 +151,7 @@ impl Observation {
         let isometry = pose.isometry();
         let eye = (isometry * Point3::from(self.origin_m)).coords.into();
         let mut fit = Fit::default();
-        for ray in self.rays.iter().filter(|ray| !ray.is_ground) {
+        for ray in (self.rays.iter().chain(&self.left_out)).filter(|ray| !ray.is_ground) {
             let along = isometry.rotation * Vector3::from(ray.direction);
             let cast = map.ranges.cast(eye, along.into(), self.reach_m);
             fit.count((cast.unwrap_or(f64::INFINITY) - ray.range_m) * ray.per_noise);

@@ -49,14 +49,18 @@ impl Tracking {
         }
     }
 
-    /// Moves the guesses, weighs them by a frame and draws anew where few weigh much.
+    /// Moves the guesses, weighs them by what a frame says of what is mapped, and draws anew where few weigh much.
     pub(super) fn update(
         &mut self,
         motion: Option<&Motion>,
-        observation: &Observation,
+        observation: &mut Observation,
         map: &StaticMap,
         step: u64,
     ) {
+        // Who may be elsewhere is to hear everything.
+        if !self.is_doubted() {
+            observation.leave_out_unmapped(&self.filter.some_moved(motion), map);
+        }
         self.belief = (self.filter).update(motion, (observation, 1.0), map, step);
         self.filter.resample(step);
         let fit = (self.belief.as_ref()).and_then(|belief| observation.fit(&belief.torso, map));
