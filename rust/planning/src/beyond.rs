@@ -1,6 +1,7 @@
 //! What was seen of the ground beyond the window while it was in it: how far it is from the window's border to the goal.
 //!
-//! Without this the robot would hope for a way that it found closed as soon as that has left the window, and go to and fro for ever.
+//! Without this the robot would hope for a way that it found closed as soon as that has left the window, and go to and fro for ever. So
+//! would one whose way leads out of the window and back into it, around a wall that is longer, as soon as the goal comes in sight.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -16,8 +17,6 @@ const SIDE: usize = 512;
 /// The way is looked for over every third of them, each way.
 const APART: usize = 3;
 const NODES: usize = SIDE / APART;
-/// So much less room than the robot needs is taken for enough, in cells: the way may lead between the nodes.
-const SLACK: f64 = 1.5;
 /// From so near it is believed that something has gone, m. From afar parts of a wall are floor for a while.
 const NEAR_M: f64 = 1.2;
 /// It is looked for after so many plans at most.
@@ -46,8 +45,19 @@ pub(crate) struct Beyond {
     queue: BinaryHeap<Reverse<(u32, u32)>>,
     goal: Option<Goal>,
     plans: u32,
-    /// Whether the field says more than the straight line does.
-    matters: bool,
+    field: Field,
+}
+
+/// What the field over the ground says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Field {
+    /// No more than the straight line does.
+    #[default]
+    Straight,
+    /// How far it is to a goal outside of the window.
+    Outside,
+    /// How far it is to a goal in the window from its border.
+    Around,
 }
 
 impl Beyond {
@@ -55,21 +65,45 @@ impl Beyond {
     pub(crate) fn look(&mut self, terrain: &Terrain, robot_m: [f64; 2], goal: &Goal) {
         self.take_in(terrain, robot_m);
         self.plans = self.plans.saturating_add(1);
-        if terrain.index_at([goal.x_m, goal.y_m]).is_some() {
-            self.matters = false;
-        } else if self.goal != Some(*goal) || self.plans >= PLANS {
+        let inside = terrain.index_at([goal.x_m, goal.y_m]).is_some();
+        let is_old = self.goal != Some(*goal) || self.plans >= PLANS;
+        if inside && (is_old || self.field == Field::Outside) {
+            self.field = Field::Straight;
+        } else if !inside && (is_old || self.field == Field::Around) {
             (self.goal, self.plans) = (Some(*goal), 0);
-            self.matters = self.is_blocked_outside(terrain);
-            if self.matters {
-                self.aim(goal, terrain.needs.body_m / terrain.lattice.cell_m - SLACK);
+            self.field = Field::Straight;
+            if self.is_blocked_outside(terrain) {
+                self.field = Field::Outside;
+                let room = terrain.needs.body_m / terrain.lattice.cell_m;
+                self.aim(goal, |beyond, node| {
+                    beyond.has_room(node, room).then_some(1.0)
+                });
             }
         }
     }
 
-    /// Length of the way from a place to the goal, m, as far as is known: the straight line where nothing is.
+    /// Takes the ways into account that lead out of the window and back into it, to a goal that lies in it.
+    pub(crate) fn look_around(&mut self, terrain: &Terrain, goal: &Goal) {
+        if self.field == Field::Around {
+            return;
+        }
+        (self.goal, self.plans) = (Some(*goal), 0);
+        self.field = Field::Around;
+        let room = terrain.needs.body_m / terrain.lattice.cell_m;
+        self.aim(goal, |beyond, node| {
+            match terrain.index_at(beyond.middle_m(node)?) {
+                Some(cell) => Some(terrain.weights[cell]),
+                None => beyond.has_room(node, room).then_some(1.0),
+            }
+        });
+    }
+
+    /// Length of the way from a place to the goal, m, as far as is known: the straight line where nothing is; infinite where no way leads
+    /// around.
     pub(crate) fn left_m(&self, at_m: [f64; 2], goal: &Goal) -> f64 {
         let straight_m = (goal.x_m - at_m[0]).hypot(goal.y_m - at_m[1]);
-        let known_m = self.lattice.filter(|_| self.matters).and_then(|lattice| {
+        let has_field = self.field != Field::Straight;
+        let known_m = self.lattice.filter(|_| has_field).and_then(|lattice| {
             let [col, row] = cell_at(&lattice, at_m)?.map(|at| at / APART);
             let around = AROUND
                 .iter()
@@ -80,7 +114,7 @@ impl Beyond {
             Some(f64::from(least) * APART as f64 * lattice.cell_m)
         });
         known_m
-            .filter(|m| m.is_finite())
+            .filter(|m| m.is_finite() || self.field == Field::Around)
             .map_or(straight_m, |known_m| known_m.max(straight_m))
     }
 
@@ -123,8 +157,8 @@ impl Beyond {
         blocked.any(|(cell, _)| outside(cell))
     }
 
-    /// Dijkstra's algorithm from the goal, for a body that needs so much room, in cells.
-    fn aim(&mut self, goal: &Goal, room: f64) {
+    /// Dijkstra's algorithm from the goal; `weight` is what a length costs at a node, none where the robot may not be.
+    fn aim(&mut self, goal: &Goal, weight: impl Fn(&Self, usize) -> Option<f32>) {
         self.to_goal.fill(f32::INFINITY);
         self.queue.clear();
         let at = self
@@ -145,11 +179,15 @@ impl Beyond {
                 continue;
             }
             for (cols, rows, step) in STEPS {
-                let further = self.to_goal[from] + step;
-                if let Some(to) = node(from % NODES, from / NODES, cols, rows)
-                    && further < self.to_goal[to]
-                    && self.has_room(to, room)
-                {
+                let Some(to) = node(from % NODES, from / NODES, cols, rows) else {
+                    continue;
+                };
+                let least = self.to_goal[from] + step;
+                if least >= self.to_goal[to] {
+                    continue;
+                }
+                let further = weight(self, to).map(|weight| self.to_goal[from] + step * weight);
+                if let Some(further) = further.filter(|&further| further < self.to_goal[to]) {
                     self.to_goal[to] = further;
                     // Positive numbers are in the order of their bits.
                     self.queue.push(Reverse((further.to_bits(), to as u32)));
@@ -158,10 +196,22 @@ impl Beyond {
         }
     }
 
+    /// Where a node lies, m.
+    fn middle_m(&self, node: usize) -> Option<[f64; 2]> {
+        let lattice = self.lattice?;
+        let [x, y] = lattice.origin_m;
+        let at_m = |node: usize| (node as f64 + 0.5) * APART as f64 * lattice.cell_m;
+        Some([x + at_m(node % NODES), y + at_m(node / NODES)])
+    }
+
+    /// Whether any of a node's cells has so much room, in cells: the way may lead beside its middle.
     fn has_room(&self, node: usize, room: f64) -> bool {
-        let [col, row] = [node % NODES, node / NODES].map(|at| at * APART + APART / 2);
-        let squared = self.distance.squared(row * SIDE + col);
-        squared == NOTHING_NEAR || f64::from(squared) >= room * room
+        let [col, row] = [node % NODES, node / NODES].map(|at| at * APART);
+        let mut cells = (0..APART * APART).map(|i| (row + i / APART) * SIDE + col + i % APART);
+        cells.any(|cell| {
+            let squared = self.distance.squared(cell);
+            squared == NOTHING_NEAR || f64::from(squared) >= room * room
+        })
     }
 }
 

@@ -10,6 +10,9 @@ use crate::search::Route;
 use crate::terrain::Terrain;
 use crate::{AStar, Goal, NoWay, Refusal};
 
+/// A way to a goal in the window that costs more than so many times the straight one and these m may be shorter around.
+const FAR: f64 = 2.0;
+const FAR_M: f64 = 0.5;
 /// A route over more unseen ground than this is but a guess, m.
 const GUESS_M: f64 = 1.0;
 
@@ -44,23 +47,44 @@ impl AStar {
             draft: Draft::of(terrain, portals, route, stand.at_m, end_m),
             goal: *goal,
             end: found.end,
+            inside: terrain.index_at([goal.x_m, goal.y_m]).is_some(),
             unknown: 0,
         })
+    }
+
+    /// The cheapest route over what is known to fit; and whether it may lead out of the window and back to a goal in it.
+    fn known(&mut self, stand: &Stand, start: usize, goal: &Goal) -> (Option<Route>, bool) {
+        let (terrain, portals) = (&self.terrain, &self.portals);
+        let (height_m, climb_cost) = (stand.height_m, self.config.climb_cost);
+        let search = &mut self.search;
+        let ends = Ends::new(terrain, &self.beyond, goal, height_m, climb_cost);
+        let known = run(search, terrain, portals, &ends, start, Fit::Holds);
+        let straight = ends.away(start) + FAR_M / terrain.lattice.cell_m;
+        let is_around = (self.kept.as_ref()).is_some_and(|kept| kept.end == End::Border);
+        let is_far = |route: &Route| route.cost > FAR * straight;
+        // What was seen of the ground outside of the window tells no levels apart.
+        let looks_around = ends.inside && !ends.on_another_level();
+        if !(looks_around && known.as_ref().map_or(is_around, is_far)) {
+            return (known, false);
+        }
+        self.beyond.look_around(terrain, goal);
+        let mut ends = Ends::new(terrain, &self.beyond, goal, height_m, climb_cost);
+        ends.around = true;
+        (
+            run(search, terrain, portals, &ends, start, Fit::Holds),
+            true,
+        )
     }
 
     /// The cheapest route to the goal. Where there is none, or none that is more than a hope: to the stairs that would lead
     /// there if they were other than they look from afar; else to where more is to be seen.
     fn route(&mut self, stand: &Stand, start: usize, goal: &Goal) -> Result<Found, NoWay> {
+        let (known, around) = self.known(stand, start, goal);
         let (terrain, portals) = (&self.terrain, &self.portals);
-        let ends = Ends::new(
-            terrain,
-            &self.beyond,
-            goal,
-            stand.height_m,
-            self.config.climb_cost,
-        );
+        let climb_cost = self.config.climb_cost;
+        let mut ends = Ends::new(terrain, &self.beyond, goal, stand.height_m, climb_cost);
+        ends.around = around;
         let search = &mut self.search;
-        let known = run(search, terrain, portals, &ends, start, Fit::Holds);
         let hoped = |route: &Route| {
             let last = route.cells.last();
             let blind = last.is_some_and(|&cell| ends.is_blind(cell as usize));

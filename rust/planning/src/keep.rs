@@ -27,6 +27,8 @@ pub(crate) struct Kept {
     pub(crate) goal: Goal,
     /// Whether it leads to the goal, or only to the border of the window, or towards what was not seen yet.
     pub(crate) end: End,
+    /// Whether the goal lay in the window when it was found.
+    pub(crate) inside: bool,
     /// How many of its points were unknown.
     pub(crate) unknown: usize,
 }
@@ -62,9 +64,9 @@ impl Kept {
     ) -> Option<Draft> {
         let mut draft = rest_of(&self.draft, stand.at_m, config.stray)?;
         if self.end == End::Border {
-            let inside = terrain.index_at([self.goal.x_m, self.goal.y_m]).is_some();
+            let is_inside = terrain.index_at([self.goal.x_m, self.goal.y_m]).is_some();
             let left = draft.points_m.len() as f64 * terrain.lattice.cell_m;
-            if inside || left < HORIZON_M {
+            if is_inside && !self.inside || left < HORIZON_M {
                 return None;
             }
         }

@@ -29,6 +29,8 @@ pub(crate) struct Ends<'a> {
     middle: Option<usize>,
     /// Whether the goal's middle lies in the window.
     pub(crate) inside: bool,
+    /// Whether a way may lead out of the window all the same, and back into it.
+    pub(crate) around: bool,
 }
 
 impl<'a> Ends<'a> {
@@ -56,6 +58,7 @@ impl<'a> Ends<'a> {
             goal: *goal,
             middle,
             inside: middle.is_some(),
+            around: false,
         }
     }
 
@@ -64,11 +67,11 @@ impl<'a> Ends<'a> {
         if index >= self.terrain.weights.len() {
             return Some(0.0); // the end of a climb; its link has the cost
         }
-        if !self.inside {
-            return self.terrain.on_border(index).then(|| self.left(index));
-        }
-        if !self.holds(index) {
-            return None;
+        if !self.holds(index) || !self.inside {
+            let outward = (self.around || !self.inside) && self.terrain.on_border(index);
+            return outward
+                .then(|| self.left(index))
+                .filter(|left| left.is_finite());
         }
         let on_level = match (self.goal.height_m, self.terrain.level_m(index)) {
             (Some(height), Some(level)) => (level - height).abs() <= LEVEL_M,
@@ -161,11 +164,12 @@ pub(crate) fn end_of(route: &Route, terrain: &Terrain, portals: &Portals, ends: 
         .cells
         .last()
         .is_some_and(|&cell| ends.is_blind(cell as usize));
+    let in_disc = (route.cells.last()).is_some_and(|&cell| ends.holds(cell as usize));
     match climbed {
         Some(way) if way.at_goal => End::Goal,
         Some(_) => End::Hope,
         None if blind => End::Hope,
-        None if ends.inside => End::Goal,
+        None if ends.inside && in_disc => End::Goal,
         None => End::Border,
     }
 }

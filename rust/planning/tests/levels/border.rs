@@ -82,3 +82,35 @@ fn the_way_out_of_a_blind_alley_that_is_larger_than_the_window_is_found() {
     let out_m = walked_m(&ALLEY, &behind);
     assert!(out_m < 20.0, "{out_m}");
 }
+
+/// A wall that ends 3.6 m ahead and has a gap behind, 0.6 m wide; the goal is on the other side of it.
+const LONG_WALL: [[[f64; 2]; 2]; 2] = [[[-0.9, 0.5], [3.6, 0.6]], [[-6.0, 0.5], [-1.5, 0.6]]];
+
+#[test]
+fn a_goal_that_comes_in_sight_behind_a_long_wall_is_not_walked_back_for() {
+    // Past the gap and on along the wall: when the goal comes into the window, the wall's end is still outside, and the gap is the
+    // one way that lies in it.
+    let behind = goal(2.9, 1.2);
+    let mut planner = planner();
+    let mut at = [0.0, 0.0];
+    let mut turned_back_m = 0.0_f64;
+    for _ in 0..120 {
+        let course = seen_from(at, &LONG_WALL);
+        let plan = plan(&mut planner, &course, [at[0], at[1], 0.0], 0.0, &behind);
+        let path = plan.way.unwrap();
+        let ahead = |point: &&[f64; 2]| (point[0] - at[0]).hypot(point[1] - at[1]) >= 0.1;
+        let next = *path
+            .points_m
+            .iter()
+            .find(ahead)
+            .or(path.points_m.last())
+            .unwrap();
+        turned_back_m += (at[0] - next[0]).max(0.0);
+        at = next;
+    }
+    assert!(
+        (at[0] - behind.x_m).hypot(at[1] - behind.y_m) <= behind.radius_m,
+        "{at:?}"
+    );
+    assert!(turned_back_m < 1.5, "{turned_back_m}");
+}
