@@ -137,6 +137,44 @@ fn what_is_five_centimetres_high_is_found_and_nothing_else() {
     }
 }
 
+/// Cells with an obstacle before a wall whose near face is at x = 1.8 m, after looks from a place by a robot that believes to be 3 cm
+/// and 1.7 degrees off; static map or not.
+fn before_the_wall(static_map: Option<Octree>, blocks: &[Block], truly: [f64; 2]) -> Vec<[f64; 2]> {
+    let mut maps = maps(VOXEL_M, static_map);
+    let [x_m, y_m] = truly;
+    let truth = at(x_m, y_m, 0.0);
+    let believed = Pose::from_yaw(x_m - 0.03, y_m, 0.0, 0.03);
+    for pitch in [0.2, 0.4, 0.6, 0.2, 0.4, 0.6] {
+        let planes = look(blocks, &truth, camera(0.5, pitch, 0.0));
+        let _ = maps.insert(&planes, &believed).unwrap();
+    }
+    let view = maps.view();
+    let cells = view.cells.area().cells();
+    let places = cells.filter(|cell| is_obstacle(view.cell(*cell)));
+    let places = places.map(|cell| view.lattice.center_of(cell));
+    places.filter(|place| place[0] < 1.8).collect()
+}
+
+#[test]
+fn a_wall_that_was_told_does_not_stand_beside_itself_seen_from_afar() {
+    let wall = Block::new([1.8, -1.0, 0.0], [1.96, 1.0, 0.5], false);
+    let thing = Block::new([1.4, -0.2, 0.0], [1.52, -0.04, 0.2], false);
+    let panel = Block::new([1.72, -0.2, 0.0], [1.8, 0.2, 0.4], false);
+    let far = [0.0, 0.0];
+    assert!(!before_the_wall(None, &[wall], far).is_empty());
+    let seen = before_the_wall(Some(told(&[wall])), &[wall, thing], far);
+    assert!(!seen.is_empty());
+    for [x, y] in seen {
+        assert!(
+            (1.3..1.6).contains(&x) && (-0.3..0.1).contains(&y),
+            "{x} {y}"
+        );
+    }
+    // What is flat against the wall is seen from near by.
+    let near = before_the_wall(Some(told(&[wall])), &[wall, panel], [0.9, 0.0]);
+    assert!(!near.is_empty());
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]

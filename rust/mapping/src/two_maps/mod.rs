@@ -10,6 +10,7 @@ mod believed;
 mod config;
 mod layers;
 mod prior;
+mod told;
 mod unseen;
 
 use std::sync::Arc;
@@ -126,7 +127,8 @@ impl TwoMaps {
         self.layers = Layers::above(bottom_m, place, self.config.resolution);
         self.view = FloorView::unknown(lattice, self.layers.size()[0]);
         if let Some(prior) = &mut self.prior {
-            prior.look(&self.layers, robot_m, &self.config);
+            let floors = (&self.config, self.floors.config().delta);
+            prior.look(&self.layers, robot_m, floors);
         }
         true
     }
@@ -146,6 +148,10 @@ impl TwoMaps {
             floor_at: |index| self.floor_at(index),
         };
         beams::read(&mut rays, (frame, planes), &ground, self.config.resolution);
+        let eye_m = frame.eye_m;
+        if let Some(prior) = &self.prior {
+            told::leave_out(&mut rays, eye_m, prior, &self.layers);
+        }
         let seen = rays.len();
         let unseen = Unseen {
             range_m: self.config.unseen_range,
@@ -154,7 +160,6 @@ impl TwoMaps {
             voxel_m: self.config.resolution,
         };
         unseen::read(&mut rays, planes, map_from_robot, &unseen);
-        let eye_m = frame.eye_m;
         let mut at = 0;
         rays.retain(|ray| {
             at += 1;

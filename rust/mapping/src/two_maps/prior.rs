@@ -25,6 +25,8 @@ pub(super) struct Prior {
     reached: Vec<u64>,
     /// For each cell the height of the floor, m; none where there is none to get to.
     floors: Vec<Option<f32>>,
+    /// For each cell the layers in which something stands out of the floor, one bit each.
+    upright: Vec<u64>,
 }
 
 impl Prior {
@@ -41,6 +43,7 @@ impl Prior {
             standable: Vec::new(),
             reached: Vec::new(),
             floors: Vec::new(),
+            upright: Vec::new(),
         })
     }
 
@@ -61,8 +64,13 @@ impl Prior {
         (reach_m > 0.0).then_some((middle, reach_m))
     }
 
-    /// Looks at it from where the robot stands.
-    pub(super) fn look(&mut self, layers: &Layers, robot_m: [f64; 3], config: &TwoMapsConfig) {
+    /// Looks at it from where the robot stands; what rises by less than `delta_m` is floor.
+    pub(super) fn look(
+        &mut self,
+        layers: &Layers,
+        robot_m: [f64; 3],
+        (config, delta_m): (&TwoMapsConfig, f64),
+    ) {
         self.columns.read((&self.tree, 0.5), layers, layers.all());
         let [cols, rows] = layers.size();
         let headroom = (config.height / config.resolution).ceil() as u32;
@@ -74,6 +82,29 @@ impl Prior {
         self.floors.clear();
         let floor = |&reached: &u64| floor_m(reached, layers, robot_m[2]).map(|m| m as f32);
         self.floors.extend(self.reached.iter().map(floor));
+        self.upright.clear();
+        let upright = self.floors.iter().enumerate().map(|(index, floor)| {
+            let floor_m = floor.map_or(robot_m[2], f64::from);
+            self.columns.at(index) & layers.between(floor_m + delta_m, f64::INFINITY)
+        });
+        self.upright.extend(upright);
+    }
+
+    /// Whether something stands out of the floor within a distance of a place, m, along each axis.
+    pub(super) fn stands_near(&self, at_m: [f64; 3], off_m: f64, layers: &Layers) -> bool {
+        let corner = |off_m: f64| {
+            let [x_m, y_m, _] = at_m;
+            layers.lattice().cell_at(x_m + off_m, y_m + off_m)
+        };
+        let around = CellArea {
+            min: corner(-off_m),
+            max: corner(off_m),
+        };
+        // A layer counts by its middle above, by its lower border below.
+        let half_m = 0.5 * layers.side_m();
+        let heights = layers.between(at_m[2] - off_m - half_m, at_m[2] + off_m);
+        (runs(around.within(layers.all()), layers.size()).flatten())
+            .any(|index| self.upright[index] & heights != 0)
     }
 
     /// Finds the surfaces to get to from where the robot stands, by steps from cell to cell.
