@@ -17,6 +17,7 @@ from treadwell.timing.frames import read_frames, write_frames
 from treadwell.timing.room import room
 
 
+@pytest.mark.slow
 def test_rays_followed_together_make_the_same_map_as_each_by_itself() -> None:
     """At 88x72 and at 320x240, on the frames of the bench; occupancy alone and the floors."""
     for camera, count in (("88x72", 20), ("320x240", 8)):
@@ -29,6 +30,7 @@ def test_rays_followed_together_make_the_same_map_as_each_by_itself() -> None:
         assert modes["projected"]["agreement"]["cells"] > 0.97
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("camera", "count", "occupied"), [("88x72", 40, 0.94), ("320x240", 40, 0.98)]
 )

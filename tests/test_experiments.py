@@ -286,6 +286,7 @@ def test_the_exit_status_says_how_it_went(
     assert "experiment.md" in shown.err
 
 
+@pytest.mark.slow
 def test_processes_side_by_side_give_the_same_report(small: Experiment, tmp_path: Path) -> None:
     reports = [
         conduct(small, range(3, 5), tmp_path / str(workers), workers=workers).document()

@@ -145,6 +145,7 @@ def test_a_gif_has_the_run_s_moments(tmp_path: Path) -> None:
     assert frames[0].shape == (320, 720, 3)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 def test_an_mp4_opens_and_shows_the_same(tmp_path: Path) -> None:
     path = tmp_path / "run.mp4"

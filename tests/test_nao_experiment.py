@@ -62,6 +62,7 @@ def test_the_rise_in_the_hallway_is_that_of_the_frames_in_it() -> None:
     assert row == ("30", "10", "+20", "20 to 20", "10")
 
 
+@pytest.mark.slow
 def test_other_filters_see_the_data_of_one_walk(tmp_path: Path) -> None:
     overrides = ("navigation.world_model=octree", "time_limit=14.0")
     episode = Episode("nao_1", seed=0, overrides=overrides)
@@ -152,6 +153,7 @@ def test_the_error_over_time_is_drawn_of_the_runs_of_one_seed(tmp_path: Path) ->
         draw_errors(tmp_path / "no folder" / "errors.png", [walk(0.1)])
 
 
+@pytest.mark.slow
 def test_a_walk_of_half_a_second_is_drawn_and_stands_in_the_tables(tmp_path: Path) -> None:
     name = cases.walked(2, "octree")
     case = next(case for case in NAO.cases if case.name == name)

@@ -62,6 +62,7 @@ def test_only_scenario_files_are_collected(tmp_path: Path) -> None:
     assert not is_scenario(tmp_path / "missing.toml")
 
 
+@pytest.mark.slow
 def test_a_scenario_file_is_a_test_and_a_broken_one_fails_with_its_message(
     pytester: pytest.Pytester,
 ) -> None:

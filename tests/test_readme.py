@@ -38,7 +38,15 @@ def test_a_make_target_exists(target: str) -> None:
     assert re.search(rf"^{target}:", (ROOT / "Makefile").read_text(), re.MULTILINE)
 
 
-@pytest.mark.parametrize("words", commands("treadwell"), ids=" ".join)
+# The bench takes half a minute.
+SLOW = {"bench": [pytest.mark.slow]}
+
+
+@pytest.mark.parametrize(
+    "words",
+    [pytest.param(words, marks=SLOW.get(words[0], [])) for words in commands("treadwell")],
+    ids=" ".join,
+)
 def test_a_command_is_understood(words: list[str], tmp_path: Path) -> None:
     """Runs are only checked, and what needs a run or a file of the reader's is asked for help."""
     own = [word for word in words[1:] if word.startswith("runs/") or word == "my_course.toml"]

@@ -128,6 +128,7 @@ def test_the_scenarios_are_solvable_or_not_as_they_were_made(name: str, way: boo
     assert is_solvable(made, build_course(made, robot), robot) is way
 
 
+@pytest.mark.slow
 def test_most_random_courses_are_solvable_for_both_robots() -> None:
     for robot in (qrio(), load_robot("nao")):
         for name in ("random_flat", "random_stairs"):

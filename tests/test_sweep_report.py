@@ -154,6 +154,7 @@ def test_a_row_knows_its_line() -> None:
     assert made.line == ("a", "b", "c")
 
 
+@pytest.mark.slow
 def test_a_finished_sweep_shows_its_variants_side_by_side_and_how_to_repeat_it(
     tmp_path: Path,
 ) -> None:
