@@ -200,6 +200,12 @@ mod tests {
     #[test]
     fn the_circle_refuses_it_and_what_is_wide_is_walked_straight_ahead() {
         let mut narrow = before_a_gap(PlanarPose::default(), 0.28, Footprint::Circle);
+        // In a closed room: out of the window and around the wall's ends leads a way that this window does not follow.
+        narrow.boxes.extend([
+            [[-0.9, 1.2], [0.68, 1.28]],
+            [[-0.9, -1.28], [0.68, -1.2]],
+            [[-0.98, -1.28], [-0.9, 1.28]],
+        ]);
         let (outcome, _) = narrow.run(150.0);
         assert!(
             matches!(outcome, Some(Outcome::Refused(reason)) if reason.starts_with("too_narrow: "))
