@@ -110,7 +110,7 @@ def test_unmapped_things_that_were_not_found_are_named() -> None:
     counts = MapCounts(floor_called_obstacle=0.002)
     run = Run(result(MADE, map=counts), Path("folder"), findings=found)
     rows = rows_of(nao_tables, {cases.walked(2, "fog"): [run]}, "The local map")
-    assert rows["2, fog"] == ("1 of 2", "books", "0.20", "0.20", "0.25", "0.25")
+    assert rows["2, fog"] == ("1 of 2", "books", "0.20", "0.20", "0.25", "0.25", "0.25")
 
 
 def test_contacts_and_the_time_to_a_new_way_are_counted_where_one_was_needed() -> None:
