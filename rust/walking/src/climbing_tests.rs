@@ -189,6 +189,21 @@ fn a_foot_that_meets_a_level_half_a_step_higher_than_told_goes_back() {
     assert_went_back(&world);
 }
 
+/// Forward on a tread that is too short: the toes come down on the edge of the next riser.
+#[test]
+fn a_foot_that_hangs_above_the_level_it_left_goes_back() {
+    for (jammed_m, misstep) in [(0.009, Some(Misstep::Obstructed)), (0.003, None)] {
+        let mut world = Ideal::new();
+        world.ground_m = |_, _| 0.0;
+        world.ground_beyond = vec![(0.02, jammed_m)];
+        run(
+            &mut world,
+            &climb(&[step(Side::Left, 0.03, 0.0, [-0.04, HALF_SOLE_M])]),
+        );
+        assert_eq!(world.walker.stepping().misstep, misstep);
+    }
+}
+
 #[test]
 fn feet_push_only_where_they_bear_also_when_the_robot_then_stands() {
     let mut world = Ideal::new();

@@ -112,6 +112,8 @@ pub struct GaitConfig {
     /// One that comes down on something this far above where it was told to land has met another level, m: 8 mm are climbed
     /// over, and heights are told within 3 mm.
     pub obstructed_height: f64,
+    /// The same on the level that the foot left, m: 3 mm are felt early. A toe on the riser behind a short tread is above it.
+    pub known_height: f64,
     /// A walking foot that comes upon something this far above the floor has met another level, m.
     pub stumble_height: f64,
     /// Time in which a walking foot goes back off what it met, s.
@@ -177,6 +179,7 @@ impl Default for GaitConfig {
             obstructed_distance: 0.018,
             brush_distance: 0.01,
             obstructed_height: 0.011,
+            known_height: 0.006,
             stumble_height: 0.012,
             retreat_time: 0.2,
             arms_time: 1.5,
@@ -218,7 +221,7 @@ impl GaitConfig {
         self.check_bounds()
     }
 
-    fn positive(&self) -> [(&'static str, f64); 30] {
+    fn positive(&self) -> [(&'static str, f64); 31] {
         [
             ("step_time", self.step_time),
             ("double_support", self.double_support),
@@ -245,6 +248,7 @@ impl GaitConfig {
             ("obstructed_distance", self.obstructed_distance),
             ("brush_distance", self.brush_distance),
             ("obstructed_height", self.obstructed_height),
+            ("known_height", self.known_height),
             ("stumble_height", self.stumble_height),
             ("retreat_time", self.retreat_time),
             ("arms_time", self.arms_time),

@@ -134,8 +134,17 @@ impl Swing {
     /// Whether a load means the ground: not on the way there, nor on another level that the foot comes down on.
     fn comes_down(&self, elapsed_s: f64, config: &GaitConfig) -> bool {
         let above_m = self.foot(elapsed_s, config).z_m - self.to.z_m;
-        let level = self.manner == Manner::Back || above_m <= config.obstructed_height;
+        let level = self.manner == Manner::Back || above_m <= self.met_m(config);
         level && elapsed_s >= SINKING * self.in_air_s(config)
+    }
+
+    /// How far above its place the foot has met something else, m: less on the level that it left, which it has stood on.
+    fn met_m(&self, config: &GaitConfig) -> f64 {
+        if (self.to.z_m - self.from.z_m).abs() <= config.known_height {
+            config.known_height
+        } else {
+            config.obstructed_height
+        }
     }
 
     /// Lets a foot that meets the next riser as it arrives land just before it, and says whether it may: whether that is near
