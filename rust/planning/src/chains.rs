@@ -40,7 +40,7 @@ impl Portals {
             if fixed {
                 stride.from_m = at_m;
             }
-            let Some(stride_m) = stride_cost_m(scene, at_m, &stride, level_m) else {
+            let Some(stride_m) = stride_cost_m(scene, at_m, &mut stride, level_m) else {
                 break;
             };
             let told = entry.level_seen || self.strides.len() > first;
@@ -123,6 +123,7 @@ impl Portals {
             from_m: line.at(offset_m, toes_m - 0.5 * scene.feet.length_m),
             to_m: line.at(offset_m, heel_m + 0.5 * scene.feet.length_m),
             range_m: range_m(scene, &line),
+            beside: 1.0,
             limit: footing.err(),
         }
     }
@@ -194,9 +195,15 @@ impl Portals {
 }
 
 /// What the way over a step costs by its length and by what stands beside it, m; `None` where the body has no room.
-fn stride_cost_m(scene: &Scene<'_>, at_m: [f64; 2], stride: &Stride, level_m: f64) -> Option<f64> {
+fn stride_cost_m(
+    scene: &Scene<'_>,
+    at_m: [f64; 2],
+    stride: &mut Stride,
+    level_m: f64,
+) -> Option<f64> {
     let below = weight_on_stairs(scene, stride.from_m, level_m)?;
     let above = weight_on_stairs(scene, stride.to_m, stride.step.stair.height_m())?;
+    stride.beside = below.max(above);
     Some(below * walk_m(at_m, stride.from_m) + above * walk_m(stride.from_m, stride.to_m))
 }
 

@@ -3,7 +3,7 @@
 use crate::legs::Draft;
 use crate::levels::Stand;
 use crate::line::Line;
-use crate::portals::{Portals, Stride};
+use crate::portals::{Fit, Portals, Stride};
 use crate::room::{SAME_M, distance_m};
 use crate::terrain::Terrain;
 use crate::{AStarConfig, Climb, Goal, Sidle};
@@ -19,6 +19,8 @@ const TURNED_RAD: f64 = 0.25;
 pub(crate) const SLACK_M: f64 = 0.03;
 /// So is one whose stair's height, or whose rise, differs by more than this, m.
 const LIFTED_M: f64 = 0.012;
+/// The lane over stairs is chosen anew when another one saves so much, m, by what stands beside it.
+const ROOMIER_M: f64 = 0.25;
 
 /// The path that is being followed.
 #[derive(Debug, Clone)]
@@ -75,6 +77,9 @@ impl Kept {
             let climb = &mut draft.climbs[index];
             let level_m = (climb.from_point == 0).then_some(stand.height_m);
             refresh(climb, level_m, tread, &mut draft.points_m, portals)?;
+        }
+        if another_lane_is_roomier(&draft, portals) {
+            return None;
         }
         let holds = holds(&draft, terrain) && slits_hold(&draft, terrain, config);
         (holds && walks_on_level(&draft, terrain)).then_some(draft)
@@ -195,6 +200,29 @@ fn seen_now<'a>(
         |stride: &Stride| distance_m(stride.step.crossing_m, step.crossing_m) + rises_m(stride);
     let strides = portals.all_strides().iter().filter(same);
     strides.min_by(|a, b| unlike_m(a).total_cmp(&unlike_m(b)))
+}
+
+/// Whether the edge that the path climbs first, and that the robot has not come to yet, can be crossed elsewhere with more room
+/// beside the stairs: when the path was found but a piece of it may have been seen.
+fn another_lane_is_roomier(draft: &Draft, portals: &Portals) -> bool {
+    let Some(climb) = draft.climbs.first().filter(|climb| climb.from_point > 0) else {
+        return false;
+    };
+    let Some(kept) = (climb.steps.first()).and_then(|step| seen_now(step, None, portals)) else {
+        return false;
+    };
+    let crossed_m = climb.steps[0].crossing_m;
+    let climb_m = distance_m(
+        draft.points_m[climb.from_point],
+        draft.points_m[climb.to_point],
+    );
+    let mut lanes = (portals.ways.iter().filter(|way| way.fit == Fit::Holds))
+        .filter_map(|way| portals.strides(way).first())
+        .filter(|lane| lane.step.stair == kept.step.stair);
+    lanes.any(|lane| {
+        let aside_m = distance_m(lane.step.crossing_m, crossed_m);
+        (kept.beside - lane.beside) * climb_m > aside_m + ROOMIER_M
+    })
 }
 
 /// The path from where the robot is beside it onward; `None` where it strayed too far.

@@ -41,6 +41,8 @@ pub(crate) struct Stride {
     pub(crate) to_m: [f64; 2],
     /// How far from its middle the edge may be crossed, m.
     pub(crate) range_m: f64,
+    /// What a metre costs here by what stands beside it: 1 where nothing is near.
+    pub(crate) beside: f64,
     /// Why it is not taken.
     pub(crate) limit: Option<Unfit>,
 }

@@ -5,6 +5,7 @@ use stairs::{Edge, Sides, Stair};
 
 use super::*;
 use crate::levels::Limits;
+use crate::portals::Way;
 use crate::terrain::Needs;
 
 /// A step down to this height over an edge across the way at x, from this level.
@@ -35,6 +36,7 @@ fn stride(x_m: f64, height_m: f64, level_m: f64) -> Stride {
         from_m: [x_m - 0.07, 0.0],
         to_m: [x_m + 0.07, 0.0],
         range_m: 0.2,
+        beside: 1.0,
         limit: None,
     }
 }
@@ -94,4 +96,49 @@ fn what_is_walked_behind_the_last_step_lies_as_high_as_that() {
     assert!(walks_on_level(&draft, &terrain(0.017)));
     assert!(!walks_on_level(&draft, &terrain(0.03)));
     assert!(!walks_on_level(&draft, &terrain(0.0)));
+}
+
+/// Ways over the same edge, each at an offset to the left with what a metre costs there by what stands beside it.
+fn lanes(offsets_m: &[(f64, f64)]) -> Portals {
+    let mut portals = Portals::default();
+    for (first, &(offset_m, beside)) in offsets_m.iter().enumerate() {
+        let mut lane = stride(1.0, 0.02, 0.0);
+        lane.step.crossing_m[1] = offset_m;
+        portals.strides.push(Stride { beside, ..lane });
+        portals.ways.push(Way {
+            first,
+            end: first + 1,
+            enter_m: [0.9, offset_m],
+            leave_m: None,
+            fit: Fit::Holds,
+            at_goal: false,
+            turned_rad: None,
+        });
+    }
+    portals
+}
+
+#[test]
+fn a_lane_is_left_only_ahead_and_where_another_one_saves_more_than_the_way_there() {
+    let mut step = stride(1.0, 0.02, 0.0).step;
+    step.crossing_m[1] = -0.2;
+    let climb = Climb {
+        from_point: 1,
+        to_point: 2,
+        steps: vec![step],
+    };
+    let draft = Draft {
+        points_m: vec![[0.4, -0.2], [0.9, -0.2], [1.4, -0.2]],
+        climbs: vec![climb],
+        ..Draft::default()
+    };
+    let by_a_wall = lanes(&[(-0.2, 2.5), (0.0, 1.0)]);
+    assert!(another_lane_is_roomier(&draft, &by_a_wall));
+    let hardly_better = lanes(&[(-0.2, 1.5), (0.0, 1.0)]);
+    assert!(!another_lane_is_roomier(&draft, &hardly_better));
+    let mut begun = draft;
+    drop(begun.points_m.drain(..1));
+    begun.climbs[0].from_point = 0;
+    begun.climbs[0].to_point = 1;
+    assert!(!another_lane_is_roomier(&begun, &by_a_wall));
 }
