@@ -73,6 +73,8 @@ struct Tries {
     looks: u32,
     /// Moves to the place from which a step is taken.
     moves: u32,
+    /// Lanes that were left for another one before the first step.
+    lanes: u32,
     /// Steps that were taken back.
     missteps: u32,
     /// Searches for stairs without a climb after them.

@@ -53,7 +53,7 @@ impl Portals {
             // What is higher than a step may turn out to be several.
             let steps = (stride.step.rise_m.abs() / RISE_M).max(1.0);
             let steps = if stride.limit.is_some() { steps } else { 1.0 };
-            cost_m += scene.config.climb_cost * steps;
+            cost_m += scene.config.climb_cost * steps * stride.beside;
             at_m = stride.to_m;
             self.strides.push(stride);
             let way = Way {

@@ -56,7 +56,7 @@ pub struct AStarConfig {
     pub foot_margin: f64,
     /// Around itself the robot sees no ground: so far unseen ground is of its own level, m.
     pub blind: f64,
-    /// What a step up or down costs, m of walking.
+    /// What a step up or down costs, m of walking; more beside what stands near, as a metre does.
     pub climb_cost: f64,
     /// A tread deeper than this is not crossed in one stride, but stepped onto and walked on, m.
     pub stride: f64,

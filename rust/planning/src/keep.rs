@@ -78,7 +78,7 @@ impl Kept {
             let level_m = (climb.from_point == 0).then_some(stand.height_m);
             refresh(climb, level_m, tread, &mut draft.points_m, portals)?;
         }
-        if another_lane_is_roomier(&draft, portals) {
+        if another_lane_is_roomier(&draft, portals, config.climb_cost) {
             return None;
         }
         let holds = holds(&draft, terrain) && slits_hold(&draft, terrain, config);
@@ -203,8 +203,8 @@ fn seen_now<'a>(
 }
 
 /// Whether the edge that the path climbs first, and that the robot has not come to yet, can be crossed elsewhere with more room
-/// beside the stairs: when the path was found but a piece of it may have been seen.
-fn another_lane_is_roomier(draft: &Draft, portals: &Portals) -> bool {
+/// beside the stairs: when the path was found but a piece of it may have been seen. `climb_cost` as configured.
+fn another_lane_is_roomier(draft: &Draft, portals: &Portals, climb_cost: f64) -> bool {
     let Some(climb) = draft.climbs.first().filter(|climb| climb.from_point > 0) else {
         return false;
     };
@@ -212,10 +212,11 @@ fn another_lane_is_roomier(draft: &Draft, portals: &Portals) -> bool {
         return false;
     };
     let crossed_m = climb.steps[0].crossing_m;
-    let climb_m = distance_m(
+    let length_m = distance_m(
         draft.points_m[climb.from_point],
         draft.points_m[climb.to_point],
     );
+    let climb_m = length_m + climb_cost * climb.steps.len() as f64;
     let mut lanes = (portals.ways.iter().filter(|way| way.fit == Fit::Holds))
         .filter_map(|way| portals.strides(way).first())
         .filter(|lane| lane.step.stair == kept.step.stair);

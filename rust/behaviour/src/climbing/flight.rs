@@ -4,9 +4,9 @@ mod lookup;
 
 use std::f64::consts::FRAC_PI_2;
 
-use geometry::{Map, PlanarPose, angle_between};
+use geometry::{PlanarPose, angle_between};
 use planning::{Plan, Step};
-use stairs::{ClimbingConfig, Edge, Staircase};
+use stairs::{ClimbingConfig, Staircase};
 
 use crate::climbing::placement::depth_m;
 use lookup::{LEAST_TREAD_M, following, is_same};
@@ -18,6 +18,9 @@ const OUT_OF_VIEW_M: f64 = 0.17;
 
 /// A robot on a tread deeper than this has room to turn and to walk, m.
 pub(crate) const ROOMY_M: f64 = 0.22;
+
+/// A lane further aside than this is another one, m.
+const LANE_M: f64 = 0.08;
 
 /// A robot whose middle is further than this before an edge has no foot over it yet, m.
 const NOT_YET_THERE_M: f64 = 0.06;
@@ -35,6 +38,8 @@ pub(crate) struct Flight {
     pub(crate) lost_s: f64,
     /// How long the plan has not led over it, s.
     pub(crate) unplanned_s: f64,
+    /// How far to the left of the lane the plan now crosses the first step, m.
+    elsewhere_m: f64,
 }
 
 impl Flight {
@@ -53,13 +58,15 @@ impl Flight {
         &self.steps
     }
 
-    /// Takes over the steps of a plan's leg, but for the edges that the robot is too near to see, and where it crosses them.
+    /// Takes over the steps of a plan's leg, but for the edges that the robot is too near to see, and where it crosses them: a
+    /// plan may cross a wide edge anywhere, and the robot would follow to and fro.
     /// A plan that ends short takes nothing away that is still there.
     fn renew(&mut self, steps: &[Step], stairs: &Staircase, pose: &PlanarPose) {
         let before = std::mem::take(&mut self.steps);
         self.adopt(steps);
         if let Some(first) = before.first() {
-            keep_lane(&mut self.steps, first);
+            self.elsewhere_m = aside_m(&self.steps, first);
+            shift(&mut self.steps, -self.elsewhere_m);
         }
         let mut last = None;
         for step in &mut self.steps {
@@ -88,6 +95,16 @@ impl Flight {
         self.steps.extend_from_slice(steps);
         self.lost_s = 0.0;
         self.unplanned_s = 0.0;
+        self.elsewhere_m = 0.0;
+    }
+
+    /// Takes the lane that the plan takes now, and says whether that is another one.
+    pub(crate) fn change_lane(&mut self) -> bool {
+        let changes = self.elsewhere_m.abs() > LANE_M;
+        if changes {
+            shift(&mut self.steps, std::mem::take(&mut self.elsewhere_m));
+        }
+        changes
     }
 
     /// The first step was taken.
@@ -162,19 +179,22 @@ fn look_up(steps: &mut [Step], stairs: &Staircase, pose: &PlanarPose) {
     }
 }
 
-/// Where the first step is crossed stays: a plan may cross a wide edge anywhere, and the robot would follow to and fro.
-fn keep_lane(steps: &mut [Step], before: &Step) {
-    let left_m = |edge: &Edge<Map>, [x_m, y_m]: [f64; 2], from_m: [f64; 2]| {
-        let (sin, cos) = edge.heading_rad().sin_cos();
-        (y_m - from_m[1]) * cos - (x_m - from_m[0]) * sin
-    };
-    let aside_m = steps.first().map_or(0.0, |first| {
-        left_m(&first.stair.front, before.crossing_m, first.crossing_m)
-    });
+/// How far to the left of where it was crossed before the first step is crossed now, m.
+fn aside_m(steps: &[Step], before: &Step) -> f64 {
+    steps.first().map_or(0.0, |first| {
+        let (sin, cos) = first.stair.front.heading_rad().sin_cos();
+        let [x_m, y_m] = first.crossing_m;
+        let [from_x_m, from_y_m] = before.crossing_m;
+        (y_m - from_y_m) * cos - (x_m - from_x_m) * sin
+    })
+}
+
+/// Moves where steps are crossed to the left.
+fn shift(steps: &mut [Step], left_m: f64) {
     for step in steps {
         let (sin, cos) = step.stair.front.heading_rad().sin_cos();
-        step.crossing_m[0] -= aside_m * sin;
-        step.crossing_m[1] += aside_m * cos;
+        step.crossing_m[0] -= left_m * sin;
+        step.crossing_m[1] += left_m * cos;
     }
 }
 

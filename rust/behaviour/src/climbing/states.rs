@@ -106,7 +106,11 @@ impl StairClimbing {
             y_mps: (1.2 * way.y_m).clamp(-0.04, 0.04),
             yaw_radps: (1.5 * turned_rad).clamp(-0.4, 0.4),
         };
-        if there
+        // From before the edge the plan may know better where to cross it than when the robot set off.
+        if there && self.tries.lanes == 0 && self.flight.change_lane() {
+            self.tries.lanes += 1;
+            self.state_s = 0.0;
+        } else if there
             || self.state_s > LONGEST_ALIGN_S
             || self.brink(here).is_neared(&here.pose, &velocity)
         {

@@ -133,12 +133,12 @@ fn a_lane_is_left_only_ahead_and_where_another_one_saves_more_than_the_way_there
         ..Draft::default()
     };
     let by_a_wall = lanes(&[(-0.2, 2.5), (0.0, 1.0)]);
-    assert!(another_lane_is_roomier(&draft, &by_a_wall));
+    assert!(another_lane_is_roomier(&draft, &by_a_wall, 0.0));
     let hardly_better = lanes(&[(-0.2, 1.5), (0.0, 1.0)]);
-    assert!(!another_lane_is_roomier(&draft, &hardly_better));
+    assert!(!another_lane_is_roomier(&draft, &hardly_better, 0.0));
     let mut begun = draft;
     drop(begun.points_m.drain(..1));
     begun.climbs[0].from_point = 0;
     begun.climbs[0].to_point = 1;
-    assert!(!another_lane_is_roomier(&begun, &by_a_wall));
+    assert!(!another_lane_is_roomier(&begun, &by_a_wall, 0.0));
 }

@@ -45,6 +45,26 @@ fn a_plan_that_crosses_a_wide_edge_elsewhere_does_not_move_the_lane() {
     }
 }
 
+#[test]
+fn the_lane_of_the_plan_is_taken_when_it_is_asked_for_and_is_another_one() {
+    let (pose, config) = (PlanarPose::default(), ClimbingConfig::default());
+    for (planned_m, taken_m) in [(0.05, 0.1), (-0.2, -0.2)] {
+        let mut flight = Flight::default();
+        flight.adopt(&plan(0.1).way.as_ref().unwrap().climbs[0].steps);
+        flight.refresh(
+            Some(&plan(planned_m)),
+            &Staircase::default(),
+            &pose,
+            &config,
+        );
+        assert_eq!(flight.change_lane(), planned_m == taken_m);
+        assert!(!flight.change_lane());
+        for step in flight.steps() {
+            assert!((step.crossing_m[1] - taken_m).abs() < 1e-9, "{step:?}");
+        }
+    }
+}
+
 /// The stairs of the plan's steps after their fronts were measured, further on by this much than they were thought.
 fn measured(plan: &Plan, further_m: f64) -> Staircase {
     let steps = &plan.way.as_ref().unwrap().climbs[0].steps;
