@@ -107,7 +107,7 @@ impl<F: Finder> Grounded<F> {
                 region.support >= least
                     && 3 * region.core >= config.min_ground
                     && height_m.abs() < gate_m
-                    && (height_m.abs() < config.known_height || !self.has_level_beside(i))
+                    && (height_m.abs() < config.known_height || !self.has_level_beside(i, camera_m))
                     && off_the_joints_m.abs() < config.ground_height
                     && surfaces.is_level(i)
                     && !self.known.is_elsewhere(i, height_m, config.known_height)
@@ -144,15 +144,18 @@ impl<F: Finder> Grounded<F> {
         Some(slopes)
     }
 
-    /// Whether another level surface lies so little above or below a region that one could be taken for the other.
-    fn has_level_beside(&self, index: usize) -> bool {
+    /// Whether another level surface lies so little above or below a region that one could be taken for the other: not where the
+    /// other one is farther from where the joints have the ground than the ground can be.
+    fn has_level_beside(&self, index: usize, camera_m: f64) -> bool {
         let surfaces = &self.surfaces;
         let below_m = |i: usize| 1.0 / f64::from(surfaces.regions[i].q);
         (0..surfaces.regions.len()).any(|i| {
             let apart_m = (below_m(i) - below_m(index)).abs();
+            let off_the_joints_m = camera_m - below_m(i) - self.correction.height_m();
             3 * surfaces.regions[i].core >= self.config.min_ground
                 && apart_m > self.config.known_height
                 && apart_m < 2.0 * self.config.track_height
+                && off_the_joints_m.abs() < self.config.ground_height
                 && surfaces.is_level(i)
         })
     }

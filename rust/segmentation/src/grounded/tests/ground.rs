@@ -210,6 +210,30 @@ fn low_stairs_in_view_at_the_start_are_not_taken_for_the_ground_of_a_tilted_came
     }
 }
 
+/// With the camera this much too high by the joints the first step lies farther from where they have the ground than it can.
+#[test]
+fn a_ground_that_the_joints_misplace_is_found_at_first_sight_before_low_stairs() {
+    for (raised_m, rise_m) in [(0.012, 0.016), (0.012, 0.022), (0.016, 0.02)] {
+        let mut noise = Noise::new(11);
+        let scene = low_steps(0.7, rise_m, 0.18);
+        let truth = camera_pose(0.0, 0.85);
+        let believed = turned(&truth, &Vector3::zeros(), raised_m);
+        let mut found = 0;
+        for _ in 0..8 {
+            let (mut segmenter, mut planes) = (segmenter(), planes());
+            let scan = scene.scan(&truth, believed, SIGMA, &mut noise);
+            segmenter.segment(&scan, &mut planes).unwrap();
+            let (_, height_m) = pose_error(&planes, &truth);
+            assert!(
+                planes.ground.is_none() || height_m.abs() < 0.007,
+                "{height_m}"
+            );
+            found += usize::from(planes.ground.is_some());
+        }
+        assert!(found >= 6, "{raised_m} {rise_m}: {found} of 8");
+    }
+}
+
 #[test]
 fn uncorrected_the_camera_stays_where_the_joints_have_it() {
     let config = GroundConfig {
