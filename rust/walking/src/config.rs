@@ -112,7 +112,7 @@ pub struct GaitConfig {
     /// One that comes down on something this far above where it was told to land has met another level, m: 8 mm are climbed
     /// over, and heights are told within 3 mm.
     pub obstructed_height: f64,
-    /// The same on the level that the foot left, m: 3 mm are felt early. A toe on the riser behind a short tread is above it.
+    /// So has one whose sole is felt to be this far above the level that it left, m: a toe on the riser behind a short tread.
     pub known_height: f64,
     /// A walking foot that comes upon something this far above the floor has met another level, m.
     pub stumble_height: f64,

@@ -71,7 +71,7 @@ impl Gait {
                 let (swing, at) = (*swing, felt.found(swing, *elapsed_s, &self.config));
                 self.land_carefully(&swing, at, task);
             }
-        } else if touches && swing.comes_down(before_s, &self.config) {
+        } else if touches && felt.bears(swing, before_s, &self.config) {
             swing.landing = Landing::Found(swing.foot(before_s, &self.config).z_m);
         } else if swing.manner == Manner::Careful
             && felt.obstructs(swing, before_s, touches, &self.config)
@@ -131,22 +131,6 @@ impl Gait {
 }
 
 impl Swing {
-    /// Whether a load means the ground: not on the way there, nor on another level that the foot comes down on.
-    fn comes_down(&self, elapsed_s: f64, config: &GaitConfig) -> bool {
-        let above_m = self.foot(elapsed_s, config).z_m - self.to.z_m;
-        let level = self.manner == Manner::Back || above_m <= self.met_m(config);
-        level && elapsed_s >= SINKING * self.in_air_s(config)
-    }
-
-    /// How far above its place the foot has met something else, m: less on the level that it left, which it has stood on.
-    fn met_m(&self, config: &GaitConfig) -> f64 {
-        if (self.to.z_m - self.from.z_m).abs() <= config.known_height {
-            config.known_height
-        } else {
-            config.obstructed_height
-        }
-    }
-
     /// Lets a foot that meets the next riser as it arrives land just before it, and says whether it may: whether that is near
     /// enough to where it was told.
     fn stop_short(&mut self, elapsed_s: f64, config: &GaitConfig) -> bool {
@@ -169,6 +153,17 @@ impl Felt {
             z_m: self.soles_m[swing.side.index()].z,
             ..swing.foot(elapsed_s, config)
         }
+    }
+
+    /// Whether a load means the ground: not on the way there, nor on another level that the foot comes down on. The level that it left
+    /// is known, and the foot is above it for sure where joints and attitude say so: a swaying robot touches early.
+    fn bears(&self, swing: &Swing, elapsed_s: f64, config: &GaitConfig) -> bool {
+        let told_m = swing.foot(elapsed_s, config).z_m - swing.to.z_m;
+        let felt_m = self.soles_m[swing.side.index()].z - swing.to.z_m;
+        let knows = (swing.to.z_m - swing.from.z_m).abs() <= config.known_height;
+        let above = told_m > config.obstructed_height || knows && felt_m > config.known_height;
+        let level = swing.manner == Manner::Back || !above;
+        level && elapsed_s >= SINKING * swing.in_air_s(config)
     }
 
     /// Whether something is in the foot's way: a load on it before it comes down where it should, or a place far from where it
