@@ -31,7 +31,7 @@ impl StairClimbing {
             self.stepper.start(vec![beside], &here.pose, here.ground_m);
             self.phase(Phase::Step);
         } else if landed == 0 {
-            if self.tries.missteps > 1 {
+            if self.tries.missteps >= self.config.tries {
                 self.refuse(format!("blocked: {what}"));
             } else {
                 self.pauses = true;
