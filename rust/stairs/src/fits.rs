@@ -1,6 +1,6 @@
 //! Which edges are fitted in a frame, and what the fits of all frames say of the stairs.
 
-use geometry::{Map, Pose, Robot};
+use geometry::{Map, Point, Pose, Robot};
 use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
 
@@ -22,6 +22,8 @@ const KEPT: usize = 16;
 const SAME_LEVEL_M: f64 = 0.007;
 /// Errors of the place (m) and the heading (rad) of an edge between two regions of labels.
 const SURE: (f64, f64) = (0.006, 0.06);
+/// An edge whose middle is out of view is fitted so far to either side of where it is crossed, m.
+const AHEAD_M: f64 = 0.15;
 /// Largest change of height that is fitted, m.
 const LARGEST_RISE_M: f64 = 0.1;
 
@@ -178,8 +180,9 @@ fn wanted(
     (0..stairs.len()).filter_map(one).collect()
 }
 
-/// Where the front edge of a stair is looked for. The floor at the foot of a narrow staircase has an edge so wide that its
-/// middle may be out of view: then the part behind the stair before it.
+/// Where the front edge of a stair is looked for. The middle of a wide one may be out of view: that of the floor at the foot of a
+/// narrow staircase, then the part behind the stair before it counts; or one that the robot crosses off its middle, then the
+/// part ahead.
 fn guess(
     stair: &Stair<Map>,
     before: Option<&Stair<Map>>,
@@ -187,11 +190,24 @@ fn guess(
     robot_from_map: &Pose<Robot, Map>,
 ) -> Edge<Robot> {
     let whole = stair.front.transformed(robot_from_map);
-    if view.contains(&whole.middle().inner) {
-        return whole;
+    let behind = before.and_then(|before| part_beside(&stair.front, &before.back));
+    let behind = behind.map_or(whole, |part| part.transformed(robot_from_map));
+    let parts = [whole, behind, part_ahead(&whole)];
+    let mut seen = parts.into_iter();
+    seen.find(|part| view.contains(&part.middle().inner))
+        .unwrap_or(behind)
+}
+
+/// The part of an edge around where the robot's way straight on crosses it, or that is nearest to there.
+fn part_ahead(edge: &Edge<Robot>) -> Edge<Robot> {
+    let (left, right) = (edge.left.inner, edge.right.inner);
+    let ahead = (left.y / (left.y - right.y).max(1e-9)).clamp(0.0, 1.0);
+    let half = AHEAD_M / edge.length_m().max(AHEAD_M);
+    let at = |share: f64| Point::wrap(left + (right - left) * share.clamp(0.0, 1.0));
+    Edge {
+        left: at(ahead - half),
+        right: at(ahead + half),
     }
-    let part = before.and_then(|before| part_beside(&stair.front, &before.back));
-    part.map_or(whole, |part| part.transformed(robot_from_map))
 }
 
 #[cfg(test)]
@@ -251,6 +267,25 @@ mod tests {
     }
 
     #[test]
+    fn the_part_ahead_of_an_edge_lies_on_it_around_where_it_is_crossed() {
+        for (aside_m, ends_m) in [
+            (-0.2, [0.15, -0.15]),
+            (0.0, [0.15, -0.15]),
+            (0.5, [-0.1, -0.25]),
+        ] {
+            let at = |y_m: f64| Point::<Robot>::new(0.07, y_m, 0.05);
+            let edge = Edge {
+                left: at(0.4 - aside_m),
+                right: at(-0.4 - aside_m),
+            };
+            let part = part_ahead(&edge);
+            for (end, y_m) in [part.left, part.right].iter().zip(ends_m) {
+                assert!((end.inner - at(y_m).inner).norm() < 1e-12, "{part:?}");
+            }
+        }
+    }
+
+    #[test]
     fn of_two_fits_of_one_edge_the_surer_counts_whichever_came_first() {
         let (near, far) = ((0.5, 0.0, 0.002), (0.53, 0.006, 0.0055));
         for edges in [[near, far], [far, near]] {
@@ -279,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_whose_middle_is_out_of_view_is_looked_for_behind_the_stair_before_it() {
+    fn an_edge_whose_middle_is_out_of_view_is_looked_for_behind_the_stair_before_it_or_ahead() {
         let mut planes = Planes::new(CAMERA.width * CAMERA.height);
         planes.robot_from_camera = camera_pose(0.0, 1.0);
         let view = View::new(&planes, CAMERA);
@@ -303,7 +338,7 @@ mod tests {
             ends_m(&floor([-1.4, 0.2]), Some(&tread)),
             [-0.16, 0.16]
         ));
-        assert!(near(ends_m(&floor([-1.4, 0.2]), None), [-1.4, 0.2]));
+        assert!(near(ends_m(&floor([-1.4, 0.2]), None), [-0.15, 0.15]));
         assert!(near(ends_m(&floor([-0.3, 0.3]), Some(&tread)), [-0.3, 0.3]));
     }
 
