@@ -97,7 +97,7 @@ pub struct ParameterSet {
 pub struct ClimbingConfig {
     /// Changes of height up to this are floor, m.
     pub floor_max: f64,
-    /// Error of a measured height that the limits allow for, m.
+    /// Error of a measured height, or depth of a tread, that the limits allow for, m.
     pub tolerance: f64,
     /// Room beside the feet on a stair, to each side, m.
     pub side_room: f64,

@@ -85,7 +85,7 @@ impl Footing {
             } => {
                 let next = config.set_for(next_m);
                 let needed_m = least_heel_m + feet.length_m - next.back_x_limit;
-                if depth_m < needed_m {
+                if depth_m < needed_m - config.tolerance {
                     let basin = rise_m < 0.0 && next_m > 0.0;
                     return Err(if basin {
                         Unfit::GapTooShort(depth_m, needed_m)
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn a_basin_is_entered_from_125_mm_on() {
         assert!(on_stair(-0.03, edge(0.126, 0.03)).is_ok());
-        let refused = on_stair(-0.03, edge(0.124, 0.03)).unwrap_err();
+        let refused = on_stair(-0.03, edge(0.122, 0.03)).unwrap_err();
         assert!(matches!(refused, Unfit::GapTooShort(..)));
     }
 

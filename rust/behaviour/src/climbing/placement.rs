@@ -187,7 +187,7 @@ impl Before<'_> {
         if let Onward::Edge { depth_m, rise_m } = onward {
             let limit_m = self.climbing.set_for(rise_m).back_x_limit - slack_m;
             let most_m = depth_m + limit_m - self.feet.length_m;
-            if most_m < least_m {
+            if most_m < least_m - self.climbing.tolerance {
                 let needed_m = depth_m + least_m - most_m;
                 return Err(Unfit::TreadTooShort(depth_m, needed_m));
             }
