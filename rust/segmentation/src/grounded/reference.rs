@@ -145,17 +145,20 @@ impl<F: Finder> Grounded<F> {
     }
 
     /// Whether another level surface lies so little above or below a region that one could be taken for the other: not where the
-    /// other one is farther from where the joints have the ground than the ground can be.
+    /// other one is farther from where the joints have the ground than the ground can be, unless it is about as large: in a view
+    /// that is off by degrees both may be parts of the ground.
     fn has_level_beside(&self, index: usize, camera_m: f64) -> bool {
         let surfaces = &self.surfaces;
         let below_m = |i: usize| 1.0 / f64::from(surfaces.regions[i].q);
         (0..surfaces.regions.len()).any(|i| {
             let apart_m = (below_m(i) - below_m(index)).abs();
             let off_the_joints_m = camera_m - below_m(i) - self.correction.height_m();
+            let could_be_ground = off_the_joints_m.abs() < self.config.ground_height
+                || 2 * surfaces.regions[i].support > surfaces.regions[index].support;
             3 * surfaces.regions[i].core >= self.config.min_ground
                 && apart_m > self.config.known_height
                 && apart_m < 2.0 * self.config.track_height
-                && off_the_joints_m.abs() < self.config.ground_height
+                && could_be_ground
                 && surfaces.is_level(i)
         })
     }
