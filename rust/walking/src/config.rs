@@ -114,6 +114,9 @@ pub struct GaitConfig {
     pub obstructed_height: f64,
     /// So has one whose sole is felt to be this far above the level that it left, m: a toe on the riser behind a short tread.
     pub known_height: f64,
+    /// A listed step during which the DCM is this far beside its reference, towards the foot that has hardly left, is begun anew, m:
+    /// 10 mm are the most in steps that go well.
+    pub tip_error: f64,
     /// A walking foot that comes upon something this far above the floor has met another level, m.
     pub stumble_height: f64,
     /// Time in which a walking foot goes back off what it met, s.
@@ -180,6 +183,7 @@ impl Default for GaitConfig {
             brush_distance: 0.01,
             obstructed_height: 0.011,
             known_height: 0.006,
+            tip_error: 0.015,
             stumble_height: 0.012,
             retreat_time: 0.2,
             arms_time: 1.5,
@@ -221,7 +225,7 @@ impl GaitConfig {
         self.check_bounds()
     }
 
-    fn positive(&self) -> [(&'static str, f64); 31] {
+    fn positive(&self) -> [(&'static str, f64); 32] {
         [
             ("step_time", self.step_time),
             ("double_support", self.double_support),
@@ -249,6 +253,7 @@ impl GaitConfig {
             ("brush_distance", self.brush_distance),
             ("obstructed_height", self.obstructed_height),
             ("known_height", self.known_height),
+            ("tip_error", self.tip_error),
             ("stumble_height", self.stumble_height),
             ("retreat_time", self.retreat_time),
             ("arms_time", self.arms_time),

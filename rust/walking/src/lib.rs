@@ -33,6 +33,7 @@ mod targets;
 pub mod task;
 #[cfg(test)]
 mod test_biped;
+mod tipping;
 mod walker;
 
 pub use config::GaitConfig;

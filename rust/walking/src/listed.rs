@@ -19,6 +19,8 @@ pub(crate) struct Listed {
     pub(crate) height_error_m: f64,
     /// Why the list was given up.
     pub(crate) misstep: Option<Misstep>,
+    /// How often a foot was put down again because the robot tipped.
+    pub(crate) put_down: usize,
     /// Whether a walk has come upon a level that it was not told of.
     pub(crate) stumbled: bool,
 }

@@ -109,6 +109,7 @@ impl Walker {
         let rate = self
             .capture
             .adjust(&mut self.gait, &self.soles, &error, omega, passed_s);
+        self.gait.catch_tipping(&error);
         let felt = self.feel(observation, state);
         let frame = self.frame(&felt);
         self.list.take(&command.motion, &mut self.gait, frame);

@@ -1,0 +1,143 @@
+//! A careful step begun on a foot that does not lie flat: the sole rocks, and the robot tips over its inner edge.
+//!
+//! A step of a list is put where it was told, so that no landing can be moved to catch it, and the ankle cannot pull beyond the edge.
+//! But such a tip shows while the foot has hardly left, and takes most of a second: time to put the foot down where it was, and to
+//! begin again.
+
+use geometry::PlanarPose;
+use nalgebra::Vector2;
+
+use crate::gait::{Gait, Manner, Phase, Swing};
+use crate::swing;
+
+/// How often in a list a foot is put down again; a robot that still tips is better off with the step behind it.
+const TIMES: usize = 3;
+/// Share of its way over the ground up to which a foot is still where it left.
+const HARDLY: f64 = 0.05;
+
+impl Gait {
+    /// Puts a careful foot down again that has risen but not gone anywhere yet where the DCM's `error` says that the robot tips
+    /// towards it. The step is taken anew after that.
+    pub(crate) fn catch_tipping(&mut self, error: &Vector2<f64>) {
+        let Phase::Single {
+            elapsed_s, swing, ..
+        } = self.phase
+        else {
+            return;
+        };
+        let share = elapsed_s / swing.in_air_s(&self.config);
+        if swing.manner != Manner::Careful
+            || swing::careful_travel(share) > HARDLY
+            || self.listed.put_down >= TIMES
+        {
+            return;
+        }
+        let stance_yaw_rad = self.feet[swing.side.other().index()].planar.yaw_rad;
+        let (_, left_m) = PlanarPose::new(0.0, 0.0, -stance_yaw_rad).apply(error.x, error.y);
+        if left_m * swing.side.sign() > self.config.tip_error {
+            self.listed.put_down += 1;
+            let here = swing.foot(elapsed_s, &self.config);
+            let down = Swing::new(swing.side, Manner::Retreat, here, swing.from);
+            self.phase = Phase::Single {
+                elapsed_s: 0.0,
+                duration_s: down.single_support_s(&self.config),
+                swing: down,
+            };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use behaviour::Footstep;
+    use robot::Side;
+
+    use super::*;
+    use crate::footsteps::FootstepPlanner;
+    use crate::gait::FootPose;
+    use crate::landing::Ground;
+    use crate::task::Task;
+    use crate::test_biped::{biped, config};
+
+    const STEP: [Footstep; 1] = [Footstep {
+        side: Side::Left,
+        pose: PlanarPose {
+            x_m: 0.12,
+            y_m: 0.0425,
+            yaw_rad: 0.0,
+        },
+        height_m: 0.04,
+        bearing_m: [-0.05, 0.05],
+    }];
+
+    /// The left foot on its way onto a stair, for this share of its time already.
+    fn climbing(share: f64) -> Gait {
+        let (config, body) = (config(), biped());
+        let foot = |y: f64| FootPose {
+            planar: PlanarPose::new(0.0, y, 0.0),
+            ..FootPose::default()
+        };
+        let planner = FootstepPlanner::new(&config, &body);
+        let mut gait = Gait::new(&config, planner, [foot(0.0425), foot(-0.0425)]);
+        gait.begin_list(PlanarPose::default(), 0.0);
+        let swing = gait.listed_swing(&gait.feet, &STEP, 0).unwrap();
+        gait.phase = Phase::Single {
+            elapsed_s: share * swing.in_air_s(&config),
+            duration_s: swing.single_support_s(&config),
+            swing,
+        };
+        gait
+    }
+
+    fn manner(gait: &Gait) -> Option<Manner> {
+        match &gait.phase {
+            Phase::Single { swing, .. } => Some(swing.manner),
+            _ => None,
+        }
+    }
+
+    #[test]
+    fn a_foot_that_the_robot_tips_towards_is_put_down_where_it_was_and_the_step_begun_anew() {
+        let mut gait = climbing(0.2);
+        let height_m = gait.foot(Side::Left).z_m;
+        gait.catch_tipping(&Vector2::new(0.0, 0.02));
+        assert!(height_m > 0.01 && gait.foot(Side::Left).z_m == height_m);
+        let mut down = false;
+        for _ in 0..100 {
+            gait.advance(0.01, Task::Steps(&STEP), &Ground::AsTold);
+            if let Phase::Double { next, .. } = &gait.phase {
+                let next = next.unwrap();
+                assert_eq!((next.side, next.manner), (Side::Left, Manner::Careful));
+                assert_eq!((next.to.planar.x_m, next.to.z_m), (0.12, 0.04));
+                down = true;
+            }
+        }
+        assert!(down && manner(&gait) == Some(Manner::Careful));
+        assert_eq!(gait.stepping().landed, 0);
+        assert_eq!(gait.stepping().misstep, None);
+    }
+
+    #[test]
+    fn what_the_ankle_takes_back_and_what_the_foot_has_left_behind_let_the_step_go_on() {
+        for (share, x_m, y_m) in [
+            (0.2, 0.0, 0.012),
+            (0.2, 0.0, -0.03),
+            (0.2, 0.03, 0.0),
+            (0.5, 0.0, 0.03),
+        ] {
+            let mut gait = climbing(share);
+            gait.catch_tipping(&Vector2::new(x_m, y_m));
+            assert_eq!(manner(&gait), Some(Manner::Careful), "{share} {x_m} {y_m}");
+        }
+    }
+
+    #[test]
+    fn a_robot_that_tips_whatever_it_does_takes_the_step_at_last() {
+        let mut gait = climbing(0.0);
+        for _ in 0..1000 {
+            gait.catch_tipping(&Vector2::new(0.0, 0.02));
+            gait.advance(0.01, Task::Steps(&STEP), &Ground::AsTold);
+        }
+        assert_eq!(gait.stepping().landed, 1);
+    }
+}
