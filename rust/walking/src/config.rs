@@ -105,6 +105,8 @@ pub struct GaitConfig {
     pub probe_speed: f64,
     /// How much deeper than told a foot seeks the ground, m.
     pub probe_depth: f64,
+    /// Speed at which a foot that was found on the ground goes on down while less than `landing_load` is on it, m/s.
+    pub press_speed: f64,
     /// A listed step's foot that is this far beside its path has met something, m.
     pub obstructed_distance: f64,
     /// One that meets the next riser this near to its place comes down where it is, m: what lies behind its bearing part.
@@ -115,7 +117,7 @@ pub struct GaitConfig {
     /// So has one whose sole is felt to be this far above the level that it left, m: a toe on the riser behind a short tread.
     pub known_height: f64,
     /// A listed step during which the DCM is this far beside its reference, towards the foot that has hardly left, is begun anew, m:
-    /// 10 mm are the most in steps that go well.
+    /// 14 mm are the most in steps that go well.
     pub tip_error: f64,
     /// A walking foot that comes upon something this far above the floor has met another level, m.
     pub stumble_height: f64,
@@ -179,11 +181,12 @@ impl Default for GaitConfig {
             climb_rise: 0.055,
             probe_speed: 0.08,
             probe_depth: 0.012,
+            press_speed: 0.02,
             obstructed_distance: 0.018,
             brush_distance: 0.01,
             obstructed_height: 0.011,
             known_height: 0.006,
-            tip_error: 0.015,
+            tip_error: 0.0175,
             stumble_height: 0.012,
             retreat_time: 0.2,
             arms_time: 1.5,
@@ -262,7 +265,7 @@ impl GaitConfig {
         ]
     }
 
-    fn not_negative(&self) -> [(&'static str, f64); 19] {
+    fn not_negative(&self) -> [(&'static str, f64); 20] {
         [
             ("foot_gap", self.foot_gap),
             ("support_forward", self.support_forward),
@@ -283,6 +286,7 @@ impl GaitConfig {
             ("ankle_leak", self.ankle_leak),
             ("climb_landing_time", self.climb_landing_time),
             ("probe_depth", self.probe_depth),
+            ("press_speed", self.press_speed),
         ]
     }
 

@@ -66,10 +66,13 @@ impl Gait {
         };
         let swing_s = swing.in_air_s(&self.config);
         let touches = felt.loads_n[swing.side.index()] > self.config.landing_load;
-        if let Landing::Found(_) = swing.landing {
+        if let Landing::Found(height_m) = swing.landing {
             if over {
                 let (swing, at) = (*swing, felt.found(swing, *elapsed_s, &self.config));
                 self.land_carefully(&swing, at, task);
+            } else if !touches {
+                // It has bounced, or hangs in the play of its joints with one corner down: it is to lie flat before it carries.
+                swing.landing = Landing::Found(height_m - self.config.press_speed * passed_s);
             }
         } else if touches && felt.bears(swing, before_s, &self.config) {
             swing.landing = Landing::Found(swing.foot(before_s, &self.config).z_m);
@@ -176,5 +179,50 @@ impl Felt {
         let ahead = swing.foot(elapsed_s + LAG_S, config);
         let lag_m = ahead.planar.distance_m(&told.planar);
         share >= HIGH && (touches || off_m > config.obstructed_distance + lag_m)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use geometry::PlanarPose;
+    use robot::Side;
+
+    use super::*;
+    use crate::footsteps::FootstepPlanner;
+    use crate::test_biped::{biped, config};
+
+    /// How far the left foot, found on the ground, goes down in a tenth of a second with this load on it, m.
+    fn pressed_m(load_n: f64) -> f64 {
+        let (config, body) = (config(), biped());
+        let foot = |x: f64, y: f64| FootPose {
+            planar: PlanarPose::new(x, y, 0.0),
+            ..FootPose::default()
+        };
+        let feet = [foot(0.0, 0.0425), foot(0.0, -0.0425)];
+        let planner = FootstepPlanner::new(&config, &body);
+        let mut gait = Gait::new(&config, planner, feet);
+        let mut swing = Swing::new(Side::Left, Manner::Careful, feet[0], foot(0.1, 0.0425));
+        swing.landing = Landing::Found(0.002);
+        gait.phase = Phase::Single {
+            elapsed_s: 0.9 * swing.in_air_s(&config),
+            duration_s: swing.single_support_s(&config),
+            swing,
+        };
+        let felt = Felt {
+            loads_n: [load_n, 50.0],
+            soles_m: [Vector3::zeros(); 2],
+            pressed_m: [Vector2::zeros(); 2],
+        };
+        for _ in 0..10 {
+            gait.advance(0.01, Task::Steps(&[]), &Ground::Felt(felt));
+        }
+        0.002 - gait.foot(Side::Left).z_m
+    }
+
+    #[test]
+    fn a_foot_that_was_found_on_the_ground_presses_until_it_carries_something() {
+        let most_m = 0.1 * config().press_speed;
+        assert!((pressed_m(0.2) - most_m).abs() < 1e-9);
+        assert_eq!(pressed_m(config().landing_load + 1.0), 0.0);
     }
 }
