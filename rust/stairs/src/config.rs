@@ -101,7 +101,7 @@ pub struct ClimbingConfig {
     pub tolerance: f64,
     /// Room beside the feet on a stair, to each side, m.
     pub side_room: f64,
-    /// Place of the heels past the front edge of what goes on level, m, unless `front_x_limit` asks for more.
+    /// Place of the heels past the front edge of what goes on level, m, unless `front_x_limit` asks for more; on the way down 10 mm more.
     pub level_x: f64,
     /// Parameters of a step up.
     pub ascend: ParameterSet,

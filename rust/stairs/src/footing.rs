@@ -2,6 +2,9 @@
 
 use crate::ClimbingConfig;
 
+/// How much further than it must be a heel comes down behind a riser where the ground goes on, m: it sinks along that.
+const SPARE_BELOW_M: f64 = 0.01;
+
 /// The feet of a robot, side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Feet {
@@ -78,6 +81,7 @@ impl Footing {
         let set = config.set_for(rise_m);
         let least_heel_m = set.front_x_limit;
         let heel_m = match onward {
+            Onward::Level if rise_m < 0.0 => least_heel_m.max(config.level_x) + SPARE_BELOW_M,
             Onward::Level => least_heel_m.max(config.level_x),
             Onward::Edge {
                 depth_m,
@@ -148,11 +152,11 @@ mod tests {
             level_x: -0.02,
             ..ClimbingConfig::default()
         };
-        for (rise_m, heel_m) in [(0.03, -0.02), (-0.03, 0.015)] {
+        for (rise_m, heel_m, usual_m) in [(0.03, -0.02, 0.015), (-0.03, 0.025, 0.025)] {
             let told = Footing::on_stair(&short, &FEET, rise_m, 0.33, Onward::Level).unwrap();
             assert_relative_eq!(told.heel_m, heel_m);
             let usual = on_stair(rise_m, Onward::Level).unwrap();
-            assert_relative_eq!(usual.heel_m, 0.015);
+            assert_relative_eq!(usual.heel_m, usual_m);
         }
     }
 
