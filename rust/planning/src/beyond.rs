@@ -9,16 +9,19 @@ use std::collections::BinaryHeap;
 use geometry::Lattice;
 
 use crate::Goal;
-use crate::distance::{DistanceField, NOTHING_NEAR};
+use crate::distance::DistanceField;
 use crate::terrain::Terrain;
 
 /// Cells of the ground around the place where the robot was first: as large as the window's, so many on a side.
 const SIDE: usize = 512;
-/// The way is looked for over every third of them, each way.
-const APART: usize = 3;
+/// The way is looked for over nodes of so many of them each way. Of four all lie beside each other, so that a node says exactly which
+/// of its cells lead to which of the next one's: a gap between two round things may be too narrow at a single row of cells.
+const APART: usize = 2;
 const NODES: usize = SIDE / APART;
 /// From so near it is believed that something has gone, m. From afar parts of a wall are floor for a while.
 const NEAR_M: f64 = 1.2;
+/// How much longer a way is taken to be that leaves the window where there is no room, m: what was seen may be gone.
+const SHUT_M: f64 = 10.0;
 /// It is looked for after so many plans at most.
 const PLANS: u32 = 8;
 /// Steps to the eight neighbours: columns, rows, and their length in nodes.
@@ -40,6 +43,10 @@ pub(crate) struct Beyond {
     lattice: Option<Lattice>,
     blocked: Vec<bool>,
     distance: DistanceField,
+    /// Which of a node's cells the robot may be in, a bit each: 1 for the first, 2 for the one a column on, 4 and 8 for the row after.
+    open: Vec<u8>,
+    /// What a length costs there.
+    weights: Vec<f32>,
     /// Length of the way from each node to the goal, in nodes; infinite where none leads.
     to_goal: Vec<f32>,
     queue: BinaryHeap<Reverse<(u32, u32)>>,
@@ -74,10 +81,8 @@ impl Beyond {
             self.field = Field::Straight;
             if self.is_blocked_outside(terrain) {
                 self.field = Field::Outside;
-                let room = terrain.needs.body_m / terrain.lattice.cell_m;
-                self.aim(goal, |beyond, node| {
-                    beyond.has_room(node, room).then_some(1.0)
-                });
+                self.open_cells(terrain, |_| None);
+                self.aim(goal);
             }
         }
     }
@@ -89,29 +94,28 @@ impl Beyond {
         }
         (self.goal, self.plans) = (Some(*goal), 0);
         self.field = Field::Around;
-        let room = terrain.needs.body_m / terrain.lattice.cell_m;
-        self.aim(goal, |beyond, node| {
-            match terrain.index_at(beyond.middle_m(node)?) {
-                Some(cell) => Some(terrain.weights[cell]),
-                None => beyond.has_room(node, room).then_some(1.0),
-            }
+        self.open_cells(terrain, |at_m| {
+            terrain.index_at(at_m).map(|cell| terrain.weights[cell])
         });
+        self.aim(goal);
     }
 
     /// Length of the way from a place to the goal, m, as far as is known: the straight line where nothing is; infinite where no way leads
-    /// around.
+    /// around. Where the robot has no room, as at a wall just outside of the window, it is a long one.
     pub(crate) fn left_m(&self, at_m: [f64; 2], goal: &Goal) -> f64 {
         let straight_m = (goal.x_m - at_m[0]).hypot(goal.y_m - at_m[1]);
         let has_field = self.field != Field::Straight;
         let known_m = self.lattice.filter(|_| has_field).and_then(|lattice| {
             let [col, row] = cell_at(&lattice, at_m)?.map(|at| at / APART);
-            let around = AROUND
-                .iter()
-                .filter_map(|&(cols, rows)| node(col, row, cols, rows));
-            let least = around
-                .map(|node| self.to_goal[node])
-                .fold(f32::INFINITY, f32::min);
-            Some(f64::from(least) * APART as f64 * lattice.cell_m)
+            let length = |(cols, rows)| {
+                let node = node(col, row, cols, rows)?;
+                (self.open[node] != 0).then(|| self.to_goal[node])
+            };
+            // Beside what the robot may not come near to, what is around counts.
+            let around = STEPS.iter().filter_map(|&(c, r, _)| length((c, r)));
+            let nodes = length((0, 0)).or_else(|| around.reduce(f32::min));
+            let node_m = APART as f64 * lattice.cell_m;
+            Some(nodes.map_or(straight_m + SHUT_M, |nodes| f64::from(nodes) * node_m))
         });
         known_m
             .filter(|m| m.is_finite() || self.field == Field::Around)
@@ -123,6 +127,8 @@ impl Beyond {
         let lattice = *self.lattice.get_or_insert_with(|| {
             self.blocked = vec![false; SIDE * SIDE];
             self.to_goal = vec![f32::INFINITY; NODES * NODES];
+            self.open = vec![0; NODES * NODES];
+            self.weights = vec![1.0; NODES * NODES];
             let before_m = (SIDE - terrain.cols) as f64 / 2.0 * window.cell_m;
             Lattice {
                 origin_m: window.origin_m.map(|origin_m| origin_m - before_m),
@@ -157,8 +163,36 @@ impl Beyond {
         blocked.any(|(cell, _)| outside(cell))
     }
 
-    /// Dijkstra's algorithm from the goal; `weight` is what a length costs at a node, none where the robot may not be.
-    fn aim(&mut self, goal: &Goal, weight: impl Fn(&Self, usize) -> Option<f32>) {
+    /// Finds where the robot has room. `known`: what a length costs at a place where that is known better, infinite where it may not be.
+    fn open_cells(&mut self, terrain: &Terrain, known: impl Fn([f64; 2]) -> Option<f32>) {
+        let Some(lattice) = self.lattice else {
+            return;
+        };
+        self.distance.compute(&self.blocked, SIDE);
+        self.open.fill(0);
+        self.weights.fill(f32::INFINITY);
+        let room = terrain.needs.body_m / terrain.lattice.cell_m;
+        let [x, y] = lattice.origin_m;
+        for (cell, &squared) in self.distance.all_squared().iter().enumerate() {
+            let [col, row] = [cell % SIDE, cell / SIDE];
+            let at_m = |at: usize| (at as f64 + 0.5) * lattice.cell_m;
+            let weight = known([x + at_m(col), y + at_m(row)]).unwrap_or_else(|| {
+                if f64::from(squared) >= room * room {
+                    1.0
+                } else {
+                    f32::INFINITY
+                }
+            });
+            if weight.is_finite() {
+                let node = row / APART * NODES + col / APART;
+                self.open[node] |= 1 << (row % APART * APART + col % APART);
+                self.weights[node] = self.weights[node].min(weight);
+            }
+        }
+    }
+
+    /// Dijkstra's algorithm from the goal over what is open.
+    fn aim(&mut self, goal: &Goal) {
         self.to_goal.fill(f32::INFINITY);
         self.queue.clear();
         let at = self
@@ -170,7 +204,7 @@ impl Beyond {
         else {
             return;
         };
-        self.distance.compute(&self.blocked, SIDE);
+        self.open[goal] = ALL;
         self.to_goal[goal] = 0.0;
         self.queue.push(Reverse((0, goal as u32)));
         while let Some(Reverse((length, from))) = self.queue.pop() {
@@ -179,15 +213,16 @@ impl Beyond {
                 continue;
             }
             for (cols, rows, step) in STEPS {
-                let Some(to) = node(from % NODES, from / NODES, cols, rows) else {
-                    continue;
-                };
-                let least = self.to_goal[from] + step;
-                if least >= self.to_goal[to] {
+                if self.open[from] & facing(cols, rows) == 0 {
                     continue;
                 }
-                let further = weight(self, to).map(|weight| self.to_goal[from] + step * weight);
-                if let Some(further) = further.filter(|&further| further < self.to_goal[to]) {
+                let to = node(from % NODES, from / NODES, cols, rows);
+                let leads = |to: &usize| self.open[*to] & facing(-cols, -rows) != 0;
+                let Some(to) = to.filter(leads) else {
+                    continue;
+                };
+                let further = self.to_goal[from] + step * self.weights[to];
+                if further < self.to_goal[to] {
                     self.to_goal[to] = further;
                     // Positive numbers are in the order of their bits.
                     self.queue.push(Reverse((further.to_bits(), to as u32)));
@@ -195,38 +230,25 @@ impl Beyond {
             }
         }
     }
-
-    /// Where a node lies, m.
-    fn middle_m(&self, node: usize) -> Option<[f64; 2]> {
-        let lattice = self.lattice?;
-        let [x, y] = lattice.origin_m;
-        let at_m = |node: usize| (node as f64 + 0.5) * APART as f64 * lattice.cell_m;
-        Some([x + at_m(node % NODES), y + at_m(node / NODES)])
-    }
-
-    /// Whether any of a node's cells has so much room, in cells: the way may lead beside its middle.
-    fn has_room(&self, node: usize, room: f64) -> bool {
-        let [col, row] = [node % NODES, node / NODES].map(|at| at * APART);
-        let mut cells = (0..APART * APART).map(|i| (row + i / APART) * SIDE + col + i % APART);
-        cells.any(|cell| {
-            let squared = self.distance.squared(cell);
-            squared == NOTHING_NEAR || f64::from(squared) >= room * room
-        })
-    }
 }
 
-/// A node and its neighbours.
-const AROUND: [(isize, isize); 9] = [
-    (0, 0),
-    (1, 0),
-    (-1, 0),
-    (0, 1),
-    (0, -1),
-    (1, 1),
-    (1, -1),
-    (-1, 1),
-    (-1, -1),
-];
+/// All cells of a node.
+const ALL: u8 = 0b1111;
+
+/// The cells of a node that lie beside the one so many columns and rows further.
+const fn facing(cols: isize, rows: isize) -> u8 {
+    let across = match cols {
+        1 => 0b1010,
+        -1 => 0b0101,
+        _ => ALL,
+    };
+    let along = match rows {
+        1 => 0b1100,
+        -1 => 0b0011,
+        _ => ALL,
+    };
+    across & along
+}
 
 /// Column and row of a place among the cells.
 fn cell_at(lattice: &Lattice, at_m: [f64; 2]) -> Option<[usize; 2]> {
@@ -244,3 +266,6 @@ fn node(col: usize, row: usize, cols: isize, rows: isize) -> Option<usize> {
     let (col, row) = (col.checked_add_signed(cols)?, row.checked_add_signed(rows)?);
     (col < NODES && row < NODES).then_some(row * NODES + col)
 }
+
+#[cfg(test)]
+mod tests;
