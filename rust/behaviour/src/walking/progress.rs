@@ -5,7 +5,7 @@ use crate::walking::WalkingConfig;
 /// A gain smaller than this is none, m.
 const HEADWAY_M: f64 = 0.05;
 /// This many patiences without a new best are too many, detours or not.
-const LONGEST_DETOUR: f64 = 8.0;
+const LONGEST_DETOUR: f64 = 12.0;
 
 /// What the watchdog says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,7 +99,7 @@ mod tests {
                 let remaining_m = lengths[tick / 100 % lengths.len()];
                 progress.watch(remaining_m, true, 0.01, &config) == Headway::Hopeless
             });
-            prop_assert!(hopeless.is_some_and(|tick| tick as f64 * 0.01 <= 8.0 * config.patience + 1.0));
+            prop_assert!(hopeless.is_some_and(|tick| tick as f64 * 0.01 <= LONGEST_DETOUR * config.patience + 1.0));
         }
 
         #[test]
