@@ -200,7 +200,8 @@ impl WalkingBehaviour {
             }
         }
         let detour = moment.situation.plan.is_some_and(|plan| plan.replanned);
-        let (remaining_m, passed_s) = (track.whole_m(), moment.passed_s);
+        let remaining_m = track.goal_ahead_m(path, moment.situation.goal);
+        let passed_s = moment.passed_s;
         match self
             .progress
             .watch(remaining_m, detour, passed_s, &self.config)

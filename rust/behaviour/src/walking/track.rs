@@ -1,7 +1,7 @@
 //! The path as seen from the robot: what remains, where it leads, how to walk along it.
 
 use geometry::PlanarPose;
-use planning::Path;
+use planning::{Goal, Path};
 
 use crate::Velocity;
 use crate::walking::WalkingConfig;
@@ -65,6 +65,13 @@ impl Track {
     /// What is left of the path, m.
     pub(crate) fn whole_m(&self) -> f64 {
         self.remaining_m + self.beyond_m
+    }
+
+    /// The least that is left to the goal, m: a path may end where the map does, or where more is to be seen.
+    pub(crate) fn goal_ahead_m(&self, path: &Path, goal: &Goal) -> f64 {
+        let end_m = path.points_m.last();
+        let from_end_m = end_m.map_or(0.0, |[x, y]| (goal.x_m - x).hypot(goal.y_m - y));
+        self.whole_m() + from_end_m
     }
 
     /// The same way with a last straight piece to this place, in the robot's frame, m.
@@ -170,6 +177,19 @@ pub(crate) mod tests {
             cost_m: length_m,
             points_m,
         }
+    }
+
+    #[test]
+    fn a_path_that_ends_before_the_goal_is_not_all_that_is_left() {
+        let path = straight([0.0, 0.0], [0.6, 0.0]);
+        let track = Track::new(&path, &PlanarPose::new(0.1, 0.0, 0.0), 0.25).unwrap();
+        let goal = Goal {
+            x_m: 0.6,
+            y_m: 2.0,
+            radius_m: 0.2,
+            height_m: None,
+        };
+        assert!((track.goal_ahead_m(&path, &goal) - 2.5).abs() < 0.02);
     }
 
     proptest! {
