@@ -101,7 +101,7 @@ impl Beyond {
     }
 
     /// Length of the way from a place to the goal, m, as far as is known: the straight line where nothing is; infinite where no way leads
-    /// around. Where the robot has no room, as at a wall just outside of the window, it is a long one.
+    /// around. A way to a goal outside of the window is a long one from where the robot has no room, as at a wall at the border.
     pub(crate) fn left_m(&self, at_m: [f64; 2], goal: &Goal) -> f64 {
         let straight_m = (goal.x_m - at_m[0]).hypot(goal.y_m - at_m[1]);
         let has_field = self.field != Field::Straight;
@@ -115,7 +115,11 @@ impl Beyond {
             let around = STEPS.iter().filter_map(|&(c, r, _)| length((c, r)));
             let nodes = length((0, 0)).or_else(|| around.reduce(f32::min));
             let node_m = APART as f64 * lattice.cell_m;
-            Some(nodes.map_or(straight_m + SHUT_M, |nodes| f64::from(nodes) * node_m))
+            let shut_m = match self.field {
+                Field::Around => f64::INFINITY,
+                Field::Straight | Field::Outside => straight_m + SHUT_M,
+            };
+            Some(nodes.map_or(shut_m, |nodes| f64::from(nodes) * node_m))
         });
         known_m
             .filter(|m| m.is_finite() || self.field == Field::Around)
