@@ -144,26 +144,15 @@ fn turned(stance: &PlanarPose, vector: &Vector2<f64>) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gait::FootPose;
-    use crate::test_biped::{biped, config};
+    use crate::test_biped::{biped, config, foot_at, on_its_way};
 
     /// The left foot swings, for this share of its time already.
     fn swinging(share: f64) -> (Capture, Gait, Soles) {
         let (config, body) = (config(), biped());
+        let left = foot_at(0.0, 0.0425);
+        let swing = Swing::new(Side::Left, Manner::Walk, left, left);
+        let gait = on_its_way(swing, foot_at(0.0, -0.0425), share);
         let planner = FootstepPlanner::new(&config, &body);
-        let foot = |y: f64| FootPose {
-            planar: PlanarPose::new(0.0, y, 0.0),
-            ..FootPose::default()
-        };
-        let feet = [foot(0.0425), foot(-0.0425)];
-        let mut gait = Gait::new(&config, planner.clone(), feet);
-        let swing = Swing::new(Side::Left, Manner::Walk, feet[0], feet[0]);
-        let duration_s = swing.single_support_s(&config);
-        gait.phase = Phase::Single {
-            elapsed_s: share * duration_s,
-            duration_s,
-            swing,
-        };
         let soles = Soles::new(&body, config.sole_margin);
         (Capture::new(&config, planner), gait, soles)
     }

@@ -184,30 +184,17 @@ impl Felt {
 
 #[cfg(test)]
 mod tests {
-    use geometry::PlanarPose;
     use robot::Side;
 
     use super::*;
-    use crate::footsteps::FootstepPlanner;
-    use crate::test_biped::{biped, config};
+    use crate::test_biped::{config, foot_at, on_its_way};
 
     /// How far the left foot, found on the ground, goes down in a tenth of a second with this load on it, m.
     fn pressed_m(load_n: f64) -> f64 {
-        let (config, body) = (config(), biped());
-        let foot = |x: f64, y: f64| FootPose {
-            planar: PlanarPose::new(x, y, 0.0),
-            ..FootPose::default()
-        };
-        let feet = [foot(0.0, 0.0425), foot(0.0, -0.0425)];
-        let planner = FootstepPlanner::new(&config, &body);
-        let mut gait = Gait::new(&config, planner, feet);
-        let mut swing = Swing::new(Side::Left, Manner::Careful, feet[0], foot(0.1, 0.0425));
+        let (from, to) = (foot_at(0.0, 0.0425), foot_at(0.1, 0.0425));
+        let mut swing = Swing::new(Side::Left, Manner::Careful, from, to);
         swing.landing = Landing::Found(0.002);
-        gait.phase = Phase::Single {
-            elapsed_s: 0.9 * swing.in_air_s(&config),
-            duration_s: swing.single_support_s(&config),
-            swing,
-        };
+        let mut gait = on_its_way(swing, foot_at(0.0, -0.0425), 0.9);
         let felt = Felt {
             loads_n: [load_n, 50.0],
             soles_m: [Vector3::zeros(); 2],

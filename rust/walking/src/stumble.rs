@@ -83,14 +83,11 @@ impl Gait {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::footsteps::FootstepPlanner;
-    use crate::gait::FootPose;
     use crate::landing::Ground;
     use crate::relief::Relief;
     use crate::task::Task;
-    use crate::test_biped::{biped, config};
+    use crate::test_biped::{foot_at, on_its_way};
     use behaviour::Velocity;
-    use geometry::PlanarPose;
     use nalgebra::Vector3;
     use robot::Side;
 
@@ -102,21 +99,9 @@ mod tests {
 
     /// The left foot on its way 60 mm ahead, most of it behind it.
     fn walking() -> Gait {
-        let (config, body) = (config(), biped());
-        let foot = |x: f64, y: f64| FootPose {
-            planar: PlanarPose::new(x, y, 0.0),
-            ..FootPose::default()
-        };
-        let feet = [foot(-0.03, 0.0425), foot(0.0, -0.0425)];
-        let mut gait = Gait::new(&config, FootstepPlanner::new(&config, &body), feet);
-        let swing = Swing::new(Side::Left, Manner::Walk, feet[0], foot(0.03, 0.0425));
-        let duration_s = swing.single_support_s(&config);
-        gait.phase = Phase::Single {
-            elapsed_s: 0.65 * duration_s,
-            duration_s,
-            swing,
-        };
-        gait
+        let (from, to) = (foot_at(-0.03, 0.0425), foot_at(0.03, 0.0425));
+        let swing = Swing::new(Side::Left, Manner::Walk, from, to);
+        on_its_way(swing, foot_at(0.0, -0.0425), 0.65)
     }
 
     /// The left sole lies on something of this height, its middle of pressure so far ahead of its own.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use behaviour::Command;
-use geometry::Pose;
+use geometry::{PlanarPose, Pose};
 use localization::BodyState;
 use nalgebra::{UnitQuaternion, Vector3};
 use robot::{
@@ -12,6 +12,8 @@ use robot::{
 };
 use sensing::Observation;
 
+use crate::footsteps::FootstepPlanner;
+use crate::gait::{FootPose, Gait, Phase, Swing};
 use crate::relief::Slopes;
 use crate::stance::Stance;
 use crate::{GaitConfig, JointTargets, Walker};
@@ -183,6 +185,30 @@ pub(crate) fn shared_hip_description() -> Description {
     }
     shared.links[7].joint.as_mut().unwrap().follows = Some("left_hip_yaw".to_owned());
     shared
+}
+
+/// The biped's gait whose one foot is on its way, for this share of its time in the air already.
+pub(crate) fn on_its_way(swing: Swing, other: FootPose, share: f64) -> Gait {
+    let (config, body) = (config(), biped());
+    let mut feet = [swing.from, other];
+    if swing.side == Side::Right {
+        feet.swap(0, 1);
+    }
+    let mut gait = Gait::new(&config, FootstepPlanner::new(&config, &body), feet);
+    gait.phase = Phase::Single {
+        elapsed_s: share * swing.in_air_s(&config),
+        duration_s: swing.single_support_s(&config),
+        swing,
+    };
+    gait
+}
+
+/// A foot on the level at this place of the plan, m; the biped stands on two that are 85 mm apart.
+pub(crate) fn foot_at(x_m: f64, y_m: f64) -> FootPose {
+    FootPose {
+        planar: PlanarPose::new(x_m, y_m, 0.0),
+        ..FootPose::default()
+    }
 }
 
 /// A world without inertia: joints are where their targets are, the torso is level, the feet that stand carry what they shall

@@ -56,11 +56,10 @@ mod tests {
     use robot::Side;
 
     use super::*;
-    use crate::footsteps::FootstepPlanner;
     use crate::gait::FootPose;
     use crate::landing::Ground;
     use crate::task::Task;
-    use crate::test_biped::{biped, config};
+    use crate::test_biped::{foot_at, on_its_way};
 
     const STEP: [Footstep; 1] = [Footstep {
         side: Side::Left,
@@ -75,21 +74,13 @@ mod tests {
 
     /// The left foot on its way onto a stair, for this share of its time already.
     fn climbing(share: f64) -> Gait {
-        let (config, body) = (config(), biped());
-        let foot = |y: f64| FootPose {
-            planar: PlanarPose::new(0.0, y, 0.0),
-            ..FootPose::default()
+        let (left, right) = (foot_at(0.0, 0.0425), foot_at(0.0, -0.0425));
+        let to = FootPose {
+            z_m: 0.04,
+            ..foot_at(0.12, 0.0425)
         };
-        let planner = FootstepPlanner::new(&config, &body);
-        let mut gait = Gait::new(&config, planner, [foot(0.0425), foot(-0.0425)]);
-        gait.begin_list(PlanarPose::default(), 0.0);
-        let swing = gait.listed_swing(&gait.feet, &STEP, 0).unwrap();
-        gait.phase = Phase::Single {
-            elapsed_s: share * swing.in_air_s(&config),
-            duration_s: swing.single_support_s(&config),
-            swing,
-        };
-        gait
+        let swing = Swing::new(Side::Left, Manner::Careful, left, to);
+        on_its_way(swing, right, share)
     }
 
     fn manner(gait: &Gait) -> Option<Manner> {
