@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -54,7 +54,14 @@ def test_small_regions_and_pixels_that_do_not_count_are_left_out() -> None:
     assert compare_regions(bands(-10), bands(1, -9), least_found=20) == RegionCounts()
 
 
+TIED = np.ones((6, 8), dtype=np.int64)
+TIED[0] = [3, 1, 1, 3, 1, 1, 0, 3]
+FOUND_TIED = np.full((6, 8), 3)
+FOUND_TIED[0] = [3, 2, 0, 3, 1, 1, 3, 3]
+
+
 @given(LABELS, LABELS)
+@example(TIED, FOUND_TIED)  # as good over-segmented as under-segmented
 def test_every_region_has_one_fate_and_names_do_not_matter(
     truth: np.ndarray, found: np.ndarray
 ) -> None:

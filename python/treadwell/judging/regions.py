@@ -122,14 +122,15 @@ def _instances(
     ]
     for t in range(len(true_sizes)):
         parts = np.flatnonzero(of_found[t] >= tolerance)
-        covered = float(of_true[t, parts].sum())
+        # One division of whole numbers: a sum of shares would depend on the order of the parts.
+        covered = float(shared[t, parts].sum() / true_sizes[t])
         if len(parts) > 1 and covered >= tolerance:
             purity = float(shared[t, parts].sum() / found_sizes[parts].sum())
             members = tuple(int(part) for part in parts)
             instances.append(_Instance("over", (t,), members, (covered + purity) / 2))
     for f in range(len(found_sizes)):
         parts = np.flatnonzero(of_true[:, f] >= tolerance)
-        covered = float(of_found[parts, f].sum())
+        covered = float(shared[parts, f].sum() / found_sizes[f])
         if len(parts) > 1 and covered >= tolerance:
             purity = float(shared[parts, f].sum() / true_sizes[parts].sum())
             members = tuple(int(part) for part in parts)
