@@ -29,18 +29,25 @@ test: export PROPTEST_RNG_SEED ?= 2004
 test: setup lint ## every check and every test
 	$(CARGO_TEST)
 	cargo test --workspace --doc --quiet
-	$(RUN) pytest -q -n auto --dist worksteal
+	$(PYTEST) --hypothesis-profile ci
 
 fast: export PROPTEST_RNG_SEED ?= 2004
-fast: setup ## the tests that take seconds: two minutes on two cores
-	$(CARGO_TEST)
-	$(RUN) pytest -q -n auto --dist worksteal -m "not scenario and not slow"
+fast: setup ## the tests that take no seconds each: two and a half minutes on two cores
+	$(CARGO_FAST)
+	$(PYTEST) --hypothesis-profile ci -m "not scenario and not slow"
 
-CARGO_TEST := $(shell cargo nextest --version >/dev/null 2>&1 && echo "cargo nextest run --workspace" || echo "cargo test --workspace --lib --bins --tests")
+NEXTEST := $(shell cargo nextest --version 2>/dev/null)
+CARGO_TEST := $(if $(NEXTEST),cargo nextest run --workspace,cargo test --workspace --lib --bins --tests)
+# Tests in a module `slow` take seconds each, as those that pytest marks so.
+CARGO_FAST := $(CARGO_TEST) $(if $(NEXTEST),-E 'not test(slow::)',-- --skip slow::)
+
+PYTEST := $(RUN) pytest -q -n auto --dist worksteal
 
 FUZZ_ROUNDS ?= 10
-fuzz: ## the property tests of the core with new random cases, FUZZ_ROUNDS times
-	for round in $$(seq $(FUZZ_ROUNDS)); do $(CARGO_TEST) || exit 1; done
+fuzz: setup ## the property tests with new random cases, FUZZ_ROUNDS times
+	for round in $$(seq $(FUZZ_ROUNDS)); do \
+		$(CARGO_TEST) && $(PYTEST) -m hypothesis || exit 1; \
+	done
 
 lint: setup
 	cargo fmt --check

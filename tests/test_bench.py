@@ -72,6 +72,7 @@ def test_a_bad_file_is_refused(tmp_path: Path, data: bytes, says: str) -> None:
         read_frames(tmp_path / "nowhere.bin")
 
 
+@pytest.mark.slow
 def test_json_holds_times_ratio_and_agreement(capsys: pytest.CaptureFixture[str]) -> None:
     assert execute(["bench", "--frames", "2", "--json"]) == 0
     document = json.loads(capsys.readouterr().out)

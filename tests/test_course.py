@@ -51,6 +51,7 @@ def ray_height(course: Course, x: float, y: float) -> float:
     return 5.0 - float(distance)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", scenario_names())
 def test_every_shipped_scenario_can_be_built_for_twenty_seeds(name: str) -> None:
     for seed in range(20):
@@ -217,6 +218,7 @@ def test_a_named_height_chooses_between_levels() -> None:
         course_of(block, goal={"height": 0.0})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("course", "tables", "expected"),
     [

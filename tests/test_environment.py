@@ -70,6 +70,7 @@ def test_without_gymnasium_the_message_names_the_extra() -> None:
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["", "Footsteps"])
 def test_gymnasiums_check_finds_nothing_to_warn_of(suffix: str) -> None:
     made = gymnasium.make(f"treadwell/OpenFloor{suffix}-v0", render_mode="rgb_array")

@@ -49,6 +49,7 @@ def opened(path: Path) -> octomap.OcTree:
     return octomap.OcTree.read(str(path).encode())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["map.bt", "map.ot"])
 def test_octomap_opens_both_files_and_finds_what_the_robot_saw(tmp_path: Path, name: str) -> None:
     written = export(recorded_run(), "octomap", tmp_path)

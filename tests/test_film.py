@@ -131,6 +131,7 @@ def test_the_panel_shows_the_way_so_far() -> None:
     assert columns[1].max() > columns[0].max() + 10
 
 
+@pytest.mark.slow
 def test_a_gif_has_the_run_s_moments(tmp_path: Path) -> None:
     path = tmp_path / "run.gif"
     told: list[tuple[int, int]] = []

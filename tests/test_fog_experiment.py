@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from episode_builders import result
 from experiment_builders import MADE, rows_of, watched
 
@@ -84,6 +85,7 @@ def test_of_what_was_not_run_there_is_no_table() -> None:
     assert fog_tables({case.name: [] for case in FOG.cases}) == []
 
 
+@pytest.mark.slow
 def test_a_removed_box_vanishes_from_the_map_of_a_robot_that_stands(tmp_path: Path) -> None:
     case = next(case for case in FOG.cases if case.name == cases.removed("fog"))
     episode = Episode(str(case.scenario), seed=0, overrides=case.overrides)

@@ -6,6 +6,7 @@ import fuzz_files
 import pytest
 
 
+@pytest.mark.slow
 @pytest.mark.timeout(600)
 def test_changed_files_are_taken_or_refused(tmp_path: Path) -> None:
     fuzz_files.seeds(tmp_path)

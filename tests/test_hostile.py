@@ -16,7 +16,7 @@ from treadwell.limited import Limits, limited
 from treadwell.recording.observation_log import NAME
 from treadwell.recording.verification import verify_run
 
-pytestmark = pytest.mark.timeout(60)
+pytestmark = [pytest.mark.timeout(60), pytest.mark.slow]
 LONGEST_SECONDS = 5.0
 """Of the processor's time, children included: the clock's depends on what else runs."""
 

@@ -90,6 +90,7 @@ def test_a_change_of_sign_loses_the_whole_play() -> None:
     assert angles[0] - angles[1] == pytest.approx(PLAY, rel=1e-6)
 
 
+@pytest.mark.slow
 @settings(max_examples=25, deadline=None)
 @given(
     kp=st.floats(5.0, 300.0),

@@ -171,6 +171,7 @@ class World:
         return apart
 
 
+@pytest.mark.slow
 def test_it_stands_and_walks_a_metre_and_a_curve_with_both_hips_at_one_angle(nao: Robot) -> None:
     world = World(nao, seed=3)
     apart = world.walk(None, 100)
@@ -186,6 +187,7 @@ def test_it_stands_and_walks_a_metre_and_a_curve_with_both_hips_at_one_angle(nao
     assert apart < 0.005
 
 
+@pytest.mark.slow
 def test_on_the_open_floor_it_sees_the_ground_and_walks() -> None:
     episode = Episode("open_floor", robot="nao", seed=300)
     step = episode.tick()

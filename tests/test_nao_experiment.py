@@ -181,6 +181,7 @@ def test_the_time_of_a_frame_is_the_sum_of_its_stages_where_all_are_known() -> N
         assert rows["167 in all, 4 cores"][-1] == whole
 
 
+@pytest.mark.slow
 def test_a_walk_with_other_frames_than_its_replay_is_an_error(tmp_path: Path) -> None:
     overrides = ("navigation.world_model=octree", "time_limit=0.5")
     episode = Episode("nao_1", seed=0, overrides=overrides)

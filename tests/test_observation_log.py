@@ -130,6 +130,7 @@ except RecordingError as error:
 """
 
 
+@pytest.mark.slow
 def test_a_full_disk_is_one_clear_error_and_the_file_stays_readable(tmp_path: Path) -> None:
     run = subprocess.run(
         [sys.executable, "-c", FULL_DISK, str(tmp_path), str(Path(__file__).parent)],

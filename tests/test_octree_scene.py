@@ -3,6 +3,7 @@
 import itertools
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 
 from treadwell._core import Octree
@@ -23,6 +24,7 @@ def beside(tree: Octree, points: Floats) -> NDArray[np.bool_]:
     return found
 
 
+@pytest.mark.slow
 def test_furniture_walls_and_railings_are_in_the_octree_and_little_else() -> None:
     settings = ("start.known=true", "navigation.world_model=octree")
     episode = Episode("two_levels_unknown", seed=0, overrides=settings)

@@ -56,6 +56,7 @@ def answers(items: list[tuple[str, Any]], count: int = 1, **limits: Any) -> dict
         return {item[0]: answer for item, answer in pool.answers()}
 
 
+@pytest.mark.slow
 def test_work_that_dies_hangs_or_raises_takes_nothing_along() -> None:
     begin = time.monotonic()
     found = answers(
@@ -94,6 +95,7 @@ def found_together(monkeypatch: pytest.MonkeyPatch, ended: Callable[[list[Any]],
     monkeypatch.setattr(pool_module, "wait", wait_)
 
 
+@pytest.mark.slow
 def test_workers_that_die_in_the_same_moment_are_both_replaced(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -114,6 +116,7 @@ def test_workers_that_die_in_the_same_moment_are_both_replaced(
     }
 
 
+@pytest.mark.slow
 def test_a_worker_that_did_something_fresh_is_given_nothing_more_when_another_ends_with_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -150,6 +153,7 @@ def test_memory_is_limited_for_each_piece_of_work() -> None:
     assert second == third == Done(300 * MEGABYTE)
 
 
+@pytest.mark.slow
 def test_a_process_is_used_again_but_not_for_what_has_to_be_fresh() -> None:
     with Pool(work, 1) as pool:
         for fresh in (False, False, True, True, False):

@@ -182,6 +182,7 @@ def endless(folder: Path, limit: int) -> subprocess.Popen[str]:
     )
 
 
+@pytest.mark.slow
 def test_a_killed_run_leaves_a_recording_that_can_be_read(tmp_path: Path) -> None:
     with endless(tmp_path, 0) as process:
         assert process.stdout is not None
@@ -192,6 +193,7 @@ def test_a_killed_run_leaves_a_recording_that_can_be_read(tmp_path: Path) -> Non
     assert {"/world/robot/capsules", "/camera/depth"} <= entities(tmp_path / NAME)
 
 
+@pytest.mark.slow
 def test_a_full_disk_is_one_clear_error_and_what_was_recorded_can_be_read(tmp_path: Path) -> None:
     with endless(tmp_path, 18_000_000) as process:
         output = process.communicate(timeout=120)[0].splitlines()

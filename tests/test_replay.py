@@ -44,6 +44,7 @@ def replayed(run_dir: Path, out: Path, *settings: str, **components: object) -> 
     return treadwell.replay(run_dir, overrides=settings, out=out, **components)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_the_core_answers_the_same_bit_for_bit(
     runs: dict[str, Path], name: str, tmp_path: Path

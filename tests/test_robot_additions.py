@@ -61,6 +61,7 @@ def _with(folder: Path, file: str, old: str, new: str) -> Path:
     return robot
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [

@@ -110,6 +110,7 @@ BROKEN = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("file", "old", "new", "message"), BROKEN)
 def test_a_broken_folder_is_refused_with_file_and_key(
     edited: Edit, file: str, old: str, new: str, message: str

@@ -66,6 +66,7 @@ def test_a_sole_that_is_not_where_the_foot_touches_is_noted(tmp_path: Path) -> N
     assert any("legs.left.sole: differs by 18 mm" in line for line in notes), notes
 
 
+@pytest.mark.slow
 def test_the_verb_ends_with_0_where_it_fits_and_with_2_where_not(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -82,6 +83,7 @@ def test_the_verb_ends_with_0_where_it_fits_and_with_2_where_not(
     assert document["mass"]["total"] == pytest.approx(7.0)
 
 
+@pytest.mark.slow
 def test_what_only_the_core_refuses_is_a_problem_too(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

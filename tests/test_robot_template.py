@@ -13,6 +13,7 @@ from treadwell.robot.report import report_on
 from treadwell.robot.template import draft, write_template
 
 
+@pytest.mark.slow
 def test_the_draft_for_a_foreign_model_fits_it(tmp_path: Path) -> None:
     folder = qrio_copy(tmp_path)
     told = tomllib.loads((folder / "robot.toml").read_text(encoding="utf-8"))

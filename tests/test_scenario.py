@@ -315,6 +315,7 @@ JSON = st.recursive(
 TOP = st.sampled_from([*Scenario.model_fields, "schema", "vary"])
 
 
+@pytest.mark.slow
 @given(tables=st.dictionaries(TOP, JSON, max_size=6), whole=st.booleans())
 @settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_any_structure_is_a_scenario_or_bad_input(tables: dict[str, Any], whole: bool) -> None:

@@ -68,6 +68,7 @@ def test_a_beam_above_the_head_is_a_way_and_one_below_is_none() -> None:
     assert not solvable(beam.format(0.5))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changes", "way"),
     [
@@ -86,6 +87,7 @@ def test_stairs_are_a_way_within_the_limits_of_rise_tread_and_width(
     assert solvable(stairs(**changes), "position = [1.9, 0.0]") is way  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_a_drop_is_no_way_and_a_way_around_it_is() -> None:
     high = '[[course]]\nkind = "platform"\nposition = [0.0, 0.0]\nsize = [1.2, 0.96, 0.2]\n'
     assert not solvable(high)

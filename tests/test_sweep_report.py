@@ -83,6 +83,7 @@ def test_a_refusal_that_is_justified_is_no_failure(tmp_path: Path) -> None:
     assert [failure.seed for failure in section.failures] == ["1"]
 
 
+@pytest.mark.slow
 def test_a_kept_run_is_linked_and_nothing_outside_the_folder(tmp_path: Path) -> None:
     folder = sweep(
         tmp_path / "sweep", [fell(0, folder="kept"), fell(1, folder="../plain"), fell(2)]
@@ -141,6 +142,7 @@ def test_what_others_wrote_stays_text(tmp_path: Path) -> None:
     assert any(HOSTILE in text for text in found.texts)
 
 
+@pytest.mark.slow
 def test_a_sweep_and_a_run_share_a_page(tmp_path: Path) -> None:
     folder = sweep(tmp_path / "sweep", [row(0)])
     text = report([folder, plain_run()], tmp_path / "all.html").read_text()

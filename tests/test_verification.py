@@ -76,6 +76,7 @@ def test_a_run_without_recordings_passes(copy: Path) -> None:
     assert verify_run(copy).passed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [

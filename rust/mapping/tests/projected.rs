@@ -147,30 +147,6 @@ fn frame() -> impl Strategy<Value = Frame> {
     )
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(150))]
-    #[test]
-    fn what_is_projected_frees_no_voxel_that_rays_do_not_and_hits_the_same(
-        frames in prop::collection::vec(frame(), 1..4),
-        layer_m in prop_oneof![Just(0.04), 0.02..0.07_f64],
-    ) {
-        let [mut exact, mut projected] = [grid(layer_m), grid(layer_m)];
-        for frame in frames.iter().flat_map(|frame| [frame, frame]) {
-            let before = probabilities(&projected);
-            insert(&mut exact, frame, Clearing::EveryRay);
-            insert(&mut projected, frame, Clearing::Projected);
-            let mut once = grid(layer_m);
-            insert(&mut once, frame, Clearing::EveryRay);
-            let (once, exact, now) = (probabilities(&once), probabilities(&exact), probabilities(&projected));
-            for (((hit, exact), now), before) in once.into_iter().zip(exact).zip(now).zip(before) {
-                prop_assert!(now >= exact, "{now} where every ray says {exact}");
-                prop_assert!(hit <= 0.5 || now > before || now > 0.949, "{before} is hit and stays {now}");
-                prop_assert!(hit >= 0.5 || now <= before, "{before} is passed and becomes {now}");
-            }
-        }
-    }
-}
-
 #[test]
 fn a_fog_looks_into_pictures_and_follows_the_rays_of_other_frames() {
     let blocks = [
@@ -215,4 +191,33 @@ fn a_fog_looks_into_pictures_and_follows_the_rays_of_other_frames() {
     });
     let share = same.count() as f64 / exact_view.cells.values().len() as f64;
     assert!(share > 0.995, "{share} of the view is the same");
+}
+
+/// What takes seconds: not in the fast part of the tests.
+mod slow {
+    use super::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(150))]
+        #[test]
+        fn what_is_projected_frees_no_voxel_that_rays_do_not_and_hits_the_same(
+            frames in prop::collection::vec(frame(), 1..4),
+            layer_m in prop_oneof![Just(0.04), 0.02..0.07_f64],
+        ) {
+            let [mut exact, mut projected] = [grid(layer_m), grid(layer_m)];
+            for frame in frames.iter().flat_map(|frame| [frame, frame]) {
+                let before = probabilities(&projected);
+                insert(&mut exact, frame, Clearing::EveryRay);
+                insert(&mut projected, frame, Clearing::Projected);
+                let mut once = grid(layer_m);
+                insert(&mut once, frame, Clearing::EveryRay);
+                let (once, exact, now) = (probabilities(&once), probabilities(&exact), probabilities(&projected));
+                for (((hit, exact), now), before) in once.into_iter().zip(exact).zip(now).zip(before) {
+                    prop_assert!(now >= exact, "{now} where every ray says {exact}");
+                    prop_assert!(hit <= 0.5 || now > before || now > 0.949, "{before} is hit and stays {now}");
+                    prop_assert!(hit >= 0.5 || now <= before, "{before} is passed and becomes {now}");
+                }
+            }
+        }
+    }
 }

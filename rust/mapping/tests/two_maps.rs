@@ -272,55 +272,6 @@ fn where_nothing_was_seen_the_static_map_tells_the_floor() {
 }
 
 #[test]
-fn a_deck_is_passed_under_and_walked_on_where_it_is_high_enough() {
-    for (underside_m, known, seen, passes) in [
-        (0.70, true, false, true),
-        (0.65, true, false, true),
-        (0.50, true, false, false),
-        (0.70, false, true, true),
-        (0.65, false, true, true),
-        (0.50, false, true, false),
-        (0.70, true, true, true),
-        (0.50, true, true, false),
-    ] {
-        for resolution in [0.04, 0.02] {
-            let deck = Block::new(
-                [0.6, -0.8, underside_m],
-                [1.4, 0.8, underside_m + 0.06],
-                true,
-            );
-            let mut maps = maps(resolution, known.then(|| told(&[deck])));
-            let below = at(0.0, 0.0, 0.0);
-            if seen {
-                look_around(&mut maps, &[deck], &below);
-                look_around(&mut maps, &[deck], &at(0.3, 0.0, 0.0));
-            } else {
-                let _ = maps.insert(&Planes::new(0), &below).unwrap();
-            }
-            let case = format!("{underside_m} m, told {known}, seen {seen}, {resolution}");
-            // Only the rim is seen from below.
-            let surface = maps.view().at(if seen { 0.62 } else { 0.82 }, 0.02);
-            if passes {
-                assert!(
-                    matches!(surface, Surface::Floor(h) if h.abs() < 0.01),
-                    "{surface:?}: {case}"
-                );
-            } else {
-                assert!(is_obstacle(surface), "{surface:?}: {case}");
-            }
-            let above = at(0.8, 0.0, underside_m + 0.06);
-            look_around(&mut maps, &[deck], &above);
-            let surface = maps.view().at(1.22, 0.02);
-            let top = (underside_m + 0.06) as f32;
-            assert!(
-                matches!(surface, Surface::Floor(h) if (h - top).abs() < 0.03),
-                "{surface:?} on top: {case}"
-            );
-        }
-    }
-}
-
-#[test]
 fn a_pose_that_cannot_be_changes_nothing() {
     let mut maps = maps(VOXEL_M, None);
     let pose = at(0.0, 0.0, 0.0);
@@ -334,4 +285,58 @@ fn a_pose_that_cannot_be_changes_nothing() {
     let error = maps.insert(&planes, &at(1e9, 0.0, 0.0)).unwrap_err();
     assert!(matches!(error, MapError::Failed(_)));
     assert_eq!((maps.view().clone(), maps.local().clone()), before);
+}
+
+/// What takes seconds: not in the fast part of the tests.
+mod slow {
+    use super::*;
+
+    #[test]
+    fn a_deck_is_passed_under_and_walked_on_where_it_is_high_enough() {
+        for (underside_m, known, seen, passes) in [
+            (0.70, true, false, true),
+            (0.65, true, false, true),
+            (0.50, true, false, false),
+            (0.70, false, true, true),
+            (0.65, false, true, true),
+            (0.50, false, true, false),
+            (0.70, true, true, true),
+            (0.50, true, true, false),
+        ] {
+            for resolution in [0.04, 0.02] {
+                let deck = Block::new(
+                    [0.6, -0.8, underside_m],
+                    [1.4, 0.8, underside_m + 0.06],
+                    true,
+                );
+                let mut maps = maps(resolution, known.then(|| told(&[deck])));
+                let below = at(0.0, 0.0, 0.0);
+                if seen {
+                    look_around(&mut maps, &[deck], &below);
+                    look_around(&mut maps, &[deck], &at(0.3, 0.0, 0.0));
+                } else {
+                    let _ = maps.insert(&Planes::new(0), &below).unwrap();
+                }
+                let case = format!("{underside_m} m, told {known}, seen {seen}, {resolution}");
+                // Only the rim is seen from below.
+                let surface = maps.view().at(if seen { 0.62 } else { 0.82 }, 0.02);
+                if passes {
+                    assert!(
+                        matches!(surface, Surface::Floor(h) if h.abs() < 0.01),
+                        "{surface:?}: {case}"
+                    );
+                } else {
+                    assert!(is_obstacle(surface), "{surface:?}: {case}");
+                }
+                let above = at(0.8, 0.0, underside_m + 0.06);
+                look_around(&mut maps, &[deck], &above);
+                let surface = maps.view().at(1.22, 0.02);
+                let top = (underside_m + 0.06) as f32;
+                assert!(
+                    matches!(surface, Surface::Floor(h) if (h - top).abs() < 0.03),
+                    "{surface:?} on top: {case}"
+                );
+            }
+        }
+    }
 }

@@ -11,36 +11,6 @@ use super::state::State;
 use super::track::tests::straight;
 use crate::{Behaviour, Gaze, Motion, Outcome, Situation, WalkingBehaviour, WalkingConfig};
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(8))]
-    #[test]
-    fn every_goal_in_the_open_is_reached(
-        x in -1.2..1.2f64, y in -1.2..1.2f64, yaw in -3.1..3.1f64, goal_x in -1.2..1.2f64, goal_y in -1.2..1.2f64,
-    ) {
-        let mut simulation = Simulation::new(PlanarPose::new(x, y, yaw), [goal_x, goal_y]);
-        let (outcome, _) = simulation.run(150.0);
-        prop_assert_eq!(outcome, Some(Outcome::GoalReached), "{:?}", simulation.states);
-        let miss_m = (simulation.pose.x_m - goal_x).hypot(simulation.pose.y_m - goal_y);
-        prop_assert!(miss_m < 0.12, "{}", miss_m);
-    }
-
-    #[test]
-    fn no_ground_is_stepped_on_that_was_not_seen(yaw in -3.1..3.1f64, goal_x in -1.2..1.2f64, goal_y in -1.2..1.2f64) {
-        let mut simulation = Simulation::new(PlanarPose::new(0.0, 0.0, yaw), [goal_x, goal_y]);
-        for _ in 0..12_000 {
-            let decision = simulation.tick();
-            let (x, y) = simulation.pose.apply(0.08, 0.0);
-            let forward = matches!(decision.command.motion, Motion::Walk(v) if v.x_mps > 0.02);
-            if forward && x.hypot(y) > 0.3 {
-                prop_assert!(simulation.view.at(x, y) != Surface::Unknown, "{} {} {:?}", x, y, simulation.states);
-            }
-            if decision.outcome.is_some() {
-                break;
-            }
-        }
-    }
-}
-
 #[test]
 fn a_path_that_ends_at_the_rim_of_the_disc_is_followed_to_its_middle() {
     let mut simulation = Simulation::new(PlanarPose::default(), [1.0, 0.1]);
@@ -387,5 +357,40 @@ fn refusing_is_final_and_every_other_state_can_be_left() {
             .filter(|&&next| next != state && state.may_become(next))
             .count();
         assert_eq!(ways_out == 0, state == State::Refuse, "{state:?}");
+    }
+}
+
+/// What takes seconds: not in the fast part of the tests.
+mod slow {
+    use super::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(8))]
+        #[test]
+        fn every_goal_in_the_open_is_reached(
+            x in -1.2..1.2f64, y in -1.2..1.2f64, yaw in -3.1..3.1f64, goal_x in -1.2..1.2f64, goal_y in -1.2..1.2f64,
+        ) {
+            let mut simulation = Simulation::new(PlanarPose::new(x, y, yaw), [goal_x, goal_y]);
+            let (outcome, _) = simulation.run(150.0);
+            prop_assert_eq!(outcome, Some(Outcome::GoalReached), "{:?}", simulation.states);
+            let miss_m = (simulation.pose.x_m - goal_x).hypot(simulation.pose.y_m - goal_y);
+            prop_assert!(miss_m < 0.12, "{}", miss_m);
+        }
+
+        #[test]
+        fn no_ground_is_stepped_on_that_was_not_seen(yaw in -3.1..3.1f64, goal_x in -1.2..1.2f64, goal_y in -1.2..1.2f64) {
+            let mut simulation = Simulation::new(PlanarPose::new(0.0, 0.0, yaw), [goal_x, goal_y]);
+            for _ in 0..12_000 {
+                let decision = simulation.tick();
+                let (x, y) = simulation.pose.apply(0.08, 0.0);
+                let forward = matches!(decision.command.motion, Motion::Walk(v) if v.x_mps > 0.02);
+                if forward && x.hypot(y) > 0.3 {
+                    prop_assert!(simulation.view.at(x, y) != Surface::Unknown, "{} {} {:?}", x, y, simulation.states);
+                }
+                if decision.outcome.is_some() {
+                    break;
+                }
+            }
+        }
     }
 }

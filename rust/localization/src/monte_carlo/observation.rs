@@ -274,29 +274,6 @@ mod tests {
         );
     }
 
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(40))]
-
-        #[test]
-        fn every_factor_peaks_at_the_truth(axis in 0..6_usize, by in prop_oneof![-0.3..-0.12f64, 0.12..0.3f64], field in any::<bool>()) {
-            let model = if field { RangeModel::LikelihoodField } else { RangeModel::RayCast };
-            let (observation, map, truth, _) = seen(model);
-            let mut wrong = truth;
-            match axis {
-                0..3 => wrong.place_m[axis] += by,
-                3 => wrong.roll_rad += by,
-                4 => wrong.pitch_rad += by,
-                _ => wrong.yaw_rad += by,
-            }
-            let mut poses = [truth; LANES];
-            poses[3] = wrong;
-            let [right, _, _, wrong, ..] = observation.log_likelihoods(&poses, &map);
-            prop_assert!(right.ranges > wrong.ranges + 5.0, "{right:?} {wrong:?}");
-            // Height, roll and pitch are measured by themselves; the others are not.
-            if (2..5).contains(&axis) { prop_assert!(right.body > wrong.body + 2.0, "{right:?} {wrong:?}"); }
-        }
-    }
-
     #[test]
     fn what_stands_in_the_way_costs_little_what_is_seen_through_costs_much() {
         let (observation, map, truth, _) = seen(RangeModel::RayCast);
@@ -320,5 +297,33 @@ mod tests {
         }
         let fit = blocked.fit(&truth, &map).unwrap();
         assert!(fit.lenient() > 0.9 && fit.strict() < 0.7, "{fit:?}");
+    }
+
+    /// What takes seconds: not in the fast part of the tests.
+    mod slow {
+        use super::*;
+
+        proptest! {
+            #![proptest_config(ProptestConfig::with_cases(40))]
+
+            #[test]
+            fn every_factor_peaks_at_the_truth(axis in 0..6_usize, by in prop_oneof![-0.3..-0.12f64, 0.12..0.3f64], field in any::<bool>()) {
+                let model = if field { RangeModel::LikelihoodField } else { RangeModel::RayCast };
+                let (observation, map, truth, _) = seen(model);
+                let mut wrong = truth;
+                match axis {
+                    0..3 => wrong.place_m[axis] += by,
+                    3 => wrong.roll_rad += by,
+                    4 => wrong.pitch_rad += by,
+                    _ => wrong.yaw_rad += by,
+                }
+                let mut poses = [truth; LANES];
+                poses[3] = wrong;
+                let [right, _, _, wrong, ..] = observation.log_likelihoods(&poses, &map);
+                prop_assert!(right.ranges > wrong.ranges + 5.0, "{right:?} {wrong:?}");
+                // Height, roll and pitch are measured by themselves; the others are not.
+                if (2..5).contains(&axis) { prop_assert!(right.body > wrong.body + 2.0, "{right:?} {wrong:?}"); }
+            }
+        }
     }
 }

@@ -214,21 +214,26 @@ fn what_is_no_number_is_refused_and_nothing_is_changed() {
     assert_eq!((guided.goal, guided.sent), (None, None));
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(30))]
+/// What takes seconds: not in the fast part of the tests.
+mod slow {
+    use super::*;
 
-    #[test]
-    fn what_stands_there_unmapped_makes_no_path_jump_or_touch_it(
-        things in prop::collection::vec((0.8..4.0f64, 0.4..3.4f64, 0.08..0.3f64, 0.08..0.5f64), 0..7),
-    ) {
-        let map = house(&[wall([2.4, 1.2], [2.48, 2.8])]);
-        let (start_m, goal) = ([0.4, 2.0], goal(4.4, 2.0));
-        let mut there = map.clone();
-        there.extend(things.iter().map(|&(x, y, dx, dy)| wall([x, y], [x + dx, y + dy])));
-        for [x, y] in walk(&mut guided(&map), &there, start_m, &goal)? {
-            let lattice = seen(&there, [x, y]).lattice;
-            let inside = there.iter().any(|block| holds(block, lattice.center_of(lattice.cell_at(x, y))));
-            prop_assert!(!inside, "{} {}", x, y);
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(30))]
+
+        #[test]
+        fn what_stands_there_unmapped_makes_no_path_jump_or_touch_it(
+            things in prop::collection::vec((0.8..4.0f64, 0.4..3.4f64, 0.08..0.3f64, 0.08..0.5f64), 0..7),
+        ) {
+            let map = house(&[wall([2.4, 1.2], [2.48, 2.8])]);
+            let (start_m, goal) = ([0.4, 2.0], goal(4.4, 2.0));
+            let mut there = map.clone();
+            there.extend(things.iter().map(|&(x, y, dx, dy)| wall([x, y], [x + dx, y + dy])));
+            for [x, y] in walk(&mut guided(&map), &there, start_m, &goal)? {
+                let lattice = seen(&there, [x, y]).lattice;
+                let inside = there.iter().any(|block| holds(block, lattice.center_of(lattice.cell_at(x, y))));
+                prop_assert!(!inside, "{} {}", x, y);
+            }
         }
     }
 }

@@ -155,62 +155,6 @@ mod tests {
         })
     }
 
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(1000))]
-
-        #[test]
-        fn a_cast_ends_where_a_traversal_of_all_voxels_ends(
-            boxes in boxes(),
-            rays in prop::collection::vec((prop::array::uniform3(-2.5..2.5f64), direction(), 0.1..6.0f64), 20),
-        ) {
-            let voxels = SolidVoxels::of_boxes(&boxes, SIDE_M).unwrap();
-            let field = RangeField::new(&voxels);
-            for (from, along, max) in rays {
-                let (found, expected) = (field.cast(from, along, max), traversed(&voxels, from, along, max));
-                match (found, expected) {
-                    (Some(found), Some(expected)) => prop_assert!((found - expected).abs() < 1e-9, "{found} {expected}"),
-                    // Where the ray ends on the face itself.
-                    (None, Some(at)) | (Some(at), None) => prop_assert!((at - max).abs() < 1e-9, "{found:?} {expected:?}"),
-                    (None, None) => {}
-                }
-            }
-        }
-
-        #[test]
-        fn a_wall_is_met_within_half_a_voxel_of_where_it_stands(
-            half in prop::array::uniform3(0.5..2.0f64),
-            from in prop::array::uniform3(-0.4..0.4f64),
-            along in direction(),
-        ) {
-            let voxels = SolidVoxels::of_boxes(&room(half), SIDE_M).unwrap();
-            let field = RangeField::new(&voxels);
-            let to_wall = |a: usize| if along[a] == 0.0 { f64::INFINITY } else { (half[a] * along[a].signum() - from[a]) / along[a] };
-            let expected = to_wall(0).min(to_wall(1)).min(to_wall(2));
-            let found = field.cast(from, along, 9.0).unwrap();
-            // The end point lies at most half a voxel off the wall, however flat the ray meets it;
-            let end: [f64; 3] = std::array::from_fn(|a| from[a] + along[a] * found);
-            let off = (0..3).map(|a| (half[a] - end[a].abs()).abs()).fold(f64::INFINITY, f64::min);
-            prop_assert!(off <= 0.5 * SIDE_M + 1e-9, "{off}");
-            // so the range is within half a voxel's diagonal where it meets all walls at less than 54.7 degrees.
-            if along.iter().all(|v| v.abs() > 0.578) || along.iter().filter(|v| **v == 0.0).count() == 2 {
-                prop_assert!((found - expected).abs() <= 0.5 * SIDE_M * 3.0_f64.sqrt() + 1e-9, "{found} {expected}");
-            }
-        }
-
-        #[test]
-        fn walls_on_faces_of_voxels_are_met_exactly(
-            half in prop::array::uniform3(5..20i32),
-            from in prop::array::uniform3(-0.4..0.4f64),
-            along in direction(),
-        ) {
-            let half = half.map(|v| f64::from(v) * SIDE_M);
-            let field = RangeField::new(&SolidVoxels::of_boxes(&room(half), SIDE_M).unwrap());
-            let to_wall = |a: usize| if along[a] == 0.0 { f64::INFINITY } else { (half[a] * along[a].signum() - from[a]) / along[a] };
-            let expected = to_wall(0).min(to_wall(1)).min(to_wall(2));
-            prop_assert!((field.cast(from, along, 9.0).unwrap() - expected).abs() < 1e-9);
-        }
-    }
-
     /// Six walls about a room that extends by `half` to both sides, m.
     fn room(half: [f64; 3]) -> Vec<[[f64; 3]; 2]> {
         let outer = half.map(|v| v + 0.3);
@@ -235,5 +179,66 @@ mod tests {
             let _ = field.cast([bad; 3], [0.6, 0.0, 0.8], 5.0);
         }
         assert_eq!(field.cast([1.1, 0.0, 0.0], [1.0, 0.0, 0.0], 5.0), Some(0.0));
+    }
+
+    /// What takes seconds: not in the fast part of the tests.
+    mod slow {
+        use super::*;
+
+        proptest! {
+            #![proptest_config(ProptestConfig::with_cases(1000))]
+
+            #[test]
+            fn a_cast_ends_where_a_traversal_of_all_voxels_ends(
+                boxes in boxes(),
+                rays in prop::collection::vec((prop::array::uniform3(-2.5..2.5f64), direction(), 0.1..6.0f64), 20),
+            ) {
+                let voxels = SolidVoxels::of_boxes(&boxes, SIDE_M).unwrap();
+                let field = RangeField::new(&voxels);
+                for (from, along, max) in rays {
+                    let (found, expected) = (field.cast(from, along, max), traversed(&voxels, from, along, max));
+                    match (found, expected) {
+                        (Some(found), Some(expected)) => prop_assert!((found - expected).abs() < 1e-9, "{found} {expected}"),
+                        // Where the ray ends on the face itself.
+                        (None, Some(at)) | (Some(at), None) => prop_assert!((at - max).abs() < 1e-9, "{found:?} {expected:?}"),
+                        (None, None) => {}
+                    }
+                }
+            }
+
+            #[test]
+            fn a_wall_is_met_within_half_a_voxel_of_where_it_stands(
+                half in prop::array::uniform3(0.5..2.0f64),
+                from in prop::array::uniform3(-0.4..0.4f64),
+                along in direction(),
+            ) {
+                let voxels = SolidVoxels::of_boxes(&room(half), SIDE_M).unwrap();
+                let field = RangeField::new(&voxels);
+                let to_wall = |a: usize| if along[a] == 0.0 { f64::INFINITY } else { (half[a] * along[a].signum() - from[a]) / along[a] };
+                let expected = to_wall(0).min(to_wall(1)).min(to_wall(2));
+                let found = field.cast(from, along, 9.0).unwrap();
+                // The end point lies at most half a voxel off the wall, however flat the ray meets it;
+                let end: [f64; 3] = std::array::from_fn(|a| from[a] + along[a] * found);
+                let off = (0..3).map(|a| (half[a] - end[a].abs()).abs()).fold(f64::INFINITY, f64::min);
+                prop_assert!(off <= 0.5 * SIDE_M + 1e-9, "{off}");
+                // so the range is within half a voxel's diagonal where it meets all walls at less than 54.7 degrees.
+                if along.iter().all(|v| v.abs() > 0.578) || along.iter().filter(|v| **v == 0.0).count() == 2 {
+                    prop_assert!((found - expected).abs() <= 0.5 * SIDE_M * 3.0_f64.sqrt() + 1e-9, "{found} {expected}");
+                }
+            }
+
+            #[test]
+            fn walls_on_faces_of_voxels_are_met_exactly(
+                half in prop::array::uniform3(5..20i32),
+                from in prop::array::uniform3(-0.4..0.4f64),
+                along in direction(),
+            ) {
+                let half = half.map(|v| f64::from(v) * SIDE_M);
+                let field = RangeField::new(&SolidVoxels::of_boxes(&room(half), SIDE_M).unwrap());
+                let to_wall = |a: usize| if along[a] == 0.0 { f64::INFINITY } else { (half[a] * along[a].signum() - from[a]) / along[a] };
+                let expected = to_wall(0).min(to_wall(1)).min(to_wall(2));
+                prop_assert!((field.cast(from, along, 9.0).unwrap() - expected).abs() < 1e-9);
+            }
+        }
     }
 }

@@ -120,34 +120,6 @@ fn a_lost_ground_stays_reliable_for_a_while_and_is_found_again() {
     assert!(pose_error(&planes, &truth).0 < 0.02);
 }
 
-/// The start in front of stairs: the head goes from looking ahead to looking down at the feet, and aside.
-#[test]
-fn stairs_that_fill_the_view_at_the_start_are_never_taken_for_the_ground() {
-    for (front_m, rise_m) in [(0.4, 0.03), (0.5, 0.03), (0.4, 0.045)] {
-        for seed in 0..6 {
-            let mut noise = Noise::new(seed);
-            let (mut segmenter, mut planes) = (segmenter(), planes());
-            let turn = Vector3::new(noise.within(0.07), 0.0, noise.within(0.03));
-            let scene = Scene::stairs(front_m, rise_m, 0.12, 5);
-            for frame in 0..45 {
-                let down = 1.0 - 0.07 * f64::from((14_i32 - frame).max(0));
-                let aside = 0.07 * f64::from((frame - 20).max(0)).min(14.0);
-                let truth = camera_pose(aside, down - 0.15 * aside);
-                let believed = turned(&truth, &turn, 0.004);
-                let scan = scene.scan(&truth, believed, SIGMA, &mut noise);
-                segmenter.segment(&scan, &mut planes).unwrap();
-                let (tilt, height) = pose_error(&planes, &truth);
-                let told = format!("{front_m} {rise_m} {seed} frame {frame}: {tilt} {height}");
-                assert!(
-                    !planes.reliable || tilt < 0.035 && height.abs() < 0.008,
-                    "{told}"
-                );
-                assert!(planes.reliable || frame < 30, "{told}");
-            }
-        }
-    }
-}
-
 /// The first finds come while the attitude still settles, and all of them may err alike.
 #[test]
 fn a_track_that_began_wrong_is_put_right() {
@@ -182,31 +154,6 @@ fn low_steps(front_m: f64, rise_m: f64, tread_m: f64) -> Scene {
     Scene {
         ground: false,
         blocks: (0..=5).map(block).collect(),
-    }
-}
-
-#[test]
-fn low_stairs_in_view_at_the_start_are_not_taken_for_the_ground_of_a_tilted_camera() {
-    for (front_m, rise_m) in [(0.4, -0.017), (0.55, -0.017), (0.4, 0.017), (0.55, 0.017)] {
-        let scene = low_steps(front_m, rise_m, 0.19);
-        for seed in 0..6 {
-            let mut noise = Noise::new(seed);
-            let (mut segmenter, mut planes) = (segmenter(), planes());
-            let turn = Vector3::new(noise.within(0.1), 0.0, noise.within(0.1));
-            for frame in 0..90 {
-                let down =
-                    (0.02 + 0.07 * f64::from(frame)).min(if frame > 20 { 0.85 } else { 1.0 });
-                let aside = 0.8 * (f64::from((frame - 20).max(0)) * 0.09).sin();
-                let truth = camera_pose(aside, down);
-                let believed = turned(&truth, &turn, 0.004);
-                let scan = scene.scan(&truth, believed, SIGMA, &mut noise);
-                segmenter.segment(&scan, &mut planes).unwrap();
-                let (tilt, _) = pose_error(&planes, &truth);
-                let told = format!("{front_m} {rise_m} {seed} frame {frame}: {tilt}");
-                assert!(!planes.reliable || tilt < 0.045, "{told}");
-                assert!(planes.reliable || frame < 30, "{told}");
-            }
-        }
     }
 }
 
@@ -258,5 +205,63 @@ fn uncorrected_the_camera_stays_where_the_joints_have_it() {
         let heights = planes.floor_height_m.iter().filter(|h| !h.is_nan());
         let found: Vec<_> = heights.map(|&h| f64::from(h)).collect();
         assert!(height_m.is_nan() || (median(found) - height_m).abs() < 0.003);
+    }
+}
+
+/// What takes seconds: not in the fast part of the tests.
+mod slow {
+    use super::*;
+
+    /// The start in front of stairs: the head goes from looking ahead to looking down at the feet, and aside.
+    #[test]
+    fn stairs_that_fill_the_view_at_the_start_are_never_taken_for_the_ground() {
+        for (front_m, rise_m) in [(0.4, 0.03), (0.5, 0.03), (0.4, 0.045)] {
+            for seed in 0..6 {
+                let mut noise = Noise::new(seed);
+                let (mut segmenter, mut planes) = (segmenter(), planes());
+                let turn = Vector3::new(noise.within(0.07), 0.0, noise.within(0.03));
+                let scene = Scene::stairs(front_m, rise_m, 0.12, 5);
+                for frame in 0..45 {
+                    let down = 1.0 - 0.07 * f64::from((14_i32 - frame).max(0));
+                    let aside = 0.07 * f64::from((frame - 20).max(0)).min(14.0);
+                    let truth = camera_pose(aside, down - 0.15 * aside);
+                    let believed = turned(&truth, &turn, 0.004);
+                    let scan = scene.scan(&truth, believed, SIGMA, &mut noise);
+                    segmenter.segment(&scan, &mut planes).unwrap();
+                    let (tilt, height) = pose_error(&planes, &truth);
+                    let told = format!("{front_m} {rise_m} {seed} frame {frame}: {tilt} {height}");
+                    assert!(
+                        !planes.reliable || tilt < 0.035 && height.abs() < 0.008,
+                        "{told}"
+                    );
+                    assert!(planes.reliable || frame < 30, "{told}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn low_stairs_in_view_at_the_start_are_not_taken_for_the_ground_of_a_tilted_camera() {
+        for (front_m, rise_m) in [(0.4, -0.017), (0.55, -0.017), (0.4, 0.017), (0.55, 0.017)] {
+            let scene = low_steps(front_m, rise_m, 0.19);
+            for seed in 0..6 {
+                let mut noise = Noise::new(seed);
+                let (mut segmenter, mut planes) = (segmenter(), planes());
+                let turn = Vector3::new(noise.within(0.1), 0.0, noise.within(0.1));
+                for frame in 0..90 {
+                    let down =
+                        (0.02 + 0.07 * f64::from(frame)).min(if frame > 20 { 0.85 } else { 1.0 });
+                    let aside = 0.8 * (f64::from((frame - 20).max(0)) * 0.09).sin();
+                    let truth = camera_pose(aside, down);
+                    let believed = turned(&truth, &turn, 0.004);
+                    let scan = scene.scan(&truth, believed, SIGMA, &mut noise);
+                    segmenter.segment(&scan, &mut planes).unwrap();
+                    let (tilt, _) = pose_error(&planes, &truth);
+                    let told = format!("{front_m} {rise_m} {seed} frame {frame}: {tilt}");
+                    assert!(!planes.reliable || tilt < 0.045, "{told}");
+                    assert!(planes.reliable || frame < 30, "{told}");
+                }
+            }
+        }
     }
 }

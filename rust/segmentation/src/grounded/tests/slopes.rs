@@ -48,39 +48,6 @@ fn found(planes: &Planes) -> Option<(f64, usize)> {
 }
 
 #[test]
-fn a_slope_is_one_surface_with_its_tilt_and_its_height_at_each_pixel() {
-    for degrees in [5.0_f64, 7.0, 9.5, 15.0] {
-        let tilt_rad = degrees.to_radians();
-        let (mut tilts, mut errors_m, mut seen) = (Vec::new(), Vec::new(), 0);
-        for seed in 0..4 {
-            let mut noise = Noise::new(seed);
-            let mut segmenter = sloping(true, &mut noise);
-            let scene = slope(0.5, tilt_rad);
-            for frame in 0..12 {
-                let pose = camera_pose(noise.within(0.1), 0.7 + noise.within(0.05));
-                let planes = look(&mut segmenter, &scene, &pose, &mut noise);
-                let (_, truth) = scene.exact(&pose);
-                let slope = found(&planes).filter(|_| frame >= 4);
-                let Some((tilt, _)) = slope else { continue };
-                seen += 1;
-                tilts.push((tilt - tilt_rad).abs());
-                for (at, &height_m) in planes.floor_height_m.iter().enumerate() {
-                    // Tops of the fine steps: where the ray meets them is the true height.
-                    if truth[at] > GROUND && !height_m.is_nan() {
-                        let true_m = f64::from((truth[at] - GROUND) / 2) * FINE_M;
-                        errors_m.push((f64::from(height_m) - true_m).abs());
-                    }
-                }
-            }
-        }
-        assert!(seen >= 24, "{degrees}: {seen} of 32 frames");
-        let (tilt, error_m) = (median(tilts).to_degrees(), median(errors_m));
-        assert!(tilt < 1.0, "{degrees}: off by {tilt}");
-        assert!(error_m < 0.004, "{degrees}: {error_m} m");
-    }
-}
-
-#[test]
 fn without_the_setting_a_slope_falls_into_level_surfaces() {
     let mut noise = Noise::new(1);
     let mut segmenter = sloping(false, &mut noise);
@@ -89,32 +56,6 @@ fn without_the_setting_a_slope_falls_into_level_surfaces() {
         let planes = look(&mut segmenter, &slope(0.5, 0.12), &pose, &mut noise);
         assert_eq!(found(&planes), None);
     }
-}
-
-#[test]
-fn stairs_are_no_slope() {
-    let (mut slopes, mut frames) = (0, 0);
-    for (rise_m, tread_m) in [
-        (0.015, 0.2),
-        (0.018, 0.15),
-        (0.03, 0.12),
-        (0.03, 0.25),
-        (0.04, 0.15),
-        (0.05, 0.2),
-    ] {
-        for (seed, front_m) in (0..6).zip([0.45, 0.9].into_iter().cycle()) {
-            let mut noise = Noise::new(seed);
-            let mut segmenter = sloping(true, &mut noise);
-            let scene = Scene::stairs(front_m + noise.within(0.05), rise_m, tread_m, 4);
-            for _ in 0..10 {
-                let pose = camera_pose(noise.within(0.2), 0.7 + noise.within(0.1));
-                let planes = look(&mut segmenter, &scene, &pose, &mut noise);
-                frames += 1;
-                slopes += usize::from(found(&planes).is_some());
-            }
-        }
-    }
-    assert!(slopes <= frames / 100, "{slopes} of {frames} frames");
 }
 
 #[test]
@@ -134,4 +75,68 @@ fn where_a_slope_was_seen_just_now_level_strips_of_it_are_left_out_of_maps() {
     let mut raised = raised.filter(|(height_m, _)| **height_m > 0.03).peekable();
     assert!(raised.peek().is_some());
     assert!(raised.all(|(_, &left_out)| left_out));
+}
+
+/// What takes seconds: not in the fast part of the tests.
+mod slow {
+    use super::*;
+
+    #[test]
+    fn a_slope_is_one_surface_with_its_tilt_and_its_height_at_each_pixel() {
+        for degrees in [5.0_f64, 7.0, 9.5, 15.0] {
+            let tilt_rad = degrees.to_radians();
+            let (mut tilts, mut errors_m, mut seen) = (Vec::new(), Vec::new(), 0);
+            for seed in 0..4 {
+                let mut noise = Noise::new(seed);
+                let mut segmenter = sloping(true, &mut noise);
+                let scene = slope(0.5, tilt_rad);
+                for frame in 0..12 {
+                    let pose = camera_pose(noise.within(0.1), 0.7 + noise.within(0.05));
+                    let planes = look(&mut segmenter, &scene, &pose, &mut noise);
+                    let (_, truth) = scene.exact(&pose);
+                    let slope = found(&planes).filter(|_| frame >= 4);
+                    let Some((tilt, _)) = slope else { continue };
+                    seen += 1;
+                    tilts.push((tilt - tilt_rad).abs());
+                    for (at, &height_m) in planes.floor_height_m.iter().enumerate() {
+                        // Tops of the fine steps: where the ray meets them is the true height.
+                        if truth[at] > GROUND && !height_m.is_nan() {
+                            let true_m = f64::from((truth[at] - GROUND) / 2) * FINE_M;
+                            errors_m.push((f64::from(height_m) - true_m).abs());
+                        }
+                    }
+                }
+            }
+            assert!(seen >= 24, "{degrees}: {seen} of 32 frames");
+            let (tilt, error_m) = (median(tilts).to_degrees(), median(errors_m));
+            assert!(tilt < 1.0, "{degrees}: off by {tilt}");
+            assert!(error_m < 0.004, "{degrees}: {error_m} m");
+        }
+    }
+
+    #[test]
+    fn stairs_are_no_slope() {
+        let (mut slopes, mut frames) = (0, 0);
+        for (rise_m, tread_m) in [
+            (0.015, 0.2),
+            (0.018, 0.15),
+            (0.03, 0.12),
+            (0.03, 0.25),
+            (0.04, 0.15),
+            (0.05, 0.2),
+        ] {
+            for (seed, front_m) in (0..6).zip([0.45, 0.9].into_iter().cycle()) {
+                let mut noise = Noise::new(seed);
+                let mut segmenter = sloping(true, &mut noise);
+                let scene = Scene::stairs(front_m + noise.within(0.05), rise_m, tread_m, 4);
+                for _ in 0..10 {
+                    let pose = camera_pose(noise.within(0.2), 0.7 + noise.within(0.1));
+                    let planes = look(&mut segmenter, &scene, &pose, &mut noise);
+                    frames += 1;
+                    slopes += usize::from(found(&planes).is_some());
+                }
+            }
+        }
+        assert!(slopes <= frames / 100, "{slopes} of {frames} frames");
+    }
 }
