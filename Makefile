@@ -32,7 +32,7 @@ test: setup lint ## every check and every test
 	$(PYTEST) --hypothesis-profile ci
 
 fast: export PROPTEST_RNG_SEED ?= 2004
-fast: setup ## the tests that take no seconds each: two and a half minutes on two cores
+fast: setup ## the quick tests: two and a half minutes on two cores
 	$(CARGO_FAST)
 	$(PYTEST) --hypothesis-profile ci -m "not scenario and not slow"
 
