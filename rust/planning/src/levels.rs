@@ -59,7 +59,7 @@ impl Levels {
     pub(crate) fn read(
         &mut self,
         (view, unknown): (&FloorView, &[bool]),
-        treads: &Treads,
+        treads: &mut Treads,
         stand: &Stand,
         limits: &Limits,
         config: &AStarConfig,
@@ -78,15 +78,15 @@ impl Levels {
                     f32::NAN
                 }
             }));
-        treads.lay(&mut self.height_m);
+        let cols = view.cells.cols();
+        treads.lay(&mut self.height_m, cols, stand.height_m, limits.floor_m);
         self.slopes.read(view, config);
-        self.close_gaps(view.cells.cols(), limits.floor_m);
+        self.close_gaps(cols, limits.floor_m);
         self.edge.clear();
         self.edge.resize(self.height_m.len(), false);
         self.any = false;
         self.open.clear();
         self.open.resize(self.height_m.len(), false);
-        let cols = view.cells.cols();
         let seen = (self.height_m.as_slice(), cols);
         for index in (self.rims).read(seen, treads, stand.height_m, limits.floor_m) {
             self.edge[index] = true;

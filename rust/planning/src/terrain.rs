@@ -107,7 +107,8 @@ impl Terrain {
             .clear(blocked, unknown, self.cols, config.speck_cells);
         let limits = &self.needs.limits;
         let seen = (view, self.unknown.as_slice());
-        self.levels.read(seen, &self.treads, stand, limits, config);
+        self.levels
+            .read(seen, &mut self.treads, stand, limits, config);
         let heights = stairs.stairs.iter().map(stairs::Stair::height_m);
         let lowest_m = heights.chain(goal_m).fold(f64::INFINITY, f64::min);
         if self.levels.raised(stand, lowest_m, config) {

@@ -10,6 +10,11 @@ const OBSTACLE_M: f32 = 0.05;
 /// Stairs this near to each other may be steps of one staircase, m.
 const NEXT_M: f64 = 0.15;
 
+/// A cell lies well inside a level where no other one was seen this far around it, cells, and it in so many of them: more than at its
+/// border, where the ground beyond is hidden.
+const INSIDE_CELLS: usize = 2;
+const SEEN_CELLS: usize = 16;
+
 /// The cells of all stairs. Reused.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Treads {
@@ -19,6 +24,8 @@ pub(crate) struct Treads {
     near_m: Vec<f32>,
     /// Whether a cell lies within a cell of a stair that nothing known is a step up to: the top of a box, as far as can be told.
     apart: Vec<bool>,
+    /// Cells well inside the robot's own level that a lower stair reaches over.
+    inside: Vec<usize>,
     any: bool,
 }
 
@@ -102,8 +109,31 @@ impl Treads {
         cells.filter(|(_, height)| !height.is_nan()).map(|(i, _)| i)
     }
 
-    /// Overwrites the heights of the cells of stairs.
-    pub(crate) fn lay(&self, height_m: &mut [f32]) {
+    /// Overwrites the heights of the cells of stairs, row by row, but well inside the level at `robot_m` that the robot stands on: the
+    /// outline of the floor beyond that level's side is a guess where it was seen in part, and may reach across it.
+    pub(crate) fn lay(&mut self, height_m: &mut [f32], cols: usize, robot_m: f64, max_step_m: f64) {
+        if !self.any {
+            return;
+        }
+        let is_lower = |tread_m: f32| f64::from(tread_m) - robot_m < -max_step_m;
+        let lower = (0..height_m.len()).filter(|&index| is_lower(self.height_m[index]));
+        let inside = lower.filter(|&index| {
+            let around = around(index, INSIDE_CELLS, (cols, height_m.len() / cols));
+            is_level(
+                around.map(|cell| f64::from(height_m[cell]) - robot_m),
+                max_step_m,
+            )
+        });
+        self.inside.clear();
+        self.inside.extend(inside);
+        for &index in &self.inside {
+            let seen_m = height_m[index];
+            self.height_m[index] = if seen_m.is_nan() {
+                robot_m as f32
+            } else {
+                seen_m
+            };
+        }
         for (height, &tread) in height_m.iter_mut().zip(&self.height_m) {
             if !tread.is_nan() {
                 *height = tread;
@@ -133,6 +163,24 @@ impl Treads {
             unknown.push(riser && !self.covers(index));
         }
     }
+}
+
+/// The cells of a square around one, up to so many cells away.
+fn around(index: usize, cells: usize, (cols, rows): (usize, usize)) -> impl Iterator<Item = usize> {
+    let (col, row) = (index % cols, index / cols);
+    let across = col.saturating_sub(cells)..(col + cells + 1).min(cols);
+    let rows = row.saturating_sub(cells)..(row + cells + 1).min(rows);
+    rows.flat_map(move |row| across.clone().map(move |col| row * cols + col))
+}
+
+/// Whether none of these heights over a level, m, is another level's, and enough are known.
+fn is_level(mut above_m: impl Iterator<Item = f64>, max_step_m: f64) -> bool {
+    let mut seen = 0;
+    let same = above_m.all(|above_m| {
+        seen += usize::from(!above_m.is_nan());
+        above_m.is_nan() || above_m.abs() <= max_step_m
+    });
+    same && seen >= SEEN_CELLS
 }
 
 /// Whether a stair is a step up to another one: near to it, and lower by no more than can be climbed.

@@ -3,7 +3,7 @@
 use mapping::Surface;
 use planning::{Goal, Path};
 
-use crate::course::{Course, goal, goal_at, way, way_from};
+use crate::course::{Course, goal, goal_at, stair, way, way_from};
 
 /// On the floor beside the landing, m: from here unseen ground near the goal is nearer than the foot of the stairs.
 const BESIDE: [f64; 3] = [1.2, -0.85, 0.0];
@@ -59,6 +59,20 @@ fn a_landing_of_which_the_map_knows_more_than_was_recognised_is_not_stepped_on_f
     // Beside the part that was recognised.
     let path = way_from(&course, BESIDE, 0.0, &goal_at(1.7, -0.4, 0.08));
     assert_eq!(steps(&path), 2, "{:?}", path.points_m);
+}
+
+#[test]
+fn the_outline_of_the_floor_beside_a_landing_bars_no_way_along_it() {
+    let mut course = Course::floor();
+    course.paint([-0.4, -0.25], [1.6, 0.25], Surface::Floor(0.08));
+    // Seen in part over the landing's side, and taken to reach across it; the camera missed a line of cells there.
+    let floor = stair(0.0, 0.3, 0.0, 2.0);
+    (course.stairs.stairs).push(floor.transformed(&geometry::Pose::from_yaw(0.5, 0.0, 0.0, 0.3)));
+    course.forget([0.6, -0.25], [0.64, 0.25]);
+    let path = way_from(&course, [0.0, 0.0, 0.08], 0.0, &goal_at(1.3, 0.0, 0.08));
+    assert!(path.climbs.is_empty(), "{:?}", path.climbs);
+    let [x, y] = path.points_m[path.points_m.len() - 1];
+    assert!((x - 1.3).hypot(y) < 0.1, "{x} {y}");
 }
 
 /// How near a path comes to a box to its right, m.
