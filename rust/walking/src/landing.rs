@@ -15,6 +15,9 @@ const HIGH: f64 = 0.25;
 /// How far a foot may be behind its path, s.
 const LAG_S: f64 = 0.02;
 
+/// How short a leg may be while its foot is still sent further down, m: the hips come down more slowly than a foot.
+const SHORT_M: f64 = 0.001;
+
 /// How far before what it met a foot then comes down, m.
 const CLEAR_M: f64 = 0.003;
 
@@ -34,6 +37,8 @@ pub struct Felt {
     pub loads_n: [f64; 2],
     /// Centre of each sole by joints and attitude, in the plan, m.
     pub soles_m: [Vector3<f64>; 2],
+    /// How far each leg was from reaching where its foot was put, m.
+    pub short_m: [f64; 2],
     /// Centre of pressure on each sole, from its middle forward and to the left, m; the middle of one that carries nothing.
     pub pressed_m: [Vector2<f64>; 2],
 }
@@ -84,6 +89,9 @@ impl Gait {
             }
         } else if *elapsed_s >= swing_s {
             *elapsed_s = swing_s;
+            if felt.short_m[swing.side.index()] > SHORT_M {
+                return;
+            }
             let below_m = match swing.landing {
                 Landing::Seeking(below_m) => below_m + self.config.probe_speed * passed_s,
                 Landing::Found(_) => 0.0,
@@ -198,6 +206,7 @@ mod tests {
         let felt = Felt {
             loads_n: [load_n, 50.0],
             soles_m: [Vector3::zeros(); 2],
+            short_m: [0.0; 2],
             pressed_m: [Vector2::zeros(); 2],
         };
         for _ in 0..10 {

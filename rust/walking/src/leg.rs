@@ -22,6 +22,8 @@ pub struct LegAngles {
     pub angles_rad: [f64; 6],
     /// Whether the sole gets where it should; else it comes as near as length and ranges let it.
     pub reached: bool,
+    /// How much further away from the hip the ankle should be than the leg is long, m.
+    pub short_m: f64,
 }
 
 /// The triangle of hip, knee and ankle.
@@ -32,6 +34,7 @@ struct Bend {
     /// Angle of the knee, 0 when it is straight, rad.
     knee_rad: f64,
     reached: bool,
+    short_m: f64,
 }
 
 impl Leg {
@@ -93,12 +96,12 @@ impl Leg {
     /// The joint angles that put the sole at `torso_from_sole`. Closed form of Kajita et al., Introduction to Humanoid Robotics,
     /// section 2.5.1: the knee from the law of cosines, the ankle from the direction to the hip, the hip from the rest.
     pub fn solve(&self, torso_from_sole: &Isometry3<f64>) -> LegAngles {
-        let (angles_rad, reached) = self.solve_freely(torso_from_sole);
-        self.within_ranges(angles_rad, reached)
+        let (angles_rad, bend) = self.solve_freely(torso_from_sole);
+        self.within_ranges(angles_rad, &bend)
     }
 
-    /// Angles about positive axes, whatever the joints' ranges are, and whether the leg is long enough.
-    fn solve_freely(&self, torso_from_sole: &Isometry3<f64>) -> ([f64; 6], bool) {
+    /// Angles about positive axes, whatever the joints' ranges are, and how the leg bends.
+    fn solve_freely(&self, torso_from_sole: &Isometry3<f64>) -> ([f64; 6], Bend) {
         let rotation = torso_from_sole.rotation.to_rotation_matrix().into_inner();
         let ankle = torso_from_sole.translation.vector + rotation * self.geometry.ankle_in_sole;
         let ankle_to_hip = rotation.transpose() * (self.geometry.hip - ankle);
@@ -121,7 +124,7 @@ impl Leg {
         let hip_roll = hip_roll + self.geometry.slant_rad;
         (
             [hip_yaw, hip_roll, hip_pitch, knee, ankle_pitch, ankle_roll],
-            bend.reached,
+            bend,
         )
     }
 
@@ -166,7 +169,7 @@ impl Leg {
                 ankle_pitch,
                 ankle_roll,
             ],
-            bend.reached,
+            &bend,
         )
     }
 
@@ -179,11 +182,13 @@ impl Leg {
             distance_m,
             knee_rad: std::f64::consts::PI - inner.acos(),
             reached: (wanted_m - distance_m).abs() < 1e-9,
+            short_m: (wanted_m - distance_m).max(0.0),
         }
     }
 
     /// Angles about positive axes as the joints count them, clamped to what they can.
-    fn within_ranges(&self, mut angles_rad: [f64; 6], mut reached: bool) -> LegAngles {
+    fn within_ranges(&self, mut angles_rad: [f64; 6], bend: &Bend) -> LegAngles {
+        let mut reached = bend.reached;
         for (slot, angle) in angles_rad.iter_mut().enumerate() {
             let turned = *angle * self.geometry.signs[slot];
             let [low, high] = self.geometry.ranges_rad[slot];
@@ -193,6 +198,7 @@ impl Leg {
         LegAngles {
             angles_rad,
             reached,
+            short_m: bend.short_m,
         }
     }
 }
@@ -289,7 +295,11 @@ mod tests {
     fn a_pose_out_of_reach_is_said_to_be_so() {
         let leg = Leg::new(&biped(), Side::Left, 0.985).unwrap();
         let far = Isometry3::translation(0.0, 0.0425, -0.4);
-        assert!(!leg.solve(&far).reached);
+        let found = leg.solve(&far);
+        assert!(
+            !found.reached && (0.1..0.2).contains(&found.short_m),
+            "{found:?}"
+        );
     }
 
     #[test]

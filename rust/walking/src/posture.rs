@@ -44,6 +44,7 @@ pub(crate) struct Posture {
     swing_tilt: f64,
     yaw_rad: f64,
     tilt_weight: [f64; 2],
+    short_m: [f64; 2],
     poses: LinkPoses,
 }
 
@@ -62,6 +63,7 @@ impl Posture {
             swing_tilt: config.swing_tilt,
             yaw_rad: 0.0,
             tilt_weight: [0.0; 2],
+            short_m: [0.0; 2],
             poses: LinkPoses::default(),
         })
     }
@@ -101,6 +103,7 @@ impl Posture {
             torso_from_plan * lean * sole * moment.ankles.level_from_sole(side)
         });
         let solutions = self.solve(&soles, &about);
+        self.short_m = [0, 1].map(|index| solutions[index].short_m);
         for (leg, solution) in self.legs.iter().zip(&solutions) {
             for (&joint, &angle) in leg.joints().iter().zip(&solution.angles_rad) {
                 let before = targets.positions_rad[joint];
@@ -109,6 +112,11 @@ impl Posture {
             }
         }
         Ok(())
+    }
+
+    /// How far each leg was from reaching where its foot was put at the last tick, m: the hips are on their way down.
+    pub(crate) const fn short_m(&self) -> [f64; 2] {
+        self.short_m
     }
 
     /// Both legs' angles; where they share a motor, the torso turns about `about` until they agree.

@@ -109,6 +109,7 @@ mod tests {
         Ground::Felt(Felt {
             loads_n: [20.0, 50.0],
             soles_m: [Vector3::new(0.02, 0.0425, height_m), Vector3::zeros()],
+            short_m: [0.0; 2],
             pressed_m: [Vector2::new(pressed_m, 0.0), Vector2::zeros()],
         })
     }

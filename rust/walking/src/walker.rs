@@ -262,6 +262,7 @@ impl Walker {
         Felt {
             loads_n: state.foot_loads_n,
             soles_m: plan_from_sole.map(|pose| pose.translation.vector),
+            short_m: self.posture.short_m(),
             pressed_m: Side::BOTH
                 .map(|side| self.soles.pressed_m(side, &observation.foot_forces_n)),
         }
