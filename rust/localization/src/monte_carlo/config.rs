@@ -152,7 +152,7 @@ impl Default for MonteCarloConfig {
             least_share: 0.75,
             most_spread: 0.4,
             follow_share: 0.1,
-            follow_bands: [0.02, 0.02, 0.02],
+            follow_bands: [0.02, 0.004, 0.02],
             follow_within: [0.3, 0.35],
             body: [0.1, 0.55],
         }
