@@ -10,6 +10,10 @@ use crate::{Edge, Stair};
 const APART_M: f64 = 0.04;
 /// Cosine of the largest angle between them.
 const PARALLEL: f64 = 0.966;
+/// Share of a stair's width that another must have to begin on it,
+const WIDE: f64 = 0.6;
+/// and how deep the stair must be before that, m.
+const LEAST_DEPTH_M: f64 = 0.05;
 
 /// Index of the stair that ends where another begins.
 pub(crate) fn before(stairs: &[Stair<Map>], index: usize, own_height_m: f64) -> Option<usize> {
@@ -59,6 +63,35 @@ fn beside(a: &Edge<Map>, b: &Edge<Map>) -> Option<(Line, [f64; 2])> {
     (right < left).then_some((line, [right, left]))
 }
 
+/// Ends a stair where another one begins on it, whose front was seen more often than that the stair ends farther back: from afar the
+/// next step is taken for a part of this one, for a frame.
+pub(crate) fn cut_off(stairs: &mut [Stair<Map>], own_height_m: f64) {
+    for index in 0..stairs.len() {
+        let stair = &stairs[index];
+        let begins = stairs
+            .iter()
+            .filter(|other| (other.height_m() - stair.height_m()).abs() > own_height_m)
+            .filter(|other| other.seen_ends.front > stair.seen_ends.back)
+            .filter_map(|other| Some((begins_at_m(stair, &other.front)?, other.front)))
+            .min_by(|(a_m, _), (b_m, _)| a_m.total_cmp(b_m));
+        if let Some(line) = begins.and_then(|(_, front)| Line::along(&front)) {
+            stairs[index].back = stairs[index].back.onto(&line);
+        }
+    }
+}
+
+/// How far behind a stair's front an edge lies that crosses most of the stair, m.
+fn begins_at_m(stair: &Stair<Map>, edge: &Edge<Map>) -> Option<f64> {
+    let across = stair.back.across();
+    let (_, [right, left]) = beside(&stair.back, edge)?;
+    let wide = left - right > WIDE * stair.back.length_m();
+    let place = middle_of_both(&stair.back, edge)?;
+    let at = place - edge.across() * edge.beyond_m(place.into());
+    let depth_m = stair.front.beyond_m(at.into());
+    let within = depth_m > LEAST_DEPTH_M && stair.back.beyond_m(at.into()) < -APART_M;
+    (wide && within && across.dot(&edge.across()) > PARALLEL).then_some(depth_m)
+}
+
 /// Makes one edge of the back of each stair and the front of the next, each by how much of its support saw it.
 pub(crate) fn join(stairs: &mut [Stair<Map>], own_height_m: f64) {
     for index in 0..stairs.len() {
@@ -84,4 +117,56 @@ fn between(a: &Edge<Map>, b: &Edge<Map>, share: f64) -> Option<Line> {
         at: from + (to - from) * share,
         along: (from_along.lerp(&to_along, share)).try_normalize(1e-9)?,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use geometry::Robot;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const OWN_HEIGHT_M: f64 = 0.01;
+
+    /// A stair across the way, `width_m` wide, seen to end in front and behind by so many points.
+    fn stair(
+        [from_m, to_m]: [f64; 2],
+        height_m: f64,
+        width_m: f64,
+        seen: [usize; 2],
+    ) -> Stair<Map> {
+        let edge = |x_m: f64| Edge {
+            left: Point::<Robot>::new(x_m, 0.5 * width_m, height_m),
+            right: Point::new(x_m, -0.5 * width_m, height_m),
+        };
+        let (front, back) = (edge(from_m), edge(to_m));
+        let mut stair = Stair::seen(front, back, front.middle(), 1000);
+        [stair.seen_ends.front, stair.seen_ends.back] = seen;
+        stair.transformed(&geometry::Pose::identity())
+    }
+
+    /// Where a tread of 12 cm ends that is taken to end at `to_m`, with another at its end; m.
+    fn end_m(to_m: f64, back_seen: usize, next_width_m: f64, rise_m: f64) -> f64 {
+        let mut stairs = [
+            stair([0.84, to_m], 0.09, 0.9, [2600, back_seen]),
+            stair([0.96, 1.36], 0.09 + rise_m, next_width_m, [1900, 1400]),
+        ];
+        cut_off(&mut stairs, OWN_HEIGHT_M);
+        stairs[0].back.middle().inner.x
+    }
+
+    proptest! {
+        #[test]
+        fn a_stair_ends_where_another_begins_on_it(to_m in 1.01..1.6f64, rise_m in 0.015..0.05f64, down in any::<bool>()) {
+            let rise_m = if down { -rise_m } else { rise_m };
+            prop_assert!((end_m(to_m, 400, 0.9, rise_m) - 0.96).abs() < 1e-9);
+        }
+
+        #[test]
+        fn but_not_where_it_was_seen_to_go_on_or_beside_or_on_its_own_level(to_m in 1.01..1.6f64) {
+            prop_assert_eq!(end_m(to_m, 2000, 0.9, 0.03), to_m);
+            prop_assert_eq!(end_m(to_m, 400, 0.4, 0.03), to_m);
+            prop_assert_eq!(end_m(to_m, 400, 0.9, 0.005), to_m);
+        }
+    }
 }

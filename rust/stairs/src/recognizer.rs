@@ -7,7 +7,7 @@ use sensing::{Intrinsics, Scan};
 
 use crate::extract::Extraction;
 use crate::fits::Fits;
-use crate::joints::join;
+use crate::joints::{cut_off, join};
 use crate::memory::Memory;
 use crate::view::View;
 use crate::{Stair, Staircase, StairsConfig};
@@ -97,6 +97,7 @@ impl Recognizer {
         }
         let stairs = &mut self.staircase.stairs;
         self.memory.stairs(&self.config, stairs);
+        cut_off(stairs, self.config.own_height);
         join(stairs, self.config.own_height);
         self.fits.apply(stairs);
         if planes.reliable {

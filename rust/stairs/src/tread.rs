@@ -152,6 +152,7 @@ impl Tread {
         let Aspect {
             front: before,
             back: behind,
+            ..
         } = self.aspects.present();
         let [front, back] = [
             before.ends(&self.hull, -1.0)?,
