@@ -82,14 +82,14 @@ pub(crate) fn cut_off(stairs: &mut [Stair<Map>], own_height_m: f64) {
 
 /// How far behind a stair's front an edge lies that crosses most of the stair, m.
 fn begins_at_m(stair: &Stair<Map>, edge: &Edge<Map>) -> Option<f64> {
-    let across = stair.back.across();
-    let (_, [right, left]) = beside(&stair.back, edge)?;
-    let wide = left - right > WIDE * stair.back.length_m();
-    let place = middle_of_both(&stair.back, edge)?;
-    let at = place - edge.across() * edge.beyond_m(place.into());
-    let depth_m = stair.front.beyond_m(at.into());
-    let within = depth_m > LEAST_DEPTH_M && stair.back.beyond_m(at.into()) < -APART_M;
-    (wide && within && across.dot(&edge.across()) > PARALLEL).then_some(depth_m)
+    let part = part_beside(edge, &stair.back)?;
+    let middle = part.middle().inner;
+    let at = [middle.x, middle.y];
+    let depth_m = stair.front.beyond_m(at);
+    let crosses = part.length_m() > WIDE * stair.back.length_m()
+        && stair.back.across().dot(&edge.across()) > PARALLEL;
+    let within = depth_m > LEAST_DEPTH_M && stair.back.beyond_m(at) < -APART_M;
+    (crosses && within).then_some(depth_m)
 }
 
 /// Makes one edge of the back of each stair and the front of the next, each by how much of its support saw it.

@@ -100,7 +100,8 @@ pub struct MonteCarloConfig {
     pub most_spread: f64,
     /// The estimate follows what the frames say by this share of what it is off, each,
     pub follow_share: f64,
-    /// beyond these: in the plane, m, in height, m, in heading, rad,
+    /// beyond these: in the plane, m, in height, m, in heading, rad; in height by less than what is climbed as a step, or level floor
+    /// becomes one,
     pub follow_bands: [f64; 3],
     /// and all at once where it is off by more than this: m, rad.
     pub follow_within: [f64; 2],
