@@ -15,6 +15,7 @@ TESTED_BY = {
     "cli.compare": "test_comparison.py",
     "comparing.tables": "test_comparison.py",
     "cli.options": "test_cli.py",
+    "cli.run_verbs": "test_cli.py",
     "cli.sweep": "test_sweeps.py",
     "cli.sweep_verbs": "test_sweeps.py",
     "cli.export": "test_exports.py",
@@ -28,6 +29,7 @@ TESTED_BY = {
     "sweeps.folder": "test_sweeps.py",
     "sweeps.job": "test_sweeps.py",
     "sweeps.summary": "test_sweeps.py",
+    "judging.climb_line": "test_solvable.py",
     "scenario.messages": "test_scenario.py",
     "scenario.types": "test_scenario.py",
 }
