@@ -7,7 +7,8 @@ import pytest
 from episode_builders import qrio, scenario
 
 from treadwell.course.build import build_course
-from treadwell.judging.solvable import Limits, is_solvable, limits_of
+from treadwell.judging.robot_limits import Limits, limits_of
+from treadwell.judging.solvable import is_solvable
 from treadwell.judging.true_ground import TrueGround, edges_of
 from treadwell.robot.load import load_robot
 from treadwell.scenario.loading import load_scenario

@@ -1,0 +1,73 @@
+"""What a robot can do by its folder and the scenario, for a search on the true course."""
+
+from dataclasses import dataclass
+from typing import Any, Final
+
+from treadwell.core_settings import navigation_parameters
+from treadwell.robot.load import Robot
+from treadwell.scenario.model import Scenario
+
+FOOT_GAP: Final = 0.01
+"""Metres between the feet side by side."""
+
+
+@dataclass(frozen=True, slots=True)
+class OneWay:
+    """The limits of steps up, or of steps down, as in `[navigation.climbing.ascend]`."""
+
+    highest: float
+    front_x_limit: float
+    back_x_limit: float
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What a robot can do, by its folder and the scenario, metres."""
+
+    radius: float
+    tall: float
+    sole: float
+    pair: float
+    floor_max: float
+    tolerance: float
+    side_room: float
+    up: OneWay
+    down: OneWay
+
+    @property
+    def half_width(self) -> float:
+        """Half of what both feet need on a stair."""
+        return self.pair / 2 + self.side_room
+
+    def for_(self, rise: float) -> OneWay:
+        """Return the limits of a change of height."""
+        return self.up if rise > 0.0 else self.down
+
+
+def limits_of(scenario: Scenario, robot: Robot) -> Limits:
+    """Return a robot's limits; where nothing is published, the core's defaults hold."""
+    body, sole = robot.file.body, robot.file.legs.left.sole
+    parameters = navigation_parameters(scenario, robot)
+    climbing: dict[str, Any] = parameters.get("climbing", {})
+    up, down = climbing.get("ascend", {}), climbing.get("descend", {})
+    planner = parameters.get(scenario.navigation.planner, {})
+    turned = body.depth if planner.get("footprint") == "oriented" else None
+    return Limits(
+        radius=turned / 2 if turned else body.radius,
+        tall=body.height,
+        sole=sole.length,
+        pair=2 * sole.width + FOOT_GAP,
+        floor_max=climbing.get("floor_max", 0.01),
+        tolerance=climbing.get("tolerance", 0.0025),
+        side_room=climbing.get("side_room", 0.02),
+        up=OneWay(
+            up.get("step_max_z", 0.050),
+            up.get("front_x_limit", -0.025),
+            up.get("back_x_limit", -0.005),
+        ),
+        down=OneWay(
+            -down.get("step_min_z", -0.050),
+            down.get("front_x_limit", 0.015),
+            down.get("back_x_limit", 0.025),
+        ),
+    )
