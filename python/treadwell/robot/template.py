@@ -12,9 +12,8 @@ from treadwell.robot.additions import STAND
 from treadwell.robot.anatomy import Anatomy, FoundLeg
 from treadwell.robot.followers import followers
 from treadwell.robot.report import compile_alone, find_mjcf
+from treadwell.robot.stance import axis_sign, posed, stance
 
-KNEE_RAD = 1.0
-"""Bend of the knees in the stance."""
 LEG_RANGES = ((-0.8, 0.8), (-0.8, 0.8), (-2.0, 0.9), (-0.05, 2.4), (-1.4, 1.0), (-0.7, 0.7))
 """For joints without a range, about positive axes: yaw, roll, pitch, knee, ankle pitch and roll."""
 OTHER_RANGE = (-1.5, 1.5)
@@ -110,7 +109,7 @@ class _Draft:
     legs: dict[str, FoundLeg]
 
     def text(self) -> str:
-        stand = self._stand()
+        stand = stance(self.anatomy, self.legs)
         parts = [
             f"# A draft for {self.mjcf}: what the model tells, and guesses for what it does not.\n"
             "# Metres, radians, seconds, newtons, newton metres.\n",
@@ -130,7 +129,7 @@ class _Draft:
 
     def _body(self, stand: dict[str, float]) -> str:
         model = self.anatomy.model
-        data = self._posed(stand)
+        data = posed(model, stand)
         least, most = np.full(3, np.inf), np.full(3, -np.inf)
         for geom in np.flatnonzero(model.geom_bodyid > 0):
             rotation = data.geom_xmat[geom].reshape(3, 3)
@@ -143,49 +142,6 @@ class _Draft:
             f"torso = {_toml(model.body(self._torso()).name)}\nradius = {radius:.2f}\n"
             f"height = {float(most[2] - least[2]):.2f}\n"
         )
-
-    def _stand(self) -> dict[str, float]:
-        """Return the angles of a stance on bent knees, the weight over the soles' middle."""
-        model = self.anatomy.model
-        names = [model.key(number).name for number in range(model.nkey)]
-        if STAND in names:
-            qpos = model.key(STAND).qpos
-            return {model.joint(j).name: float(qpos[6 + j]) for j in range(1, model.njnt)}
-        low, high, hip = -1.2, 0.3, 0.0
-        for _ in range(40):
-            hip = 0.5 * (low + high)
-            data = self._posed(self._bent(hip))
-            soles = [self._sole_x(data, leg) for leg in self.legs.values()]
-            # The further the thighs are ahead, the further the soles.
-            low, high = (low, hip) if data.subtree_com[1][0] > sum(soles) / 2 else (hip, high)
-        return self._bent(hip)
-
-    def _bent(self, hip: float) -> dict[str, float]:
-        angles = {}
-        for leg in self.legs.values():
-            for slot, angle in ((2, hip), (3, KNEE_RAD), (4, -hip - KNEE_RAD)):
-                angles[leg.joints[slot]] = round(angle * self._sign(leg.joints[slot]), 4)
-        return angles
-
-    def _sole_x(self, data: mujoco.MjData, leg: FoundLeg) -> float:
-        body = self.anatomy.model.body(leg.foot).id
-        offset = data.xmat[body].reshape(3, 3) @ np.array(leg.sole[0])
-        return float(data.xpos[body][0] + offset[0])
-
-    def _posed(self, angles: dict[str, float]) -> mujoco.MjData:
-        model = self.anatomy.model
-        data = mujoco.MjData(model)
-        data.qpos[:] = 0.0
-        data.qpos[3] = 1.0
-        for name, angle in angles.items():
-            data.qpos[model.joint(name).qposadr[0]] = angle
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
-        return data
-
-    def _sign(self, joint: str) -> float:
-        axis = self.anatomy.axis(self.anatomy.model.joint(joint).id)
-        return float(np.sign(axis[int(np.argmax(np.abs(axis)))]))
 
     def _stand_table(self, stand: dict[str, float]) -> str:
         model = self.anatomy.model
@@ -207,7 +163,7 @@ class _Draft:
             if model.jnt_limited[joint]:
                 continue
             low, high = of_legs.get(name, OTHER_RANGE)
-            if self._sign(name) < 0.0:
+            if axis_sign(self.anatomy, name) < 0.0:
                 low, high = -high, -low
             lines += f"{name} = [{low:g}, {high:g}]\n"
         return f"\n[ranges]                        # guesses\n{lines}" if lines else ""
