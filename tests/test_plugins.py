@@ -34,8 +34,27 @@ def test_an_attribute_that_is_no_class_is_bad_input(
 ) -> None:
     (tmp_path / "number.py").write_text("Planner = 3\n")
     monkeypatch.syspath_prepend(tmp_path)
-    with pytest.raises(InputError, match="cannot make number:Planner"):
+    with pytest.raises(InputError, match="number has no class Planner"):
         load_component("planner", "number:Planner", {})
+
+
+def test_a_module_that_leaves_ends_nothing_but_is_bad_input(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "leaving.py").write_text("import sys\nsys.exit(0)\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(InputError, match="cannot import leaving: SystemExit"):
+        load_component("planner", "leaving:Planner", {})
+
+
+def test_a_class_that_is_no_component_is_not_called(tmp_path: Path) -> None:
+    """Else a scenario file could run any program: `check` makes its components."""
+    made = tmp_path / "made"
+    with pytest.raises(InputError, match="planner: Popen has no method plan"):
+        load_component("planner", "subprocess:Popen", {"args": ["touch", str(made)]})
+    with pytest.raises(InputError, match="subprocess has no class run"):
+        load_component("planner", "subprocess:run", {"args": ["touch", str(made)]})
+    assert not made.exists()
 
 
 def test_a_missing_method_is_named() -> None:

@@ -32,16 +32,17 @@ def load_component(slot: str, name: str, parameters: dict[str, Any]) -> object:
     module_name, _, class_name = (name if ":" in name else class_of(slot, name)).partition(":")
     try:
         module = importlib.import_module(module_name)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         raise InputError(f"{where}: cannot import {module_name}: {error!r}") from error
-    made = getattr(module, class_name, None)
-    if made is None:
+    kind = getattr(module, class_name, None)
+    if not isinstance(kind, type):
         raise InputError(f"{where}: {module_name} has no class {class_name}")
+    # Before it is called: a scenario may name any class there is, and making it may do anything.
+    _check_methods(slot, kind, class_name)
     try:
-        component: object = made(**parameters)
-    except Exception as error:
+        component: object = kind(**parameters)
+    except (Exception, SystemExit) as error:
         raise InputError(f"{where}: cannot make {name}: {error!r}") from error
-    check_component(slot, component)
     return component
 
 
@@ -53,10 +54,13 @@ def check_component(slot: str, component: object) -> None:
     """
     if slot not in COMPONENTS:
         raise InputError(f"{slot}: no such component; there are {', '.join(COMPONENTS)}")
-    missing = [name for name in METHODS[slot] if not callable(getattr(component, name, None))]
+    _check_methods(slot, component, type(component).__name__)
+
+
+def _check_methods(slot: str, component: object, name: str) -> None:
+    missing = [method for method in METHODS[slot] if not callable(getattr(component, method, None))]
     if missing:
-        kind = type(component).__name__
-        raise InputError(f"{slot}: {kind} has no method {', '.join(missing)}")
+        raise InputError(f"{slot}: {name} has no method {', '.join(missing)}")
 
 
 def class_path(component: object) -> str:
