@@ -55,6 +55,14 @@ def test_the_ids_are_there_whatever_is_imported_first(order: str) -> None:
     subprocess.run([sys.executable, "-W", "error", "-c", code], check=True)
 
 
+def test_the_ids_are_there_after_somebody_asked_whether_gymnasium_is() -> None:
+    code = (
+        "import importlib.util, treadwell; importlib.util.find_spec('gymnasium'); "
+        f"import gymnasium; gymnasium.spec('{ENV}')"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
 def test_treadwell_alone_does_not_import_gymnasium() -> None:
     code = "import sys, treadwell; assert 'gymnasium' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)

@@ -13,19 +13,26 @@ ENVIRONMENTS: Final = "treadwell.environment"
 
 
 class _Waiting(MetaPathFinder):
-    """Waits for Gymnasium, once."""
+    """Waits until Gymnasium is imported; that somebody asks whether it is there is not enough."""
+
+    def __init__(self) -> None:
+        self._asking = False
 
     def find_spec(
         self, fullname: str, _path: Sequence[str] | None = None, _target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        if fullname != "gymnasium":
+        if fullname != "gymnasium" or self._asking:
             return None
-        sys.meta_path.remove(self)
-        spec = find_spec(fullname)
+        self._asking = True  # the others
+        try:
+            spec = find_spec(fullname)
+        finally:
+            self._asking = False
         if spec is not None and spec.loader is not None:
             load = spec.loader.exec_module
 
             def load_and_register(module: ModuleType) -> None:
+                sys.meta_path.remove(self)
                 load(module)
                 import_module(ENVIRONMENTS)
 
