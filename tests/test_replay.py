@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -113,7 +114,34 @@ def test_an_exception_of_a_users_class_ends_the_replay_with_its_name(
 
     done = replayed(run, tmp_path / "out", planner=Broken())
     assert not done.passed
-    assert "of all things" in str(done.result.replay.error)
+    error = str(done.result.replay.error)
+    assert error.startswith("error: planner: Broken: ArithmeticError")
+    assert "of all things" in error
+    assert "test_replay.py:" in error
+
+
+def test_a_call_that_takes_too_long_ends_the_replay(run: Path, tmp_path: Path) -> None:
+    class Slow(user_parts.Straight):
+        def plan(self, *_: object) -> Plan:
+            time.sleep(60.0)
+            raise AssertionError
+
+    done = replayed(run, tmp_path / "out", "navigation.call_limit=0.2", planner=Slow())
+    assert not done.passed
+    assert "planner: Slow: took longer than 0.2 s" in str(done.result.replay.error)
+
+
+def test_without_answers_to_compare_with_it_is_no_success(
+    run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from treadwell.replaying import replay as module
+
+    monkeypatch.setattr(module, "read_answers", lambda _: iter(()))
+    assert not replayed(run, tmp_path / "out").passed
+    monkeypatch.setattr(module, "read_observations", lambda _: iter(()))
+    with pytest.raises(InputError, match="not one observation"):
+        replayed(run, tmp_path / "empty")
+    assert not (tmp_path / "empty").exists()
 
 
 @pytest.mark.parametrize(

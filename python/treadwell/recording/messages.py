@@ -1,5 +1,6 @@
 """What the core answered and what was true at each tick, as CDR messages, and back."""
 
+import math
 import struct
 from dataclasses import dataclass
 from typing import Final
@@ -174,7 +175,10 @@ def decode_truth(data: bytes) -> tuple[float, ...]:
     """
     if len(data) != 4 + 16 + 56:
         raise ValueError("a pose of the wrong length")
-    return struct.unpack_from("<7d", _body(data, 72), 16)
+    pose = struct.unpack_from("<7d", _body(data, 72), 16)
+    if not all(math.isfinite(value) for value in pose):
+        raise ValueError("a pose that is not finite")
+    return pose
 
 
 def _text(text: str) -> bytes:

@@ -9,8 +9,9 @@ from time import perf_counter
 from treadwell import __version__
 from treadwell._core import Pilot, Tick
 from treadwell.cli.progress import Progress
-from treadwell.core_settings import build_core, user_components
+from treadwell.core_settings import build_core, guards, user_components
 from treadwell.errors import CoreError, InputError, RecordingError
+from treadwell.guard import Guard, blamed
 from treadwell.interruption import Interruption
 from treadwell.judging.measures import PoseErrors, timing
 from treadwell.judging.result import LocalizationErrors, StateEntry
@@ -44,7 +45,8 @@ class Replay:
     def passed(self) -> bool:
         """Whether the core did what it was to: the same as then, where nothing was changed."""
         facts = self.result.replay
-        same = facts.changed or facts.first_difference is None
+        answered = facts.broken is not None or facts.compared == facts.observations
+        same = facts.changed or (facts.first_difference is None and answered)
         return same and facts.error is None and not self.interrupted
 
 
@@ -118,12 +120,15 @@ def replay(
     """
     source = open_source(Path(run_dir), tuple(overrides), tuple(components))
     given = user_components(source.scenario, dict(components))
+    guarded = guards(source.scenario, given, set(components))
+    given.update(guarded)
     pilot = build_core(source.scenario, source.core.settings, given, source.core.static_map)
+    core = _GuardedCore(pilot, guarded)
     folder = make_folder_beside(out, Path(run_dir), "replay")
     found, begin, interrupted = _Findings(), perf_counter(), False
     try:
         with Interruption() as interruption:
-            _loop(source, pilot, found, progress, begin, interruption)
+            _loop(source, core, found, progress, begin, interruption)
     except KeyboardInterrupt:
         interrupted, found.error = True, "interrupted: the replay was interrupted"
     except CoreError as error:
@@ -145,22 +150,37 @@ def replay(
     return Replay(result, folder, interrupted)
 
 
+@dataclass(frozen=True, slots=True)
+class _GuardedCore:
+    """The core, and what stands between it and the user's components."""
+
+    pilot: Pilot
+    guards: dict[str, Guard]
+
+    def tick(self, observation: Observation) -> Tick:
+        """Return the core's answer; an error has the name of the component that is its cause."""
+        try:
+            return self.pilot.tick(observation)
+        except CoreError as error:
+            raise blamed(error, self.guards) from error
+
+
 def _loop(
     source: Source,
-    pilot: Pilot,
+    core: _GuardedCore,
     found: _Findings,
     progress: Progress | None,
     begin: float,
     interruption: Interruption,
 ) -> None:
     """Hand every observation to the core, and compare its answers with the recorded ones."""
-    answers, joints = _answers(source.path), source.joints
+    answers, joints, pilot = _answers(source.path), source.joints, core.pilot
     goals = [*source.scenario.goal.via, source.scenario.goal.position]
     try:
         for observation in read_observations(source.path):
             interruption.check()
             start = perf_counter()
-            tick = pilot.tick(observation)
+            tick = core.tick(observation)
             found.core_seconds += perf_counter() - start
             recorded = next(answers, None)
             if recorded is not None:
@@ -180,6 +200,8 @@ def _loop(
             f"{error}; replayed up to the cut, {found.ticks} observations ({seconds:.2f} s); the "
             f"last {error.lost_bytes} bytes of the file are lost"
         )
+    if not found.ticks:
+        raise InputError(f"{source.path}: holds not one observation")
 
 
 def _answers(path: Path) -> Iterator[Answer]:
