@@ -14,7 +14,7 @@ from treadwell.files import read_content
 from treadwell.scenario.elements import Mesh, Mjcf
 from treadwell.scenario.events import Add
 from treadwell.scenario.messages import describe, dotted, nearest, report, shortened, shown
-from treadwell.scenario.model import Scenario
+from treadwell.scenario.model import SEEDS, Scenario
 from treadwell.scenario.overrides import apply_draws, assign, parse_setting, split_key
 
 LARGEST_FILE: Final = 1_000_000
@@ -23,8 +23,15 @@ LARGEST_ASSET: Final = 50_000_000
 """Bytes of a mesh or an MJCF file."""
 LONGEST_KEY: Final = 100
 """Words of a dotted key."""
-_BLANKS: Final = re.compile(rb"[ \t\"']+")
-_LONG_KEY: Final = re.compile(rb"(?:[^\s.,=\[\]{}#]{0,100}\.){%d}" % LONGEST_KEY)
+MOST_DETAILS: Final = 1000
+"""Faults of a file that are looked into: each costs time."""
+_TEXT_OR_COMMENT: Final = re.compile(
+    rb"""(?s:\"{3}(?:[^\\]|\\.)*?(?:\"{3,5}|\Z)|'{3}.*?(?:'{3,5}|\Z))"""
+    rb"""|"(?:[^"\\\n]|\\.)*"?|'[^'\n]*'?|#[^\n]*"""
+)
+"""What TOML reads as one; each branch takes what it began with, so that time grows with length."""
+_AROUND_DOT: Final = re.compile(rb"[ \t]*\.[ \t]*")
+_BETWEEN_KEYS: Final = re.compile(rb"[\s,=\[\]{}]+")
 SUFFIXES: Final = {"mesh": (".stl", ".obj"), "mjcf": (".xml", ".mjcf")}
 
 
@@ -52,19 +59,20 @@ def load_scenario(
     raw = read_toml(path)
     _add_course(raw, path)
     lines = _apply(raw, robot=robot, seed=seed, overrides=overrides)
-    scenario = None
+    scenario, untold = None, 0
     try:
         scenario = Scenario.model_validate(raw)
     except ValidationError as error:
         details = error.errors(include_url=False)
-        lines += list(dict.fromkeys(describe(detail, raw) for detail in details))
+        lines += list(dict.fromkeys(describe(detail, raw) for detail in details[:MOST_DETAILS]))
+        untold = max(0, len(details) - MOST_DETAILS)
     except RecursionError:
         lines.append("nested too deep")
     if scenario is not None:
         scenario._path = path
         lines += _check_files(scenario, raw)
     if scenario is None or lines:
-        raise InputError(report(str(path), lines))
+        raise InputError(report(str(path), lines, untold))
     return scenario
 
 
@@ -109,7 +117,7 @@ def read_toml(path: Path) -> dict[str, Any]:
         InputError: too large, unreadable, not UTF-8 or not TOML; with the line.
     """
     content = read_content(path, LARGEST_FILE)
-    if _LONG_KEY.search(_BLANKS.sub(b"", content)):
+    if _longest_key(content) > LONGEST_KEY:
         # The parser takes minutes for one of some thousands.
         raise InputError(f"{path}: nested too deep: a key of more than {LONGEST_KEY} words")
     try:
@@ -123,6 +131,13 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise InputError(f"{path}: a value out of range: {shortened(str(error), 300)}") from None
     except RecursionError:
         raise InputError(f"{path}: nested too deep") from None
+
+
+def _longest_key(content: bytes) -> int:
+    """Return how many words the longest dotted key of a TOML text has; or the longest number."""
+    bare = _TEXT_OR_COMMENT.sub(lambda part: b"" if part[0].startswith(b"#") else b"t", content)
+    words = _BETWEEN_KEYS.split(_AROUND_DOT.sub(b".", bare))
+    return 1 + max(word.count(b".") for word in words)
 
 
 def _add_course(raw: dict[str, Any], path: Path) -> None:
@@ -166,8 +181,8 @@ def _apply(
     if seed is not None:
         raw["seed"] = seed
     drawn_from = raw.get("seed", 0)
-    usable = isinstance(drawn_from, int) and not isinstance(drawn_from, bool) and drawn_from >= 0
-    lines += apply_draws(raw, drawn_from if usable else 0)
+    usable = isinstance(drawn_from, int) and not isinstance(drawn_from, bool)
+    lines += apply_draws(raw, drawn_from if usable and 0 <= drawn_from < SEEDS else 0)
     assign_all([i for i in range(len(settings)) if i not in early])
     if robot is not None:
         raw["robot"] = robot

@@ -117,11 +117,18 @@ def describe(error: ErrorDetails, raw: Mapping[str, Any]) -> str:
     return _line(path, raw, text)
 
 
-def report(file: str, lines: Sequence[str]) -> str:
-    """Return the one message for all that is wrong in a file, capped."""
+def report(file: str, lines: Sequence[str], untold: int = 0) -> str:
+    """Return the one message for all that is wrong in a file, capped.
+
+    Args:
+        file: its name.
+        lines: one for each fault.
+        untold: further faults, which have no line.
+    """
     kept = list(lines[:MOST_ERRORS])
-    if len(lines) > MOST_ERRORS:
-        kept.append(f"and {len(lines) - MOST_ERRORS} more")
+    more = len(lines) - len(kept) + untold
+    if more:
+        kept.append(f"and {more} more")
     return "\n".join(f"{file}: {line}" for line in kept)
 
 

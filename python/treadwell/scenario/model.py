@@ -29,6 +29,8 @@ from treadwell.scenario.types import (
 from treadwell.scenario.values import check_parameters
 
 SCHEMA = 1
+SEEDS = 2**53
+"""Seeds are below it: JSON's numbers hold them."""
 MOST_ELEMENTS = 500
 MOST_EVENTS = 200
 Count = Annotated[int, Field(ge=0, le=1_000_000)]
@@ -144,7 +146,7 @@ class Scenario(Table):
     name: Name
     description: Annotated[str, Field(max_length=500)] = ""
     robot: Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f]{1,500}$")] = "qrio"
-    seed: Annotated[int, Field(ge=0, lt=2**53)] = 0
+    seed: Annotated[int, Field(ge=0, lt=SEEDS)] = 0
     time_limit: Annotated[Seconds, Field(gt=0.0)] = 120.0
     start: Start
     goal: Goal
