@@ -94,3 +94,9 @@ def test_legs_touch_each_other_but_a_leg_does_not_touch_itself(qrio: Robot) -> N
 def test_an_unknown_robot_is_refused_with_the_nearest_name() -> None:
     with pytest.raises(InputError, match=r"'qroi'.*qrio.*did you mean 'qrio'"):
         load_robot("qroi")
+
+
+@pytest.mark.parametrize("name", ["a" * 300, "a\0b", "", "[" * 5000])
+def test_what_no_folder_can_be_called_is_bad_input(name: str) -> None:
+    with pytest.raises(InputError, match="there is no robot"):
+        load_robot(name)

@@ -14,6 +14,8 @@ BROKEN = [
     ("[gait]", "[gait]\nextra = nan", "gait: must hold finite numbers"),
     ("[gait]", "[gait]\nextra = 2026-01-01", "gait: must hold finite numbers"),
     ("[head]", "[head", "TOML"),
+    ("[head]", "[ranges]\nneck_pan = [1.0, -1.0]\n[head]", "ranges: neck_pan: its least angle"),
+    ("period = 0.08", f"period = 0x{'f' * 4000}", r"camera\.period"),
     ("kp = 150.0", "kp = 0.0", r"motors\.hip_and_knee\.kp.*greater than 0, got 0"),
     ("kp = 150.0", "kp = nan", r"motors\.hip_and_knee\.kp"),
     ("kp = 150.0", "kb = 150.0", r"motors\.hip_and_knee\.kb: unknown key; allowed are .*kp, kv"),

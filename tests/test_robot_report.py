@@ -1,6 +1,7 @@
 """Claims about `treadwell robot check`: what it finds, what it misses, and the exit status."""
 
 import json
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,9 @@ from robot_builders import foreign_robot, qrio_copy
 
 from treadwell.cli.app import execute
 from treadwell.cli.robot import check
+from treadwell.errors import InputError
 from treadwell.robot.report import report_on
+from treadwell.robot.template import write_template
 
 TABLES = ("robot", "body", "legs", "head", "camera", "motors")
 
@@ -45,6 +48,34 @@ def test_a_bare_model_is_reported_with_what_a_robot_toml_needs(tmp_path: Path) -
     assert [line.split(":")[0] for line in report["problems"][1:]] == list(TABLES)
     assert report["legs"]["left"]["joints"][3]["name"] == "left_knee_pitch"
     assert report["mass"]["total"] == pytest.approx(7.0)
+
+
+def test_legs_without_names_are_no_legs_and_each_joint_of_them_has_its_line(tmp_path: Path) -> None:
+    legs = ""
+    for y in (0.05, -0.05):
+        chain = "<geom size='.02'/>"
+        for axis in ("0 0 1", "1 0 0", "0 1 0", "0 1 0", "0 1 0", "1 0 0"):
+            hinge = f"<joint axis='{axis}'/><geom size='.02'/>"
+            chain = f"<body pos='0 0 -.05'>{hinge}{chain}</body>"
+        legs += f"<body pos='0 {y} 0'><geom size='.02'/>{chain}</body>"
+    root = f"<body><freejoint/><geom size='.1'/>{legs}</body>"
+    folder = tmp_path / "robot"
+    folder.mkdir()
+    text = f"<mujoco><worldbody>{root}</worldbody></mujoco>"
+    (folder / "robot.xml").write_text(text, encoding="utf-8")
+    report = report_on(folder)
+    assert report["legs"] == {}
+    assert sum("joint" in line and "has no name" in line for line in report["problems"]) == 12
+    assert "two legs of six named hinges" in report["unlike"][0]
+    with pytest.raises(InputError, match="two legs of six named hinges"):
+        write_template(folder)
+
+
+def test_a_pipe_in_a_robot_tomls_place_is_not_waited_for(tmp_path: Path) -> None:
+    folder = qrio_copy(tmp_path)
+    (folder / "robot.toml").unlink()
+    os.mkfifo(folder / "robot.toml")
+    assert any("it is no file" in line for line in report_on(folder)["problems"])
 
 
 def test_every_unknown_and_missing_key_has_its_line(tmp_path: Path) -> None:

@@ -56,5 +56,5 @@ def test_a_model_without_two_legs_has_no_draft() -> None:
     model = mujoco.MjModel.from_xml_string(
         "<mujoco><worldbody><body><freejoint/><geom size='.1'/></body></worldbody></mujoco>"
     )
-    with pytest.raises(InputError, match="two legs of six hinges"):
+    with pytest.raises(InputError, match="two legs of six named hinges"):
         draft("ball", "ball.xml", model)

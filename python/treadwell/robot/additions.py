@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell.course.assets import compiled
 from treadwell.errors import InputError
 from treadwell.robot.file import LegTable, RobotFile
 
@@ -208,7 +209,7 @@ def _add_stand(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> None:
         return
     if any(key.name == STAND for key in spec.keys):
         raise InputError(f"{toml}: stand: {file.robot.model} has a keyframe {STAND!r}")
-    model = spec.compile()
+    model = compiled(spec, str(toml))
     for name in file.stand:
         if mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) < 1:
             raise InputError(f"{toml}: stand.{name}: there is no such joint in {file.robot.model}")

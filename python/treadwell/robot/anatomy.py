@@ -68,12 +68,18 @@ class Anatomy:
         return joints
 
     def legs(self) -> dict[str, FoundLeg]:
-        """Return the legs by their side: of the chains of six hinges or more, the lowest two."""
+        """Return the legs by their side: of the chains of six named hinges, the lowest two."""
         model, data = self.model, self.data
         parents = {int(parent) for parent in model.body_parentid[1:]}
         ends = [body for body in range(1, model.nbody) if body not in parents]
         chains = {body: self.chain(body) for body in ends}
-        feet = [body for body, joints in chains.items() if len(joints) >= LEG_JOINTS]
+        feet = [
+            body
+            for body, joints in chains.items()
+            if len(joints) >= LEG_JOINTS
+            and model.body(body).name
+            and all(model.joint(joint).name for joint in joints)
+        ]
         feet.sort(key=lambda body: float(data.xpos[body][2]))
         found = {}
         for body in feet[:2]:
@@ -141,3 +147,11 @@ class Anatomy:
             elif axis[1] > 0.9:
                 tilt = self.model.joint(joint).name
         return pan, tilt
+
+
+def nameless(model: mujoco.MjModel) -> list[str]:
+    """Return the links and joints that lack a name; only the joint of the root may."""
+    links = [f"body {body}" for body in range(1, model.nbody) if not model.body(body).name]
+    free = int(model.njnt > 0 and model.jnt_type[0] == mujoco.mjtJoint.mjJNT_FREE)
+    joints = [f"joint {j}" for j in range(free, model.njnt) if not model.joint(j).name]
+    return links + joints

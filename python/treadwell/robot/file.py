@@ -293,6 +293,16 @@ class RobotFile(Table):
     gait: dict[str, Any] = {}
     navigation: dict[Name, dict[str, Any]] = {}
 
+    @field_validator("ranges")
+    @classmethod
+    def _check_ranges(
+        cls, ranges: dict[str, tuple[float, float]]
+    ) -> dict[str, tuple[float, float]]:
+        for joint, (low, high) in ranges.items():
+            if low >= high:
+                raise ValueError(f"{joint}: its least angle must be below its largest")
+        return ranges
+
     @field_validator("gait", "navigation")
     @classmethod
     def _check_core(cls, table: dict[str, Any]) -> dict[str, Any]:

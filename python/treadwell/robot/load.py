@@ -1,6 +1,7 @@
 """A robot's folder, loaded and checked: its MJCF, its `robot.toml`, and what follows from both."""
 
 import difflib
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -21,6 +22,7 @@ from treadwell.robot.description import describe
 from treadwell.robot.file import MotorsTable, RobotFile
 from treadwell.robot.followers import followers
 from treadwell.robot.reading import read_robot_file
+from treadwell.scenario.messages import shortened
 
 MOST_FILES = 2000
 LARGEST_FOLDER = 500 << 20
@@ -159,12 +161,13 @@ def _find(name_or_path: str | Path) -> Path:
     if text in names:
         return shipped / text
     folder = Path(text)
-    if text and folder.is_dir():
-        return folder
-    near = difflib.get_close_matches(text, names, n=1)
+    with suppress(OSError, ValueError):  # what no folder can be called
+        if text and folder.is_dir():
+            return folder
+    near = difflib.get_close_matches(text[:100], names, n=1)
     hint = f"; did you mean {near[0]!r}?" if near else ""
     raise InputError(
-        f"robot: there is no robot {text!r}: allowed are {', '.join(names)}, "
+        f"robot: there is no robot {shortened(text)!r}: allowed are {', '.join(names)}, "
         f"or the path of a folder with a robot.toml{hint}"
     )
 

@@ -9,6 +9,7 @@ from pydantic import BaseModel, ValidationError
 from treadwell.errors import InputError
 from treadwell.robot.file import RobotFile
 from treadwell.scenario.loading import read_toml
+from treadwell.scenario.messages import shown
 
 
 def read_robot_file(path: Path) -> RobotFile:
@@ -48,7 +49,9 @@ def _lines(path: Path, error: ValidationError) -> list[str]:
     for item in error.errors():
         key = ".".join(str(part) for part in item["loc"])
         message = item["msg"].removeprefix("Value error, ")
-        found = "" if isinstance(item["input"], dict | BaseModel) else f", got {item['input']!r}"
+        found = (
+            "" if isinstance(item["input"], dict | BaseModel) else f", got {shown(item['input'])}"
+        )
         if item["type"] == "extra_forbidden":
             allowed = _allowed(item["loc"][:-1])
             message, found = f"unknown key; allowed are {', '.join(allowed)}", ""

@@ -1,7 +1,6 @@
 """A report on a robot's folder: what was found, what is missing, what its gait can do."""
 
 import math
-import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +9,12 @@ import numpy as np
 
 from treadwell.course.assets import compiled
 from treadwell.errors import InputError
-from treadwell.robot.anatomy import Anatomy
+from treadwell.robot.anatomy import Anatomy, nameless
 from treadwell.robot.file import SoleTable
 from treadwell.robot.load import Robot, load_folder, robot_spec
 from treadwell.robot.reach import Reach, Rise
 from treadwell.robot.reading import required_keys
+from treadwell.scenario.loading import read_toml
 
 SCHEMA = "treadwell.robot/1"
 SOLE_APART_M = 0.006
@@ -51,6 +51,9 @@ def report_on(folder: Path) -> dict[str, Any]:
         document["problems"] += str(error).splitlines()
         if not (folder / "robot.toml").exists():
             document["problems"] = [f"{folder / 'robot.toml'}: is missing", *required_keys()]
+        told = "\n".join(document["problems"])
+        parts = [f"{mjcf}: {part} has no name" for part in nameless(bare)]
+        document["problems"] += [line for line in parts if line not in told]
     anatomy = Anatomy.of(bare if robot is None else robot.nominal)
     document |= _found(anatomy)
     if robot is not None:
@@ -70,12 +73,11 @@ def find_mjcf(folder: Path) -> Path:
         InputError: there is none, or no telling which.
     """
     try:
-        named = tomllib.loads((folder / "robot.toml").read_text(encoding="utf-8"))
-        name = named["robot"]["model"]
+        name = read_toml(folder / "robot.toml")["robot"]["model"]
         if isinstance(name, str) and (folder / Path(name).name).is_file():
             return folder / Path(name).name
-    except (OSError, ValueError, KeyError, TypeError):
-        pass
+    except (OSError, ValueError, KeyError, TypeError, InputError):
+        pass  # whoever reads the file for what it says tells what is wrong with it
     files = sorted(folder.glob("*.xml"))
     same = [file for file in files if file.stem == folder.resolve().name]
     if len(files) == 1 or same:
@@ -107,7 +109,7 @@ def _found(anatomy: Anatomy) -> dict[str, Any]:
         side: {"joints": [_joint(anatomy, name) for name in leg.joints], "foot": leg.foot}
         for side, leg in legs.items()
     }
-    unlike = ["there are no two legs of six hinges, one on each side"]
+    unlike = ["there are no two legs of six named hinges, one on each side"]
     if len(legs) == 2:
         unlike = anatomy.differences(legs["left"].joints, legs["right"].joints)
     return {

@@ -95,8 +95,8 @@ def draft(name: str, mjcf: str, model: mujoco.MjModel) -> str:
     free = model.njnt > 0 and model.jnt_type[0] == mujoco.mjtJoint.mjJNT_FREE
     if len(legs) != 2 or not free:
         raise InputError(
-            f"{mjcf}: a draft needs a root with a free joint, and two legs of six hinges, one on "
-            "each side"
+            f"{mjcf}: a draft needs a root with a free joint, and two legs of six named hinges, "
+            "one on each side"
         )
     return _Draft(name, mjcf, anatomy, legs).text()
 
