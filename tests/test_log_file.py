@@ -91,6 +91,14 @@ def test_wherever_a_chunk_is_changed_it_is_told(tmp_path: Path) -> None:
             list(read_messages(tmp_path / "changed", ("/a", "/b")))
 
 
+CHANNEL = record(4, struct.pack("<HHIII", 1, 0, 0, 0, 0))
+
+
+def packed(records: bytes) -> bytes:
+    """A chunk that is small in the file."""
+    return chunk(zstandard.compress(records), len(records))
+
+
 BOMB = zstandard.compress(bytes(300 << 20), level=1)
 
 
@@ -112,6 +120,9 @@ BOMB = zstandard.compress(bytes(300 << 20), level=1)
         MAGIC + chunk(struct.pack("<BQ", 5, 1 << 60), 9, b""),
         MAGIC + chunk(record(5, b"short"), 14, b""),
         MAGIC + chunk(record(5, struct.pack("<HIQQ", 7, 0, 0, 0)), 31, b""),
+        MAGIC + packed(record(15, b"") * 400_000),
+        MAGIC + packed(record(4, struct.pack("<HHIII", 1, 0, 0, 0, 0)) * 400_000),
+        MAGIC + packed(CHANNEL + record(5, struct.pack("<HIQQ", 1, 0, 0, 0)) * 600_000),
         MAGIC + record(6, b"\xff" * 60),
         MAGIC + record(4, struct.pack("<HHI", 1, 0, 1 << 31)),
         MAGIC + record(4, struct.pack("<HHI", 1, 0, 2) + b"\xff\xff"),

@@ -22,9 +22,16 @@ from treadwell.errors import InputError
 
 LARGEST_RECORD: Final = 1 << 26
 """Bytes of one record, and of what a chunk unpacks to."""
+MOST_TIMES: Final = 1000
+"""What a file may unpack to over its own size; a run's has 3 to 4, one of a still picture more."""
+LEAST_PACKED: Final = 4
+"""Bytes of the file for each record of a chunk, at least."""
+BESIDES: Final = (1 << 24, 100_000)
+"""Bytes and records that a file may hold besides, however small it is."""
 MOST_CHANNELS: Final = 1000
 MOST_ATTACHMENTS: Final = 100
 _MAGIC: Final = b"\x89MCAP0\r\n"
+_IN_CHUNKS: Final = (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE)
 _FRAME: Final = struct.Struct("<BQ")
 _MESSAGE: Final = struct.Struct("<HIQQ")
 _FAULTS: Final = (
@@ -74,6 +81,14 @@ class Front:
     attachments: dict[str, bytes] = field(default_factory=dict)
 
 
+@dataclass(slots=True)
+class _Allowance:
+    """What a file may still unpack to: bytes, and records of chunks."""
+
+    data: int
+    records: int
+
+
 def read_front(path: Path) -> Front:
     """Return metadata and attachments of a log.
 
@@ -111,10 +126,11 @@ def read_messages(path: Path, topics: Container[str]) -> Iterator[Message]:
     channels: dict[int, str | None] = {}
     with _opened(path) as file:
         whole, size = 0, path.stat().st_size
+        allowance = _Allowance(MOST_TIMES * size + BESIDES[0], size // LEAST_PACKED + BESIDES[1])
         try:
             for opcode, content in _records(file, path):
                 if opcode == Opcode.CHUNK:
-                    yield from _messages(_unpacked(content), channels, topics)
+                    yield from _messages(_unpacked(content), channels, topics, allowance)
                 elif opcode in (Opcode.MESSAGE, Opcode.CHANNEL):
                     message = _taken(opcode, content, channels, topics)
                     if message is not None:
@@ -167,14 +183,23 @@ def _unpacked(content: bytes) -> bytes:
 
 
 def _messages(
-    data: bytes, channels: dict[int, str | None], topics: Container[str]
+    data: bytes, channels: dict[int, str | None], topics: Container[str], allowance: _Allowance
 ) -> Iterator[Message]:
-    at, end = 0, len(data)
+    at, end, told = 0, len(data), 0
+    allowance.data -= end
     while at < end:
         opcode, length = _FRAME.unpack_from(data, at)
         at += _FRAME.size
         if length > end - at:
             raise EOFError("a record of a chunk breaks off")
+        if opcode not in _IN_CHUNKS:
+            raise ValueError(f"a chunk with a record of kind {opcode}, which has no place there")
+        allowance.records -= 1
+        if allowance.data < 0 or allowance.records < 0:
+            raise ValueError("it unpacks to more than a file of its size may")
+        told += opcode != Opcode.MESSAGE
+        if told > 2 * MOST_CHANNELS:
+            raise ValueError(f"a chunk that tells more than {MOST_CHANNELS} channels and schemas")
         message = _taken(opcode, data[at : at + length], channels, topics)
         if message is not None:
             yield message
