@@ -22,7 +22,7 @@ from treadwell.environment.observations import FARTHEST_M, MOST, observation_spa
 from treadwell.environment.top_view import GOAL, GROUND, OBSTACLE, ROBOT, TopView
 from treadwell.errors import InputError
 from treadwell.robot.load import load_robot
-from treadwell.scenario.loading import scenario_names
+from treadwell.scenario.loading import load_scenario, scenario_names
 
 ENV = "treadwell/ObstacleCourse-v0"
 AHEAD = np.array([1.0, 0.0, 0.0, 0.0, 0.0], dtype=np.float32)
@@ -249,6 +249,25 @@ def test_a_reset_lets_the_episode_before_go(env: CourseEnv) -> None:
     env.reset(seed=2)
     gc.collect()
     assert gone() is None
+
+
+@pytest.mark.parametrize(
+    ("overrides", "message"),
+    [
+        (('vary.robot={choice=["qrio", "nao"]}',), "draws a robot whose observations"),
+        (("time_limit=0.02", "sensors.latency=0.5"), "is over before the first picture arrives"),
+    ],
+)
+def test_a_reset_that_cannot_be_is_told_and_leaves_nothing_to_step(
+    overrides: tuple[str, ...], message: str
+) -> None:
+    made = CourseEnv("open_floor", overrides=overrides)
+    robots = [load_scenario("open_floor", seed=s, overrides=overrides).robot for s in range(9)]
+    seed = next((s for s, name in enumerate(robots) if name != robots[0]), 0)
+    with pytest.raises(InputError, match=message):
+        made.reset(options={"scenario_seed": seed})
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        made.step(STAND)
 
 
 @pytest.mark.parametrize(

@@ -44,7 +44,7 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         overrides: Sequence[str] = (),
         render_mode: str | None = None,
     ) -> None:
-        """Read the scenario; nothing is built before `reset`.
+        """Build the scenario once, so that what is bad in it is told here.
 
         Args:
             scenario: a name or a path.
@@ -80,12 +80,25 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         Args:
             seed: of this environment's random numbers, of which each episode's seed is drawn.
             options: `scenario_seed` is the episode's own seed instead, that of `run --seed`.
+
+        Raises:
+            InputError: the course that was drawn cannot be built, or has a robot with other senses,
+                or all is over before the first picture arrives.
         """
         super().reset(seed=seed)
         drawn = int(self.np_random.integers(2**31))
         self._begin(int((options or {}).get("scenario_seed", drawn)))
+        assert self._episode is not None
+        name = self._episode.scenario.name
+        if observation_space(self._episode.robot) != self.observation_space:
+            self.close()
+            raise InputError(f"{name}: [vary] draws a robot whose observations have another form")
         while self._step is None or self._depth is None:
             self._tick()
+        if self._verdict is not None:
+            outcome = self._verdict.outcome
+            self.close()
+            raise InputError(f"{name}: is over before the first picture arrives: {outcome}")
         return self._observed(), self._info()
 
     def step(self, action: Any) -> tuple[Observed, float, bool, bool, dict[str, Any]]:  # noqa: ANN401
@@ -128,12 +141,11 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         self._step = None
 
     def _begin(self, seed: int) -> None:
+        self.close()  # where nothing can be built, the episode before does not go on
         made = load_scenario(self._scenario, seed=seed, **self._asked)
         self._behaviour = Commanded(made.goal.height)
         self._episode = Episode(made, behaviour=self._behaviour, planner=NoPlanner())
-        self._view = None
         self._verdict: Verdict | None = None
-        self._step = None
         self._depth: NDArray[np.float32] | None = None
         self._actions = self._make_actions(self._episode)
 
