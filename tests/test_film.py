@@ -169,6 +169,31 @@ def test_a_long_run_is_shown_faster(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert counts[0] == 4
 
 
+def test_a_film_that_is_not_made_leaves_the_one_before(tmp_path: Path) -> None:
+    path = tmp_path / "run.gif"
+    path.write_bytes(b"before")
+
+    def stop(_done: int, _total: int) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        write_film(plain_run(), path, stop)
+    assert path.read_bytes() == b"before"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_an_audit_that_unpacks_to_more_than_its_file_is_refused(tmp_path: Path) -> None:
+    copy = Path(shutil.copytree(plain_run(), tmp_path / "run"))
+    with np.load(copy / "physics.npz") as file:
+        arrays = dict(file)
+    np.savez_compressed(copy / "physics.npz", **arrays, geom_size=np.zeros(10**7))
+    with pytest.raises(InputError, match=r"physics\.npz: is missing or broken: is not as a run"):
+        scene_of(copy)
+    np.savez(copy / "physics.npz", **arrays | {"state0": arrays["state0"] + 1j})
+    with pytest.raises(InputError, match=r"physics\.npz: does not fit"):
+        scene_of(copy)
+
+
 @pytest.mark.parametrize("name", ["run.avi", "run", "run.mp4.txt"])
 def test_another_ending_is_bad_input(tmp_path: Path, name: str) -> None:
     with pytest.raises(InputError, match=r"\.mp4 or \.gif"):

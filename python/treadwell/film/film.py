@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable, Iterator
-from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from treadwell.errors import InputError, RecordingError
+from treadwell.exports.files import whole_file
 from treadwell.film.follower import Follower, follow
 from treadwell.film.plan_panel import PlanPanel
 from treadwell.film.poses import TICK_S, RecordedPoses
@@ -110,14 +110,10 @@ def write_film(
     frames = _frames(scene, _plan(folder, scene), rows, speed, progress)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        encode(path, frames)
+        with whole_file(path) as temporary:
+            encode(temporary, frames)
     except OSError as error:
-        with suppress(OSError):
-            path.unlink(missing_ok=True)
         raise RecordingError(f"{path}: cannot be written: {error.strerror or error}") from None
-    except BaseException:
-        path.unlink(missing_ok=True)
-        raise
     return speed
 
 

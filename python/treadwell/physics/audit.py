@@ -195,12 +195,15 @@ def load_audit(folder: Path) -> tuple[mujoco.MjModel, dict[str, NDArray[Any]]]:
     except ValueError as error:
         raise InputError(f"{folder / 'model.mjb'}: is missing or broken") from error
     path = folder / "physics.npz"
+    _steps(path)
     try:
         with path.open("rb") as stream, np.load(stream, allow_pickle=False) as file:
             arrays = {key: file[key] for key in file.files}
         whole = _fits(model, arrays)
     except (OSError, ValueError, EOFError, KeyError, AttributeError, BadZipFile) as error:
         raise InputError(f"{path}: is missing or broken: {error}") from error
+    except MemoryError:
+        raise InputError(f"{path}: is missing or broken: an array that no memory holds") from None
     if not whole:
         raise InputError(f"{path}: does not fit model.mjb beside it")
     return model, arrays
@@ -211,7 +214,8 @@ def _fits(model: mujoco.MjModel, arrays: dict[str, NDArray[Any]]) -> bool:
     ctrl, qpos, state0 = arrays["ctrl"], arrays["qpos"], arrays["state0"]
     data, events = mujoco.MjData(model), arrays.get("event_step", ())
     return (
-        ctrl.ndim == 2
+        all(array.dtype.kind in "bifu" for array in arrays.values())
+        and ctrl.ndim == 2
         and ctrl.shape[1] == model.nu
         and qpos.shape == (len(ctrl) // STEPS_PER_TICK, model.nq)
         and state0.shape == (mujoco.mj_stateSize(model, STATE),)
