@@ -1,11 +1,14 @@
 """A run's folder is new, and `runs/latest` leads to the last."""
 
+import errno
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Barrier
 
 import pytest
 
-from treadwell.errors import InputError
-from treadwell.recording.run_folder import make_run_folder
+from treadwell.errors import InputError, RecordingError
+from treadwell.recording.run_folder import make_experiment_folder, make_run_folder
 
 
 @pytest.fixture(autouse=True)
@@ -22,6 +25,26 @@ def test_runs_of_one_second_have_folders_of_their_own_and_latest_is_the_last(her
         assert folder.parent == Path("runs")
         assert folder.name.startswith("slalom-qrio-3-2")
     assert (here / "runs" / "latest").resolve() == made[-1].resolve()
+
+
+def test_of_many_at_once_each_has_a_folder_of_its_own() -> None:
+    barrier = Barrier(16)
+
+    def make(_: int) -> Path:
+        barrier.wait()
+        return make_experiment_folder(None, "fog")
+
+    with ThreadPoolExecutor(16) as pool:
+        assert len(set(pool.map(make, range(16)))) == 16
+
+
+def test_a_disk_that_is_full_is_no_bad_input(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(Path, "mkdir", full)
+    with pytest.raises(RecordingError, match="No space left"):
+        make_run_folder(here / "new", "x", "y", 0)
 
 
 def test_a_folder_of_the_users_may_be_deep_or_empty(here: Path) -> None:

@@ -1,12 +1,15 @@
 """Folders of runs and experiments: where they are, that they are new, and `runs/latest`."""
 
+import errno
 import os
 import time
 from pathlib import Path
 
-from treadwell.errors import InputError
+from treadwell.errors import InputError, RecordingError
 
 RUNS = Path("runs")
+_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EIO)
+"""Faults of the disk, which are not the user's."""
 
 
 def make_run_folder(out: Path | None, scenario: str, robot: str, seed: int) -> Path:
@@ -20,6 +23,7 @@ def make_run_folder(out: Path | None, scenario: str, robot: str, seed: int) -> P
 
     Raises:
         InputError: there is something already, or no folder can be made there.
+        RecordingError: the disk is full or broken.
     """
     folder = _make(out, f"{scenario}-{robot}-{seed}")
     if out is None:
@@ -69,16 +73,29 @@ def make_folder_beside(out: Path | None, run_dir: Path, word: str) -> Path:
 
 
 def _make(out: Path | None, stem: str) -> Path:
-    folder = out
-    if folder is None:
-        folder = _unused(RUNS / f"{stem}-{time.strftime('%Y%m%d-%H%M%S')}")
+    folder = out or RUNS / f"{stem}-{time.strftime('%Y%m%d-%H%M%S')}"
     try:
+        if out is None:
+            return _made_anew(folder)
         if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
             raise InputError(f"--out: {folder} exists already; a run is never overwritten")
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InputError(f"--out: {folder}: {error.strerror}") from None
+        kind = RecordingError if error.errno in _DISK else InputError
+        raise kind(f"--out: {folder}: {error.strerror}") from None
     return folder
+
+
+def _made_anew(folder: Path) -> Path:
+    """Make a folder of this name, or with a number behind it where another process has it."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    while True:
+        free = _unused(folder)
+        try:
+            free.mkdir()
+        except FileExistsError:
+            continue
+        return free
 
 
 def _unused(folder: Path) -> Path:

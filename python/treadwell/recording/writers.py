@@ -44,12 +44,20 @@ class Writers:
             episode: before its first tick.
             record: whether to keep recording and observations.
             viewer: a window on the physics, from `open_viewer`.
+
+        Raises:
+            RecordingError: a file cannot be written.
         """
         self._folder = folder
         self._episode = episode
         self._recorder: Recorder | None = None
         self._observations: ObservationLog | None = None
         self._viewer = viewer
+        # First of all: the folder is then taken, and what was run is known however it ends.
+        try:
+            write_scenario(folder / SCENARIO, episode.scenario)
+        except OSError as error:
+            raise RecordingError(f"{folder}: cannot be written: {error.strerror}") from error
         if record:
             from treadwell.recording import observation_log
             from treadwell.recording import recorder as recording
@@ -129,7 +137,6 @@ class Writers:
                 folder / "map.png", episode.course, result, remembered, estimate, truth, stairs
             ),
             lambda: write_map(folder / MAP, remembered, occupied(episode)),
-            lambda: write_scenario(folder / SCENARIO, episode.scenario),
             lambda: result.write(folder / "result.json"),
         ]
         first: Exception | None = None
