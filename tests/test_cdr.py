@@ -22,7 +22,13 @@ def observation(joints: int = 26, seed: int = 0, time_ns: int = 10_000_000) -> O
     )
 
 
-@given(st.integers(0, 60), st.integers(0, 2**63 - 1))
+def test_a_time_that_no_run_has_is_refused() -> None:
+    late = observation(time_ns=cdr.LATEST_NS + 1)
+    with pytest.raises(ValueError, match=r"a time of 1e\+06 s"):
+        cdr.decode(cdr.encode(late))
+
+
+@given(st.integers(0, 60), st.integers(0, cdr.LATEST_NS))
 def test_an_observation_comes_back_bit_for_bit(joints: int, time_ns: int) -> None:
     sent = observation(joints, joints, time_ns)
     back = cdr.decode(cdr.encode(sent))

@@ -99,6 +99,13 @@ def test_cubes_that_the_core_kept_are_filled(tmp_path: Path) -> None:
     assert all(is_taken(tree, tuple(place)) for place in centres)
 
 
+def test_cubes_that_no_memory_holds_are_bad_input(tmp_path: Path) -> None:
+    cubes = np.array([[0.0, 0.0, 0.0, 0.02], [0.0, 0.0, 0.0, 400.0]], np.float32)
+    write_map(tmp_path / "map.npz", grid(), cubes)
+    with pytest.raises(InputError, match=r"more than 20000000 voxels of 0\.02 m"):
+        export(tmp_path, "octomap", tmp_path / "out")
+
+
 def test_a_course_becomes_its_map(tmp_path: Path) -> None:
     assert execute(["export", "slalom", "--to", "octomap", "--out", str(tmp_path), "--json"]) == 0
     tree = opened(tmp_path / "map.bt")

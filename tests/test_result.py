@@ -156,6 +156,24 @@ def test_a_broken_file_is_named(tmp_path: Path, text: str) -> None:
         read_result(path)
 
 
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("simulated_seconds", 1e308),
+        ("simulated_seconds", -1.0),
+        ("configuration", {"goal": float("nan")}),
+        ("behaviour", [{"time": 1e300, "state": "walking"}]),
+    ],
+)
+def test_a_number_that_nothing_can_be_made_of_is_named(
+    tmp_path: Path, key: str, value: object
+) -> None:
+    table = result(scenario()).model_dump(mode="json", by_alias=True) | {key: value}
+    (tmp_path / "result.json").write_text(json.dumps(table))
+    with pytest.raises(InputError, match=rf"result\.json: {key}"):
+        read_result(tmp_path / "result.json")
+
+
 def test_a_missing_file_is_named(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="nothing here"):
         read_result(tmp_path / "nothing here")

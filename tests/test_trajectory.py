@@ -40,7 +40,15 @@ def test_an_empty_trajectory_has_no_positions(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["1 2 3", "0 0 0 0 0 0 0 x", "0 0 0 nan 0 0 0 1", "1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1"]
+    "text",
+    [
+        "-1 0 0 0 0 0 0 1",
+        "1e300 0 0 0 0 0 0 1",
+        "1 2 3",
+        "0 0 0 0 0 0 0 x",
+        "0 0 0 nan 0 0 0 1",
+        "1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1",
+    ],
 )
 def test_a_broken_line_is_named(tmp_path: Path, text: str) -> None:
     path = tmp_path / "t.tum"

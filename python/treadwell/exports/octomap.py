@@ -19,6 +19,7 @@ from treadwell.recording.recorder import NAME as RECORDING
 Floats = NDArray[np.float64]
 RESOLUTION: Final = 0.02
 """Metres: side of a voxel where the run has no octree of its own to take it from."""
+_MOST_VOXELS: Final = 20_000_000
 _MOST_LEVELS: Final = 500
 """Voxels that a column of cells may be high."""
 
@@ -115,9 +116,16 @@ def _of_map(stored: StoredMap, source: Path) -> Octree:
 
 
 def filled(voxels: Floats, side: float) -> Floats:
-    """Return the middles (m, 3) of all cubes of one side that fill larger cubes (n, 4)."""
+    """Return the middles (m, 3) of all cubes of one side that fill larger cubes (n, 4).
+
+    Raises:
+        InputError: they would be more than a computer holds.
+    """
     parts = []
-    for size in np.unique(voxels[:, 3]):
+    sizes, cubes_of = np.unique(voxels[:, 3], return_counts=True)
+    if float((np.maximum(sizes / side, 1.0) ** 3) @ cubes_of) > _MOST_VOXELS:
+        raise InputError(f"{MAP}: its cubes are more than {_MOST_VOXELS} voxels of {side:g} m")
+    for size in sizes:
         count = max(1, round(size / side))
         steps = (np.arange(count) - (count - 1) / 2) * side
         inner = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)

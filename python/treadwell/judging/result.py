@@ -31,6 +31,8 @@ STAGES: Final = (
 
 Outcome = Literal["goal_reached", "refused", "fell", "timed_out", "stuck", "interrupted", "error"]
 Count = Annotated[int, Field(ge=0)]
+Instant = Annotated[FiniteFloat, Field(ge=0.0, le=1e6)]
+"""Simulated seconds since the start: a scenario's time limit is below it."""
 Share = Annotated[FiniteFloat, Field(ge=0.0, le=1.0)]
 
 
@@ -43,7 +45,7 @@ class Table(BaseModel):
 class CollisionEntry(Table):
     """A collision: s, the robot's link, the element's name, N·s."""
 
-    time: float
+    time: Instant
     robot_part: str
     element: str
     impulse: float
@@ -95,7 +97,7 @@ class MapCounts(Table):
 class StateEntry(Table):
     """When the behaviour entered a state, s, and the state's name."""
 
-    time: float
+    time: Instant
     state: str
 
 
@@ -122,7 +124,7 @@ class Result(Table):
     reason: str | None = None
     passed: bool = False
     failures: list[str] = []
-    simulated_seconds: float
+    simulated_seconds: Instant
     wall_seconds: float
     real_time_factor: float
     physics_real_time_factor: float
@@ -200,11 +202,16 @@ def read_result(path: Path) -> Result:
     """
     text = read_text(path, LARGEST_RESULT)
     try:
-        return Result.model_validate_json(text)
+        result = Result.model_validate_json(text)
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         key = ".".join(str(part) for part in first["loc"])
         raise InputError(f"{path}: {key + ': ' if key else ''}{first['msg']}") from None
+    try:
+        json.dumps(result.configuration, allow_nan=False)
+    except ValueError:
+        raise InputError(f"{path}: configuration: has a number that is not finite") from None
+    return result
 
 
 def write_whole(path: Path, text: str) -> None:

@@ -40,6 +40,8 @@ int32 sec
 uint32 nanosec
 """
 _LITTLE_ENDIAN: Final = b"\x00\x01\x00\x00"
+LATEST_NS: Final = 10**15
+"""A million seconds."""
 _MOST_JOINTS: Final = 1000
 _SECOND: Final = 1_000_000_000
 
@@ -76,6 +78,7 @@ def decode(data: bytes, frame: Frame | None = None) -> Observation:
     time_ns, joints, _ = struct.unpack_from("<QII", _body(data))
     if joints > _MOST_JOINTS or len(data) != 4 + 24 + 8 * (2 * joints + 14):
         raise ValueError("an observation of the wrong length")
+    _check_time(time_ns)
     numbers = np.frombuffer(data, "<f8", joints, 20)
     rest = np.frombuffer(data, "<f8", joints + 14, 28 + 8 * joints)
     return Observation(
@@ -113,8 +116,14 @@ def decode_image(data: bytes, exposure_ns: int, arrival_ns: int) -> Frame:
     rows, cols, _, encoding = struct.unpack_from("<III6s", _body(data), 20)
     if encoding != b"32FC1\0" or len(data) != 4 + 48 + 4 * rows * cols:
         raise ValueError("a depth image of the wrong length")
+    _check_time(max(exposure_ns, arrival_ns))
     depth = np.frombuffer(data, "<f4", rows * cols, 52).reshape(rows, cols).astype(np.float32)
     return Frame(exposure_ns=exposure_ns, arrival_ns=arrival_ns, depth=depth)
+
+
+def _check_time(time_ns: int) -> None:
+    if time_ns > LATEST_NS:
+        raise ValueError(f"a time of {time_ns / 1e9:g} s, {LATEST_NS / 1e9:g} are allowed")
 
 
 def _body(data: bytes) -> memoryview:

@@ -115,10 +115,10 @@ _SHAPES: Final = {
 def _array(file: "np.lib.npyio.NpzFile", key: str) -> NDArray[Any]:
     """Return an array that is as the file's description says; it is looked at before it is read."""
     member = file.zip.getinfo(f"{key}.npy")  # type: ignore[union-attr]
-    if member.file_size > 4 * 4 * _MOST_CELLS:
+    dimensions, kind = _SHAPES[key]
+    if member.file_size > np.dtype(kind).itemsize * _MOST_CELLS:
         raise ValueError(f"{key} is too large")
     array: NDArray[Any] = file[key]
-    dimensions, kind = _SHAPES[key]
     if array.ndim != dimensions or array.dtype != kind or (key == "origin" and array.size != 2):
         raise ValueError(f"{key} has shape {array.shape} of {array.dtype}")
     return array

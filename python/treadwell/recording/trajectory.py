@@ -12,6 +12,8 @@ from treadwell.judging.result import write_whole
 
 LARGEST_FILE = 100_000_000
 """Bytes."""
+LATEST_S = 1e6
+"""Seconds."""
 ESTIMATE, TRUTH = "trajectory.tum", "trajectory_truth.tum"
 """Names of the two files in a run's folder."""
 
@@ -69,6 +71,8 @@ def read_trajectory(path: Path) -> NDArray[np.float64]:
             row = []
         if len(row) != 8 or not np.isfinite(row).all():
             raise InputError(f"{path}: line {number}: must be eight finite numbers")
+        if not 0.0 <= row[0] <= LATEST_S:
+            raise InputError(f"{path}: line {number}: must have a time of 0 to {LATEST_S:g} s")
         if rows and row[0] <= rows[-1][0]:
             raise InputError(f"{path}: line {number}: time goes back")
         rows.append(row)
