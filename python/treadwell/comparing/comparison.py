@@ -70,9 +70,10 @@ def differences(candidates: Sequence[Candidate]) -> list[dict[str, Any]]:
     """Return each metric of each candidate against the first, by the pairs that both have."""
     if not candidates:
         return []
-    robots = [{row.robot for row in one.rows} for one in candidates]
     # Where robots are compared with each other, the same seed on the same scenario is a pair.
-    by_robot = any(len(names) > 1 for names in robots)
+    by_robot = any(
+        len({(row.scenario, row.seed) for row in one.rows}) < len(one.rows) for one in candidates
+    )
     first = _by_pair(candidates[0], by_robot=by_robot)
     found: list[dict[str, Any]] = []
     for other in candidates[1:]:

@@ -33,7 +33,10 @@ def _figures(document: dict[str, Any]) -> Table:
         "Comparison",
         ("", "episodes", *(metric.title for metric in shown)),
         tuple(rows),
-        ("Shares with Wilson's 95 % interval; time and path efficiency of those that arrived.",),
+        (
+            "Shares with Wilson's 95 % interval; time and path efficiency of those that arrived.",
+            *filter(None, (pairs_note(document),)),
+        ),
     )
 
 
@@ -60,6 +63,15 @@ def _scenarios(document: dict[str, Any]) -> Table:
         if len(names) > 1
     ]
     return Table("Successes", ("", *(side["name"] for side in sides)), tuple(rows))
+
+
+def pairs_note(document: dict[str, Any]) -> str:
+    """Say with which sides the first one has nothing in common; empty where with all it has."""
+    pairs: dict[str, int] = {}
+    for one in document["differences"]:
+        pairs[one["other"]] = max(one["pairs"], pairs.get(one["other"], 0))
+    alone = [name for name, count in pairs.items() if not count]
+    return f"No scenario and seed in common with the first: {', '.join(alone)}." if alone else ""
 
 
 def _differences(document: dict[str, Any]) -> Table:
