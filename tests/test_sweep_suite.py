@@ -65,3 +65,20 @@ def test_what_is_no_suite_is_bad_input(tmp_path: Path) -> None:
     broken.write_text('schema = 1\nname = "x"\n[[entry]]\nscenario = "slalom"\nseeds = []\nhash=""')
     with pytest.raises(InputError, match=r"entry.0.seeds"):
         find_suite(str(broken))
+
+
+def test_a_suite_with_a_seed_twice_is_bad_input(tmp_path: Path) -> None:
+    path = written(tmp_path)
+    path.write_text(path.read_text().replace("seeds = [3, 5]", "seeds = [3, 3]"))
+    with pytest.raises(InputError, match="each seed may be there once"):
+        find_suite(str(path))
+
+
+def test_a_course_of_another_file_is_part_of_what_is_frozen(tmp_path: Path) -> None:
+    scenario, other = Path(short(tmp_path)), tmp_path / "other.toml"
+    other.write_text('[[course]]\nkind = "box"\nposition = [2.0, 2.0]\nsize = [0.2, 0.2, 0.2]\n')
+    text = scenario.read_text()
+    scenario.write_text(text.replace("schema = 1", 'schema = 1\ncourse_of = "other.toml"'))
+    before = file_hash(scenario)
+    other.write_text(other.read_text().replace("0.2, 0.2]", "0.2, 0.3]"))
+    assert file_hash(scenario) != before

@@ -1,17 +1,16 @@
 """What a sweep is asked for: lines of scenario, robot and variant, and the seeds of each."""
 
-import hashlib
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
 from treadwell import __version__
-from treadwell.data import PACKAGE
+from treadwell.data import data_folder
 from treadwell.errors import InputError
 from treadwell.robot.load import load_robot
 from treadwell.scenario.loading import find_scenario, load_scenario
+from treadwell.sweeps.content import build_hash, is_foreign, line_hash
 from treadwell.sweeps.variants import variants
 
 SCHEMA: Final = "treadwell.sweep/1"
@@ -45,8 +44,8 @@ class Line:
         variant: its settings of `--vary` as one text; empty where nothing varies.
         settings: `KEY=VALUE` each, those of `--set` and of the variant.
         seeds: of its episodes.
-        foreign: whether a component is the user's own Python class.
-        hash: of the file, the robot's folder and what the scenario becomes.
+        foreign: whether a component is a Python class of the user's or of an installed package.
+        hash: of the files that it depends on, and of what the scenario becomes.
     """
 
     file: Path
@@ -71,6 +70,16 @@ class Line:
             "variant": self.variant,
             "settings": list(self.settings),
             "hash": self.hash,
+        }
+
+    def document(self) -> dict[str, Any]:
+        """Return it as plain data, with what `treadwell run` is given for one of its episodes."""
+        shipped = self.file.parent == data_folder("scenarios").resolve()
+        return {
+            **self.identity(),
+            "file": self.scenario if shipped else str(self.file),
+            "robot_given": self.robot_given,
+            "seeds": list(self.seeds),
         }
 
 
@@ -100,7 +109,7 @@ class Request:
             "schema": SCHEMA,
             "version": __version__,
             "build": build_hash(),
-            "lines": [{**line.identity(), "seeds": list(line.seeds)} for line in self.lines],
+            "lines": [line.document() for line in self.lines],
         }
 
 
@@ -157,11 +166,6 @@ def make_line(
     both = (*settings, *variant)
     made = load_scenario(file, robot=robot, seed=seeds[0], overrides=both)
     loaded = load_robot(made.robot)
-    content = hashlib.sha256(file.read_bytes())
-    for path in sorted(loaded.folder.glob("*")):
-        if path.is_file():
-            content.update(path.read_bytes())
-    content.update(json.dumps([made.configuration(), both, robot]).encode())
     return Line(
         file=file,
         scenario=made.name,
@@ -170,15 +174,6 @@ def make_line(
         variant=", ".join(variant),
         settings=both,
         seeds=tuple(seeds),
-        foreign=any(":" in component for component in made.navigation.slots().values()),
-        hash=content.hexdigest()[:16],
+        foreign=any(is_foreign(slot, name) for slot, name in made.navigation.slots().items()),
+        hash=line_hash(file, made, loaded, [both, robot]),
     )
-
-
-def build_hash() -> str:
-    """Return a hash of the package's code: episodes of two builds are not one sweep."""
-    content = hashlib.sha256()
-    files = [*PACKAGE.rglob("*.py"), *PACKAGE.glob("_core*.so"), *PACKAGE.glob("_core*.pyd")]
-    for path in sorted(files):
-        content.update(path.read_bytes())
-    return content.hexdigest()[:16]

@@ -5,13 +5,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Final, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import Field, ValidationError, field_validator
 
 from treadwell.data import data_folder
 from treadwell.errors import InputError
-from treadwell.scenario.loading import find_scenario, read_toml
+from treadwell.scenario.loading import find_scenario, load_scenario, read_toml
 from treadwell.scenario.messages import nearest, shortened
 from treadwell.scenario.types import Name, Table
+from treadwell.sweeps.content import named_files
 from treadwell.sweeps.request import Line, Request, checked, make_line
 from treadwell.sweeps.variants import variants
 
@@ -26,6 +27,13 @@ class Entry(Table):
     robot: str | None = None
     seeds: Annotated[tuple[int, ...], Field(strict=False, min_length=1, max_length=10_000)]
     hash: str
+
+    @field_validator("seeds")
+    @classmethod
+    def _once(cls, seeds: tuple[int, ...]) -> tuple[int, ...]:
+        if len(set(seeds)) < len(seeds):
+            raise ValueError("each seed may be there once")
+        return seeds
 
 
 class Suite(Table):
@@ -58,8 +66,16 @@ class Suite(Table):
 
 
 def file_hash(path: Path) -> str:
-    """Return the hash of a scenario's file by its text; line ends do not count."""
-    return hashlib.sha256(path.read_bytes().replace(b"\r\n", b"\n")).hexdigest()
+    """Return the hash of a scenario's file by its text; line ends do not count.
+
+    Of what it names besides, another file's course, meshes and worlds, the content counts, too.
+    """
+    content = hashlib.sha256(path.read_bytes().replace(b"\r\n", b"\n"))
+    scenario = load_scenario(path)
+    course_of = read_toml(path).get("course_of")
+    for other in (*([path.parent / course_of] if course_of else []), *named_files(scenario)):
+        content.update(other.read_bytes())
+    return content.hexdigest()
 
 
 def suite_names() -> list[str]:

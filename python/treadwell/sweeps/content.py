@@ -1,0 +1,79 @@
+"""What an episode depends on, as hashes: of other code or other files it is another episode."""
+
+import hashlib
+import json
+import os
+from collections.abc import Iterator, Sequence
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from treadwell.additions import class_of, installed
+from treadwell.data import PACKAGE
+from treadwell.own_core import VARIABLE
+from treadwell.robot.load import Robot
+from treadwell.scenario.elements import Mesh, Mjcf
+from treadwell.scenario.events import Add
+from treadwell.scenario.model import Scenario
+
+
+def build_hash() -> str:
+    """Return a hash of the package's code, and of a core of the user's own."""
+    files = [*PACKAGE.rglob("*.py"), *PACKAGE.glob("_core*.so"), *PACKAGE.glob("_core*.pyd")]
+    own = os.environ.get(VARIABLE)
+    return _hash([*sorted(files), *([Path(own)] if own else [])], "")
+
+
+def line_hash(file: Path, scenario: Scenario, robot: Robot, asked: Sequence[Any]) -> str:
+    """Return a hash of the files of a sweep's line, and of what the scenario becomes.
+
+    Args:
+        file: the scenario's.
+        scenario: as it is run with the first seed.
+        robot: whose folder counts.
+        asked: settings and the like, as plain data.
+    """
+    files = [file, *named_files(scenario), *_files_in(robot.folder, "*")]
+    for slot, name in scenario.navigation.slots().items():
+        if is_foreign(slot, name):
+            files += _sources(name if ":" in name else class_of(slot, name))
+    return _hash(files, json.dumps([scenario.configuration(), *asked]))
+
+
+def is_foreign(slot: str, name: str) -> bool:
+    """Return whether a component is a Python class of the user's or of an installed package."""
+    return ":" in name or name in installed(slot)
+
+
+def named_files(scenario: Scenario) -> Iterator[Path]:
+    """Return the meshes and worlds that a scenario's elements name."""
+    added = [event.element for event in scenario.event if isinstance(event, Add)]
+    for element in (*scenario.course, *added):
+        if isinstance(element, Mesh | Mjcf):
+            yield scenario.folder / element.file
+
+
+def _sources(name: str) -> list[Path]:
+    """Return the module's file of `package.module:Class`, or all of the package that it is in."""
+    module = name.partition(":")[0]
+    try:
+        spec = find_spec(module.partition(".")[0])
+    except (ImportError, ValueError):
+        return []  # whoever makes the component tells that there is none
+    if spec is None or spec.origin is None or not Path(spec.origin).is_file():
+        return []
+    origin = Path(spec.origin)
+    return _files_in(origin.parent, "*.py") if origin.name == "__init__.py" else [origin]
+
+
+def _files_in(folder: Path, pattern: str) -> list[Path]:
+    return sorted(path for path in folder.rglob(pattern) if path.is_file())
+
+
+def _hash(files: Sequence[Path], text: str) -> str:
+    content = hashlib.sha256()
+    for path in files:
+        with path.open("rb") as opened:
+            content.update(hashlib.file_digest(opened, "sha256").digest())
+    content.update(text.encode())
+    return content.hexdigest()[:16]
