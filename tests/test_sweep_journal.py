@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from treadwell.errors import InputError, RecordingError
-from treadwell.sweeps.journal import Journal
+from treadwell.sweeps.journal import Journal, read_rows
 
 
 def test_what_was_appended_is_there_again(tmp_path: Path) -> None:
@@ -28,6 +28,15 @@ def test_half_a_line_is_cut_off(tmp_path: Path) -> None:
         journal.append({"seed": 3})
         journal.close()
         assert path.read_bytes() == whole + b'{"seed":3}\n'
+
+
+def test_rows_are_read_beside_a_writer_and_nothing_is_changed(tmp_path: Path) -> None:
+    path = tmp_path / "journal.jsonl"
+    assert read_rows(path) == []
+    content = b'{"seed":1}\n{"seed":2}\n{"seed":'
+    path.write_bytes(content)
+    assert read_rows(path) == [{"seed": 1}, {"seed": 2}]
+    assert path.read_bytes() == content
 
 
 def test_a_broken_line_before_the_last_is_bad_input(tmp_path: Path) -> None:

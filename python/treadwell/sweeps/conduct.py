@@ -138,6 +138,8 @@ class _Sweep:
         key = job.key
         before = self._first.pop(key, None)
         if before is not None:
+            if isinstance(answer, Raised) and isinstance(answer.error, RecordingError):
+                raise answer.error
             self._finish(_compared(before, answer), keep=True)
             return None
         row = _row(key, answer)
@@ -201,7 +203,7 @@ def _worth_recording(answer: Answer) -> bool:
 
 def _compared(before: Row, answer: Answer) -> Row:
     """Return the row with whether the run for the recording went the same way."""
-    again = answer.value if isinstance(answer, Done) else None
-    if again is None or before.digest is None:
-        return before
-    return replace(before, reproduced=again.digest == before.digest)
+    again = answer.value.digest if isinstance(answer, Done) else None
+    if again is None and before.digest is None:
+        return before  # both came to no result
+    return replace(before, reproduced=again == before.digest)

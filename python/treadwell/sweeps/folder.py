@@ -4,6 +4,8 @@ import fcntl
 import json
 import os
 import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Final, Self
@@ -68,7 +70,8 @@ class SweepFolder:
         """Return a folder, not there yet, for an episode that is going to be recorded."""
         place = self.path / _DOING / self.name(key)
         shutil.rmtree(place, ignore_errors=True)
-        place.parent.mkdir(exist_ok=True)
+        with _written(self.path):
+            place.parent.mkdir(exist_ok=True)
         return place.resolve()
 
     def keep(self, key: Key) -> str | None:
@@ -76,8 +79,9 @@ class SweepFolder:
         made, kept = self.path / _DOING / self.name(key), self.path / EPISODES / self.name(key)
         if not made.is_dir():
             return None
-        kept.parent.mkdir(exist_ok=True)
-        made.rename(kept)
+        with _written(self.path):
+            kept.parent.mkdir(exist_ok=True)
+            made.rename(kept)
         return str(kept.relative_to(self.path))
 
     def drop(self, key: Key) -> None:
@@ -147,8 +151,10 @@ class SweepFolder:
     def _row(self, document: dict[str, Any]) -> Row:
         try:
             return row_of(document)
-        except TypeError:
-            raise InputError(f"{self.path / journal.NAME}: not the rows of this version") from None
+        except (TypeError, ValueError) as error:
+            raise InputError(
+                f"{self.path / journal.NAME}: not the rows of this version: {error}"
+            ) from None
 
     def _check_rows(self) -> None:
         keys = [row.key for row in self.rows]
@@ -158,10 +164,18 @@ class SweepFolder:
     def _tidy(self) -> None:
         """Remove what a killed process left half done."""
         shutil.rmtree(self.path / _DOING, ignore_errors=True)
-        kept = {row.folder for row in self.rows}
-        for folder in (self.path / EPISODES).glob("*"):
-            if str(folder.relative_to(self.path)) not in kept:
-                shutil.rmtree(folder, ignore_errors=True)
+        # What else is there, a replay say, is the user's.
+        for key in set(self._request.keys()) - {row.key for row in self.rows}:
+            shutil.rmtree(self.path / EPISODES / self.name(key), ignore_errors=True)
+
+
+@contextmanager
+def _written(path: Path) -> Iterator[None]:
+    """Tell what cannot be written as an error of the recording."""
+    try:
+        yield
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be written: {error}") from error
 
 
 def read_asked(file: Path) -> dict[str, Any]:
@@ -172,10 +186,13 @@ def read_asked(file: Path) -> dict[str, Any]:
     """
     try:
         document = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise InputError(f"{file}: cannot be read: {error}") from None
     if not isinstance(document, dict) or document.get("schema") != SCHEMA:
         raise InputError(f"{file}: not a sweep of schema {SCHEMA}")
+    lines = document.get("lines")
+    if not isinstance(lines, list) or not all(isinstance(line, dict) for line in lines):
+        raise InputError(f"{file}: lines: must be a list of tables")
     return document
 
 

@@ -73,6 +73,23 @@ class Journal:
         return row
 
 
+def read_rows(path: Path) -> list[dict[str, Any]]:
+    """Return the whole rows of a journal that somebody may be writing; none where there is none."""
+    try:
+        content = path.read_bytes()
+    except OSError:
+        return []
+    rows = []
+    for line in content[: content.rfind(b"\n") + 1].splitlines():
+        try:
+            row = json.loads(line)
+        except (ValueError, RecursionError):
+            break
+        if isinstance(row, dict):
+            rows.append(row)
+    return rows
+
+
 def _write(file: int, line: bytes) -> None:
     """Write a line and wait until it is on the disk."""
     if os.write(file, line) < len(line):

@@ -86,12 +86,27 @@ class Row:
         return asdict(self)
 
 
+_TYPES: Final = {"str": (str,), "int": (int,), "float": (float, int), "bool": (bool,)}
 COLUMNS: Final = tuple(field.name for field in fields(Row))
 
 
 def row_of(document: dict[str, Any]) -> Row:
-    """Return the row that `Row.document` gave; TypeError where it is none."""
-    return Row(**document)
+    """Return the row that `Row.document` gave.
+
+    Raises:
+        TypeError: it is none: a key or a value's type is another.
+        ValueError: a number is not finite.
+    """
+    row = Row(**document)
+    for name, kind in Row.__annotations__.items():
+        value = getattr(row, name)
+        allowed = _TYPES[str(getattr(kind, "__name__", kind)).partition(" ")[0]]
+        optional = value is None and "None" in str(kind)
+        if not optional and type(value) not in allowed:
+            raise TypeError(f"{name}: found {value!r:.60}")
+        if isinstance(value, float) and not math.isfinite(value):
+            raise ValueError(f"{name}: found {value}")
+    return row
 
 
 def error_row(key: Key, reason: str) -> Row:
