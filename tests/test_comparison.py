@@ -12,11 +12,13 @@ from treadwell.cli.app import execute
 from treadwell.comparing.comparison import Candidate, compared, differences, figure
 from treadwell.comparing.metrics import METRICS
 from treadwell.comparing.sides import candidates
+from treadwell.comparing.tables import comparison_tables
 from treadwell.errors import InputError
 from treadwell.sweeps.request import SCHEMA
 from treadwell.sweeps.row import Row
 
 BY_NAME = {metric.name: metric for metric in METRICS}
+NAN = float("nan")
 FAILED = {"outcome": "fell", "passed": False, "success": False, "falls": 1}
 
 
@@ -45,6 +47,29 @@ def test_a_justified_refusal_is_a_success_without_a_time() -> None:
     refused = row(0, outcome="refused", passed=False, justified=True)
     assert figure(BY_NAME["success"], [refused])["yes"] == 1
     assert figure(BY_NAME["time"], [refused])["count"] == 0
+
+
+def test_an_episode_that_ended_by_an_error_has_only_failed() -> None:
+    gone = row(0, outcome="error", passed=False, success=False, translation_error_mean=0.001)
+    for name, metric in BY_NAME.items():
+        assert figure(metric, [gone])["count"] == (name == "success"), name
+    falling = side("a", *(row(i, **FAILED) for i in range(20)))
+    erring = side("b", *(replace(gone, seed=i) for i in range(20)))
+    assert {one["verdict"] for one in differences([falling, erring])} == {"no difference shown"}
+
+
+def test_two_robots_on_scenarios_of_their_own_pair_with_one_on_both() -> None:
+    mixed = side("a", row(0), row(1), row(0, scenario="two_levels", robot="nao"))
+    other = side("b", *(replace(one, robot="nao") for one in mixed.rows))
+    assert test_of(differences([mixed, other]), "success")["pairs"] == 3
+
+
+def test_sides_without_a_pair_are_told() -> None:
+    a, b = side("a", row(0), row(1)), side("b", row(5), row(6))
+    tables = comparison_tables(compared([a, b]))
+    assert any("No scenario and seed in common with the first: b" in n for n in tables[0].notes)
+    tables = comparison_tables(compared([a, replace(a, name="b")]))
+    assert not any("in common" in note for table in tables for note in table.notes)
 
 
 def test_a_clear_difference_is_called_one_and_its_direction() -> None:
@@ -148,4 +173,22 @@ def test_what_is_no_finished_sweep_is_bad_input(sweeps: list[Path], tmp_path: Pa
     (tmp_path / "results.json").write_text(json.dumps(good))
     with pytest.raises(InputError, match="an episode that is not"):
         candidates([tmp_path])
+    whole = json.loads((sweeps[0] / "results.json").read_text())
+    for key, value, what in (("falls", "1", "falls: found '1'"), ("core_ms", NAN, "core_ms")):
+        bad = whole | {"episodes": [whole["episodes"][0] | {key: value}]}
+        (tmp_path / "results.json").write_text(json.dumps(bad))
+        with pytest.raises(InputError, match=what):
+            candidates([tmp_path])
     assert execute(["compare", str(sweeps[0]), "--out", str(tmp_path / "no" / "x.md")]) == 2
+
+
+def test_a_sweep_that_was_asked_for_more_is_not_finished(
+    sweeps: list[Path], tmp_path: Path
+) -> None:
+    document = json.loads((sweeps[0] / "results.json").read_text())
+    (tmp_path / "results.json").write_text(json.dumps(document))
+    more = [{**line, "seeds": [*range(100)]} for line in document["lines"]]
+    asked = {key: value for key, value in document.items() if key != "episodes"}
+    (tmp_path / "sweep.json").write_text(json.dumps(asked | {"lines": more}))
+    with pytest.raises(InputError, match="not finished"):
+        candidates([tmp_path])

@@ -118,6 +118,34 @@ def test_a_sweep_that_has_only_begun_says_so(tmp_path: Path) -> None:
     assert found.where("results.json is missing") < found.where("no episode is done yet")
 
 
+def test_what_was_done_before_a_sweep_was_stopped_is_shown(tmp_path: Path) -> None:
+    asked = {"lines": [{"scenario": "slalom", "robot": "qrio", "variant": "", "seeds": [0, 1, 2]}]}
+    folder = sweep(tmp_path / "sweep", [row(0)], asked)
+    (folder / "journal.jsonl").write_text(f"{json.dumps(row(0))}\n{json.dumps(row(1))}\n{{")
+    found = Page(report([folder]).read_text())
+    assert any("2 of 2 episodes succeeded" in text for text in found.texts)
+    assert any("2 of 3 episodes are done" in text for text in found.texts)
+
+
+def test_the_command_has_the_file_and_the_robot_as_they_were_given(tmp_path: Path) -> None:
+    line = {"scenario": "slalom", "robot": "mine", "variant": "", "settings": [], "seeds": [1]}
+    given = {"file": "/home/me/slalom.toml", "robot_given": "../mine"}
+    folder = sweep(tmp_path / "a", [fell(1, robot="mine")], {"lines": [line | given]})
+    section = sweep_section(read_sweep(folder), "a", tmp_path / "r.html")
+    wanted = "treadwell run /home/me/slalom.toml --robot ../mine --seed 1"
+    assert section.failures[0].command == wanted
+    given = {"file": "slalom", "robot_given": None}
+    folder = sweep(tmp_path / "b", [fell(1, robot="mine")], {"lines": [line | given]})
+    section = sweep_section(read_sweep(folder), "b", tmp_path / "r.html")
+    assert section.failures[0].command == "treadwell run slalom --seed 1"
+
+
+def test_the_median_time_is_the_median(tmp_path: Path) -> None:
+    data = read_sweep(sweep(tmp_path / "s", [row(0), row(10)]))
+    lines = sweep_section(data, "s", tmp_path / "r.html").lines
+    assert lines.rows[0][lines.columns.index("median time (s)")] == "25.0"
+
+
 @pytest.mark.parametrize("content", ["", "{", '{"episodes": 3}', "[1, 2]", "\udcff", "[" * 100_000])
 def test_garbage_is_bad_input(tmp_path: Path, content: str) -> None:
     (tmp_path / "results.json").write_bytes(content.encode("utf-8", "surrogateescape"))

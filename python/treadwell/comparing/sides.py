@@ -8,7 +8,7 @@ from typing import Any
 from treadwell.comparing.comparison import Candidate
 from treadwell.errors import InputError
 from treadwell.sweeps import journal
-from treadwell.sweeps.folder import RESULTS
+from treadwell.sweeps.folder import ASKED, RESULTS, read_asked
 from treadwell.sweeps.request import SCHEMA
 from treadwell.sweeps.row import Row, row_of
 
@@ -56,6 +56,12 @@ def read_results(folder: Path) -> dict[str, Any]:
         raise InputError(f"{file}: not of schema {SCHEMA}")
     if not all(isinstance(line, dict) for line in document["lines"]):
         raise InputError(f"{file}: not of schema {SCHEMA}")
+    asked = folder / ASKED
+    if asked.is_file() and read_asked(asked)["lines"] != document["lines"]:
+        raise InputError(
+            f"{folder}: the sweep is not finished: {ASKED} asks for more than {RESULTS} has; its "
+            "command goes on with it"
+        )
     return dict(document)
 
 
@@ -63,9 +69,12 @@ def _row(folder: Path, document: object) -> Row:
     try:
         if isinstance(document, dict):
             return row_of(document)
-    except TypeError:
-        pass
-    raise InputError(f"{folder / RESULTS}: an episode that is not as this version writes it")
+        told = "no table"
+    except (TypeError, ValueError) as error:
+        told = str(error)
+    raise InputError(
+        f"{folder / RESULTS}: an episode that is not as this version writes it: {told}"
+    )
 
 
 def _unused(name: str, taken: Sequence[str], folder: Path) -> str:

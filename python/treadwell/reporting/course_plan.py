@@ -86,9 +86,7 @@ def _course(row: EpisodeRow) -> tuple[list[Floats], Floats | None, Floats | None
 
     try:
         seed = int(row.seed)
-        made = load_scenario(
-            row.scenario, robot=row.robot or None, seed=seed, overrides=row.settings
-        )
+        made = load_scenario(row.source, robot=row.robot_given, seed=seed, overrides=row.settings)
         course = build_course(made, load_robot(made.robot))
     except (TreadwellError, ValueError):
         return [], None, None

@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Any, Final
 
 from treadwell.errors import InputError
+from treadwell.sweeps.journal import NAME as JOURNAL
+from treadwell.sweeps.journal import read_rows
 
 ASKED, RESULTS = "sweep.json", "results.json"
 _LARGEST: Final = 500_000_000
@@ -22,6 +24,8 @@ class EpisodeRow:
         end: (x, y) m where the robot was in the end; None: not known.
         folder: of the kept run; None where it was not kept or is gone.
         settings: `KEY=VALUE` that the variant stands for.
+        source: the scenario as `treadwell run` is given it: a name or a file.
+        robot_given: as it is given the robot; None: not.
         seconds: simulated; None: not known.
         error: mean error of localization, m; None: not known.
     """
@@ -38,6 +42,8 @@ class EpisodeRow:
     settings: tuple[str, ...]
     seconds: float | None
     error: float | None
+    source: str = ""
+    robot_given: str | None = None
 
     @property
     def line(self) -> tuple[str, str, str]:
@@ -73,10 +79,16 @@ def read_sweep(folder: Path) -> SweepData:
     episodes = found.get("episodes", []) if isinstance(found, dict) else found
     if not isinstance(episodes, list) or not all(isinstance(row, dict) for row in episodes):
         raise InputError(f"{folder / RESULTS}: episodes: must be a list of tables")
-    settings = _settings(asked)
-    rows = tuple(_row(folder, row, settings) for row in episodes)
+    noted = read_rows(folder / JOURNAL)
+    if len(noted) > len(episodes):  # it was stopped before it wrote them all
+        episodes = noted
+    lines = _lines(asked)
+    rows = tuple(_row(folder, row, lines) for row in episodes)
+    wanted = sum(len(line.get("seeds") or ()) for line in lines.values())
     if not rows:
         problems.append("no episode is done yet")
+    elif len(rows) < wanted:
+        problems.append(f"{len(rows)} of {wanted} episodes are done; the command goes on with it")
     command = _text(found, "command") if isinstance(found, dict) else ""
     told = asked if isinstance(asked, dict) else {}
     return SweepData(folder, told, rows, tuple(problems), command)
@@ -96,20 +108,28 @@ def _document(path: Path, problems: list[str]) -> Any:  # noqa: ANN401 - any JSO
         raise InputError(f"{path}: is no JSON") from None
 
 
-def _settings(asked: Any) -> dict[tuple[str, str, str], tuple[str, ...]]:  # noqa: ANN401
+def _lines(asked: Any) -> dict[tuple[str, str, str], dict[str, Any]]:  # noqa: ANN401
+    """Return scenario, robot and variant -> the line of `sweep.json`."""
     lines = asked.get("lines", []) if isinstance(asked, dict) else []
     return {
-        (_text(line, "scenario"), _text(line, "robot"), _text(line, "variant")): tuple(
-            str(each) for each in line.get("settings") or ()
-        )
+        (_text(line, "scenario"), _text(line, "robot"), _text(line, "variant")): {
+            name: value for name, value in line.items() if _is_as_written(name, value)
+        }
         for line in (lines if isinstance(lines, list) else [])
         if isinstance(line, dict)
     }
 
 
+def _is_as_written(name: str, value: Any) -> bool:  # noqa: ANN401
+    if name in {"settings", "seeds"}:
+        return isinstance(value, list)
+    return isinstance(value, str) or value is None
+
+
 def _row(
-    folder: Path, row: dict[str, Any], settings: dict[tuple[str, str, str], tuple[str, ...]]
+    folder: Path, row: dict[str, Any], lines: dict[tuple[str, str, str], dict[str, Any]]
 ) -> EpisodeRow:
+    line = lines.get((_text(row, "scenario"), _text(row, "robot"), _text(row, "variant")), {})
     key = (_text(row, "scenario"), _text(row, "robot"), _text(row, "variant"))
     place = row.get("end_position")
     if not isinstance(place, list) or len(place) < 2:
@@ -124,9 +144,11 @@ def _row(
         success=bool(success),
         end=None if x is None or y is None else (x, y),
         folder=_kept(folder, row.get("folder", row.get("run", row.get("path")))),
-        settings=settings.get(key, ()),
+        settings=tuple(str(each) for each in line.get("settings") or ()),
         seconds=_number(row.get("simulated_seconds")),
         error=_number(row.get("translation_error_mean")),
+        source=line.get("file") or key[0],
+        robot_given=line["robot_given"] if "robot_given" in line else key[1] or None,
     )
 
 

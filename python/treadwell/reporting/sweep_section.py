@@ -4,6 +4,7 @@ import shlex
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
+from statistics import median
 from typing import Final
 
 from markupsafe import Markup
@@ -112,13 +113,13 @@ def _lines(rows: tuple[EpisodeRow, ...], lines: list[tuple[str, str, str]]) -> T
         good = sum(row.success for row in own)
         outcomes = Counter(row.outcome.replace("_", " ") for row in own if not row.success)
         errors = [row.error for row in own if row.error is not None]
-        times = sorted(row.seconds for row in own if row.seconds is not None and row.success)
+        times = [row.seconds for row in own if row.seconds is not None and row.success]
         table.append(
             (
                 *line,
                 f"{good}\u202fof\u202f{len(own)}",
                 f"{100 * good / len(own):.1f}\u202f%",
-                f"{times[len(times) // 2]:.1f}" if times else "",
+                f"{median(times):.1f}" if times else "",
                 f"{1e3 * sum(errors) / len(errors):.1f}" if errors else "",
                 ", ".join(f"{count} {name}" for name, count in outcomes.most_common()),
             )
@@ -139,8 +140,8 @@ def _words(failed: list[EpisodeRow]) -> TableData:
 
 def _failure(row: EpisodeRow, page: Path) -> Failure:
     sets = [word for setting in row.settings for word in ("--set", setting)]
-    robot = ["--robot", row.robot] if row.robot else []
-    words = ["treadwell", "run", row.scenario, *robot, "--seed", row.seed, *sets]
+    robot = ["--robot", row.robot_given] if row.robot_given else []
+    words = ["treadwell", "run", row.source, *robot, "--seed", row.seed, *sets]
     known = bool(row.scenario and row.seed and (row.settings or not row.variant))
     return Failure(
         row.scenario,
