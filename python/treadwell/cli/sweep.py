@@ -1,5 +1,6 @@
 """The verb `sweep`: many episodes with a bar of successes so far, and the counts as a table."""
 
+import math
 import os
 import shlex
 from collections.abc import Callable
@@ -74,7 +75,13 @@ class Asked:
 
 
 def care(timeout_s: float, memory_gb: float, keep: int) -> Care:
-    """Return how episodes are treated, by what the command line says."""
+    """Return how episodes are treated, by what the command line says.
+
+    Raises:
+        InputError: a limit is no number.
+    """
+    if math.isnan(timeout_s) or math.isnan(memory_gb):
+        raise InputError("--timeout, --memory: found nan; must be a number")
     return Care(timeout_s, int(memory_gb * GIGABYTE), keep)
 
 

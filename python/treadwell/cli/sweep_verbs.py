@@ -55,7 +55,8 @@ def sweep(  # noqa: PLR0913 - one an option
         float, typer.Option("--timeout", metavar="S", min=1.0, help="Seconds for an episode.")
     ] = 600.0,
     memory: Annotated[
-        float, typer.Option("--memory", metavar="GB", min=0.5, help="Memory for an episode.")
+        float,
+        typer.Option("--memory", metavar="GB", min=0.5, max=1e6, help="Memory for an episode."),
     ] = 4.0,
     keep: Annotated[
         int,

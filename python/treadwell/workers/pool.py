@@ -23,6 +23,7 @@ START_SECONDS: Final = 300.0
 _LONGEST_WAIT: Final = 1.0
 _JOIN_SECONDS: Final = 5.0
 _TAIL: Final = 300
+_TAIL_BYTES: Final = 1 << 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,11 +55,12 @@ class _Worker:
     log: Path
     task: _Task | None = None
     used: bool = False
+    begun: bool = False
     deadline: float | None = field(default=None)
 
     def give(self, task: _Task) -> None:
         """Send a task."""
-        self.task, self.used = task, True
+        self.task, self.used, self.begun = task, True, False
         self.deadline = time.monotonic() + START_SECONDS
         with suppress(OSError):  # it died: found out by who waits for it
             self.connection.send((task.item, task.limits.memory))
@@ -70,6 +72,7 @@ class _Worker:
                 heard = self.connection.recv()
                 if heard != BEGUN:
                     return heard  # type: ignore[no-any-return]
+                self.begun = True
                 seconds = self.task.limits.seconds if self.task else None
                 self.deadline = None if seconds is None else time.monotonic() + seconds
         except (EOFError, OSError):
@@ -78,7 +81,7 @@ class _Worker:
             return self._death()
         if self.deadline is not None and time.monotonic() > self.deadline:
             self.end()
-            seconds = self.task.limits.seconds if self.task else None
+            seconds = self.task.limits.seconds if self.task and self.begun else None
             return Died(f"took longer than {seconds or START_SECONDS:g} s", timed_out=True)
         return None
 
@@ -256,7 +259,9 @@ def _how(status: int | None) -> str:
 def _tail(log: Path) -> str:
     """Return the last that a process wrote that tells something, with a colon before it."""
     try:
-        lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
+        with log.open("rb") as opened:
+            opened.seek(max(0, log.stat().st_size - _TAIL_BYTES))
+            lines = opened.read(_TAIL_BYTES).decode(errors="replace").splitlines()
     except OSError:
         return ""
     telling = [" ".join(line.split()) for line in lines if line.strip()]
