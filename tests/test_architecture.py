@@ -33,6 +33,7 @@ TESTED_BY = {
     "robot.stance": "test_robot_template.py",
     "scenario.messages": "test_scenario.py",
     "scenario.types": "test_scenario.py",
+    "workers.log": "test_pool.py",
 }
 
 

@@ -189,7 +189,7 @@ def test_what_work_started_ends_with_it() -> None:
     assert ends(found.value)
 
 
-def test_workers_do_not_outlive_a_parent_that_is_killed() -> None:
+def test_of_a_parent_that_is_killed_neither_workers_nor_files_are_left(tmp_path: Path) -> None:
     code = (
         "import sys; sys.path.insert(0, sys.argv[1])\n"
         "from test_pool import work\n"
@@ -198,13 +198,15 @@ def test_workers_do_not_outlive_a_parent_that_is_killed() -> None:
         "    pool.submit(('count', 0)); pool.submit(('sleep', 60))\n"
         "    for _, answer in pool.answers(): print(answer.value[0], flush=True)\n"
     )
-    here = str(Path(__file__).parent)
-    with subprocess.Popen([sys.executable, "-c", code, here], stdout=subprocess.PIPE) as parent:
+    command = [sys.executable, "-c", code, str(Path(__file__).parent)]
+    places = os.environ | {"TMPDIR": str(tmp_path)}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, env=places) as parent:
         assert parent.stdout is not None
         worker = int(parent.stdout.readline())
         time.sleep(0.2)
         parent.kill()
     assert ends(worker)
+    assert not list(tmp_path.iterdir())
 
 
 def ends(process: int) -> bool:

@@ -14,6 +14,7 @@ from typing import Any, Final
 
 from treadwell.errors import TreadwellError
 from treadwell.workers.answers import Done, Raised
+from treadwell.workers.log import WorkerLog
 
 BEGUN: Final = "begun"
 """What is sent before the work begins: from then on its time counts."""
@@ -23,7 +24,7 @@ _DEATH_SIGNAL: Final = 1  # PR_SET_PDEATHSIG of Linux
 _LONGEST_REASON: Final = 500
 
 
-def serve(connection: Connection, work: Callable[[Any], Any], log: Path, parent: int) -> None:
+def serve(connection: Connection, work: Callable[[Any], Any], log: WorkerLog, parent: int) -> None:
     """Do one piece of work after the other until the connection ends.
 
     Args:
@@ -34,13 +35,14 @@ def serve(connection: Connection, work: Callable[[Any], Any], log: Path, parent:
         parent: the process's id that started this one.
     """
     _leave_with(parent)
-    _write_into(log)
+    log.take_output()
+    faulthandler.enable(2)
     while True:
         try:
             item, memory = connection.recv()
         except (EOFError, OSError):
             return
-        os.truncate(log, 0)
+        log.clear()
         connection.send(BEGUN)
         _limit_memory(memory)
         answer = _answer(work, item)
@@ -78,15 +80,6 @@ def _leave_with(parent: int) -> None:
         ctypes.CDLL(None).prctl(_DEATH_SIGNAL, signal.SIGKILL, 0, 0, 0)
     if os.getppid() != parent:  # it went before that was arranged
         os._exit(LOST)
-
-
-def _write_into(log: Path) -> None:
-    """Let standard output and error go to a file: the parent's are its own."""
-    handle = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o600)
-    os.dup2(handle, 1)
-    os.dup2(handle, 2)
-    os.close(handle)
-    faulthandler.enable(2)
 
 
 def _limit_memory(more: int | None) -> None:

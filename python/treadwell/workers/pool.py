@@ -2,7 +2,6 @@
 
 import os
 import signal
-import tempfile
 import time
 from collections import deque
 from collections.abc import Callable, Iterator
@@ -11,19 +10,18 @@ from dataclasses import dataclass, field
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
-from pathlib import Path
 from types import TracebackType
 from typing import Any, Final, Self
 
 from treadwell.workers.answers import Answer, Died
 from treadwell.workers.child import BEGUN, serve
+from treadwell.workers.log import WorkerLog
 
 START_SECONDS: Final = 300.0
 """Within which a new process has to be ready to work, on however busy a machine."""
 _LONGEST_WAIT: Final = 1.0
 _JOIN_SECONDS: Final = 5.0
 _TAIL: Final = 300
-_TAIL_BYTES: Final = 1 << 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +50,7 @@ class _Worker:
 
     process: SpawnProcess
     connection: Connection
-    log: Path
+    log: WorkerLog
     task: _Task | None = None
     used: bool = False
     begun: bool = False
@@ -92,12 +90,13 @@ class _Worker:
         self.process.kill()
         self.process.join()
         self.connection.close()
+        self.log.close()
 
     def _death(self) -> Died:
         self.process.join(_JOIN_SECONDS)
-        status = self.process.exitcode
+        how = _how(self.process.exitcode) + _tail(self.log)
         self.end()
-        return Died(_how(status) + _tail(self.log))
+        return Died(how)
 
 
 class Pool:
@@ -120,8 +119,6 @@ class Pool:
         self._context = get_context("spawn")
         self._waiting: deque[_Task] = deque()
         self._workers: list[_Worker] = []
-        self._started = 0
-        self._folder = tempfile.TemporaryDirectory(prefix="treadwell-workers-")
 
     def __enter__(self) -> Self:
         """Begin."""
@@ -137,7 +134,6 @@ class Pool:
         for worker in self._workers:
             worker.end()
         self._workers.clear()
-        self._folder.cleanup()
 
     def submit(
         self,
@@ -225,8 +221,7 @@ class Pool:
 
     def _start(self) -> _Worker:
         ours, theirs = self._context.Pipe()
-        self._started += 1
-        log = Path(self._folder.name) / f"{self._started}.log"
+        log = WorkerLog()
         process = self._context.Process(
             target=serve, args=(theirs, self._work, log, os.getpid()), daemon=False
         )
@@ -256,15 +251,9 @@ def _how(status: int | None) -> str:
     return f"its process was ended by signal {-status} ({name}{hint})"
 
 
-def _tail(log: Path) -> str:
+def _tail(log: WorkerLog) -> str:
     """Return the last that a process wrote that tells something, with a colon before it."""
-    try:
-        with log.open("rb") as opened:
-            opened.seek(max(0, log.stat().st_size - _TAIL_BYTES))
-            lines = opened.read(_TAIL_BYTES).decode(errors="replace").splitlines()
-    except OSError:
-        return ""
-    telling = [" ".join(line.split()) for line in lines if line.strip()]
+    telling = [" ".join(line.split()) for line in log.tail() if line.strip()]
     # Of faulthandler's lines the first says what, the others where.
     fatal = [line for line in telling if line.startswith(("Fatal", "memory allocation"))]
     chosen = fatal[-1:] or telling[-1:]
