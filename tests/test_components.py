@@ -145,7 +145,17 @@ def test_a_world_model_is_given_planes_and_its_view_is_planned_on() -> None:
     assert (view.kind == 1).all()
     assert view.origin == (-2.0, -1.5)
     assert view.cell == 0.05
+    assert (view.sightings == np.iinfo(np.uint16).max).all()
     assert episode.pilot.frames_used == len(part.seen)
+
+
+def test_a_world_model_may_count_what_it_saw() -> None:
+    class Counting(Meadow):
+        class View(Meadow.View):
+            sightings = np.arange(60 * 80, dtype=np.uint16).reshape(60, 80)
+
+    episode = run(world_model=Counting())
+    assert (episode.pilot.view().sightings == Counting.View.sightings).all()
 
 
 @pytest.mark.parametrize("slot", PARTS)
@@ -241,6 +251,10 @@ class BadView:
     height = np.zeros((4, 5), np.float32)
 
 
+class Miscounting(Meadow.View):
+    sightings = np.zeros((60, 81), np.uint16)
+
+
 @pytest.mark.parametrize(
     ("slot", "answer", "message"),
     [
@@ -262,6 +276,7 @@ class BadView:
         ("segmenter", segmentation(labels=np.ones(6336, np.uint16)), "at most 0, got 1"),
         ("segmenter", segmentation(robot_from_camera=np.eye(3)), "segmenter: .*finite"),
         ("world_model", BadView, r"world_model: .*one shape"),
+        ("world_model", Miscounting, r"world_model: .*kind and sightings must have one shape"),
         ("world_model", "no view", "world_model: "),
     ],
 )

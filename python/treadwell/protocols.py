@@ -45,7 +45,12 @@ class Segmenter(Protocol):
 
 
 class FloorMap(Protocol):
-    """The floor, obstacle and unknown view that planners read; the core's `FloorView` is one."""
+    """The floor, obstacle and unknown view that planners read; the core's `FloorView` is one.
+
+    It may have `sightings`, too: (rows, cols) uint16, in how many frames a cell was seen as floor.
+    Steps are planned, and the map is scored, on cells that were seen three times. Without it every
+    cell that is known counts as seen often.
+    """
 
     @property
     def origin(self) -> tuple[float, float]:

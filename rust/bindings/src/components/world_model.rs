@@ -109,6 +109,36 @@ fn read_view(object: &Bound<'_, PyAny>, into: &mut FloorView) -> PyResult<()> {
             }
         };
     }
+    read_sightings(object, into)
+}
+
+/// Reads in how many frames each cell was seen as floor; of a model that does not count, all that
+/// it knows is as good as what was seen often.
+fn read_sightings(object: &Bound<'_, PyAny>, into: &mut FloorView) -> PyResult<()> {
+    let counts = into.sightings.values_mut().iter_mut();
+    match object.getattr_opt(intern!(object.py(), "sightings"))? {
+        None => {
+            for (count, cell) in counts.zip(into.cells.values()) {
+                *count = match cell {
+                    Surface::Unknown => 0,
+                    Surface::Floor(_) | Surface::Obstacle(_) => u16::MAX,
+                };
+            }
+        }
+        Some(found) => {
+            let found: PyReadonlyArray2<'_, u16> = found.extract()?;
+            let (found, shape) = (found.as_array(), (into.cells.rows(), into.cells.cols()));
+            if found.dim() != shape {
+                return Err(PyValueError::new_err(format!(
+                    "kind and sightings must have one shape, got {shape:?} and {:?}",
+                    found.dim()
+                )));
+            }
+            for (count, &found) in counts.zip(found) {
+                *count = found;
+            }
+        }
+    }
     Ok(())
 }
 
