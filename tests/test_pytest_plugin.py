@@ -6,6 +6,7 @@ import pytest
 from episode_builders import result, scenario
 
 import treadwell
+from treadwell.data import data_folder
 from treadwell.pytest_plugin import ScenarioFailedError, free_folder, is_scenario, run_scenario
 from treadwell.runner import Run
 from treadwell.scenario.model import Expect
@@ -59,6 +60,9 @@ def test_only_scenario_files_are_collected(tmp_path: Path) -> None:
     other.write_text('[project]\nname = "something"\n')
     assert is_scenario(made)
     assert not is_scenario(other)
+    suites = sorted((data_folder("scenarios") / "suites").glob("*.toml"))
+    assert suites
+    assert not any(map(is_scenario, suites))
     assert not is_scenario(tmp_path / "missing.toml")
 
 

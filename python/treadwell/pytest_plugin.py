@@ -36,14 +36,15 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 
 def is_scenario(path: Path) -> bool:
-    """Say whether a file looks like a scenario, broken or not: it has a line `schema = ...`."""
+    """Say whether a file looks like a scenario, broken or not, and not like a suite of them."""
     try:
         with path.open(encoding="utf-8", errors="replace") as file:
             lines = file.read(20_000).splitlines()
     except OSError:
         return False
     keys = {line.partition("=")[0].strip() for line in lines if "=" in line}
-    return "schema" in keys and {"name", "position"} & keys != set()
+    is_suite = any(line.strip() == "[[entry]]" for line in lines)
+    return "schema" in keys and {"name", "position"} & keys != set() and not is_suite
 
 
 class ScenarioFile(pytest.File):
