@@ -6,10 +6,12 @@ UV_VERSION := 0.13.8
 UV := $(shell command -v uv 2>/dev/null || echo .uv/bin/uv)
 RUN := $(UV) run --locked --quiet
 DEMO ?= obstacle_course
+# One Python for all that cargo builds: for another, pyo3 and what uses it are compiled again.
+export PYO3_PYTHON ?= $(shell command -v $(PYTHON))
 # What the built package is made of: `make setup` builds anew when it changes.
 SOURCES := $(shell find rust models scenarios -type f)
 
-.PHONY: setup demo test fast fuzz check lint format bench clean
+.PHONY: setup demo test fast fuzz check lint clippy format bench clean
 
 setup: .venv/.ready ## the environment in .venv, with the command .venv/bin/treadwell
 
@@ -26,7 +28,7 @@ demo: setup ## one episode: the result, and where its pictures are
 
 # The same cases in every run: what passes for one passes for all. `make fuzz` draws new ones.
 test: export PROPTEST_RNG_SEED ?= 2004
-test: setup lint ## every check and every test
+test: lint ## every check and every test
 	$(CARGO_TEST)
 	cargo test --workspace --doc --quiet
 	$(PYTEST) --hypothesis-profile ci
@@ -49,13 +51,16 @@ fuzz: setup ## the property tests with new random cases, FUZZ_ROUNDS times
 		$(CARGO_TEST) && $(PYTEST) -m hypothesis || exit 1; \
 	done
 
-lint: setup
+lint:
 	cargo fmt --check
-	cargo clippy --workspace --all-targets --quiet -- -D warnings
+	$(MAKE) --jobs=2 setup clippy # the package's build leaves a processor free
 	$(RUN) ruff check
 	$(RUN) ruff format --check
 	$(RUN) mypy
 	$(RUN) python -m mypy.stubtest treadwell._core
+
+clippy:
+	cargo clippy --workspace --all-targets --quiet -- -D warnings
 
 format: setup
 	cargo fmt

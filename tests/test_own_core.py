@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -22,12 +23,20 @@ def cargo(*words: str, folder: Path) -> None:
     done = subprocess.run(
         ["cargo", *words, "--quiet"],
         cwd=folder,
-        env={**os.environ, "CARGO_TARGET_DIR": target, "PYO3_PYTHON": sys.executable},
+        env={"PYO3_PYTHON": sys.executable, **os.environ, "CARGO_TARGET_DIR": target},
         check=False,
         capture_output=True,
         text=True,
     )
     assert done.returncode == 0, done.stderr[-3000:]
+
+
+def libraries_of_the_tests() -> str:
+    """What the workspace's tests use: it switches features of what the example uses on."""
+    named = r"^(?:approx|criterion|pathfinding|proptest) = .*\n"
+    found = re.findall(named, (ROOT / "Cargo.toml").read_text(), re.MULTILINE)
+    assert len(found) == 4
+    return "".join(found)
 
 
 @pytest.fixture(scope="module")
@@ -36,8 +45,11 @@ def core(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("user") / "own_planner"
     shutil.copytree(EXAMPLE, folder, ignore=shutil.ignore_patterns("target", "Cargo.lock"))
     manifest = folder / "Cargo.toml"
-    manifest.write_text(manifest.read_text().replace("../../", f"{ROOT}/"))
-    shutil.copy(ROOT / "Cargo.lock", folder)  # the same versions: nothing is compiled twice
+    # The same versions and features as in the workspace: no library is compiled twice.
+    table = "[dependencies]\n"
+    text = manifest.read_text().replace("../../", f"{ROOT}/")
+    manifest.write_text(text.replace(table, table + libraries_of_the_tests()))
+    shutil.copy(ROOT / "Cargo.lock", folder)
     cargo("fmt", "--check", folder=folder)
     cargo("test", "--lib", folder=folder)
     cargo("build", folder=folder)
