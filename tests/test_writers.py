@@ -16,17 +16,20 @@ def episode() -> treadwell.Episode:
     return treadwell.Episode("slalom", seed=1, overrides=("time_limit=0.2",))
 
 
-def test_nothing_is_opened_without_recording(tmp_path: Path, episode: treadwell.Episode) -> None:
+def test_without_recording_only_the_scenario_is_written_at_first(
+    tmp_path: Path, episode: treadwell.Episode
+) -> None:
     made = writers.Writers(tmp_path, episode, record=False)
     made.tick(episode.tick())
-    assert list(tmp_path.iterdir()) == []
+    assert [path.name for path in tmp_path.iterdir()] == ["scenario.toml"]
 
 
 def test_a_folder_that_vanished_is_an_error_of_the_recording(
     tmp_path: Path, episode: treadwell.Episode
 ) -> None:
-    with pytest.raises(RecordingError, match=r"recording\.rrd"):
-        writers.Writers(tmp_path / "gone", episode, record=True)
+    for record in (True, False):
+        with pytest.raises(RecordingError, match=r"gone: cannot be written: No such file"):
+            writers.Writers(tmp_path / "gone", episode, record=record)
 
 
 def test_the_result_is_written_last(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
