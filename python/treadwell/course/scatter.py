@@ -129,13 +129,15 @@ def _draw(
 
 def _overlap(first: Floats, second: Floats) -> bool:
     """Say whether two convex outlines (n, 2) overlap (separating axes)."""
-    for polygon in (first, second):
-        edges = np.roll(polygon, -1, axis=0) - polygon
-        for normal in np.column_stack([edges[:, 1], -edges[:, 0]]):
-            a, b = first @ normal, second @ normal
-            if a.max() < b.min() or b.max() < a.min():
-                return False
-    return True
+    if (first.max(axis=0) < second.min(axis=0)).any() or (
+        second.max(axis=0) < first.min(axis=0)
+    ).any():
+        return False  # the most, and quickly found
+    edges = np.concatenate([np.roll(each, -1, axis=0) - each for each in (first, second)])
+    x, y = edges[:, 1], -edges[:, 0]
+    a, b = (np.outer(each[:, 0], x) + np.outer(each[:, 1], y) for each in (first, second))
+    apart = (a.max(axis=0) < b.min(axis=0)) | (b.max(axis=0) < a.min(axis=0))
+    return not bool(apart.any())
 
 
 class Ground:
