@@ -150,8 +150,8 @@ impl Planner for AStar {
 impl AStar {
     /// Reads the view and the stairs.
     fn look(&mut self, view: &FloorView, stairs: &Staircase, stand: Stand, goal: &Goal) {
-        let levels = (stand.height_m, goal);
-        let stairs = (self.landing).read(stairs, view, levels, self.config.step_sightings);
+        let sightings = self.config.step_sightings;
+        let stairs = (self.landing).read(stairs, view, (&stand, goal), sightings);
         self.terrain
             .read(view, stairs, &stand, goal.height_m, &self.config);
         let scene = Scene {

@@ -8,6 +8,7 @@ use mapping::{FloorView, Surface};
 use stairs::{Edge, Stair, Staircase};
 
 use crate::Goal;
+use crate::levels::Stand;
 use crate::line::Line;
 use crate::room::SAME_M;
 use crate::route::LEVEL_M;
@@ -22,21 +23,24 @@ pub(crate) struct Landing {
 }
 
 impl Landing {
-    /// The stairs for a robot at `robot_m`; cells that were seen in fewer than `sightings` frames say nothing.
+    /// The stairs for a robot that stands there; cells that were seen in fewer than `sightings` frames say nothing.
     pub(crate) fn read(
         &mut self,
         stairs: &Staircase,
         view: &FloorView,
-        (robot_m, goal): (f64, &Goal),
+        (stand, goal): (&Stand, &Goal),
         sightings: u16,
     ) -> &Staircase {
         self.stairs.clone_from(stairs);
-        let same = |a_m: f64, b_m: f64| (a_m - b_m).abs() <= LEVEL_M;
-        let Some(goal_m) = goal.height_m.filter(|&goal_m| !same(goal_m, robot_m)) else {
+        let Some(goal_m) = goal.height_m else {
             return &self.stairs;
         };
+        let same = |a_m: f64, b_m: f64| (a_m - b_m).abs() <= LEVEL_M;
+        // On the goal's own level the floor is no landing, but what the robot climbed to is.
+        let climbs = !same(goal_m, stand.height_m);
         for stair in &mut self.stairs.stairs {
             if same(stair.height_m(), goal_m)
+                && (climbs || is_on(stair, stand.at_m))
                 && let Some(missing_m) = missing_m(stair, goal)
                 && goes_on(stair, missing_m, view, sightings)
             {
@@ -45,6 +49,13 @@ impl Landing {
         }
         &self.stairs
     }
+}
+
+/// Whether a place lies between a stair's edges.
+fn is_on(stair: &Stair<Map>, at_m: [f64; 2]) -> bool {
+    let (front, back) = (Line::of(&stair.front), Line::of(&stair.back));
+    let beside = front.offset_m(at_m).abs() <= front.half_m();
+    beside && front.beyond_m(at_m) >= 0.0 && back.beyond_m(at_m) <= 0.0
 }
 
 /// How much deeper a stair would be if the goal's disc were on it, m, where it lies straight behind.

@@ -43,6 +43,15 @@ fn a_landing_seen_in_part_is_climbed_to_and_the_goal_is_not_hoped_for_beside_it(
 }
 
 #[test]
+fn from_a_landing_seen_in_part_the_goal_on_it_is_walked_to() {
+    let (course, goal) = landing();
+    let path = way_from(&course, [1.3, 0.0, 0.08], 0.0, &goal);
+    assert_eq!(steps(&path), 0, "{:?}", path.points_m);
+    let [x, y] = path.points_m[path.points_m.len() - 1];
+    assert!((x - goal.x_m).hypot(y - goal.y_m) < goal.radius_m);
+}
+
+#[test]
 fn a_landing_goes_on_no_further_than_to_where_lower_floor_was_seen() {
     let (mut course, goal) = landing();
     believe(&mut course, [1.45, -0.3], [1.55, 0.3]);
