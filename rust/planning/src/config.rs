@@ -3,6 +3,13 @@
 use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
 
+/// Lengths may be no greater, m: a window is not much larger.
+const FARTHEST_M: f64 = 10.0;
+/// Nor may a price: a search sorts what it finds by cost, in steps of half a cell.
+const DEAREST: f64 = 1000.0;
+/// Crossings of an edge are considered no nearer to each other, m.
+const FINEST_LANE_M: f64 = 0.005;
+
 /// What has to stay clear of obstacles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -111,39 +118,53 @@ impl AStarConfig {
     /// Refuses what cannot be used.
     pub fn check(&self) -> Result<(), ConfigError> {
         if let Some(radius) = self.radius {
-            let holds = radius > 0.0 && radius.is_finite();
-            require(holds, "navigation.a_star.radius", "> 0", radius)?;
+            let holds = radius > 0.0 && radius <= FARTHEST_M;
+            let allowed = format!("> 0 and <= {FARTHEST_M} m");
+            require(holds, "navigation.a_star.radius", &allowed, radius)?;
         }
-        let not_negative = [
+        let lengths = [
             ("margin", self.margin),
-            ("sideways_cost", self.sideways_cost),
             ("soft_range", self.soft_range),
-            ("soft_cost", self.soft_cost),
-            ("unknown_cost", self.unknown_cost),
-            ("escape_cost", self.escape_cost),
             ("escape_range", self.escape_range),
             ("max_step", self.max_step),
             ("slope_step", self.slope_step),
-            ("max_slope", self.max_slope),
             ("stray", self.stray),
-            ("turn_cost", self.turn_cost),
             ("foot_margin", self.foot_margin),
             ("blind", self.blind),
-            ("climb_cost", self.climb_cost),
             ("stride", self.stride),
+            ("judge_range", self.judge_range),
             ("limit_range", self.limit_range),
         ];
-        for (key, value) in not_negative {
-            let key = format!("navigation.a_star.{key}");
-            require(value >= 0.0 && value.is_finite(), &key, ">= 0", value)?;
+        for (key, value) in lengths {
+            at_most(key, value, FARTHEST_M, " m")?;
+        }
+        let factors = [
+            ("sideways_cost", self.sideways_cost),
+            ("soft_cost", self.soft_cost),
+            ("unknown_cost", self.unknown_cost),
+            ("escape_cost", self.escape_cost),
+            ("turn_cost", self.turn_cost),
+            ("climb_cost", self.climb_cost),
+            ("max_slope", self.max_slope),
+        ];
+        for (key, value) in factors {
+            at_most(key, value, DEAREST, "")?;
         }
         let lane = self.lane;
-        let holds = lane > 0.0 && lane.is_finite();
-        require(holds, "navigation.a_star.lane", "> 0", lane)?;
+        let holds = (FINEST_LANE_M..=FARTHEST_M).contains(&lane);
+        let allowed = format!(">= {FINEST_LANE_M} m and <= {FARTHEST_M} m");
+        require(holds, "navigation.a_star.lane", &allowed, lane)?;
         let better = self.better;
         let holds = better > 0.0 && better <= 1.0;
         require(holds, "navigation.a_star.better", "> 0 and <= 1", better)
     }
+}
+
+/// Refuses a parameter that is negative or above a bound.
+fn at_most(key: &str, value: f64, most: f64, unit: &str) -> Result<(), ConfigError> {
+    let key = format!("navigation.a_star.{key}");
+    let allowed = format!(">= 0 and <= {most}{unit}");
+    require((0.0..=most).contains(&value), &key, &allowed, value)
 }
 
 #[cfg(test)]
@@ -159,7 +180,7 @@ mod tests {
         };
         assert_eq!(
             bad.check().unwrap_err().to_string(),
-            "navigation.a_star.margin must be >= 0, got -0.1"
+            "navigation.a_star.margin must be >= 0 and <= 10 m, got -0.1"
         );
         let bad = AStarConfig {
             radius: Some(f64::NAN),
@@ -171,5 +192,30 @@ mod tests {
             ..AStarConfig::default()
         };
         assert!(bad.check().is_err());
+    }
+
+    #[test]
+    fn what_a_search_would_take_gigabytes_or_for_ever_for_is_refused() {
+        let bad = [
+            AStarConfig {
+                escape_cost: 1e6,
+                ..AStarConfig::default()
+            },
+            AStarConfig {
+                judge_range: f64::NAN,
+                ..AStarConfig::default()
+            },
+            AStarConfig {
+                soft_range: 1e9,
+                ..AStarConfig::default()
+            },
+            AStarConfig {
+                lane: 1e-6,
+                ..AStarConfig::default()
+            },
+        ];
+        for bad in bad {
+            assert!(bad.check().is_err(), "{bad:?}");
+        }
     }
 }

@@ -5,6 +5,9 @@ use crate::steps::Trail;
 /// Width of a bucket, in cells.
 const WIDTH: f64 = 0.5;
 
+/// The last bucket: what is estimated higher is in it too, in no order, so that no price takes gigabytes.
+const LAST: usize = 1 << 20;
+
 /// A cell to expand if it was not reached more cheaply since.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Entry {
@@ -78,5 +81,31 @@ impl Queue {
 
 #[inline]
 fn bucket_of(estimate: f64) -> usize {
-    (estimate / WIDTH) as u32 as usize
+    ((estimate / WIDTH) as u32 as usize).min(LAST)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_costs_more_than_there_are_buckets_for_is_taken_too() {
+        let mut queue = Queue::default();
+        let entry = |cell| Entry {
+            cost: 0.0,
+            cell,
+            trail: Trail::default(),
+        };
+        queue.begin(1.0, entry(0));
+        queue.push(1e12, entry(1));
+        queue.push(f64::MAX, entry(2));
+        let mut taken: Vec<_> = std::iter::from_fn(|| queue.pop()).map(|e| e.cell).collect();
+        taken.sort_unstable();
+        assert_eq!(taken, [0, 1, 2]);
+        assert!(queue.buckets.len() <= LAST + 1);
+        // Nothing is left for the next search.
+        queue.begin(1.0, entry(3));
+        assert_eq!(queue.pop().map(|e| e.cell), Some(3));
+        assert!(queue.pop().is_none());
+    }
 }
