@@ -125,7 +125,7 @@ impl Planner for AStar {
         let levelled = self.goal_level.of(goal, view, &stand);
         self.seek.begin(&levelled);
         self.look(view, stairs, stand, &levelled);
-        self.beyond.look(&self.terrain, stand.at_m, goal);
+        self.beyond.look(&self.terrain, stand.at_m, &levelled);
         let settled = stairs.stairs.is_empty();
         let kept = self.rest(&stand, &levelled);
         let kept = match kept {

@@ -3,23 +3,20 @@
 //! Without this the robot would hope for a way that it found closed as soon as that has left the window, and go to and fro for ever. So
 //! would one whose way leads out of the window and back into it, around a wall that is longer, as soon as the goal comes in sight.
 
+mod ground;
+
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-
-use geometry::Lattice;
 
 use crate::Goal;
 use crate::distance::DistanceField;
 use crate::terrain::Terrain;
+use ground::{Ground, SIDE, cell_at};
 
-/// Cells of the ground around the place where the robot was first: as large as the window's, so many on a side.
-const SIDE: usize = 512;
 /// The way is looked for over nodes of so many of them each way. Of four all lie beside each other, so that a node says exactly which
 /// of its cells lead to which of the next one's: a gap between two round things may be too narrow at a single row of cells.
 const APART: usize = 2;
 const NODES: usize = SIDE / APART;
-/// From so near it is believed that something has gone, m. From afar parts of a wall are floor for a while.
-const NEAR_M: f64 = 1.2;
 /// How much longer a way is taken to be that leaves the window where there is no room, m: what was seen may be gone.
 const SHUT_M: f64 = 10.0;
 /// It is looked for after so many plans at most.
@@ -39,9 +36,7 @@ const STEPS: [(isize, isize, f32); 8] = [
 /// The ground around as it was when it was seen last.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Beyond {
-    /// Where the cells lie.
-    lattice: Option<Lattice>,
-    blocked: Vec<bool>,
+    ground: Ground,
     distance: DistanceField,
     /// Which of a node's cells the robot may be in, a bit each: 1 for the first, 2 for the one a column on, 4 and 8 for the row after.
     open: Vec<u8>,
@@ -70,7 +65,9 @@ enum Field {
 impl Beyond {
     /// Takes in what the window shows to a robot that stands at a place, m. Afterwards the field leads to the goal.
     pub(crate) fn look(&mut self, terrain: &Terrain, robot_m: [f64; 2], goal: &Goal) {
-        self.take_in(terrain, robot_m);
+        if self.ground.take_in(terrain, robot_m) {
+            (self.field, self.goal) = (Field::Straight, None);
+        }
         self.plans = self.plans.saturating_add(1);
         let inside = terrain.index_at([goal.x_m, goal.y_m]).is_some();
         let is_old = self.goal != Some(*goal) || self.plans >= PLANS;
@@ -79,7 +76,7 @@ impl Beyond {
         } else if !inside && (is_old || self.field == Field::Around) {
             (self.goal, self.plans) = (Some(*goal), 0);
             self.field = Field::Straight;
-            if self.is_blocked_outside(terrain) {
+            if self.ground.is_blocked_outside(terrain) {
                 self.field = Field::Outside;
                 self.open_cells(terrain, |_| None);
                 self.aim(goal);
@@ -105,76 +102,41 @@ impl Beyond {
     pub(crate) fn left_m(&self, at_m: [f64; 2], goal: &Goal) -> f64 {
         let straight_m = (goal.x_m - at_m[0]).hypot(goal.y_m - at_m[1]);
         let has_field = self.field != Field::Straight;
-        let known_m = self.lattice.filter(|_| has_field).and_then(|lattice| {
-            let [col, row] = cell_at(&lattice, at_m)?.map(|at| at / APART);
-            let length = |(cols, rows)| {
-                let node = node(col, row, cols, rows)?;
-                (self.open[node] != 0).then(|| self.to_goal[node])
-            };
-            // Beside what the robot may not come near to, what is around counts.
-            let around = STEPS.iter().filter_map(|&(c, r, _)| length((c, r)));
-            let nodes = length((0, 0)).or_else(|| around.reduce(f32::min));
-            let node_m = APART as f64 * lattice.cell_m;
-            let shut_m = match self.field {
-                Field::Around => f64::INFINITY,
-                Field::Straight | Field::Outside => straight_m + SHUT_M,
-            };
-            Some(nodes.map_or(shut_m, |nodes| f64::from(nodes) * node_m))
-        });
+        let known_m = self
+            .ground
+            .lattice
+            .filter(|_| has_field)
+            .and_then(|lattice| {
+                let [col, row] = cell_at(&lattice, at_m)?.map(|at| at / APART);
+                let length = |(cols, rows)| {
+                    let node = node(col, row, cols, rows)?;
+                    (self.open[node] != 0).then(|| self.to_goal[node])
+                };
+                // Beside what the robot may not come near to, what is around counts.
+                let around = STEPS.iter().filter_map(|&(c, r, _)| length((c, r)));
+                let nodes = length((0, 0)).or_else(|| around.reduce(f32::min));
+                let node_m = APART as f64 * lattice.cell_m;
+                let shut_m = match self.field {
+                    Field::Around => f64::INFINITY,
+                    Field::Straight | Field::Outside => straight_m + SHUT_M,
+                };
+                Some(nodes.map_or(shut_m, |nodes| f64::from(nodes) * node_m))
+            });
         known_m
             .filter(|m| m.is_finite() || self.field == Field::Around)
             .map_or(straight_m, |known_m| known_m.max(straight_m))
     }
 
-    fn take_in(&mut self, terrain: &Terrain, robot_m: [f64; 2]) {
-        let window = &terrain.lattice;
-        let lattice = *self.lattice.get_or_insert_with(|| {
-            self.blocked = vec![false; SIDE * SIDE];
-            self.to_goal = vec![f32::INFINITY; NODES * NODES];
-            self.open = vec![0; NODES * NODES];
-            self.weights = vec![1.0; NODES * NODES];
-            let before_m = (SIDE - terrain.cols) as f64 / 2.0 * window.cell_m;
-            Lattice {
-                origin_m: window.origin_m.map(|origin_m| origin_m - before_m),
-                cell_m: window.cell_m,
-            }
-        });
-        for (index, &unknown) in terrain.unknown.iter().enumerate() {
-            let at_m = terrain.center_m(index);
-            let near = (at_m[0] - robot_m[0]).hypot(at_m[1] - robot_m[1]) < NEAR_M;
-            if let Some([col, row]) = cell_at(&lattice, at_m).filter(|_| !unknown) {
-                let known = &mut self.blocked[row * SIDE + col];
-                *known = terrain.blocked[index] || *known && !near;
-            }
-        }
-    }
-
-    fn is_blocked_outside(&self, terrain: &Terrain) -> bool {
-        let Some(lattice) = self.lattice else {
-            return false;
-        };
-        let outside = |cell: usize| {
-            let middle_m = |at: usize| (at as f64 + 0.5) * lattice.cell_m;
-            let [x, y] = lattice.origin_m;
-            let at_m = [x + middle_m(cell % SIDE), y + middle_m(cell / SIDE)];
-            terrain.index_at(at_m).is_none()
-        };
-        let mut blocked = self
-            .blocked
-            .iter()
-            .enumerate()
-            .filter(|(_, blocked)| **blocked);
-        blocked.any(|(cell, _)| outside(cell))
-    }
-
     /// Finds where the robot has room. `known`: what a length costs at a place where that is known better, infinite where it may not be.
     fn open_cells(&mut self, terrain: &Terrain, known: impl Fn([f64; 2]) -> Option<f32>) {
-        let Some(lattice) = self.lattice else {
+        let Some(lattice) = self.ground.lattice else {
             return;
         };
-        self.distance.compute(&self.blocked, SIDE);
-        self.open.fill(0);
-        self.weights.fill(f32::INFINITY);
+        self.distance.compute(&self.ground.blocked, SIDE);
+        self.open.clear();
+        self.open.resize(NODES * NODES, 0);
+        self.weights.clear();
+        self.weights.resize(NODES * NODES, f32::INFINITY);
         let room = terrain.needs.body_m / terrain.lattice.cell_m;
         let [x, y] = lattice.origin_m;
         for (cell, &squared) in self.distance.all_squared().iter().enumerate() {
@@ -197,11 +159,10 @@ impl Beyond {
 
     /// Dijkstra's algorithm from the goal over what is open.
     fn aim(&mut self, goal: &Goal) {
-        self.to_goal.fill(f32::INFINITY);
+        self.to_goal.clear();
+        self.to_goal.resize(NODES * NODES, f32::INFINITY);
         self.queue.clear();
-        let at = self
-            .lattice
-            .and_then(|lattice| cell_at(&lattice, [goal.x_m, goal.y_m]));
+        let at = (self.ground.lattice).and_then(|lattice| cell_at(&lattice, [goal.x_m, goal.y_m]));
         let Some(goal) = at
             .map(|at| at.map(|at| at / APART))
             .and_then(|[col, row]| node(col, row, 0, 0))
@@ -252,17 +213,6 @@ const fn facing(cols: isize, rows: isize) -> u8 {
         _ => ALL,
     };
     across & along
-}
-
-/// Column and row of a place among the cells.
-fn cell_at(lattice: &Lattice, at_m: [f64; 2]) -> Option<[usize; 2]> {
-    let at = |axis: usize| ((at_m[axis] - lattice.origin_m[axis]) / lattice.cell_m).floor();
-    let inside = |at: &f64| (0.0..SIDE as f64).contains(at);
-    let place = [at(0), at(1)];
-    place
-        .iter()
-        .all(inside)
-        .then(|| place.map(|at| at as usize))
 }
 
 /// A node so many columns and rows from another.

@@ -42,15 +42,19 @@ fn hall(around_m: f64, posts_m: f64, gap: i64) -> FloorView {
     }
 }
 
-/// A planner that was in the hall and is behind it now: the posts have left the window.
-fn behind(posts_m: f64, gap: i64) -> AStar {
+fn planner() -> AStar {
     let feet = Feet {
         length_m: 0.105,
         pair_width_m: 0.16,
         stance_m: 0.085,
     };
     let (config, climbing) = (AStarConfig::default(), ClimbingConfig::default());
-    let mut planner = AStar::new(config, climbing, feet, RADIUS_M).unwrap();
+    AStar::new(config, climbing, feet, RADIUS_M).unwrap()
+}
+
+/// A planner that was in the hall and is behind it now: the posts have left the window.
+fn behind(posts_m: f64, gap: i64) -> AStar {
+    let mut planner = planner();
     for x_m in [
         0.0, 0.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0,
     ] {
@@ -79,5 +83,68 @@ fn a_wall_beyond_the_window_is_no_way_out() {
     let planner = behind(1.3, 8);
     for at_m in [[0.5, 1.36], [1.02, 1.42], [1.3, 0.0]] {
         assert!(planner.beyond.left_m(at_m, &GOAL) > 10.0, "{at_m:?}");
+    }
+}
+
+/// A window of floor, so many cells a side, with a post of three cells each way in its middle.
+fn window(origin_m: [f64; 2], side: usize) -> FloorView {
+    let mut cells = Grid::filled(side, side, Surface::Floor(0.0));
+    let middle = side as i32 / 2;
+    for cell in cells.area().cells() {
+        let is_post = (cell.col - middle).abs() <= 1 && (cell.row - middle).abs() <= 1;
+        if let Some(slot) = cells.get_mut(cell).filter(|_| is_post) {
+            *slot = Surface::Obstacle(0.5);
+        }
+    }
+    FloorView {
+        lattice: Lattice {
+            origin_m,
+            cell_m: CELL_M,
+        },
+        cells,
+        sightings: Grid::filled(side, side, 9),
+        gradients: Grid::filled(side, side, [0.0; 2]),
+    }
+}
+
+#[test]
+fn what_stands_near_is_remembered_however_far_the_robot_has_come() {
+    let mut terrain = planner().terrain;
+    let mut ground = super::ground::Ground::default();
+    let far = Goal { x_m: 100.0, ..GOAL };
+    let mut moves = 0;
+    for step in 0..20 {
+        let x_m = 3.0 * f64::from(step);
+        let stand = crate::levels::Stand {
+            at_m: [x_m, 0.0],
+            height_m: 0.0,
+            heading_rad: 0.0,
+            gradient: [0.0; 2],
+        };
+        let view = window([x_m - 2.0, -2.0], 100);
+        let config = AStarConfig::default();
+        terrain.read(&view, &Staircase::default(), &stand, far.height_m, &config);
+        moves += usize::from(ground.take_in(&terrain, stand.at_m));
+        // The post of two windows ago stands in the same place.
+        let lattice = ground.lattice.unwrap();
+        let known = |x_m: f64| {
+            let [col, row] = super::cell_at(&lattice, [x_m, 0.02])?;
+            Some(ground.blocked[row * super::SIDE + col])
+        };
+        assert_eq!(known(x_m + 0.02), Some(true), "{x_m}");
+        assert!(step < 2 || known(x_m - 5.98) == Some(true), "{x_m}");
+        assert_eq!(known(x_m - 0.48).unwrap_or(false), false, "{x_m}");
+    }
+    assert!((3..=8).contains(&moves), "{moves}");
+}
+
+#[test]
+fn a_window_larger_than_what_is_remembered_is_planned_in() {
+    let mut planner = planner();
+    for shift_m in [0.0, 0.04, 0.4] {
+        let view = window([-12.0 + shift_m, -12.0], 600);
+        let start = Pose::from_yaw(-2.0, 0.0, 0.0, 0.0);
+        let plan = planner.plan(&view, &Staircase::default(), &start, &GOAL);
+        assert!(plan.unwrap().way.is_ok());
     }
 }
