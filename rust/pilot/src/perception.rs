@@ -106,14 +106,14 @@ impl Perception {
         }
     }
 
-    /// Takes in a frame that a body took.
+    /// Takes in a frame that a body took. Whether the robot found itself elsewhere than it believed, so that what was mapped is forgotten.
     pub(crate) fn see(
         &mut self,
         frame: &Frame,
         taken_by: &TakenBy<'_>,
         localizer: &mut dyn Localizer,
         timing: &mut Timing,
-    ) -> Result<(), PilotError> {
+    ) -> Result<bool, PilotError> {
         let TakenBy {
             body,
             state: body_then,
@@ -135,7 +135,8 @@ impl Perception {
             localizer.correct(body_then, &self.planes, self.world_model.view())?;
             localizer.estimate(body_then)
         })?;
-        if is_elsewhere(&predicted, &estimate) {
+        let elsewhere = is_elsewhere(&predicted, &estimate);
+        if elsewhere {
             self.world_model.forget();
             self.recognizer.forget();
         }
@@ -154,7 +155,7 @@ impl Perception {
             self.last_frame_ns = Some(frame.arrival_ns);
         }
         self.insertion = Some(insertion);
-        Ok(())
+        Ok(elsewhere)
     }
 
     /// The planes of the last frame.

@@ -183,7 +183,9 @@ impl Pilot {
             state: body_then,
             steps_taken: self.walker.steps_taken(),
         };
-        self.perception.see(frame, &taken_by, localizer, timing)?;
+        if self.perception.see(frame, &taken_by, localizer, timing)? {
+            self.planner.forget();
+        }
         let estimate = self.localizer.estimate(self.proprioception.state())?;
         let plan = self.timing.measure(Stage::Plan, || {
             self.planner.plan(

@@ -141,6 +141,13 @@ impl Planner for AStar {
         Ok(self.choose(kept, found, &start))
     }
 
+    fn forget(&mut self) {
+        self.kept = None;
+        self.seek = Seek::default();
+        self.goal_level = GoalLevel::default();
+        self.beyond = Beyond::default();
+    }
+
     fn distance_field_m(&self) -> Option<Vec<f32>> {
         let cells = 0..self.terrain.blocked.len();
         Some(cells.map(|i| self.terrain.clearance_m(i) as f32).collect())

@@ -235,6 +235,12 @@ impl Planner for Guided {
         Ok(plan)
     }
 
+    fn forget(&mut self) {
+        self.near.forget();
+        // The next plan looks for the way anew, over the map as it was given.
+        self.goal = None;
+    }
+
     fn distance_field_m(&self) -> Option<Vec<f32>> {
         self.near.distance_field_m()
     }

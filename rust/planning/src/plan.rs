@@ -158,6 +158,9 @@ pub trait Planner: Send + Sync {
         goal: &Goal,
     ) -> Result<Plan, PlanError>;
 
+    /// The robot finds itself elsewhere than it believed: what was planned and remembered lies in the wrong place.
+    fn forget(&mut self) {}
+
     /// Distance of each cell of the view to the nearest obstacle at the last call, m, row by row; `None` where the
     /// planner has none.
     fn distance_field_m(&self) -> Option<Vec<f32>> {

@@ -148,3 +148,12 @@ fn a_window_larger_than_what_is_remembered_is_planned_in() {
         assert!(plan.unwrap().way.is_ok());
     }
 }
+
+#[test]
+fn what_was_planned_and_seen_where_the_robot_was_not_is_forgotten() {
+    let mut planner = behind(1.3, 8);
+    assert!(planner.beyond.left_m([1.1, 0.1], &GOAL) > 7.0);
+    planner.forget();
+    assert!(planner.kept.is_none());
+    assert!(planner.beyond.left_m([1.1, 0.1], &GOAL) < 2.4);
+}
