@@ -9,11 +9,11 @@ from user_parts import PARTS, AllGround, Legs, Meadow, Still, Straight
 
 import treadwell
 from treadwell import protocols
-from treadwell._core import Situation, Staircase
+from treadwell._core import BodyState, Planes, Situation, Staircase
 from treadwell.components import COMPONENTS
 from treadwell.errors import CoreError, InputError
 from treadwell.plugins import METHODS
-from treadwell.protocols import Decision, Footstep, Plan, Segmentation
+from treadwell.protocols import Decision, Footstep, Plan, Pose, Segmentation
 
 SECONDS = ("time_limit=1.2",)
 
@@ -156,6 +156,44 @@ def test_a_world_model_may_count_what_it_saw() -> None:
 
     episode = run(world_model=Counting())
     assert (episode.pilot.view().sightings == Counting.View.sightings).all()
+
+
+class Jumping(Legs):
+    """Finds itself a metre further on at its fifth frame."""
+
+    def estimate(self, body: BodyState) -> Pose:
+        x, y, z, yaw = super().estimate(body)
+        return x + (self.corrections >= 5), y, z, yaw
+
+
+def test_a_map_and_a_planner_are_told_once_that_the_robot_is_elsewhere() -> None:
+    calls: list[str] = []
+
+    class Map(Meadow):
+        def insert(self, planes: Planes, pose: Pose) -> bool:
+            calls.append("insert")
+            return super().insert(planes, pose)
+
+        def forget(self) -> None:
+            calls.append("map forgets")
+
+    class Way(Straight):
+        def forget(self) -> None:
+            calls.append("planner forgets")
+
+    run(localizer=Jumping(), world_model=Map(), planner=Way())
+    assert calls.index("map forgets") == 4
+    assert [call for call in calls if call != "insert"] == ["map forgets", "planner forgets"]
+    assert len(calls) > 8
+
+
+def test_what_forgetting_raises_ends_the_run_with_the_parts_name() -> None:
+    class Clinging(Straight):
+        def forget(self) -> None:
+            raise RuntimeError("never")
+
+    with pytest.raises(CoreError, match=r"planner: Clinging: RuntimeError\('never'\)"):
+        run(localizer=Jumping(), planner=Clinging())
 
 
 @pytest.mark.parametrize("slot", PARTS)

@@ -7,7 +7,7 @@ from typing import Any
 
 from treadwell.call_limit import CallLimit, CallTimeoutError
 from treadwell.errors import CoreError
-from treadwell.plugins import METHODS
+from treadwell.plugins import METHODS, OPTIONAL
 
 
 class Guard:
@@ -27,7 +27,8 @@ class Guard:
         self.component = component
         self.error: BaseException | None = None
         limit = CallLimit(limit_s)
-        for method in METHODS[slot]:
+        own = (method for method in OPTIONAL.get(slot, ()) if hasattr(component, method))
+        for method in (*METHODS[slot], *own):
             setattr(self, method, self._guarded(getattr(component, method), limit))
 
     def _guarded(self, method: Callable[..., Any], limit: CallLimit) -> Callable[..., Any]:

@@ -16,6 +16,9 @@ METHODS = {
 }
 """Slot -> the methods of its protocol in `treadwell.protocols`."""
 
+OPTIONAL = {"world_model": ("forget",), "planner": ("forget",)}
+"""Slot -> the methods that are called where a component has them."""
+
 
 def load_component(slot: str, name: str, parameters: dict[str, Any]) -> object:
     """Return an object of the class that `name` means.

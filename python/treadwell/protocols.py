@@ -70,7 +70,11 @@ class FloorMap(Protocol):
 
 
 class WorldModel(Protocol):
-    """Keeps a model of the world."""
+    """Keeps a model of the world.
+
+    It may have a method `forget()`, too: called before the next `insert` when the robot found
+    itself elsewhere than it had believed, so that what was mapped lies in the wrong place.
+    """
 
     def insert(self, planes: Planes, pose: Pose, /) -> bool:
         """Take in one frame seen from `pose`; return whether it was used."""
@@ -108,7 +112,8 @@ class Planner(Protocol):
     """Finds a way over the floor that the world model shows.
 
     The stairs are there to be kept away from, or to be chosen from by a behaviour of the user's:
-    every leg of the path that is returned is walked.
+    every leg of the path that is returned is walked. It may have a method `forget()`, too, called
+    before the next `plan` when the robot found itself elsewhere than it had believed.
     """
 
     def plan(self, view: FloorView, stairs: Staircase, start: Pose, goal: Goal, /) -> Plan:

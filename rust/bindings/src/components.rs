@@ -7,6 +7,7 @@ mod segmenter;
 mod world_model;
 
 use pyo3::exceptions::PyValueError;
+use pyo3::intern;
 use pyo3::prelude::*;
 
 pub(crate) use behaviour::behaviour;
@@ -23,6 +24,17 @@ fn sentence(error: &PyErr) -> String {
             .repr()
             .map_or_else(|_| error.to_string(), |text| text.to_string())
     })
+}
+
+/// Calls the method `forget` of a part that has one, if the robot found itself elsewhere since the last call of another. It is done
+/// late, as an exception of its has to end the episode as any other does.
+fn forget_if(elsewhere: &mut bool, object: &Bound<'_, PyAny>) -> PyResult<()> {
+    if std::mem::take(elsewhere)
+        && let Some(forget) = object.getattr_opt(intern!(object.py(), "forget"))?
+    {
+        forget.call0()?;
+    }
+    Ok(())
 }
 
 /// Metres from the map's origin within which everything lies. Farther away the core's grids and queues have no room.

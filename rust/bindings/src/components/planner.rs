@@ -9,7 +9,7 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use stairs::Staircase;
 
-use super::{FARTHEST_M, check_within, sentence};
+use super::{FARTHEST_M, check_within, forget_if, sentence};
 use crate::products::{PyFloorView, flat};
 use crate::situation::PyGoal;
 use crate::stairs::PyStaircase;
@@ -17,16 +17,23 @@ use crate::stairs::PyStaircase;
 /// Points that a path can have at most: 4 km in steps of a cell.
 const MOST_POINTS: usize = 100_000;
 
-struct PythonPlanner(Py<PyAny>);
+struct PythonPlanner {
+    object: Py<PyAny>,
+    /// Whether the robot found itself elsewhere since the last plan.
+    elsewhere: bool,
+}
 
 /// Wraps an object with the method of `treadwell.protocols.Planner`.
 pub(crate) fn planner(object: Py<PyAny>) -> Box<dyn Planner> {
-    Box::new(PythonPlanner(object))
+    Box::new(PythonPlanner {
+        object,
+        elsewhere: false,
+    })
 }
 
 impl PythonPlanner {
     fn ask(
-        &self,
+        &mut self,
         py: Python<'_>,
         view: &FloorView,
         stairs: &Staircase,
@@ -39,10 +46,9 @@ impl PythonPlanner {
             flat(start),
             PyGoal(*goal),
         );
-        let plan = self
-            .0
-            .bind(py)
-            .call_method1(intern!(py, "plan"), arguments)?;
+        let object = self.object.bind(py);
+        forget_if(&mut self.elsewhere, object)?;
+        let plan = object.call_method1(intern!(py, "plan"), arguments)?;
         let replanned = plan.getattr(intern!(py, "replanned"))?.extract()?;
         let path = plan.getattr(intern!(py, "path"))?;
         if path.is_none() {
@@ -111,5 +117,9 @@ impl Planner for PythonPlanner {
     ) -> Result<Plan, PlanError> {
         Python::attach(|py| self.ask(py, view, stairs, start, goal))
             .map_err(|error| PlanError::Failed(sentence(&error)))
+    }
+
+    fn forget(&mut self) {
+        self.elsewhere = true;
     }
 }

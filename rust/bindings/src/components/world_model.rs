@@ -10,12 +10,14 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use segmentation::Planes;
 
-use super::{FARTHEST_M, check_within, sentence};
+use super::{FARTHEST_M, check_within, forget_if, sentence};
 use crate::products::{PyPlanes, flat};
 
 struct PythonWorldModel {
     object: Py<PyAny>,
     view: FloorView,
+    /// Whether the robot found itself elsewhere since the last frame.
+    elsewhere: bool,
 }
 
 /// Wraps an object with the methods of `treadwell.protocols.WorldModel`.
@@ -29,7 +31,11 @@ pub(crate) fn world_model(object: Py<PyAny>) -> Box<dyn WorldModel> {
         sightings: Grid::filled(0, 0, 0),
         gradients: Grid::filled(0, 0, [0.0; 2]),
     };
-    Box::new(PythonWorldModel { object, view })
+    Box::new(PythonWorldModel {
+        object,
+        view,
+        elsewhere: false,
+    })
 }
 
 impl PythonWorldModel {
@@ -41,6 +47,7 @@ impl PythonWorldModel {
     ) -> PyResult<bool> {
         let pose = flat(map_from_robot);
         let object = self.object.bind(py);
+        forget_if(&mut self.elsewhere, object)?;
         let used = object.call_method1(intern!(py, "insert"), (PyPlanes(planes.clone()), pose))?;
         read_view(&object.call_method0(intern!(py, "view"))?, &mut self.view)?;
         used.extract()
@@ -159,5 +166,9 @@ impl WorldModel for PythonWorldModel {
 
     fn view(&self) -> &FloorView {
         &self.view
+    }
+
+    fn forget(&mut self) {
+        self.elsewhere = true;
     }
 }
