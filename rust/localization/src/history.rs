@@ -2,6 +2,11 @@
 
 use crate::BodyState;
 
+/// The control loop's, ns.
+const TICK_NS: u64 = 10_000_000;
+/// The most that a scenario allows as `sensors.latency`, ns.
+const LONGEST_LATENCY_NS: u64 = 2_000_000_000;
+
 /// The last body states, in a ring. Allocates until it is full, then never.
 #[derive(Debug, Clone)]
 pub struct BodyStateHistory {
@@ -12,9 +17,10 @@ pub struct BodyStateHistory {
 }
 
 impl Default for BodyStateHistory {
-    /// More than a second at 100 Hz, to within a tick.
+    /// Back to the exposure of the latest picture that may arrive, to within a tick.
     fn default() -> Self {
-        Self::new(128, 10_000_000)
+        // The states at both ends count, and a picture may arrive between two ticks.
+        Self::new((LONGEST_LATENCY_NS / TICK_NS) as usize + 2, TICK_NS)
     }
 }
 
@@ -76,8 +82,6 @@ mod tests {
     use crate::synthetic_walk::state_at;
     use proptest::prelude::*;
 
-    const TICK_NS: u64 = 10_000_000;
-
     proptest! {
         #[test]
         fn the_state_at_a_time_is_the_nearest_one(ticks in 1..60u64, back_ns in 0..500_000_000u64) {
@@ -116,6 +120,19 @@ mod tests {
             .map(|s| s.links.torso_from_link.as_ptr())
             .collect();
         assert_eq!(before, after);
+    }
+
+    #[test]
+    fn a_picture_with_the_longest_latency_finds_the_state_at_its_exposure() {
+        let mut history = BodyStateHistory::default();
+        for tick in 0..500 {
+            history.push(&state_at(tick * TICK_NS));
+        }
+        for late_ns in [0, 1_290_000_000, LONGEST_LATENCY_NS] {
+            let exposure_ns = 499 * TICK_NS - late_ns;
+            let found = history.at(exposure_ns).map(|state| state.time_ns);
+            assert_eq!(found, Some(exposure_ns));
+        }
     }
 
     #[test]
