@@ -157,8 +157,7 @@ impl AttitudeFilter {
         config: &ProprioceptionConfig,
     ) {
         let rate = sample.angular_velocity_radps - self.bias_radps;
-        let share = passed_s / (passed_s + config.still_filter_time);
-        self.slow_rate_radps += (rate - self.slow_rate_radps) * share;
+        self.slow_rate_radps += (rate - self.slow_rate_radps) * config.still_share(passed_s);
         let quiet = both_feet
             && self.slow_rate_radps.amax() < config.still_rate
             && rate.amax() < OUTLIER * config.still_noise;

@@ -23,7 +23,7 @@ pub struct ProprioceptionConfig {
     pub still_noise: f64,
     /// The robot stands still when its smoothed angular velocity is below this in every axis, rad/s,
     pub still_rate: f64,
-    /// smoothed over this time, s,
+    /// smoothed over this time, s (0: as it is),
     pub still_filter_time: f64,
     /// and has been for this time on both feet, s.
     pub still_time: f64,
@@ -112,6 +112,15 @@ impl ProprioceptionConfig {
             require(value > low && value < high, &key, &allowed, value)?;
         }
         Ok(())
+    }
+
+    /// Share of an angular velocity in the smoothed one, `passed_s` after the one before. At the first tick no time has passed.
+    pub(crate) fn still_share(&self, passed_s: f64) -> f64 {
+        if self.still_filter_time > 0.0 {
+            passed_s / (passed_s + self.still_filter_time)
+        } else {
+            1.0
+        }
     }
 }
 

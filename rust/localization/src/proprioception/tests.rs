@@ -144,6 +144,20 @@ proptest! {
 }
 
 #[test]
+fn who_stands_is_still_also_by_rates_that_are_not_smoothed() {
+    let config = ProprioceptionConfig {
+        still_filter_time: 0.0,
+        ..ProprioceptionConfig::default()
+    };
+    let walk = Walk::new().stand(100);
+    let mut proprioception = Proprioception::new(&walk.body, config).unwrap();
+    for observation in &walk.observations {
+        let _ = proprioception.update(observation).unwrap();
+    }
+    assert!(proprioception.is_still());
+}
+
+#[test]
 fn the_torso_stands_over_the_robots_frame() {
     let walk = Walk::new().stand(20);
     let state = run(&walk).pop().unwrap();
