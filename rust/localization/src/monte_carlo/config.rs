@@ -1,6 +1,5 @@
 //! Settings of the localizer `monte_carlo`.
 
-use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
 
 /// How measured ranges are compared with the map.
@@ -160,128 +159,9 @@ impl Default for MonteCarloConfig {
     }
 }
 
-impl MonteCarloConfig {
-    /// Refuses what cannot be used.
-    pub(super) fn check(&self) -> Result<(), ConfigError> {
-        let key = |name: &str| format!("navigation.monte_carlo.{name}");
-        for (name, values) in self.positive() {
-            for &value in values {
-                require_positive(&key(name), value)?;
-            }
-        }
-        for (name, share) in [
-            ("ground_share", self.ground_share),
-            ("independence", self.independence),
-            ("resample_below", self.resample_below),
-            ("least_effective", self.least_effective),
-            ("recovery_below", self.recovery_below),
-            ("search_below", self.search_below),
-            ("search_better", self.search_better),
-            ("search_anew", self.search_anew),
-            ("least_share", self.least_share),
-            ("follow_share", self.follow_share),
-        ] {
-            let holds = (0.0..=1.0).contains(&share);
-            require(holds, &key(name), "between 0 and 1", share)?;
-        }
-        for (name, count) in [
-            ("particles", self.particles),
-            ("beams", self.beams),
-            ("ground_samples", self.ground_samples),
-        ] {
-            require(count > 0, &key(name), "> 0", count)?;
-        }
-        let directions = self.confirm_directions;
-        let possible = (1..=12).contains(&directions);
-        require(
-            possible,
-            &key("confirm_directions"),
-            "between 1 and 12",
-            directions,
-        )?;
-        let most = self.most_particles;
-        let enough = most >= self.particles && u32::try_from(most).is_ok();
-        require(
-            enough,
-            &key("most_particles"),
-            "no fewer than particles",
-            most,
-        )?;
-        let [near, far] = self.reach;
-        require(
-            near < far,
-            &key("reach"),
-            "ascending",
-            format!("{near}, {far}"),
-        )?;
-        let sum = self.mixture.iter().sum::<f64>();
-        require(
-            (sum - 1.0).abs() < 1e-6,
-            &key("mixture"),
-            "shares that sum to 1",
-            sum,
-        )
-    }
-
-    fn positive(&self) -> [(&'static str, &[f64]); 27] {
-        use std::slice::from_ref;
-        [
-            ("place_noise", &self.place_noise),
-            ("height_drift", &self.height_drift),
-            ("heading_noise", &self.heading_noise),
-            ("attitude_drift", &self.attitude_drift),
-            ("start_noise", &self.start_noise),
-            ("reach", &self.reach),
-            ("ground_band", from_ref(&self.ground_band)),
-            ("ground_tilt", from_ref(&self.ground_tilt)),
-            ("ground_tolerance", from_ref(&self.ground_tolerance)),
-            ("range_noise", from_ref(&self.range_noise)),
-            ("range_noise_growth", from_ref(&self.range_noise_growth)),
-            ("mixture", &self.mixture),
-            ("short_rate", from_ref(&self.short_rate)),
-            ("height_noise", from_ref(&self.height_noise)),
-            ("attitude_noise", from_ref(&self.attitude_noise)),
-            ("bins", &self.bins),
-            ("kld", &self.kld),
-            ("cluster", &self.cluster),
-            ("search_jitter", &self.search_jitter),
-            ("search_blur", from_ref(&self.search_blur)),
-            ("news_after", &self.news_after),
-            ("update_after", &self.update_after),
-            ("recovery_rates", &self.recovery_rates),
-            ("most_spread", from_ref(&self.most_spread)),
-            ("follow_bands", &self.follow_bands),
-            ("follow_within", &self.follow_within),
-            ("body", &self.body),
-        ]
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn what_cannot_be_used_is_refused_by_its_key() {
-        assert_eq!(MonteCarloConfig::default().check(), Ok(()));
-        let refused = |change: fn(&mut MonteCarloConfig)| {
-            let mut config = MonteCarloConfig::default();
-            change(&mut config);
-            config.check().unwrap_err().to_string()
-        };
-        for (message, key) in [
-            (refused(|c| c.range_noise = 0.0), "range_noise"),
-            (refused(|c| c.reach = [2.0, 1.0]), "reach"),
-            (refused(|c| c.place_noise[1] = f64::NAN), "place_noise"),
-            (refused(|c| c.independence = 1.5), "independence"),
-            (refused(|c| c.beams = 0), "beams"),
-            (refused(|c| c.most_particles = 10), "most_particles"),
-            (refused(|c| c.mixture = [0.5, 0.1, 0.1]), "mixture"),
-        ] {
-            let begin = format!("navigation.monte_carlo.{key} must be ");
-            assert!(message.starts_with(&begin), "{message}");
-        }
-    }
 
     #[test]
     fn a_table_is_read_and_unknown_keys_are_not() {

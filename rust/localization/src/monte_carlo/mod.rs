@@ -10,6 +10,7 @@ mod fit;
 mod gauss;
 mod ground;
 mod guesses;
+mod limits;
 mod motion;
 mod novelty;
 mod observation;
