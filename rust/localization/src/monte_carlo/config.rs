@@ -63,7 +63,7 @@ pub struct MonteCarloConfig {
     pub height_noise: f64,
     /// and of roll and pitch by the attitude filter, rad.
     pub attitude_noise: f64,
-    /// Drawn anew when the effective number of particles falls below this share.
+    /// Drawn anew when the effective number of particles falls below this share, which is above `least_effective`.
     pub resample_below: f64,
     /// Likelihoods are flattened until the effective number is at least this share: no frame decides alone.
     pub least_effective: f64,

@@ -50,7 +50,13 @@ impl MonteCarloConfig {
             let holds = (0.0..=1.0).contains(&share);
             require(holds, &key(name), "between 0 and 1", share)?;
         }
-        Ok(())
+        // Likelihoods are flattened until at least `least_effective` is left: less never is.
+        require(
+            self.resample_below > self.least_effective,
+            &key("resample_below"),
+            "above least_effective",
+            self.resample_below,
+        )
     }
 
     fn check_counts(&self) -> Result<(), ConfigError> {
@@ -130,6 +136,8 @@ mod tests {
             (refused(|c| c.reach = [2.0, 1.0]), "reach"),
             (refused(|c| c.place_noise[1] = f64::NAN), "place_noise"),
             (refused(|c| c.independence = 1.5), "independence"),
+            (refused(|c| c.resample_below = 0.3), "resample_below"),
+            (refused(|c| c.least_effective = 0.6), "resample_below"),
             (refused(|c| c.beams = 0), "beams"),
             (refused(|c| c.most_particles = 10), "most_particles"),
             (refused(|c| c.mixture = [0.5, 0.1, 0.1]), "mixture"),
