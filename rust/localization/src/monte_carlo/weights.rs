@@ -16,8 +16,8 @@ pub(super) fn effective_number(particles: &[Particle]) -> f64 {
 }
 
 /// Multiplies the weights by likelihoods, of which the ranges' have the exponent `independence`, and normalizes. Where fewer than
-/// `least_share` of the particles would be left to speak of, all is flattened by an exponent that leaves as many. `logs` is room to
-/// work in.
+/// `least_share` of the particles would be left to speak of, all is flattened by an exponent that leaves as many. A frame that is
+/// impossible from everywhere says nothing: the weights stay. `logs` is room to work in.
 pub(super) fn weigh(
     particles: &mut [Particle],
     likelihoods: &[LogLikelihood],
@@ -31,46 +31,56 @@ pub(super) fn weigh(
             .map(|one| independence * one.ranges + one.body),
     );
     let best = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if !best.is_finite() {
+        return;
+    }
     for log in logs.iter_mut() {
         *log -= best;
     }
-    let least = least_share * particles.len() as f64;
-    let number = |exponent: f64| {
+    let exponent = flattening(particles, logs, least_share * particles.len() as f64);
+    let (weights, mut sum) = (logs, 0.0);
+    for (particle, log) in particles.iter().zip(weights.iter_mut()) {
+        *log = particle.weight * (exponent * *log).exp();
+        sum += *log;
+    }
+    // Nothing: the best may be one that weighed nothing before.
+    if sum > 0.0 {
+        for (particle, weight) in particles.iter_mut().zip(weights.iter()) {
+            particle.weight = weight / sum;
+        }
+    }
+}
+
+/// The exponent of the likelihoods, 1 at most, that leaves an effective number of at least `least`.
+fn flattening(particles: &[Particle], logs: &[f64], least: f64) -> f64 {
+    let is_enough = |exponent: f64| {
         let (mut sum, mut squares) = (0.0, 0.0);
-        for (particle, log) in particles.iter().zip(logs.iter()) {
+        for (particle, log) in particles.iter().zip(logs) {
             let weight = particle.weight * (exponent * log).exp();
             sum += weight;
             squares += weight * weight;
         }
-        sum * sum / squares
+        squares > 0.0 && sum * sum / squares >= least
     };
-    let mut exponent = 1.0;
-    if number(exponent) < least {
-        let (mut low, mut high) = (0.5, 1.0);
-        for _ in 0..HALVINGS {
-            if number(low) >= least {
-                break;
-            }
-            (low, high) = (0.5 * low, low);
+    if is_enough(1.0) {
+        return 1.0;
+    }
+    let (mut low, mut high) = (0.5, 1.0);
+    for _ in 0..HALVINGS {
+        if is_enough(low) {
+            break;
         }
-        for _ in 0..REFINEMENTS {
-            exponent = f64::midpoint(low, high);
-            if number(exponent) < least {
-                high = exponent;
-            } else {
-                low = exponent;
-            }
+        (low, high) = (0.5 * low, low);
+    }
+    for _ in 0..REFINEMENTS {
+        let exponent = f64::midpoint(low, high);
+        if is_enough(exponent) {
+            low = exponent;
+        } else {
+            high = exponent;
         }
-        exponent = low;
     }
-    let mut sum = 0.0;
-    for (particle, log) in particles.iter_mut().zip(logs.iter()) {
-        particle.weight *= (exponent * log).exp();
-        sum += particle.weight;
-    }
-    for particle in particles.iter_mut() {
-        particle.weight /= sum;
-    }
+    low
 }
 
 #[cfg(test)]
@@ -88,6 +98,31 @@ mod tests {
 
     fn of(ranges: f64) -> LogLikelihood {
         LogLikelihood { ranges, body: 0.0 }
+    }
+
+    fn weighed(mut particles: Vec<Particle>, logs: &[f64]) -> Vec<f64> {
+        let likelihoods: Vec<_> = logs.iter().map(|&log| of(log)).collect();
+        weigh(&mut particles, &likelihoods, [1.0, 0.3], &mut Vec::new());
+        particles.iter().map(|particle| particle.weight).collect()
+    }
+
+    #[test]
+    fn a_frame_that_is_impossible_from_everywhere_leaves_the_weights() {
+        for impossible in [f64::NEG_INFINITY, f64::NAN] {
+            assert_eq!(weighed(cloud(4), &[impossible; 4]), [0.25; 4]);
+        }
+        let mut particles = cloud(3);
+        particles[0].weight = 0.0;
+        let found = weighed(particles, &[-1.0, f64::NEG_INFINITY, f64::NEG_INFINITY]);
+        assert_eq!(found, [0.0, 1.0 / 3.0, 1.0 / 3.0]);
+    }
+
+    #[test]
+    fn what_only_a_weightless_guess_explains_makes_no_weight_a_non_number() {
+        let mut particles = cloud(3);
+        particles[0].weight = 0.0;
+        let found = weighed(particles, &[0.0, -3000.0, -3000.0]);
+        assert_eq!(found, [0.0, 0.5, 0.5]);
     }
 
     proptest! {
