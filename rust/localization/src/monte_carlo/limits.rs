@@ -4,6 +4,12 @@ use geometry::{ConfigError, require, require_positive};
 
 use super::MonteCarloConfig;
 
+/// The likelihood of four beams is multiplied in single precision, which ends at 1e-38: none may be below this, 1/m,
+const LEAST_DENSITY: f64 = 1e-9;
+/// nor far above 1e9, 1/m, where it ends too: bounds of the noise of ranges, m, and of what is met before the map's surface, 1/m.
+const LEAST_RANGE_NOISE_M: f64 = 1e-6;
+const MOST_SHORT_RATE: f64 = 1e6;
+
 fn key(name: &str) -> String {
     format!("navigation.monte_carlo.{name}")
 }
@@ -31,7 +37,25 @@ impl MonteCarloConfig {
             &key("mixture"),
             "shares that sum to 1",
             sum,
-        )
+        )?;
+        self.check_densities()
+    }
+
+    fn check_densities(&self) -> Result<(), ConfigError> {
+        let (random, least) = (self.mixture[2], LEAST_DENSITY * self.reach[1]);
+        let allowed = format!("shares of which the third is at least {least:e}");
+        require(random >= least, &key("mixture"), &allowed, random)?;
+        let noise_m = self.range_noise;
+        let allowed = format!("at least {LEAST_RANGE_NOISE_M:e}");
+        require(
+            noise_m >= LEAST_RANGE_NOISE_M,
+            &key("range_noise"),
+            &allowed,
+            noise_m,
+        )?;
+        let rate = self.short_rate;
+        let allowed = format!("at most {MOST_SHORT_RATE:e}");
+        require(rate <= MOST_SHORT_RATE, &key("short_rate"), &allowed, rate)
     }
 
     fn check_shares(&self) -> Result<(), ConfigError> {
@@ -141,6 +165,10 @@ mod tests {
             (refused(|c| c.beams = 0), "beams"),
             (refused(|c| c.most_particles = 10), "most_particles"),
             (refused(|c| c.mixture = [0.5, 0.1, 0.1]), "mixture"),
+            (refused(|c| c.mixture = [0.9, 0.1, 1e-12]), "mixture"),
+            (refused(|c| c.reach[1] = 1e9), "mixture"),
+            (refused(|c| c.range_noise = 1e-12), "range_noise"),
+            (refused(|c| c.short_rate = 1e12), "short_rate"),
         ] {
             let begin = format!("navigation.monte_carlo.{key} must be ");
             assert!(message.starts_with(&begin), "{message}");
