@@ -117,9 +117,11 @@ fn steps(criterion: &mut Criterion) {
             most_particles: 500,
             ..MonteCarloConfig::default()
         };
-        let map = Arc::new(StaticMap::new(&solid, &config));
+        let Ok(map) = StaticMap::new(&solid, &config) else {
+            return;
+        };
         let start = Some(Pose::wrap(places[1]));
-        let Ok(mut localizer) = MonteCarloLocalizer::new(map, start, config) else {
+        let Ok(mut localizer) = MonteCarloLocalizer::new(Arc::new(map), start, config) else {
             return;
         };
         let (view, mut number) = (no_view(), 0);

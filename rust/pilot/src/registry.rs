@@ -138,7 +138,7 @@ pub(crate) fn localizer(
                     "navigation.localizer: monte_carlo has to be told a static map".to_owned(),
                 )
             })?;
-            let map = Arc::new(StaticMap::new(&solid(told)?, &config));
+            let map = Arc::new(StaticMap::new(&solid(told)?, &config)?);
             let start = settings.start.map(Pose::from);
             Ok(Box::new(MonteCarloLocalizer::new(map, start, config)?))
         }

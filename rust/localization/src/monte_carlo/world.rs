@@ -112,7 +112,7 @@ impl World {
 
     pub(super) fn map(&self, config: &MonteCarloConfig) -> Arc<StaticMap> {
         let solid = SolidVoxels::of_boxes(&self.mapped, SIDE_M).unwrap();
-        Arc::new(StaticMap::new(&solid, config))
+        Arc::new(StaticMap::new(&solid, config).unwrap())
     }
 
     /// Distance along a ray, and whether its end is ground: the top of something that is no higher.
