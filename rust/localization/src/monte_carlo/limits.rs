@@ -10,6 +10,11 @@ const LEAST_DENSITY: f64 = 1e-9;
 const LEAST_RANGE_NOISE_M: f64 = 1e-6;
 const MOST_SHORT_RATE: f64 = 1e6;
 
+/// So many particles take 150 MB, and as much again in a search.
+const MOST_PARTICLES: usize = 1_000_000;
+/// Where a body may stand is asked voxel by voxel of it, m.
+const LARGEST_BODY_M: f64 = 5.0;
+
 fn key(name: &str) -> String {
     format!("navigation.monte_carlo.{name}")
 }
@@ -21,6 +26,13 @@ impl MonteCarloConfig {
             for &value in values {
                 require_positive(&key(name), value)?;
             }
+        }
+        for rate in self.recovery_rates {
+            require(rate <= 1.0, &key("recovery_rates"), "at most 1", rate)?;
+        }
+        for side_m in self.body {
+            let allowed = format!("at most {LARGEST_BODY_M}");
+            require(side_m <= LARGEST_BODY_M, &key("body"), &allowed, side_m)?;
         }
         self.check_shares()?;
         self.check_counts()?;
@@ -100,11 +112,11 @@ impl MonteCarloConfig {
             directions,
         )?;
         let most = self.most_particles;
-        let enough = most >= self.particles && u32::try_from(most).is_ok();
+        let allowed = format!("between particles and {MOST_PARTICLES}");
         require(
-            enough,
+            (self.particles..=MOST_PARTICLES).contains(&most),
             &key("most_particles"),
-            "no fewer than particles",
+            &allowed,
             most,
         )
     }
@@ -164,6 +176,12 @@ mod tests {
             (refused(|c| c.least_effective = 0.6), "resample_below"),
             (refused(|c| c.beams = 0), "beams"),
             (refused(|c| c.most_particles = 10), "most_particles"),
+            (
+                refused(|c| c.most_particles = 4_000_000_000),
+                "most_particles",
+            ),
+            (refused(|c| c.recovery_rates[1] = 2.5), "recovery_rates"),
+            (refused(|c| c.body[0] = 1e6), "body"),
             (refused(|c| c.mixture = [0.5, 0.1, 0.1]), "mixture"),
             (refused(|c| c.mixture = [0.9, 0.1, 1e-12]), "mixture"),
             (refused(|c| c.reach[1] = 1e9), "mixture"),
