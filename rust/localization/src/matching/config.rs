@@ -1,7 +1,10 @@
 //! Settings of the localizer `matching`.
 
-use geometry::{ConfigError, require_positive};
+use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
+
+/// A keyframe takes 230 kB.
+const MOST_KEYFRAMES: usize = 1000;
 
 /// Settings of [`super::MatchingLocalizer`]: `[navigation.matching]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -123,6 +126,29 @@ impl MatchingConfig {
         ] {
             require_positive(&format!("navigation.matching.{name}"), value)?;
         }
-        Ok(())
+        require(
+            self.keyframes <= MOST_KEYFRAMES,
+            "navigation.matching.keyframes",
+            &format!("at most {MOST_KEYFRAMES}"),
+            self.keyframes,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn as_many_keyframes_as_fill_the_memory_are_refused() {
+        assert_eq!(MatchingConfig::default().check(), Ok(()));
+        let config = MatchingConfig {
+            keyframes: 1_000_000,
+            ..MatchingConfig::default()
+        };
+        assert_eq!(
+            config.check().unwrap_err().to_string(),
+            "navigation.matching.keyframes must be at most 1000, got 1000000"
+        );
     }
 }
