@@ -32,7 +32,7 @@ fn forget_if(elsewhere: &mut bool, object: &Bound<'_, PyAny>) -> PyResult<()> {
     if std::mem::take(elsewhere)
         && let Some(forget) = object.getattr_opt(intern!(object.py(), "forget"))?
     {
-        forget.call0()?;
+        let _answer = forget.call0()?;
     }
     Ok(())
 }
