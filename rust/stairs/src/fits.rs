@@ -50,10 +50,16 @@ impl Fits {
         }
     }
 
+    /// Drops what was fitted.
+    pub(crate) fn forget(&mut self) {
+        self.edges.clear();
+    }
+
     /// The robot stepped this often.
     pub(crate) fn step(&mut self, times: u64, config: &StairsConfig) {
         for edge in &mut self.edges {
-            for _ in 0..times.min(u64::from(config.forget_steps)) {
+            // One more than is remembered is forgotten.
+            for _ in 0..times.min(u64::from(config.forget_steps) + 1) {
                 edge.step();
             }
         }

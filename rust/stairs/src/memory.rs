@@ -35,7 +35,8 @@ impl Memory {
         self.treads
             .retain(|tread| tread.sightings >= config.min_frames);
         for tread in &mut self.treads {
-            for _ in 0..times.min(u64::from(config.forget_steps)) {
+            // One more than is remembered is forgotten.
+            for _ in 0..times.min(u64::from(config.forget_steps) + 1) {
                 tread.step();
             }
         }

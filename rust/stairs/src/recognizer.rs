@@ -58,6 +58,7 @@ impl Recognizer {
     /// Drops what was seen: the robot found itself at another place than it had believed.
     pub fn forget(&mut self) {
         self.memory = Memory::default();
+        self.fits.forget();
         self.staircase = Staircase::default();
     }
 

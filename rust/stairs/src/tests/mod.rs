@@ -28,10 +28,14 @@ struct Looker {
 impl Looker {
     /// Has seen open floor, and tracks the ground.
     fn new(seed: u64, sigma_px: f64) -> Self {
+        Self::with(StairsConfig::default(), seed, sigma_px)
+    }
+
+    fn with(config: StairsConfig, seed: u64, sigma_px: f64) -> Self {
         let mut looker = Self {
             segmenter: ScanLine::new(&ScanLineConfig::default(), GroundConfig::default(), CAMERA)
                 .unwrap(),
-            recognizer: Recognizer::new(StairsConfig::default(), CAMERA).unwrap(),
+            recognizer: Recognizer::new(config, CAMERA).unwrap(),
             planes: Planes::new(CAMERA.width * CAMERA.height),
             noise: Noise::new(seed),
             sigma_px,

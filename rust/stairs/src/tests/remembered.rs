@@ -14,8 +14,12 @@ fn heights(staircase: &Staircase) -> Vec<i64> {
 
 /// Looks at stairs 0.45 m away.
 fn seen(seed: u64) -> (Looker, Scene) {
+    seen_with(seed, StairsConfig::default())
+}
+
+fn seen_with(seed: u64, config: StairsConfig) -> (Looker, Scene) {
     let scene = Scene::stairs(0.45, 0.03, 0.12, 4);
-    let mut looker = Looker::new(seed, SIGMA);
+    let mut looker = Looker::with(config, seed, SIGMA);
     for i in 0..12 {
         let _ = looker.look(
             &scene,
@@ -230,5 +234,34 @@ fn edges_that_were_fitted_stay_where_they_are_when_they_leave_the_view() {
                 assert!(stair.front.heading_rad().abs() < 0.05, "{told}");
             }
         }
+    }
+}
+
+#[test]
+fn who_is_elsewhere_forgets_the_edges_that_were_fitted_too() {
+    let (mut looker, scene) = seen(5);
+    looker.recognizer.forget();
+    assert!(looker.recognizer.staircase().stairs.is_empty());
+    let camera = camera_pose(0.0, 0.75);
+    for _ in 0..2 {
+        let _ = looker.look(&scene, &camera, &Pose::identity(), 0);
+    }
+    let stairs = &looker.recognizer.staircase().stairs;
+    let frames = |stair: &Stair<Map>| stair.front_fit.map_or(0, |fit| fit.frames);
+    assert!(!stairs.is_empty());
+    assert!(stairs.iter().all(|stair| frames(stair) <= 2), "{stairs:?}");
+}
+
+#[test]
+fn what_may_be_remembered_for_no_step_is_gone_after_one() {
+    for (forget_steps, remembered) in [(0, false), (1, true)] {
+        let config = StairsConfig {
+            forget_steps,
+            ..StairsConfig::default()
+        };
+        let (mut looker, _) = seen_with(2, config);
+        let camera = camera_pose(0.0, 0.75);
+        let staircase = looker.look(&Scene::floor(), &camera, &Pose::identity(), 1);
+        assert_eq!(!staircase.stairs.is_empty(), remembered, "{forget_steps}");
     }
 }
