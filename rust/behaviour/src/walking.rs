@@ -3,6 +3,7 @@
 //! Decides from the [`Situation`] alone; its only clock is `time_ns`. Whatever it waits for, it waits in bounded time.
 
 mod ahead;
+mod arrival;
 mod config;
 pub(crate) mod gaze;
 mod legs;
@@ -21,7 +22,7 @@ mod tests;
 use geometry::{ConfigError, PlanarPose};
 use planning::{Goal, Path};
 
-use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Outcome, Situation};
+use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Situation};
 use ahead::{Followed, Looked};
 pub(crate) use ahead::{is_edge, is_roomy};
 pub use config::WalkingConfig;
@@ -32,8 +33,6 @@ use track::Track;
 
 /// Standing, looking and waiting without a step towards the goal ends after this, s.
 const LONGEST_IDLE_S: f64 = 75.0;
-/// Nearer than this to its end a path is done, m.
-const PATH_END_M: f64 = 0.04;
 
 /// Walks to the goal by what the robot sees.
 #[derive(Debug, Clone)]
@@ -93,15 +92,6 @@ impl Moment<'_> {
         let (x, y) = self.pose.inverse().apply(x, y);
         y.atan2(x)
     }
-
-    fn is_in_the_disc(&self) -> bool {
-        self.goal_distance_m() <= self.situation.goal.radius_m
-    }
-
-    fn goal_distance_m(&self) -> f64 {
-        let goal = self.situation.goal;
-        (goal.x_m - self.pose.x_m).hypot(goal.y_m - self.pose.y_m)
-    }
 }
 
 impl WalkingBehaviour {
@@ -157,21 +147,6 @@ impl WalkingBehaviour {
             track,
             passed_s: passed_ns as f64 * 1e-9,
             new_frame: situation.frames_used != self.frames_used,
-        }
-    }
-
-    /// A path may end at the rim of the goal's disc: where there is room, the way goes on to its middle.
-    fn lengthened(&self, track: Track, pose: &PlanarPose, situation: &Situation<'_>) -> Track {
-        let Goal {
-            x_m, y_m, radius_m, ..
-        } = *situation.goal;
-        let away_m = (x_m - pose.x_m).hypot(y_m - pose.y_m);
-        let half_way = [f64::midpoint(x_m, pose.x_m), f64::midpoint(y_m, pose.y_m)];
-        let roomy = |place_m| is_roomy(situation.view, place_m, self.config.slow_clearance);
-        if away_m < radius_m + PATH_END_M && roomy([x_m, y_m]) && roomy(half_way) {
-            track.going_on_to(pose.inverse().apply(x_m, y_m))
-        } else {
-            track
         }
     }
 
@@ -259,38 +234,6 @@ impl WalkingBehaviour {
         };
         let unseen_s = self.unseen_s(moment.situation);
         unseen_s > patience * self.config.blind_after
-    }
-
-    /// Deep inside the goal's disc, or as deep as the way leads.
-    fn has_arrived(&self, moment: &Moment<'_>) -> bool {
-        let distance_m = moment.goal_distance_m();
-        let radius_m = moment.situation.goal.radius_m;
-        let way_done = moment
-            .track
-            .map_or(moment.no_way(), |(_, track)| track.whole_m() < PATH_END_M);
-        moment.situation.last_goal
-            && (distance_m <= self.config.arrive_share * radius_m
-                || (way_done && moment.is_in_the_disc()))
-    }
-
-    /// Well inside the goal's disc.
-    fn is_inside(&self, moment: &Moment<'_>) -> bool {
-        let radius_m = moment.situation.goal.radius_m;
-        moment.goal_distance_m() <= radius_m - self.config.via_margin.min(0.5 * radius_m)
-    }
-
-    fn outcome(&self, moment: &Moment<'_>) -> Option<Outcome> {
-        match self.state {
-            State::Arrive => {
-                let rests = self.standing_s > self.config.arrive_time;
-                (rests && moment.is_in_the_disc()).then_some(Outcome::GoalReached)
-            }
-            State::Refuse => moment
-                .situation
-                .standing
-                .then(|| Outcome::Refused(self.refusal.clone())),
-            _ => None,
-        }
     }
 }
 
