@@ -228,7 +228,6 @@ impl StairClimbing {
 
     /// The decision of a state of the climb.
     fn decision(&self, here: &Here<'_>, motion: Motion) -> Decision {
-        let refused = self.state == State::Refuse && here.situation.standing;
         let cheers = self.state == State::Finish && self.phase == Phase::Wait;
         Decision {
             command: Command {
@@ -238,8 +237,16 @@ impl StairClimbing {
             },
             state: self.state_name(),
             goal_passed: false,
-            outcome: refused.then(|| Outcome::Refused(self.refusal.clone())),
+            outcome: self.outcome(here),
         }
+    }
+
+    fn outcome(&self, here: &Here<'_>) -> Option<Outcome> {
+        if self.has_arrived(here) {
+            return Some(Outcome::GoalReached);
+        }
+        let refused = self.state == State::Refuse && here.situation.standing;
+        refused.then(|| Outcome::Refused(self.refusal.clone()))
     }
 
     const fn state_name(&self) -> &'static str {

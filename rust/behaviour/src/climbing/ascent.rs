@@ -132,8 +132,8 @@ impl StairClimbing {
         }
     }
 
-    /// The step to take now: the memorised one, else what is seen ahead. None where the climb has led to a place from which the
-    /// way goes on level, whatever stairs there are beyond it.
+    /// The step to take now: the memorised one, else what is seen ahead. None where the climb has led to the goal, or to a place
+    /// from which the way goes on level, whatever stairs there are beyond it.
     fn next_step(&mut self, here: &Here<'_>) -> Option<Step> {
         if self.on.is_some() && here.has_level_way() && self.has_room(here) {
             self.flight.clear();
@@ -150,6 +150,10 @@ impl StairClimbing {
             }
         }
         let mut first = self.flight.first().copied()?;
+        if self.on.is_some() && here.leaves_the_goal_by(&first) {
+            self.flight.clear();
+            return None;
+        }
         if self.on.is_some() {
             // A tread may be narrow and the edge behind it wide: wherever a plan crosses that, there is no walking to the side.
             let at = [here.pose.x_m, here.pose.y_m];
@@ -198,11 +202,12 @@ impl StairClimbing {
         }
     }
 
-    /// Looks once more; when that was done too often, walks on where there is room, and else gives up for this reason.
-    fn look_again(&mut self, here: &Here<'_>, reason: impl FnOnce() -> String) {
+    /// Looks once more; when that was done too often, the climb ends where there is room to walk on or nowhere left to go, and else
+    /// the robot gives up for this reason.
+    pub(super) fn look_again(&mut self, here: &Here<'_>, reason: impl FnOnce() -> String) {
         self.tries.looks += 1;
         if self.tries.looks > self.config.tries {
-            if self.on.is_some() && self.has_room(here) {
+            if self.on.is_some() && (self.has_room(here) || here.is_in_the_goal()) {
                 self.enter(State::Finish);
                 return;
             }
@@ -275,18 +280,6 @@ impl StairClimbing {
             self.idle_s = 0.0;
             self.tries = super::Tries::default();
         }
-    }
-
-    /// No step is left.
-    fn end_climb(&mut self, here: &Here<'_>) {
-        if self.has_room(here) {
-            self.enter(State::Finish);
-            return;
-        }
-        let reason = here.no_way().unwrap_or_else(|| {
-            "blocked: the last step is too short to stand and to turn on".to_owned()
-        });
-        self.look_again(here, || reason);
     }
 }
 

@@ -11,10 +11,40 @@ const LONGEST_WALK_S: f64 = 5.0;
 const LONGEST_STOP_S: f64 = 3.0;
 
 impl StairClimbing {
+    /// No step is left.
+    pub(super) fn end_climb(&mut self, here: &Here<'_>) {
+        if self.has_room(here) {
+            self.enter(State::Finish);
+            return;
+        }
+        let reason = here.no_way().unwrap_or_else(|| {
+            "blocked: the last step is too short to stand and to turn on".to_owned()
+        });
+        self.look_again(here, || reason);
+    }
+
+    /// Whether the climb has ended at the goal, on a tread from which there is no walking on: there the robot stays.
+    fn stays_here(&self, here: &Here<'_>) -> bool {
+        here.is_in_the_goal() && !self.has_room(here)
+    }
+
+    /// Whether it declares from there that it has arrived: no walk will.
+    pub(super) fn has_arrived(&self, here: &Here<'_>) -> bool {
+        self.state == State::Finish
+            && self.has_cheered()
+            && here.situation.standing
+            && self.stays_here(here)
+    }
+
+    fn has_cheered(&self) -> bool {
+        self.phase == Phase::Wait && self.phase_s > self.config.cheer
+    }
+
     /// One tick.
     pub(super) fn finish(&mut self, here: &Here<'_>) -> Motion {
         self.head.turn_to([0.35, 0.0], here.passed_s);
-        let remaining_m = self.on.map_or(0.0, |step| {
+        let stays = self.stays_here(here);
+        let remaining_m = self.on.filter(|_| !stays).map_or(0.0, |step| {
             let beyond_m = step.stair.front.beyond_m([here.pose.x_m, here.pose.y_m]);
             (0.5 * step.stair.depth_m()).min(FARTHEST_M) - beyond_m
         });
@@ -29,7 +59,7 @@ impl StairClimbing {
             Phase::Step if here.situation.standing || self.phase_s > LONGEST_STOP_S => {
                 self.phase(Phase::Wait);
             }
-            Phase::Wait if self.phase_s > self.config.cheer => {
+            Phase::Wait if self.has_cheered() && !stays => {
                 self.on = None;
                 self.came_from = None;
                 self.pauses = false;
@@ -41,5 +71,62 @@ impl StairClimbing {
             Phase::Step | Phase::Wait => {}
         }
         Motion::Stand
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use geometry::PlanarPose;
+
+    use crate::climbing::Pace;
+    use crate::climbing::simulation::{Simulation, straight};
+    use crate::{Motion, Outcome};
+
+    /// Before four treads of 15 cm with the goal towards the back of the second, 6 cm high.
+    fn goal_on_a_tread(height_m: Option<f64>, pace: Pace) -> Simulation {
+        let course = straight(0.6, &[(0.03, 0.15); 4], 0.4);
+        let mut simulation = Simulation::new(PlanarPose::default(), course, [0.88, 0.0], pace);
+        simulation.goal.height_m = height_m;
+        simulation
+    }
+
+    /// It stays where it came to stand with both feet, and says that it has arrived.
+    fn assert_stays_on_the_tread(simulation: &mut Simulation) {
+        simulation.run_until(60.0, |simulation| simulation.ground_m() > 0.05);
+        let mut outcome = None;
+        while outcome.is_none() && simulation.now_s() < 90.0 {
+            let decision = simulation.tick();
+            let walks = matches!(decision.command.motion, Motion::Walk(_));
+            assert!(!walks, "{:?}", simulation.states);
+            outcome = decision.outcome;
+        }
+        let states = &simulation.states;
+        assert_eq!(outcome, Some(Outcome::GoalReached), "{states:?}");
+        let heights_m = simulation.feet.map(|foot| foot.height_m);
+        assert!(
+            heights_m
+                .iter()
+                .all(|height_m| (height_m - 0.06).abs() < 1e-6)
+        );
+    }
+
+    #[test]
+    fn a_goal_on_a_tread_too_short_to_walk_on_is_reached_on_that_tread() {
+        for pace in [Pace::StepByStep, Pace::Continuous] {
+            for height_m in [Some(0.06), None] {
+                assert_stays_on_the_tread(&mut goal_on_a_tread(height_m, pace));
+            }
+        }
+    }
+
+    /// Without a plan the stairs themselves show more steps.
+    #[test]
+    fn who_stands_at_the_goal_takes_no_step_away_from_it() {
+        for pace in [Pace::StepByStep, Pace::Continuous] {
+            let mut simulation = goal_on_a_tread(Some(0.06), pace);
+            simulation.run_until(60.0, |simulation| simulation.was_in("approach"));
+            simulation.planning = false;
+            assert_stays_on_the_tread(&mut simulation);
+        }
     }
 }

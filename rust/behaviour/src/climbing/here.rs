@@ -1,7 +1,7 @@
 //! What the states of the climb read at a tick.
 
 use geometry::PlanarPose;
-use planning::Refusal;
+use planning::{Refusal, Step};
 
 use crate::Situation;
 
@@ -50,16 +50,26 @@ impl Here<'_> {
         [self.situation.goal.x_m, self.situation.goal.y_m]
     }
 
-    /// Whether the robot stands in the disc of the last goal, at its height where it has one.
+    /// Whether the robot stands in the disc of the last goal, which has a height, at that height.
     pub(super) fn is_at_the_goal(&self) -> bool {
+        self.situation.goal.height_m.is_some() && self.is_in_the_goal()
+    }
+
+    /// Whether the robot stands in the disc of the last goal, at its height where it has one.
+    pub(super) fn is_in_the_goal(&self) -> bool {
         const LEVEL_M: f64 = 0.02;
         let [x_m, y_m] = self.goal_m();
         let goal = self.situation.goal;
         let away_m = (x_m - self.pose.x_m).hypot(y_m - self.pose.y_m);
         let on_level = goal
             .height_m
-            .is_some_and(|height_m| (height_m - self.ground_m).abs() < LEVEL_M);
+            .is_none_or(|height_m| (height_m - self.ground_m).abs() < LEVEL_M);
         self.situation.last_goal && on_level && away_m < goal.radius_m
+    }
+
+    /// Whether the robot stands in the goal and has it on this side of the step: to take it would be to leave the goal.
+    pub(super) fn leaves_the_goal_by(&self, step: &Step) -> bool {
+        self.is_in_the_goal() && step.stair.front.beyond_m(self.goal_m()) < 0.0
     }
 
     /// Whether the plan leads on without a climb.

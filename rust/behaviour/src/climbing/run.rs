@@ -17,6 +17,14 @@ impl StairClimbing {
             else {
                 break;
             };
+            let there = Here {
+                pose: last.pose,
+                ground_m: last.height_m,
+                ..*here
+            };
+            if there.leaves_the_goal_by(&steps[next]) {
+                break;
+            }
             let most_m = self.config.run_rise;
             if steps[..=next].iter().any(|step| step.rise_m.abs() > most_m) {
                 break;
