@@ -79,6 +79,8 @@ struct Tries {
     missteps: u32,
     /// Searches for stairs without a climb after them.
     searches: u32,
+    /// Stairs that were looked at from near by.
+    inspections: u32,
     /// Walks that came upon a level which was not seen.
     stumbles: u32,
 }

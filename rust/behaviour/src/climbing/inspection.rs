@@ -152,8 +152,9 @@ mod tests {
     use stairs::ClimbingConfig;
 
     use super::*;
-    use crate::StairClimbingConfig;
     use crate::climbing::simulation::{FEET, stair};
+    use crate::climbing::tests::up;
+    use crate::{Outcome, StairClimbingConfig};
 
     #[test]
     fn stairs_too_narrow_for_the_feet_invite_only_while_they_were_not_seen_to_end() {
@@ -173,5 +174,27 @@ mod tests {
         assert!(invites(0.3, 100, 100));
         assert!(!invites(0.15, 100, 100));
         assert!(invites(0.15, 100, 0) && invites(0.15, 0, 100));
+    }
+
+    /// What was lost may be searched for a few times only; stairs that are looked at from near by were not lost.
+    #[test]
+    fn stairs_are_inspected_and_climbed_after_as_many_searches_as_are_allowed() {
+        let mut simulation = up(PlanarPose::new(-0.3, 0.0, 0.0));
+        simulation.goal.height_m = Some(0.12);
+        simulation.planned_within_m = 0.0;
+        let allowed = simulation.behaviour.config.tries;
+        simulation.behaviour.tries.searches = allowed;
+        simulation.run_until(60.0, |simulation| {
+            !simulation.behaviour.inspected.is_empty()
+        });
+        assert_eq!(simulation.behaviour.tries.searches, allowed);
+        simulation.planned_within_m = f64::INFINITY;
+        let (outcome, _) = simulation.run(90.0);
+        assert_eq!(
+            outcome,
+            Some(Outcome::GoalReached),
+            "{:?}",
+            simulation.states
+        );
     }
 }

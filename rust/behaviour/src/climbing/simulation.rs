@@ -43,6 +43,8 @@ pub(crate) struct Simulation {
     pub(crate) planner_checks: bool,
     /// Whether the planner answers at all.
     pub(crate) planning: bool,
+    /// Steps whose edge is further away than this are not planned over, m.
+    pub(crate) planned_within_m: f64,
     /// Each landing is this far off, m and rad.
     pub(crate) landing_error: PlanarPose,
     pub(crate) obstacle: Option<[f64; 3]>,
@@ -95,6 +97,7 @@ impl Simulation {
             blind: false,
             planner_checks: true,
             planning: true,
+            planned_within_m: f64::INFINITY,
             landing_error: PlanarPose::default(),
             obstacle: None,
             way_aside_m: 0.0,

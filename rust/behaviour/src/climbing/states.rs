@@ -54,6 +54,11 @@ impl StairClimbing {
     /// Looks for the step that was lost, else towards the goal.
     pub(super) fn begin_search(&mut self, here: &Here<'_>) {
         self.tries.searches += 1;
+        self.look_for_steps(here);
+    }
+
+    /// The same where nothing was lost.
+    pub(super) fn look_for_steps(&mut self, here: &Here<'_>) {
         let goal = here.situation.goal;
         let place_m = self
             .flight

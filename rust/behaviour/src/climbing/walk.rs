@@ -111,7 +111,8 @@ impl StairClimbing {
         self.inspected.push(inspection.edge_m);
         self.flight.clear();
         self.head.gazer.start(here.situation.gaze);
-        self.begin_search(here);
+        self.tries.inspections += 1;
+        self.look_for_steps(here);
         self.head.inspect(here.in_robot(inspection.edge_m));
     }
 
@@ -120,7 +121,8 @@ impl StairClimbing {
         let refuses = matches!(decision.outcome, Some(Outcome::Refused(_)));
         let stairs_help = here.goal_is_elsewhere(self.climbing.floor_max)
             || !here.situation.stairs.stairs.is_empty();
-        if refuses && stairs_help && here.no_way().is_some() && self.tries.searches == 0 {
+        let has_looked = self.tries.searches + self.tries.inspections > 0;
+        if refuses && stairs_help && here.no_way().is_some() && !has_looked {
             self.head.gazer.start(here.situation.gaze);
             self.flight.clear();
             self.begin_search(here);

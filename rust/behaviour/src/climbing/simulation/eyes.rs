@@ -73,7 +73,9 @@ impl Simulation {
         for stair in &self.staircase.stairs {
             let middle = stair.front.middle().inner;
             let goal_m = [self.goal.x_m, self.goal.y_m];
-            if stair.front.beyond_m([pose.x_m, pose.y_m]) >= 0.0
+            let away_m = -stair.front.beyond_m([pose.x_m, pose.y_m]);
+            if away_m <= 0.0
+                || steps.is_empty() && away_m > self.planned_within_m
                 || stair.front.beyond_m(goal_m) < 0.0
                 || steps.len() + from >= self.steps.len()
             {
