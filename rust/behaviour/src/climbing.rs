@@ -4,6 +4,7 @@
 //! align, approach, climb, finish. Decides from the [`Situation`] alone; whatever it waits for, it waits in bounded time.
 
 mod ascent;
+mod blind;
 mod brink;
 mod config;
 mod finish;
@@ -97,7 +98,7 @@ pub struct StairClimbing {
     phase: Phase,
     state_s: f64,
     phase_s: f64,
-    /// Time since a step was taken or the last walk ended, s.
+    /// Time with sight since a step was taken or the last walk ended, s.
     idle_s: f64,
     time_ns: Option<u64>,
     frames_used: u64,
@@ -188,7 +189,10 @@ impl StairClimbing {
         self.frames_used = here.situation.frames_used;
         self.state_s += here.passed_s;
         self.phase_s += here.passed_s;
-        self.idle_s += here.passed_s;
+        // Who sees nothing has a limit of its own for that.
+        if self.state != State::Blind {
+            self.idle_s += here.passed_s;
+        }
         self.flight.wait(here.passed_s);
         if here.new_frame && self.state != State::Walk {
             let Situation { plan, stairs, .. } = *here.situation;

@@ -166,7 +166,10 @@ impl WalkingBehaviour {
         count(&mut self.no_way_s, moment.no_way());
         count(&mut self.way_s, moment.track.is_some());
         count(&mut self.no_plan_s, situation.plan.is_none());
-        count(&mut self.idle_s, self.state != State::Walk);
+        // Who cannot tell where it is or what is around has limits of its own for that.
+        if !matches!(self.state, State::Locate | State::Blind) {
+            count(&mut self.idle_s, self.state != State::Walk);
+        }
         if self.goal != Some(*situation.goal) {
             self.goal = Some(*situation.goal);
             self.progress = Progress::default();

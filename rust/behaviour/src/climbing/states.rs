@@ -10,10 +10,6 @@ use crate::climbing::setback::told;
 use crate::climbing::stepper::Stepped;
 use crate::{Motion, Velocity};
 
-/// Seeing nothing for this long is being blind, s;
-const BLIND_AFTER_S: f64 = 2.0;
-/// for this long, it is hopeless, s.
-const BLIND_LIMIT_S: f64 = 12.0;
 /// Without a step or a walk for this long the robot gives up, s.
 const LONGEST_IDLE_S: f64 = 60.0;
 /// Why a robot gives up that looked at an edge often enough.
@@ -27,7 +23,7 @@ impl StairClimbing {
         if self.stepper.is_running() || matches!(self.state, State::Refuse | State::Blind) {
             return;
         }
-        if here.situation.estimate.lost || here.unseen_s() > BLIND_AFTER_S {
+        if here.situation.estimate.lost || here.sees_nothing() {
             self.enter(State::Blind);
         } else if self.idle_s > LONGEST_IDLE_S {
             let reason = here.no_way().unwrap_or_else(|| {
@@ -248,42 +244,5 @@ impl StairClimbing {
         let holds = level(&here.pose, &stance, self.feet.stance_m, &self.config);
         self.stepper.start(holds, &here.pose, here.ground_m);
         self.phase(Phase::Step);
-    }
-
-    /// Stands and looks down and around: from where the head points now perhaps nothing can be told.
-    fn wait_for_sight(&mut self, here: &Here<'_>) -> Motion {
-        let lost = here.situation.estimate.lost;
-        if lost && self.on.is_none() {
-            // Not on stairs: whoever walks can find out where it is.
-            self.flight.clear();
-            self.enter(State::Walk);
-            return Motion::Stand;
-        }
-        if self.phase == Phase::Look {
-            self.head.search(0.0);
-            self.phase(Phase::Wait);
-        }
-        if self.head.advance(here.situation.frames_used, here.passed_s) {
-            self.phase(Phase::Look);
-        }
-        if !lost && here.unseen_s() < BLIND_AFTER_S {
-            if self.on.is_some() {
-                self.begin_look(here);
-                self.enter(State::Climb);
-            } else {
-                self.begin_search(here);
-            }
-        } else if self.state_s > BLIND_LIMIT_S {
-            let unseen_s = here.unseen_s();
-            self.refuse(if lost {
-                format!(
-                    "lost: the robot has not known where it is for {:.0} s, before or on stairs",
-                    self.state_s
-                )
-            } else {
-                format!("lost: nothing has been seen for {unseen_s:.0} s, before or on stairs")
-            });
-        }
-        Motion::Stand
     }
 }

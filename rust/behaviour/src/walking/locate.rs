@@ -111,3 +111,40 @@ fn is_free_ahead(moment: &Moment<'_>) -> bool {
         })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::walking::simulation::Simulation;
+    use crate::{Outcome, WalkingConfig};
+
+    #[test]
+    fn who_took_long_to_find_out_where_it_is_was_not_idle_and_goes_on() {
+        let mut simulation = Simulation::new(PlanarPose::default(), [1.0, 0.0]);
+        let config = WalkingConfig {
+            locate_limit: 120.0,
+            ..WalkingConfig::default()
+        };
+        simulation.behaviour = WalkingBehaviour::new(config).unwrap();
+        simulation.lost_until_s = 90.0;
+        let (outcome, _) = simulation.run(180.0);
+        let states = &simulation.states;
+        assert_eq!(outcome, Some(Outcome::GoalReached), "{states:?}");
+    }
+
+    #[test]
+    fn who_sees_nothing_for_a_while_is_not_idle_meanwhile() {
+        let mut simulation = Simulation::new(PlanarPose::default(), [1.0, 0.0]);
+        let config = WalkingConfig {
+            blind_limit: 120.0,
+            ..WalkingConfig::default()
+        };
+        simulation.behaviour = WalkingBehaviour::new(config).unwrap();
+        simulation.blind = true;
+        let _ = simulation.run(90.0);
+        simulation.blind = false;
+        let (outcome, _) = simulation.run(180.0);
+        let states = &simulation.states;
+        assert_eq!(outcome, Some(Outcome::GoalReached), "{states:?}");
+    }
+}

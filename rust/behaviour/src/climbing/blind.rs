@@ -1,0 +1,77 @@
+//! Nothing is seen, or the robot does not know where it is: it stands before or on the stairs until that is over.
+
+use super::{Here, Phase, StairClimbing, State};
+use crate::Motion;
+
+/// Seeing nothing for this long is being blind, s;
+const BLIND_AFTER_S: f64 = 2.0;
+/// for this long, it is hopeless, s.
+const BLIND_LIMIT_S: f64 = 12.0;
+
+impl Here<'_> {
+    pub(super) fn sees_nothing(&self) -> bool {
+        self.unseen_s() > BLIND_AFTER_S
+    }
+}
+
+impl StairClimbing {
+    /// Stands and looks down and around: from where the head points now perhaps nothing can be told.
+    pub(super) fn wait_for_sight(&mut self, here: &Here<'_>) -> Motion {
+        let lost = here.situation.estimate.lost;
+        if lost && self.on.is_none() {
+            // Not on stairs: whoever walks can find out where it is.
+            self.flight.clear();
+            self.enter(State::Walk);
+            return Motion::Stand;
+        }
+        if self.phase == Phase::Look {
+            self.head.search(0.0);
+            self.phase(Phase::Wait);
+        }
+        if self.head.advance(here.situation.frames_used, here.passed_s) {
+            self.phase(Phase::Look);
+        }
+        if !lost && !here.sees_nothing() {
+            if self.on.is_some() {
+                self.begin_look(here);
+                self.enter(State::Climb);
+            } else {
+                self.begin_search(here);
+            }
+        } else if self.state_s > BLIND_LIMIT_S {
+            let unseen_s = here.unseen_s();
+            self.refuse(if lost {
+                format!(
+                    "lost: the robot has not known where it is for {:.0} s, before or on stairs",
+                    self.state_s
+                )
+            } else {
+                format!("lost: nothing has been seen for {unseen_s:.0} s, before or on stairs")
+            });
+        }
+        Motion::Stand
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use geometry::PlanarPose;
+
+    use crate::Outcome;
+    use crate::climbing::tests::up;
+
+    #[test]
+    fn who_sees_nothing_on_the_stairs_for_a_while_is_not_idle_meanwhile() {
+        let mut simulation = up(PlanarPose::default());
+        simulation.run_until(60.0, |simulation| simulation.ground_m() > 0.05);
+        simulation.blind = true;
+        simulation.run_until(90.0, |simulation| simulation.was_in("blind"));
+        simulation.behaviour.idle_s = 54.0;
+        let sees_at_s = simulation.now_s() + 8.0;
+        simulation.run_until(90.0, |simulation| simulation.now_s() > sees_at_s);
+        simulation.blind = false;
+        let (outcome, _) = simulation.run(120.0);
+        let states = &simulation.states;
+        assert_eq!(outcome, Some(Outcome::GoalReached), "{states:?}");
+    }
+}
