@@ -21,6 +21,7 @@ impl StairClimbing {
         if lost && self.on.is_none() {
             // Not on stairs: whoever walks can find out where it is.
             self.flight.clear();
+            self.walking.resume(here.situation);
             self.enter(State::Walk);
             return Motion::Stand;
         }
@@ -57,8 +58,9 @@ impl StairClimbing {
 mod tests {
     use geometry::PlanarPose;
 
-    use crate::Outcome;
+    use crate::climbing::simulation::TICK_NS;
     use crate::climbing::tests::up;
+    use crate::{Outcome, StairClimbingConfig};
 
     #[test]
     fn who_sees_nothing_on_the_stairs_for_a_while_is_not_idle_meanwhile() {
@@ -73,5 +75,22 @@ mod tests {
         let (outcome, _) = simulation.run(120.0);
         let states = &simulation.states;
         assert_eq!(outcome, Some(Outcome::GoalReached), "{states:?}");
+    }
+
+    /// The walk goes on from where the head is by now, not from where it was when the walk was broken off.
+    #[test]
+    fn who_loses_its_place_before_the_stairs_walks_on_without_a_jerk_of_the_head() {
+        let config = StairClimbingConfig::default();
+        let fastest_rad = config.gaze_speed * TICK_NS as f64 * 1e-9 + 1e-9;
+        let mut simulation = up(PlanarPose::default());
+        simulation.run_until(60.0, |simulation| simulation.was_in("approach"));
+        simulation.lost = true;
+        let mut before = simulation.gaze();
+        while !simulation.was_in("locate") {
+            let gaze = simulation.tick().command.gaze;
+            assert!((gaze.pan_rad - before.pan_rad).abs() <= fastest_rad);
+            assert!((gaze.down_rad - before.down_rad).abs() <= fastest_rad);
+            before = gaze;
+        }
     }
 }

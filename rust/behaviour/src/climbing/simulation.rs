@@ -39,6 +39,8 @@ pub(crate) struct Simulation {
     /// Steps that are not where they look to be: that much lower, m.
     pub(crate) sunk_m: Vec<f64>,
     pub(crate) blind: bool,
+    /// Whether the localizer does not know where the robot is.
+    pub(crate) lost: bool,
     /// Whether the planner refuses what the feet do not fit on; else only the behaviour can.
     pub(crate) planner_checks: bool,
     /// Whether the planner answers at all.
@@ -95,6 +97,7 @@ impl Simulation {
             sunk_m: vec![0.0; count],
             steps,
             blind: false,
+            lost: false,
             planner_checks: true,
             planning: true,
             planned_within_m: f64::INFINITY,
@@ -201,7 +204,7 @@ impl Simulation {
             time_ns: self.time_ns,
             map_from_robot: Pose::from_yaw(pose.x_m, pose.y_m, self.ground_m(), pose.yaw_rad),
             map_from_odometry: Pose::identity(),
-            lost: false,
+            lost: self.lost,
         };
         let decision = self
             .behaviour
