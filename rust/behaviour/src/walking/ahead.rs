@@ -178,7 +178,9 @@ fn obstacles(
         min: low,
         max: high,
     };
-    area.cells()
+    // Settings may ask for more room than the window shows: beyond it nothing is known.
+    area.within(view.cells.area())
+        .cells()
         .filter_map(|cell| match view.cell(cell) {
             Surface::Obstacle(top_m) => Some((view.lattice.center_of(cell), top_m)),
             _ => None,
@@ -287,6 +289,15 @@ mod tests {
             let found = followed.obstacle_m(&view, &stairs, (&robot, ground_m), &config);
             assert_eq!(found.is_some(), stands, "{ground_m}");
         }
+    }
+
+    /// Cell by cell such an area would take for ever.
+    #[test]
+    fn no_more_than_the_window_is_searched_for_obstacles() {
+        let mut view = view(Surface::Floor(0.0));
+        assert!(is_roomy(&view, [0.0, 0.0], 1e9) && is_roomy(&view, [1e12, 0.0], 1e9));
+        paint(&mut view, 0.7, 0.8, Surface::Obstacle(0.3));
+        assert!(!is_roomy(&view, [0.0, 0.0], 1e9) && is_roomy(&view, [0.0, 0.0], 0.6));
     }
 
     #[test]
