@@ -23,7 +23,10 @@ impl Goals {
                 "finite",
                 format!("{:?}", goal.position),
             )?;
-            require(goal.radius > 0.0, "goal.radius", "> 0", goal.radius)?;
+            let holds = goal.radius.is_finite() && goal.radius > 0.0;
+            require(holds, "goal.radius", "> 0", goal.radius)?;
+            let height_m = goal.height.unwrap_or(0.0);
+            require(height_m.is_finite(), "goal.height", "finite", height_m)?;
         }
         Ok(Self {
             places: settings.iter().copied().map(Goal::from).collect(),
@@ -84,5 +87,21 @@ mod tests {
         }])
         .unwrap_err();
         assert_eq!(error.to_string(), "goal.radius must be > 0, got 0");
+    }
+
+    #[test]
+    fn a_goal_that_cannot_be_reached_for_want_of_a_number_is_refused_by_name() {
+        let error = Goals::new(&[GoalSettings {
+            height: Some(f64::NAN),
+            ..place(1.0)
+        }])
+        .unwrap_err();
+        assert_eq!(error.to_string(), "goal.height must be finite, got NaN");
+        let error = Goals::new(&[GoalSettings {
+            radius: f64::INFINITY,
+            ..place(1.0)
+        }])
+        .unwrap_err();
+        assert_eq!(error.to_string(), "goal.radius must be > 0, got inf");
     }
 }

@@ -3,6 +3,11 @@
 use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
 
+/// The robot stands no longer than this at one place, however it is told to, s.
+const LONGEST_STAND_S: f64 = 60.0;
+/// No clock after which it gives up runs longer than this, s: with none it would go on for ever.
+const LONGEST_PATIENCE_S: f64 = 600.0;
+
 /// Settings of [`crate::WalkingBehaviour`]: `[navigation.walking]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -114,9 +119,6 @@ impl WalkingConfig {
             ("slow_clearance", self.slow_clearance),
             ("corridor", self.corridor),
             ("gaze_speed", self.gaze_speed),
-            ("blind_after", self.blind_after),
-            ("patience", self.patience),
-            ("locate_limit", self.locate_limit),
         ];
         for (name, value) in positive {
             let key = format!("navigation.walking.{name}");
@@ -125,19 +127,42 @@ impl WalkingConfig {
         let not_negative = [
             ("approach", self.approach),
             ("stopping_distance", self.stopping_distance),
-            ("stop_time", self.stop_time),
             ("look_distance", self.look_distance),
             ("unseen_radius", self.unseen_radius),
             ("sweep", self.sweep),
             ("via_margin", self.via_margin),
-            ("arrive_time", self.arrive_time),
-            ("refuse_time", self.refuse_time),
         ];
         for (name, value) in not_negative {
             let key = format!("navigation.walking.{name}");
             require(value.is_finite() && value >= 0.0, &key, ">= 0", value)?;
         }
+        self.check_times()?;
         self.check_relations()
+    }
+
+    fn check_times(&self) -> Result<(), ConfigError> {
+        for (name, value) in [
+            ("stop_time", self.stop_time),
+            ("arrive_time", self.arrive_time),
+            ("refuse_time", self.refuse_time),
+        ] {
+            let key = format!("navigation.walking.{name}");
+            let allowed = format!("from 0 to {LONGEST_STAND_S}");
+            let holds = (0.0..=LONGEST_STAND_S).contains(&value);
+            require(holds, &key, &allowed, value)?;
+        }
+        for (name, value) in [
+            ("blind_after", self.blind_after),
+            ("blind_limit", self.blind_limit),
+            ("locate_limit", self.locate_limit),
+            ("patience", self.patience),
+        ] {
+            let key = format!("navigation.walking.{name}");
+            let allowed = format!("> 0 and <= {LONGEST_PATIENCE_S}");
+            let holds = value > 0.0 && value <= LONGEST_PATIENCE_S;
+            require(holds, &key, &allowed, value)?;
+        }
+        Ok(())
     }
 
     fn check_relations(&self) -> Result<(), ConfigError> {
@@ -202,5 +227,38 @@ mod tests {
             ..WalkingConfig::default()
         };
         assert!(config.check().is_err());
+    }
+
+    #[test]
+    fn a_time_without_end_is_refused_by_name() {
+        type Setting = fn(&mut WalkingConfig) -> &mut f64;
+        let settings: [(&str, &str, Setting); 7] = [
+            ("stop_time", "from 0 to 60", |config| &mut config.stop_time),
+            ("arrive_time", "from 0 to 60", |config| {
+                &mut config.arrive_time
+            }),
+            ("refuse_time", "from 0 to 60", |config| {
+                &mut config.refuse_time
+            }),
+            ("blind_after", "> 0 and <= 600", |config| {
+                &mut config.blind_after
+            }),
+            ("blind_limit", "> 0 and <= 600", |config| {
+                &mut config.blind_limit
+            }),
+            ("locate_limit", "> 0 and <= 600", |config| {
+                &mut config.locate_limit
+            }),
+            ("patience", "> 0 and <= 600", |config| &mut config.patience),
+        ];
+        for (name, allowed, setting) in settings {
+            for value in [1e9, f64::INFINITY, f64::NAN, -1.0] {
+                let mut config = WalkingConfig::default();
+                *setting(&mut config) = value;
+                let message = config.check().unwrap_err().to_string();
+                let start = format!("navigation.walking.{name} must be {allowed}, got ");
+                assert!(message.starts_with(&start), "{message}");
+            }
+        }
     }
 }
