@@ -78,6 +78,9 @@ impl NoiseMap {
         for row in rows.step_by(fineness(disparity_px.len())) {
             let from = row * self.width + cols.0.max(reach.0);
             let to = row * self.width + cols.1.min(self.width.saturating_sub(reach.0));
+            if from >= to {
+                continue; // all of the block lies too near to the image's sides
+            }
             self.find_bins(disparity_px, from..to, offset);
             for &bin in self.bins.iter().step_by(2) {
                 counts[bin as usize] += 1;
@@ -179,6 +182,21 @@ mod tests {
             ] {
                 assert_eq!(rounded_down(value), value as u32, "{value}");
             }
+        }
+    }
+
+    #[test]
+    fn an_image_too_small_to_tell_its_noise_has_the_calibrated_floor() {
+        for (width, height) in [(1, 1), (3, 40), (12, 9), (20, 20), (24, 13), (400, 2)] {
+            let mut map = NoiseMap::new(width, height, 0.125, 4.0);
+            map.measure(&vec![5.0; width * height]);
+            assert!(map.sigma_px.iter().all(|&sigma| sigma == 0.125));
+            let mut image = vec![f32::NAN; width * height];
+            map.fill(&mut image);
+            assert!(
+                image.iter().all(|&sigma| sigma == 0.125),
+                "{width} {height}"
+            );
         }
     }
 
