@@ -95,19 +95,20 @@ fn a_bad_header_is_refused_by_line() {
         (b"PNG".to_vec(), "byte 0: an octree begins with"),
         (
             data(" binary", "0", "nan", &[]),
-            "byte 48: res must be finite and > 0, got \"nan\"",
+            "byte 48: res must be 0.001 to 10, got \"nan\"",
         ),
         (
             data(" binary", "0", "0", &[]),
-            "res must be finite and > 0, got \"0\"",
+            "res must be 0.001 to 10, got \"0\"",
         ),
+        (data(" binary", "0", "-1", &[]), "res must be 0.001 to 10"),
         (
-            data(" binary", "0", "-1", &[]),
-            "res must be finite and > 0",
+            data(" binary", "0", "1e-9", &[]),
+            "res must be 0.001 to 10, got \"1e-9\"",
         ),
         (
             data(" binary", "0", "1e-320", &[]),
-            "octree.resolution must be",
+            "res must be 0.001 to 10",
         ),
         (
             data(" binary", "-3", "0.1", &[]),

@@ -340,3 +340,29 @@ mod slow {
         }
     }
 }
+
+#[test]
+fn a_static_map_that_would_be_cut_into_too_many_voxels_is_refused() {
+    // One leaf at the root, of a kilometre: solid throughout.
+    let bytes = b"# Octomap OcTree file\nid OcTree\nsize 1\nres 0.02\ndata\n";
+    let bytes = [&bytes[..], &2.0_f32.to_le_bytes(), &[0]].concat();
+    let whole = Octree::from_bytes("whole.ot", &bytes).unwrap();
+    let floors = FogConfig::default();
+    let refused = TwoMaps::new(config(0.04), &floors, Some(Arc::new(whole)));
+    let said = refused.unwrap_err().to_string();
+    let allowed = "navigation.octree.resolution must be so coarse that the static map has";
+    assert!(said.starts_with(allowed), "{said}");
+}
+
+#[test]
+fn with_a_window_as_large_as_there_is_a_static_map_is_looked_at_around_the_robot() {
+    let floors = FogConfig {
+        cells: 1990,
+        layers: 2,
+        layers_below: 1,
+        ..FogConfig::default()
+    };
+    let told = Arc::new(told(&[]));
+    let maps = TwoMaps::new(config(VOXEL_M), &floors, Some(told)).unwrap();
+    assert_eq!(maps.view().cells.cols(), 1990);
+}

@@ -138,6 +138,9 @@ impl FogConfig {
         }
     }
 
+    /// Cells along each side of the window at most.
+    pub(crate) const MOST_CELLS: usize = 2000;
+
     /// Refuses what cannot be used.
     pub fn check(&self) -> Result<(), ConfigError> {
         let positive = |key: &str, value: f64| {
@@ -152,9 +155,9 @@ impl FogConfig {
         };
         require_usable_side(&name("cell"), self.cell)?;
         require(
-            (4..=2000).contains(&self.cells),
+            (4..=Self::MOST_CELLS).contains(&self.cells),
             &name("cells"),
-            "4 to 2000",
+            &format!("4 to {}", Self::MOST_CELLS),
             self.cells,
         )?;
         require(

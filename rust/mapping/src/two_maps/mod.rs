@@ -65,7 +65,9 @@ impl TwoMaps {
         let extent = static_map.as_deref().and_then(Prior::extent_m);
         let window = extent.and_then(|(middle_m, reach_m)| {
             let reach = (reach_m / floors.cell).ceil();
-            (2.0 * reach <= MOST_CELLS).then_some((middle_m, reach))
+            let cells = floors.cells as f64 + 2.0 * reach;
+            let fits = 2.0 * reach <= MOST_CELLS && cells <= FogConfig::MOST_CELLS as f64;
+            fits.then_some((middle_m, reach))
         });
         let floors = FogConfig {
             // As much room beyond the static map as there is around the robot without one.

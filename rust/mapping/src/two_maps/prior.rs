@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use geometry::{CellArea, ConfigError};
+use geometry::{CellArea, ConfigError, require};
 
 use super::TwoMapsConfig;
 use super::layers::{Columns, Layers};
@@ -12,6 +12,8 @@ use crate::volume::octree::{LAYERS, Leaf, Octree, OctreeConfig};
 
 /// So far around the robot something may be the floor that it stands on, m: the map, or its pose, is a little wrong.
 const AROUND_M: f64 = 0.2;
+/// Voxels into which the solid ones of a map of another size are cut at most.
+const MOST_VOXELS: f64 = 2e7;
 /// A surface this near to the robot's height is its own level: half a voxel is how it was cut into voxels, the rest is the pose.
 const OWN: f64 = 0.75;
 
@@ -163,10 +165,16 @@ impl Prior {
 /// The same map in voxels of another size: what holds a part of something solid is solid.
 fn cut(tree: &Octree, config: &OctreeConfig) -> Result<Octree, ConfigError> {
     let mut other = Octree::new(config.clone())?;
-    for leaf in tree.leaves().filter(Leaf::is_occupied) {
-        let side_m = f64::from(leaf.edge()) * tree.config().resolution;
+    let solid = || tree.leaves().filter(Leaf::is_occupied);
+    let side_m = |leaf: &Leaf| f64::from(leaf.edge()) * tree.config().resolution;
+    let parts = |leaf: &Leaf| (side_m(leaf) / config.resolution - 1e-6).ceil();
+    let voxels: f64 = solid().map(|leaf| parts(&leaf).powi(3)).sum();
+    let allowed = format!("so coarse that the static map has at most {MOST_VOXELS} solid voxels");
+    let usable = voxels <= MOST_VOXELS;
+    require(usable, "navigation.octree.resolution", &allowed, voxels)?;
+    for leaf in solid() {
+        let (side_m, parts) = (side_m(&leaf), parts(&leaf));
         let centre_m = tree.centre_m(&leaf);
-        let parts = (side_m / config.resolution - 1e-6).ceil();
         let places = |axis: usize| {
             let place = move |part: i32| (f64::from(part) + 0.5) / parts - 0.5;
             (0..parts as i32).map(move |part| centre_m[axis] + place(part) * side_m)

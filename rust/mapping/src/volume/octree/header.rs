@@ -1,6 +1,11 @@
 //! The lines with which OctoMap's files begin.
 
+use std::ops::RangeInclusive;
+
 use super::OctreeError;
+
+/// Sides of a voxel, m: finer ones than any robot sees make maps that take for ever, coarser ones say nothing.
+const RESOLUTIONS_M: RangeInclusive<f64> = 0.001..=10.0;
 
 /// Which of OctoMap's two formats a file has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -105,8 +110,15 @@ impl Fields {
             }
             "res" => {
                 let metres = value.parse::<f64>().ok();
-                let usable = metres.filter(|m| m.is_finite() && *m > 0.0);
-                self.resolution_m = Some(usable.ok_or_else(|| wrong("finite and > 0"))?);
+                let usable = metres.filter(|m| RESOLUTIONS_M.contains(m));
+                let allowed = || {
+                    wrong(&format!(
+                        "{} to {}",
+                        RESOLUTIONS_M.start(),
+                        RESOLUTIONS_M.end()
+                    ))
+                };
+                self.resolution_m = Some(usable.ok_or_else(allowed)?);
             }
             _ => {
                 let known = "id, size, res and data are";
