@@ -164,18 +164,24 @@ impl Flight {
     }
 }
 
-/// Gives each step the stair that it is by now, and has it cross that one's edge.
+/// Gives each step the stair that it is by now, and has it cross that one's edge. A stair that is seen to be higher by now may be none
+/// that the robot climbs.
 fn look_up(steps: &mut [Step], stairs: &Staircase, pose: &PlanarPose) {
+    let mut before_higher_m = 0.0;
     for step in steps {
+        let mut higher_m = 0.0;
         if let Some(stair) = stairs.stairs.iter().find(|stair| is_same(step, stair)) {
             let old = *step;
             step.stair = *stair;
+            higher_m = stair.height_m() - old.stair.height_m();
             let (sin, cos) = stair.front.heading_rad().sin_cos();
             let off_m = stair.front.beyond_m(old.crossing_m);
             step.crossing_m[0] -= off_m * cos;
             step.crossing_m[1] -= off_m * sin;
             keep_better_edge(step, &old, pose);
         }
+        step.rise_m += higher_m - before_higher_m;
+        before_higher_m = higher_m;
     }
 }
 

@@ -229,3 +229,27 @@ fn a_step_that_a_plan_once_had_further_back_is_not_taken_behind_the_last_one() {
     flight.refresh(Some(&plan), &stairs, &PlanarPose::default(), &config);
     assert_eq!(flight.steps(), steps);
 }
+
+#[test]
+fn without_a_plan_steps_rise_as_the_stairs_are_seen_by_now() {
+    let mut flight = Flight::default();
+    flight.adopt(&plan(0.0).way.as_ref().unwrap().climbs[0].steps);
+    let seen = |heights_m: [f64; 2]| Staircase {
+        stairs: vec![
+            stair([0.5, 0.0, 0.0], [0.62, 0.0, 0.0], heights_m[0], 1.0),
+            stair([0.62, 0.0, 0.0], [0.74, 0.0, 0.0], heights_m[1], 1.0),
+        ],
+        ..Staircase::default()
+    };
+    let (pose, config) = (PlanarPose::default(), ClimbingConfig::default());
+    for heights_m in [[0.033, 0.061], [0.028, 0.064], [0.034, 0.06]] {
+        flight.refresh(None, &seen(heights_m), &pose, &config);
+        let rises_m = [heights_m[0], heights_m[1] - heights_m[0]];
+        for (step, rise_m) in flight.steps().iter().zip(rises_m) {
+            assert!(
+                (step.rise_m - rise_m).abs() < 1e-9,
+                "{heights_m:?} {step:?}"
+            );
+        }
+    }
+}
