@@ -215,6 +215,23 @@ fn equation_9_a_lower_height_seen_from_nearer_puts_right_what_the_occupancy_grid
 }
 
 #[test]
+fn a_higher_floor_in_a_cell_has_none_of_the_sightings_of_the_one_below() {
+    let (cell, occupancy) = (Cell::new(12, 10), supporting(&[0, 2]));
+    let [x, y] = lattice().center_of(cell);
+    for update in [Update::PerFrame, Update::PerPoint] {
+        let mut floor = FloorGrid::new(lattice(), &small());
+        let mut sightings_of = |height: f64| {
+            let mut frame = frame_of([x, y, height], height);
+            frame.eye_m = [x - 0.5, y, 0.5];
+            floor.update(&frame, &occupancy, update);
+            floor.sightings(cell)
+        };
+        let found = [0.0, 0.0, 0.0, 0.07, 0.07, 0.0].map(&mut sightings_of);
+        assert_eq!(found, [1, 2, 3, 1, 2, 2], "{update:?}");
+    }
+}
+
+#[test]
 fn floor_seen_from_beyond_the_sure_range_is_kept_but_counts_as_no_sighting() {
     let (cell, occupancy) = (Cell::new(12, 10), supporting(&[0]));
     let [x, y] = lattice().center_of(cell);

@@ -158,6 +158,11 @@ impl FloorGrid {
             let height = floor_height_m as f32;
             if update == Update::PerPoint {
                 let stored = &mut heights[index];
+                if height > *stored + self.epsilon {
+                    // Another surface: nobody has seen it before.
+                    self.sightings.values_mut()[index] = 0;
+                    self.distances_m.values_mut()[index] = f32::INFINITY;
+                }
                 *stored = merge_height(*stored, height, self.epsilon, self.nu);
             } else if height >= tops[index] - self.epsilon {
                 let sum = &mut sums[index];
