@@ -15,6 +15,8 @@ mod scan_line_1994;
 mod scan_line_adaptive;
 #[cfg(test)]
 mod synthetic;
+#[cfg(test)]
+mod tiny_pictures;
 
 pub use grounded::GroundConfig;
 pub use histogram::{Histogram, HistogramConfig};
