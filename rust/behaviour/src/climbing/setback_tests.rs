@@ -1,6 +1,7 @@
-//! What a walk promises that comes upon a step which nobody saw, and a climb whose next step was a glance of something else.
+//! What a walk promises that comes upon a step which nobody saw, and a climb whose next step was a glance of something else or turns
+//! out to be higher.
 
-use geometry::PlanarPose;
+use geometry::{PlanarPose, Pose};
 use planning::Step;
 use stairs::EdgeFit;
 
@@ -121,4 +122,30 @@ fn on_a_tread_the_robot_goes_straight_on_wherever_a_plan_crosses_the_next_edge()
         .map(|(_, foot)| foot.pose.y_m.abs());
     let furthest_m = furthest_m.fold(0.0, f64::max);
     assert!(furthest_m < 0.07, "{furthest_m}");
+}
+
+/// 003, section V.C: the conditions are checked again before the step is taken.
+#[test]
+fn a_step_that_turns_out_too_high_from_near_by_is_not_climbed() {
+    for seen_m in [0.049, 0.052] {
+        let course = straight(0.6, &[(seen_m, 0.6)], 1.0);
+        let start = PlanarPose::default();
+        let mut simulation = Simulation::new(start, course, [1.0, 0.0], Pace::StepByStep);
+        simulation.run_until(60.0, |simulation| simulation.was_in("align"));
+        for stair in &mut simulation.steps {
+            *stair = stair.transformed(&Pose::from_yaw(0.0, 0.0, 0.055 - seen_m, 0.0));
+        }
+        let (outcome, _) = simulation.run(120.0);
+        let states = &simulation.states;
+        let Some(Outcome::Refused(reason)) = outcome else {
+            panic!("{seen_m} {outcome:?} {states:?}");
+        };
+        assert!(reason.starts_with("step_too_high"), "{reason} {states:?}");
+        assert!(
+            simulation
+                .landings
+                .iter()
+                .all(|(_, foot)| foot.height_m < 0.01)
+        );
+    }
 }
