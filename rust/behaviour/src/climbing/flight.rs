@@ -10,7 +10,7 @@ use stairs::{ClimbingConfig, Staircase};
 
 use crate::climbing::placement::depth_m;
 use lookup::{LEAST_TREAD_M, following, is_same};
-pub(crate) use lookup::{SAME_HEIGHT_M, covers, crosses_another, is_step, nearest};
+pub(crate) use lookup::{SAME_HEIGHT_M, covers, crosses_another, is_step, nearest, settled_rise_m};
 
 /// An edge nearer than this to the robot's middle is out of view: what was measured before is better than what is thought
 /// of it now, m.

@@ -8,6 +8,7 @@ use stairs::{
 };
 
 use crate::climbing::StairClimbingConfig;
+use crate::climbing::flight::settled_rise_m;
 use crate::climbing::footsteps::Stance;
 
 /// What is behind the tread that is stepped on next.
@@ -71,7 +72,7 @@ impl Before<'_> {
             Behind::Unseen(depth_m) => return Verdict::Look(depth_m),
         };
         let ahead = Ahead {
-            rise_m: next.rise_m,
+            rise_m: settled_rise_m(next.rise_m, self.climbing),
             onward,
         };
         let tolerance = Tolerance {

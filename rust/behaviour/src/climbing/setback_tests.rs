@@ -124,6 +124,19 @@ fn on_a_tread_the_robot_goes_straight_on_wherever_a_plan_crosses_the_next_edge()
     assert!(furthest_m < 0.07, "{furthest_m}");
 }
 
+/// Planned at the limit, a step is not given up for a millimetre that it seems higher from near by.
+#[test]
+fn a_step_at_the_limit_is_climbed_though_what_is_seen_of_its_height_varies() {
+    let course = straight(0.6, &[(0.052, 0.6)], 1.0);
+    let start = PlanarPose::default();
+    let mut simulation = Simulation::new(start, course, [1.0, 0.0], Pace::StepByStep);
+    simulation.run_until(60.0, |simulation| simulation.was_in("align"));
+    for stair in &mut simulation.steps {
+        *stair = stair.transformed(&Pose::from_yaw(0.0, 0.0, 0.0014, 0.0));
+    }
+    assert_reaches_the_goal(&mut simulation);
+}
+
 /// 003, section V.C: the conditions are checked again before the step is taken.
 #[test]
 fn a_step_that_turns_out_too_high_from_near_by_is_not_climbed() {

@@ -17,6 +17,9 @@ pub(crate) const LEAST_TREAD_M: f64 = 0.06;
 /// A step follows another when its front edge is no further than this behind the other's back edge, m.
 const JOINT_M: f64 = 0.06;
 
+/// A step in mind may seem this much higher than one that is planned, m.
+const DOUBT_M: f64 = 0.0015;
+
 /// Whether a stair is where the feet would come to stand on a step.
 pub(crate) fn covers(stair: &Stair<Map>, step: &Step) -> bool {
     const ON_IT_M: f64 = 0.05;
@@ -91,6 +94,24 @@ pub(crate) fn is_step(rise_m: f64, config: &ClimbingConfig) -> bool {
     let set = config.set_for(rise_m);
     let tolerance_m = config.tolerance;
     rise_m > set.step_min_z - tolerance_m && rise_m < set.step_max_z + tolerance_m
+}
+
+/// The change of height of a step in mind that counts, m: one that is seen a little above the limit is at the limit. It was not when
+/// the step was planned, and heights vary as long as they are seen.
+pub(crate) fn settled_rise_m(rise_m: f64, config: &ClimbingConfig) -> f64 {
+    let set = config.set_for(rise_m);
+    let limit_m = if rise_m > 0.0 {
+        set.step_max_z
+    } else {
+        -set.step_min_z
+    };
+    let most_m = limit_m + config.tolerance;
+    let is_in_doubt = (most_m..=most_m + DOUBT_M).contains(&rise_m.abs());
+    if is_in_doubt {
+        most_m.copysign(rise_m)
+    } else {
+        rise_m
+    }
 }
 
 /// How far ahead of a place in this direction the stair's front edge is crossed, and where; `None` where it is not.
