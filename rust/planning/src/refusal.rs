@@ -20,13 +20,39 @@ const CRACK_M: f64 = 0.1;
 /// A way down of more than this is a drop, no step, m.
 const DROP_M: f64 = 0.1;
 
+/// What rises by more than this stands in the way and is no step, m.
+const TALL_M: f64 = 0.075;
+
+/// Why there is no way in the window.
+pub(crate) struct Closed {
+    pub(crate) no_way: NoWay,
+    /// Whether something stands there: a way around may lead out of the window. Steps beyond the limits are what they are.
+    pub(crate) by_obstacles: bool,
+}
+
+impl Closed {
+    pub(crate) const fn by_obstacles(refusal: Refusal, sentence: String) -> Self {
+        Self {
+            no_way: NoWay { refusal, sentence },
+            by_obstacles: true,
+        }
+    }
+
+    const fn by_ground(refusal: Refusal, sentence: String) -> Self {
+        Self {
+            no_way: NoWay { refusal, sentence },
+            by_obstacles: false,
+        }
+    }
+}
+
 /// The first limit that a route breaks which was found as if there were none, and how many steps come before.
 pub(crate) fn first_limit(
     terrain: &Terrain,
     portals: &Portals,
     climbing: &ClimbingConfig,
     route: &Route,
-) -> Option<(NoWay, usize)> {
+) -> Option<(Closed, usize)> {
     let pairs = route.cells.windows(2);
     let ways =
         pairs.filter_map(|pair| link_between(terrain, portals, pair[0], pair[1], Fit::Broken));
@@ -37,7 +63,7 @@ pub(crate) fn first_limit(
 }
 
 /// The word and sentence for a step that is not taken.
-fn unfit(climbing: &ClimbingConfig, limit: Unfit) -> NoWay {
+fn unfit(climbing: &ClimbingConfig, limit: Unfit) -> Closed {
     let mm = |length_m: f64| (1e3 * length_m.abs()).round();
     let (refusal, sentence) = match limit {
         Unfit::TooHigh(rise_m) if rise_m < -DROP_M => (
@@ -92,7 +118,11 @@ fn unfit(climbing: &ClimbingConfig, limit: Unfit) -> NoWay {
             ),
         ),
     };
-    NoWay { refusal, sentence }
+    let tall = matches!(limit, Unfit::TooHigh(rise_m) if rise_m > TALL_M);
+    Closed {
+        no_way: NoWay { refusal, sentence },
+        by_obstacles: tall,
+    }
 }
 
 /// Explains why the robot finds no way from `start`.
@@ -102,17 +132,15 @@ pub(crate) fn explain(
     ends: &Ends<'_>,
     start: usize,
     goal: &Goal,
-) -> NoWay {
+) -> Closed {
     let turned_m = terrain.needs.turned.map(|turned| turned.half_depth_m);
     let needed_m = turned_m.map_or(terrain.needs.body_m, |m| m.min(terrain.needs.body_m));
     let widest = widest_way(terrain, ends, start);
     let gap_m = 2.0 * widest.clearance_m;
     let needed = 2.0 * needed_m;
     if gap_m >= CRACK_M && gap_m < needed {
-        return NoWay {
-            refusal: Refusal::TooNarrow,
-            sentence: format!("the widest gap is {gap_m:.2} m, {needed:.2} m are needed"),
-        };
+        let sentence = format!("the widest gap is {gap_m:.2} m, {needed:.2} m are needed");
+        return Closed::by_obstacles(Refusal::TooNarrow, sentence);
     }
     if let Some(route) = way_over_levels(terrain, ends, start) {
         if let Some(rise_per_m) = first_too_steep(terrain, &route) {
@@ -139,10 +167,7 @@ pub(crate) fn explain(
         let radius = goal.radius_m;
         format!("no place within {radius:.2} m of the goal is free to stand on")
     };
-    NoWay {
-        refusal: Refusal::Blocked,
-        sentence,
-    }
+    Closed::by_obstacles(Refusal::Blocked, sentence)
 }
 
 /// The way that would lead to the goal if levels were one.
@@ -168,16 +193,14 @@ fn first_too_steep(terrain: &Terrain, route: &Route) -> Option<f64> {
 }
 
 /// The word and sentence for a slope that is too steep, both in rise per metre.
-fn too_steep(rise_per_m: f64, limit: f64) -> NoWay {
+fn too_steep(rise_per_m: f64, limit: f64) -> Closed {
     let degrees = |rise_per_m: f64| rise_per_m.atan().to_degrees().round();
-    NoWay {
-        refusal: Refusal::Blocked,
-        sentence: format!(
-            "the slope is {} degrees steep, {} degrees is the limit",
-            degrees(rise_per_m),
-            degrees(limit)
-        ),
-    }
+    let sentence = format!(
+        "the slope is {} degrees steep, {} degrees is the limit",
+        degrees(rise_per_m),
+        degrees(limit)
+    );
+    Closed::by_ground(Refusal::Blocked, sentence)
 }
 
 /// The first change of level on a way, m.
@@ -198,7 +221,7 @@ fn first_rise(terrain: &Terrain, route: &Route) -> Option<f64> {
 }
 
 /// The word and sentence for a change of level at which no stair is known.
-fn unjoined(climbing: &ClimbingConfig, rise_m: f64) -> NoWay {
+fn unjoined(climbing: &ClimbingConfig, rise_m: f64) -> Closed {
     let set = climbing.set_for(rise_m);
     let limit_m = if rise_m > 0.0 {
         set.step_max_z
@@ -209,10 +232,8 @@ fn unjoined(climbing: &ClimbingConfig, rise_m: f64) -> NoWay {
         return unfit(climbing, Unfit::TooHigh(rise_m));
     }
     let mm = (1e3 * rise_m.abs()).round();
-    NoWay {
-        refusal: Refusal::Blocked,
-        sentence: format!("a step of {mm} mm is in the way, and no edge to climb it by was found"),
-    }
+    let sentence = format!("a step of {mm} mm is in the way, and no edge to climb it by was found");
+    Closed::by_ground(Refusal::Blocked, sentence)
 }
 
 struct Widest {

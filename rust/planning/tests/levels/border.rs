@@ -114,3 +114,41 @@ fn a_goal_that_comes_in_sight_behind_a_long_wall_is_not_walked_back_for() {
     );
     assert!(turned_back_m < 1.5, "{turned_back_m}");
 }
+
+#[test]
+fn a_way_that_is_closed_for_good_is_gone_around_out_of_the_window() {
+    // A wall of 7 m with a door, of which the ends lie outside of the window.
+    let wall = [[[1.0, -3.5], [1.1, -0.3]], [[1.0, 0.3], [1.1, 3.5]]];
+    let door = [[1.0, -0.4], [1.1, 0.4]];
+    let closed = [wall[0], wall[1], door];
+    let behind = goal(1.8, 0.0);
+    let mut planner = planner();
+    let mut way = |walls: &[[[f64; 2]; 2]]| {
+        let course = seen_from([0.0; 2], walls);
+        plan(&mut planner, &course, [0.0; 3], 0.0, &behind).way
+    };
+    assert!(way(&wall).is_ok());
+    // A gap that seems closed for a few frames is waited at.
+    assert!((0..40).all(|_| way(&closed).is_err()));
+    assert!(way(&wall).is_ok());
+    assert!((0..50).all(|_| way(&closed).is_err()));
+    let around = (0..30).find_map(|_| way(&closed).ok()).unwrap();
+    let [_, y] = around.points_m[around.points_m.len() - 1];
+    assert!(y.abs() > 1.8, "{y}");
+}
+
+#[test]
+fn a_goal_that_is_walled_in_is_refused_however_long_it_is_looked_for() {
+    let cell = [
+        [[1.0, -0.8], [1.1, 0.8]],
+        [[1.0, 0.8], [1.95, 0.9]],
+        [[1.0, -0.9], [1.95, -0.8]],
+        [[1.9, -0.8], [1.95, 0.8]],
+    ];
+    let course = seen_from([0.0; 2], &cell);
+    let mut planner = planner();
+    for _ in 0..150 {
+        let plan = plan(&mut planner, &course, [0.0; 3], 0.0, &goal(1.5, 0.0));
+        assert!(plan.way.is_err());
+    }
+}
