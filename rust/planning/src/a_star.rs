@@ -32,8 +32,6 @@ pub struct AStar {
     landing: Landing,
     pub(crate) beyond: Beyond,
     pub(crate) kept: Option<Kept>,
-    /// Plans in a row that obstacles closed every way of.
-    pub(crate) closed: u32,
 }
 
 impl AStar {
@@ -75,7 +73,6 @@ impl AStar {
             landing: Landing::default(),
             beyond: Beyond::default(),
             kept: None,
-            closed: 0,
         })
     }
 
@@ -146,7 +143,6 @@ impl Planner for AStar {
 
     fn forget(&mut self) {
         self.kept = None;
-        self.closed = 0;
         self.seek = Seek::default();
         self.goal_level = GoalLevel::default();
         self.beyond = Beyond::default();

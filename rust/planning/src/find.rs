@@ -4,7 +4,7 @@ use crate::keep::{End, Kept};
 use crate::legs::Draft;
 use crate::levels::Stand;
 use crate::portals::Fit;
-use crate::refusal::{Closed, explain, first_limit};
+use crate::refusal::{explain, first_limit};
 use crate::route::{Ends, end_of, run};
 use crate::search::Route;
 use crate::terrain::Terrain;
@@ -13,9 +13,6 @@ use crate::{AStar, Goal, NoWay, Refusal};
 /// A way to a goal in the window that costs more than so many times the straight one and these m may be shorter around.
 const FAR: f64 = 2.0;
 const FAR_M: f64 = 0.5;
-/// A goal in the window that obstacles close off for so many plans in a row is looked for around the window, too: a gap may seem
-/// closed for a few frames, and the robot has looked at it by then.
-const CLOSED: u32 = 60;
 /// A route over more unseen ground than this is but a guess, m.
 const GUESS_M: f64 = 1.0;
 
@@ -35,12 +32,7 @@ impl AStar {
             sentence: "the robot stands outside of its map".into(),
         };
         let start = self.terrain.index_at(stand.at_m).ok_or_else(outside)?;
-        let found = self.route(stand, start, goal);
-        self.closed = match &found {
-            Err(closed) if closed.by_obstacles => self.closed.saturating_add(1),
-            Ok(_) | Err(_) => 0,
-        };
-        let found = found.map_err(|closed| closed.no_way)?;
+        let found = self.route(stand, start, goal)?;
         let (terrain, portals) = (&self.terrain, &self.portals);
         let end_m = |last: usize| {
             let middle = [goal.x_m, goal.y_m];
@@ -68,8 +60,7 @@ impl AStar {
         let ends = Ends::new(terrain, &self.beyond, goal, height_m, climb_cost);
         let known = run(search, terrain, portals, &ends, start, Fit::Holds);
         let straight = ends.away(start) + FAR_M / terrain.lattice.cell_m;
-        let leads_out = (self.kept.as_ref()).is_some_and(|kept| kept.end == End::Border);
-        let is_around = leads_out || self.closed >= CLOSED;
+        let is_around = (self.kept.as_ref()).is_some_and(|kept| kept.end == End::Border);
         let is_far = |route: &Route| route.cost > FAR * straight;
         // What was seen of the ground outside of the window tells no levels apart.
         let looks_around = ends.inside && !ends.on_another_level();
@@ -87,7 +78,7 @@ impl AStar {
 
     /// The cheapest route to the goal. Where there is none, or none that is more than a hope: to the stairs that would lead
     /// there if they were other than they look from afar; else to where more is to be seen.
-    fn route(&mut self, stand: &Stand, start: usize, goal: &Goal) -> Result<Found, Closed> {
+    fn route(&mut self, stand: &Stand, start: usize, goal: &Goal) -> Result<Found, NoWay> {
         let (known, around) = self.known(stand, start, goal);
         let (terrain, portals) = (&self.terrain, &self.portals);
         let climb_cost = self.config.climb_cost;
@@ -120,11 +111,10 @@ impl AStar {
             limit = lifted.and_then(|route| first_limit(terrain, portals, &self.climbing, &route));
         }
         // From where the robot stands stairs may lead down elsewhere; what is too high or too short stays so.
-        let here = |(closed, before): &(Closed, usize)| {
-            closed.no_way.refusal == Refusal::Drop && *before == 0
-        };
-        if let Some((closed, _)) = limit.take_if(|limit| !here(limit)) {
-            return Err(closed);
+        let here =
+            |(no_way, before): &(NoWay, usize)| no_way.refusal == Refusal::Drop && *before == 0;
+        if let Some((no_way, _)) = limit.take_if(|limit| !here(limit)) {
+            return Err(no_way);
         }
         let (route, end) = if let Some(route) = known {
             let end = end_of(&route, terrain, portals, &ends);
@@ -133,7 +123,7 @@ impl AStar {
             let levels = terrain.levels.any || ends.on_another_level();
             let route = levels.then(|| self.seek.route(search, terrain, portals, &ends, start));
             let no_way = || match limit {
-                Some((closed, _)) => closed,
+                Some((no_way, _)) => no_way,
                 None => explain(terrain, &self.climbing, &ends, start, goal),
             };
             (route.flatten().ok_or_else(no_way)?, End::Look)

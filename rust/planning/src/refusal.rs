@@ -20,39 +20,13 @@ const CRACK_M: f64 = 0.1;
 /// A way down of more than this is a drop, no step, m.
 const DROP_M: f64 = 0.1;
 
-/// What rises by more than this stands in the way and is no step, m.
-const TALL_M: f64 = 0.075;
-
-/// Why there is no way in the window.
-pub(crate) struct Closed {
-    pub(crate) no_way: NoWay,
-    /// Whether something stands there: a way around may lead out of the window. Steps beyond the limits are what they are.
-    pub(crate) by_obstacles: bool,
-}
-
-impl Closed {
-    pub(crate) const fn by_obstacles(refusal: Refusal, sentence: String) -> Self {
-        Self {
-            no_way: NoWay { refusal, sentence },
-            by_obstacles: true,
-        }
-    }
-
-    const fn by_ground(refusal: Refusal, sentence: String) -> Self {
-        Self {
-            no_way: NoWay { refusal, sentence },
-            by_obstacles: false,
-        }
-    }
-}
-
 /// The first limit that a route breaks which was found as if there were none, and how many steps come before.
 pub(crate) fn first_limit(
     terrain: &Terrain,
     portals: &Portals,
     climbing: &ClimbingConfig,
     route: &Route,
-) -> Option<(Closed, usize)> {
+) -> Option<(NoWay, usize)> {
     let pairs = route.cells.windows(2);
     let ways =
         pairs.filter_map(|pair| link_between(terrain, portals, pair[0], pair[1], Fit::Broken));
@@ -63,7 +37,7 @@ pub(crate) fn first_limit(
 }
 
 /// The word and sentence for a step that is not taken.
-fn unfit(climbing: &ClimbingConfig, limit: Unfit) -> Closed {
+fn unfit(climbing: &ClimbingConfig, limit: Unfit) -> NoWay {
     let mm = |length_m: f64| (1e3 * length_m.abs()).round();
     let (refusal, sentence) = match limit {
         Unfit::TooHigh(rise_m) if rise_m < -DROP_M => (
@@ -118,11 +92,7 @@ fn unfit(climbing: &ClimbingConfig, limit: Unfit) -> Closed {
             ),
         ),
     };
-    let tall = matches!(limit, Unfit::TooHigh(rise_m) if rise_m > TALL_M);
-    Closed {
-        no_way: NoWay { refusal, sentence },
-        by_obstacles: tall,
-    }
+    NoWay { refusal, sentence }
 }
 
 /// Explains why the robot finds no way from `start`.
@@ -132,15 +102,17 @@ pub(crate) fn explain(
     ends: &Ends<'_>,
     start: usize,
     goal: &Goal,
-) -> Closed {
+) -> NoWay {
     let turned_m = terrain.needs.turned.map(|turned| turned.half_depth_m);
     let needed_m = turned_m.map_or(terrain.needs.body_m, |m| m.min(terrain.needs.body_m));
     let widest = widest_way(terrain, ends, start);
     let gap_m = 2.0 * widest.clearance_m;
     let needed = 2.0 * needed_m;
     if gap_m >= CRACK_M && gap_m < needed {
-        let sentence = format!("the widest gap is {gap_m:.2} m, {needed:.2} m are needed");
-        return Closed::by_obstacles(Refusal::TooNarrow, sentence);
+        return NoWay {
+            refusal: Refusal::TooNarrow,
+            sentence: format!("the widest gap is {gap_m:.2} m, {needed:.2} m are needed"),
+        };
     }
     if let Some(route) = way_over_levels(terrain, ends, start) {
         if let Some(rise_per_m) = first_too_steep(terrain, &route) {
@@ -167,7 +139,10 @@ pub(crate) fn explain(
         let radius = goal.radius_m;
         format!("no place within {radius:.2} m of the goal is free to stand on")
     };
-    Closed::by_obstacles(Refusal::Blocked, sentence)
+    NoWay {
+        refusal: Refusal::Blocked,
+        sentence,
+    }
 }
 
 /// The way that would lead to the goal if levels were one.
@@ -193,14 +168,16 @@ fn first_too_steep(terrain: &Terrain, route: &Route) -> Option<f64> {
 }
 
 /// The word and sentence for a slope that is too steep, both in rise per metre.
-fn too_steep(rise_per_m: f64, limit: f64) -> Closed {
+fn too_steep(rise_per_m: f64, limit: f64) -> NoWay {
     let degrees = |rise_per_m: f64| rise_per_m.atan().to_degrees().round();
-    let sentence = format!(
-        "the slope is {} degrees steep, {} degrees is the limit",
-        degrees(rise_per_m),
-        degrees(limit)
-    );
-    Closed::by_ground(Refusal::Blocked, sentence)
+    NoWay {
+        refusal: Refusal::Blocked,
+        sentence: format!(
+            "the slope is {} degrees steep, {} degrees is the limit",
+            degrees(rise_per_m),
+            degrees(limit)
+        ),
+    }
 }
 
 /// The first change of level on a way, m.
@@ -221,7 +198,7 @@ fn first_rise(terrain: &Terrain, route: &Route) -> Option<f64> {
 }
 
 /// The word and sentence for a change of level at which no stair is known.
-fn unjoined(climbing: &ClimbingConfig, rise_m: f64) -> Closed {
+fn unjoined(climbing: &ClimbingConfig, rise_m: f64) -> NoWay {
     let set = climbing.set_for(rise_m);
     let limit_m = if rise_m > 0.0 {
         set.step_max_z
@@ -232,8 +209,10 @@ fn unjoined(climbing: &ClimbingConfig, rise_m: f64) -> Closed {
         return unfit(climbing, Unfit::TooHigh(rise_m));
     }
     let mm = (1e3 * rise_m.abs()).round();
-    let sentence = format!("a step of {mm} mm is in the way, and no edge to climb it by was found");
-    Closed::by_ground(Refusal::Blocked, sentence)
+    NoWay {
+        refusal: Refusal::Blocked,
+        sentence: format!("a step of {mm} mm is in the way, and no edge to climb it by was found"),
+    }
 }
 
 struct Widest {
