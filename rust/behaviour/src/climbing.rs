@@ -28,8 +28,9 @@ pub(crate) mod simulation;
 #[cfg(test)]
 mod tests;
 
-use geometry::{ConfigError, PlanarPose};
+use geometry::PlanarPose;
 use planning::{Plan, Step};
+use settings::ConfigError;
 use stairs::{ClimbingConfig, Feet};
 
 use crate::{

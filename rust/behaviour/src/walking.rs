@@ -19,8 +19,9 @@ mod simulation;
 #[cfg(test)]
 mod tests;
 
-use geometry::{ConfigError, PlanarPose};
+use geometry::PlanarPose;
 use planning::{Goal, Path};
+use settings::ConfigError;
 
 use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Situation};
 use ahead::{Followed, Looked};

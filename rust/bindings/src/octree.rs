@@ -5,12 +5,12 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use mapping::Update;
-use mapping::volume::octree::{Cast, Leaf, Octree, OctreeConfig, Sighting};
 use numpy::{
     IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use volume::octree::{Cast, Leaf, Octree, OctreeConfig, Sighting};
 
 use crate::error::{bad_setting, failed, unpanicked};
 use crate::world_model::{by_row, rays};

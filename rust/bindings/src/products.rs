@@ -1,9 +1,9 @@
 //! The core's products as Python sees them: read-only, arrays moved out or copied once.
 
 use geometry::Pose;
-use localization::BodyState;
 use mapping::Surface;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, ToPyArray};
+use proprioception::BodyState;
 use pyo3::prelude::*;
 
 /// (x m, y m, z m, yaw rad): a pose as Python's tuple.

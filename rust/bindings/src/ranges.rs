@@ -1,8 +1,8 @@
 //! Rays through a map that does not change, as the localizer `monte_carlo` casts them.
 
-use mapping::volume::{LANES, Lanes, RangeField, SolidVoxels};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
+use volume::{LANES, Lanes, RangeField, SolidVoxels};
 
 use crate::error::{bad_setting, failed, unpanicked};
 use crate::octree::{PyOctree, must_be_rays, triples};
@@ -20,7 +20,7 @@ impl PyRangeField {
         let field = py
             .detach(|| unpanicked(|| Ok(RangeField::new(&SolidVoxels::occupied(&tree)?))))
             .map_err(|error| failed(py, &error))?
-            .map_err(|error: mapping::volume::SolidError| bad_setting(py, &error))?;
+            .map_err(|error: volume::SolidError| bad_setting(py, &error))?;
         Ok(Self(field))
     }
 

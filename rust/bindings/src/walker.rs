@@ -2,9 +2,9 @@
 
 use behaviour::{Arms, Command, Footstep, Gaze, Misstep, Motion, Velocity};
 use geometry::{Odometry, PlanarPose, Point, Pose, Robot};
-use localization::{Proprioception, ProprioceptionConfig};
 use nalgebra::Vector2;
 use numpy::{PyArray1, ToPyArray};
+use proprioception::{Proprioception, ProprioceptionConfig};
 use pyo3::prelude::*;
 use robot::{Body, Description, Side};
 use sensing::{Frame, Observation};

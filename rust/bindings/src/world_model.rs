@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use geometry::{Camera, Lattice, Map, Pose, Robot};
-use mapping::volume::{OccupancyGrid, Picture, Placement, ProbabilityTable, Ray, Size};
 use mapping::{FogConfig, WorldModel};
 use numpy::ndarray::Dimension;
 use numpy::{
@@ -12,6 +11,7 @@ use numpy::{
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use volume::{OccupancyGrid, Picture, Placement, ProbabilityTable, Ray, Size};
 
 use crate::error::{bad_setting, failed, unpanicked};
 use crate::pose::rigid;

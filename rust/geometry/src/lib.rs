@@ -20,7 +20,6 @@
 
 mod angle;
 mod area;
-mod config;
 mod frames;
 mod lattice;
 mod outline;
@@ -28,10 +27,10 @@ mod planar;
 mod plane;
 mod pose;
 mod random;
+mod storage;
 
 pub use angle::{angle_between, wrap_angle};
 pub use area::CellArea;
-pub use config::{ConfigError, require, require_positive};
 pub use frames::{Camera, LeftSole, Map, Odometry, RightSole, Robot, Torso, World};
 pub use lattice::{Cell, Grid, Lattice};
 pub use outline::{Cut, Outline, OutlineError};
@@ -39,3 +38,4 @@ pub use planar::PlanarPose;
 pub use plane::Plane;
 pub use pose::{Point, Pose, Vector};
 pub use random::{GOLDEN, SplitMix64, mix};
+pub use storage::runs;

@@ -4,17 +4,16 @@ use std::sync::Arc;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use geometry::{Camera, Grid, Lattice, Pose, Robot};
-use localization::{
-    BodyState, Localizer, MonteCarloConfig, MonteCarloLocalizer, RangeModel, StaticMap,
-};
-use mapping::volume::{LANES, Lanes, RangeField, SolidVoxels};
+use localization::{Localizer, MonteCarloConfig, MonteCarloLocalizer, RangeModel, StaticMap};
 use mapping::{FloorView, Surface};
 use nalgebra::{
     Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector2, Vector3,
 };
+use proprioception::BodyState;
 use robot::{LinkPoses, Side};
 use segmentation::Planes;
 use sensing::Intrinsics;
+use volume::{LANES, Lanes, RangeField, SolidVoxels};
 
 const SIDE_M: f64 = 0.04;
 const CAMERA: Intrinsics = Intrinsics {

@@ -4,7 +4,7 @@ use geometry::{Map, Odometry, Pose, Robot};
 use mapping::FloorView;
 use segmentation::Planes;
 
-use crate::BodyState;
+use proprioception::BodyState;
 
 /// Why a localizer gave no estimate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

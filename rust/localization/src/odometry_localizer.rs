@@ -1,12 +1,14 @@
 //! The localizer `odometry`: leg odometry as it is, its height drawn to the floor in the map.
 
-use geometry::{ConfigError, Map, Odometry, Pose, Robot, require};
+use geometry::{Map, Odometry, Pose, Robot};
 use mapping::{FloorView, Surface};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use segmentation::Planes;
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require};
 
-use crate::{BodyState, Estimate, Localizer, LocalizerError};
+use crate::{Estimate, Localizer, LocalizerError};
+use proprioception::BodyState;
 
 /// Settings of [`OdometryLocalizer`]: `[navigation.odometry]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -139,9 +141,9 @@ impl Localizer for OdometryLocalizer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic_walk::state_at;
     use geometry::{Grid, Lattice};
     use proptest::prelude::*;
+    use testkit::state_at;
 
     fn view(surface: Surface) -> FloorView {
         FloorView {

@@ -2,12 +2,11 @@
 
 mod averaging;
 mod model;
-mod storage;
 pub mod surface;
 mod two_maps;
-pub mod volume;
 
 pub use averaging::{Averaging, AveragingConfig};
 pub use model::{FloorView, Insertion, MapError, Surface, Voxel, WorldModel};
-pub use surface::{Clearing, Fog, FogConfig, Update};
+pub use surface::{Fog, FogConfig};
 pub use two_maps::{TwoMaps, TwoMapsConfig};
+pub use volume::{Clearing, Update};

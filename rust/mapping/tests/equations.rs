@@ -5,9 +5,9 @@ mod common;
 use common::{Block, camera, look};
 use geometry::{Cell, CellArea, Lattice, Map, Pose, Robot};
 use mapping::surface::{FloorGrid, LabelledFrame, LabelledPoint};
-use mapping::volume::{OccupancyGrid, Placement, ProbabilityTable, Ray, Size};
 use mapping::{Clearing, Fog, FogConfig, Surface, Update, WorldModel};
 use proptest::prelude::*;
+use volume::{OccupancyGrid, Placement, ProbabilityTable, Ray, Size};
 
 const EYE: [f64; 3] = [0.0, 0.0, 0.5];
 

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 
 use beams::{SPAN, frames, in_voxels, point, tree};
 use mapping::Update;
-use mapping::volume::octree::{Format, Key, Leaf, Octree, probability};
-use mapping::volume::{Ray, VoxelWalk, bayes};
 use proptest::prelude::*;
+use volume::octree::{Format, Key, Leaf, Octree, probability};
+use volume::{Ray, VoxelWalk, bayes};
 
 /// Log-odds in the tree's steps.
 fn steps(p: f64) -> f32 {

@@ -9,9 +9,9 @@
 use std::path::PathBuf;
 
 use mapping::Update;
-use mapping::volume::Ray;
-use mapping::volume::octree::{Cast, Format, Octree, OctreeConfig, Sighting};
 use proptest::prelude::*;
+use volume::Ray;
+use volume::octree::{Cast, Format, Octree, OctreeConfig, Sighting};
 
 /// A file of OctoMap's, from the folder that `TREADWELL_DATA` names; without it the test says so and is over.
 fn real_file(name: &str) -> Option<(PathBuf, Vec<u8>)> {

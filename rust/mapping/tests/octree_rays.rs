@@ -4,9 +4,9 @@ mod beams;
 
 use beams::{CENTRE, RESOLUTION, SPAN, frames, in_voxels, point, tree};
 use mapping::Update;
-use mapping::volume::VoxelWalk;
-use mapping::volume::octree::{Cast, Key, Sighting};
 use proptest::prelude::*;
+use volume::VoxelWalk;
+use volume::octree::{Cast, Key, Sighting};
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]

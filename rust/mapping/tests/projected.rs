@@ -4,10 +4,10 @@ mod common;
 
 use common::{Block, camera, look};
 use geometry::{Camera, Lattice, Map, Pose};
-use mapping::volume::{OccupancyGrid, Picture, Placement, ProbabilityTable, Ray, Size};
 use mapping::{Clearing, Fog, FogConfig, Update, WorldModel};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
+use volume::{OccupancyGrid, Picture, Placement, ProbabilityTable, Ray, Size};
 
 const SIZE: Size = Size {
     cols: 60,

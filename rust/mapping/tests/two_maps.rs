@@ -8,11 +8,11 @@ use std::sync::Arc;
 
 use common::{Block, camera, interior, is_obstacle, look};
 use geometry::{Map, Pose, Robot};
-use mapping::volume::Ray;
-use mapping::volume::octree::{Octree, OctreeConfig};
 use mapping::{FogConfig, MapError, Surface, TwoMaps, TwoMapsConfig, Update, WorldModel};
 use proptest::prelude::*;
 use segmentation::Planes;
+use volume::Ray;
+use volume::octree::{Octree, OctreeConfig};
 
 const VOXEL_M: f64 = 0.04;
 

@@ -5,7 +5,6 @@ use std::sync::{Arc, PoisonError, RwLock};
 use behaviour::Behaviour;
 use localization::Localizer;
 use mapping::WorldModel;
-use mapping::volume::octree::Octree;
 use planning::Planner;
 use robot::Body;
 use segmentation::Segmenter;
@@ -13,8 +12,9 @@ use sensing::Intrinsics;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use stairs::Feet;
+use volume::octree::Octree;
 
-use crate::tables::table;
+use crate::registry::table;
 use crate::{Components, PilotError, Settings};
 
 /// What a component can be made of.

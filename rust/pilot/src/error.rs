@@ -1,13 +1,14 @@
 //! Everything that can stop the core, with the stage that said so.
 
 use behaviour::BehaviourError;
-use geometry::ConfigError;
-use localization::{LocalizerError, ProprioceptionError};
+use localization::LocalizerError;
 use mapping::MapError;
 use planning::PlanError;
+use proprioception::ProprioceptionError;
 use robot::BodyError;
 use segmentation::SegmentError;
 use sensing::{ObservationError, ScanError};
+use settings::ConfigError;
 use stairs::StairsError;
 use walking::WalkError;
 

@@ -1,7 +1,7 @@
 //! Where to go, one place after the other.
 
-use geometry::{ConfigError, require};
 use planning::Goal;
+use settings::{ConfigError, require};
 
 use crate::GoalSettings;
 

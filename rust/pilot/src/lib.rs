@@ -6,7 +6,6 @@ mod goals;
 mod perception;
 mod registry;
 mod settings;
-mod tables;
 mod tick;
 mod timing;
 

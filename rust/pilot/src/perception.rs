@@ -1,8 +1,9 @@
 //! What a depth frame sets off: scan, planes, pose, map.
 
 use geometry::{Camera, Grid, Map, Pose, Robot};
-use localization::{BodyState, Estimate, Localizer};
+use localization::{Estimate, Localizer};
 use mapping::{FloorView, Insertion, Surface, Voxel, WorldModel};
+use proprioception::BodyState;
 use robot::Body;
 use segmentation::{KnownFloor, Planes, Segmenter};
 use sensing::{Frame, Scan, SelfFilter};

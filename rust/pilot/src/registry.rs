@@ -1,26 +1,26 @@
 //! Which component a name stands for: the one place where a new one is added.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use behaviour::{Behaviour, Pace, StairClimbing, WalkingBehaviour};
-use geometry::{ConfigError, Pose};
+use geometry::Pose;
 use localization::{
     Localizer, MatchingLocalizer, MonteCarloConfig, MonteCarloLocalizer, OdometryLocalizer,
     StaticMap,
 };
-use mapping::volume::SolidVoxels;
-use mapping::volume::octree::Octree;
 use mapping::{Averaging, Fog, TwoMaps, WorldModel};
 use planning::{AStar, Guided, Planner};
 use robot::{Body, Side};
 use segmentation::{Histogram, Hough, Ransac, ScanLine, ScanLine1994, ScanLineAdaptive, Segmenter};
 use sensing::Intrinsics;
-use serde_json::Value;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use settings::{ConfigError, Tables};
 use stairs::{Feet, Recognizer};
+use volume::SolidVoxels;
+use volume::octree::Octree;
 use walking::Walker;
 
-use crate::tables::table;
 use crate::{PilotError, Settings};
 
 /// The five components. One that is `None` is built by its name in the settings.
@@ -38,6 +38,14 @@ pub struct Components {
     pub behaviour: Option<Box<dyn Behaviour>>,
 }
 
+/// Reads the table `[navigation.<name>]`, over the defaults.
+pub(crate) fn table<T: DeserializeOwned + Serialize + Default>(
+    tables: &Tables,
+    name: &str,
+) -> Result<T, PilotError> {
+    settings::read(tables, name).map_err(PilotError::Settings)
+}
+
 fn unknown(slot: &str, name: &str, known: &str) -> PilotError {
     ConfigError {
         key: format!("navigation.{slot}"),
@@ -50,7 +58,7 @@ fn unknown(slot: &str, name: &str, known: &str) -> PilotError {
 /// The segmenter of a name, for a camera, with what `[navigation.<name>]` and `[navigation.ground]` say.
 pub fn segmenter(
     name: &str,
-    tables: &BTreeMap<String, Value>,
+    tables: &Tables,
     camera: Intrinsics,
 ) -> Result<Box<dyn Segmenter>, PilotError> {
     let ground = table(tables, "ground")?;
@@ -92,7 +100,7 @@ pub fn segmenter(
 /// The world model of a name, with what `[navigation.<name>]` says, and the static map where the robot was told one.
 pub fn world_model(
     name: &str,
-    tables: &BTreeMap<String, Value>,
+    tables: &Tables,
     static_map: Option<&Arc<Octree>>,
 ) -> Result<Box<dyn WorldModel>, PilotError> {
     match name {

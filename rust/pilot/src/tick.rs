@@ -4,19 +4,20 @@ use std::sync::Arc;
 
 use behaviour::{Behaviour, Decision, Gaze, Situation, Stepping};
 use geometry::{Map, Odometry, Pose, Robot};
-use localization::{BodyStateHistory, Estimate, Guess, Localizer, Proprioception};
-use mapping::volume::octree::Octree;
+use localization::{Estimate, Guess, Localizer};
 use planning::{Plan, Planner};
+use proprioception::{BodyStateHistory, Proprioception};
 use robot::Body;
 use sensing::{Frame, Intrinsics, Observation, Scan, SelfFilter};
+use volume::octree::Octree;
 use walking::relief::{Mapped, Slopes};
 use walking::{JointTargets, Walker};
 
 use crate::added::{self, Making};
 use crate::goals::Goals;
 use crate::perception::{Perception, TakenBy};
+use crate::registry::table;
 use crate::registry::{self, Components};
-use crate::tables::table;
 use crate::timing::{Stage, Timing};
 use crate::{PilotError, Settings};
 

@@ -1,7 +1,8 @@
 //! The planner: a path by A*, kept as long as it holds.
 
-use geometry::{ConfigError, Map, Pose, Robot, require};
+use geometry::{Map, Pose, Robot};
 use mapping::FloorView;
+use settings::{ConfigError, require};
 use stairs::{ClimbingConfig, Feet, Staircase};
 
 use crate::beyond::Beyond;

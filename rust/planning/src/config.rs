@@ -1,7 +1,7 @@
 //! Parameters of the planner, checked once.
 
-use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require};
 
 /// Lengths may be no greater, m: a window is not much larger.
 const FARTHEST_M: f64 = 10.0;

@@ -3,10 +3,11 @@
 mod floors;
 mod prior;
 
-use geometry::{ConfigError, Map, Pose, Robot};
+use geometry::{Map, Pose, Robot};
 use mapping::FloorView;
-use mapping::volume::SolidVoxels;
+use settings::ConfigError;
 use stairs::Staircase;
+use volume::SolidVoxels;
 
 use crate::keep::SLACK_M;
 use crate::plan::place_of;

@@ -1,7 +1,7 @@
 //! What a way costs off the lines with most room to either side: the generalized Voronoi diagram of what stands around.
 
-use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require};
 
 use crate::distance::{DistanceField, NOTHING_NEAR};
 

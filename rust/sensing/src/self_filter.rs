@@ -1,9 +1,10 @@
 //! Takes out of a scan what the robot sees of itself: its arms, knees and feet are no obstacles.
 
-use geometry::{Camera, ConfigError, Pose, Torso, require};
+use geometry::{Camera, Pose, Torso};
 use nalgebra::{Point3, Vector3};
 use robot::{Body, LinkPoses, Side};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require};
 
 use crate::Scan;
 

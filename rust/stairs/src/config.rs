@@ -1,7 +1,7 @@
 //! Settings of recognition, and the parameter sets of 003's Table I.
 
-use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require};
 
 /// Settings of [`crate::Recognizer`]: `[navigation.stairs]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -1,9 +1,10 @@
 //! The recognizer: from planes to stairs in the map.
 
-use geometry::{ConfigError, Map, Pose, Robot};
+use geometry::{Map, Pose, Robot};
 use mapping::FloorView;
 use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
+use settings::ConfigError;
 
 use crate::extract::Extraction;
 use crate::fits::Fits;

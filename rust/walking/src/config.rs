@@ -1,7 +1,7 @@
 //! `[gait]` of robot.toml: how this robot walks.
 
-use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require};
 
 use crate::WalkError;
 use crate::stance::Stance;

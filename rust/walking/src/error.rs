@@ -7,7 +7,7 @@ use robot::Side;
 pub enum WalkError {
     /// A bad setting in `[gait]`.
     #[error(transparent)]
-    Setting(#[from] geometry::ConfigError),
+    Setting(#[from] settings::ConfigError),
     /// `[gait]` has not the form that it must have.
     #[error("gait: {0}")]
     Form(String),

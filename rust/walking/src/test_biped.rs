@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use behaviour::Command;
 use geometry::{PlanarPose, Pose};
-use localization::BodyState;
 use nalgebra::{UnitQuaternion, Vector3};
+use proprioception::BodyState;
 use robot::{
     Body, CameraMount, Description, Extent, Head, ImuMount, JointDescription, Leg, Legs,
     LinkDescription, LinkPoses, Side, Sole, StereoDescription,

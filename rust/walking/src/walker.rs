@@ -1,8 +1,8 @@
 //! The walker: a command in, targets for all joints out, at every control tick.
 
 use behaviour::{Command, Gaze, Stepping};
-use localization::BodyState;
 use nalgebra::Vector2;
+use proprioception::BodyState;
 use robot::{Body, Side};
 use sensing::Observation;
 

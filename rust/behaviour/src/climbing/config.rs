@@ -1,7 +1,7 @@
 //! Settings of the behaviours `stair_climbing` and `continuous`.
 
-use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require};
 
 /// The robot waits no longer than this, s: without a step for so long it gives up, whatever for.
 const LONGEST_WAIT_S: f64 = 60.0;

@@ -1,7 +1,7 @@
 //! Settings of the behaviour `walking`.
 
-use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require};
 
 /// The robot stands no longer than this at one place, however it is told to, s.
 const LONGEST_STAND_S: f64 = 60.0;

@@ -1,8 +1,9 @@
 //! A localizer of the user's.
 
 use geometry::{Pose, Robot};
-use localization::{BodyState, Estimate, Localizer, LocalizerError};
+use localization::{Estimate, Localizer, LocalizerError};
 use mapping::FloorView;
+use proprioception::BodyState;
 use pyo3::intern;
 use pyo3::prelude::*;
 use segmentation::Planes;

@@ -1,7 +1,7 @@
 //! Settings of the localizer `matching`.
 
-use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require, require_positive};
 
 /// A keyframe takes 230 kB.
 const MOST_KEYFRAMES: usize = 1000;

@@ -9,18 +9,18 @@ mod surfaces;
 #[cfg(test)]
 mod tests;
 
-use geometry::{ConfigError, Map, PlanarPose, Pose, Robot};
+use geometry::{Map, PlanarPose, Pose, Robot};
 use mapping::FloorView;
 use segmentation::Planes;
+use settings::ConfigError;
 
 pub use config::MatchingConfig;
 use heading_filter::HeadingFilter;
 use keyframe::{Keyframe, Stand};
 use profile::Beam;
 
-use crate::{
-    BodyState, Estimate, Localizer, LocalizerError, OdometryLocalizer, OdometryLocalizerConfig,
-};
+use crate::{Estimate, Localizer, LocalizerError, OdometryLocalizer, OdometryLocalizerConfig};
+use proprioception::BodyState;
 
 /// As [`OdometryLocalizer`], but the heading: the upright surfaces of a frame are laid on those of earlier ones, and by how far
 /// they have to be turned, over the time between, the gyroscope's bias and the heading's error are known.

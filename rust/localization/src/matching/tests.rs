@@ -10,7 +10,7 @@ use segmentation::Planes;
 use sensing::Intrinsics;
 
 use super::*;
-use crate::synthetic_walk::state_at;
+use testkit::state_at;
 
 const FRAME_NS: u64 = 80_000_000;
 const EYE_M: Vector3<f64> = Vector3::new(0.04, 0.0, 0.46);

@@ -1,8 +1,8 @@
 //! The particle filter: move, weigh, draw anew.
 
-use mapping::volume::LANES;
 use nalgebra::Isometry3;
 use rayon::prelude::*;
+use volume::LANES;
 
 use super::MonteCarloConfig;
 use super::belief::Belief;

@@ -1,6 +1,6 @@
 //! The Gaussian that beams and heights are judged by, for eight guesses at once.
 
-use mapping::volume::Lanes;
+use volume::Lanes;
 
 /// Beyond so many standard deviations a Gaussian is nothing.
 pub(super) const NO_SIGMAS: f64 = 6.0;

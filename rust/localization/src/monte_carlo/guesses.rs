@@ -1,6 +1,6 @@
 //! Eight guesses side by side.
 
-use mapping::volume::{LANES, Lanes};
+use volume::{LANES, Lanes};
 
 use super::particle::TorsoPose;
 

@@ -1,6 +1,6 @@
 //! Which settings of the localizer `monte_carlo` can be used.
 
-use geometry::{ConfigError, require, require_positive};
+use settings::{ConfigError, require, require_positive};
 
 use super::MonteCarloConfig;
 

@@ -28,20 +28,22 @@ mod world;
 
 use std::sync::Arc;
 
-use geometry::{ConfigError, Map, Odometry, Pose, Robot};
+use geometry::{Map, Odometry, Pose, Robot};
 use mapping::FloorView;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use segmentation::Planes;
+use settings::ConfigError;
 
 pub use belief::Belief;
 pub use config::{MonteCarloConfig, RangeModel};
 pub use particle::TorsoPose;
 pub use static_map::StaticMap;
 
-use crate::{BodyState, Estimate, Guess, Localizer, LocalizerError};
+use crate::{Estimate, Guess, Localizer, LocalizerError};
 use beams::Beams;
 use motion::{Motion, Reading};
 use observation::Observation;
+use proprioception::BodyState;
 use search::Search;
 use tracking::Tracking;
 

@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Rotation2, Vector2, Vector3};
 use super::MonteCarloConfig;
 use super::particle::TorsoPose;
 use super::random::Stream;
-use crate::BodyState;
+use proprioception::BodyState;
 
 /// What the body says of itself at a frame.
 #[derive(Debug, Clone, Copy)]
@@ -120,10 +120,10 @@ impl Motion {
 mod tests {
     use super::super::random::Purpose;
     use super::*;
-    use crate::synthetic_walk::state_at;
     use geometry::Pose;
     use nalgebra::{SMatrix, SVector};
     use proptest::prelude::*;
+    use testkit::state_at;
 
     fn reading(time_ns: u64, [x_m, y_m, z_m, yaw_rad]: [f64; 4]) -> Reading {
         let mut body = state_at(time_ns);

@@ -4,7 +4,7 @@
 //! Equation (2) of 002 takes beams for independent. Those that end on one thing beside a wall are not: each is a little more likely
 //! from a pose that makes it a part of that wall, and where little else stands in view they draw the estimate there.
 
-use mapping::volume::LANES;
+use volume::LANES;
 
 use super::fit::MATCH_SIGMAS;
 use super::gauss::splat;
@@ -82,10 +82,10 @@ mod tests {
     use super::super::observation::Ray;
     use super::super::world::{Eye, World};
     use super::*;
-    use crate::synthetic_walk::state_at;
     use geometry::Pose;
     use nalgebra::{Isometry3, Point3, Vector3};
     use proptest::prelude::*;
+    use testkit::state_at;
 
     /// Ends on a patch of a wall that is 2 m ahead, or on a thing that stands before it.
     fn ends(at_m: [f64; 3], count: usize, is_before: impl Fn(usize) -> bool) -> Vec<End> {

@@ -2,8 +2,8 @@
 //!
 //! `p(o | x) = p(r | x) p(z | x) p(phi | x) p(theta | x)`, as sums of logarithms.
 
-use mapping::volume::{LANES, Lanes};
 use nalgebra::{Point3, Vector3};
+use volume::{LANES, Lanes};
 
 use super::MonteCarloConfig;
 use super::beams::{Beam, Beams};
@@ -211,11 +211,11 @@ mod tests {
     use super::super::RangeModel;
     use super::super::world::{Eye, World};
     use super::*;
-    use crate::synthetic_walk::state_at;
     use geometry::Pose;
     use nalgebra::Isometry3;
     use proptest::prelude::*;
     use std::sync::Arc;
+    use testkit::state_at;
 
     /// What is seen in the room from a place, by a torso that is tilted as it is measured to be; and the truth.
     fn seen(range_model: RangeModel) -> (Observation, Arc<StaticMap>, TorsoPose, Beams) {

@@ -1,7 +1,7 @@
 //! The map that is known beforehand, as the localizer reads it.
 
-use geometry::ConfigError;
-use mapping::volume::{DistanceField, RangeField, SolidVoxels, Standing, standing};
+use settings::ConfigError;
+use volume::{DistanceField, RangeField, SolidVoxels, Standing, standing};
 
 use super::{MonteCarloConfig, RangeModel};
 

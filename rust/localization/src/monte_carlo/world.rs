@@ -3,16 +3,17 @@
 use std::sync::Arc;
 
 use geometry::{Camera, Grid, Lattice, PlanarPose, Pose, Robot};
-use mapping::volume::SolidVoxels;
 use mapping::{FloorView, Surface};
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use segmentation::Planes;
 use sensing::Intrinsics;
+use volume::SolidVoxels;
 
 use super::random::{Purpose, Stream};
 use super::{MonteCarloConfig, MonteCarloLocalizer, StaticMap};
-use crate::synthetic_walk::state_at;
-use crate::{BodyState, Localizer};
+use crate::Localizer;
+use proprioception::BodyState;
+use testkit::state_at;
 
 /// 58 by 45 degrees.
 pub(super) const CAMERA: Intrinsics = Intrinsics {

@@ -1,7 +1,7 @@
 //! Parameters of the averaged height map, checked once.
 
-use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require};
 
 use crate::surface::require_usable_side;
 

@@ -11,8 +11,9 @@
 mod config;
 mod means;
 
-use geometry::{Cell, CellArea, ConfigError, Map, Pose, Robot};
+use geometry::{Cell, CellArea, Map, Pose, Robot};
 use segmentation::Planes;
+use settings::ConfigError;
 
 use crate::surface::{
     LabelledFrame, LabelledPoint, Pair, Reading, Stood, Window, check_poses, height_shift,

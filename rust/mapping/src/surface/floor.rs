@@ -4,9 +4,10 @@ use geometry::{Cell, CellArea, Grid, Lattice};
 
 use super::merging::{INVALID, merge_height};
 use super::tilts::{LEVEL, Tilts};
-use super::{FogConfig, LabelledFrame, Update};
-use crate::storage::runs;
-use crate::volume::OccupancyGrid;
+use super::{FogConfig, LabelledFrame};
+use geometry::runs;
+use volume::OccupancyGrid;
+use volume::Update;
 
 /// What is this much nearer than what it is compared with was seen better: a body sways by less.
 const NEARER: f32 = 0.9;

@@ -1,8 +1,9 @@
 //! The floor and obstacle grid of Gutmann, Fukuchi and Fujita 2005 (000): equations (5), (10), (11), the order of an update, and
 //! the ceiling map that its section VI proposes.
 
-use geometry::{Cell, CellArea, ConfigError, Grid, Map, Pose, Robot};
+use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use segmentation::Planes;
+use settings::ConfigError;
 
 use super::rough::Rough;
 use super::shadow::{Shadow, Surroundings};
@@ -11,9 +12,9 @@ use super::window::{Layers, Window};
 use super::{
     FloorGrid, FogConfig, LabelledFrame, LabelledPoint, Pair, Reading, check_poses, height_shift,
 };
-use crate::storage::runs;
-use crate::volume::{Locator, OccupancyGrid, Placement, ProbabilityTable, Size};
 use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
+use geometry::runs;
+use volume::{Locator, OccupancyGrid, Placement, ProbabilityTable, Size};
 
 /// Keeps the occupancy grid, the floor grid and the view made of both.
 #[derive(Debug, Clone)]

@@ -5,7 +5,7 @@ use nalgebra::{Point3, Vector3};
 use segmentation::Planes;
 
 use crate::MapError;
-use crate::volume::{Locator, Picture, Ray};
+use volume::{Locator, Picture, Ray};
 
 /// Refuses poses that are no numbers, before anything is changed by them.
 pub(crate) fn check_poses(

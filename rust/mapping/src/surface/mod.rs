@@ -12,8 +12,8 @@ mod stood;
 mod tilts;
 mod window;
 
+pub use config::FogConfig;
 pub(crate) use config::require_usable_side;
-pub use config::{Clearing, FogConfig, Update};
 pub use floor::FloorGrid;
 pub use fog::Fog;
 pub(crate) use frame::check_poses;

@@ -3,8 +3,8 @@
 
 use geometry::Cell;
 
-use crate::volume::OccupancyGrid;
 use crate::{FloorView, Surface};
+use volume::OccupancyGrid;
 
 /// Which cells have an obstacle near them: most points lie far from all, and need no closer look. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
@@ -120,8 +120,8 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::volume::{Placement, ProbabilityTable, Ray, Size};
     use crate::{Clearing, Update};
+    use volume::{Placement, ProbabilityTable, Ray, Size};
 
     const CELLS: usize = 12;
     const CELL_M: f64 = 0.04;

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use segmentation::Planes;
 
 use crate::surface::LabelledFrame;
-use crate::volume::Ray;
+use volume::Ray;
 
 /// Points beside each other on one surface are nearer than this part of how far away they are: 8 pixels of 320 on one that is seen at
 /// 20 degrees.

@@ -5,7 +5,7 @@
 use geometry::CellArea;
 
 use super::layers::{Columns, Layers};
-use crate::volume::octree::Octree;
+use volume::octree::Octree;
 
 /// Log-odds that are not against a voxel.
 const EVEN: f64 = 0.5;

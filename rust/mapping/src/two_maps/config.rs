@@ -1,10 +1,10 @@
 //! Parameters of the two maps, checked once.
 
-use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require, require_positive};
 
 use crate::FogConfig;
-use crate::volume::octree::{LAYERS, OctreeConfig};
+use volume::octree::{LAYERS, OctreeConfig};
 
 /// How far above and below what the robot stands on floors of other levels are looked for at least, m.
 const LEVELS_M: f64 = 0.3;

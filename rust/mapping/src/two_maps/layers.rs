@@ -2,8 +2,8 @@
 
 use geometry::{Cell, CellArea, Lattice};
 
-use crate::storage::runs;
-use crate::volume::octree::{Footprint, Octree};
+use geometry::runs;
+use volume::octree::{Footprint, Octree};
 
 /// Voxel of the map's origin, counted from the lowest that a tree can hold.
 const ORIGIN: i32 = 1 << 15;

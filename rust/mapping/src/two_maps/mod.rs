@@ -15,20 +15,21 @@ mod unseen;
 
 use std::sync::Arc;
 
-use geometry::{Cell, CellArea, ConfigError, Grid, Map, Pose, Robot};
+use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use segmentation::Planes;
+use settings::ConfigError;
 
-use crate::storage::runs;
-use crate::surface::{Clearing, Update};
-use crate::volume::Ray;
-use crate::volume::octree::{Cast, Octree, Sighting, probability};
 use crate::{FloorView, Fog, FogConfig, Insertion, MapError, Surface, Voxel, WorldModel};
 use beams::Ground;
 use believed::Believed;
 pub use config::TwoMapsConfig;
+use geometry::runs;
 use layers::Layers;
 use prior::Prior;
 use unseen::Unseen;
+use volume::Ray;
+use volume::octree::{Cast, Octree, Sighting, probability};
+use volume::{Clearing, Update};
 
 /// Cells along a side of a static map that the window holds as a whole; a larger one is looked at around the robot.
 const MOST_CELLS: f64 = 1000.0;

@@ -3,12 +3,13 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use geometry::{CellArea, ConfigError, require};
+use geometry::CellArea;
+use settings::{ConfigError, require};
 
 use super::TwoMapsConfig;
 use super::layers::{Columns, Layers};
-use crate::storage::runs;
-use crate::volume::octree::{LAYERS, Leaf, Octree, OctreeConfig};
+use geometry::runs;
+use volume::octree::{LAYERS, Leaf, Octree, OctreeConfig};
 
 /// So far around the robot something may be the floor that it stands on, m: the map, or its pose, is a little wrong.
 const AROUND_M: f64 = 0.2;

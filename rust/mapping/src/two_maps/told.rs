@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::layers::Layers;
 use super::prior::Prior;
-use crate::volume::Ray;
+use volume::Ray;
 
 /// What is nearer is taken in, whatever was told: there it matters, and there it is where it is seen, m.
 const NEAR_M: f64 = 1.2;

@@ -5,7 +5,7 @@ use geometry::{Map, Pose, Robot};
 use nalgebra::Vector3;
 use segmentation::Planes;
 
-use crate::volume::Ray;
+use volume::Ray;
 
 /// Rows above and below in which nothing may have been seen either, and columns beside what was.
 const BESIDE_PX: usize = 2;

@@ -2,9 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a helper of tests panics, too")]
 
-use mapping::volume::Ray;
-use mapping::volume::octree::{Octree, OctreeConfig};
 use proptest::prelude::*;
+use volume::Ray;
+use volume::octree::{Octree, OctreeConfig};
 
 pub(crate) const RESOLUTION: f64 = 0.1;
 /// Voxels along each axis of all that a tree holds, and the one at the origin.

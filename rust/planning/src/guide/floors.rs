@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use mapping::volume::{SolidVoxels, standing};
+use volume::{SolidVoxels, standing};
 
 use crate::Goal;
 

@@ -1,7 +1,7 @@
 //! What the map that is known beforehand says of ground that was not seen yet (002, III.A: prior knowledge for planning).
 
-use mapping::volume::SolidVoxels;
 use mapping::{FloorView, Surface};
+use volume::SolidVoxels;
 
 use super::floors::Floors;
 

@@ -1,7 +1,7 @@
 //! Settings that all segmenters share: `[navigation.ground]`.
 
-use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require, require_positive};
 
 /// The noise of the disparities, the smallest region, and how the ground is found and followed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -27,9 +27,10 @@ mod tilted;
 mod view;
 mod walls;
 
-use geometry::{Camera, ConfigError, Pose, Robot};
+use geometry::{Camera, Pose, Robot};
 use nalgebra::{Rotation3, Vector2, Vector3};
 use sensing::{Intrinsics, Scan};
+use settings::ConfigError;
 
 use crate::{KnownFloor, NothingKnown, Planes, SegmentError, Segmenter};
 pub use config::GroundConfig;

@@ -1,7 +1,7 @@
 //! Settings of the segmenter `histogram`.
 
-use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require, require_positive};
 
 /// Settings of [`super::Histogram`]: `[navigation.histogram]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -6,8 +6,8 @@
 
 mod config;
 
-use geometry::ConfigError;
 use sensing::Intrinsics;
+use settings::ConfigError;
 
 use crate::grounded::{Finder, GroundConfig, Grounded, Look, MAX_REGIONS, Picture, Region, View};
 pub use config::HistogramConfig;

@@ -1,7 +1,7 @@
 //! Settings of the segmenter `hough`.
 
-use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require, require_positive};
 
 /// Settings of [`super::Hough`]: `[navigation.hough]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

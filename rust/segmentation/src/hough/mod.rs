@@ -7,9 +7,9 @@
 mod accumulator;
 mod config;
 
-use geometry::ConfigError;
 use nalgebra::{Matrix3, Vector3};
 use sensing::Intrinsics;
+use settings::ConfigError;
 
 use crate::free_planes::{Draws, Peeling, Pixel, Remaining, through};
 use crate::grounded::{Finder, GroundConfig, Grounded, Linear, Look, Picture, Region, View};

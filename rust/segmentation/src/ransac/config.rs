@@ -1,7 +1,7 @@
 //! Settings of the segmenter `ransac`.
 
-use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require, require_positive};
 
 /// Settings of [`super::Ransac`]: `[navigation.ransac]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

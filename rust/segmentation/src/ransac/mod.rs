@@ -6,8 +6,8 @@
 
 mod config;
 
-use geometry::ConfigError;
 use sensing::Intrinsics;
+use settings::ConfigError;
 
 use crate::free_planes::{Draws, Peeling, Remaining, through};
 use crate::grounded::{Finder, GroundConfig, Grounded, Linear, Look, Picture, Region, View};

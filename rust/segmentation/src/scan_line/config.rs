@@ -1,7 +1,7 @@
 //! Settings of the scan-line segmenter: `[navigation.scan_line]`.
 
-use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require, require_positive};
 
 use super::strips::MAX_STRIP;
 

@@ -10,8 +10,8 @@ mod steep;
 mod strip_rows;
 mod strips;
 
-use geometry::ConfigError;
 use sensing::Intrinsics;
+use settings::ConfigError;
 
 use crate::grounded::{Finder, GroundConfig, Grounded, Look, Picture, Region, View};
 pub use config::ScanLineConfig;

@@ -1,7 +1,7 @@
 //! Settings of the segmenter `scan_line_1994`.
 
-use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require, require_positive};
 
 /// Settings of [`super::ScanLine1994`]: `[navigation.scan_line_1994]`. The thresholds are fixed, whatever the local noise;
 /// the defaults are those that tell most treads of 30 mm apart at a noise of 1/8 px.

@@ -9,8 +9,8 @@ mod config;
 mod growth;
 mod lines;
 
-use geometry::ConfigError;
 use sensing::Intrinsics;
+use settings::ConfigError;
 
 use crate::free_planes::FreePlanes;
 use crate::grounded::{Finder, GroundConfig, Grounded, Look, Picture, Region, View};

@@ -1,7 +1,7 @@
 //! Settings of the segmenter `scan_line_adaptive`.
 
-use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require};
 
 /// Settings of [`super::ScanLineAdaptive`]: `[navigation.scan_line_adaptive]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -12,8 +12,8 @@ mod merging;
 mod patch;
 mod pieces;
 
-use geometry::ConfigError;
 use sensing::Intrinsics;
+use settings::ConfigError;
 
 use crate::free_planes::FreePlanes;
 use crate::grounded::{Finder, GroundConfig, Grounded, Look, Picture, Region, View};

@@ -1,9 +1,9 @@
 //! Claims about proprioception, tried on synthetic walks.
 
 use super::*;
-use crate::synthetic_walk::{TICK_NS, Walk, biped};
 use geometry::{PlanarPose, angle_between};
 use proptest::prelude::*;
+use testkit::{TICK_NS, Walk, biped};
 
 fn run(walk: &Walk) -> Vec<BodyState> {
     let mut proprioception =

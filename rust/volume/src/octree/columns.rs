@@ -7,17 +7,17 @@ use super::key::{Key, child_corner, edge};
 use super::nodes::Link;
 
 /// Layers that a column holds.
-pub(crate) const LAYERS: i32 = u64::BITS as i32;
+pub const LAYERS: i32 = u64::BITS as i32;
 
 /// Where columns lie: cells of `per_cell` voxels along each side, of which the lowest voxel of the first is `low`.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Footprint {
+pub struct Footprint {
     /// Counted from the lowest voxel that a tree can hold.
-    pub(crate) low: [i32; 3],
+    pub low: [i32; 3],
     /// Cells along x and y.
-    pub(crate) cells: [usize; 2],
+    pub cells: [usize; 2],
     /// Voxels along a side of a cell.
-    pub(crate) per_cell: usize,
+    pub per_cell: usize,
 }
 
 impl Footprint {
@@ -41,7 +41,7 @@ struct Visit<'a, F> {
 impl Octree {
     /// Calls `mark(col, row, layers)` with the cell of every column of voxels in which something is at least as likely as `p_occ`,
     /// which is 0.5 or more; a cell of several columns is marked by each.
-    pub(crate) fn occupied_columns(
+    pub fn occupied_columns(
         &self,
         footprint: &Footprint,
         p_occ: f64,
@@ -124,7 +124,7 @@ mod tests {
     use super::super::super::Ray;
     use super::super::OctreeConfig;
     use super::*;
-    use crate::surface::Update;
+    use crate::Update;
 
     fn point() -> impl Strategy<Value = [f64; 3]> {
         (-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64).prop_map(|(x, y, z)| [x, y, z])

@@ -116,7 +116,7 @@ fn floor(value: f64) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::volume::VoxelWalk;
+    use crate::VoxelWalk;
     use proptest::prelude::*;
 
     const SIDE_M: f64 = 0.1;

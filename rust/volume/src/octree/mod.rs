@@ -15,10 +15,10 @@ mod reading;
 mod window;
 mod writing;
 
-use geometry::ConfigError;
+use settings::ConfigError;
 
 pub use cast::{Cast, Sighting};
-pub(crate) use columns::{Footprint, LAYERS};
+pub use columns::{Footprint, LAYERS};
 pub use config::{OctreeConfig, probability};
 pub use error::OctreeError;
 pub use header::Format;

@@ -5,6 +5,7 @@ mod fan;
 mod frustum;
 mod locator;
 mod marks;
+mod modes;
 mod occupancy;
 pub mod octree;
 mod picture;
@@ -17,7 +18,8 @@ mod solid;
 mod sweep;
 mod voxels;
 
-pub(crate) use locator::Locator;
+pub use locator::Locator;
+pub use modes::{Clearing, Update};
 pub use occupancy::{OccupancyGrid, Placement, Ray, Size};
 pub use picture::Picture;
 pub use probability::{ProbabilityTable, bayes};

@@ -1,9 +1,10 @@
 //! The body's own senses at every control tick: observation in, body state out.
 
-use geometry::{ConfigError, Pose};
+use geometry::Pose;
 use nalgebra::{UnitQuaternion, Vector3};
 use robot::{Body, LinkPoses, Side};
 use sensing::{Observation, ObservationError};
+use settings::ConfigError;
 
 use crate::attitude::{AttitudeFilter, ImuSample};
 use crate::contact::Contacts;

@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use geometry::CellArea;
+use crate::CellArea;
 
 /// Where the cells of an area are stored that lie in grids of so many columns and rows: a run for each row.
-pub(crate) fn runs(area: CellArea, size: [usize; 2]) -> impl Iterator<Item = Range<usize>> {
+pub fn runs(area: CellArea, size: [usize; 2]) -> impl Iterator<Item = Range<usize>> {
     let [cols, rows] = size;
     let within = |low: i32, high: i32, count: usize| {
         let end = (i64::from(high) + 1).clamp(0, count as i64) as usize;
@@ -18,7 +18,7 @@ pub(crate) fn runs(area: CellArea, size: [usize; 2]) -> impl Iterator<Item = Ran
 
 #[cfg(test)]
 mod tests {
-    use geometry::{Cell, Grid};
+    use crate::{Cell, Grid};
     use proptest::prelude::*;
 
     use super::*;

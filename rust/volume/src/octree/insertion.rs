@@ -9,7 +9,7 @@ use super::brick::{EDGE, index};
 use super::key::{Key, SPAN, in_voxels};
 use super::window::Window;
 use super::{Octree, OctreeError};
-use crate::surface::{Clearing, Update};
+use crate::{Clearing, Update};
 
 /// Largest part of space whose marks are kept at a time, in voxels; a column of marks is one word high.
 const TILE: [i32; 3] = [1024, 1024, 64];

@@ -1,7 +1,7 @@
 //! Parameters of the octree, and the log-odds that they mean.
 
-use geometry::{ConfigError, require, require_positive};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require, require_positive};
 
 /// Parameters of the octree. The defaults are OctoMap's (Hornung et al. 2013).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -79,8 +79,16 @@ impl BodyStateHistory {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic_walk::state_at;
     use proptest::prelude::*;
+
+    fn state_at(time_ns: u64) -> BodyState {
+        let body = testkit::biped();
+        let proprioception =
+            crate::Proprioception::new(&body, crate::ProprioceptionConfig::default());
+        let mut state = proprioception.unwrap().state().clone();
+        state.time_ns = time_ns;
+        state
+    }
 
     proptest! {
         #[test]

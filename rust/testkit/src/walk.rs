@@ -1,162 +1,25 @@
-//! Test support: a small biped, and the observations that it would make on a walk with known footholds.
-
-use std::collections::BTreeMap;
+//! The observations that the biped would make on a walk with known footholds.
 
 use geometry::PlanarPose;
 use nalgebra::{Isometry3, Matrix6, Translation3, UnitQuaternion, Vector2, Vector3, Vector6};
-use robot::{
-    Body, CameraMount, Description, Extent, Head, ImuMount, JointDescription, Leg, Legs,
-    LinkDescription, LinkPoses, Side, Sole, StereoDescription,
-};
+use robot::{Body, LinkPoses, Side};
 use sensing::Observation;
 
-use crate::{BodyState, Proprioception, ProprioceptionConfig};
+use crate::biped::{HIP_Y_M, biped};
 
-pub(crate) const TICK_NS: u64 = 10_000_000;
-const HIP_Y_M: f64 = 0.0425;
+/// Time between two observations, ns.
+pub const TICK_NS: u64 = 10_000_000;
 const HIP_HEIGHT_M: f64 = 0.22;
 const JOINTS: usize = 13;
 
-fn link(
-    name: &str,
-    parent: Option<usize>,
-    position: [f64; 3],
-    axis: Option<[f64; 3]>,
-) -> LinkDescription {
-    LinkDescription {
-        name: name.to_owned(),
-        parent,
-        position,
-        orientation: [1.0, 0.0, 0.0, 0.0],
-        mass: 0.5,
-        center_of_mass: [0.0; 3],
-        inertia: [1e-4, 1e-4, 1e-4, 0.0, 0.0, 0.0],
-        joint: axis.map(|axis| JointDescription {
-            name: name.to_owned(),
-            axis,
-            anchor: [0.0; 3],
-            range: [-2.5, 2.5],
-            peak_torque: 6.0,
-            no_load_speed: 7.0,
-            kp: 150.0,
-            kv: 3.0,
-            follows: None,
-        }),
-    }
-}
-
-/// Two legs of 100 + 100 mm and a waist that carries the inertial measurement unit.
-pub(crate) fn biped() -> Body {
-    let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
-    let mut links = vec![link("pelvis", None, [0.0; 3], None)];
-    for (side, sign) in [("left", 1.0), ("right", -1.0)] {
-        let parts = [
-            ("hip_yaw", [0.0, sign * HIP_Y_M, 0.0], z),
-            ("hip_roll", [0.0; 3], x),
-            ("hip_pitch", [0.0; 3], y),
-            ("knee", [0.0, 0.0, -0.1], y),
-            ("ankle_pitch", [0.0, 0.0, -0.1], y),
-            ("foot", [0.0; 3], x),
-        ];
-        for (i, (name, position, axis)) in parts.into_iter().enumerate() {
-            let parent = if i == 0 { 0 } else { links.len() - 1 };
-            links.push(link(
-                &format!("{side}_{name}"),
-                Some(parent),
-                position,
-                Some(axis),
-            ));
-        }
-    }
-    links.push(link("waist", Some(0), [0.0, 0.0, 0.05], Some(y)));
-    let leg = |side: &str| Leg {
-        joints: [
-            "hip_yaw",
-            "hip_roll",
-            "hip_pitch",
-            "knee",
-            "ankle_pitch",
-            "foot",
-        ]
-        .map(|name| format!("{side}_{name}")),
-        sole: Sole {
-            link: format!("{side}_foot"),
-            position: [0.0, 0.0, -0.04],
-            length: 0.105,
-            width: 0.075,
-        },
-        sensors: None,
-    };
-    describe(links, leg("left"), leg("right"))
-}
-
-fn describe(links: Vec<LinkDescription>, left: Leg, right: Leg) -> Body {
-    let joints: Vec<String> = links
-        .iter()
-        .filter_map(|l| l.joint.as_ref())
-        .map(|j| j.name.clone())
-        .collect();
-    Body::new(Description {
-        name: "biped".to_owned(),
-        stand: vec![0.0; joints.len()],
-        joints,
-        links,
-        torso: "waist".to_owned(),
-        legs: Legs { left, right },
-        head: Head {
-            pan: "waist".to_owned(),
-            tilt: "waist".to_owned(),
-        },
-        arms_rest: BTreeMap::new(),
-        arms_raised: BTreeMap::new(),
-        imu: ImuMount {
-            link: "waist".to_owned(),
-            position: [0.0; 3],
-            orientation: [1.0, 0.0, 0.0, 0.0],
-        },
-        camera: CameraMount {
-            link: "waist".to_owned(),
-            position: [0.0; 3],
-            orientation: [1.0, 0.0, 0.0, 0.0],
-            width: 88,
-            height: 72,
-            focal: 100.0,
-            period: 0.08,
-            pool: 1,
-            stereo: StereoDescription {
-                baseline: 0.06,
-                window: 5,
-            },
-        },
-        body: Extent {
-            radius: 0.14,
-            height: 0.58,
-            depth: None,
-            width: None,
-        },
-        play: 0.0,
-        gait: serde_json::Value::Null,
-    })
-    .unwrap()
-}
-
-/// A body state at the origin.
-pub(crate) fn state_at(time_ns: u64) -> BodyState {
-    let mut state = Proprioception::new(&biped(), ProprioceptionConfig::default())
-        .unwrap()
-        .state()
-        .clone();
-    state.time_ns = time_ns;
-    state.links.torso_from_link = vec![Isometry3::identity(); 4];
-    state
-}
-
 /// A walker without dynamics: it goes from foothold to foothold and writes down what its sensors would say.
-pub(crate) struct Walk {
-    pub(crate) body: Body,
-    pub(crate) observations: Vec<Observation>,
+pub struct Walk {
+    /// The biped.
+    pub body: Body,
+    /// What its sensors said, tick by tick.
+    pub observations: Vec<Observation>,
     /// True robot frame at each observation: x, y, yaw and the level.
-    pub(crate) truth: Vec<(PlanarPose, f64)>,
+    pub truth: Vec<(PlanarPose, f64)>,
     soles: [(PlanarPose, f64); 2],
     torso: Isometry3<f64>,
     speed_mps: Vector2<f64>,
@@ -173,7 +36,7 @@ fn smooth(share: f64) -> f64 {
 
 impl Walk {
     /// Stands at the origin.
-    pub(crate) fn new() -> Self {
+    pub fn new() -> Self {
         let mut joints = vec![0.0; JOINTS];
         for leg in [0, 6] {
             joints[leg + 2] = -0.4;
@@ -193,7 +56,7 @@ impl Walk {
     }
 
     /// Stands on both feet for a number of ticks.
-    pub(crate) fn stand(mut self, ticks: usize) -> Self {
+    pub fn stand(mut self, ticks: usize) -> Self {
         for _ in 0..ticks {
             self.tick(0.5, self.soles, Side::Left);
         }
@@ -201,7 +64,7 @@ impl Walk {
     }
 
     /// Moves one foot to a place and a level: load shift, 20 ticks in the air, load shift back to the middle.
-    pub(crate) fn step(mut self, side: Side, to: PlanarPose, level_m: f64) -> Self {
+    pub fn step(mut self, side: Side, to: PlanarPose, level_m: f64) -> Self {
         let from = self.soles;
         let lifted = if side == Side::Left { 1.0 } else { 0.0 };
         for tick in 1..=SHIFT_TICKS {
@@ -238,7 +101,7 @@ impl Walk {
     }
 
     /// Walks `count` steps; each brings one foot to where `forward`, and `turn_rad` more of heading, put it.
-    pub(crate) fn walk(mut self, count: usize, forward_m: f64, turn_rad: f64) -> Self {
+    pub fn walk(mut self, count: usize, forward_m: f64, turn_rad: f64) -> Self {
         let mut at = PlanarPose::default();
         for step in 0..count {
             let side = if step % 2 == 0 {

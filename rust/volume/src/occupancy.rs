@@ -7,8 +7,8 @@ use super::picture::{Picture, Sight};
 use super::ray::Part;
 use super::voxels::{Voxels, bits};
 use super::{ProbabilityTable, VoxelWalk};
-use crate::storage::runs;
-use crate::surface::{Clearing, Update};
+use crate::{Clearing, Update};
+use geometry::runs;
 
 /// Number of voxels along each axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,7 +104,7 @@ impl OccupancyGrid {
 
     /// Whether a layer is occupied in the cell that is stored at an index, row by row.
     #[inline]
-    pub(crate) fn holds(&self, index: usize, layer: usize) -> bool {
+    pub fn holds(&self, index: usize, layer: usize) -> bool {
         self.voxels.occupied(index) >> layer & 1 == 1
     }
 
@@ -115,7 +115,7 @@ impl OccupancyGrid {
 
     /// The same of the cell that is stored at an index, row by row.
     #[inline]
-    pub(crate) fn obstacle_height_at(&self, index: usize) -> Option<f64> {
+    pub fn obstacle_height_at(&self, index: usize) -> Option<f64> {
         let layer = self.voxels.occupied(index).checked_ilog2();
         layer.map(|layer| self.center_m(layer as usize))
     }
@@ -257,7 +257,7 @@ impl OccupancyGrid {
     }
 
     /// The layer of a height; none above and below the grid.
-    pub(crate) fn layer_at(&self, height_m: f64) -> Option<usize> {
+    pub fn layer_at(&self, height_m: f64) -> Option<usize> {
         let layer = (height_m - self.placement.bottom_m) / self.placement.layer_m;
         let inside = layer >= 0.0 && layer < self.size.layers as f64;
         inside.then_some(layer as usize)

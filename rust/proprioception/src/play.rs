@@ -156,7 +156,7 @@ fn center_of_pressure(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic_walk::{Walk, biped};
+    use testkit::{Walk, biped};
 
     fn corrected(play_rad: f64, forces_n: [[f64; 4]; 2]) -> (Vec<f64>, Vec<f64>) {
         let mut description = biped().description().clone();

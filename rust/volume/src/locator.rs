@@ -12,7 +12,7 @@ const NO_FRACTION: f64 = 6_755_399_441_055_744.0;
 /// Finds the voxels of places, or their cells, without a division, but for places at borders: the same as by
 /// [`Placement::in_voxels`] and [`Lattice::cell_at`].
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Locator<const AXES: usize> {
+pub struct Locator<const AXES: usize> {
     corner_m: [f64; AXES],
     side_m: [f64; AXES],
     per_voxel: [f64; AXES],
@@ -36,14 +36,14 @@ impl Locator<3> {
 
 impl Locator<2> {
     /// Of the cells of a grid with so many columns and rows.
-    pub(crate) fn of_cells(lattice: &Lattice, [cols, rows]: [usize; 2]) -> Self {
+    pub fn of_cells(lattice: &Lattice, [cols, rows]: [usize; 2]) -> Self {
         let size = [cols, rows].map(|n| n as i32);
         Self::new(lattice.origin_m, [lattice.cell_m; 2], size)
     }
 
     /// Where a place's cell is stored, row by row; none outside of the grid.
     #[inline]
-    pub(crate) fn index_at(&self, at_m: [f64; 2]) -> Option<usize> {
+    pub fn index_at(&self, at_m: [f64; 2]) -> Option<usize> {
         let [col, row] = self.voxel_at(at_m)?;
         Some(row as usize * self.size[0] as usize + col as usize)
     }

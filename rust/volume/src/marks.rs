@@ -12,7 +12,7 @@ use super::ray::{Last, Part, Reach};
 use super::reaches::Reaches;
 use super::sweep::{Marked, Sweep, Way};
 use super::voxels::{Column, Voxels};
-use crate::surface::Clearing;
+use crate::Clearing;
 
 /// Fewer rays of one way are followed one by one.
 const FEW: usize = 64;

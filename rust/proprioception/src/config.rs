@@ -1,7 +1,7 @@
 //! Settings of proprioception.
 
-use geometry::{ConfigError, require};
 use serde::{Deserialize, Serialize};
+use settings::{ConfigError, require};
 
 /// Settings of [`crate::Proprioception`]: `[navigation.proprioception]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

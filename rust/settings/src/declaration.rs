@@ -1,0 +1,309 @@
+//! The macro that declares a table of settings: struct, defaults, bounds and meaning in one place.
+
+/// Declares a struct of settings: one doc comment, and one line `name: type = default, unit, bounds, source;` a setting.
+///
+/// The doc comment is the meaning that users read. The unit is SI (`"m"`, `"rad"`, `"s"`), `"1"` for a number without one, `"-"` for
+/// what is no number. Bounds are constants and functions of this crate ([`crate::POSITIVE`], [`crate::within`]). The source is paper
+/// and equation and may be left out. A line `name: type;` holds a table within the table. What more than one setting must fulfil
+/// together is checked by the function behind `check`.
+///
+/// ```
+/// use settings::{ConfigError, POSITIVE, Table, require, settings, within};
+///
+/// settings! {
+///     /// How the robot walks.
+///     pub struct Walking("navigation.walking") {
+///         /// Speed straight ahead.
+///         forward_speed: f64 = 0.08, "m/s", POSITIVE;
+///         /// A turn on the spot begins above this bearing.
+///         turn_above: f64 = 0.5, "rad", within(0.0, 3.2), "005, equation (3)";
+///         /// A turn on the spot ends below this bearing.
+///         turn_until: f64 = 0.2, "rad", within(0.0, 3.2);
+///     }
+///     check Walking::is_ordered;
+/// }
+///
+/// impl Walking {
+///     fn is_ordered(&self, key: &str) -> Result<(), ConfigError> {
+///         let holds = self.turn_until < self.turn_above;
+///         require(holds, &format!("{key}.turn_until"), "below turn_above", self.turn_until)
+///     }
+/// }
+///
+/// assert_eq!(Walking::default().check(), Ok(()));
+/// let slow = Walking { forward_speed: 0.0, ..Walking::default() };
+/// let said = slow.check().unwrap_err().to_string();
+/// assert_eq!(said, "navigation.walking.forward_speed must be > 0, got 0");
+/// ```
+#[macro_export]
+macro_rules! settings {
+    (
+        $(#[doc = $about:literal])*
+        $vis:vis struct $name:ident($key:literal) {
+            $(
+                $(#[doc = $meaning:literal])*
+                $field:ident: $type:ty
+                    $(= $default:expr, $unit:literal, $bounds:expr $(, $source:literal)?)?;
+            )*
+        }
+        $(check $relations:path;)?
+    ) => {
+        $(#[doc = $about])*
+        #[derive(Debug, Clone, PartialEq, $crate::serde::Serialize, $crate::serde::Deserialize)]
+        #[serde(crate = "settings::serde", deny_unknown_fields, default)]
+        $vis struct $name {
+            $(
+                $(#[doc = $meaning])*
+                pub $field: $type,
+            )*
+        }
+
+        impl Default for $name {
+            fn default() -> Self {
+                Self { $($field: $crate::default_of!($($default)?),)* }
+            }
+        }
+
+        impl $crate::Table for $name {
+            const KEY: &'static str = $key;
+            const ABOUT: &'static str = concat!($($about),*);
+
+            fn check_as(&self, key: &str) -> Result<(), $crate::ConfigError> {
+                $(
+                    $crate::Setting::check(
+                        &self.$field,
+                        &$crate::key_of(key, stringify!($field)),
+                        &$crate::bounds_of!($($bounds)?),
+                    )?;
+                )*
+                $($relations(self, key)?;)?
+                Ok(())
+            }
+
+            fn parameters_as(key: &str) -> Vec<$crate::Parameter> {
+                let defaults = Self::default();
+                let mut all = Vec::new();
+                $(
+                    $crate::describe(
+                        &mut all,
+                        &defaults.$field,
+                        $crate::Declared {
+                            key: $crate::key_of(key, stringify!($field)),
+                            unit: $crate::unit_of!($($unit)?),
+                            bounds: $crate::bounds_of!($($bounds)?),
+                            meaning: concat!($($meaning),*),
+                            source: $crate::source_of!($($($source)?)?),
+                        },
+                    );
+                )*
+                all
+            }
+        }
+
+        impl $crate::Setting for $name {
+            fn check(&self, key: &str, _: &$crate::Bounds) -> Result<(), $crate::ConfigError> {
+                $crate::Table::check_as(self, key)
+            }
+
+            fn schema(_: &$crate::Bounds) -> $crate::serde_json::Value {
+                $crate::Description::of::<Self>().schema()
+            }
+
+            fn parameters(key: &str) -> Option<Vec<$crate::Parameter>> {
+                Some(<Self as $crate::Table>::parameters_as(key))
+            }
+        }
+    };
+}
+
+/// The default of a setting: that of its type, where it is a table.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! default_of {
+    () => {
+        Default::default()
+    };
+    ($default:expr) => {
+        $default
+    };
+}
+
+/// The bounds of a setting.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! bounds_of {
+    () => {
+        $crate::ANY
+    };
+    ($bounds:expr) => {
+        $bounds
+    };
+}
+
+/// The unit of a setting.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! unit_of {
+    () => {
+        "-"
+    };
+    ($unit:literal) => {
+        $unit
+    };
+}
+
+/// The paper and equation of a setting.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! source_of {
+    () => {
+        None
+    };
+    ($source:literal) => {
+        Some($source)
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{ANY, ConfigError, POSITIVE, SHARE, Table, Tables, choices, read, require};
+    use serde_json::json;
+
+    /// How a frame may change a voxel.
+    #[derive(
+        Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+    )]
+    #[serde(rename_all = "snake_case")]
+    pub(super) enum Update {
+        /// Once.
+        #[default]
+        PerFrame,
+        /// By every ray.
+        PerPoint,
+    }
+
+    choices!(Update);
+
+    settings! {
+        /// Numbers that few turn.
+        pub(super) struct Inner("navigation.grid.tuning") {
+            /// A share of the old.
+            nu: f64 = 0.9, "1", SHARE, "000, equation (9)";
+            /// Offsets along
+            /// both axes.
+            offsets: [f32; 2] = [0.0, 0.5], "m", SHARE;
+        }
+    }
+
+    settings! {
+        /// A grid.
+        pub(super) struct Grid("navigation.grid") {
+            /// Side of a cell.
+            cell: f64 = 0.04, "m", POSITIVE;
+            /// Cells along each side.
+            cells: usize = 100, "1", crate::within(4.0, 2000.0);
+            /// Room above a floor.
+            headroom: Option<f64> = None, "m", POSITIVE;
+            /// How often a frame may change a voxel.
+            update: Update = Update::PerFrame, "-", ANY;
+            /// Numbers that few turn.
+            tuning: Inner;
+        }
+        check Grid::fits;
+    }
+
+    impl Grid {
+        fn fits(&self, key: &str) -> Result<(), ConfigError> {
+            let size = self.cell * self.cells as f64;
+            require(
+                size < 100.0,
+                &format!("{key}.cells"),
+                "less than 100 m",
+                size,
+            )
+        }
+    }
+
+    fn refused(grid: &Grid) -> String {
+        grid.check().unwrap_err().to_string()
+    }
+
+    #[test]
+    fn each_setting_is_refused_by_its_key_with_what_is_allowed() {
+        assert_eq!(Grid::default().check(), Ok(()));
+        let mut grid = Grid::default();
+        grid.tuning.offsets[1] = 1.5;
+        let said = "navigation.grid.tuning.offsets.1 must be from 0 to 1, got 1.5";
+        assert_eq!(refused(&grid), said);
+        let grid = Grid {
+            cells: 3,
+            ..Grid::default()
+        };
+        assert_eq!(
+            refused(&grid),
+            "navigation.grid.cells must be from 4 to 2000, got 3"
+        );
+        let grid = Grid {
+            headroom: Some(f64::NAN),
+            ..Grid::default()
+        };
+        assert_eq!(
+            refused(&grid),
+            "navigation.grid.headroom must be > 0, got NaN"
+        );
+        let grid = Grid {
+            cell: 1.0,
+            ..Grid::default()
+        };
+        assert_eq!(
+            refused(&grid),
+            "navigation.grid.cells must be less than 100 m, got 100"
+        );
+    }
+
+    #[test]
+    fn the_list_says_of_each_what_it_is() {
+        let all = Grid::parameters();
+        let keys: Vec<_> = all.iter().map(|one| one.key.as_str()).collect();
+        assert_eq!(
+            keys,
+            [
+                "navigation.grid.cell",
+                "navigation.grid.cells",
+                "navigation.grid.headroom",
+                "navigation.grid.update",
+                "navigation.grid.tuning.nu",
+                "navigation.grid.tuning.offsets",
+            ]
+        );
+        assert_eq!(all[0].default, json!(0.04));
+        assert_eq!((all[0].unit, all[0].tuning), ("m", false));
+        assert_eq!(all[2].bounds, "> 0, or left out");
+        assert_eq!(all[3].bounds, "per_frame, per_point");
+        assert_eq!(all[4].source, Some("000, equation (9)"));
+        assert!(all[4].tuning);
+        assert_eq!(all[5].meaning, "Offsets along both axes.");
+    }
+
+    #[test]
+    fn the_schema_holds_tables_within_tables() {
+        let schema = crate::Description::of::<Grid>().schema();
+        let cell = &schema["properties"]["cell"];
+        assert_eq!(cell["exclusiveMinimum"], json!(0.0));
+        assert_eq!(cell["default"], json!(0.04));
+        let inner = &schema["properties"]["tuning"]["properties"]["nu"];
+        assert_eq!(inner["maximum"], json!(1.0));
+        assert_eq!(inner["description"], json!("A share of the old."));
+    }
+
+    #[test]
+    fn what_a_table_within_a_table_does_not_say_has_its_default() {
+        let tables = Tables::from([("grid".to_owned(), json!({"tuning": {"nu": 0.5}}))]);
+        let grid: Grid = read(&tables, "grid").unwrap();
+        assert_eq!((grid.tuning.nu, grid.tuning.offsets[1]), (0.5, 0.5));
+        let tables = Tables::from([("grid".to_owned(), json!({"tuning": {"mu": 0.5}}))]);
+        let error = read::<Grid>(&tables, "grid").unwrap_err();
+        assert!(error.starts_with("navigation.grid.tuning"), "{error}");
+        assert!(error.contains("unknown field `mu`"), "{error}");
+    }
+}

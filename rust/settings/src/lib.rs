@@ -1,0 +1,26 @@
+//! What a setting is: its meaning, unit, default and bounds, declared once ([`settings!`]); how a table of settings is read from what
+//! a user wrote, and refused by key where it cannot be used.
+
+#[cfg(test)]
+extern crate self as settings;
+
+mod bounds;
+mod declaration;
+mod error;
+mod setting;
+mod table;
+
+pub use bounds::{
+    ANY, Bounds, End, NOT_NEGATIVE, POSITIVE, SHARE, above, above_to, at_least, between,
+    from_below, within,
+};
+pub use error::{ConfigError, require, require_positive};
+#[doc(hidden)]
+pub use setting::words_of;
+pub use setting::{Parameter, Setting};
+#[doc(hidden)]
+pub use table::{Declared, describe, key_of};
+pub use table::{Description, Table, Tables, read};
+
+#[doc(hidden)]
+pub use {schemars, serde, serde_json};

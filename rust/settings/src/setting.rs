@@ -1,0 +1,157 @@
+//! What can be the value of a setting, and what is known of one.
+
+use schemars::JsonSchema;
+use serde_json::{Map, Value, json};
+
+use crate::{Bounds, ConfigError};
+
+/// One setting, as `treadwell list parameters` shows it.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Parameter {
+    /// Dotted key, as in `navigation.fog.cell`.
+    pub key: String,
+    /// What it has where nobody says.
+    pub default: Value,
+    /// Its unit; `1` for a number without one, `-` for what is no number.
+    pub unit: &'static str,
+    /// What is allowed.
+    pub bounds: String,
+    /// What it means.
+    pub meaning: String,
+    /// Paper and equation, where it comes from one.
+    pub source: Option<&'static str>,
+    /// Whether it stands under `tuning`: a number that decides something, but that few will want to turn.
+    pub tuning: bool,
+    /// Its part of the table's JSON schema.
+    pub schema: Value,
+}
+
+/// A value that a setting can have: a number, a choice, a list of such, or a table of settings.
+pub trait Setting {
+    /// Refuses what is outside the bounds, by its key.
+    fn check(&self, key: &str, bounds: &Bounds) -> Result<(), ConfigError>;
+
+    /// JSON schema of its values.
+    fn schema(bounds: &Bounds) -> Value;
+
+    /// The settings in it, where it is a table.
+    fn parameters(_key: &str) -> Option<Vec<Parameter>> {
+        None
+    }
+
+    /// What is allowed, in words.
+    fn allowed(bounds: &Bounds) -> String {
+        bounds.to_string()
+    }
+}
+
+macro_rules! numbers {
+    ($kind:literal: $($number:ty),*) => {$(
+        impl Setting for $number {
+            fn check(&self, key: &str, bounds: &Bounds) -> Result<(), ConfigError> {
+                // As wide as every number here that a bound can name.
+                #[expect(clippy::allow_attributes, reason = "only some conversions are lossless")]
+                #[allow(clippy::cast_lossless, trivial_numeric_casts)]
+                let value = *self as f64;
+                crate::require(bounds.hold(value), key, &bounds.to_string(), self)
+            }
+
+            fn schema(bounds: &Bounds) -> Value {
+                let mut schema = Map::from_iter([("type".to_owned(), json!($kind))]);
+                for (keyword, value) in bounds.keywords() {
+                    drop(schema.insert(keyword.to_owned(), json!(value)));
+                }
+                Value::Object(schema)
+            }
+        }
+    )*};
+}
+
+numbers!("number": f64, f32);
+numbers!("integer": u8, u16, u32, u64, usize, i32, i64);
+
+impl Setting for bool {
+    fn check(&self, _: &str, _: &Bounds) -> Result<(), ConfigError> {
+        Ok(())
+    }
+
+    fn schema(_: &Bounds) -> Value {
+        json!({"type": "boolean"})
+    }
+
+    fn allowed(_: &Bounds) -> String {
+        "true, false".to_owned()
+    }
+}
+
+impl<T: Setting> Setting for Option<T> {
+    fn check(&self, key: &str, bounds: &Bounds) -> Result<(), ConfigError> {
+        self.as_ref()
+            .map_or(Ok(()), |value| value.check(key, bounds))
+    }
+
+    fn schema(bounds: &Bounds) -> Value {
+        json!({"anyOf": [T::schema(bounds), {"type": "null"}]})
+    }
+
+    fn allowed(bounds: &Bounds) -> String {
+        format!("{}, or left out", T::allowed(bounds))
+    }
+}
+
+impl<T: Setting, const N: usize> Setting for [T; N] {
+    fn check(&self, key: &str, bounds: &Bounds) -> Result<(), ConfigError> {
+        let numbered = self.iter().enumerate();
+        numbered
+            .map(|(index, value)| value.check(&format!("{key}.{index}"), bounds))
+            .collect()
+    }
+
+    fn schema(bounds: &Bounds) -> Value {
+        json!({"type": "array", "items": T::schema(bounds), "minItems": N, "maxItems": N})
+    }
+
+    fn allowed(bounds: &Bounds) -> String {
+        format!("{N} values, each {}", T::allowed(bounds))
+    }
+}
+
+/// Words to choose from: the schema of a choice, and what is allowed in words. Used by [`crate::choices!`].
+pub fn words_of<T: JsonSchema>() -> (Value, Vec<String>) {
+    let generator = schemars::generate::SchemaSettings::draft2020_12()
+        .with(|settings| settings.inline_subschemas = true)
+        .into_generator();
+    let mut schema = generator.into_root_schema_for::<T>().to_value();
+    if let Value::Object(schema) = &mut schema {
+        for key in ["$schema", "title"] {
+            drop(schema.remove(key));
+        }
+    }
+    let named = schema["enum"].as_array().into_iter().flatten();
+    let described = schema["oneOf"].as_array().into_iter().flatten();
+    let words = named
+        .chain(described.map(|one| one.get("const").unwrap_or(&one["enum"][0])))
+        .filter_map(|word| word.as_str().map(str::to_owned))
+        .collect();
+    (schema, words)
+}
+
+/// Makes enums settings: one of their words. They need `serde` and `schemars::JsonSchema`.
+#[macro_export]
+macro_rules! choices {
+    ($($choice:ty),* $(,)?) => {$(
+        impl $crate::Setting for $choice {
+            fn check(&self, _: &str, _: &$crate::Bounds) -> Result<(), $crate::ConfigError> {
+                Ok(())
+            }
+
+            fn schema(_: &$crate::Bounds) -> $crate::serde_json::Value {
+                $crate::words_of::<Self>().0
+            }
+
+            fn allowed(_: &$crate::Bounds) -> String {
+                $crate::words_of::<Self>().1.join(", ")
+            }
+        }
+    )*};
+}

@@ -1,0 +1,175 @@
+//! A table of settings: declared once by `settings!`, read from what a user wrote, refused by key.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value, json};
+
+use crate::{Bounds, ConfigError, Parameter, Setting};
+
+/// A struct whose fields are settings. Declared by [`crate::settings!`].
+pub trait Table: Serialize + DeserializeOwned + Default {
+    /// Where it stands, as in `navigation.fog`.
+    const KEY: &'static str;
+    /// What the table is for.
+    const ABOUT: &'static str;
+
+    /// Refuses what cannot be used, as settings of the table `key`.
+    fn check_as(&self, key: &str) -> Result<(), ConfigError>;
+
+    /// The settings of the table `key`, tables within it included.
+    fn parameters_as(key: &str) -> Vec<Parameter>;
+
+    /// Refuses what cannot be used.
+    fn check(&self) -> Result<(), ConfigError> {
+        self.check_as(Self::KEY)
+    }
+
+    /// Every setting, tables within included.
+    fn parameters() -> Vec<Parameter> {
+        Self::parameters_as(Self::KEY)
+    }
+}
+
+/// What a table is, for lists and schemas.
+#[derive(Debug, Clone, Copy)]
+pub struct Description {
+    /// Where it stands, as in `navigation.fog`.
+    pub key: &'static str,
+    /// What it is for.
+    pub about: &'static str,
+    /// Its settings.
+    pub parameters: fn() -> Vec<Parameter>,
+}
+
+impl Description {
+    /// That of a table.
+    pub const fn of<T: Table>() -> Self {
+        Self {
+            key: T::KEY,
+            about: T::ABOUT,
+            parameters: T::parameters,
+        }
+    }
+
+    /// JSON schema of the table.
+    pub fn schema(&self) -> Value {
+        let mut schema = object(self.about);
+        for parameter in (self.parameters)() {
+            let below = &parameter.key[self.key.len() + 1..];
+            let mut table = &mut schema;
+            let mut names: Vec<_> = below.split('.').collect();
+            let Some(last) = names.pop() else { continue };
+            for name in names {
+                table = &mut table["properties"][name];
+                if table.is_null() {
+                    *table = object("");
+                }
+            }
+            table["properties"][last] = parameter.schema;
+        }
+        schema
+    }
+}
+
+fn object(about: &str) -> Value {
+    json!({
+        "type": "object",
+        "description": about,
+        "properties": Map::new(),
+        "additionalProperties": false,
+    })
+}
+
+/// `[navigation.<name>]` as the user wrote them, by name.
+pub type Tables = BTreeMap<String, Value>;
+
+/// Reads the table `[navigation.<name>]`. What it does not say has its default, in tables within it too.
+pub fn read<T: DeserializeOwned + Serialize + Default>(
+    tables: &Tables,
+    name: &str,
+) -> Result<T, String> {
+    let Some(given) = tables.get(name) else {
+        return Ok(T::default());
+    };
+    let refused =
+        |key: &str, error: &dyn std::fmt::Display| format!("navigation.{name}{key}: {error}");
+    let mut settings = serde_json::to_value(T::default()).map_err(|error| refused("", &error))?;
+    overlay(&mut settings, given);
+    serde_path_to_error::deserialize(settings).map_err(|error| {
+        let key = match error.path().to_string().as_str() {
+            "." => String::new(),
+            path => format!(".{path}"),
+        };
+        refused(&key, error.inner())
+    })
+}
+
+/// Puts `given` over `settings`, key by key where both are tables.
+fn overlay(settings: &mut Value, given: &Value) {
+    match (settings, given) {
+        (Value::Object(settings), Value::Object(given)) => {
+            for (key, value) in given {
+                overlay(settings.entry(key).or_insert(Value::Null), value);
+            }
+        }
+        (settings, given) => settings.clone_from(given),
+    }
+}
+
+/// The key of a setting of a table.
+#[doc(hidden)]
+pub fn key_of(table: &str, name: &str) -> String {
+    format!("{table}.{name}")
+}
+
+/// A setting as it was declared.
+#[doc(hidden)]
+#[derive(Debug)]
+pub struct Declared {
+    /// Its dotted key.
+    pub key: String,
+    /// Its unit.
+    pub unit: &'static str,
+    /// What is allowed.
+    pub bounds: Bounds,
+    /// What it means, as the doc comment has it.
+    pub meaning: &'static str,
+    /// Paper and equation.
+    pub source: Option<&'static str>,
+}
+
+/// Puts what is known of a setting, or of all those of a table within the table, to a list.
+#[doc(hidden)]
+pub fn describe<T: Setting + Serialize>(all: &mut Vec<Parameter>, default: &T, as_is: Declared) {
+    let Declared {
+        key,
+        unit,
+        bounds,
+        meaning,
+        source,
+    } = as_is;
+    if let Some(inner) = T::parameters(&key) {
+        all.extend(inner);
+        return;
+    }
+    let meaning = meaning.split_whitespace().collect::<Vec<_>>().join(" ");
+    let default = json!(default);
+    let mut schema = T::schema(&bounds);
+    schema["description"] = json!(meaning);
+    schema["default"] = default.clone();
+    if !matches!(unit, "-" | "1") {
+        schema["x-unit"] = json!(unit);
+    }
+    all.push(Parameter {
+        tuning: key.contains(".tuning."),
+        bounds: T::allowed(&bounds),
+        key,
+        default,
+        unit,
+        meaning,
+        source,
+        schema,
+    });
+}
