@@ -2,8 +2,8 @@
 
     python tools/module_circles.py      # each circle, and one line of code for each of its arrows
 
-A module uses another one when it, or one within it, names it or something that the module above re-exports
-from it. A module and those within it may use each other: they are one thing.
+A module uses another one when it, or one within it, names it or something that the module above
+re-exports from it. A module and those within it may use each other: they are one thing.
 """
 
 import re

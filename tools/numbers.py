@@ -1,13 +1,13 @@
-"""Counts the numbers of the core that are no settings, and the type names that stand for two things.
+"""Counts the numbers of the core that are no settings, and type names that stand for two things.
 
     python tools/numbers.py             # the counts
     python tools/numbers.py --list      # and where each stands
     python tools/numbers.py --names     # and the names with more than one meaning
 
-Counted are float literals outside of tests, of the bindings and of the defaults of settings (`settings!`,
-`impl Default`), where they are not 0, 1, 2, 0.5 or a power of ten: in `const` and `static`, and inline.
-Code lines are those of `rust/` and `python/` without tests, comments, docstrings, blank lines and
-declarations of settings.
+Counted are float literals outside of tests, of the bindings and of the defaults of settings
+(`settings!`, `impl Default`), where they are not 0, 1, 2, 0.5 or a power of ten: in `const` and
+`static`, and inline. Code lines are those of `rust/` and `python/` without tests, comments,
+docstrings, blank lines and declarations of settings.
 """
 
 import argparse
@@ -138,9 +138,8 @@ def main() -> None:
     for crate in sorted({crate for crate, _ in by_crate}):
         print(f"{crate:16s} const {by_crate[crate, True]:4d}  inline {by_crate[crate, False]:4d}")
     constants = sum(one.constant for _, one in every)
-    print(
-        f"float literals outside settings: {len(every)} ({constants} const, {len(every) - constants} inline)"
-    )
+    inline = len(every) - constants
+    print(f"float literals outside settings: {len(every)} ({constants} const, {inline} inline)")
     names = type_names()
     print(f"type names with two meanings: {len(names)}")
     print(f"code lines: rust {rust_lines()}, python {python_lines()}")

@@ -1,4 +1,4 @@
-"""The core's sources as text: without comments, strings and tests, each file with its crate and module."""
+"""The core's sources as text without comments, strings and tests, each with crate and module."""
 
 import re
 from collections.abc import Iterator
@@ -18,7 +18,7 @@ _MODULE = re.compile(r"(?:pub(?:\([^)]*\))?\s+)?mod\s+(\w+)\s*;")
 
 @dataclass(frozen=True)
 class Source:
-    """One file: `text` is its code, with what was taken out left blank, so that lines keep their numbers."""
+    """One file: `text` is its code; what was taken out is blank, so that lines keep their place."""
 
     path: Path
     crate: str
