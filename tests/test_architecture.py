@@ -12,6 +12,7 @@ LONGEST_FILE = 400
 TESTED_BY = {
     "cli.verify": "test_difference.py",
     "protocols": "test_components.py",
+    "version": "test_bindings.py",
     "cli.compare": "test_comparison.py",
     "comparing.tables": "test_comparison.py",
     "cli.options": "test_cli.py",

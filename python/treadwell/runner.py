@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from treadwell import __version__
 from treadwell.cli.progress import Progress
 from treadwell.episode import Episode, Step
 from treadwell.errors import CoreError, SimulationError, TreadwellError
@@ -28,6 +27,7 @@ from treadwell.recording.trace import Trace
 from treadwell.recording.tracing import trace_of
 from treadwell.recording.trajectory import Trajectory
 from treadwell.recording.writers import NoWriters, Writers, open_viewer
+from treadwell.version import __version__
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,6 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from treadwell import __version__
 from treadwell.cli.progress import Progress
 from treadwell.episode import Episode
 from treadwell.errors import SimulationError
@@ -16,6 +15,7 @@ from treadwell.experiments.experiment import Case, Experiment, Picture, Table
 from treadwell.judging.result import write_whole
 from treadwell.recording.run_folder import make_experiment_folder
 from treadwell.runner import Run, run_episode
+from treadwell.version import __version__
 from treadwell.workers.answers import Answer, Done, Raised
 from treadwell.workers.pool import Pool
 

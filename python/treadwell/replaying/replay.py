@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
 
-from treadwell import __version__
 from treadwell._core import Pilot, Tick
 from treadwell.cli.progress import Progress
 from treadwell.core_settings import build_core, guards, user_components
@@ -25,6 +24,7 @@ from treadwell.recording.trajectory import ESTIMATE, Trajectory
 from treadwell.replaying.difference import Answer, Difference, between_answers
 from treadwell.replaying.result import FirstDifference, ReplayFacts, ReplayResult
 from treadwell.replaying.source import Source, open_source
+from treadwell.version import __version__
 
 
 @dataclass(frozen=True, slots=True)
