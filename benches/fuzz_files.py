@@ -180,7 +180,7 @@ def contained(good: Path, seed: int, number: int) -> str:
         if READERS[kind][1] not in (_world, _mesh):
             return f"FAULT crashed or hung ({kind})"
         try:
-            limited("build", [str(path), "x"], "x")
+            limited(build_files, [str(path), "x"], "x")
         except InputError:
             return "contained"
         return "FAULT crashed, and was taken in the child"

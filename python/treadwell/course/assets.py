@@ -67,7 +67,7 @@ def check_builds(path: Path, what: str) -> None:
     """
     key = _content_key(path)
     if key not in _BUILT:
-        limited("build", [str(path), what], what)
+        limited(build_files, [str(path), what], what)
         _BUILT.add(key)
 
 
