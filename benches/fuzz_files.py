@@ -23,11 +23,11 @@ from typing import Any
 import numpy as np
 
 from treadwell._core import Octree
-from treadwell.course.assets import build_files
-from treadwell.course.xml import check_xml
 from treadwell.data import data_folder
 from treadwell.errors import InputError, TreadwellError
 from treadwell.judging.result import read_result
+from treadwell.mjcf.build import build_files
+from treadwell.mjcf.xml import check_xml
 from treadwell.recording.file import whole_length
 from treadwell.recording.observation_log import read_answers, read_observations
 from treadwell.recording.trajectory import read_trajectory

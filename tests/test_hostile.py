@@ -11,9 +11,9 @@ from hostile_files import MESHES, NO_FILE, ROBOTS, SCENARIOS, WORLDS, Make
 import treadwell
 from treadwell._core import Octree
 from treadwell.cli.app import execute
-from treadwell.course.assets import build_files
 from treadwell.errors import TreadwellError
 from treadwell.limited import Limits, limited
+from treadwell.mjcf.build import build_files
 from treadwell.recording.observation_log import NAME
 from treadwell.recording.verification import verify_run
 

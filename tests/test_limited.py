@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from treadwell.course.assets import build_files
 from treadwell.errors import InputError
 from treadwell.limited import limited, place_of
+from treadwell.mjcf.build import build_files
 from treadwell.physics.audit import replay_lengths
 
 BOX = "<mujoco><worldbody><geom type='box' size='1 1 1'/></worldbody></mujoco>"

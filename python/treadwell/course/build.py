@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from treadwell.course.assets import compiled, mjcf_pieces, read_mjcf
+from treadwell.course.assets import mjcf_pieces, read_mjcf
 from treadwell.course.check import check_start
 from treadwell.course.geometry import PREFIX, add_ground, add_movable_body, add_pieces
 from treadwell.course.levels import levels, surface_height
@@ -16,6 +16,7 @@ from treadwell.course.outlines import Floats
 from treadwell.course.pieces import Piece, Top, about_z
 from treadwell.course.plan import PlannedElement, plan_elements
 from treadwell.errors import InputError
+from treadwell.mjcf.build import compiled
 from treadwell.robot.load import Robot
 from treadwell.scenario.model import Scenario
 
