@@ -20,7 +20,7 @@ from treadwell.robot.check import check_robot
 from treadwell.robot.description import describe
 from treadwell.robot.file import MotorsTable, RobotFile
 from treadwell.robot.followers import followers
-from treadwell.physics.motors import MotorLimits
+from treadwell.robot.motor_limits import MotorLimits
 from treadwell.robot.reading import read_robot_file
 from treadwell.scenario.messages import shortened
 
