@@ -10,7 +10,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from treadwell.course.build import Course, build_course
+from treadwell.course.build import build_course
+from treadwell.course.course import Course
 from treadwell.judging.map_memory import RememberedMap
 from treadwell.judging.result import Result
 from treadwell.physics.motors import JointTargets

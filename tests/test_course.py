@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from treadwell.course.assets import read_mjcf
-from treadwell.course.build import Course, build_course
+from treadwell.course.build import build_course
+from treadwell.course.course import Course
 from treadwell.course.geometry import COLOURS, GROUND, PARKED
 from treadwell.course.outlines import rectangle, signed_distance
 from treadwell.course.plan import all_elements

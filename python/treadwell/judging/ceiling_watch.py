@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from treadwell.course.build import CourseElement
+from treadwell.course.course import CourseElement
 from treadwell.episode import Episode
 from treadwell.judging.cells import covered_by, lattice
 from treadwell.judging.map_memory import FLOOR

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.course.build import CourseElement
+from treadwell.course.course import CourseElement
 from treadwell.course.outlines import signed_distance
 from treadwell.episode import Episode
 from treadwell.judging.cells import lattice

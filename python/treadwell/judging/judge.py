@@ -4,7 +4,7 @@ import math
 
 import mujoco
 
-from treadwell.course.build import Course
+from treadwell.course.course import Course
 from treadwell.judging.contacts import Collision, Contacts, Touch
 from treadwell.judging.ground_truth import GroundFrame, GroundTruth, Sole
 from treadwell.judging.level_changes import LevelChanges

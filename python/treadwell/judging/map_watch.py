@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.course.build import CourseElement
+from treadwell.course.course import CourseElement
 from treadwell.course.levels import surface_height
 from treadwell.episode import Episode
 from treadwell.judging.cells import covered_by, lattice

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.course.build import Course, CourseElement
+from treadwell.course.course import Course, CourseElement
 from treadwell.course.outlines import near, signed_distance
 from treadwell.course.pieces import Top
 from treadwell.judging.map_memory import FLOOR, OBSTACLE, RememberedMap

@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from treadwell.course.build import LEVEL_TOLERANCE, Course
+from treadwell.course.course import LEVEL_TOLERANCE, Course
 from treadwell.course.outlines import Floats
 from treadwell.judging.climb_line import PROBE, ClimbLine, Node
 from treadwell.judging.robot_limits import Limits, limits_of

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.course.build import CourseElement
+from treadwell.course.course import CourseElement
 from treadwell.course.outlines import near, signed_distance
 from treadwell.course.static_map import RESOLUTION, static_map
 from treadwell.episode import Episode

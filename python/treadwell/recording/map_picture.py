@@ -14,7 +14,7 @@ from matplotlib.patches import Circle, Patch, Polygon
 from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
-from treadwell.course.build import Course
+from treadwell.course.course import Course
 from treadwell.judging.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
 from treadwell.judging.result import Result
 from treadwell.recording.stair_memory import StairMemory, outline

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 
 from treadwell._core import Octree
-from treadwell.course.build import Course
+from treadwell.course.course import Course
 from treadwell.course.pieces import bounds
 from treadwell.errors import InputError, RecordingError
 from treadwell.recording.file import cut_to_whole_messages, room
