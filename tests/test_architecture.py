@@ -11,6 +11,7 @@ LONGEST_FILE = 400
 # Tested through what uses them, by the test named.
 TESTED_BY = {
     "cli.verify": "test_difference.py",
+    "progress": "test_cli.py",
     "protocols": "test_components.py",
     "version": "test_bindings.py",
     "cli.compare": "test_comparison.py",

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from treadwell.cli.progress import Progress
 from treadwell.episode import Episode, Step
 from treadwell.errors import CoreError, SimulationError, TreadwellError
 from treadwell.interruption import Interruption
@@ -21,6 +20,7 @@ from treadwell.judging.step_watch import KnownTop, StepError, StepWatch
 from treadwell.judging.verdict import Verdict
 from treadwell.judging.watch import Watch
 from treadwell.physics.simulation import TICK_NS
+from treadwell.progress import Progress
 from treadwell.recording.run_folder import make_run_folder
 from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.trace import Trace

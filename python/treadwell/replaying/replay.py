@@ -7,7 +7,6 @@ from pathlib import Path
 from time import perf_counter
 
 from treadwell._core import Pilot, Tick
-from treadwell.cli.progress import Progress
 from treadwell.core_settings import build_core, guards, user_components
 from treadwell.errors import CoreError, InputError, RecordingError
 from treadwell.guard import Guard, blamed
@@ -16,6 +15,7 @@ from treadwell.judging.measures import PoseErrors, timing
 from treadwell.judging.result import LocalizationErrors, StateEntry
 from treadwell.observation import Floats, Observation
 from treadwell.poses import pose_matrix, rotation_of
+from treadwell.progress import Progress
 from treadwell.recording.log_file import BrokenLogError
 from treadwell.recording.messages import encode_command, encode_estimate
 from treadwell.recording.observation_log import read_answers, read_observations, read_truth
