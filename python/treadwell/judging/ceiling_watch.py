@@ -7,8 +7,8 @@ import numpy as np
 from treadwell.course.course import CourseElement
 from treadwell.episode import Episode
 from treadwell.judging.cells import covered_by, lattice
-from treadwell.judging.map_memory import FLOOR
-from treadwell.recording.trace import Trace
+from treadwell.map_memory import FLOOR
+from treadwell.trace import Trace
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from treadwell.course.course import Course, CourseElement
 from treadwell.course.outlines import near, signed_distance
 from treadwell.course.pieces import Top
-from treadwell.judging.map_memory import FLOOR, OBSTACLE, RememberedMap
 from treadwell.judging.result import MapCounts, SurfaceEntry
+from treadwell.map_memory import FLOOR, OBSTACLE, RememberedMap
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]

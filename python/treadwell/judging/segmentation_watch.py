@@ -5,8 +5,8 @@ from numpy.typing import NDArray
 
 from treadwell.episode import Episode
 from treadwell.judging.regions import RegionCounts, compare_regions
-from treadwell.recording.trace import Trace
 from treadwell.senses.depth import Cast
+from treadwell.trace import Trace
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int64]
