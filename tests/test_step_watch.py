@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from episode_builders import STEP, world
 
-from treadwell.judging.step_watch import StepError, StepWatch, true_edge
+from treadwell.measuring.step_watch import StepError, StepWatch, true_edge
 from treadwell.trace import Sole
 
 

@@ -11,14 +11,14 @@ import numpy as np
 from treadwell.episode import Episode, Step
 from treadwell.errors import CoreError, SimulationError, TreadwellError
 from treadwell.interruption import Interruption
-from treadwell.judging.clearance import least_clearance
-from treadwell.judging.measures import PoseErrors, timing
 from treadwell.judging.result import CollisionEntry, Result, StateEntry
-from treadwell.judging.score import map_counts, surfaces, true_cells
-from treadwell.judging.step_watch import KnownTop, StepError, StepWatch
 from treadwell.judging.verdict import Verdict
-from treadwell.judging.watch import Watch
 from treadwell.map_memory import MapMemory, RememberedMap
+from treadwell.measuring.clearance import least_clearance
+from treadwell.measuring.measures import PoseErrors, timing
+from treadwell.measuring.score import map_counts, surfaces, true_cells
+from treadwell.measuring.step_watch import KnownTop, StepError, StepWatch
+from treadwell.measuring.watch import Watch
 from treadwell.physics.simulation import TICK_NS
 from treadwell.progress import Progress
 from treadwell.recording.run_folder import make_run_folder

@@ -11,8 +11,8 @@ from treadwell.core_settings import build_core, guards, user_components
 from treadwell.errors import CoreError, InputError, RecordingError
 from treadwell.guard import Guard, blamed
 from treadwell.interruption import Interruption
-from treadwell.judging.measures import PoseErrors, timing
 from treadwell.judging.result import LocalizationErrors, StateEntry
+from treadwell.measuring.measures import PoseErrors, timing
 from treadwell.observation import Floats, Observation
 from treadwell.poses import pose_matrix, rotation_of
 from treadwell.progress import Progress

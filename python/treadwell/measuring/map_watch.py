@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from treadwell.course.course import CourseElement
 from treadwell.course.levels import surface_height
 from treadwell.episode import Episode
-from treadwell.judging.cells import covered_by, lattice
 from treadwell.map_memory import FLOOR, OBSTACLE, RememberedMap
+from treadwell.measuring.cells import covered_by, lattice
 from treadwell.trace import Trace
 
 Floats = NDArray[np.float64]

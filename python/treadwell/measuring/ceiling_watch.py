@@ -6,8 +6,8 @@ import numpy as np
 
 from treadwell.course.course import CourseElement
 from treadwell.episode import Episode
-from treadwell.judging.cells import covered_by, lattice
 from treadwell.map_memory import FLOOR
+from treadwell.measuring.cells import covered_by, lattice
 from treadwell.trace import Trace
 
 

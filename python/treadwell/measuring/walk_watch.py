@@ -10,8 +10,8 @@ from treadwell.course.course import CourseElement
 from treadwell.course.outlines import near, signed_distance
 from treadwell.course.static_map import RESOLUTION, static_map
 from treadwell.episode import Episode
-from treadwell.judging.score import LEAST_SIGHTINGS, true_cells
 from treadwell.map_memory import FLOOR, OBSTACLE, MapMemory, RememberedMap
+from treadwell.measuring.score import LEAST_SIGHTINGS, true_cells
 from treadwell.trace import Trace
 
 Floats = NDArray[np.float64]

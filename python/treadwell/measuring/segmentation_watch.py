@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.episode import Episode
-from treadwell.judging.regions import RegionCounts, compare_regions
+from treadwell.measuring.regions import RegionCounts, compare_regions
 from treadwell.senses.depth import Cast
 from treadwell.trace import Trace
 

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from treadwell.course.course import CourseElement
 from treadwell.course.outlines import signed_distance
 from treadwell.episode import Episode
-from treadwell.judging.cells import lattice
 from treadwell.map_memory import FLOOR, OBSTACLE
+from treadwell.measuring.cells import lattice
 from treadwell.trace import Trace
 
 Floats = NDArray[np.float64]
