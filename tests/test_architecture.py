@@ -31,7 +31,7 @@ TESTED_BY = {
     "sweeps.folder": "test_sweeps.py",
     "sweeps.job": "test_sweeps.py",
     "sweeps.summary": "test_sweeps.py",
-    "judging.climb_line": "test_solvable.py",
+    "solving.climb_line": "test_solvable.py",
     "robot.stance": "test_robot_template.py",
     "scenario.messages": "test_scenario.py",
     "scenario.types": "test_scenario.py",
