@@ -18,7 +18,7 @@ import numpy as np
 from treadwell.episode import Episode
 from treadwell.errors import TreadwellError
 from treadwell.experiments.stairs import steps_row
-from treadwell.judging.step_watch import StepError, StepWatch
+from treadwell.measuring.step_watch import StepError, StepWatch
 from treadwell.physics.audit import replay_audit
 
 

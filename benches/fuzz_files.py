@@ -23,11 +23,11 @@ from typing import Any
 import numpy as np
 
 from treadwell._core import Octree
-from treadwell.course.assets import build_files
-from treadwell.course.xml import check_xml
 from treadwell.data import data_folder
 from treadwell.errors import InputError, TreadwellError
 from treadwell.judging.result import read_result
+from treadwell.mjcf.build import build_files
+from treadwell.mjcf.xml import check_xml
 from treadwell.recording.file import whole_length
 from treadwell.recording.observation_log import read_answers, read_observations
 from treadwell.recording.trajectory import read_trajectory
@@ -180,7 +180,7 @@ def contained(good: Path, seed: int, number: int) -> str:
         if READERS[kind][1] not in (_world, _mesh):
             return f"FAULT crashed or hung ({kind})"
         try:
-            limited("build", [str(path), "x"], "x")
+            limited(build_files, [str(path), "x"], "x")
         except InputError:
             return "contained"
         return "FAULT crashed, and was taken in the child"

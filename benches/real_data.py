@@ -19,7 +19,7 @@ from real_frames import RealFrame, labelled_table, room, simulated_scan, through
 
 from treadwell._core import Planes, Segmenter
 from treadwell.components import COMPONENTS
-from treadwell.judging.regions import RegionCounts, compare_regions
+from treadwell.measuring.regions import RegionCounts, compare_regions
 from treadwell.senses.depth import Pinhole
 
 Floats = NDArray[np.float64]

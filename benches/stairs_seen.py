@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from treadwell._core import Situation
 from treadwell.episode import Episode
-from treadwell.judging.step_watch import EDGE_M, HEADING_RAD, HEIGHT_M
+from treadwell.measuring.step_watch import EDGE_M, HEADING_RAD, HEIGHT_M
 from treadwell.protocols import Decision
 
 Floats = NDArray[np.float64]

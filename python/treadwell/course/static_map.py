@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from treadwell._core import Octree
-from treadwell.course.build import Course, CourseElement
+from treadwell.course.course import Course, CourseElement
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import bounds
 from treadwell.errors import InputError

@@ -13,7 +13,8 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
-from treadwell.components import COMPONENTS, is_component, known, parameter_tables
+from treadwell.additions import is_component, known
+from treadwell.components import COMPONENTS, parameter_tables
 from treadwell.scenario.elements import Element
 from treadwell.scenario.events import Add, Event
 from treadwell.scenario.types import (

@@ -3,7 +3,7 @@
 from typing import Any, Protocol
 
 from treadwell.episode import Episode
-from treadwell.recording.trace import Trace
+from treadwell.trace import Trace
 
 
 class Watch(Protocol):

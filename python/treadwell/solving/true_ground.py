@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from treadwell.course.build import Course, CourseElement
+from treadwell.course.course import Course, CourseElement
 from treadwell.course.outlines import Floats, near, signed_distance
 from treadwell.course.pieces import Top, bounds
 

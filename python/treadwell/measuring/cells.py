@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.course.build import CourseElement
+from treadwell.course.course import CourseElement
 from treadwell.course.outlines import signed_distance
-from treadwell.recording.trace import Trace
+from treadwell.trace import Trace
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]

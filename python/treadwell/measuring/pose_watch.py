@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.episode import Episode
-from treadwell.judging.ground_truth import Sole, wrapped
-from treadwell.recording.trace import Trace
+from treadwell.judging.ground_truth import wrapped
+from treadwell.trace import Sole, Trace
 
 Floats = NDArray[np.float64]
 

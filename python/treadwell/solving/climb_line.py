@@ -5,8 +5,8 @@ from typing import Final
 import numpy as np
 
 from treadwell.course.outlines import Floats
-from treadwell.judging.robot_limits import Limits
-from treadwell.judging.true_ground import Mask, TrueGround
+from treadwell.solving.robot_limits import Limits
+from treadwell.solving.true_ground import Mask, TrueGround
 
 PROBE: Final = 0.005
 """Metres between two looks at the ground along a line over an edge."""

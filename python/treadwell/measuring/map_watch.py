@@ -9,12 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.course.build import CourseElement
+from treadwell.course.course import CourseElement
 from treadwell.course.levels import surface_height
 from treadwell.episode import Episode
-from treadwell.judging.cells import covered_by, lattice
-from treadwell.judging.map_memory import FLOOR, OBSTACLE, RememberedMap
-from treadwell.recording.trace import Trace
+from treadwell.map_memory import FLOOR, OBSTACLE, RememberedMap
+from treadwell.measuring.cells import covered_by, lattice
+from treadwell.trace import Trace
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]

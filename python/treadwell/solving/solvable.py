@@ -9,14 +9,14 @@ from typing import Final
 
 import numpy as np
 
-from treadwell.course.build import LEVEL_TOLERANCE, Course
+from treadwell.course.course import LEVEL_TOLERANCE, Course
 from treadwell.course.outlines import Floats
-from treadwell.judging.climb_line import PROBE, ClimbLine, Node
-from treadwell.judging.robot_limits import Limits, limits_of
-from treadwell.judging.true_ground import BARELY, Mask, TrueGround, edges_of
 from treadwell.robot.load import Robot
 from treadwell.scenario.events import Kidnap
 from treadwell.scenario.model import Scenario
+from treadwell.solving.climb_line import PROBE, ClimbLine, Node
+from treadwell.solving.robot_limits import Limits, limits_of
+from treadwell.solving.true_ground import BARELY, Mask, TrueGround, edges_of
 
 EVERY: Final = 0.08
 """Metres between two lines over the same edge."""

@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from treadwell.course.build import CourseElement
+from treadwell.course.course import CourseElement
 from treadwell.episode import Episode
-from treadwell.judging.cells import covered_by, lattice
-from treadwell.judging.map_memory import FLOOR
-from treadwell.recording.trace import Trace
+from treadwell.map_memory import FLOOR
+from treadwell.measuring.cells import covered_by, lattice
+from treadwell.trace import Trace
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.course.build import CourseElement
+from treadwell.course.course import CourseElement
 from treadwell.course.outlines import near, signed_distance
 from treadwell.course.static_map import RESOLUTION, static_map
 from treadwell.episode import Episode
-from treadwell.judging.map_memory import FLOOR, OBSTACLE, MapMemory, RememberedMap
-from treadwell.judging.score import LEAST_SIGHTINGS, true_cells
-from treadwell.recording.trace import Trace
+from treadwell.map_memory import FLOOR, OBSTACLE, MapMemory, RememberedMap
+from treadwell.measuring.score import LEAST_SIGHTINGS, true_cells
+from treadwell.trace import Trace
 
 Floats = NDArray[np.float64]
 

@@ -1,4 +1,4 @@
-"""What the recorder is given at each camera frame: plain arrays, made by the core and the judge."""
+"""What recorder and watches are given at each camera frame: plain data of core and judge."""
 
 import math
 from collections.abc import Mapping
@@ -8,12 +8,28 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.judging.ground_truth import Sole
 from treadwell.protocols import Footstep
 
 Floats = NDArray[np.float64]
 FLOOR_DEPTH: Final = 1.0
 """Metres from front to back from which on a level is floor to look at, not a stair."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sole:
+    """The true pose of a sole.
+
+    Attributes:
+        x: m, world, of its centre on the underside.
+        y: m, world.
+        z: m, world.
+        forward: (x, y) of the sole's x axis in the world.
+    """
+
+    x: float
+    y: float
+    z: float
+    forward: tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell._core import Stair
-from treadwell.course.build import Course
+from treadwell.course.course import Course
 from treadwell.episode import Episode, Step
-from treadwell.judging.ground_truth import Sole
 from treadwell.judging.level_changes import LEAST_CHANGE, LOOKS_A_FOOTPRINT
+from treadwell.trace import Sole
 
 Floats = NDArray[np.float64]
 

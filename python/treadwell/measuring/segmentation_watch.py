@@ -4,9 +4,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.episode import Episode
-from treadwell.judging.regions import RegionCounts, compare_regions
-from treadwell.recording.trace import Trace
+from treadwell.measuring.regions import RegionCounts, compare_regions
 from treadwell.senses.depth import Cast
+from treadwell.trace import Trace
 
 Floats = NDArray[np.float64]
 Ids = NDArray[np.int64]

@@ -7,11 +7,11 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.course.build import Course, CourseElement
+from treadwell.course.course import Course, CourseElement
 from treadwell.course.outlines import near, signed_distance
 from treadwell.course.pieces import Top
-from treadwell.judging.map_memory import FLOOR, OBSTACLE, RememberedMap
 from treadwell.judging.result import MapCounts, SurfaceEntry
+from treadwell.map_memory import FLOOR, OBSTACLE, RememberedMap
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell._core import swept_clearance
-from treadwell.course.build import Course
+from treadwell.course.course import Course
 from treadwell.robot.load import Robot
 
 

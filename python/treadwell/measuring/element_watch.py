@@ -6,12 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.course.build import CourseElement
+from treadwell.course.course import CourseElement
 from treadwell.course.outlines import signed_distance
 from treadwell.episode import Episode
-from treadwell.judging.cells import lattice
-from treadwell.judging.map_memory import FLOOR, OBSTACLE
-from treadwell.recording.trace import Trace
+from treadwell.map_memory import FLOOR, OBSTACLE
+from treadwell.measuring.cells import lattice
+from treadwell.trace import Trace
 
 Floats = NDArray[np.float64]
 
