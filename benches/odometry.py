@@ -42,7 +42,7 @@ class Walk:
         if there and self.done_at == math.inf:
             self.done_at = time
         walking = time > STANDING_S and self.done_at == math.inf
-        return Decision("walk", self.velocity if walking else None, (0.0, 0.7))
+        return Decision("walk", self.velocity if walking else None, gaze=(0.0, 0.7))
 
 
 TASKS = {
