@@ -11,7 +11,8 @@ def results_table(rows: Sequence[Row]) -> tuple[str, list[Row]]:
     title, cells = TABLES[rows[0]["data"]]
     found: dict[str, dict[str, str]] = {}
     for row in rows:
-        what = f"`{row['segmenter']}`"
+        name = row["segmenter"]
+        what = name if " " in name else f"`{name}`"
         what += f", {row['pixels']}" if row["data"] == "scan" else ""
         found.setdefault(what, {}).update(cells(row))
     return title, [{"what": what, "measured": figures} for what, figures in found.items()]
