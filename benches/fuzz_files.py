@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from into_results import add_options, write
 
 from treadwell._core import Octree
 from treadwell.data import data_folder
@@ -232,6 +233,7 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--keep", type=Path)
+    add_options(parser)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         good = Path(folder)
@@ -241,6 +243,9 @@ def main() -> int:
         print(f"{kind:12s} {came:10s} {times}")
     faults = sum(times for (_, came), times in found.items() if came == "FAULT")
     print(f"{options.count} files, {faults} faults")
+    found_none = f"{faults} in {options.count:,}"
+    rows = [{"what": "traceback, hang or false success", "measured": found_none}]
+    write(options, "Hostile files, generated", [options.seed], rows)
     return 1 if faults else 0
 
 
