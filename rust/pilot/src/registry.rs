@@ -43,7 +43,7 @@ pub(crate) fn table<T: DeserializeOwned + Serialize + Default>(
     tables: &Tables,
     name: &str,
 ) -> Result<T, PilotError> {
-    settings::read(tables, name).map_err(PilotError::Settings)
+    Ok(settings::read(tables, name)?)
 }
 
 fn unknown(slot: &str, name: &str, known: &str) -> PilotError {
