@@ -24,6 +24,4 @@ pub use occupancy::{OccupancyGrid, Placement, Ray, Size};
 pub use picture::Picture;
 pub use probability::{ProbabilityTable, bayes};
 pub use ray::VoxelWalk;
-pub use solid::{
-    DistanceField, LANES, Lanes, RangeField, SolidError, SolidVoxels, Standing, standing,
-};
+pub use solid::{DistanceField, LANES, Lanes, RangeField, SolidError, SolidVoxels};

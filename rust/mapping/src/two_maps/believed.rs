@@ -3,9 +3,7 @@
 //! A small thing that one frame saw may be noise; who steps in the way is not.
 
 use geometry::CellArea;
-
-use super::layers::{Columns, Layers};
-use volume::octree::Octree;
+use volume::octree::{LayerColumns, Octree, ViewLayers};
 
 /// Log-odds that are not against a voxel.
 const EVEN: f64 = 0.5;
@@ -13,8 +11,8 @@ const EVEN: f64 = 0.5;
 /// For each cell the layers in which something stands, one bit each.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Believed {
-    sure: Columns,
-    likely: Columns,
+    sure: LayerColumns,
+    likely: LayerColumns,
     /// Cells along x.
     cols: usize,
 }
@@ -24,7 +22,12 @@ impl Believed {
     pub(super) const REACH: i32 = 1;
 
     /// Reads the cells of an area anew: sure is what is as likely as `p_occ`.
-    pub(super) fn read(&mut self, (tree, p_occ): (&Octree, f64), layers: &Layers, area: CellArea) {
+    pub(super) fn read(
+        &mut self,
+        (tree, p_occ): (&Octree, f64),
+        layers: &ViewLayers,
+        area: CellArea,
+    ) {
         self.cols = layers.size()[0];
         self.sure.read((tree, p_occ), layers, area);
         self.likely.read((tree, EVEN), layers, area);

@@ -8,14 +8,11 @@
 mod beams;
 mod believed;
 mod config;
-mod layers;
-mod prior;
 mod told;
 mod unseen;
 
-use std::sync::Arc;
-
 use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
+use known_map::{KnownMap, Limits, MapAround};
 use segmentation::Planes;
 use settings::ConfigError;
 
@@ -24,11 +21,9 @@ use beams::Ground;
 use believed::Believed;
 pub use config::TwoMapsConfig;
 use geometry::runs;
-use layers::Layers;
-use prior::Prior;
 use unseen::Unseen;
 use volume::Ray;
-use volume::octree::{Cast, Octree, Sighting, probability};
+use volume::octree::{Cast, Octree, Sighting, ViewLayers, probability};
 use volume::{Clearing, Update};
 
 /// Cells along a side of a static map that the window holds as a whole; a larger one is looked at around the robot.
@@ -42,10 +37,10 @@ pub struct TwoMaps {
     fresh: Fog,
     floors: Fog,
     local: Octree,
-    prior: Option<Prior>,
+    known: Option<MapAround>,
     /// Height of the level on which the robot stands, m: where it stood when the maps were last projected anew.
     level_m: f64,
-    layers: Layers,
+    layers: ViewLayers,
     believed: Believed,
     view: FloorView,
     rays: Vec<Ray>,
@@ -60,10 +55,10 @@ impl TwoMaps {
     pub fn new(
         config: TwoMapsConfig,
         floors: &FogConfig,
-        static_map: Option<Arc<Octree>>,
+        static_map: Option<&KnownMap>,
     ) -> Result<Self, ConfigError> {
         config.check(floors)?;
-        let extent = static_map.as_deref().and_then(Prior::extent_m);
+        let extent = static_map.and_then(KnownMap::extent_m);
         let window = extent.and_then(|(middle_m, reach_m)| {
             let reach = (reach_m / floors.cell).ceil();
             let cells = floors.cells as f64 + 2.0 * reach;
@@ -83,12 +78,12 @@ impl TwoMaps {
         };
         let lattice = floors.view().lattice;
         let cells = floors.config().cells;
-        let told = |tree| Prior::new(tree, &config.octree());
+        let known = |map: &KnownMap| map.around(&config.octree(), "navigation.octree.resolution");
         let size = [cells; 2];
-        let layers = Layers::above(-config.below_m(), (lattice, size), config.resolution);
+        let layers = ViewLayers::above(-config.below_m(), (lattice, size), config.resolution);
         Ok(Self {
             local: Octree::new(config.octree())?,
-            prior: static_map.map(told).transpose()?,
+            known: static_map.map(known).transpose()?,
             level_m: f64::NAN,
             believed: Believed::default(),
             view: FloorView::unknown(lattice, cells),
@@ -127,11 +122,15 @@ impl TwoMaps {
         self.level_m = robot_m[2];
         let bottom_m = self.level_m - self.config.below_m();
         let place = (lattice, self.layers.size());
-        self.layers = Layers::above(bottom_m, place, self.config.resolution);
+        self.layers = ViewLayers::above(bottom_m, place, self.config.resolution);
         self.view = FloorView::unknown(lattice, self.layers.size()[0]);
-        if let Some(prior) = &mut self.prior {
-            let floors = (&self.config, self.floors.config().delta);
-            prior.look(&self.layers, robot_m, floors);
+        if let Some(known) = &mut self.known {
+            let limits = Limits {
+                height_m: self.config.height,
+                rise_m: self.config.rise,
+                delta_m: self.floors.config().delta,
+            };
+            known.look(&self.layers, robot_m, limits);
         }
         true
     }
@@ -152,8 +151,8 @@ impl TwoMaps {
         };
         beams::read(&mut rays, (frame, planes), &ground, self.config.resolution);
         let eye_m = frame.eye_m;
-        if let Some(prior) = &self.prior {
-            told::leave_out(&mut rays, eye_m, prior, &self.layers);
+        if let Some(known) = &self.known {
+            told::leave_out(&mut rays, eye_m, known, &self.layers);
         }
         let seen = rays.len();
         let unseen = Unseen {
@@ -191,13 +190,13 @@ impl TwoMaps {
 
     /// Height of the floor of the cell that is stored at an index, m: what was seen, or else what was told.
     fn floor_at(&self, index: usize) -> Option<f32> {
-        let told = || self.prior.as_ref()?.floor_at(index);
+        let told = || self.known.as_ref()?.floor_at(index);
         self.floors.floor_at(index).or_else(told)
     }
 
     /// Layers of a cell in which either map has something.
     fn solid(&self, index: usize) -> u64 {
-        let told = self.prior.as_ref().map_or(0, |prior| prior.solid(index));
+        let told = self.known.as_ref().map_or(0, |known| known.solid(index));
         self.believed.at(index, self.config.large) | told
     }
 

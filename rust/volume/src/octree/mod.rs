@@ -9,6 +9,7 @@ mod error;
 mod header;
 mod insertion;
 mod key;
+mod layers;
 mod leaves;
 mod nodes;
 mod reading;
@@ -23,6 +24,7 @@ pub use config::{OctreeConfig, probability};
 pub use error::OctreeError;
 pub use header::Format;
 pub use key::Key;
+pub use layers::{LayerColumns, ViewLayers};
 pub use leaves::{Leaf, Leaves};
 
 use config::Beam;
