@@ -8,11 +8,7 @@ use settings::ConfigError;
 use volume::octree::{LAYERS, LayerColumns, Octree, OctreeConfig, ViewLayers};
 
 use crate::recut::recut;
-
-/// So far around the robot something may be the floor that it stands on, m: the map, or its pose, is a little wrong.
-const AROUND_M: f64 = 0.2;
-/// A surface this near to the robot's height is its own level: half a voxel is how it was cut into voxels, the rest is the pose.
-const OWN: f64 = 0.75;
+use crate::{AroundTuning, KnownMapTuning};
 
 /// What the robot passes and climbs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +33,7 @@ pub struct MapAround {
     floors: Vec<Option<f32>>,
     /// For each cell the layers in which something stands out of the floor, one bit each.
     upright: Vec<u64>,
+    tuning: AroundTuning,
 }
 
 impl MapAround {
@@ -45,19 +42,21 @@ impl MapAround {
         tree: &Arc<Octree>,
         voxels: &OctreeConfig,
         key: &str,
+        tuning: &KnownMapTuning,
     ) -> Result<Self, ConfigError> {
         let same = tree.config().resolution == voxels.resolution;
         Ok(Self {
             tree: if same {
                 Arc::clone(tree)
             } else {
-                Arc::new(recut(tree, voxels, key)?)
+                Arc::new(recut(tree, voxels, key, tuning.most_voxels)?)
             },
             columns: LayerColumns::default(),
             standable: Vec::new(),
             reached: Vec::new(),
             floors: Vec::new(),
             upright: Vec::new(),
+            tuning: tuning.around.clone(),
         })
     }
 
@@ -72,7 +71,8 @@ impl MapAround {
             .extend(columns.map(|solid| standable(solid, headroom)));
         self.reach(layers, robot_m, limits.rise_m);
         self.floors.clear();
-        let floor = |&reached: &u64| floor_m(reached, layers, robot_m[2]).map(|m| m as f32);
+        let own_m = layers.side_m() * self.tuning.own_level;
+        let floor = |&reached: &u64| floor_m(reached, layers, robot_m[2], own_m).map(|m| m as f32);
         self.floors.extend(self.reached.iter().map(floor));
         self.upright.clear();
         let upright = self.floors.iter().enumerate().map(|(index, floor)| {
@@ -115,11 +115,17 @@ impl MapAround {
             }
         };
         let side_m = layers.side_m();
-        let own = layers.between(z_m - 1.5 * side_m, z_m + 0.5 * side_m);
+        let AroundTuning {
+            start,
+            start_below,
+            start_above,
+            ..
+        } = self.tuning;
+        let own = layers.between(z_m - start_below * side_m, z_m + start_above * side_m);
         let corner = |off_m: f64| layers.lattice().cell_at(x_m + off_m, y_m + off_m);
         let around = CellArea {
-            min: corner(-AROUND_M),
-            max: corner(AROUND_M),
+            min: corner(-start),
+            max: corner(start),
         };
         for index in runs(around, layers.size()).flatten() {
             enter(&mut open, index, own);
@@ -158,14 +164,14 @@ fn standable(solid: u64, headroom: u32) -> u64 {
     solid & !(1..=last).fold(0, |under, up| under | solid >> up)
 }
 
-/// Of the surfaces of a cell the one nearest to the robot's height, m. One within the width of a voxel is the robot's own level:
-/// where exactly it lies, the robot knows better than the voxels.
-fn floor_m(surfaces: u64, layers: &ViewLayers, robot_z_m: f64) -> Option<f64> {
+/// Height of the surface of a cell that is nearest to the robot's, m. One within `own_m` is the robot's own level: where exactly
+/// it lies, the robot knows better than the voxels.
+fn floor_m(surfaces: u64, layers: &ViewLayers, robot_z_m: f64, own_m: f64) -> Option<f64> {
     let heights = (0..LAYERS).filter(|layer| surfaces >> layer & 1 == 1);
     let off_m = |height_m: &f64| (height_m - robot_z_m).abs();
     let nearest_m = heights
         .map(|layer| layers.border_m(layer + 1))
         .min_by(|a, b| off_m(a).total_cmp(&off_m(b)))?;
-    let own = off_m(&nearest_m) <= layers.side_m() * OWN;
+    let own = off_m(&nearest_m) <= own_m;
     Some(if own { robot_z_m } else { nearest_m })
 }

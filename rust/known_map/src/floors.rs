@@ -5,17 +5,9 @@ use std::collections::BinaryHeap;
 
 use volume::SolidVoxels;
 
-use crate::StandingRoom;
 use crate::standing::standing;
+use crate::{FloorsTuning, KnownMapTuning, StandingRoom};
 
-/// Places beside each other whose heights differ by no more than this are joined, m: floor, a slope, or a step of stairs.
-const STEP_M: f64 = 0.055;
-/// A change of height costs as much as this way, m a metre of height: levels are changed where they have to be.
-const CLIMB: f64 = 10.0;
-/// A place is where the robot stands when it is no further away than this, m,
-const NEAR_M: f64 = 0.3;
-/// and no more above or below it than this, m.
-const LEVEL_M: f64 = 0.06;
 /// No place.
 const NONE: u32 = u32::MAX;
 
@@ -28,10 +20,11 @@ pub struct Floors {
     rows: usize,
     /// For each column the first of its places; one more at the end.
     first: Vec<u32>,
-    /// For each place its column,
+    /// For each place its column.
     column: Vec<u32>,
-    /// and its height, m.
+    /// For each place its height, m.
     height_m: Vec<f32>,
+    tuning: FloorsTuning,
 }
 
 /// Where a way shall lead.
@@ -68,9 +61,9 @@ impl CostField {
 
 impl Floors {
     /// The floors of a map for a body.
-    pub(crate) fn new(solid: &SolidVoxels, room: StandingRoom) -> Self {
+    pub(crate) fn new(solid: &SolidVoxels, room: StandingRoom, tuning: &KnownMapTuning) -> Self {
         let [cols, rows, _] = solid.size();
-        let mut places: Vec<(u32, f32)> = (standing(solid, room).iter())
+        let mut places: Vec<(u32, f32)> = (standing(solid, room, &tuning.standing).iter())
             .map(|place| {
                 let [x, y, _] = place.voxel;
                 ((y * cols + x) as u32, place.top_m[2] as f32)
@@ -94,6 +87,7 @@ impl Floors {
             first,
             column,
             height_m,
+            tuning: tuning.floors.clone(),
         }
     }
 
@@ -158,9 +152,10 @@ impl Floors {
 
     /// The place that a robot stands on, of those from which `counts` says that they do.
     pub fn under(&self, [x, y, z]: [f64; 3], counts: impl Fn(u32) -> bool) -> Option<u32> {
-        self.around([x, y], NEAR_M)
+        let FloorsTuning { near, level, .. } = self.tuning;
+        self.around([x, y], near)
             .filter(|&(place, _)| {
-                (f64::from(self.height_m[place as usize]) - z).abs() < LEVEL_M && counts(place)
+                (f64::from(self.height_m[place as usize]) - z).abs() < level && counts(place)
             })
             .min_by(|a, b| a.1.total_cmp(&b.1))
             .map(|(place, _)| place)
@@ -168,6 +163,7 @@ impl Floors {
 
     /// The places beside one that a step leads to, with what the step costs, m.
     fn steps(&self, place: u32) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let FloorsTuning { step, climb, .. } = self.tuning;
         let [col, row] = self.cell_of(self.column[place as usize] as usize);
         let height_m = f64::from(self.height_m[place as usize]);
         let cols = col.saturating_sub(1)..(col + 2).min(self.cols);
@@ -180,15 +176,15 @@ impl Floors {
                     self.side_m * f64::from((c.abs_diff(col) + r.abs_diff(row)) as u32).sqrt();
                 (self.first[beside]..self.first[beside + 1]).filter_map(move |next| {
                     let rise_m = (f64::from(self.height_m[next as usize]) - height_m).abs();
-                    (rise_m <= STEP_M).then_some((next, way_m + CLIMB * rise_m))
+                    (rise_m <= step).then_some((next, way_m + climb * rise_m))
                 })
             })
     }
 
     /// Whether a step up or down leads on from a place.
     pub fn is_at_step(&self, place: u32) -> bool {
-        let height_m = self.height_m[place as usize];
-        (self.steps(place)).any(|(next, _)| (self.height_m[next as usize] - height_m).abs() > 0.01)
+        let (height_m, edge) = (self.height_m[place as usize], self.tuning.edge);
+        (self.steps(place)).any(|(next, _)| (self.height_m[next as usize] - height_m).abs() > edge)
     }
 
     /// For each column whether a step is no further away than `near_m`, m.
@@ -216,7 +212,7 @@ impl Floors {
             let height_m = f64::from(self.height_m[place as usize]);
             if target
                 .height_m
-                .is_none_or(|level_m| (level_m - height_m).abs() < LEVEL_M)
+                .is_none_or(|level_m| (level_m - height_m).abs() < self.tuning.level)
             {
                 field.cost_m[place as usize] = away_m as f32;
                 queue.push(Reverse(((away_m as f32).to_bits(), place)));
@@ -254,7 +250,7 @@ mod tests {
         ) {
             let mut boxes = vec![[[0.0, 0.0, -0.04], [2.0, 2.0, 0.0]]];
             boxes.extend(blocks.iter().map(|&(x, y, dx, dy, h)| [[x, y, 0.0], [x + dx, y + dy, 0.04 * f64::from(h)]]));
-            let floors = Floors::new(&SolidVoxels::of_boxes(&boxes, 0.04).unwrap(), StandingRoom { radius_m: 0.08, height_m: 0.55 });
+            let floors = Floors::new(&SolidVoxels::of_boxes(&boxes, 0.04).unwrap(), StandingRoom { radius_m: 0.08, height_m: 0.55 }, &KnownMapTuning::default());
             let target = Target { at_m: [x, y], radius_m: 0.05, height_m: None };
             let mut field = CostField::default();
             floors.aim(&target, &vec![false; floors.count()], &mut field);

@@ -2,12 +2,12 @@
 
 use std::sync::{Arc, OnceLock};
 
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 use volume::octree::{Leaf, Octree, OctreeConfig};
 use volume::{DistanceField, RangeField, SolidError, SolidVoxels};
 
 use crate::standing::standing;
-use crate::{Floors, MapAround, Prior, Standing, StandingRoom};
+use crate::{Floors, KnownMapConfig, MapAround, Prior, Standing, StandingRoom};
 
 /// The map that a robot is told. Nothing that is seen changes it. What several components read is made when the first of them asks.
 #[derive(Debug)]
@@ -16,17 +16,20 @@ pub struct KnownMap {
     solid: OnceLock<Result<Arc<SolidVoxels>, ConfigError>>,
     ranges: OnceLock<Arc<RangeField>>,
     distances: OnceLock<Arc<DistanceField>>,
+    config: KnownMapConfig,
 }
 
 impl KnownMap {
     /// The map that an octree holds: its occupied voxels are solid, all else is free.
-    pub const fn new(tree: Arc<Octree>) -> Self {
-        Self {
+    pub fn new(tree: Arc<Octree>, config: KnownMapConfig) -> Result<Self, ConfigError> {
+        config.check()?;
+        Ok(Self {
             tree,
             solid: OnceLock::new(),
             ranges: OnceLock::new(),
             distances: OnceLock::new(),
-        }
+            config,
+        })
     }
 
     /// The map of boxes, each from its lowest to its highest corner, m: the blocks of a course. A voxel is solid where its centre
@@ -44,9 +47,13 @@ impl KnownMap {
             let centre_m = |voxel| (solid.corner_m(voxel)).map(|low_m| low_m + 0.5 * resolution_m);
             tree.occupy(&filled.map(centre_m).collect::<Vec<_>>());
         }
+        let config = KnownMapConfig {
+            resolution: resolution_m,
+            ..KnownMapConfig::default()
+        };
         Ok(Self {
             solid: Ok(Arc::new(solid)).into(),
-            ..Self::new(Arc::new(tree))
+            ..Self::new(Arc::new(tree), config)?
         })
     }
 
@@ -94,23 +101,23 @@ impl KnownMap {
 
     /// Where a body has room to stand, in the order of the voxels' layers, rows and columns.
     pub fn standing(&self, room: StandingRoom) -> Result<Vec<Standing>, ConfigError> {
-        Ok(standing(self.solid()?, room))
+        Ok(standing(self.solid()?, room, &self.config.tuning.standing))
     }
 
     /// The floors on which a body has room to stand, and the ways over them.
     pub fn floors(&self, room: StandingRoom) -> Result<Floors, ConfigError> {
-        Ok(Floors::new(self.solid()?, room))
+        Ok(Floors::new(self.solid()?, room, &self.config.tuning))
     }
 
     /// What is to be expected where nothing was seen yet, by a robot of a height, m.
     pub fn prior(&self, height_m: f64) -> Result<Prior, ConfigError> {
-        Ok(Prior::new(self.solid()?, height_m))
+        Ok(Prior::new(self.solid()?, height_m, &self.config.tuning))
     }
 
     /// The map in voxels of a size of one's own, to be looked at from where the robot stands. Voxels so small that there are too many
     /// are refused by the key of their size.
     pub fn around(&self, voxels: &OctreeConfig, key: &str) -> Result<MapAround, ConfigError> {
-        MapAround::new(&self.tree, voxels, key)
+        MapAround::new(&self.tree, voxels, key, &self.config.tuning)
     }
 }
 
@@ -150,10 +157,14 @@ mod tests {
         [[1.96, 0.0, 0.0], [2.0, 1.0, 1.6]],
     ];
 
+    fn known(tree: Arc<Octree>) -> KnownMap {
+        KnownMap::new(tree, KnownMapConfig::default()).unwrap()
+    }
+
     #[test]
     fn a_tree_and_its_boxes_are_one_map() {
         let boxes = KnownMap::of_boxes(&BOXES, 0.04).unwrap();
-        let tree = KnownMap::new(Arc::clone(boxes.tree()));
+        let tree = known(Arc::clone(boxes.tree()));
         assert_eq!(tree.solid(), boxes.solid());
         assert_eq!(tree.extent_m(), boxes.extent_m());
         let ([x_m, y_m], reach_m) = tree.extent_m().unwrap();
@@ -175,7 +186,7 @@ mod tests {
         let said = |error: ConfigError| error.to_string();
         let empty = Octree::new(OctreeConfig::default()).unwrap();
         assert_eq!(
-            said(KnownMap::new(Arc::new(empty)).solid().unwrap_err()),
+            said(known(Arc::new(empty)).solid().unwrap_err()),
             "navigation.static_map must be solid somewhere, at finite places, got nothing"
         );
         let far = [[[0.0; 3], [1.0; 3]], [[999.0; 3], [1000.0; 3]]];

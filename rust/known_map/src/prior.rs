@@ -4,16 +4,7 @@ use std::sync::Arc;
 
 use volume::SolidVoxels;
 
-use crate::{Floors, StandingRoom};
-
-/// Floor of the map that differs by no more than this from the robot's is its level, m.
-const LEVEL_M: f64 = 0.02;
-/// Where the map has floor within this above or below the robot's nothing stands: it is another level, m.
-const OTHER_LEVEL_M: f64 = 0.5;
-/// What is lower above the robot's floor is no obstacle, m.
-const STEP_M: f64 = 0.1;
-/// So far from the map's steps nothing that is seen is a riser, m: the robot may be as far off, and its camera at an angle.
-const STAIRS_M: f64 = 0.25;
+use crate::{Floors, KnownMapTuning, PriorTuning, StandingRoom};
 
 /// What the map has at a place for who stands on one of its levels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,26 +21,28 @@ pub enum Expected {
 #[derive(Debug, Clone)]
 pub struct Prior {
     solid: Arc<SolidVoxels>,
-    /// Those of a body without a width.
+    /// Floors for a body without a width.
     floors: Floors,
     /// For each column whether steps of the map are near.
     has_steps: Vec<bool>,
     height_m: f64,
+    tuning: PriorTuning,
 }
 
 impl Prior {
     /// What a map says to a robot of a height, m.
-    pub(crate) fn new(solid: &Arc<SolidVoxels>, height_m: f64) -> Self {
+    pub(crate) fn new(solid: &Arc<SolidVoxels>, height_m: f64, tuning: &KnownMapTuning) -> Self {
         let room = StandingRoom {
             radius_m: 0.0,
             height_m,
         };
-        let floors = Floors::new(solid, room);
+        let floors = Floors::new(solid, room, tuning);
         Self {
-            has_steps: floors.columns_near_steps(STAIRS_M),
+            has_steps: floors.columns_near_steps(tuning.prior.stairs),
             floors,
             solid: Arc::clone(solid),
             height_m,
+            tuning: tuning.prior.clone(),
         }
     }
 
@@ -78,17 +71,18 @@ impl Prior {
         let mut other = false;
         for height_m in self.floors.heights_m(column) {
             let off_m = (height_m - level_m).abs();
-            if off_m <= LEVEL_M {
+            if off_m <= self.tuning.level {
                 return Expected::Floor;
             }
-            other |= off_m <= OTHER_LEVEL_M;
+            other |= off_m <= self.tuning.other_level;
         }
         let layer = |height_m: f64| {
             ((level_m + height_m - self.solid.corner_m([0; 3])[2]) / self.solid.resolution_m())
                 .floor() as i64
         };
         let [x, y] = self.floors.cell_of(column).map(|at| at as i64);
-        let stands = (layer(STEP_M)..layer(self.height_m)).any(|z| self.solid.is_solid([x, y, z]));
+        let mut above = layer(self.tuning.step)..layer(self.height_m);
+        let stands = above.any(|z| self.solid.is_solid([x, y, z]));
         if stands && !other {
             Expected::Obstacle
         } else {
@@ -102,7 +96,8 @@ mod tests {
     use super::*;
 
     fn prior(boxes: &[[[f64; 3]; 2]]) -> Prior {
-        Prior::new(&Arc::new(SolidVoxels::of_boxes(boxes, 0.04).unwrap()), 0.58)
+        let solid = SolidVoxels::of_boxes(boxes, 0.04).unwrap();
+        Prior::new(&Arc::new(solid), 0.58, &KnownMapTuning::default())
     }
 
     #[test]

@@ -3,22 +3,20 @@
 use settings::{ConfigError, require};
 use volume::octree::{Leaf, Octree, OctreeConfig};
 
-/// Voxels into which the solid ones of a map of another size are cut at most.
-const MOST_VOXELS: f64 = 2e7;
-
-/// A map in voxels of another size, which is refused by its key where it makes too many: what holds a part of something solid is solid.
+/// A map in voxels of another size, which is refused by its key where it makes more than `most_voxels`: what holds a part of something solid is solid.
 pub(crate) fn recut(
     tree: &Octree,
     config: &OctreeConfig,
     key: &str,
+    most_voxels: f64,
 ) -> Result<Octree, ConfigError> {
     let mut other = Octree::new(config.clone())?;
     let solid = || tree.leaves().filter(Leaf::is_occupied);
     let side_m = |leaf: &Leaf| f64::from(leaf.edge()) * tree.config().resolution;
     let parts = |leaf: &Leaf| (side_m(leaf) / config.resolution - 1e-6).ceil();
     let voxels: f64 = solid().map(|leaf| parts(&leaf).powi(3)).sum();
-    let allowed = format!("so coarse that the static map has at most {MOST_VOXELS} solid voxels");
-    let usable = voxels <= MOST_VOXELS;
+    let allowed = format!("so coarse that the static map has at most {most_voxels} solid voxels");
+    let usable = voxels <= most_voxels;
     require(usable, key, &allowed, voxels)?;
     for leaf in solid() {
         let (side_m, parts) = (side_m(&leaf), parts(&leaf));
@@ -51,11 +49,11 @@ mod tests {
         };
         let mut tree = Octree::new(voxels(0.06)).unwrap();
         tree.occupy(&[[0.03, 0.03, 0.03]]);
-        let finer = recut(&tree, &voxels(0.04), "size").unwrap();
+        let finer = recut(&tree, &voxels(0.04), "size", 100.0).unwrap();
         for (at_m, solid) in [(0.01, Some(true)), (0.05, Some(true)), (0.09, None)] {
             assert_eq!(finer.is_occupied_at([at_m, 0.01, 0.01]), solid, "{at_m}");
         }
-        let error = recut(&tree, &voxels(0.0001), "size").unwrap_err();
+        let error = recut(&tree, &voxels(0.01), "size", 100.0).unwrap_err();
         assert!(error.to_string().starts_with("size must be so coarse"));
     }
 }

@@ -2,8 +2,7 @@
 
 use volume::SolidVoxels;
 
-/// What is lower than this beside a place is a step, not a wall, m.
-const STEP_M: f64 = 0.08;
+use crate::StandingTuning;
 
 /// A place to stand.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +24,11 @@ pub struct StandingRoom {
 
 /// Tops of solid voxels above which a body has room: a cylinder that stands a step's height above them, on every level of the map.
 /// In the order of the voxels' layers, rows and columns.
-pub(crate) fn standing(solid: &SolidVoxels, room: StandingRoom) -> Vec<Standing> {
+pub(crate) fn standing(
+    solid: &SolidVoxels,
+    room: StandingRoom,
+    tuning: &StandingTuning,
+) -> Vec<Standing> {
     let StandingRoom { radius_m, height_m } = room;
     let side_m = solid.resolution_m();
     let [cols, rows, layers] = solid.size().map(|count| count as i64);
@@ -34,7 +37,7 @@ pub(crate) fn standing(solid: &SolidVoxels, room: StandingRoom) -> Vec<Standing>
         .flat_map(|y| (-reach..=reach).map(move |x| [x, y]))
         .filter(|[x, y]| ((x * x + y * y) as f64).sqrt() * side_m <= radius_m)
         .collect();
-    let steps = (STEP_M / side_m).round().max(1.0) as i64;
+    let steps = (tuning.step / side_m).round().max(1.0) as i64;
     let body = steps + 1..=(height_m / side_m).ceil() as i64;
     let mut places = Vec::new();
     for (x, y, z) in
@@ -81,7 +84,7 @@ mod tests {
             radius_m: 0.1,
             height_m: 0.55,
         };
-        let places = standing(&solid, room);
+        let places = standing(&solid, room, &StandingTuning::default());
         let any = |x: [f64; 2], z_m: f64| {
             places.iter().any(|place| {
                 let [px, _, pz] = place.top_m;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use common::{Block, camera, interior, is_obstacle, look};
 use geometry::{Map, Pose, Robot};
-use known_map::KnownMap;
+use known_map::{KnownMap, KnownMapConfig};
 use mapping::{FogConfig, MapError, Surface, TwoMaps, TwoMapsConfig, Update, WorldModel};
 use proptest::prelude::*;
 use segmentation::Planes;
@@ -25,7 +25,7 @@ fn config(resolution: f64) -> TwoMapsConfig {
 }
 
 fn known(tree: Octree) -> KnownMap {
-    KnownMap::new(Arc::new(tree))
+    KnownMap::new(Arc::new(tree), KnownMapConfig::default()).unwrap()
 }
 
 fn maps(resolution: f64, static_map: Option<Octree>) -> TwoMaps {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use behaviour::{Behaviour, Pace, StairClimbing, WalkingBehaviour};
 use geometry::Pose;
-use known_map::KnownMap;
+use known_map::{KnownMap, KnownMapConfig};
 use localization::{
     Localizer, MatchingLocalizer, MonteCarloConfig, MonteCarloLocalizer, OdometryLocalizer,
     StaticMap,
@@ -16,8 +16,9 @@ use segmentation::{Histogram, Hough, Ransac, ScanLine, ScanLine1994, ScanLineAda
 use sensing::Intrinsics;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use settings::{ConfigError, Tables};
+use settings::{ConfigError, Table, Tables};
 use stairs::{Feet, Recognizer};
+use volume::octree::Octree;
 use walking::Walker;
 
 use crate::{PilotError, Settings};
@@ -94,6 +95,17 @@ pub fn segmenter(
             "scan_line, scan_line_1994, scan_line_adaptive, hough, ransac, histogram",
         )),
     }
+}
+
+/// The map that the robot was told, if any, with what `[navigation.static_map]` says.
+pub(crate) fn known_map(
+    tables: &Tables,
+    told: Option<&Arc<Octree>>,
+) -> Result<Option<Arc<KnownMap>>, PilotError> {
+    let config: KnownMapConfig = table(tables, "static_map")?;
+    config.check()?;
+    let made = |tree| KnownMap::new(Arc::clone(tree), config).map(Arc::new);
+    Ok(told.map(made).transpose()?)
 }
 
 /// The world model of a name, with what `[navigation.<name>]` says, and the map that the robot was told, if any.

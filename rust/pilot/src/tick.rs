@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use behaviour::{Behaviour, Decision, Gaze, Situation, Stepping};
 use geometry::{Map, Odometry, Pose, Robot};
-use known_map::KnownMap;
 use localization::{Estimate, Guess, Localizer};
 use planning::{Plan, Planner};
 use proprioception::{BodyStateHistory, Proprioception};
@@ -62,7 +61,8 @@ impl Pilot {
         static_map: Option<&Arc<Octree>>,
         mut given: Components,
     ) -> Result<Self, PilotError> {
-        let known_map = static_map.map(|tree| Arc::new(KnownMap::new(Arc::clone(tree))));
+        let tables = &settings.navigation.tables;
+        let known_map = registry::known_map(tables, static_map)?;
         let told = known_map.as_deref();
         let body = Body::new(settings.robot.clone())?;
         let walker = Walker::new(&body)?;
@@ -78,7 +78,6 @@ impl Pilot {
             static_map: known_map.as_ref(),
         };
         added::fill(&mut given, &making)?;
-        let tables = &settings.navigation.tables;
         let segmenter = given.segmenter.map_or_else(
             || registry::segmenter(&settings.navigation.segmenter, tables, scan.camera),
             Ok,

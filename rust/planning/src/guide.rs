@@ -14,9 +14,9 @@ use crate::shortcut::lay;
 use crate::{AStar, Goal, Path, Plan, PlanError, Planner};
 use laid::laid_under;
 
-/// How far ahead on the guide's way the planner is sent, m,
+/// How far ahead on the guide's way the planner is sent, m.
 const AHEAD_M: f64 = 1.4;
-/// and how near it may come to that place before it is sent on, m.
+/// The planner is sent on when the robot is nearer than this to the place to which it was sent, m.
 const ON_M: f64 = 0.7;
 /// Radius of such a place, m.
 const RADIUS_M: f64 = 0.2;

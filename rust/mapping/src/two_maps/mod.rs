@@ -6,10 +6,11 @@
 //! static map tells.
 
 mod beams;
-mod believed;
 mod config;
-mod told;
-mod unseen;
+mod empty_sight;
+mod known_surfaces;
+mod local_columns;
+mod tuning;
 
 use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use known_map::{KnownMap, Limits, MapAround};
@@ -18,16 +19,14 @@ use settings::ConfigError;
 
 use crate::{FloorView, Fog, FogConfig, Insertion, MapError, Surface, Voxel, WorldModel};
 use beams::Ground;
-use believed::Believed;
 pub use config::TwoMapsConfig;
+use empty_sight::EmptySight;
 use geometry::runs;
-use unseen::Unseen;
+use local_columns::LocalColumns;
+pub use tuning::{BeamsTuning, EmptySightTuning, KnownSurfacesTuning, TwoMapsTuning};
 use volume::Ray;
 use volume::octree::{Cast, Octree, Sighting, ViewLayers, probability};
 use volume::{Clearing, Update};
-
-/// Cells along a side of a static map that the window holds as a whole; a larger one is looked at around the robot.
-const MOST_CELLS: f64 = 1000.0;
 
 /// Keeps the static and the local map, the floors, and the view made of them.
 #[derive(Debug, Clone)]
@@ -41,7 +40,7 @@ pub struct TwoMaps {
     /// Height of the level on which the robot stands, m: where it stood when the maps were last projected anew.
     level_m: f64,
     layers: ViewLayers,
-    believed: Believed,
+    seen: LocalColumns,
     view: FloorView,
     rays: Vec<Ray>,
 }
@@ -57,12 +56,13 @@ impl TwoMaps {
         floors: &FogConfig,
         static_map: Option<&KnownMap>,
     ) -> Result<Self, ConfigError> {
-        config.check(floors)?;
+        config.check_with(floors)?;
         let extent = static_map.and_then(KnownMap::extent_m);
         let window = extent.and_then(|(middle_m, reach_m)| {
             let reach = (reach_m / floors.cell).ceil();
             let cells = floors.cells as f64 + 2.0 * reach;
-            let fits = 2.0 * reach <= MOST_CELLS && cells <= FogConfig::MOST_CELLS as f64;
+            let fits =
+                2.0 * reach <= config.tuning.whole_map && cells <= FogConfig::MOST_CELLS as f64;
             fits.then_some((middle_m, reach))
         });
         let floors = FogConfig {
@@ -85,7 +85,7 @@ impl TwoMaps {
             local: Octree::new(config.octree())?,
             known: static_map.map(known).transpose()?,
             level_m: f64::NAN,
-            believed: Believed::default(),
+            seen: LocalColumns::default(),
             view: FloorView::unknown(lattice, cells),
             rays: Vec::new(),
             fresh: floors.clone(),
@@ -103,11 +103,11 @@ impl TwoMaps {
     /// The view made of both maps at once: what [`WorldModel::view`] is frame by frame.
     pub fn projected(&self) -> FloorView {
         let mut whole = self.clone();
-        whole.believed = Believed::default();
+        whole.seen = LocalColumns::default();
         whole.view = FloorView::unknown(*self.layers.lattice(), self.layers.size()[0]);
         let all = whole.layers.all();
         let local = (&whole.local, whole.config.p_occ);
-        whole.believed.read(local, &whole.layers, all);
+        whole.seen.read(local, &whole.layers, all);
         whole.project(all);
         whole.view
     }
@@ -115,7 +115,8 @@ impl TwoMaps {
     /// Follows the robot: where its level or the window is another one, all is looked at anew; whether that is so.
     fn follow(&mut self, robot_m: [f64; 3]) -> bool {
         let lattice = self.floors.view().lattice;
-        let same_level = (robot_m[2] - self.level_m).abs() <= 0.5 * self.config.resolution;
+        let same_level = (robot_m[2] - self.level_m).abs()
+            <= self.config.tuning.same_level * self.config.resolution;
         if same_level && lattice == *self.layers.lattice() {
             return false;
         }
@@ -149,19 +150,23 @@ impl TwoMaps {
             delta_m: self.floors.config().delta,
             floor_at: |index| self.floor_at(index),
         };
-        beams::read(&mut rays, (frame, planes), &ground, self.config.resolution);
+        let tuning = &self.config.tuning;
+        let beams = (self.config.resolution, &tuning.beams);
+        beams::read(&mut rays, (frame, planes), &ground, beams);
         let eye_m = frame.eye_m;
         if let Some(known) = &self.known {
-            told::leave_out(&mut rays, eye_m, known, &self.layers);
+            let known = (known, &self.layers);
+            known_surfaces::leave_out(&mut rays, eye_m, known, &tuning.known_surfaces);
         }
         let seen = rays.len();
-        let unseen = Unseen {
+        let empty = EmptySight {
             range_m: self.config.unseen_range,
             blind_m: self.config.blind_range,
             floor_m: self.level_m,
             voxel_m: self.config.resolution,
+            beside_px: tuning.empty_sight.beside,
         };
-        unseen::read(&mut rays, planes, map_from_robot, &unseen);
+        empty_sight::read(&mut rays, planes, map_from_robot, &empty);
         let mut at = 0;
         rays.retain(|ray| {
             at += 1;
@@ -197,7 +202,7 @@ impl TwoMaps {
     /// Layers of a cell in which either map has something.
     fn solid(&self, index: usize) -> u64 {
         let told = self.known.as_ref().map_or(0, |known| known.solid(index));
-        self.believed.at(index, self.config.large) | told
+        self.seen.at(index, self.config.large) | told
     }
 
     /// Section III.D for the cell that is stored at an index: what stands out of its floor within the robot's vertical extent is an
@@ -268,8 +273,8 @@ impl WorldModel for TwoMaps {
             changed = self.layers.all();
         }
         let local = (&self.local, self.config.p_occ);
-        self.believed.read(local, &self.layers, changed);
-        changed = changed.grown(Believed::REACH);
+        self.seen.read(local, &self.layers, changed);
+        changed = changed.grown(LocalColumns::REACH);
         changed.join(insertion.changed);
         let changed = changed.within(self.layers.all());
         self.project(changed);
@@ -283,7 +288,7 @@ impl WorldModel for TwoMaps {
         &self.view
     }
 
-    /// Of the local map.
+    /// The voxels of the local map.
     fn occupied(&self) -> Vec<Voxel> {
         (self.local.leaves())
             .filter(|leaf| probability(leaf.log_odds) >= self.config.p_occ)

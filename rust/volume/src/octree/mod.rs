@@ -16,7 +16,7 @@ mod reading;
 mod window;
 mod writing;
 
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 
 pub use cast::{Cast, Sighting};
 pub use columns::{Footprint, LAYERS};
@@ -49,7 +49,7 @@ impl PartialEq for Octree {
 }
 
 impl Octree {
-    /// Of which nothing is known.
+    /// A tree of which nothing is known.
     pub fn new(config: OctreeConfig) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self {

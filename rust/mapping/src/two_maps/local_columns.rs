@@ -5,20 +5,20 @@
 use geometry::CellArea;
 use volume::octree::{LayerColumns, Octree, ViewLayers};
 
-/// Log-odds that are not against a voxel.
+/// Probability of a voxel that is as likely occupied as not: nothing is known against it.
 const EVEN: f64 = 0.5;
 
 /// For each cell the layers in which something stands, one bit each.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Believed {
+pub(super) struct LocalColumns {
     sure: LayerColumns,
     likely: LayerColumns,
     /// Cells along x.
     cols: usize,
 }
 
-impl Believed {
-    /// How far a cell's neighbours reach that have a say in what it holds.
+impl LocalColumns {
+    /// How far a cell's neighbours reach that have a say in what it holds: the eight around it.
     pub(super) const REACH: i32 = 1;
 
     /// Reads the cells of an area anew: sure is what is as likely as `p_occ`.
