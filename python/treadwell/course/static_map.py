@@ -39,9 +39,9 @@ def map_resolution(table: Mapping[str, object], where: str) -> float:
         InputError: there is another key, or the resolution cannot be.
     """
     for key in table:
-        if key != "resolution":
+        if key not in ("resolution", "tuning"):  # what stands under `tuning` the core checks
             raise InputError(
-                f"{where}: navigation.static_map.{key}: unknown key; allowed: resolution"
+                f"{where}: navigation.static_map.{key}: unknown key; allowed: resolution, tuning"
             )
     value = table.get("resolution", RESOLUTION)
     if (

@@ -7,13 +7,9 @@ use segmentation::Planes;
 
 use volume::Ray;
 
-/// Rows above and below in which nothing may have been seen either, and columns beside what was.
-const BESIDE_PX: usize = 2;
-
 /// How far lines of sight without an end are believed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(clippy::struct_field_names, reason = "their unit")]
-pub(super) struct Unseen {
+pub(super) struct EmptySight {
     /// So far the way is free, m.
     pub(super) range_m: f64,
     /// What is nearer may throw a shadow without being seen, m.
@@ -22,6 +18,8 @@ pub(super) struct Unseen {
     pub(super) floor_m: f64,
     /// Side of a voxel, m: neighbouring lines of sight within it say the same.
     pub(super) voxel_m: f64,
+    /// Rows above and below in which nothing may have been seen either, and columns beside what was.
+    pub(super) beside_px: usize,
 }
 
 /// Adds the lines of sight that are free as far as is believed, of a frame that is a picture.
@@ -35,30 +33,32 @@ pub(super) fn read(
     rays: &mut Vec<Ray>,
     planes: &Planes,
     map_from_robot: &Pose<Map, Robot>,
-    unseen: &Unseen,
+    empty: &EmptySight,
 ) {
     let Some(camera) = planes.camera else {
         return;
     };
     let [width, height] = [camera.width, camera.height];
-    if unseen.range_m == 0.0 || width * height != planes.points_in_robot_m.len() {
+    if empty.range_m == 0.0 || width * height != planes.points_in_robot_m.len() {
         return;
     }
     let from_camera = (*map_from_robot * planes.robot_from_camera).inner;
     let eye = from_camera.translation.vector;
     let turn = from_camera.rotation.to_rotation_matrix();
     let (centre_col, centre_row) = camera.principal_point_px();
-    let every = ((unseen.voxel_m * camera.focal_px / unseen.range_m) as usize).max(1);
-    for row in (BESIDE_PX..height.saturating_sub(BESIDE_PX)).step_by(every) {
-        for col in dark_pixels(planes, row, unseen.blind_m) {
-            if !(col.is_multiple_of(every) && is_dark_beside(planes, width, [col, row])) {
+    let every = ((empty.voxel_m * camera.focal_px / empty.range_m) as usize).max(1);
+    let beside_px = empty.beside_px;
+    for row in (beside_px..height.saturating_sub(beside_px)).step_by(every) {
+        for col in dark_pixels(planes, row, empty) {
+            if !(col.is_multiple_of(every) && is_dark_beside(planes, width, [col, row], beside_px))
+            {
                 continue;
             }
             let across = (col as f64 - centre_col) / camera.focal_px;
             let down = (row as f64 - centre_row) / camera.focal_px;
             let along = turn * Vector3::new(across, down, 1.0).normalize();
-            let end = eye + unseen.range_m * along;
-            if end.z > unseen.floor_m {
+            let end = eye + empty.range_m * along;
+            if end.z > empty.floor_m {
                 rays.push(Ray {
                     end_m: end.into(),
                     hit: false,
@@ -73,13 +73,16 @@ fn is_dark(planes: &Planes, pixel: usize) -> bool {
 }
 
 /// Whether nothing was seen above and below a pixel.
-fn is_dark_beside(planes: &Planes, width: usize, [col, row]: [usize; 2]) -> bool {
-    let mut rows = row - BESIDE_PX..=row + BESIDE_PX;
+fn is_dark_beside(planes: &Planes, width: usize, [col, row]: [usize; 2], beside_px: usize) -> bool {
+    let mut rows = row - beside_px..=row + beside_px;
     rows.all(|row| is_dark(planes, row * width + col))
 }
 
 /// Columns of a row in which nothing was seen and that can lie in no shadow.
-fn dark_pixels(planes: &Planes, row: usize, blind_m: f64) -> impl Iterator<Item = usize> {
+fn dark_pixels(planes: &Planes, row: usize, empty: &EmptySight) -> impl Iterator<Item = usize> {
+    let EmptySight {
+        blind_m, beside_px, ..
+    } = *empty;
     let (width, shadow_px) = planes.camera.map_or((0, 0.0), |camera| {
         (camera.width, camera.focal_px * camera.baseline_m)
     });
@@ -90,7 +93,7 @@ fn dark_pixels(planes: &Planes, row: usize, blind_m: f64) -> impl Iterator<Item 
     // Of a pixel in which something was seen.
     let reach_px = move |col: usize| {
         let at = planes.points_in_robot_m[first + col].map(f64::from);
-        BESIDE_PX + widest_px((Vector3::from(at) - eye).dot(&ahead))
+        beside_px + widest_px((Vector3::from(at) - eye).dot(&ahead))
     };
     let border_px = widest_px(blind_m);
     let mut next = 0;

@@ -1,50 +1,69 @@
-//! The floors of a map that is known beforehand, on all its levels, and the way over them to a goal.
+//! The floors of the known map, on all its levels, and the way over them to a goal.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use volume::{SolidVoxels, standing};
+use volume::SolidVoxels;
 
-use crate::Goal;
+use crate::standing::standing;
+use crate::{FloorsTuning, KnownMapTuning, StandingRoom};
 
-/// Places beside each other whose heights differ by no more than this are joined, m: floor, a slope, or a step of stairs.
-const STEP_M: f64 = 0.055;
-/// A change of height costs as much as this way, m a metre of height: levels are changed where they have to be.
-const CLIMB: f64 = 10.0;
-/// A place is where the robot stands when it is no further away than this, m,
-const NEAR_M: f64 = 0.3;
-/// and no more above or below it than this, m.
-const LEVEL_M: f64 = 0.06;
 /// No place.
-pub(super) const NONE: u32 = u32::MAX;
+const NONE: u32 = u32::MAX;
 
-/// Places to stand: a column of the map has one on each of its levels.
+/// Places to stand, by their numbers: a column of the map has one on each of its levels.
 #[derive(Debug, Clone)]
-pub(super) struct Floors {
-    pub(super) side_m: f64,
+pub struct Floors {
+    side_m: f64,
     corner_m: [f64; 2],
     cols: usize,
     rows: usize,
     /// For each column the first of its places; one more at the end.
     first: Vec<u32>,
-    /// For each place its column,
+    /// For each place its column.
     column: Vec<u32>,
-    /// and its height, m.
+    /// For each place its height, m.
     height_m: Vec<f32>,
+    tuning: FloorsTuning,
 }
 
-/// How far it is from each place to a goal, m of level way, and which place is next; infinite and [`NONE`] where no way leads there.
+/// Where a way shall lead.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target {
+    /// Its middle, seen from above, m.
+    pub at_m: [f64; 2],
+    /// Within this of the middle one is there, m.
+    pub radius_m: f64,
+    /// Height of its level, m; any level where it is not told.
+    pub height_m: Option<f64>,
+}
+
+/// How far it is from each place to a target, and which place is next on the way.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Field {
-    pub(super) cost_m: Vec<f32>,
-    pub(super) next: Vec<u32>,
+pub struct CostField {
+    /// Infinite where no way leads there.
+    cost_m: Vec<f32>,
+    /// [`NONE`] at the target, and where no way leads there.
+    next: Vec<u32>,
+}
+
+impl CostField {
+    /// Cost of the way from a place, m of level way; infinite where none leads to the target.
+    pub fn cost_m(&self, place: u32) -> f32 {
+        self.cost_m[place as usize]
+    }
+
+    /// The place that comes next on the way; none at the target, and where no way leads there.
+    pub fn next(&self, place: u32) -> Option<u32> {
+        Some(self.next[place as usize]).filter(|next| *next != NONE)
+    }
 }
 
 impl Floors {
-    /// Of a map, for a body of a radius and a height, m.
-    pub(super) fn new(solid: &SolidVoxels, body_m: [f64; 2]) -> Self {
+    /// The floors of a map for a body.
+    pub(crate) fn new(solid: &SolidVoxels, room: StandingRoom, tuning: &KnownMapTuning) -> Self {
         let [cols, rows, _] = solid.size();
-        let mut places: Vec<(u32, f32)> = (standing(solid, body_m).iter())
+        let mut places: Vec<(u32, f32)> = (standing(solid, room, &tuning.standing).iter())
             .map(|place| {
                 let [x, y, _] = place.voxel;
                 ((y * cols + x) as u32, place.top_m[2] as f32)
@@ -68,15 +87,22 @@ impl Floors {
             first,
             column,
             height_m,
+            tuning: tuning.floors.clone(),
         }
     }
 
-    pub(super) fn len(&self) -> usize {
+    /// How many places there are; they are numbered from 0 on.
+    pub const fn count(&self) -> usize {
         self.height_m.len()
     }
 
+    /// Side of a column, m.
+    pub const fn side_m(&self) -> f64 {
+        self.side_m
+    }
+
     /// The column that holds a point, seen from above; none outside the map.
-    pub(super) fn column_at(&self, at_m: [f64; 2]) -> Option<usize> {
+    pub(crate) fn column_at(&self, at_m: [f64; 2]) -> Option<usize> {
         let cell = |axis: usize| (at_m[axis] - self.corner_m[axis]) / self.side_m;
         let (x, y) = (cell(0), cell(1));
         let inside = x >= 0.0 && y >= 0.0 && x < self.cols as f64 && y < self.rows as f64;
@@ -84,12 +110,12 @@ impl Floors {
     }
 
     /// Column and row.
-    pub(super) const fn cell_of(&self, column: usize) -> [usize; 2] {
+    pub(crate) const fn cell_of(&self, column: usize) -> [usize; 2] {
         [column % self.cols, column / self.cols]
     }
 
     /// Heights of the places of a column, m.
-    pub(super) fn heights_m(&self, column: usize) -> impl Iterator<Item = f64> + '_ {
+    pub(crate) fn heights_m(&self, column: usize) -> impl Iterator<Item = f64> + '_ {
         let places = self.first[column] as usize..self.first[column + 1] as usize;
         self.height_m[places]
             .iter()
@@ -97,7 +123,7 @@ impl Floors {
     }
 
     /// Where a place is, m.
-    pub(super) fn at_m(&self, place: u32) -> [f64; 3] {
+    pub fn at_m(&self, place: u32) -> [f64; 3] {
         let [x, y] = self.cell_of(self.column[place as usize] as usize);
         [
             self.corner_m[0] + (x as f64 + 0.5) * self.side_m,
@@ -125,10 +151,11 @@ impl Floors {
     }
 
     /// The place that a robot stands on, of those from which `counts` says that they do.
-    pub(super) fn under(&self, [x, y, z]: [f64; 3], counts: impl Fn(u32) -> bool) -> Option<u32> {
-        self.around([x, y], NEAR_M)
+    pub fn under(&self, [x, y, z]: [f64; 3], counts: impl Fn(u32) -> bool) -> Option<u32> {
+        let FloorsTuning { near, level, .. } = self.tuning;
+        self.around([x, y], near)
             .filter(|&(place, _)| {
-                (f64::from(self.height_m[place as usize]) - z).abs() < LEVEL_M && counts(place)
+                (f64::from(self.height_m[place as usize]) - z).abs() < level && counts(place)
             })
             .min_by(|a, b| a.1.total_cmp(&b.1))
             .map(|(place, _)| place)
@@ -136,6 +163,7 @@ impl Floors {
 
     /// The places beside one that a step leads to, with what the step costs, m.
     fn steps(&self, place: u32) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let FloorsTuning { step, climb, .. } = self.tuning;
         let [col, row] = self.cell_of(self.column[place as usize] as usize);
         let height_m = f64::from(self.height_m[place as usize]);
         let cols = col.saturating_sub(1)..(col + 2).min(self.cols);
@@ -148,21 +176,21 @@ impl Floors {
                     self.side_m * f64::from((c.abs_diff(col) + r.abs_diff(row)) as u32).sqrt();
                 (self.first[beside]..self.first[beside + 1]).filter_map(move |next| {
                     let rise_m = (f64::from(self.height_m[next as usize]) - height_m).abs();
-                    (rise_m <= STEP_M).then_some((next, way_m + CLIMB * rise_m))
+                    (rise_m <= step).then_some((next, way_m + climb * rise_m))
                 })
             })
     }
 
     /// Whether a step up or down leads on from a place.
-    pub(super) fn is_at_step(&self, place: u32) -> bool {
-        let height_m = self.height_m[place as usize];
-        (self.steps(place)).any(|(next, _)| (self.height_m[next as usize] - height_m).abs() > 0.01)
+    pub fn is_at_step(&self, place: u32) -> bool {
+        let (height_m, edge) = (self.height_m[place as usize], self.tuning.edge);
+        (self.steps(place)).any(|(next, _)| (self.height_m[next as usize] - height_m).abs() > edge)
     }
 
     /// For each column whether a step is no further away than `near_m`, m.
-    pub(super) fn columns_near_steps(&self, near_m: f64) -> Vec<bool> {
+    pub(crate) fn columns_near_steps(&self, near_m: f64) -> Vec<bool> {
         let mut near = vec![false; self.cols * self.rows];
-        for place in (0..self.len() as u32).filter(|place| self.is_at_step(*place)) {
+        for place in (0..self.count() as u32).filter(|place| self.is_at_step(*place)) {
             let [x, y, _] = self.at_m(place);
             for (beside, _) in self.around([x, y], near_m) {
                 near[self.column[beside as usize] as usize] = true;
@@ -171,20 +199,20 @@ impl Floors {
         near
     }
 
-    /// The way from everywhere to a goal (Dijkstra), but through places that are `blocked`.
-    pub(super) fn aim(&self, goal: &Goal, blocked: &[bool], field: &mut Field) {
+    /// The way from everywhere to a target (Dijkstra), but through places that are `blocked`.
+    pub fn aim(&self, target: &Target, blocked: &[bool], field: &mut CostField) {
         field.cost_m.clear();
-        field.cost_m.resize(self.len(), f32::INFINITY);
+        field.cost_m.resize(self.count(), f32::INFINITY);
         field.next.clear();
-        field.next.resize(self.len(), NONE);
+        field.next.resize(self.count(), NONE);
         // Costs as bits: floats that are not negative are ordered like them.
         let mut queue = BinaryHeap::new();
-        let reach_m = goal.radius_m.max(self.side_m);
-        for (place, away_m) in self.around([goal.x_m, goal.y_m], reach_m) {
+        let reach_m = target.radius_m.max(self.side_m);
+        for (place, away_m) in self.around(target.at_m, reach_m) {
             let height_m = f64::from(self.height_m[place as usize]);
-            if goal
+            if target
                 .height_m
-                .is_none_or(|level_m| (level_m - height_m).abs() < LEVEL_M)
+                .is_none_or(|level_m| (level_m - height_m).abs() < self.tuning.level)
             {
                 field.cost_m[place as usize] = away_m as f32;
                 queue.push(Reverse(((away_m as f32).to_bits(), place)));
@@ -212,15 +240,6 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn goal(x_m: f64, y_m: f64, height_m: Option<f64>) -> Goal {
-        Goal {
-            x_m,
-            y_m,
-            radius_m: 0.05,
-            height_m,
-        }
-    }
-
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(40))]
 
@@ -231,10 +250,11 @@ mod tests {
         ) {
             let mut boxes = vec![[[0.0, 0.0, -0.04], [2.0, 2.0, 0.0]]];
             boxes.extend(blocks.iter().map(|&(x, y, dx, dy, h)| [[x, y, 0.0], [x + dx, y + dy, 0.04 * f64::from(h)]]));
-            let floors = Floors::new(&SolidVoxels::of_boxes(&boxes, 0.04).unwrap(), [0.08, 0.55]);
-            let mut field = Field::default();
-            floors.aim(&goal(x, y, None), &vec![false; floors.len()], &mut field);
-            for place in 0..floors.len() as u32 {
+            let floors = Floors::new(&SolidVoxels::of_boxes(&boxes, 0.04).unwrap(), StandingRoom { radius_m: 0.08, height_m: 0.55 }, &KnownMapTuning::default());
+            let target = Target { at_m: [x, y], radius_m: 0.05, height_m: None };
+            let mut field = CostField::default();
+            floors.aim(&target, &vec![false; floors.count()], &mut field);
+            for place in 0..floors.count() as u32 {
                 let here = field.cost_m[place as usize];
                 for (next, way_m) in floors.steps(place) {
                     prop_assert!(here <= field.cost_m[next as usize] + way_m as f32 + 1e-4);

@@ -1,9 +1,8 @@
-//! Where one can stand in a map that does not change.
+//! Where one can stand in the known map.
 
-use super::SolidVoxels;
+use volume::SolidVoxels;
 
-/// What is lower than this beside a place is a step, not a wall, m.
-const STEP_M: f64 = 0.08;
+use crate::StandingTuning;
 
 /// A place to stand.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,9 +13,23 @@ pub struct Standing {
     pub top_m: [f64; 3],
 }
 
+/// Room that a body needs where it stands: an upright cylinder.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StandingRoom {
+    /// Its radius, m; 0 for a body without a width.
+    pub radius_m: f64,
+    /// Its height, m.
+    pub height_m: f64,
+}
+
 /// Tops of solid voxels above which a body has room: a cylinder that stands a step's height above them, on every level of the map.
 /// In the order of the voxels' layers, rows and columns.
-pub fn standing(solid: &SolidVoxels, [radius_m, height_m]: [f64; 2]) -> Vec<Standing> {
+pub(crate) fn standing(
+    solid: &SolidVoxels,
+    room: StandingRoom,
+    tuning: &StandingTuning,
+) -> Vec<Standing> {
+    let StandingRoom { radius_m, height_m } = room;
     let side_m = solid.resolution_m();
     let [cols, rows, layers] = solid.size().map(|count| count as i64);
     let reach = (radius_m / side_m).ceil() as i64;
@@ -24,7 +37,7 @@ pub fn standing(solid: &SolidVoxels, [radius_m, height_m]: [f64; 2]) -> Vec<Stan
         .flat_map(|y| (-reach..=reach).map(move |x| [x, y]))
         .filter(|[x, y]| ((x * x + y * y) as f64).sqrt() * side_m <= radius_m)
         .collect();
-    let steps = (STEP_M / side_m).round().max(1.0) as i64;
+    let steps = (tuning.step / side_m).round().max(1.0) as i64;
     let body = steps + 1..=(height_m / side_m).ceil() as i64;
     let mut places = Vec::new();
     for (x, y, z) in
@@ -67,7 +80,11 @@ mod tests {
             [[1.96, 0.0, 0.0], [2.0, 1.0, 1.6]],
         ];
         let solid = SolidVoxels::of_boxes(&boxes, 0.04).unwrap();
-        let places = standing(&solid, [0.1, 0.55]);
+        let room = StandingRoom {
+            radius_m: 0.1,
+            height_m: 0.55,
+        };
+        let places = standing(&solid, room, &StandingTuning::default());
         let any = |x: [f64; 2], z_m: f64| {
             places.iter().any(|place| {
                 let [px, _, pz] = place.top_m;

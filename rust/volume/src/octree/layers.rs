@@ -1,16 +1,16 @@
-//! Where the two maps are looked at: the cells of the view, and the layers around the robot's height.
+//! Where a tree is looked at as a world model's view has it: the view's cells, and 64 layers of voxels above a height.
 
-use geometry::{Cell, CellArea, Lattice};
+use geometry::{Cell, CellArea, Lattice, runs};
 
-use geometry::runs;
-use volume::octree::{Footprint, Octree};
+use super::key::SPAN;
+use super::{Footprint, Octree};
 
 /// Voxel of the map's origin, counted from the lowest that a tree can hold.
-const ORIGIN: i32 = 1 << 15;
+const ORIGIN: i32 = SPAN / 2;
 
-/// Cells and layers of voxels.
+/// Cells of a view, and layers of voxels that cross them. A set of a cell's layers is one bit each, the lowest layer first.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Layers {
+pub struct ViewLayers {
     lattice: Lattice,
     size: [usize; 2],
     resolution_m: f64,
@@ -18,13 +18,9 @@ pub(super) struct Layers {
     lowest: i32,
 }
 
-impl Layers {
-    /// Above a height; the lattice's cells are whole numbers of voxels.
-    pub(super) fn above(
-        bottom_m: f64,
-        (lattice, size): (Lattice, [usize; 2]),
-        resolution_m: f64,
-    ) -> Self {
+impl ViewLayers {
+    /// Layers above a height, over so many columns and rows of a lattice; its cells are whole numbers of voxels wide.
+    pub fn above(bottom_m: f64, (lattice, size): (Lattice, [usize; 2]), resolution_m: f64) -> Self {
         Self {
             lattice,
             size,
@@ -33,32 +29,33 @@ impl Layers {
         }
     }
 
-    pub(super) const fn lattice(&self) -> &Lattice {
+    /// Where the cells lie in the map frame.
+    pub const fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
     /// Side of a voxel, m.
-    pub(super) const fn side_m(&self) -> f64 {
+    pub const fn side_m(&self) -> f64 {
         self.resolution_m
     }
 
     /// Columns and rows.
-    pub(super) const fn size(&self) -> [usize; 2] {
+    pub const fn size(&self) -> [usize; 2] {
         self.size
     }
 
     /// Height of the border below a layer, m.
-    pub(super) fn border_m(&self, layer: i32) -> f64 {
+    pub fn border_m(&self, layer: i32) -> f64 {
         f64::from(self.lowest + layer) * self.resolution_m
     }
 
     /// Height of the middle of a layer, m.
-    pub(super) fn middle_m(&self, layer: u32) -> f64 {
+    pub fn middle_m(&self, layer: u32) -> f64 {
         self.border_m(layer as i32) + 0.5 * self.resolution_m
     }
 
     /// The layers of which the middle lies above one height and the lower border below another, one bit each.
-    pub(super) fn between(&self, above_m: f64, below_m: f64) -> u64 {
+    pub fn between(&self, above_m: f64, below_m: f64) -> u64 {
         let layer = |height_m: f64| height_m / self.resolution_m - f64::from(self.lowest);
         let first = ((layer(above_m) - 0.5).floor() + 1.0).clamp(0.0, 64.0) as u32;
         let end = layer(below_m).ceil().clamp(0.0, 64.0) as u32;
@@ -68,7 +65,7 @@ impl Layers {
         (u64::MAX >> (64 - (end - first))) << first
     }
 
-    /// The same cells as a tree finds them.
+    /// The cells of an area as a tree finds them.
     fn footprint(&self, area: CellArea) -> Footprint {
         let Lattice { origin_m, cell_m } = self.lattice;
         let per_cell = (cell_m / self.resolution_m).round();
@@ -86,7 +83,7 @@ impl Layers {
     }
 
     /// All cells.
-    pub(super) const fn all(&self) -> CellArea {
+    pub const fn all(&self) -> CellArea {
         let [cols, rows] = self.size;
         CellArea {
             min: Cell::new(0, 0),
@@ -97,11 +94,11 @@ impl Layers {
 
 /// For each cell the layers in which a tree has a voxel as likely occupied as is asked for, one bit each, row by row.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Columns(Vec<u64>);
+pub struct LayerColumns(Vec<u64>);
 
-impl Columns {
+impl LayerColumns {
     /// Reads the cells of an area anew; all of them, when layers or cells are others.
-    pub(super) fn read(&mut self, (tree, p_occ): (&Octree, f64), layers: &Layers, area: CellArea) {
+    pub fn read(&mut self, (tree, p_occ): (&Octree, f64), layers: &ViewLayers, area: CellArea) {
         let [cols, rows] = layers.size;
         self.0.resize(cols * rows, 0);
         let area = area.within(layers.all());
@@ -119,9 +116,9 @@ impl Columns {
         });
     }
 
-    /// Those of the cell that is stored at an index; none where nothing was read.
+    /// The layers of the cell that is stored at an index; none where nothing was read.
     #[inline]
-    pub(super) fn at(&self, index: usize) -> u64 {
+    pub fn at(&self, index: usize) -> u64 {
         self.0.get(index).copied().unwrap_or(0)
     }
 }
@@ -136,7 +133,7 @@ mod tests {
             origin_m: [0.0; 2],
             cell_m: 0.04,
         };
-        let layers = Layers::above(-0.4, (lattice, [4, 4]), 0.04);
+        let layers = ViewLayers::above(-0.4, (lattice, [4, 4]), 0.04);
         // Layer 10 is the first above the floor, and its middle 20 mm above.
         assert_eq!(layers.between(0.028, 0.09), 0b11 << 11);
         assert_eq!(layers.between(0.01, 0.07), 0b11 << 10);

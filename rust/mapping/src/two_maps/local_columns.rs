@@ -3,28 +3,31 @@
 //! A small thing that one frame saw may be noise; who steps in the way is not.
 
 use geometry::CellArea;
+use volume::octree::{LayerColumns, Octree, ViewLayers};
 
-use super::layers::{Columns, Layers};
-use volume::octree::Octree;
-
-/// Log-odds that are not against a voxel.
+/// Probability of a voxel that is as likely occupied as not: nothing is known against it.
 const EVEN: f64 = 0.5;
 
 /// For each cell the layers in which something stands, one bit each.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Believed {
-    sure: Columns,
-    likely: Columns,
+pub(super) struct LocalColumns {
+    sure: LayerColumns,
+    likely: LayerColumns,
     /// Cells along x.
     cols: usize,
 }
 
-impl Believed {
-    /// How far a cell's neighbours reach that have a say in what it holds.
+impl LocalColumns {
+    /// How far a cell's neighbours reach that have a say in what it holds: the eight around it.
     pub(super) const REACH: i32 = 1;
 
     /// Reads the cells of an area anew: sure is what is as likely as `p_occ`.
-    pub(super) fn read(&mut self, (tree, p_occ): (&Octree, f64), layers: &Layers, area: CellArea) {
+    pub(super) fn read(
+        &mut self,
+        (tree, p_occ): (&Octree, f64),
+        layers: &ViewLayers,
+        area: CellArea,
+    ) {
         self.cols = layers.size()[0];
         self.sure.read((tree, p_occ), layers, area);
         self.likely.read((tree, EVEN), layers, area);

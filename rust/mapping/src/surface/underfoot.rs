@@ -4,14 +4,14 @@ use geometry::{Cell, CellArea, Grid, Lattice};
 
 /// Height of the ground where the robot stood, cell by cell.
 #[derive(Debug, Clone)]
-pub(crate) struct Stood {
-    /// NaN where it did not, m.
+pub(crate) struct Underfoot {
+    /// NaN where the robot did not stand, m.
     heights: Grid<f32>,
     reach_m: f64,
 }
 
-impl Stood {
-    /// It stood nowhere yet. Standing it covers the cells up to `reach_m` from its middle.
+impl Underfoot {
+    /// A robot that stood nowhere yet. Standing it covers the cells up to `reach_m` from its middle.
     pub(crate) fn new(cells: usize, reach_m: f64) -> Self {
         Self {
             heights: Grid::filled(cells, cells, f32::NAN),
@@ -24,7 +24,7 @@ impl Stood {
         self.heights.shift(cols, rows, &f32::NAN);
     }
 
-    /// Remembers that it stands here (map frame); the cells that it covers.
+    /// Remembers that the robot stands here (map frame); the cells that it covers.
     pub(crate) fn stand(&mut self, [x, y, z]: [f64; 3], lattice: &Lattice) -> CellArea {
         let mut area = CellArea::EMPTY;
         let reach = self.reach_m;
@@ -49,7 +49,7 @@ impl Stood {
         self.height_at(self.heights.index(cell)?)
     }
 
-    /// The same of the cell that is stored at an index, row by row.
+    /// Height of the ground of the cell that is stored at an index, row by row, m, where the robot stood on it.
     #[inline]
     pub(crate) fn height_at(&self, index: usize) -> Option<f32> {
         let height = self.heights.values()[index];
