@@ -18,45 +18,58 @@ use nalgebra::{
     Isometry3, Matrix3, Rotation3, RowSVector, SMatrix, SVector, Translation3, UnitQuaternion,
     Vector2, Vector3,
 };
+use settings::{NOT_NEGATIVE, POSITIVE, SHARE, settings, within};
 
-/// What is believed of each half before anything was seen: sigma, rad. The neck's joint errs more than the trunk's, and
-/// nothing but the legs' encoders lets the trunk roll.
-const BODY_ROLL_RAD: f64 = 0.015;
-const BODY_PITCH_RAD: f64 = 0.025;
-const HEAD_HALF_RAD: f64 = 0.09;
-/// The same of the height, and of the camera's place in the head, m.
-const HEIGHT_M: f64 = 0.008;
-const PLACE_M: f64 = 0.005;
-/// The trunk turns about a place this share of the camera's height below it.
-const TRUNK: f64 = 0.45;
-/// How far the halves may wander from frame to frame: sigma, rad, and of the height, m.
-const WANDER_RAD: f64 = 0.0003;
-const WANDER_M: f64 = 0.0002;
-/// The same of the body half until a track is seasoned: a robot that was put down has yet to find out how it stands.
-const SETTLING_RAD: f64 = 0.001;
-/// How far one frame's attitude is off the filtered one while walking: sigma, rad, and of the floor's height in the middle
-/// of the picture, m.
-const SWAY_RAD: f64 = 0.01;
-const SWAY_M: f64 = 0.003;
-/// Frames from one direction err alike, so that each tells less than the one before it. Cosine of the turn from which on a
-/// direction is another one: two pixels.
-const OTHER_DIRECTION: f64 = 0.9998;
-/// Farthest that the middle of the picture counts as floor, m.
-const FARTHEST_M: f64 = 0.6;
-/// Frames with ground after which a track is settled. Before that the ground is searched as widely as at first, for the
-/// attitude settles in these frames, too, and a first find may be a bad one.
-const SETTLED: u32 = 8;
-/// Frames with ground after which a track is seasoned: what contradicts it then is no floor.
-const SEASONED: u32 = 25;
-/// Frames without ground after which a track that has not settled is given up.
-const YOUNG_MISSES: u32 = 3;
-/// Finds of a young track contradict each other when they are this far apart, rad and m: one of them was no ground.
-const CONTRADICTS_RAD: f64 = 0.05;
-const CONTRADICTS_M: f64 = 0.012;
-/// The same where one of them was told by what is near the feet and the other was not, rad.
-const CONTRADICTS_NEAR_RAD: f64 = 0.025;
+settings! {
+    /// How the camera's pose is corrected by the ground, from frame to frame.
+    pub struct CorrectionTuning("navigation.ground.tuning.correction") {
+        /// Standard deviation of the body's roll error before any ground was seen. Nothing but the legs' encoders lets the trunk roll.
+        body_roll: f64 = 0.015, "rad", POSITIVE;
+        /// Standard deviation of the body's pitch error before any ground was seen.
+        body_pitch: f64 = 0.025, "rad", POSITIVE;
+        /// Standard deviation of the head's pitch error and of its roll error before any ground was seen. The neck's joint errs more
+        /// than the trunk's.
+        head: f64 = 0.09, "rad", POSITIVE;
+        /// Standard deviation of the error of the camera's height before any ground was seen.
+        height: f64 = 0.008, "m", POSITIVE;
+        /// Standard deviation of the error of the camera's place in the head, ahead and above, before any ground was seen.
+        place: f64 = 0.005, "m", POSITIVE;
+        /// Share of the camera's height by which the place that the trunk turns about lies below the camera.
+        trunk: f64 = 0.45, "1", SHARE;
+        /// Standard deviation by which each angle of the correction may wander from frame to frame.
+        wander: f64 = 0.0003, "rad", NOT_NEGATIVE;
+        /// Standard deviation by which the correction of the height may wander from frame to frame.
+        height_wander: f64 = 0.0002, "m", NOT_NEGATIVE;
+        /// Standard deviation by which the body's angles may wander from frame to frame until the track is seasoned: a robot that was
+        /// put down has yet to find out how it stands.
+        settling_wander: f64 = 0.001, "rad", NOT_NEGATIVE;
+        /// Standard deviation of one frame's attitude against the filtered one while walking.
+        sway: f64 = 0.01, "rad", POSITIVE;
+        /// Standard deviation of the floor's height in the middle of one frame's picture while walking.
+        height_sway: f64 = 0.003, "m", POSITIVE;
+        /// Cosine of the turn of the camera's axis from which on it looks in another direction: two pixels. Frames from one direction
+        /// err alike, so that each tells less than the one before it.
+        other_direction: f64 = 0.9998, "1", within(-1.0, 1.0);
+        /// Farthest that the middle of the picture counts as floor.
+        farthest: f64 = 0.6, "m", POSITIVE;
+        /// Frames with ground after which a track is settled. Before that the ground is searched as widely as at first, for the
+        /// attitude settles in these frames, too, and a first find may be a bad one.
+        settled: u32 = 8, "1", within(1.0, 1e6);
+        /// Frames with ground after which a track is seasoned: what contradicts it then is no floor.
+        seasoned: u32 = 25, "1", within(1.0, 1e6);
+        /// Frames without ground after which a track that has not settled is given up.
+        young_misses: u32 = 3, "1", within(0.0, 1e6);
+        /// Tilt by which a find contradicts a young track: one of both was no ground.
+        contradicting_tilt: f64 = 0.05, "rad", POSITIVE;
+        /// Height by which a find contradicts a young track.
+        contradicting_height: f64 = 0.012, "m", POSITIVE;
+        /// Tilt by which a find contradicts a young track when one of both was told by what is near the feet and the other was not.
+        contradicting_near: f64 = 0.025, "rad", POSITIVE;
+    }
+}
 
-/// Body half about x, y, head half about the camera's x, z, rad; height; ahead and above in the camera's axes, m.
+/// Numbers of the state: body half about x, y, head half about the camera's x, z, rad; height; ahead and above in the camera's
+/// axes, m.
 const STATES: usize = 7;
 const HEIGHT: usize = 4;
 const AHEAD: usize = 5;
@@ -66,6 +79,7 @@ type State = SVector<f64, STATES>;
 /// The filtered correction.
 #[derive(Debug, Clone)]
 pub(crate) struct Correction {
+    tuning: CorrectionTuning,
     state: State,
     covariance: SMatrix<f64, STATES, STATES>,
     // The direction that was looked in last, and the frames since it is that.
@@ -83,17 +97,18 @@ pub(crate) struct Correction {
 
 impl Correction {
     /// Nothing known.
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(tuning: CorrectionTuning) -> Self {
         let sigmas = State::from([
-            BODY_ROLL_RAD,
-            BODY_PITCH_RAD,
-            HEAD_HALF_RAD,
-            HEAD_HALF_RAD,
-            HEIGHT_M,
-            PLACE_M,
-            PLACE_M,
+            tuning.body_roll,
+            tuning.body_pitch,
+            tuning.head,
+            tuning.head,
+            tuning.height,
+            tuning.place,
+            tuning.place,
         ]);
         Self {
+            tuning,
             state: State::zeros(),
             covariance: SMatrix::from_diagonal(&sigmas.component_mul(&sigmas)),
             axis: Vector3::zeros(),
@@ -106,14 +121,19 @@ impl Correction {
         }
     }
 
+    /// Forgets all that was seen.
+    fn forget(&mut self) {
+        *self = Self::new(self.tuning.clone());
+    }
+
     /// Whether the ground is tracked, not searched.
     pub(crate) const fn is_settled(&self) -> bool {
-        self.missed.is_some() && self.found >= SETTLED
+        self.missed.is_some() && self.found >= self.tuning.settled
     }
 
     /// Whether so much ground was found that what is tilted against it is no floor.
     pub(crate) const fn is_seasoned(&self) -> bool {
-        self.found >= SEASONED
+        self.found >= self.tuning.seasoned
     }
 
     /// Whether it may be trusted: settled, and confirmed not longer ago than these frames, in any way and in height.
@@ -136,7 +156,7 @@ impl Correction {
             * by_joints.inner.rotation
             * UnitQuaternion::from_rotation_matrix(&head);
         let by_joints_m = by_joints.inner.translation.vector;
-        let on_the_trunk = Vector3::z() * (TRUNK * by_joints_m.z);
+        let on_the_trunk = Vector3::z() * (self.tuning.trunk * by_joints_m.z);
         let in_the_head = Vector3::new(0.0, -self.state[ABOVE], self.state[AHEAD]);
         let shift_m =
             turn.cross(&on_the_trunk) + rotation * in_the_head + Vector3::z() * self.state[HEIGHT];
@@ -165,18 +185,19 @@ impl Correction {
         let above = -axes[(2, 1)];
         let rises = RowSVector::from([0.0, 0.0, 0.0, 0.0, 1.0, axes[(2, 2)], above]);
         // Tilt and height of one frame err together, so that the floor in the picture is right: its height is measured.
-        let away_m = middle_of_picture_m(&predicted.inner.translation.vector, &roll);
+        let away_m = self.middle_of_picture_m(&predicted.inner.translation.vector, &roll);
         let floor_rises = rises + about_x * away_m.y - about_y * away_m.x;
         let floor_rise_m = rise_m + turn_rad.x * away_m.y - turn_rad.y * away_m.x;
         let apart_rad = if near == self.near {
-            CONTRADICTS_RAD
+            self.tuning.contradicting_tilt
         } else {
-            CONTRADICTS_NEAR_RAD
+            self.tuning.contradicting_near
         };
-        let contradicts = turn_rad.norm() > apart_rad || floor_rise_m.abs() > CONTRADICTS_M;
+        let contradicts =
+            turn_rad.norm() > apart_rad || floor_rise_m.abs() > self.tuning.contradicting_height;
         if contradicts && self.found > 0 && !self.is_settled() {
             if near || !self.near {
-                *self = Self::new();
+                self.forget();
             } else {
                 // Time after time it is the young track that is wrong.
                 self.missed_young();
@@ -186,7 +207,8 @@ impl Correction {
         self.near |= near;
         let measures = SMatrix::<f64, 3, STATES>::from_rows(&[about_x, about_y, floor_rises]);
         let measured = Vector3::new(turn_rad.x, turn_rad.y, floor_rise_m);
-        let noise = Vector3::new(SWAY_RAD.powi(2), SWAY_RAD.powi(2), SWAY_M.powi(2));
+        let (sway_rad, sway_m) = (self.tuning.sway, self.tuning.height_sway);
+        let noise = Vector3::new(sway_rad.powi(2), sway_rad.powi(2), sway_m.powi(2));
         let noise = noise * f64::from(self.count_alike(&roll));
         let innovation =
             measures * self.covariance * measures.transpose() + Matrix3::from_diagonal(&noise);
@@ -204,7 +226,7 @@ impl Correction {
     /// Takes in that a ground that was found slopes near the feet: a track that was found from afar alone is given up.
     pub(crate) fn doubt_afar(&mut self) {
         if !self.near {
-            *self = Self::new();
+            self.forget();
         }
     }
 
@@ -216,7 +238,7 @@ impl Correction {
     /// Takes in that surfaces were level as predicted, but of unknown height. Their tilt is not learned: low steps that
     /// are taken for one surface would turn the track into the slope of the stairs little by little.
     pub(crate) fn confirmed(&mut self) {
-        self.covariance[(HEIGHT, HEIGHT)] += WANDER_M.powi(2);
+        self.covariance[(HEIGHT, HEIGHT)] += self.tuning.height_wander.powi(2);
         self.missed = Some(0);
         self.missed_height = self.missed_height.saturating_add(1);
     }
@@ -235,20 +257,20 @@ impl Correction {
 
     /// A young track has little patience.
     fn missed_young(&mut self) {
-        self.missed_of(YOUNG_MISSES);
+        self.missed_of(self.tuning.young_misses);
     }
 
     fn missed_of(&mut self, patience: u32) {
         match self.missed {
             Some(missed) if missed < patience => self.missed = Some(missed + 1),
-            Some(_) => *self = Self::new(),
+            Some(_) => self.forget(),
             None => {}
         }
     }
 
     /// Frames in a row that looked in the direction `axis`.
     fn count_alike(&mut self, axis: &Vector3<f64>) -> u32 {
-        if self.axis.dot(axis) > OTHER_DIRECTION {
+        if self.axis.dot(axis) > self.tuning.other_direction {
             self.alike = self.alike.saturating_add(1);
         } else {
             (self.axis, self.alike) = (*axis, 1);
@@ -258,24 +280,25 @@ impl Correction {
 
     /// A frame later what is known is a little less sure.
     fn wander(&mut self) {
+        let head_rad = self.tuning.wander;
         let body_rad = if self.is_seasoned() {
-            WANDER_RAD
+            head_rad
         } else {
-            SETTLING_RAD
+            self.tuning.settling_wander
         };
-        let wander_rad = [body_rad, body_rad, WANDER_RAD, WANDER_RAD];
+        let wander_rad = [body_rad, body_rad, head_rad, head_rad];
         for (angle, wander_rad) in wander_rad.into_iter().enumerate() {
             self.covariance[(angle, angle)] += wander_rad.powi(2);
         }
-        self.covariance[(HEIGHT, HEIGHT)] += WANDER_M.powi(2);
+        self.covariance[(HEIGHT, HEIGHT)] += self.tuning.height_wander.powi(2);
     }
-}
 
-/// Where the camera's axis meets the floor, from below the camera, m.
-fn middle_of_picture_m(camera_m: &Vector3<f64>, axis: &Vector3<f64>) -> Vector2<f64> {
-    let level = axis.xy();
-    let away_m = (camera_m.z * level.norm() / (-axis.z).max(1e-3)).min(FARTHEST_M);
-    level.try_normalize(1e-6).unwrap_or_default() * away_m
+    /// Where the camera's axis meets the floor, from below the camera, m. An axis that hardly falls meets it beyond what counts.
+    fn middle_of_picture_m(&self, camera_m: &Vector3<f64>, axis: &Vector3<f64>) -> Vector2<f64> {
+        let level = axis.xy();
+        let away_m = (camera_m.z * level.norm() / (-axis.z).max(1e-3)).min(self.tuning.farthest);
+        level.try_normalize(1e-6).unwrap_or_default() * away_m
+    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::Point2;
 
-use crate::regions::steps::StepMarks;
+use crate::regions::steps::{StepMarks, StepTuning};
 
 /// Pixels of one region that lie side by side.
 #[derive(Debug, Clone)]
@@ -22,4 +22,14 @@ pub(super) struct ProductBuffers {
     // By label: the number of the region in the product plus one, 0 for none; and its height, m, NaN for none.
     pub(super) floors: Vec<(u16, f32)>,
     pub(super) step_marks: StepMarks,
+}
+
+impl ProductBuffers {
+    /// Buffers that are still empty.
+    pub(super) fn new(steps: StepTuning) -> Self {
+        Self {
+            step_marks: StepMarks::new(steps),
+            ..Self::default()
+        }
+    }
 }

@@ -10,35 +10,13 @@ use crate::regions::cuts::TiltPrior;
 use crate::regions::finder::{Finder, Look};
 use crate::regions::fit::shared_tilt;
 
-/// How far a tilt may be from the predicted one: sigma, rad, while tracked and while searched.
-const TRACKED_RAD: f64 = 0.008;
-const SEARCHED_RAD: f64 = 0.1;
-/// How far off the tilt may be that is found by what is near the feet: sigma, rad.
-const NEAR_RAD: f64 = 0.015;
-/// How far a surface may be tilted that tells of the tilt, rad: to a seasoned track little, for treads that are taken for one surface
-/// would turn the track into the slope of the stairs, by a bit each frame; and while it is searched. Between them it is as much as a
-/// floor may be tilted: the first finds may be bad ones, and a track that takes in nothing else is never put right.
-const TRACKED_LEVEL_RAD: f64 = 0.015;
-const SEARCHED_LEVEL_RAD: f64 = 0.09;
-/// How often the regions of a frame are cut: one may hold three levels.
-const CUTS: usize = 2;
-/// Step of the search for the tilt while tracked, and last step of the search from nothing, rad.
-const TRACK_STEP_RAD: f64 = 0.006;
-const LAST_STEP_RAD: f64 = 0.006;
-
 impl<F: Finder> Grounded<F> {
     /// Finds the camera's tilt against the prediction and the regions that are seen with it; `near`: whether nothing but what is
     /// near the feet is shown at first.
     pub(super) fn level(&mut self, predicted: Pose<Robot, Camera>, near: bool) -> Levelled {
         let mut levelled = Levelled::new(&self.camera, predicted, Vector2::zeros());
         let searching = self.searching();
-        let (sigma, level_rad) = if searching {
-            (SEARCHED_RAD, SEARCHED_LEVEL_RAD)
-        } else if self.correction.is_seasoned() {
-            (TRACKED_RAD, TRACKED_LEVEL_RAD)
-        } else {
-            (TRACKED_RAD, self.config.floor_tilt)
-        };
+        let (sigma, level_rad) = self.tilt_rules();
         let guess = self.guess_tilt(&levelled);
         levelled = Levelled::new(&self.camera, predicted, guess);
         for look in [Look::First, Look::Again] {
@@ -56,16 +34,17 @@ impl<F: Finder> Grounded<F> {
             let level_rad = if searching {
                 self.config.floor_tilt
             } else {
-                TRACKED_LEVEL_RAD
+                self.config.tuning.tilt.tracked_level
             };
             let nothing = Vector2::zeros();
-            let tilt = shared_tilt(&self.surfaces.fits, level_rad, &nothing, NEAR_RAD);
+            let near_rad = self.config.tuning.tilt.near;
+            let tilt = shared_tilt(&self.surfaces.fits, level_rad, &nothing, near_rad);
             levelled = Levelled::new(&self.camera, predicted, levelled.further(&tilt));
         }
         if self.config.slopes && !searching {
             levelled = self.part_slopes(levelled, level_rad, sigma);
         }
-        for _ in 0..CUTS {
+        for _ in 0..self.config.tuning.tilt.cuts {
             let expected = -levelled.tilt;
             let prior = TiltPrior {
                 expected,
@@ -81,25 +60,38 @@ impl<F: Finder> Grounded<F> {
         Levelled { near, ..levelled }
     }
 
+    /// How far a tilt may be from the predicted one, and how far a surface may be tilted that tells of it, rad.
+    fn tilt_rules(&self) -> (f64, f64) {
+        let tuning = &self.config.tuning.tilt;
+        if self.searching() {
+            (tuning.searched, tuning.searched_level)
+        } else if self.correction.is_seasoned() {
+            (tuning.tracked, tuning.tracked_level)
+        } else {
+            (tuning.tracked, self.config.floor_tilt)
+        }
+    }
+
     fn guess_tilt(&mut self, level: &Levelled) -> Vector2<f64> {
         let camera_m = level.predicted.inner.translation.vector;
         let height_m = camera_m.z;
+        let tuning = &self.config.tuning.tilt_search;
         let area = if self.searching() {
-            let slack = 2.0 * self.config.ground_height;
+            let slack = tuning.height_slack * self.config.ground_height;
             SearchArea {
                 tilt_rad: self.config.search_tilt,
-                step_rad: self.config.search_tilt / 6.0,
-                last_step_rad: LAST_STEP_RAD,
+                step_rad: self.config.search_tilt / f64::from(tuning.first_steps),
+                last_step_rad: tuning.last_step,
                 below_m: (height_m - slack, height_m + slack),
                 around_m: [-camera_m.x, -camera_m.y, self.config.search_reach]
                     .map(|value| value as f32),
             }
         } else {
             SearchArea {
-                tilt_rad: TRACK_STEP_RAD,
-                step_rad: TRACK_STEP_RAD,
-                last_step_rad: TRACK_STEP_RAD,
-                below_m: (0.15, height_m + 0.2),
+                tilt_rad: tuning.tracked_step,
+                step_rad: tuning.tracked_step,
+                last_step_rad: tuning.tracked_step,
+                below_m: (tuning.tracked_nearest, height_m + tuning.tracked_deeper),
                 around_m: [0.0, 0.0, f32::MAX],
             }
         };

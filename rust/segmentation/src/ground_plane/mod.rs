@@ -12,3 +12,4 @@ mod reference;
 mod segmenter;
 #[cfg(test)]
 mod tests;
+mod tuning;

@@ -172,7 +172,7 @@ impl<F: Finder> Grounded<F> {
                 record.add(&ray, in_camera.dot(&ray));
             }
         }
-        record.finish()
+        record.finish(self.config.tuning.tilted.least_rise)
     }
 
     /// Collects where the outermost pixels of each row meet the region's plane; returns the number of pixels and the mean

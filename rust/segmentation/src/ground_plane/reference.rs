@@ -3,14 +3,13 @@
 use geometry::{Camera, Pose, Robot};
 use nalgebra::Vector2;
 
+use super::tuning::ReferenceTuning;
+
 use crate::KnownFloor;
 use crate::camera_pose::levelled::Levelled;
 use crate::ground_plane::grounded::Grounded;
 use crate::picture::near::Near;
 use crate::regions::finder::Finder;
-
-/// Roughest ground that is accepted in a search, in noise: a plane laid through several steps is rougher.
-const SMOOTH: f64 = 1.35;
 
 /// What a frame's level surfaces tell of the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,6 +91,9 @@ impl<F: Finder> Grounded<F> {
     /// level is known to lie.
     fn find_ground(&self, levelled: &Levelled) -> Option<usize> {
         let config = &self.config;
+        let ReferenceTuning {
+            smooth, core_part, ..
+        } = config.tuning.reference;
         let surfaces = &self.surfaces;
         let pixels = surfaces.labels.len() as f64;
         let (gate_m, least) = if self.searching() {
@@ -107,14 +109,14 @@ impl<F: Finder> Grounded<F> {
                 let height_m = camera_m - 1.0 / f64::from(region.q);
                 let off_the_joints_m = height_m - self.correction.height_m();
                 region.support >= least
-                    && 3 * region.core >= config.min_ground
+                    && core_part * region.core >= config.min_ground
                     && height_m.abs() < gate_m
                     && (height_m.abs() < config.known_height || !self.has_level_beside(i, camera_m))
                     && off_the_joints_m.abs() < config.ground_height
                     && surfaces.is_level(i)
                     && !self.known.is_elsewhere(i, height_m, config.known_height)
                     && (!self.searching()
-                        || surfaces.fits[i].roughness() < SMOOTH && self.is_underfoot(levelled, i))
+                        || surfaces.fits[i].roughness() < smooth && self.is_underfoot(levelled, i))
             })
             .max_by_key(|&i| (surfaces.regions[i].support, std::cmp::Reverse(i)))
     }
@@ -133,7 +135,8 @@ impl<F: Finder> Grounded<F> {
                 own += usize::from(is_near && usize::from(label) == index + 1);
             }
         }
-        own >= self.config.min_region && 2 * own > near
+        let least = self.config.tuning.reference.underfoot * near as f64;
+        own >= self.config.min_region && own as f64 > least
     }
 
     /// Whether a ground slopes where it is near the feet; none where too little is seen there.
@@ -150,16 +153,23 @@ impl<F: Finder> Grounded<F> {
     /// other one is farther from where the joints have the ground than the ground can be, unless it is about as large: in a view
     /// that is off by degrees both may be parts of the ground.
     fn has_level_beside(&self, index: usize, camera_m: f64) -> bool {
+        let ReferenceTuning {
+            core_part,
+            beside,
+            as_large,
+            ..
+        } = self.config.tuning.reference;
         let surfaces = &self.surfaces;
+        let support = |i: usize| surfaces.regions[i].support as f64;
         let below_m = |i: usize| 1.0 / f64::from(surfaces.regions[i].q);
         (0..surfaces.regions.len()).any(|i| {
             let apart_m = (below_m(i) - below_m(index)).abs();
             let off_the_joints_m = camera_m - below_m(i) - self.correction.height_m();
             let could_be_ground = off_the_joints_m.abs() < self.config.ground_height
-                || 2 * surfaces.regions[i].support > surfaces.regions[index].support;
-            3 * surfaces.regions[i].core >= self.config.min_ground
+                || support(i) > as_large * support(index);
+            core_part * surfaces.regions[i].core >= self.config.min_ground
                 && apart_m > self.config.known_height
-                && apart_m < 2.0 * self.config.track_height
+                && apart_m < beside * self.config.track_height
                 && could_be_ground
                 && surfaces.is_level(i)
         })
@@ -194,7 +204,7 @@ impl<F: Finder> Grounded<F> {
         let levels = (0..surfaces.regions.len()).filter(|&i| {
             surfaces.regions[i].core >= config.min_ground
                 && surfaces.is_level(i)
-                && surfaces.fits[i].roughness() < SMOOTH
+                && surfaces.fits[i].roughness() < config.tuning.reference.smooth
         });
         if levels.count() > 0 {
             Reference::Level

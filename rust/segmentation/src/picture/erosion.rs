@@ -2,58 +2,76 @@
 
 use crate::picture::labels::MAX_REGIONS;
 
-/// Lowest and highest label that a pixel stands for. Of one that says nothing (not seen, or a hole inside one region): none.
+/// Lowest and highest label of a pixel that stands for none: it was not seen, or is a hole inside one region.
 /// A byte holds every label, and processors compare many bytes at once.
 const NEUTRAL: (u8, u8) = (u8::MAX, 0);
-/// And of a seen pixel without a region: all.
+/// Lowest and highest label of a seen pixel without a region: it stands for all.
 const MIXED: (u8, u8) = (0, u8::MAX);
 const _: () = assert!(MAX_REGIONS < u8::MAX as usize, "labels are bytes here");
 /// Pixels that are searched for holes together.
 const CHUNK: usize = 32;
 
 /// Erodes label images. Keeps its buffers.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct Erosion {
+    // So many neighbours of one region make a hole of a pixel without one.
+    hole: usize,
     lowest: WindowExtreme,
     highest: WindowExtreme,
 }
 
-/// How images are kept so that no window of `COLS` columns and `ROWS` rows reaches beyond them: with a margin that says nothing.
+/// How images are kept so that no window around a pixel reaches beyond them: with a margin that says nothing.
 #[derive(Debug, Clone, Copy)]
-struct Margin<const COLS: usize, const ROWS: usize> {
+struct Margin {
     width: usize,
     height: usize,
+    /// Columns and rows of a window to each side of its middle.
+    reach: [usize; 2],
 }
 
-impl<const COLS: usize, const ROWS: usize> Margin<COLS, ROWS> {
+impl Margin {
     /// From row to row. The margin behind a row is that before the next one.
     const fn stride(self) -> usize {
-        self.width + COLS / 2
+        self.width + self.reach[0]
     }
 
     /// Pixels with the margin.
     const fn len(self) -> usize {
-        (self.height + 2 * (ROWS / 2)) * self.stride() + COLS - 1
+        (self.height + 2 * self.reach[1]) * self.stride() + 2 * self.reach[0]
     }
 
     /// Where a row begins.
     const fn row(self, row: usize) -> usize {
-        (row + ROWS / 2) * self.stride() + COLS / 2
+        (row + self.reach[1]) * self.stride() + self.reach[0]
     }
 }
 
 impl Erosion {
-    /// Fills `eroded` with the labels of those pixels whose window of `COLS` columns and `ROWS` rows, both odd, holds no other
-    /// region and no seen pixel without one; 0 elsewhere. Pixels that were not seen do not count.
-    pub(crate) fn erode<const COLS: usize, const ROWS: usize>(
+    /// Empty buffers; a pixel without a region is a hole in the one that `hole` of its eight neighbours or more belong to.
+    pub(crate) fn new(hole: usize) -> Self {
+        Self {
+            hole,
+            lowest: WindowExtreme::default(),
+            highest: WindowExtreme::default(),
+        }
+    }
+
+    /// Fills `eroded` with the labels of those pixels that have no other region and no seen pixel without one as many columns and
+    /// rows to each side as `reach` says; 0 elsewhere. Pixels that were not seen do not count.
+    pub(crate) fn erode(
         &mut self,
         labels: &[u16],
         disparity_px: &[f32],
         width: usize,
+        reach: [usize; 2],
         eroded: &mut [u16],
     ) {
         let height = labels.len() / width;
-        let margin = Margin::<COLS, ROWS> { width, height };
+        let margin = Margin {
+            width,
+            height,
+            reach,
+        };
         self.mark(labels, disparity_px, margin);
         self.lowest.spread(margin, u8::min);
         self.highest.spread(margin, u8::max);
@@ -73,12 +91,7 @@ impl Erosion {
     }
 
     /// Marks what each pixel stands for.
-    fn mark<const COLS: usize, const ROWS: usize>(
-        &mut self,
-        labels: &[u16],
-        disparity_px: &[f32],
-        margin: Margin<COLS, ROWS>,
-    ) {
+    fn mark(&mut self, labels: &[u16], disparity_px: &[f32], margin: Margin) {
         self.lowest.clear(margin.len(), NEUTRAL.0);
         self.highest.clear(margin.len(), NEUTRAL.1);
         let width = margin.width;
@@ -103,7 +116,8 @@ impl Erosion {
                     continue;
                 }
                 for (i, (low, high)) in lowest.iter_mut().zip(highest).enumerate() {
-                    if *low == MIXED.0 && is_hole(labels, width, row * width + index * CHUNK + i) {
+                    let at = row * width + index * CHUNK + i;
+                    if *low == MIXED.0 && is_hole(labels, width, at, self.hole) {
                         (*low, *high) = NEUTRAL;
                     }
                 }
@@ -126,36 +140,35 @@ impl WindowExtreme {
         self.marks.resize(count, mark);
     }
 
-    fn spread<const COLS: usize, const ROWS: usize>(
-        &mut self,
-        margin: Margin<COLS, ROWS>,
-        pick: impl Fn(u8, u8) -> u8,
-    ) {
-        self.over_cols.resize(margin.len() + 1 - COLS, 0);
-        pick_of::<COLS>(&self.marks, 1, &mut self.over_cols, &pick);
+    fn spread(&mut self, margin: Margin, pick: impl Fn(u8, u8) -> u8) {
+        let [cols, rows] = margin.reach.map(|reach| 2 * reach + 1);
+        self.over_cols.resize(margin.len() + 1 - cols, 0);
+        pick_among(cols, &self.marks, 1, &mut self.over_cols, &pick);
         self.over_both.resize(margin.height * margin.stride(), 0);
-        pick_of::<ROWS>(&self.over_cols, margin.stride(), &mut self.over_both, &pick);
+        let stride = margin.stride();
+        pick_among(rows, &self.over_cols, stride, &mut self.over_both, &pick);
     }
 }
 
-/// Picks among `N` values, `step` from each other, from each place on.
-fn pick_of<const N: usize>(
+/// Picks among `count` values, `step` from each other, from each place on.
+fn pick_among(
+    count: usize,
     values: &[u8],
     step: usize,
     out: &mut [u8],
     pick: &impl Fn(u8, u8) -> u8,
 ) {
-    let count = out.len();
-    let lines: [&[u8]; N] = std::array::from_fn(|k| &values[k * step..k * step + count]);
-    for (i, out) in out.iter_mut().enumerate() {
-        *out = lines[1..]
-            .iter()
-            .fold(lines[0][i], |picked, line| pick(picked, line[i]));
+    let len = out.len();
+    out.copy_from_slice(&values[..len]);
+    for k in 1..count {
+        for (out, &value) in out.iter_mut().zip(&values[k * step..k * step + len]) {
+            *out = pick(*out, value);
+        }
     }
 }
 
-/// Whether a pixel without a region is a lone miss: most of its eight neighbours have one and the same region.
-fn is_hole(labels: &[u16], width: usize, at: usize) -> bool {
+/// Whether a pixel without a region is a lone miss: `most` of its eight neighbours or more have one and the same region.
+fn is_hole(labels: &[u16], width: usize, at: usize, most: usize) -> bool {
     let col = at % width;
     if col == 0 || col + 1 == width || at < width || at + width >= labels.len() {
         return false;
@@ -171,7 +184,7 @@ fn is_hole(labels: &[u16], width: usize, at: usize) -> bool {
         at + width,
         at + width + 1,
     ];
-    label > 0 && neighbours.iter().filter(|&&n| labels[n] == label).count() >= 5
+    label > 0 && neighbours.iter().filter(|&&n| labels[n] == label).count() >= most
 }
 
 /// Gives back to `eroded` the whole of those regions whose labels are wanted.
@@ -193,7 +206,7 @@ mod tests {
         fn what_is_left_has_only_its_own_label_around_it(labels in prop::collection::vec(1..3u16, 20 * 14)) {
             let disparity = vec![5.0; labels.len()];
             let mut eroded = vec![0; labels.len()];
-            Erosion::default().erode::<5, 7>(&labels, &disparity, 20, &mut eroded);
+            Erosion::new(5).erode(&labels, &disparity, 20, [2, 3], &mut eroded);
             for row in 0..14_i32 {
                 for col in 0..20_i32 {
                     let own = labels[(row * 20 + col) as usize];
@@ -215,7 +228,7 @@ mod tests {
             .map(|&label| if label == 0 { f32::NAN } else { 4.0 })
             .collect();
         let mut eroded = vec![0; 200];
-        Erosion::default().erode::<5, 7>(&labels, &disparity, 20, &mut eroded);
+        Erosion::new(5).erode(&labels, &disparity, 20, [2, 3], &mut eroded);
         assert_eq!(eroded, labels);
     }
 }

@@ -3,8 +3,15 @@
 //! In the first and the last row that are seen it is one along the row: rows on one side alone would shift the disparity of a
 //! floor by 0.1 px there, and so tilt the camera by a tenth of a degree, always the same way.
 
-/// Fewest pixels of the nine that must be seen for the middle one to count.
-const MIN_SEEN: f32 = 5.0;
+use settings::{settings, within};
+
+settings! {
+    /// How the median takes single mismatches out of the picture.
+    pub struct MedianTuning("navigation.ground.tuning.median") {
+        /// Fewest pixels of a square of nine that must be seen for the middle one to count as seen.
+        min_seen: usize = 5, "1", within(5.0, 9.0);
+    }
+}
 
 /// The smaller one; of no use with NaN.
 const fn lower(a: f32, b: f32) -> f32 {
@@ -35,6 +42,7 @@ fn medians_along(row: &[f32], out: &mut [f32]) {
 /// Takes medians. Keeps its buffers: the sorted columns of three pixels, and how many of the three were seen.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Median {
+    tuning: MedianTuning,
     low: Vec<f32>,
     middle: Vec<f32>,
     high: Vec<f32>,
@@ -42,6 +50,14 @@ pub(crate) struct Median {
 }
 
 impl Median {
+    /// Buffers that are still empty.
+    pub(crate) fn new(tuning: MedianTuning) -> Self {
+        Self {
+            tuning,
+            ..Self::default()
+        }
+    }
+
     /// Fills `target` with the 3x3 median of `source` (row by row, NaN where nothing was seen). A pixel that was not
     /// seen stays so; the outermost pixels are not seen.
     pub(crate) fn filter(&mut self, source: &[f32], width: usize, target: &mut [f32]) {
@@ -93,6 +109,7 @@ impl Median {
     /// The median of those that were seen among three columns. With the lows, middles and highs sorted, too, the third to
     /// the fifth of the nine can only be the largest two lows, the smaller two middles and the smallest high.
     fn medians_of_sorted(&self, here: &[f32], out: &mut [f32]) {
+        let min_seen = self.tuning.min_seen as f32;
         let columns = self.low.windows(3).zip(self.middle.windows(3));
         let columns = columns.zip(self.high.windows(3)).zip(self.seen.windows(3));
         for ((value, &own), (((low, mid), high), seen)) in out.iter_mut().zip(here).zip(columns) {
@@ -123,7 +140,7 @@ impl Median {
             } else {
                 third
             };
-            let counts = seen >= MIN_SEEN && !own.is_nan();
+            let counts = seen >= min_seen && !own.is_nan();
             *value = if counts {
                 0.5 * (below + above)
             } else {

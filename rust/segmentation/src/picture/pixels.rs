@@ -11,15 +11,14 @@ pub struct Picture<'a> {
     pub g: &'a [f32],
     /// Local noise, px.
     pub sigma_px: &'a [f32],
+    /// How many times finer the image is than is needed, each way.
+    pub finer: usize,
 }
 
-/// Pixels of the robot's camera: what is looked at there is as much as is needed.
-const ENOUGH: usize = 88 * 72;
-
-/// How many times finer an image of so many pixels is than that of the robot's camera, each way. Where pixels are looked at that
-/// tell of whole surfaces, so many columns or rows may be left out: matching windows overlap, so that they tell nearly the same.
-pub(crate) const fn fineness(pixels: usize) -> usize {
-    let finer = (pixels / ENOUGH).isqrt();
+/// How many times finer an image of so many pixels is, each way, than one of as many as are `enough`. Where pixels are looked at that
+/// tell of whole surfaces, so many columns or rows may be left out: matching windows overlap, so that neighbours tell nearly alike.
+pub(crate) const fn fineness(pixels: usize, enough: usize) -> usize {
+    let finer = (pixels / enough).isqrt();
     if finer > 1 { finer } else { 1 }
 }
 
@@ -30,6 +29,9 @@ mod tests {
     #[test]
     fn the_robots_image_is_as_fine_as_it_is_and_larger_ones_are_finer() {
         let sizes = [[30, 20], [88, 72], [160, 120], [320, 240], [640, 480]];
-        assert_eq!(sizes.map(|[w, h]| fineness(w * h)), [1, 1, 1, 3, 6]);
+        assert_eq!(
+            sizes.map(|[w, h]| fineness(w * h, 88 * 72)),
+            [1, 1, 1, 3, 6]
+        );
     }
 }

@@ -6,44 +6,21 @@
 //! known of it? Where two do, each pixel goes to the one that it is closer to.
 
 mod parts;
+pub(crate) mod tuning;
 
 use std::f64::consts::PI;
 
 use nalgebra::Vector2;
 
 use crate::picture::labels::MAX_REGIONS;
-use crate::picture::pixels::{Picture, fineness};
+use crate::picture::pixels::Picture;
 use crate::picture::view::View;
 use crate::regions::fit::{Lie, Step};
 use crate::regions::region::Region;
 use parts::{Part, Parts, Seen, Sums};
+use tuning::CutTuning;
 
-/// Columns and rows of the blocks of pixels that lines are tried with first, more in finer images; then it is every second pixel.
-const BLOCK: usize = 4;
-/// Lines that are tried: directions, what they lie apart, rad, and the steps in which they are moved, m.
-const COARSE: Search = Search {
-    directions: 12,
-    turn_rad: PI / 12.0,
-    step_m: 0.02,
-};
-/// And again around the best.
-const FINE: Search = Search {
-    directions: 5,
-    turn_rad: 0.05,
-    step_m: 0.005,
-};
-/// Columns and rows of a matching window.
-const WINDOW: usize = 5;
-/// Most places of lines of one direction: a region that is larger reaches where a low step is not told from noise.
-const MAX_PLACES: f64 = 400.0;
-/// Two heights are there when they are better by this, in squared noise. One in a thousand regions of one surface reaches 18.
-const CERTAIN: f64 = 24.0;
-/// Lower steps are none, m.
-const LEAST_STEP_M: f64 = 0.008;
-/// Fewest pixels to each side.
-const LEAST_SIDE: f64 = 150.0;
-
-/// Which lines are tried.
+/// Which lines are tried: directions, the angle between them, and the step in which lines are moved.
 #[derive(Debug, Clone, Copy)]
 struct Search {
     directions: usize,
@@ -70,6 +47,7 @@ struct Cut {
 /// Cuts regions. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Cuts {
+    tuning: CutTuning,
     parts: Parts,
     // Of the region that is being searched: its parts, how far each is in one direction, m, and their sums by places in it.
     own: Vec<Part>,
@@ -79,6 +57,33 @@ pub(crate) struct Cuts {
 }
 
 impl Cuts {
+    /// Buffers that are still empty.
+    pub(crate) fn new(tuning: CutTuning) -> Self {
+        Self {
+            tuning,
+            ..Self::default()
+        }
+    }
+
+    /// The lines that are tried first.
+    fn coarse(&self) -> Search {
+        let directions = self.tuning.coarse_directions;
+        Search {
+            directions,
+            turn_rad: PI / directions as f64,
+            step_m: self.tuning.coarse_step,
+        }
+    }
+
+    /// The lines that are tried around the best one.
+    const fn fine(&self) -> Search {
+        Search {
+            directions: self.tuning.fine_directions,
+            turn_rad: self.tuning.fine_turn,
+            step_m: self.tuning.fine_step,
+        }
+    }
+
     /// Cuts the regions that hold two levels; says whether there were any.
     pub(crate) fn cut(
         &mut self,
@@ -90,20 +95,21 @@ impl Cuts {
     ) -> bool {
         let seen = Seen { picture, view };
         let before = regions.len();
-        let block = BLOCK * fineness(labels.len());
-        self.parts.collect(seen, regions, labels, block);
+        let block = self.tuning.block * picture.finer;
+        self.parts
+            .collect(seen, regions, labels, block, &self.tuning);
         let mut cuts = [None; MAX_REGIONS];
         for (region, cut) in cuts.iter_mut().enumerate().take(before) {
-            *cut = self.best(region, &regions[region], tilt, COARSE, PI / 2.0);
+            *cut = self.best(region, &regions[region], tilt, self.coarse(), PI / 2.0);
         }
         if cuts.iter().all(Option::is_none) {
             return false;
         }
-        self.parts.collect(seen, regions, labels, 1);
+        self.parts.collect(seen, regions, labels, 1, &self.tuning);
         for (region, cut) in cuts.iter().enumerate() {
             let Some(cut) = cut else { continue };
             let around = cut.across_rad;
-            let fine = self.best(region, &regions[region], tilt, FINE, around);
+            let fine = self.best(region, &regions[region], tilt, self.fine(), around);
             if let Some(cut) = fine.filter(|_| regions.len() < MAX_REGIONS) {
                 self.part(seen, region, &cut.step, regions, labels);
             }
@@ -120,7 +126,8 @@ impl Cuts {
         search: Search,
         around_rad: f64,
     ) -> Option<Cut> {
-        if (region.support as f64) < 2.0 * LEAST_SIDE || region.q == 0.0 {
+        let (certain, least_step_m) = (self.tuning.certain, self.tuning.least_step);
+        if (region.support as f64) < 2.0 * self.tuning.least_side || region.q == 0.0 {
             return None;
         }
         let lie = self
@@ -137,12 +144,13 @@ impl Cuts {
             .max_by(|a, b| a.step.certainty.total_cmp(&b.step.certainty))
             .filter(|cut| {
                 let step_m = cut.step.rise.abs() / f64::from(region.q * region.q);
-                cut.step.certainty > CERTAIN && step_m > LEAST_STEP_M
+                cut.step.certainty > certain && step_m > least_step_m
             })
     }
 
     /// The best line of one direction across the region whose parts are `own`.
     fn best_across(&mut self, lie: &Lie, across_rad: f64, step_m: f64) -> Option<Cut> {
+        let (most_places, least_side) = (self.tuning.most_places, self.tuning.least_side);
         let across = Vector2::new(across_rad.cos(), across_rad.sin());
         self.along_m.clear();
         let own = self.own.iter();
@@ -153,8 +161,8 @@ impl Cuts {
         for (part, along_m) in self.own.iter().zip(&self.along_m) {
             let place = (along_m - nearest_m) / step_m;
             // Compared before the cast: one to 32 bits is a fraction of one to more.
-            let place = if place >= MAX_PLACES {
-                MAX_PLACES
+            let place = if place >= most_places {
+                most_places
             } else {
                 place
             } as i32 as usize;
@@ -168,7 +176,7 @@ impl Cuts {
         let mut best: Option<Step> = None;
         for sums in self.places.iter().filter(|sums| sums.pixels > 0.0) {
             before.add(sums);
-            if before.pixels < LEAST_SIDE || all - before.pixels < LEAST_SIDE {
+            if before.pixels < least_side || all - before.pixels < least_side {
                 continue;
             }
             let step = lie.step(before.by_g);
@@ -208,7 +216,7 @@ impl Cuts {
         let moves = |at: usize| labels[at] == own && self.around_px(at, width) > 0.0;
         let moved: Vec<usize> = (0..labels.len()).filter(|&at| moves(at)).collect();
         let left = whole.support.saturating_sub(moved.len());
-        if (moved.len().min(left) as f64) < LEAST_SIDE {
+        if (moved.len().min(left) as f64) < self.tuning.least_side {
             return;
         }
         regions[index].q += change;
@@ -226,9 +234,9 @@ impl Cuts {
     /// How much nearer to the one height than to the other a pixel and those around it are, px.
     fn around_px(&self, at: usize, width: usize) -> f32 {
         let (col, row) = (at % width, at / width);
-        let height = self.nearer_px.len() / width;
-        let cols = col.saturating_sub(WINDOW / 2)..(col + WINDOW / 2 + 1).min(width);
-        let rows = row.saturating_sub(WINDOW / 2)..(row + WINDOW / 2 + 1).min(height);
+        let (height, around) = (self.nearer_px.len() / width, self.tuning.around);
+        let cols = col.saturating_sub(around)..(col + around + 1).min(width);
+        let rows = row.saturating_sub(around)..(row + around + 1).min(height);
         let lines = rows.map(|row| &self.nearer_px[row * width..][cols.clone()]);
         lines.flatten().sum()
     }

@@ -5,19 +5,33 @@
 //! Gauss and Newton over all regions, each with its own `q`, gives the tilt.
 
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+use settings::{POSITIVE, at_least, settings, within};
 
-use crate::picture::pixels::{Picture, fineness};
+use crate::picture::pixels::Picture;
 use crate::picture::view::{View, to_f32};
 use crate::regions::region::Region;
 
-/// Every so many columns a pixel is looked at: neighbours tell the same.
-const STEP: usize = 2;
-/// Matching windows of 5x5 overlap: so many of the pixels looked at tell as much as one independent one, where every row is looked at.
-const SHARED_BY: f64 = 25.0 / STEP as f64;
-/// Residuals beyond so many noises are left out.
-const OUTLIER: f32 = 3.5;
-/// A tilt is there when its squared distance from none, in its own errors, is above this (2 degrees of freedom, 0.1 %).
-const SIGNIFICANT: f64 = 13.8;
+settings! {
+    /// How regions are fitted: the height of each, and its tilt.
+    pub struct FitTuning("navigation.ground.tuning.fits") {
+        /// Every so many columns a pixel takes part in a fit: neighbours tell nearly alike.
+        step: usize = 2, "1", within(1.0, 100.0);
+        /// Pixels that tell as much as one independent one, because matching windows overlap: as many as a window of 5x5 has.
+        alike: f64 = 25.0, "1", at_least(1.0);
+        /// Pixels that are off a region's surface by more than so many times their noise are left out of its fit.
+        outlier: f32 = 3.5, "1", POSITIVE;
+        /// A region counts as tilted when the squared distance of its tilt from none, in its own errors, is above this. By chance one
+        /// level region in a thousand is above 13.8 (two degrees of freedom).
+        significant: f64 = 13.8, "1", POSITIVE;
+    }
+}
+
+impl FitTuning {
+    /// How many of the pixels looked at tell as much as one independent one, where every row is looked at.
+    pub(crate) fn shared_by(&self) -> f64 {
+        self.alike / self.step as f64
+    }
+}
 
 /// Sums over the pixels of one region; `e` is the residual at the `q` that the sums were made with.
 #[derive(Debug, Clone, Copy, Default)]
@@ -52,11 +66,11 @@ impl RegionFit {
         Matrix2::new(xx, xy, xy, yy)
     }
 
-    /// No pixel yet, of a surface at this `q`.
-    pub(crate) fn at(q: f32) -> Self {
+    /// No pixel yet, of a surface at this `q`; `shared_by` of the pixels to come tell as much as one independent one.
+    pub(crate) fn at(q: f32, shared_by: f64) -> Self {
         Self {
             q: f64::from(q),
-            shared_by: SHARED_BY,
+            shared_by,
             ..Self::default()
         }
     }
@@ -72,15 +86,23 @@ impl RegionFit {
         }
     }
 
-    /// Adds `count` pixels of a row from a column on, every [`STEP`]-th.
-    fn add_run(&mut self, picture: Picture<'_>, view: &View, [col, row]: [usize; 2], count: usize) {
+    /// Adds `count` pixels of a row from a column on, one every [`FitTuning::step`] columns.
+    fn add_run(
+        &mut self,
+        picture: Picture<'_>,
+        view: &View,
+        [col, row]: [usize; 2],
+        count: usize,
+        tuning: &FitTuning,
+    ) {
+        let (step, outlier) = (tuning.step, tuning.outlier);
         // Summed up in registers.
         let mut sums = *self;
         let q = sums.q as f32;
         let first = row * picture.width + col;
-        let pixels = first..first + (count - 1) * STEP + 1;
+        let pixels = first..first + (count - 1) * step + 1;
         let [disparity_px, g, sigma_px] = [picture.disparity_px, picture.g, picture.sigma_px]
-            .map(|image| image[pixels.clone()].chunks(STEP));
+            .map(|image| image[pixels.clone()].chunks(step));
         let (x, y) = (view.x.along(row), view.y.along(row));
         let mut col = to_f32(col);
         // The noise is that of a block.
@@ -93,10 +115,10 @@ impl RegionFit {
             }
             let miss = (d - q * g) * precision;
             // Also false where nothing was seen.
-            if miss.abs() < OUTLIER {
+            if miss.abs() < outlier {
                 sums.add(terms(q, [g, x.at(col), y.at(col)], precision, miss));
             }
-            col += STEP as f32;
+            col += step as f32;
         }
         *self = sums;
     }
@@ -115,7 +137,7 @@ impl RegionFit {
     /// The region's own tilt, and its squared distance from none in its own errors.
     pub(crate) fn own_tilt(&self) -> (Vector2<f64>, f64) {
         let (information, product) = self.tilt_equation();
-        // A weak wish for no tilt keeps regions that are a line from giving nonsense.
+        // A wish for no tilt, as weak as a sigma of one radian, keeps regions that are a line from giving nonsense.
         let tilt = (information + Matrix2::identity())
             .try_inverse()
             .map_or_else(Vector2::zeros, |inverse| inverse * product);
@@ -149,10 +171,10 @@ impl RegionFit {
         })
     }
 
-    /// Whether the region may be horizontal when the camera's tilt is known to `limit_rad`.
-    pub(crate) fn is_level(&self, limit_rad: f64) -> bool {
+    /// Whether the region may be horizontal when the camera's tilt is known to `limit_rad`; `significant` as in [`FitTuning`].
+    pub(crate) fn is_level(&self, limit_rad: f64, significant: f64) -> bool {
         let (tilt, certainty) = self.own_tilt();
-        certainty < SIGNIFICANT || tilt.norm() < limit_rad
+        certainty < significant || tilt.norm() < limit_rad
     }
 
     /// `q` when the camera is tilted by `tilt`.
@@ -223,25 +245,28 @@ pub(crate) fn fit_regions(
     view: &View,
     regions: &[Region],
     labels: &[u16],
+    tuning: &FitTuning,
     fits: &mut Vec<RegionFit>,
 ) {
-    // A row of so many: those between tell nearly the same.
-    let rows = fineness(labels.len());
+    // Of so many rows one is looked at: those between tell nearly the same.
+    let (rows, step) = (picture.finer, tuning.step);
+    let shared_by = tuning.shared_by() / rows as f64;
     fits.clear();
-    fits.extend(regions.iter().map(|region| RegionFit {
-        shared_by: SHARED_BY / rows as f64,
-        ..RegionFit::at(region.q)
-    }));
+    fits.extend(
+        regions
+            .iter()
+            .map(|region| RegionFit::at(region.q, shared_by)),
+    );
     for (row, line) in labels.chunks_exact(picture.width).enumerate().step_by(rows) {
-        let mut col = row / rows % STEP;
+        let mut col = row / rows % step;
         while col < line.len() {
             let label = line[col];
             let same = |other: &&u16| **other == label;
-            let count = line[col..].iter().step_by(STEP).take_while(same).count();
+            let count = line[col..].iter().step_by(step).take_while(same).count();
             if label > 0 {
-                fits[usize::from(label) - 1].add_run(picture, view, [col, row], count);
+                fits[usize::from(label) - 1].add_run(picture, view, [col, row], count, tuning);
             }
-            col += count * STEP;
+            col += count * step;
         }
     }
 }

@@ -4,18 +4,25 @@
 //! The noise of the sensor is not known that well, and differs from block to block of the picture, but the ground that the robot
 //! stands on has it, too.
 
+use settings::{POSITIVE, SHARE, settings};
+
 use crate::picture::labels::MAX_REGIONS;
 use crate::picture::pixels::Picture;
 use crate::regions::region::Region;
 
-/// Fewest pixels away from a region's border that tell how rough it is.
-const FEWEST: usize = 80;
-/// Deviations count up to this, px: what is further off was mismatched.
-const LARGEST_PX: f32 = 0.6;
-/// The ground counts as this rough at least, in the noise that the sensor has at least: of a perfect sensor nothing is rough.
-const LEAST: f32 = 0.6;
-/// Share of what is believed of the ground that one frame makes up.
-const GAIN: f32 = 0.1;
+settings! {
+    /// How the roughness of level surfaces is measured, in the roughness of the ground.
+    pub struct RoughnessTuning("navigation.ground.tuning.roughness") {
+        /// Fewest pixels away from a region's border that tell how rough it is.
+        fewest: usize = 80, "1", POSITIVE;
+        /// Deviations from a surface count up to this, in disparity: what is further off was mismatched.
+        largest: f32 = 0.6, "px", POSITIVE;
+        /// Least roughness of the ground, as a share of `noise_floor`: beside the ground of a perfect sensor everything would be rough.
+        least: f32 = 0.6, "1", POSITIVE;
+        /// Share that one frame has in what is believed of the ground's roughness.
+        gain: f32 = 0.1, "1", SHARE;
+    }
+}
 
 /// Pixels of a region, and the sum of their squared deviations from it, px.
 #[derive(Debug, Clone, Copy, Default)]
@@ -27,6 +34,7 @@ struct Deviation {
 /// Measures how far regions deviate from level surfaces. Keeps what it learned of the ground.
 #[derive(Debug, Clone)]
 pub(crate) struct Roughness {
+    tuning: RoughnessTuning,
     regions: [Deviation; MAX_REGIONS + 1],
     /// Of the ground, root mean square, px; none before any was seen.
     ground_px: Option<f32>,
@@ -35,19 +43,21 @@ pub(crate) struct Roughness {
 
 impl Roughness {
     /// Nothing is known of the ground, nor of the sensor but the noise that it has at least, px.
-    pub(crate) const fn new(noise_floor_px: f32) -> Self {
+    pub(crate) fn new(noise_floor_px: f32, tuning: RoughnessTuning) -> Self {
         Self {
             regions: [Deviation {
                 pixels: 0,
                 squares: 0.0,
             }; MAX_REGIONS + 1],
             ground_px: None,
-            least_px: LEAST * noise_floor_px,
+            least_px: tuning.least * noise_floor_px,
+            tuning,
         }
     }
 
     /// Takes in the pixels of a frame's regions that lie away from borders, by the labels that are left there.
     pub(crate) fn measure(&mut self, picture: Picture<'_>, regions: &[Region], inner: &[u16]) {
+        let (fewest, largest_px) = (self.tuning.fewest, self.tuning.largest);
         self.regions = [Deviation::default(); MAX_REGIONS + 1];
         let mut first = 0;
         for run in inner.chunk_by(|a, b| a == b) {
@@ -56,7 +66,7 @@ impl Roughness {
             // Of thin regions all pixels are left, which the window blends with what borders on them.
             let region = usize::from(run[0]).checked_sub(1);
             let region = region.and_then(|index| regions.get(index));
-            let Some(region) = region.filter(|region| region.core >= FEWEST) else {
+            let Some(region) = region.filter(|region| region.core >= fewest) else {
                 continue;
             };
             let sums = &mut self.regions[usize::from(run[0])];
@@ -66,7 +76,7 @@ impl Roughness {
                 .zip(&picture.g[pixels])
             {
                 if !d.is_nan() {
-                    let deviation = (d - region.q * g).clamp(-LARGEST_PX, LARGEST_PX);
+                    let deviation = (d - region.q * g).clamp(-largest_px, largest_px);
                     sum.pixels += 1;
                     sum.squares += deviation * deviation;
                 }
@@ -79,7 +89,7 @@ impl Roughness {
     pub(crate) fn learn(&mut self, ground: usize) {
         if let Some(px) = self.region_px(ground) {
             let known = self.ground_px.unwrap_or(px);
-            self.ground_px = Some(known + GAIN * (px - known));
+            self.ground_px = Some(known + self.tuning.gain * (px - known));
         }
     }
 
@@ -90,7 +100,7 @@ impl Roughness {
 
     fn region_px(&self, region: usize) -> Option<f32> {
         let Deviation { pixels, squares } = self.regions[region + 1];
-        (pixels >= FEWEST).then(|| (squares / pixels as f32).sqrt())
+        (pixels >= self.tuning.fewest).then(|| (squares / pixels as f32).sqrt())
     }
 }
 
@@ -120,13 +130,14 @@ mod tests {
             disparity_px: &disparity_px,
             g: &g,
             sigma_px: &g,
+            finer: 1,
         };
         let region = |q| Region {
             q,
             core: 10 * WIDTH,
             ..Region::default()
         };
-        let mut roughness = Roughness::new(0.1);
+        let mut roughness = Roughness::new(0.1, RoughnessTuning::default());
         roughness.measure(picture, &[region(60.0), region(70.0)], &inner);
         roughness
     }
@@ -160,7 +171,7 @@ mod tests {
     fn of_what_is_hardly_seen_nothing_is_said() {
         let mut roughness = measured(0.1, 0.2);
         roughness.learn(0);
-        roughness.regions[2].pixels = FEWEST - 1;
+        roughness.regions[2].pixels = RoughnessTuning::default().fewest - 1;
         assert_eq!(roughness.of(1), None);
     }
 }

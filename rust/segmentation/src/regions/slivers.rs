@@ -1,15 +1,24 @@
 //! Slivers along the edges of steps: where the matching window sees two treads at once, the disparities in between may
 //! look like a thin surface of a height in between.
 
+use settings::{POSITIVE, SHARE, settings, within};
+
 use crate::picture::view::View;
 use crate::regions::region::Region;
 
-/// A surface between two others is no tread when it is less deep than this on average, m.
-const DEPTH_M: f64 = 0.04;
-/// Share of a sliver's columns in which it lies between two surfaces.
-const BETWEEN: f64 = 0.6;
-/// Most pixels without a region between a sliver and its neighbours.
-const GAP: usize = 3;
+settings! {
+    /// When a thin surface at the edge of a step is none.
+    pub struct SliverTuning("navigation.ground.tuning.slivers") {
+        /// A surface between two others is no tread when it is less deep than this on average.
+        depth: f64 = 0.04, "m", POSITIVE;
+        /// Share of a surface's columns in which it lies between two others, above which it may be a sliver.
+        between: f64 = 0.6, "1", SHARE;
+        /// Most pixels without a region between a sliver and its neighbours.
+        gap: usize = 3, "1", within(0.0, 1000.0);
+        /// Every so many columns of the image are looked down.
+        stride: usize = 2, "1", within(1.0, 100.0);
+    }
+}
 
 /// What the columns of the image say of one region.
 #[derive(Debug, Clone, Copy, Default)]
@@ -30,15 +39,24 @@ struct Run {
 /// Finds slivers. Keeps its buffer.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Slivers {
+    tuning: SliverTuning,
     columns: Vec<Columns>,
 }
 
 impl Slivers {
-    /// Looks down every second column for what lies between what.
+    /// Nothing seen yet.
+    pub(crate) fn new(tuning: SliverTuning) -> Self {
+        Self {
+            tuning,
+            ..Self::default()
+        }
+    }
+
+    /// Looks down one column every few for what lies between what.
     pub(crate) fn find(&mut self, labels: &[u16], width: usize, view: &View, regions: &[Region]) {
         self.columns.clear();
         self.columns.resize(regions.len(), Columns::default());
-        for col in (0..width).step_by(2) {
+        for col in (0..width).step_by(self.tuning.stride) {
             let (mut above, mut here): (Option<Run>, Option<Run>) = (None, None);
             for (row, &label) in labels.iter().skip(col).step_by(width).enumerate() {
                 let Some(region) = usize::from(label).checked_sub(1) else {
@@ -72,7 +90,8 @@ impl Slivers {
     pub(crate) fn contains(&self, region: usize) -> bool {
         let columns = self.columns[region];
         let runs = f64::from(columns.runs);
-        f64::from(columns.between) > BETWEEN * runs && columns.depth_m < DEPTH_M * runs
+        f64::from(columns.between) > self.tuning.between * runs
+            && columns.depth_m < self.tuning.depth * runs
     }
 
     fn add(
@@ -83,7 +102,7 @@ impl Slivers {
         run: Run,
         beside: [Option<Run>; 2],
     ) {
-        let q = regions[run.region].q;
+        let (q, gap) = (regions[run.region].q, self.tuning.gap);
         let columns = &mut self.columns[run.region];
         let place = |row: usize| {
             let depth = 1.0 / (q * view.g.at(col, row));
@@ -93,7 +112,7 @@ impl Slivers {
         columns.runs += 1;
         columns.depth_m += f64::from((far[0] - near[0]).hypot(far[1] - near[1]));
         if let [Some(above), Some(below)] = beside {
-            let close = run.first - above.last <= GAP + 1 && below.first - run.last <= GAP + 1;
+            let close = run.first - above.last <= gap + 1 && below.first - run.last <= gap + 1;
             let others = (regions[above.region].q, regions[below.region].q);
             let between = others.0.min(others.1) < q && q < others.0.max(others.1);
             columns.between += u32::from(close && between);

@@ -9,6 +9,7 @@ mod memory;
 mod seeds;
 mod sums;
 mod treads;
+pub(crate) mod tuning;
 
 use nalgebra::Vector3;
 
@@ -17,23 +18,17 @@ use crate::picture::pixels::Picture;
 use crate::picture::view::{Linear, View};
 use crate::regions::finder::Look;
 use crate::regions::region::Region;
-use growth::{ACCEPT, Growth, Reach};
+use growth::{Growth, Reach};
 use memory::Memory;
 use seeds::seeds;
 use sums::Seen;
 use treads::Treads;
-
-/// How much a slope is tilted, tangent: 2 and 22 degrees, for what is measured of 3 to 20. Whether one may be walked on is the
-/// planner's to say.
-const LEAST_TILT: f64 = 0.035;
-const MOST_TILT: f64 = 0.4;
-/// Fewest pixels of a slope as a share of the image, and least length, m.
-const LEAST_SHARE: f64 = 0.1;
-const LEAST_LENGTH_M: f64 = 0.25;
+use tuning::SlopeTuning;
 
 /// Finds slopes. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Slopes {
+    tuning: SlopeTuning,
     growth: Growth,
     treads: Treads,
     // Where the slopes of this frame were grown from, and their planes.
@@ -44,6 +39,15 @@ pub(crate) struct Slopes {
 }
 
 impl Slopes {
+    /// No slope seen yet.
+    pub(crate) fn new(tuning: SlopeTuning) -> Self {
+        Self {
+            growth: Growth::new(tuning.growth.clone(), tuning.gradients.clone()),
+            tuning,
+            ..Self::default()
+        }
+    }
+
     /// Takes the pixels of slopes from the level regions and appends a region for each; says whether there were any. `look`: what a
     /// frame shows is learned once.
     pub(crate) fn find(
@@ -56,11 +60,11 @@ impl Slopes {
     ) -> bool {
         let seen = Seen { picture, view };
         let before = regions.len();
-        let mut learned = self.memory.faded();
+        let mut learned = self.memory.faded(&self.tuning.memory);
         self.doubtful.clear();
         self.doubtful.resize(labels.len(), false);
         let starts = match look {
-            Look::First => seeds(seen, &self.memory),
+            Look::First => seeds(seen, &self.memory, &self.tuning),
             Look::Again => self.found_again(view),
         };
         self.found.clear();
@@ -75,11 +79,11 @@ impl Slopes {
             else {
                 continue;
             };
-            let told = self.memory.told(&plane, better);
+            let told = self.memory.told(&plane, better, &self.tuning.memory);
             if told.sure > learned.sure {
                 learned = told;
             }
-            if told.is_sure() {
+            if told.is_sure(&self.tuning.memory) {
                 self.take(seen, &plane, regions, labels);
                 self.found.push((start, view.plane(&plane)));
             } else if better > 0.0 {
@@ -88,7 +92,7 @@ impl Slopes {
                 }
             }
         }
-        if self.memory.is_sure() && regions.len() == before {
+        if self.memory.is_sure(&self.tuning.memory) && regions.len() == before {
             self.doubt_all_but_largest(regions, labels);
         }
         if look == Look::First {
@@ -129,12 +133,12 @@ impl Slopes {
         let is_found = look == Look::Again;
         let plane = self.growth.grow(seen, start, is_found, regions, labels)?;
         let pixels = &self.growth.pixels;
-        if pixels.len() < (LEAST_SHARE * labels.len() as f64) as usize {
+        if pixels.len() < (self.tuning.least_share * labels.len() as f64) as usize {
             return None;
         }
-        let verdict = self.treads.compare(seen, &plane, pixels);
+        let verdict = self.treads.compare(seen, &plane, pixels, &self.tuning);
         let better = verdict.better_than_treads;
-        (verdict.length_m > LEAST_LENGTH_M).then_some((plane, better))
+        (verdict.length_m > self.tuning.least_length).then_some((plane, better))
     }
 
     /// Makes a region of the pixels that were grown, and of the rest of the strips that they were taken from.
@@ -145,13 +149,14 @@ impl Slopes {
         regions: &mut Vec<Region>,
         labels: &mut [u16],
     ) {
+        let accept = self.tuning.growth.accept;
         let abq = [plane.x, plane.y, plane.z].map(|value| value as f32);
         let own = regions.len() as u16 + 1;
         for (at, label) in labels.iter_mut().enumerate() {
             if self.growth.members[at] {
                 *label = own;
             } else if *label > 0 && self.growth.reaches[usize::from(*label)] == Reach::Strip {
-                let fits = seen.miss(at, abq).abs() < ACCEPT;
+                let fits = seen.miss(at, abq).abs() < accept;
                 *label = if fits { own } else { 0 };
             }
         }
@@ -171,10 +176,4 @@ impl Slopes {
             region.q = 0.0;
         }
     }
-}
-
-/// Whether a plane is tilted like a slope.
-fn is_slope(plane: &Vector3<f64>) -> bool {
-    let tilt = plane.xy().norm() / plane.z;
-    plane.z > 0.0 && (LEAST_TILT..MOST_TILT).contains(&tilt)
 }

@@ -2,14 +2,36 @@
 
 use std::ops::Range;
 
+use settings::{ConfigError, POSITIVE, require, settings, within};
+
 use crate::Planes;
 
-/// Columns and rows to each side of an edge that a matching window of 5 spoils.
-const SPOILED: (usize, usize) = (2, 3);
-/// Most pixels of a riser, which has no label, between two treads.
-const RISER: usize = 6;
-/// Surfaces nearer than this to each other are one, and further apart they are no step, m.
-const STEP_M: (f32, f32) = (0.008, 0.15);
+settings! {
+    /// Which pixels lie so near to the edge of a step that they belong to neither surface.
+    pub struct StepTuning("navigation.ground.tuning.steps") {
+        /// Columns and rows to each side of an edge that the matching window spoils.
+        spoiled: [usize; 2] = [2, 3], "1", within(0.0, 100.0);
+        /// Most pixels of a riser, which belongs to no region, between two treads.
+        riser: usize = 6, "1", within(0.0, 1000.0);
+        /// Surfaces that are not further apart than this are one.
+        least: f32 = 0.008, "m", POSITIVE;
+        /// Surfaces that are further apart than this are no step.
+        most: f32 = 0.15, "m", POSITIVE;
+    }
+    check StepTuning::is_ordered;
+}
+
+impl StepTuning {
+    fn is_ordered(&self, key: &str) -> Result<(), ConfigError> {
+        let allowed = format!("greater than {key}.least");
+        require(
+            self.most > self.least,
+            &format!("{key}.most"),
+            &allowed,
+            self.most,
+        )
+    }
+}
 
 /// Where a line of pixels last had a level surface, and how high, m.
 #[derive(Debug, Clone, Copy)]
@@ -26,9 +48,9 @@ impl Last {
     };
 
     /// Whether a step lies between here and a place further along the line.
-    fn is_step(self, to: Self) -> bool {
+    fn is_step(self, to: Self, tuning: &StepTuning) -> bool {
         let apart_m = (to.height_m - self.height_m).abs();
-        apart_m > STEP_M.0 && apart_m < STEP_M.1 && to.at - self.at <= RISER + 1
+        apart_m > tuning.least && apart_m < tuning.most && to.at - self.at <= tuning.riser + 1
     }
 
     /// The pixels of a line of `count` that a step from here to there spoils.
@@ -40,13 +62,24 @@ impl Last {
 /// Marks pixels beside edges. Keeps its buffer.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct StepMarks {
+    tuning: StepTuning,
     // The last level pixel of each column.
     above: Vec<Last>,
 }
 
 impl StepMarks {
+    /// Nothing seen yet.
+    pub(crate) fn new(tuning: StepTuning) -> Self {
+        Self {
+            tuning,
+            ..Self::default()
+        }
+    }
+
     /// Marks in `planes.at_step` the pixels beside edges, down the columns and along the rows.
     pub(crate) fn mark(&mut self, width: usize, planes: &mut Planes) {
+        let tuning = &self.tuning;
+        let [spoiled_cols, spoiled_rows] = tuning.spoiled;
         planes.at_step.fill(false);
         let height = planes.floor_height_m.len() / width.max(1);
         self.above.clear();
@@ -63,13 +96,13 @@ impl StepMarks {
                     (left.at, above.at) = (col, row);
                     continue;
                 }
-                if left.is_step(from_left) {
-                    let cols = left.spoiled(from_left, SPOILED.0, width);
+                if left.is_step(from_left, tuning) {
+                    let cols = left.spoiled(from_left, spoiled_cols, width);
                     planes.at_step[row * width..][cols].fill(true);
                 }
                 left = from_left;
-                if above.is_step(from_above) {
-                    for row in above.spoiled(from_above, SPOILED.1, height) {
+                if above.is_step(from_above, tuning) {
+                    for row in above.spoiled(from_above, spoiled_rows, height) {
                         planes.at_step[row * width + col] = true;
                     }
                 }

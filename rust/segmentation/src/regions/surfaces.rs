@@ -2,8 +2,8 @@
 
 use nalgebra::{Vector2, Vector3};
 use sensing::{Intrinsics, Scan};
+use settings::{NOT_NEGATIVE, between, settings, within};
 
-use crate::ground_plane::config::GroundConfig;
 use crate::picture::erosion::{Erosion, keep_where};
 use crate::picture::labels::{MAX_REGIONS, count_labels};
 use crate::picture::median::Median;
@@ -13,27 +13,40 @@ use crate::picture::pixels::Picture;
 use crate::picture::view::View;
 use crate::regions::cuts::{Cuts, TiltPrior};
 use crate::regions::finder::{Finder, Look};
-use crate::regions::fit::{RegionFit, fit_regions};
+use crate::regions::fit::{FitTuning, RegionFit, fit_regions};
 use crate::regions::region::Region;
 use crate::regions::roughness::Roughness;
 use crate::regions::slivers::Slivers;
 use crate::regions::slopes::Slopes;
 
-/// Columns and rows around a pixel that must be of its region for a fit: a matching window of 5, and one more row to each side.
-const EROSION: (usize, usize) = (5, 7);
-/// The same for the check for slices of walls: thin regions, of which 7x5 leaves too little.
-const LIGHT_EROSION: (usize, usize) = (3, 3);
-/// Pixels that must be left for a fit; else all of the region's count.
-const MIN_FIT: u32 = 24;
-/// A region is steep above this tilt, rad: blending at the borders of a tread gives less than half of it.
-const STEEP_RAD: f64 = 0.3;
-/// And when the tilt's squared distance from none, in its own errors, is above this.
-const STEEP_SURE: f64 = 3.5;
+settings! {
+    /// How the surfaces of one frame are fitted, and which of them are level.
+    pub struct SurfaceTuning("navigation.ground.tuning.surfaces") {
+        /// Columns and rows to each side of a pixel that must be of its region for the pixel to take part in a fit: those that a
+        /// matching window of 5 reaches, and one more row.
+        border: [usize; 2] = [2, 3], "1", within(0.0, 50.0);
+        /// Columns and rows to each side of a pixel that must be of its region for the pixel to take part in the check whether the
+        /// region is a slice of a wall: slices are thin, and `border` leaves too little of them.
+        thin_border: [usize; 2] = [1, 1], "1", within(0.0, 50.0);
+        /// A pixel without a region is a hole in the region that so many of its eight neighbours or more belong to, and spoils none
+        /// of the pixels around it.
+        hole: usize = 5, "1", within(1.0, 8.0);
+        /// Pixels that must be left of a region when its border is taken off; of one with fewer all take part in the fit.
+        min_fit: u32 = 24, "1", NOT_NEGATIVE;
+        /// A region that is tilted by more than this is no level surface. Blending at the borders of a tread gives less than half
+        /// of it.
+        steep: f64 = 0.3, "rad", between(0.0, 1.6);
+        /// A region counts as steep, or as sloping near the feet, only when the squared distance of its tilt from none, in its own
+        /// errors, is above this.
+        steep_sure: f64 = 3.5, "1", NOT_NEGATIVE;
+    }
+}
 
 /// A frame and the view that it is read under, row by row.
 #[derive(Debug, Clone)]
 pub(crate) struct Images {
     width: usize,
+    finer: usize,
     /// Disparities after the median, px.
     pub(crate) disparity_px: Vec<f32>,
     /// Local noise, px.
@@ -48,14 +61,32 @@ impl Images {
             disparity_px: &self.disparity_px,
             g: &self.g,
             sigma_px: &self.sigma_px,
+            finer: self.finer,
         }
     }
+}
+
+/// What surfaces are found with, beside the finder.
+#[derive(Debug, Clone)]
+pub(crate) struct SurfaceParts {
+    pub(crate) tuning: SurfaceTuning,
+    pub(crate) fit_tuning: FitTuning,
+    /// A surface tilted by more than this is no floor, rad.
+    pub(crate) floor_tilt_rad: f64,
+    pub(crate) median: Median,
+    pub(crate) noise: NoiseMap,
+    pub(crate) roughness: Roughness,
+    pub(crate) slivers: Slivers,
+    pub(crate) cuts: Cuts,
+    pub(crate) slopes: Slopes,
 }
 
 /// Finds the horizontal surfaces that a scan shows under a given view. Keeps its buffers.
 #[derive(Debug, Clone)]
 pub(crate) struct Surfaces<F> {
     finder: F,
+    tuning: SurfaceTuning,
+    fit_tuning: FitTuning,
     floor_tilt_rad: f64,
     median: Median,
     noise: NoiseMap,
@@ -82,23 +113,22 @@ pub(crate) struct Surfaces<F> {
 }
 
 impl<F: Finder> Surfaces<F> {
-    /// Buffers for this camera.
-    pub(crate) fn new(finder: F, config: &GroundConfig, camera: &Intrinsics) -> Self {
+    /// Buffers for this camera, whose image is so many times `finer` than is needed.
+    pub(crate) fn new(finder: F, parts: SurfaceParts, camera: &Intrinsics, finer: usize) -> Self {
         let pixels = camera.width * camera.height;
         Self {
             finder,
-            floor_tilt_rad: config.floor_tilt,
-            median: Median::default(),
-            noise: NoiseMap::new(
-                camera.width,
-                camera.height,
-                config.noise_floor,
-                config.noise_ceiling,
-            ),
+            erosion: Erosion::new(parts.tuning.hole),
+            tuning: parts.tuning,
+            fit_tuning: parts.fit_tuning,
+            floor_tilt_rad: parts.floor_tilt_rad,
+            median: parts.median,
+            noise: parts.noise,
             seen_px: Vec::new(),
             whole_px: Vec::new(),
             images: Images {
                 width: camera.width,
+                finer,
                 disparity_px: vec![f32::NAN; pixels],
                 sigma_px: vec![0.0; pixels],
                 g: vec![0.0; pixels],
@@ -106,14 +136,13 @@ impl<F: Finder> Surfaces<F> {
             labels: vec![0; pixels],
             regions: Vec::new(),
             fits: Vec::new(),
-            roughness: Roughness::new(config.noise_floor as f32),
+            roughness: parts.roughness,
             eroded: vec![0; pixels],
             checks: Vec::new(),
             shown: Vec::new(),
-            erosion: Erosion::default(),
-            slivers: Slivers::default(),
-            cuts: Cuts::default(),
-            slopes: Slopes::default(),
+            slivers: parts.slivers,
+            cuts: parts.cuts,
+            slopes: parts.slopes,
         }
     }
 
@@ -166,10 +195,10 @@ impl<F: Finder> Surfaces<F> {
     /// Whether what is shown of a region is no floor, by its slope; after `refit`.
     pub(crate) fn shown_slopes(&mut self, index: usize, view: &View) -> bool {
         let picture = self.images.picture();
-        let shown = &mut self.shown;
-        fit_regions(picture, view, &self.regions, &self.eroded, shown);
+        let (tuning, shown) = (&self.fit_tuning, &mut self.shown);
+        fit_regions(picture, view, &self.regions, &self.eroded, tuning, shown);
         let (tilt, certainty) = shown[index].own_tilt();
-        tilt.norm() > self.floor_tilt_rad && certainty > STEEP_SURE
+        tilt.norm() > self.floor_tilt_rad && certainty > self.tuning.steep_sure
     }
 
     /// Takes back what was left out.
@@ -220,10 +249,11 @@ impl<F: Finder> Surfaces<F> {
     fn fit_inside(&mut self, view: &View) {
         let picture = self.images.picture();
         let eroded = &mut self.eroded;
-        self.erosion.erode::<{ EROSION.0 }, { EROSION.1 }>(
+        self.erosion.erode(
             &self.labels,
             picture.disparity_px,
             self.images.width,
+            self.tuning.border,
             eroded,
         );
         let mut left = [0_u32; MAX_REGIONS + 1];
@@ -231,32 +261,36 @@ impl<F: Finder> Surfaces<F> {
         for (region, &left) in self.regions.iter_mut().zip(&left[1..]) {
             region.core = left as usize;
         }
-        let small = left.map(|left| left < MIN_FIT);
+        let min_fit = self.tuning.min_fit;
+        let small = left.map(|left| left < min_fit);
         if small[1..=self.regions.len()].contains(&true) {
             keep_where(&self.labels, &mut self.eroded, &small);
         }
-        fit_regions(picture, view, &self.regions, &self.eroded, &mut self.fits);
+        let (tuning, fits) = (&self.fit_tuning, &mut self.fits);
+        fit_regions(picture, view, &self.regions, &self.eroded, tuning, fits);
     }
 
     /// Fits the regions anew after a small turn of the view, and checks the thin ones over more of their pixels.
     pub(crate) fn refit(&mut self, view: &View) {
         view.fill(self.images.width, &mut self.images.g);
         let picture = self.images.picture();
-        fit_regions(picture, view, &self.regions, &self.eroded, &mut self.fits);
+        let (tuning, fits) = (&self.fit_tuning, &mut self.fits);
+        fit_regions(picture, view, &self.regions, &self.eroded, tuning, fits);
         for (region, fit) in self.regions.iter_mut().zip(&self.fits) {
             region.q = fit.q(&Vector2::zeros()) as f32;
         }
         self.roughness.measure(picture, &self.regions, &self.eroded);
         self.slivers
             .find(&self.labels, self.images.width, view, &self.regions);
-        self.erosion
-            .erode::<{ LIGHT_EROSION.0 }, { LIGHT_EROSION.1 }>(
-                &self.labels,
-                picture.disparity_px,
-                self.images.width,
-                &mut self.eroded,
-            );
-        fit_regions(picture, view, &self.regions, &self.eroded, &mut self.checks);
+        self.erosion.erode(
+            &self.labels,
+            picture.disparity_px,
+            self.images.width,
+            self.tuning.thin_border,
+            &mut self.eroded,
+        );
+        let (tuning, checks) = (&self.fit_tuning, &mut self.checks);
+        fit_regions(picture, view, &self.regions, &self.eroded, tuning, checks);
     }
 
     /// Row, column and label of pixels away from the regions' borders, every `stride`-th each way; after `refit`.
@@ -280,7 +314,9 @@ impl<F: Finder> Surfaces<F> {
             return false;
         }
         let (tilt, certainty) = self.checks[index].own_tilt();
-        let steep = tilt.norm() > STEEP_RAD && certainty > STEEP_SURE;
-        self.fits[index].is_level(self.floor_tilt_rad) && !steep && !self.slivers.contains(index)
+        let steep = tilt.norm() > self.tuning.steep && certainty > self.tuning.steep_sure;
+        self.fits[index].is_level(self.floor_tilt_rad, self.fit_tuning.significant)
+            && !steep
+            && !self.slivers.contains(index)
     }
 }

@@ -6,12 +6,18 @@
 use geometry::{Outline, Plane, Point};
 use nalgebra::{Isometry3, Matrix3, Point2, Point3, Unit, Vector3};
 use sensing::Intrinsics;
+use settings::{SHARE, settings};
 
 use crate::PlaneRegion;
 use crate::picture::view::Linear;
 
-/// Planes steeper than this are a line from above: cosine of 80 degrees.
-const STEEP: f64 = 0.174;
+settings! {
+    /// How planes in any direction are described.
+    pub struct TiltedTuning("navigation.ground.tuning.tilted") {
+        /// Planes whose normal rises by less than this have no outline: they are a line from above. It is the cosine of 80 degrees.
+        least_rise: f64 = 0.174, "1", SHARE;
+    }
+}
 
 /// Sums for the best plane through disparities.
 #[derive(Debug, Clone, Copy, Default)]
@@ -104,8 +110,8 @@ impl<'a> TiltedRecord<'a> {
         self.corners.push(point.xy());
     }
 
-    /// The record; none without any pixel.
-    pub(crate) fn finish(self) -> Option<PlaneRegion> {
+    /// The record; none without any pixel. It has an outline when the plane's normal rises by more than `least_rise`.
+    pub(crate) fn finish(self, least_rise: f64) -> Option<PlaneRegion> {
         let normal = Unit::new_normalize(self.pose.rotation * -self.in_camera);
         let plane = Plane {
             normal,
@@ -116,7 +122,7 @@ impl<'a> TiltedRecord<'a> {
             support: self.support,
             mean: Point::wrap(Point3::from(self.sum / self.support as f64)),
             plane,
-            boundary: (normal.z.abs() > STEEP)
+            boundary: (normal.z.abs() > least_rise)
                 .then(|| Outline::hull(self.corners).ok())
                 .flatten(),
             floor_height_m: None,

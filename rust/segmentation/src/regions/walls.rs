@@ -4,21 +4,31 @@
 
 use nalgebra::{Point2, Vector3};
 use sensing::Intrinsics;
+use settings::{POSITIVE, settings, within};
 
 use crate::regions::tilted::{PlaneSums, TiltedRecord};
 use crate::{PlaneRegion, Planes};
 
-/// Side of a block, pixels.
-const BLOCK: usize = 8;
-/// Fewest free pixels of a block that is fitted, and fewest of a plane.
-const MIN_BLOCK: usize = 36;
-const MIN_PIXELS: usize = 120;
-/// Roughest block, in noise.
-const SMOOTH: f64 = 1.3;
-/// Largest distance between a block's plane and the region's at the block's corners, in noise.
-const AGREE: f64 = 2.5;
-/// A pixel belongs to a plane when closer than this, in noise.
-const ACCEPT: f64 = 2.5;
+settings! {
+    /// How planes in any direction are found among the pixels that no level surface took.
+    pub struct WallTuning("navigation.ground.tuning.walls") {
+        /// Side of the blocks that are fitted by themselves and then joined.
+        block: usize = 8, "1", within(2.0, 100.0);
+        /// Fewest free pixels of a block that is fitted.
+        min_block: usize = 36, "1", within(3.0, 10000.0);
+        /// Fewest pixels of a plane.
+        min_pixels: usize = 120, "1", within(3.0, 1e9);
+        /// A block is no part of a plane when its pixels scatter by more than so many times their noise.
+        smooth: f64 = 1.3, "1", POSITIVE;
+        /// Blocks are joined when their planes lie closer to each other than so many times the noise at the block's corners.
+        agree: f64 = 2.5, "1", POSITIVE;
+        /// A pixel belongs to a plane when it is closer to it than so many times its noise.
+        accept: f64 = 2.5, "1", POSITIVE;
+    }
+}
+
+/// A plane with a smaller normal over distance than this lies at infinity, px.
+const AT_INFINITY_PX: f64 = 1e-6;
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Block {
@@ -28,14 +38,28 @@ struct Block {
 }
 
 /// Finds planes in any direction. Keeps its buffers.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct Walls {
+    tuning: WallTuning,
+    // As in `TiltedTuning`.
+    least_rise: f64,
     blocks: Vec<Block>,
     members: Vec<usize>,
     corners: Vec<Point2<f64>>,
 }
 
 impl Walls {
+    /// Empty buffers; a plane whose normal rises by more than `least_rise` gets an outline.
+    pub(crate) const fn new(tuning: WallTuning, least_rise: f64) -> Self {
+        Self {
+            tuning,
+            least_rise,
+            blocks: Vec::new(),
+            members: Vec::new(),
+            corners: Vec::new(),
+        }
+    }
+
     /// Appends planes to `planes.regions` and writes their labels where `labels` is 0.
     pub(crate) fn find(
         &mut self,
@@ -45,12 +69,14 @@ impl Walls {
         labels: &mut [u16],
         planes: &mut Planes,
     ) {
+        let block = self.tuning.block;
         let image = Image {
             disparity_px,
             camera,
             sigma_px,
-            across: camera.width / BLOCK,
-            down: camera.height / BLOCK,
+            block,
+            across: camera.width / block,
+            down: camera.height / block,
         };
         self.fit_blocks(&image, labels);
         for seed in 0..self.blocks.len() {
@@ -68,10 +94,11 @@ impl Walls {
     }
 
     fn fit_blocks(&mut self, image: &Image<'_>, labels: &[u16]) {
+        let (min_block, smooth) = (self.tuning.min_block, self.tuning.smooth);
         self.blocks.clear();
         for block in 0..image.across * image.down {
             let mut sums = PlaneSums::default();
-            if image.free_pixels(block, labels) >= MIN_BLOCK {
+            if image.free_pixels(block, labels) >= min_block {
                 for (col, row) in image.pixels(block) {
                     let at = row * image.camera.width + col;
                     let d = image.disparity_px[at];
@@ -80,10 +107,10 @@ impl Walls {
                     }
                 }
             }
-            let plane = (sums.count() >= MIN_BLOCK as f64)
+            let plane = (sums.count() >= min_block as f64)
                 .then(|| sums.plane())
                 .flatten()
-                .filter(|plane| sums.roughness_px(plane) < SMOOTH * image.block_sigma_px(block));
+                .filter(|plane| sums.roughness_px(plane) < smooth * image.block_sigma_px(block));
             self.blocks.push(Block {
                 sums,
                 plane,
@@ -94,6 +121,7 @@ impl Walls {
 
     /// Joins blocks to the seed as long as they agree with the plane through all so far; `None` when too few did.
     fn grow(&mut self, image: &Image<'_>, seed: usize) -> Option<Vector3<f64>> {
+        let (agree, min_pixels) = (self.tuning.agree, self.tuning.min_pixels);
         self.members.clear();
         self.members.push(seed);
         self.blocks[seed].taken = true;
@@ -108,7 +136,7 @@ impl Walls {
                 let Some(other) = block.plane.filter(|_| !block.taken) else {
                     continue;
                 };
-                if image.apart_px(beside, &plane, &other) < AGREE * image.block_sigma_px(beside) {
+                if image.apart_px(beside, &plane, &other) < agree * image.block_sigma_px(beside) {
                     self.blocks[beside].taken = true;
                     self.members.push(beside);
                     sums.join(&block.sums);
@@ -116,7 +144,7 @@ impl Walls {
                 }
             }
         }
-        (sums.count() >= MIN_PIXELS as f64 && plane.norm() > 1e-6).then_some(plane)
+        (sums.count() >= min_pixels as f64 && plane.norm() > AT_INFINITY_PX).then_some(plane)
     }
 
     fn describe(
@@ -127,7 +155,7 @@ impl Walls {
         labels: &mut [u16],
         planes: &Planes,
     ) -> Option<PlaneRegion> {
-        let pose = planes.robot_from_camera.inner;
+        let (pose, accept) = (planes.robot_from_camera.inner, self.tuning.accept);
         let mut record = TiltedRecord::new(image.camera, pose, *in_camera, &mut self.corners);
         for &block in &self.members {
             for (col, row) in image.pixels(block) {
@@ -135,14 +163,14 @@ impl Walls {
                 let ray = Vector3::from(image.camera.ray(col, row));
                 let there = in_camera.dot(&ray);
                 let miss = f64::from(image.disparity_px[at]) - there;
-                let close = miss.abs() < ACCEPT * f64::from(image.sigma_px[at]);
+                let close = miss.abs() < accept * f64::from(image.sigma_px[at]);
                 if labels[at] == 0 && close && there > 0.0 {
                     labels[at] = label;
                     record.add(&ray, there);
                 }
             }
         }
-        record.finish()
+        record.finish(self.least_rise)
     }
 }
 
@@ -150,22 +178,32 @@ struct Image<'a> {
     disparity_px: &'a [f32],
     camera: &'a Intrinsics,
     sigma_px: &'a [f32],
+    /// Side of a block, pixels.
+    block: usize,
     across: usize,
     down: usize,
 }
 
 impl Image<'_> {
     fn pixels(&self, block: usize) -> impl Iterator<Item = (usize, usize)> {
-        let (left, top) = (block % self.across * BLOCK, block / self.across * BLOCK);
-        (top..top + BLOCK).flat_map(move |row| (left..left + BLOCK).map(move |col| (col, row)))
+        let (left, top) = (
+            block % self.across * self.block,
+            block / self.across * self.block,
+        );
+        let side = self.block;
+        (top..top + side).flat_map(move |row| (left..left + side).map(move |col| (col, row)))
     }
 
     /// Seen pixels of a block that no region took.
     fn free_pixels(&self, block: usize, labels: &[u16]) -> usize {
-        let (left, top) = (block % self.across * BLOCK, block / self.across * BLOCK);
+        let (left, top) = (
+            block % self.across * self.block,
+            block / self.across * self.block,
+        );
         let mut free = 0;
-        for row in top..top + BLOCK {
-            let pixels = row * self.camera.width + left..row * self.camera.width + left + BLOCK;
+        for row in top..top + self.block {
+            let pixels =
+                row * self.camera.width + left..row * self.camera.width + left + self.block;
             let pixels = labels[pixels.clone()]
                 .iter()
                 .zip(&self.disparity_px[pixels]);
@@ -177,8 +215,11 @@ impl Image<'_> {
     }
 
     fn block_sigma_px(&self, block: usize) -> f64 {
-        let (col, row) = (block % self.across * BLOCK, block / self.across * BLOCK);
-        f64::from(self.sigma_px[(row + BLOCK / 2) * self.camera.width + col + BLOCK / 2])
+        let (col, row) = (
+            block % self.across * self.block,
+            block / self.across * self.block,
+        );
+        f64::from(self.sigma_px[(row + self.block / 2) * self.camera.width + col + self.block / 2])
     }
 
     fn neighbours(&self, block: usize) -> impl Iterator<Item = usize> {
@@ -200,18 +241,17 @@ impl Image<'_> {
 
     /// Largest distance of two planes at the corners of a block, px.
     fn apart_px(&self, block: usize, a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
-        let (left, top) = (block % self.across * BLOCK, block / self.across * BLOCK);
-        [
-            (0, 0),
-            (BLOCK - 1, 0),
-            (0, BLOCK - 1),
-            (BLOCK - 1, BLOCK - 1),
-        ]
-        .iter()
-        .map(|(col, row)| {
-            let ray = Vector3::from(self.camera.ray(left + col, top + row));
-            (a - b).dot(&ray).abs()
-        })
-        .fold(0.0, f64::max)
+        let (left, top) = (
+            block % self.across * self.block,
+            block / self.across * self.block,
+        );
+        let last = self.block - 1;
+        [(0, 0), (last, 0), (0, last), (last, last)]
+            .iter()
+            .map(|(col, row)| {
+                let ray = Vector3::from(self.camera.ray(left + col, top + row));
+                (a - b).dot(&ray).abs()
+            })
+            .fold(0.0, f64::max)
     }
 }

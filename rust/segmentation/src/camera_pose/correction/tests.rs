@@ -30,7 +30,7 @@ fn an_error_of_the_head_is_right_at_every_gaze_after_it_was_learned_at_two() {
             by_joints.inner.rotation * error,
         ))
     };
-    let mut correction = Correction::new();
+    let mut correction = Correction::new(CorrectionTuning::default());
     let gazes = [(0.0, 0.7), (0.5, 0.7), (-0.5, 0.9), (0.0, 0.7), (1.0, 0.6)];
     for gaze in gazes.iter().flat_map(|gaze| [gaze; 10]) {
         let predicted = correction.predict(&looking(gaze.0, gaze.1));
@@ -55,7 +55,7 @@ fn learned_at_one_gaze_it_stays_within_the_tracking_gate_at_others() {
                 by_joints.rotation * error,
             ))
         };
-        let mut correction = Correction::new();
+        let mut correction = Correction::new(CorrectionTuning::default());
         for _ in 0..10 {
             let predicted = correction.predict(&looking(0.0, 0.7));
             let turn = tilt_between(&predicted, &truth(0.0));
@@ -68,22 +68,23 @@ fn learned_at_one_gaze_it_stays_within_the_tracking_gate_at_others() {
 
 #[test]
 fn a_young_track_that_is_contradicted_begins_anew_and_a_settled_one_does_not() {
+    let settled = CorrectionTuning::default().settled;
     for (turn_rad, rise_m) in [(0.08, 0.0), (-0.08, 0.0), (0.0, 0.015), (0.0, -0.015)] {
         let far_off = Vector2::new(0.0, turn_rad);
-        for finds in 1..2 * SETTLED {
-            let mut correction = Correction::new();
+        for finds in 1..2 * settled {
+            let mut correction = Correction::new(CorrectionTuning::default());
             for _ in 0..finds {
                 correction.found(&looking(0.0, 0.7), &Vector2::zeros(), 0.0, false);
             }
             correction.found(&looking(0.0, 0.7), &far_off, rise_m, false);
-            assert_eq!(correction.missed.is_none(), finds < SETTLED);
+            assert_eq!(correction.missed.is_none(), finds < settled);
         }
     }
 }
 
 /// A young track that these finds made, each near the feet or not.
 fn young(near: &[bool]) -> Correction {
-    let mut correction = Correction::new();
+    let mut correction = Correction::new(CorrectionTuning::default());
     for &near in near {
         correction.found(&looking(0.0, 0.7), &Vector2::zeros(), 0.0, near);
     }
@@ -109,14 +110,15 @@ fn what_is_near_the_feet_overrules_a_find_from_afar_and_never_the_other_way_roun
 
 #[test]
 fn a_young_track_that_all_finds_from_afar_contradict_is_given_up_after_some() {
+    let tuning = CorrectionTuning::default();
     let off = Vector2::new(0.0, 0.06);
     let mut correction = young(&[true]);
     let frames = (1..20).find(|_| {
         correction.found(&looking(0.0, 0.7), &off, 0.03, false);
         correction.missed.is_none()
     });
-    assert_eq!(frames, Some(YOUNG_MISSES as usize + 1));
-    for _ in 0..SETTLED {
+    assert_eq!(frames, Some(tuning.young_misses as usize + 1));
+    for _ in 0..tuning.settled {
         correction.found(&looking(0.0, 0.7), &Vector2::zeros(), 0.0, false);
     }
     assert!(correction.holds(1, 1));
@@ -124,11 +126,12 @@ fn a_young_track_that_all_finds_from_afar_contradict_is_given_up_after_some() {
 
 #[test]
 fn a_ground_that_slopes_near_the_feet_ends_tracks_from_afar_only() {
+    let settled = CorrectionTuning::default().settled as usize;
     for (near, given_up) in [
         (&[false; 3][..], true),
         (&[false, true, false][..], false),
-        (&[false; SETTLED as usize][..], true),
-        (&[true; SETTLED as usize][..], false),
+        (&vec![false; settled][..], true),
+        (&vec![true; settled][..], false),
     ] {
         let mut correction = young(near);
         correction.doubt_afar();
@@ -138,7 +141,7 @@ fn a_ground_that_slopes_near_the_feet_ends_tracks_from_afar_only() {
 
 #[test]
 fn frames_of_one_gaze_that_err_alike_hardly_move_what_other_gazes_told() {
-    let mut correction = Correction::new();
+    let mut correction = Correction::new(CorrectionTuning::default());
     for gaze in [(0.0, 0.6), (0.8, 0.8), (-0.8, 0.8), (0.0, 1.1)]
         .iter()
         .cycle()
@@ -173,7 +176,7 @@ fn frames_of_one_gaze_that_err_alike_hardly_move_what_other_gazes_told() {
 #[test]
 fn a_body_that_rocks_while_the_head_begins_to_turn_is_not_taken_for_the_head() {
     let head = UnitQuaternion::new(Vector3::new(-0.085, 0.0, -0.049));
-    let mut correction = Correction::new();
+    let mut correction = Correction::new(CorrectionTuning::default());
     for frame in 0..60 {
         let pan = 0.07 * f64::from((frame - 7).clamp(0, 15) - (frame - 22).clamp(0, 30));
         let rocked = Vector3::x() * if frame < 13 { 0.0 } else { -0.03 };
@@ -194,8 +197,8 @@ fn a_body_that_rocks_while_the_head_begins_to_turn_is_not_taken_for_the_head() {
 
 #[test]
 fn it_forgets_after_so_many_frames_without_ground() {
-    let mut correction = Correction::new();
-    for _ in 0..SETTLED {
+    let mut correction = Correction::new(CorrectionTuning::default());
+    for _ in 0..CorrectionTuning::default().settled {
         assert!(!correction.is_settled());
         correction.found(&looking(0.0, 0.7), &Vector2::new(0.05, 0.0), 0.004, false);
     }

@@ -1,76 +1,8 @@
 //! Planes in any direction: what the finders share that look for them all over the picture.
 
-mod draws;
-mod flood;
-mod peeling;
-mod remaining;
-
-use crate::picture::labels::MAX_REGIONS;
-use crate::picture::pixels::Picture;
-use crate::picture::view::{Linear, View};
-use crate::regions::region::Region;
-pub(crate) use draws::Draws;
-pub(crate) use flood::{flood, neighbours};
-pub(crate) use peeling::Peeling;
-pub(crate) use remaining::{Pixel, Remaining, through};
-
-/// A plane that is tilted by more than this is none to stand on, rad; half of the slope of a staircase. What is tilted by less
-/// the ground's own checks decide.
-const LEVEL_RAD: f64 = 0.14;
-
-/// The planes that were found in one picture.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct FreePlanes {
-    planes: Vec<Linear>,
-}
-
-impl FreePlanes {
-    pub(crate) fn clear(&mut self) {
-        self.planes.clear();
-    }
-
-    pub(crate) fn is_full(&self) -> bool {
-        self.planes.len() == MAX_REGIONS
-    }
-
-    /// Adds a plane; the label of its pixels.
-    pub(crate) fn add(&mut self, plane: Linear) -> u16 {
-        self.planes.push(plane);
-        self.planes.len() as u16
-    }
-
-    /// Lets planes take in pixels beside theirs that lie on them and have none yet.
-    pub(crate) fn spread(
-        &self,
-        picture: Picture<'_>,
-        accept_px: f32,
-        labels: &mut [u16],
-        queue: &mut Vec<usize>,
-    ) {
-        flood(labels, picture.width, queue, |label, at| {
-            let there =
-                self.planes[usize::from(label) - 1].at(at % picture.width, at / picture.width);
-            there > 0.0 && (picture.disparity_px[at] - there).abs() < accept_px
-        });
-    }
-
-    /// Fills `regions` with the planes as a view shows them: those that are level in it are horizontal.
-    pub(crate) fn show(&self, view: &View, labels: &[u16], regions: &mut Vec<Region>) {
-        let parts_of = view.parts_of_planes();
-        regions.clear();
-        regions.extend(self.planes.iter().map(|plane| {
-            let q = parts_of
-                .map(|parts_of| parts_of * plane.coefficients())
-                .filter(|parts| parts.xy().norm() < LEVEL_RAD * parts.z)
-                .map_or(0.0, |parts| parts.z);
-            Region {
-                q: q as f32,
-                plane: Some(*plane),
-                ..Region::default()
-            }
-        }));
-        for &label in labels.iter().filter(|&&label| label > 0) {
-            regions[usize::from(label) - 1].support += 1;
-        }
-    }
-}
+pub(crate) mod draws;
+pub(crate) mod flood;
+pub(crate) mod peeling;
+pub(crate) mod planes;
+pub(crate) mod remaining;
+pub(crate) mod tuning;

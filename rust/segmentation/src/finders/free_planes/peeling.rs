@@ -1,6 +1,9 @@
 //! One plane after the other out of a picture: guessed, refined by least squares, its pixels taken away.
 
-use super::{Draws, FreePlanes, Remaining};
+use super::draws::Draws;
+use super::planes::FreePlanes;
+use super::remaining::Remaining;
+use super::tuning::{FreePlaneTuning, PeelingTuning};
 use crate::picture::pixels::Picture;
 use crate::picture::view::{Linear, View};
 use crate::regions::region::Region;
@@ -8,6 +11,7 @@ use crate::regions::region::Region;
 /// What is left of a picture, and the planes that were taken out of it. Keeps its buffers.
 #[derive(Debug, Clone)]
 pub(crate) struct Peeling {
+    tuning: PeelingTuning,
     accept_px: f32,
     min_plane: usize,
     planes: FreePlanes,
@@ -16,11 +20,17 @@ pub(crate) struct Peeling {
 
 impl Peeling {
     /// A pixel is a plane's when nearer than `accept_px`, and a plane has `min_plane` pixels or more.
-    pub(crate) fn new(accept_px: f32, min_plane: usize) -> Self {
+    pub(crate) fn new(
+        accept_px: f32,
+        min_plane: usize,
+        tuning: PeelingTuning,
+        free_planes: FreePlaneTuning,
+    ) -> Self {
         Self {
+            tuning,
             accept_px,
             min_plane,
-            planes: FreePlanes::default(),
+            planes: FreePlanes::new(free_planes),
             remaining: Remaining::default(),
         }
     }
@@ -41,7 +51,9 @@ impl Peeling {
             let Some(guessed) = guess(&self.remaining, labels, &mut draws) else {
                 return;
             };
-            let plane = self.remaining.refine(guessed, self.accept_px);
+            let plane = self
+                .remaining
+                .refine(guessed, self.accept_px, self.tuning.refinements);
             if self.remaining.on(&plane, self.accept_px, 1) < self.min_plane {
                 return;
             }

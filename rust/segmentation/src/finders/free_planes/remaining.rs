@@ -2,13 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::Draws;
+use super::draws::Draws;
 use crate::picture::pixels::Picture;
 use crate::picture::view::Linear;
 use crate::regions::tilted::PlaneSums;
-
-/// Rounds of least squares after a plane was guessed.
-const REFINEMENTS: usize = 3;
 
 /// A pixel that was seen.
 #[derive(Debug, Clone, Copy)]
@@ -64,10 +61,10 @@ impl Remaining {
         some.filter(|pixel| pixel.lies_on(plane, accept_px)).count()
     }
 
-    /// The plane of least squares through what lies on a guessed one, again and again.
-    pub(crate) fn refine(&self, guess: Linear, accept_px: f32) -> Linear {
+    /// The plane of least squares through what lies on a guessed one, and so on for some rounds.
+    pub(crate) fn refine(&self, guess: Linear, accept_px: f32, rounds: usize) -> Linear {
         let mut plane = guess;
-        for _ in 0..REFINEMENTS {
+        for _ in 0..rounds {
             let mut sums = PlaneSums::default();
             for pixel in self
                 .pixels
@@ -94,12 +91,11 @@ impl Remaining {
     }
 }
 
-/// The plane through three pixels; none where they nearly lie on a line.
-pub(crate) fn through(pixels: [Pixel; 3]) -> Option<Linear> {
+/// The plane through three pixels; none where twice the area of their triangle in the picture is less than `least`, in pixels.
+pub(crate) fn through(pixels: [Pixel; 3], least: f64) -> Option<Linear> {
     let [a, b, c] = pixels.map(|p| Vector3::new(p.col as f64, p.row as f64, f64::from(p.d)));
     let normal = (b - a).cross(&(c - a));
-    // Twice the area of the triangle in the picture, pixels.
-    if normal.z.abs() < 8.0 {
+    if normal.z.abs() < least {
         return None;
     }
     let (per_col, per_row) = (-normal.x / normal.z, -normal.y / normal.z);
@@ -118,7 +114,7 @@ mod tests {
             at in prop::array::uniform3((0..88usize, 0..72usize, 1.0..24.0f32)),
         ) {
             let pixels = at.map(|(col, row, d)| Pixel { col, row, d });
-            if let Some(plane) = through(pixels) {
+            if let Some(plane) = through(pixels, 8.0) {
                 for pixel in pixels {
                     prop_assert!((plane.at(pixel.col, pixel.row) - pixel.d).abs() < 1e-2);
                 }
@@ -140,12 +136,13 @@ mod tests {
             disparity_px: &disparity_px,
             g: &disparity_px,
             sigma_px: &disparity_px,
+            finer: 1,
         };
         let mut remaining = Remaining::default();
         remaining.read(picture);
         assert_eq!(remaining.count(), pixels - 1);
         let guess = Linear::new(&Vector3::new(0.012, 0.118, 3.05));
-        let found = remaining.refine(guess, 0.3);
+        let found = remaining.refine(guess, 0.3, 3);
         assert!((found.coefficients() - true_plane.coefficients()).norm() < 1e-4);
         assert_eq!(remaining.on(&found, 0.3, 1), pixels - 2);
         let mut labels = vec![0; pixels];

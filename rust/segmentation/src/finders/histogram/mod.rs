@@ -7,7 +7,7 @@
 mod config;
 
 use sensing::Intrinsics;
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 
 use crate::ground_plane::config::GroundConfig;
 use crate::ground_plane::grounded::Grounded;
@@ -17,12 +17,7 @@ use crate::picture::view::View;
 use crate::regions::finder::{Finder, Look};
 use crate::regions::region::Region;
 pub use config::HistogramConfig;
-
-/// Heights that are looked at, below the camera, m.
-const LOWEST_M: f32 = 2.0;
-
-/// A peak is this many times as high as the valleys beside it; a wall has heights everywhere.
-const STANDS_OUT: f32 = 1.6;
+use config::HistogramTuning;
 
 /// The segmenter of horizontal surfaces by heights.
 pub type Histogram = Grounded<Peaks>;
@@ -35,8 +30,9 @@ impl Histogram {
         camera: Intrinsics,
     ) -> Result<Self, ConfigError> {
         config.check()?;
-        let bins = (f64::from(LOWEST_M) / config.bin).ceil() as usize;
+        let bins = (f64::from(config.tuning.deepest) / config.bin).ceil() as usize;
         let finder = Peaks {
+            tuning: config.tuning.clone(),
             bin_m: config.bin as f32,
             apart: (config.apart / config.bin).ceil() as usize,
             accept_px: config.accept as f32,
@@ -53,6 +49,7 @@ impl Histogram {
 /// Finds the peaks of the heights. Keeps its buffers.
 #[derive(Debug, Clone)]
 pub struct Peaks {
+    tuning: HistogramTuning,
     bin_m: f32,
     /// Bins.
     apart: usize,
@@ -80,15 +77,18 @@ impl Peaks {
                 self.counts[bin + 1] += part;
             }
         }
+        let beside = self.tuning.smoothing;
+        let own = 1.0 - 2.0 * beside;
         self.smooth.fill(0.0);
         for (smooth, counts) in self.smooth[1..].iter_mut().zip(self.counts.windows(3)) {
-            *smooth = 0.25 * counts[0] + 0.5 * counts[1] + 0.25 * counts[2];
+            *smooth = beside * counts[0] + own * counts[1] + beside * counts[2];
         }
     }
 
     /// The fullest bins that are apart from each other, as long as what lies around them is enough for a surface.
     fn pick(&mut self) {
-        let smooth = &self.smooth;
+        let (smooth, stands_out) = (&self.smooth, self.tuning.stands_out);
+        let reach = self.tuning.valley * self.apart;
         self.order.clear();
         self.order
             .extend((0..smooth.len()).filter(|&bin| smooth[bin] > 0.0));
@@ -102,13 +102,13 @@ impl Peaks {
             let highest = smooth[first..end]
                 .iter()
                 .all(|&beside| beside <= smooth[bin]);
-            let stands_out = highest && valley(smooth, bin, self.apart) * STANDS_OUT <= smooth[bin];
+            let is_peak = highest && valley(smooth, bin, reach) * stands_out <= smooth[bin];
             let alone = self
                 .picked
                 .iter()
                 .all(|&peak| peak.abs_diff(bin) > self.apart);
             let enough = self.counts[first..end].iter().sum::<f32>() >= self.min_region as f32;
-            if stands_out && alone && enough && self.picked.len() < MAX_REGIONS {
+            if is_peak && alone && enough && self.picked.len() < MAX_REGIONS {
                 self.picked.push(bin);
             }
         }
@@ -158,12 +158,12 @@ impl Peaks {
     }
 }
 
-/// The higher one of the lowest counts to both sides of a bin, as far as twice the distance between peaks.
-fn valley(counts: &[f32], bin: usize, apart: usize) -> f32 {
+/// The higher one of the lowest counts to both sides of a bin, within so many bins.
+fn valley(counts: &[f32], bin: usize, reach: usize) -> f32 {
     let lowest = |side: &[f32]| side.iter().copied().fold(f32::INFINITY, f32::min);
     let (first, end) = (
-        bin.saturating_sub(2 * apart),
-        (bin + 2 * apart + 1).min(counts.len()),
+        bin.saturating_sub(reach),
+        (bin + reach + 1).min(counts.len()),
     );
     lowest(&counts[first..=bin]).max(lowest(&counts[bin..end]))
 }

@@ -6,14 +6,12 @@ use nalgebra::Vector3;
 
 use crate::picture::view::Linear;
 
-/// Planes further away get no vote, m.
-const FARTHEST_M: f64 = 4.0;
-
 /// Votes for planes. Keeps its buffers.
 #[derive(Debug, Clone)]
 pub(super) struct Accumulator {
     angle_rad: f64,
     distance_m: f64,
+    farthest_m: f64,
     /// Cells over the normal's angle from the horizontal plane through forward and up, over its turn in that plane, and over the distance.
     sizes: [usize; 3],
     votes: Vec<u32>,
@@ -22,17 +20,18 @@ pub(super) struct Accumulator {
 }
 
 impl Accumulator {
-    /// Empty, with cells of this size.
-    pub(super) fn new(angle_rad: f64, distance_m: f64) -> Self {
+    /// Empty, with cells of this size; planes further away than `farthest_m` get no vote.
+    pub(super) fn new(angle_rad: f64, distance_m: f64, farthest_m: f64) -> Self {
         let cells = |span: f64, cell: f64| (span / cell).ceil() as usize + 1;
         let sizes = [
             cells(PI, angle_rad),
             cells(TAU, angle_rad),
-            cells(FARTHEST_M, distance_m),
+            cells(farthest_m, distance_m),
         ];
         Self {
             angle_rad,
             distance_m,
+            farthest_m,
             sizes,
             votes: vec![0; sizes.iter().product()],
             cast: Vec::new(),
@@ -50,7 +49,7 @@ impl Accumulator {
     pub(super) fn vote(&mut self, plane: Linear, normal_over_distance: &Vector3<f64>) {
         let nearness = normal_over_distance.norm();
         // Also false for no number.
-        if nearness * FARTHEST_M > 1.0 {
+        if nearness * self.farthest_m > 1.0 {
             let normal = normal_over_distance / nearness;
             let cell = self.cell(&normal, 1.0 / nearness);
             self.votes[cell] += 1;
@@ -92,9 +91,9 @@ mod tests {
             angle in 0.03..0.5f64, distance in 0.05..0.5f64,
         ) {
             prop_assume!(x.hypot(y).hypot(z) > 0.1);
-            let mut votes = Accumulator::new(angle, distance);
+            let mut votes = Accumulator::new(angle, distance, 4.0);
             votes.vote(Linear::default(), &(Vector3::new(x, y, z).normalize() / away));
-            prop_assert_eq!(votes.peak().is_some(), away < FARTHEST_M);
+            prop_assert_eq!(votes.peak().is_some(), away < 4.0);
             votes.clear();
             prop_assert!(votes.votes.iter().all(|&count| count == 0) && votes.peak().is_none());
         }
@@ -102,7 +101,7 @@ mod tests {
 
     #[test]
     fn the_peak_is_the_mean_of_those_that_agree() {
-        let mut votes = Accumulator::new(0.07, 0.02);
+        let mut votes = Accumulator::new(0.07, 0.02, 4.0);
         let up = |distance_m: f64| Vector3::z() / distance_m;
         let plane = |origin: f64| Linear::new(&Vector3::new(0.0, 0.1, origin));
         votes.vote(plane(9.0), &up(0.43));
@@ -113,7 +112,7 @@ mod tests {
 
     #[test]
     fn the_corners_of_the_angles_are_cells_too() {
-        let mut votes = Accumulator::new(0.03, 0.01);
+        let mut votes = Accumulator::new(0.03, 0.01, 4.0);
         for normal in [
             Vector3::y(),
             -Vector3::y(),

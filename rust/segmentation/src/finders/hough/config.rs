@@ -1,66 +1,45 @@
 //! Settings of the segmenter `hough`.
 
-use serde::{Deserialize, Serialize};
-use settings::{ConfigError, require, require_positive};
+use settings::{POSITIVE, above_to, at_least, settings, within};
 
-/// Settings of [`super::Hough`]: `[navigation.hough]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct HoughConfig {
-    /// Triples of pixels that vote for each plane.
-    pub samples: usize,
-    /// The pixels of a triple are at most this far from each other, pixels along rows and columns.
-    pub window: usize,
-    /// Size of a cell of the accumulator in the normal's two angles, rad.
-    pub angle: f64,
-    /// Size of a cell in the distance from the camera, m.
-    pub distance: f64,
-    /// A pixel belongs to a plane when closer than this, px of disparity.
-    pub accept: f64,
-    /// Smallest plane, pixels.
-    pub min_plane: usize,
-}
+use crate::finders::free_planes::tuning::{FreePlaneTuning, PeelingTuning};
 
-impl Default for HoughConfig {
-    fn default() -> Self {
-        Self {
-            samples: 3000,
-            window: 16,
-            angle: 0.07,
-            distance: 0.02,
-            accept: 0.25,
-            min_plane: 150,
-        }
+settings! {
+    /// How planes are found by votes: the segmenter `hough`.
+    pub struct HoughConfig("navigation.hough") {
+        /// Triples of pixels that vote for each plane.
+        samples: usize = 3000, "1", within(1.0, 100_000.0);
+        /// The pixels of a triple are at most this far from each other, in pixels along rows and columns.
+        window: usize = 16, "1", within(1.0, 1000.0);
+        /// Size of a cell of the accumulator in the normal's two angles. Smaller cells would need an accumulator of more than 40 MB.
+        angle: f64 = 0.07, "rad", within(0.03, 0.5);
+        /// Size of a cell of the accumulator in the distance from the camera.
+        distance: f64 = 0.02, "m", within(0.01, 0.5);
+        /// A pixel belongs to a plane when it is closer to it than this, in disparity.
+        accept: f64 = 0.25, "px", POSITIVE;
+        /// Fewest pixels of a plane.
+        min_plane: usize = 150, "1", at_least(3.0);
+        /// Numbers behind these that few will want to turn.
+        tuning: HoughTuning;
     }
 }
 
-impl HoughConfig {
-    /// Refuses what cannot be used, naming the key.
-    pub fn check(&self) -> Result<(), ConfigError> {
-        let key = |name: &str| format!("navigation.hough.{name}");
-        for (name, value, most) in [
-            ("samples", self.samples, 100_000),
-            ("window", self.window, 1000),
-        ] {
-            let allowed = format!("1 to {most}");
-            require((1..=most).contains(&value), &key(name), &allowed, value)?;
-        }
-        // Smaller cells would need an accumulator of more than 40 MB.
-        for (name, value, least, most) in [
-            ("angle", self.angle, 0.03, 0.5),
-            ("distance", self.distance, 0.01, 0.5),
-        ] {
-            let allowed = format!("{least} to {most}");
-            require((least..=most).contains(&value), &key(name), &allowed, value)?;
-        }
-        require_positive(&key("accept"), self.accept)?;
-        let least = self.min_plane;
-        require(least >= 3, &key("min_plane"), ">= 3 pixels", least)
+settings! {
+    /// Numbers behind the votes for planes that few will want to turn.
+    pub struct HoughTuning("navigation.hough.tuning") {
+        /// Planes further away from the camera than this get no vote.
+        farthest: f64 = 4.0, "m", above_to(0.0, 10.0);
+        /// How planes are taken out of a picture one after the other.
+        peeling: PeelingTuning;
+        /// Which of the planes may be a floor.
+        free_planes: FreePlaneTuning;
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use settings::Table;
+
     use super::*;
 
     #[test]
@@ -73,28 +52,28 @@ mod tests {
                     samples: 0,
                     ..base()
                 },
-                "samples must be 1 to 100000, got 0",
+                "samples must be from 1 to 100000, got 0",
             ),
             (
                 HoughConfig {
                     angle: f64::NAN,
                     ..base()
                 },
-                "angle must be 0.03 to 0.5, got NaN",
+                "angle must be from 0.03 to 0.5, got NaN",
             ),
             (
                 HoughConfig {
                     distance: 0.0,
                     ..base()
                 },
-                "distance must be 0.01 to 0.5, got 0",
+                "distance must be from 0.01 to 0.5, got 0",
             ),
             (
                 HoughConfig {
                     min_plane: 2,
                     ..base()
                 },
-                "min_plane must be >= 3 pixels, got 2",
+                "min_plane must be >= 3, got 2",
             ),
         ] {
             let error = config.check().unwrap_err().to_string();

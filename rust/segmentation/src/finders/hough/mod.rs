@@ -9,9 +9,11 @@ mod config;
 
 use nalgebra::{Matrix3, Vector3};
 use sensing::Intrinsics;
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 
-use crate::finders::free_planes::{Draws, Peeling, Pixel, Remaining, through};
+use crate::finders::free_planes::draws::Draws;
+use crate::finders::free_planes::peeling::Peeling;
+use crate::finders::free_planes::remaining::{Pixel, Remaining, through};
 use crate::ground_plane::config::GroundConfig;
 use crate::ground_plane::grounded::Grounded;
 use crate::picture::pixels::Picture;
@@ -32,13 +34,20 @@ impl Hough {
         camera: Intrinsics,
     ) -> Result<Self, ConfigError> {
         config.check()?;
+        let tuning = config.tuning.clone();
         let finder = Votes {
             ballot: Ballot {
-                accumulator: Accumulator::new(config.angle, config.distance),
+                accumulator: Accumulator::new(config.angle, config.distance, tuning.farthest),
+                least_triangle: tuning.peeling.least_triangle,
                 samples: config.samples,
                 window: config.window,
             },
-            peeling: Peeling::new(config.accept as f32, config.min_plane),
+            peeling: Peeling::new(
+                config.accept as f32,
+                config.min_plane,
+                tuning.peeling,
+                tuning.free_planes,
+            ),
         };
         Self::around(finder, ground, camera)
     }
@@ -55,6 +64,7 @@ pub struct Votes {
 struct Ballot {
     samples: usize,
     window: usize,
+    least_triangle: f64,
     accumulator: Accumulator,
 }
 
@@ -75,7 +85,7 @@ impl Ballot {
             let [Some(second), Some(third)] = beside else {
                 continue;
             };
-            if let Some(plane) = through([first, second, third]) {
+            if let Some(plane) = through([first, second, third], self.least_triangle) {
                 let parts = parts_of * plane.coefficients();
                 let normal = Vector3::new(-parts.x, -parts.y, parts.z);
                 self.accumulator.vote(plane, &normal);

@@ -1,49 +1,39 @@
 //! Settings of the segmenter `ransac`.
 
-use serde::{Deserialize, Serialize};
-use settings::{ConfigError, require, require_positive};
+use settings::{POSITIVE, at_least, settings, within};
 
-/// Settings of [`super::Ransac`]: `[navigation.ransac]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct RansacConfig {
-    /// Triples of pixels that are tried for each plane.
-    pub samples: usize,
-    /// A pixel belongs to a plane when closer than this, px of disparity.
-    pub accept: f64,
-    /// Smallest plane, pixels: of what is left at the end some always lie on one by chance.
-    pub min_plane: usize,
-}
+use crate::finders::free_planes::tuning::{FreePlaneTuning, PeelingTuning};
 
-impl Default for RansacConfig {
-    fn default() -> Self {
-        Self {
-            samples: 300,
-            accept: 0.25,
-            min_plane: 150,
-        }
+settings! {
+    /// How planes are found by random samples: the segmenter `ransac`.
+    pub struct RansacConfig("navigation.ransac") {
+        /// Triples of pixels that are tried for each plane.
+        samples: usize = 300, "1", within(1.0, 100_000.0);
+        /// A pixel belongs to a plane when it is closer to it than this, in disparity.
+        accept: f64 = 0.25, "px", POSITIVE;
+        /// Fewest pixels of a plane: of what is left at the end some always lie on one by chance.
+        min_plane: usize = 150, "1", at_least(3.0);
+        /// Numbers behind these that few will want to turn.
+        tuning: RansacTuning;
     }
 }
 
-impl RansacConfig {
-    /// Refuses what cannot be used, naming the key.
-    pub fn check(&self) -> Result<(), ConfigError> {
-        let key = |name: &str| format!("navigation.ransac.{name}");
-        let (samples, accept, least) = (self.samples, self.accept, self.min_plane);
-        let allowed = "1 to 100000";
-        require(
-            (1..=100_000).contains(&samples),
-            &key("samples"),
-            allowed,
-            samples,
-        )?;
-        require_positive(&key("accept"), accept)?;
-        require(least >= 3, &key("min_plane"), ">= 3 pixels", least)
+settings! {
+    /// Numbers behind the random samples that few will want to turn.
+    pub struct RansacTuning("navigation.ransac.tuning") {
+        /// Every so many pixels one is asked whether it lies on a plane that is tried.
+        stride: usize = 4, "1", within(1.0, 1000.0);
+        /// How planes are taken out of a picture one after the other.
+        peeling: PeelingTuning;
+        /// Which of the planes may be a floor.
+        free_planes: FreePlaneTuning;
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use settings::Table;
+
     use super::*;
 
     #[test]
@@ -56,21 +46,21 @@ mod tests {
                     samples: 0,
                     ..base()
                 },
-                "samples must be 1 to 100000, got 0",
+                "samples must be from 1 to 100000, got 0",
             ),
             (
                 RansacConfig {
                     accept: f64::NAN,
                     ..base()
                 },
-                "accept must be finite and > 0, got NaN",
+                "accept must be > 0, got NaN",
             ),
             (
                 RansacConfig {
                     min_plane: 2,
                     ..base()
                 },
-                "min_plane must be >= 3 pixels, got 2",
+                "min_plane must be >= 3, got 2",
             ),
         ] {
             let error = config.check().unwrap_err().to_string();

@@ -7,9 +7,11 @@
 mod config;
 
 use sensing::Intrinsics;
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 
-use crate::finders::free_planes::{Draws, Peeling, Remaining, through};
+use crate::finders::free_planes::draws::Draws;
+use crate::finders::free_planes::peeling::Peeling;
+use crate::finders::free_planes::remaining::{Remaining, through};
 use crate::ground_plane::config::GroundConfig;
 use crate::ground_plane::grounded::Grounded;
 use crate::picture::pixels::Picture;
@@ -17,9 +19,6 @@ use crate::picture::view::{Linear, View};
 use crate::regions::finder::{Finder, Look};
 use crate::regions::region::Region;
 pub use config::RansacConfig;
-
-/// Every so many pixels one is asked whether it lies on a plane that is tried.
-const STRIDE: usize = 4;
 
 /// The segmenter of free planes by random samples.
 pub type Ransac = Grounded<Consensus>;
@@ -32,11 +31,20 @@ impl Ransac {
         camera: Intrinsics,
     ) -> Result<Self, ConfigError> {
         config.check()?;
-        let accept_px = config.accept as f32;
+        let (accept_px, tuning) = (config.accept as f32, config.tuning.clone());
         let finder = Consensus {
-            samples: config.samples,
-            accept_px,
-            peeling: Peeling::new(accept_px, config.min_plane),
+            trials: Trials {
+                samples: config.samples,
+                accept_px,
+                stride: tuning.stride,
+                least_triangle: tuning.peeling.least_triangle,
+            },
+            peeling: Peeling::new(
+                accept_px,
+                config.min_plane,
+                tuning.peeling,
+                tuning.free_planes,
+            ),
         };
         Self::around(finder, ground, camera)
     }
@@ -45,30 +53,37 @@ impl Ransac {
 /// Finds planes by random samples. Keeps its buffers.
 #[derive(Debug, Clone)]
 pub struct Consensus {
-    samples: usize,
-    accept_px: f32,
+    trials: Trials,
     peeling: Peeling,
 }
 
-/// Of `samples` planes that are tried, the one that most of the remaining pixels lie on; of equals the first.
-fn best(
+/// How planes are tried.
+#[derive(Debug, Clone, Copy)]
+struct Trials {
+    /// Planes that are tried.
     samples: usize,
     accept_px: f32,
-    remaining: &Remaining,
-    draws: &mut Draws,
-) -> Option<Linear> {
-    let mut best: Option<(usize, Linear)> = None;
-    for _ in 0..samples {
-        let triple = std::array::from_fn(|_| remaining.draw(draws));
-        let Some(plane) = through(triple) else {
-            continue;
-        };
-        let count = remaining.on(&plane, accept_px, STRIDE);
-        if best.is_none_or(|(most, _)| count > most) {
-            best = Some((count, plane));
+    /// Every so many pixels one is asked.
+    stride: usize,
+    least_triangle: f64,
+}
+
+impl Trials {
+    /// Of the planes that are tried, the one that most of the remaining pixels lie on; of equals the first.
+    fn best(self, remaining: &Remaining, draws: &mut Draws) -> Option<Linear> {
+        let mut best: Option<(usize, Linear)> = None;
+        for _ in 0..self.samples {
+            let triple = std::array::from_fn(|_| remaining.draw(draws));
+            let Some(plane) = through(triple, self.least_triangle) else {
+                continue;
+            };
+            let count = remaining.on(&plane, self.accept_px, self.stride);
+            if best.is_none_or(|(most, _)| count > most) {
+                best = Some((count, plane));
+            }
         }
+        best.map(|(_, plane)| plane)
     }
-    best.map(|(_, plane)| plane)
 }
 
 impl Finder for Consensus {
@@ -83,9 +98,9 @@ impl Finder for Consensus {
         labels: &mut [u16],
     ) {
         if look == Look::First {
-            let (samples, accept_px) = (self.samples, self.accept_px);
+            let trials = self.trials;
             self.peeling.peel(picture, labels, |remaining, _, draws| {
-                best(samples, accept_px, remaining, draws)
+                trials.best(remaining, draws)
             });
         }
         self.peeling.show(view, labels, regions);

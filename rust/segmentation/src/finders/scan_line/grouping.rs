@@ -1,31 +1,11 @@
 //! Region growing: segments of neighbouring strips that show one surface, then pixels, then regions of equal height.
 
+use super::contacts::{Contacts, places_of_some};
+use super::rules::GrowthRules;
 use super::strips::Segment;
 use crate::picture::labels::{MAX_REGIONS, count_labels};
 use crate::picture::pixels::Picture;
 use crate::regions::region::Region;
-
-/// Pixels below which a region is small: some ten matching windows.
-const SMALL_PIECE: usize = 250;
-/// How much further a small piece may lie from the surface beside it.
-pub(super) const SMALL_JOIN: f64 = 1.35;
-/// Pixels that are searched together for those that differ from their neighbours.
-const CHUNK: usize = 16;
-
-/// Thresholds of the growth, in noise, and sizes.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct GrowthRules {
-    /// Columns of a strip.
-    pub(super) strip: usize,
-    /// Surfaces closer than this are one.
-    pub(super) join: f32,
-    /// And this when one of them is small: half of the noise is shared by a whole matching window.
-    pub(super) join_small: f32,
-    /// A pixel closer than this belongs to the surface.
-    pub(super) accept: f32,
-    /// Smallest region, pixels.
-    pub(super) min_region: usize,
-}
 
 /// Grows regions. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
@@ -35,7 +15,9 @@ pub(super) struct Grouping {
     queue: Vec<usize>,
     // Not zero where a pixel's neighbours have other labels.
     differs: Vec<u16>,
-    contacts: Vec<(u32, f32)>,
+    // By the first segment of a group: its pixels, and the sum of its weights.
+    groups: Vec<(u32, f32)>,
+    contacts: Contacts,
 }
 
 fn root(parent: &[usize], mut at: usize) -> usize {
@@ -99,18 +81,18 @@ impl Grouping {
     /// Numbers the groups that are large enough, in the order of their first segments.
     fn collect(&mut self, segments: &[Segment], rules: GrowthRules, regions: &mut Vec<Region>) {
         regions.clear();
-        self.contacts.clear();
-        self.contacts.resize(segments.len(), (0, 0.0));
+        self.groups.clear();
+        self.groups.resize(segments.len(), (0, 0.0));
         self.region_of.clear();
         self.region_of.resize(segments.len(), 0);
         for (at, segment) in segments.iter().enumerate() {
-            let group = &mut self.contacts[root(&self.parent, at)];
+            let group = &mut self.groups[root(&self.parent, at)];
             group.0 += ((segment.end - segment.first) * rules.strip) as u32;
             group.1 += segment.weight;
         }
         for at in 0..segments.len() {
             if self.parent[at] == at
-                && self.contacts[at].0 as usize >= rules.min_region
+                && self.groups[at].0 as usize >= rules.min_region
                 && regions.len() < MAX_REGIONS
             {
                 regions.push(Region::default());
@@ -121,7 +103,7 @@ impl Grouping {
             let group = root(&self.parent, at);
             let label = usize::from(self.region_of[group]);
             if label > 0 {
-                regions[label - 1].q += segment.q * segment.weight / self.contacts[group].1;
+                regions[label - 1].q += segment.q * segment.weight / self.groups[group].1;
                 regions[label - 1].support += (segment.end - segment.first) * rules.strip;
             }
         }
@@ -203,18 +185,19 @@ impl Grouping {
         labels: &mut [u16],
     ) {
         let count = regions.len();
-        self.count_contacts(picture, count, labels);
+        self.contacts
+            .count(picture, count, labels, rules.contact_reach);
         self.parent.clear();
         self.parent.extend(0..count);
         for i in 0..count {
             for j in i + 1..count {
-                let (times, limit) = self.contacts[i * count + j];
-                if times < 4 {
+                let (times, limit) = self.contacts.between(i, j);
+                if times < rules.min_contacts {
                     continue;
                 }
                 // The mean of sigma / g at the border turns the noise into a difference of q.
                 let apart = (regions[i].q - regions[j].q).abs();
-                let small = regions[i].support.min(regions[j].support) < SMALL_PIECE;
+                let small = regions[i].support.min(regions[j].support) < rules.small_region;
                 let join = if small { rules.join_small } else { rules.join };
                 if apart < join * limit / times as f32 {
                     let (a, b) = (root(&self.parent, i), root(&self.parent, j));
@@ -262,57 +245,13 @@ impl Grouping {
             *label = self.region_of[usize::from(*label)];
         }
     }
-
-    /// How often the pixels of two regions lie side by side or two apart, and the sum of `sigma / g` there.
-    fn count_contacts(&mut self, picture: Picture<'_>, count: usize, labels: &[u16]) {
-        let width = picture.width;
-        self.contacts.clear();
-        self.contacts.resize(count * count, (0, 0.0));
-        let steps = [1, 2, width, 2 * width];
-        self.differs.clear();
-        self.differs.resize(labels.len(), 0);
-        for step in steps {
-            let beside = labels.get(step..).unwrap_or_default();
-            let pairs = labels.iter().zip(beside);
-            for (differs, (&label, &other)) in self.differs.iter_mut().zip(pairs) {
-                // All bits where the other one has a region: no branch keeps the processor from taking many at once.
-                let seen = u16::from(other > 0).wrapping_neg();
-                *differs |= (label ^ other) & seen;
-            }
-        }
-        for at in places_of_some(&self.differs) {
-            let label = labels[at];
-            if label == 0 {
-                continue;
-            }
-            for other in steps.map(|step| labels.get(at + step).copied().unwrap_or_default()) {
-                if other != 0 && other != label {
-                    let (low, high) = (label.min(other), label.max(other));
-                    let (i, j) = (usize::from(low) - 1, usize::from(high) - 1);
-                    let contact = &mut self.contacts[i * count + j];
-                    contact.0 += 1;
-                    contact.1 += picture.sigma_px[at] / picture.g[at];
-                }
-            }
-        }
-    }
-}
-
-/// Where values are not 0, in order. Most are: they are passed over by the chunk.
-fn places_of_some(values: &[u16]) -> impl Iterator<Item = usize> {
-    let chunks = values.chunks(CHUNK).enumerate();
-    let some = chunks.filter(|(_, chunk)| chunk.iter().fold(0, |all, value| all | value) > 0);
-    some.flat_map(|(index, chunk)| {
-        let places = chunk.iter().enumerate().filter(|(_, value)| **value > 0);
-        places.map(move |(i, _)| index * CHUNK + i)
-    })
 }
 
 /// Whether two segments of neighbouring strips show one surface.
 fn alike(picture: Picture<'_>, rules: GrowthRules, a: &Segment, b: &Segment) -> bool {
     let (first, end) = (a.first.max(b.first), a.end.min(b.end));
-    let shorter = (a.end - a.first).min(b.end - b.first);
-    if end < first || 2 * (end - first) < shorter {
+    let shorter = (a.end - a.first).min(b.end - b.first) as f64;
+    if end < first || ((end - first) as f64) < rules.overlap * shorter {
         return false;
     }
     let row = usize::midpoint(first, end);

@@ -4,14 +4,16 @@
 //! `q = d / g` on strips of columns, and regions grown over them and over pixels.
 
 mod config;
+mod contacts;
 mod grouping;
 mod partition;
+mod rules;
 mod steep;
 mod strip_rows;
 mod strips;
 
 use sensing::Intrinsics;
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 
 use crate::ground_plane::config::GroundConfig;
 use crate::ground_plane::grounded::Grounded;
@@ -20,8 +22,9 @@ use crate::picture::view::View;
 use crate::regions::finder::{Finder, Look};
 use crate::regions::region::Region;
 pub use config::ScanLineConfig;
-use grouping::{Grouping, GrowthRules, SMALL_JOIN};
-use strips::{Segment, StripRules, Strips};
+use grouping::Grouping;
+use rules::{GrowthRules, StripRules};
+use strips::{Segment, Strips};
 
 /// The scan-line segmenter.
 pub type ScanLine = Grounded<ScanLines>;
@@ -50,20 +53,10 @@ pub struct ScanLines {
 
 impl ScanLines {
     fn new(config: &ScanLineConfig, ground: &GroundConfig, camera: &Intrinsics) -> Self {
+        let scale = (camera.focal_px * camera.baseline_m) as f32;
         Self {
-            strip_rules: StripRules {
-                strip: config.strip,
-                price: config.segment_price as f32,
-                min_segment: config.min_segment,
-                scale: (camera.focal_px * camera.baseline_m) as f32,
-            },
-            growth_rules: GrowthRules {
-                strip: config.strip,
-                join: config.join as f32,
-                join_small: (SMALL_JOIN * config.join) as f32,
-                accept: config.accept as f32,
-                min_region: ground.min_region,
-            },
+            strip_rules: StripRules::new(config, scale),
+            growth_rules: GrowthRules::new(config, ground.min_region),
             segments: Vec::new(),
             strips: Strips::default(),
             grouping: Grouping::default(),

@@ -1,9 +1,5 @@
 //! Steep lines on a strip: what shows that a stack of thin horizontal pieces is a wall.
 
-/// A line is steep when its disparity changes by less than this of what a horizontal surface's would from row to row
-/// (0.6 for a slope of 14 degrees as of stairs, -1 for a wall).
-const STEEP: f64 = 0.3;
-
 /// Sums for a straight line through disparities, weighted by the inverse square of the noise.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct LineSums {
@@ -32,14 +28,15 @@ impl LineSums {
         }
     }
 
-    /// Squared residuals, in noise, of the best line between two sums, where that line is steep.
-    pub(super) fn steep_cost(&self, before: &Self) -> Option<f64> {
+    /// Squared residuals, in noise, of the best line between two sums, where that line is steep: where its disparity changes by less
+    /// than this share of what a horizontal surface's would.
+    pub(super) fn steep_cost(&self, before: &Self, share: f64) -> Option<f64> {
         let (w, row) = (self.w - before.w, self.row - before.row);
         let (d, g) = (self.d - before.d, self.g - before.g);
         let rows = self.row_row - before.row_row - row * row / w;
         let row_d = self.row_d - before.row_d - row * d / w;
         let row_g = self.row_g - before.row_g - row * g / w;
-        let steep = row_d * g < STEEP * row_g * d;
+        let steep = row_d * g < share * row_g * d;
         (steep && rows > 0.0).then(|| self.d_d - before.d_d - d * d / w - row_d * row_d / rows)
     }
 }
@@ -68,7 +65,7 @@ mod tests {
             let tangent = (down - 50.0_f64.to_radians()).tan();
             sums = sums.with(tangent * 100.0, d, SCALE * fall, 64.0);
         }
-        sums.steep_cost(&LineSums::default())
+        sums.steep_cost(&LineSums::default(), 0.3)
     }
 
     #[test]

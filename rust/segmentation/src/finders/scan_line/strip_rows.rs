@@ -2,20 +2,15 @@
 
 use std::ops::Range;
 
-use super::strips::StripRules;
+use super::rules::StripRules;
 use crate::picture::pixels::Picture;
-
-/// Rays that fall less than this (as a share of `f B`) see nothing horizontal worth having.
-const MIN_FALL: f32 = 0.05;
-/// A pixel further from the middle one than this does not count, in noise.
-const AGREE: f32 = 3.0;
 
 /// The rows of one strip. The loops run over the rows, so that pixel `k` of every row is taken at once: *lanes*. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct StripRows {
     /// `q` of each row; of no use where the weight is 0.
     pub(super) q: Vec<f32>,
-    /// Weight of each row, `(g / sigma)^2`; 0 where fewer than half of its pixels agree.
+    /// Weight of each row, `(g / sigma)^2`; 0 where too few of its pixels agree.
     pub(super) weight: Vec<f32>,
     // Pixel by pixel of the strip: disparity, g, and q in order, without what was not seen.
     disparity_px: Vec<f32>,
@@ -32,7 +27,7 @@ impl StripRows {
     /// Takes in a strip of a picture that has these columns; the last strip may have fewer than others.
     pub(super) fn read(&mut self, picture: Picture<'_>, cols: Range<usize>, rules: StripRules) {
         let lanes = picture.disparity_px.len() / picture.width;
-        let needed = cols.len().div_ceil(2) as f32;
+        let needed = (rules.agreeing * cols.len() as f64).ceil() as f32;
         self.spread(picture, cols, rules.strip, lanes);
         self.sort(rules, lanes);
         self.find_middles(rules.strip, lanes);
@@ -58,7 +53,7 @@ impl StripRows {
 
     /// Sorts the `q` of each lane, what was not seen at the end, and counts those that were.
     fn sort(&mut self, rules: StripRules, lanes: usize) {
-        let least_fall = MIN_FALL * rules.scale;
+        let least_fall = rules.least_fall;
         self.seen.clear();
         self.seen.resize(lanes, 0.0);
         self.sorted.clear();
@@ -122,7 +117,7 @@ impl StripRows {
 
     /// Least squares over the pixels that agree with the middle one.
     fn average(&mut self, rules: StripRules, lanes: usize, needed: f32) {
-        let least_fall = MIN_FALL * rules.scale;
+        let (least_fall, agree_within) = (rules.least_fall, rules.agree);
         for sums in [&mut self.q, &mut self.weight, &mut self.agree] {
             sums.clear();
             sums.resize(lanes, 0.0);
@@ -135,7 +130,7 @@ impl StripRows {
             {
                 let ((dg, gg), agree) = sums;
                 // False where it was not seen.
-                let agrees = (d - middle * g).abs() < AGREE * sigma && g >= least_fall;
+                let agrees = (d - middle * g).abs() < agree_within * sigma && g >= least_fall;
                 *dg += if agrees { d * g } else { 0.0 };
                 *gg += if agrees { g * g } else { 0.0 };
                 *agree += if agrees { 1.0 } else { 0.0 };
@@ -158,6 +153,7 @@ fn column(width: usize, col: usize, image: &[f32]) -> impl Iterator<Item = f32> 
 
 #[cfg(test)]
 mod tests {
+    use super::super::config::ScanLineConfig;
     use super::*;
     use proptest::prelude::*;
 
@@ -171,8 +167,10 @@ mod tests {
                 disparity_px: &disparity_px,
                 g: &[1.0; 66],
                 sigma_px: &[0.125; 66],
+                finer: 1,
             };
-            let rules = StripRules { strip, price: 25.0, min_segment: 4, scale: 6.0 };
+            let config = ScanLineConfig { strip, ..ScanLineConfig::default() };
+            let rules = StripRules::new(&config, 6.0);
             let mut rows = StripRows::default();
             let mut seen = 0;
             for first in (0..33).step_by(strip) {

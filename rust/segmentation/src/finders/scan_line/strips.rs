@@ -2,19 +2,14 @@
 //! one parameter a line instead of two, and the best partition instead of a recursive split).
 
 use super::partition::Partition;
+use super::rules::StripRules;
 use super::steep::LineSums;
 use super::strip_rows::StripRows;
 use crate::picture::pixels::Picture;
 
-/// Rows without a measurement that a line may bridge.
-const MAX_GAP: usize = 3;
-/// Widest strip, pixels: to sort its pixels takes the square of their number.
-pub(super) const MAX_STRIP: usize = 32;
-
-/// Price of a steep line on a strip, in squared noise.
-const STEEP_PRICE: f64 = 40.0;
-/// Marks of segments that are horizontal, and of those that are part of something steep.
+/// Mark of segments that are horizontal.
 const LEVEL: usize = usize::MAX;
+/// Mark of segments that are part of something steep.
 const DROPPED: usize = usize::MAX - 1;
 
 /// A piece of a strip that lies on one horizontal surface.
@@ -30,19 +25,6 @@ pub(super) struct Segment {
     pub(super) q: f32,
     /// Sum of the weights `(g / sigma)^2` of its rows.
     pub(super) weight: f32,
-}
-
-/// What the cutting needs to know.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct StripRules {
-    /// Columns of a strip.
-    pub(super) strip: usize,
-    /// Price of one more segment, in squared noise.
-    pub(super) price: f32,
-    /// Shortest segment, rows.
-    pub(super) min_segment: usize,
-    /// `f B`, m px.
-    pub(super) scale: f32,
 }
 
 /// Cuts strips into segments. Keeps its buffers.
@@ -80,7 +62,7 @@ impl Strips {
                     continue;
                 }
                 if let Some(&last) = self.rows.last()
-                    && row - last > MAX_GAP + 1
+                    && row - last > rules.max_gap + 1
                 {
                     self.cut_run(strip, rules, segments);
                 }
@@ -103,7 +85,7 @@ impl Strips {
         if self.rows.len() >= rules.min_segment {
             let price = f64::from(rules.price);
             self.partition.solve(price, rules.min_segment);
-            self.drop_walls(price);
+            self.drop_walls(price, rules);
             self.append(strip, segments);
         }
         self.start_run();
@@ -118,7 +100,7 @@ impl Strips {
 
     /// A wall is cut into slices, too. Drops the runs of segments that one steep line explains at a lower price, by dynamic
     /// programming over the segments.
-    fn drop_walls(&mut self, price: f64) {
+    fn drop_walls(&mut self, price: f64, rules: StripRules) {
         let cuts = &self.partition.cuts;
         self.best.clear();
         self.best.push(0.0);
@@ -129,8 +111,8 @@ impl Strips {
             let mut least = self.best[j - 1] + self.partition.cost(start, end) + price;
             let mut choice = LEVEL;
             for (i, (&cut, best)) in cuts[..j].iter().zip(&self.best).enumerate() {
-                let cost = self.lines[end].steep_cost(&self.lines[cut]);
-                if let Some(cost) = cost.map(|cost| best + cost + STEEP_PRICE)
+                let cost = self.lines[end].steep_cost(&self.lines[cut], rules.steep);
+                if let Some(cost) = cost.map(|cost| best + cost + rules.steep_price)
                     && cost < least
                 {
                     least = cost;
@@ -172,6 +154,7 @@ impl Strips {
 
 #[cfg(test)]
 mod tests {
+    use super::super::config::ScanLineConfig;
     use super::*;
 
     fn cut(disparity_px: &[f32], g: &[f32], width: usize) -> Vec<Segment> {
@@ -181,13 +164,9 @@ mod tests {
             disparity_px,
             g,
             sigma_px: &sigma_px,
+            finer: 1,
         };
-        let rules = StripRules {
-            strip: 8,
-            price: 25.0,
-            min_segment: 4,
-            scale: 6.0,
-        };
+        let rules = StripRules::new(&ScanLineConfig::default(), 6.0);
         let mut segments = Vec::new();
         Strips::default().cut(picture, rules, &mut segments);
         segments

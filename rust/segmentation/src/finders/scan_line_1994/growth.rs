@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::lines::Segment;
-use crate::finders::free_planes::FreePlanes;
+use crate::finders::free_planes::planes::FreePlanes;
 use crate::picture::pixels::Picture;
 use crate::picture::view::Linear;
 use crate::regions::tilted::PlaneSums;
@@ -17,6 +17,8 @@ pub(super) struct GrowthRules {
     pub(super) accept_px: f32,
     /// Smallest region, pixels.
     pub(super) min_region: usize,
+    /// Share of the shorter one of two segments that must lie beside the other one.
+    pub(super) overlap: f64,
 }
 
 /// Grows regions. Keeps its buffers.
@@ -47,7 +49,7 @@ impl Growth {
         self.label_of.clear();
         self.label_of.resize(segments.len(), 0);
         self.index(segments, picture.width.div_ceil(rules.strip));
-        self.find_seeds(segments);
+        self.find_seeds(segments, rules.overlap);
         for at in 0..self.seeds.len() {
             let (_, seed) = self.seeds[at];
             if planes.is_full() || seed.iter().any(|&segment| self.label_of[segment] > 0) {
@@ -90,14 +92,14 @@ impl Growth {
     }
 
     /// All triples of segments on three scan lines side by side that overlap, the longest first.
-    fn find_seeds(&mut self, segments: &[Segment]) {
+    fn find_seeds(&mut self, segments: &[Segment], overlap: f64) {
         let mut seeds = std::mem::take(&mut self.seeds);
         seeds.clear();
         for (at, middle) in segments.iter().enumerate() {
             for left in self.of_strip(middle.strip.checked_sub(1)) {
                 for right in self.of_strip(Some(middle.strip + 1)) {
                     let (a, b) = (&segments[left], &segments[right]);
-                    if a.overlaps(middle) && b.overlaps(middle) {
+                    if a.overlaps(middle, overlap) && b.overlaps(middle, overlap) {
                         let length = a.length() + middle.length() + b.length();
                         seeds.push((length, [left, at, right]));
                     }
@@ -137,7 +139,8 @@ impl Growth {
                 for beside in self.of_strip(strip) {
                     let other = &segments[beside];
                     let free = self.label_of[beside] == 0 && !self.members.contains(&beside);
-                    if free && other.overlaps(segment) && lies_on(other, &plane, accept_px) {
+                    let joins = free && other.overlaps(segment, rules.overlap);
+                    if joins && lies_on(other, &plane, accept_px) {
                         self.members.push(beside);
                         self.queue.push(beside);
                         sums.join(&other.sums);
@@ -204,16 +207,20 @@ mod tests {
             disparity_px: &disparity_px,
             g: &disparity_px,
             sigma_px: &disparity_px,
+            finer: 1,
         };
         let line_rules = LineRules {
             strip: 4,
             split_px: 0.3,
             min_segment: 4,
+            max_gap: 3,
+            seen: 0.5,
         };
         let rules = GrowthRules {
             strip: 4,
             accept_px: 0.3,
             min_region: 80,
+            overlap: 0.5,
         };
         let mut segments = Vec::new();
         Lines::default().cut(picture, line_rules, &mut segments);

@@ -3,9 +3,6 @@
 use crate::picture::pixels::Picture;
 use crate::regions::tilted::PlaneSums;
 
-/// Rows without a measurement that a line may bridge.
-const MAX_GAP: usize = 3;
-
 /// How scan lines are cut.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LineRules {
@@ -15,6 +12,10 @@ pub(super) struct LineRules {
     pub(super) split_px: f32,
     /// Shortest line, rows.
     pub(super) min_segment: usize,
+    /// Rows without a measurement that a line may bridge.
+    pub(super) max_gap: usize,
+    /// Share of a row's pixels that must be seen.
+    pub(super) seen: f64,
 }
 
 /// A straight piece of a scan line.
@@ -40,10 +41,11 @@ impl Segment {
         self.end - self.first
     }
 
-    /// Whether at least half of the shorter one lies beside the longer one.
-    pub(super) fn overlaps(&self, other: &Self) -> bool {
+    /// Whether at least this share of the shorter one lies beside the longer one.
+    pub(super) fn overlaps(&self, other: &Self, share: f64) -> bool {
         let (first, end) = (self.first.max(other.first), self.end.min(other.end));
-        first < end && 2 * (end - first) >= self.length().min(other.length())
+        let shorter = self.length().min(other.length()) as f64;
+        first < end && (end - first) as f64 >= share * shorter
     }
 }
 
@@ -73,7 +75,7 @@ impl Lines {
                     continue;
                 };
                 if let Some(&(last, _)) = self.run.last()
-                    && row - last > MAX_GAP + 1
+                    && row - last > rules.max_gap + 1
                 {
                     self.split_run(picture.width, rules, strip, segments);
                 }
@@ -109,17 +111,18 @@ impl Lines {
     }
 }
 
-/// The mean disparity of a row of a scan line, where at least half of it was seen.
+/// The mean disparity of a row of a scan line, where enough of it was seen.
 fn mean(picture: Picture<'_>, rules: LineRules, strip: usize, row: usize) -> Option<f32> {
     let first = strip * rules.strip;
     let end = (first + rules.strip).min(picture.width);
     let pixels = &picture.disparity_px[row * picture.width + first..row * picture.width + end];
-    let (mut count, mut sum) = (0, 0.0);
+    let (mut count, mut sum) = (0_u32, 0.0);
     for d in pixels.iter().filter(|d| !d.is_nan()) {
         count += 1;
         sum += d;
     }
-    (2 * count >= end - first).then(|| sum / count as f32)
+    let enough = f64::from(count) >= rules.seen * (end - first) as f64;
+    enough.then(|| sum / count as f32)
 }
 
 /// The place in a piece that is furthest from the line between its ends, and how far it is, px.
@@ -174,6 +177,8 @@ mod tests {
         strip: 4,
         split_px: 0.3,
         min_segment: 4,
+        max_gap: 3,
+        seen: 0.5,
     };
 
     fn cut(disparity_px: &[f32]) -> Vec<(usize, usize, usize)> {
@@ -182,6 +187,7 @@ mod tests {
             disparity_px,
             g: disparity_px,
             sigma_px: disparity_px,
+            finer: 1,
         };
         let mut segments = Vec::new();
         Lines::default().cut(picture, RULES, &mut segments);

@@ -10,9 +10,9 @@ mod growth;
 mod lines;
 
 use sensing::Intrinsics;
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 
-use crate::finders::free_planes::FreePlanes;
+use crate::finders::free_planes::planes::FreePlanes;
 use crate::ground_plane::config::GroundConfig;
 use crate::ground_plane::grounded::Grounded;
 use crate::picture::pixels::Picture;
@@ -39,16 +39,19 @@ impl ScanLine1994 {
                 strip: config.strip,
                 split_px: config.split as f32,
                 min_segment: config.min_segment,
+                max_gap: config.tuning.max_gap,
+                seen: config.tuning.seen,
             },
             growth_rules: GrowthRules {
                 strip: config.strip,
                 accept_px: config.accept as f32,
                 min_region: ground.min_region,
+                overlap: config.tuning.overlap,
             },
             segments: Vec::new(),
             lines: Lines::default(),
             growth: Growth::default(),
-            planes: FreePlanes::default(),
+            planes: FreePlanes::new(config.tuning.free_planes.clone()),
         };
         Self::around(finder, ground, camera)
     }

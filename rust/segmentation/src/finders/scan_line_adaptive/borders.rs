@@ -2,12 +2,18 @@
 
 use nalgebra::Vector3;
 
-use crate::finders::free_planes::{flood, neighbours};
+use crate::finders::free_planes::flood::{flood, neighbours};
 use crate::picture::pixels::Picture;
 use crate::picture::view::Linear;
 
-/// How often the borders are looked over.
-const ROUNDS: usize = 3;
+/// How planes share the pixels at their borders.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BorderRules {
+    /// Largest distance of a pixel from its plane, in the plane's noise.
+    pub(super) accept: f32,
+    /// How often the borders are looked over.
+    pub(super) rounds: usize,
+}
 
 /// A plane with its own noise.
 #[derive(Debug, Clone, Copy)]
@@ -45,14 +51,14 @@ impl NoisyPlane {
 pub(super) fn settle_borders(
     picture: Picture<'_>,
     planes: &[NoisyPlane],
-    accept: f32,
+    rules: BorderRules,
     labels: &mut [u16],
     queue: &mut Vec<usize>,
 ) {
     let misfit = |label: u16, at: usize| {
         let plane = &planes[usize::from(label.checked_sub(1)?)];
         let (col, row) = (at % picture.width, at / picture.width);
-        plane.misfit(col, row, picture.disparity_px[at], accept)
+        plane.misfit(col, row, picture.disparity_px[at], rules.accept)
     };
     for (at, label) in labels.iter_mut().enumerate() {
         if misfit(*label, at).is_none() {
@@ -62,7 +68,7 @@ pub(super) fn settle_borders(
     flood(labels, picture.width, queue, |label, at| {
         misfit(label, at).is_some()
     });
-    for _ in 0..ROUNDS {
+    for _ in 0..rules.rounds {
         for at in 0..labels.len() {
             let Some(mut least) = misfit(labels[at], at) else {
                 continue;
@@ -100,8 +106,13 @@ mod tests {
             disparity_px: &disparity_px,
             g: &disparity_px,
             sigma_px: &disparity_px,
+            finer: 1,
         };
-        settle_borders(picture, &planes, 4.0, &mut labels, &mut Vec::new());
+        let rules = BorderRules {
+            accept: 4.0,
+            rounds: 3,
+        };
+        settle_borders(picture, &planes, rules, &mut labels, &mut Vec::new());
         for (at, label) in labels.iter().enumerate() {
             let row = at / width;
             assert!(row == 20 || *label == 1 + u16::from(row > 20), "{at}");

@@ -1,66 +1,47 @@
 //! Settings of the segmenter `scan_line_adaptive`.
 
-use serde::{Deserialize, Serialize};
-use settings::{ConfigError, require};
+use settings::{NOT_NEGATIVE, POSITIVE, SHARE, at_least, settings, within};
 
-/// Settings of [`super::ScanLineAdaptive`]: `[navigation.scan_line_adaptive]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct ScanLineAdaptiveConfig {
-    /// Columns of a scan line, pixels.
-    pub strip: usize,
-    /// What one more plane costs: by how much twice the logarithm of the likelihood must rise.
-    pub price: f64,
-    /// Shortest piece of a scan line, pixels.
-    pub min_segment: usize,
-    /// How far real surfaces are from planes: mean square, as a multiple of the noise's.
-    pub uneven: f64,
-    /// Pixels that err alike: of a matching window all tell little more than one.
-    pub alike: f64,
-    /// A pixel belongs to a plane when it is closer than this, in noises of the plane.
-    pub accept: f64,
-}
+use crate::finders::free_planes::tuning::FreePlaneTuning;
 
-impl Default for ScanLineAdaptiveConfig {
-    fn default() -> Self {
-        Self {
-            strip: 8,
-            price: 12.0,
-            min_segment: 3,
-            uneven: 1.0,
-            alike: 4.0,
-            accept: 4.0,
-        }
+settings! {
+    /// How planes are grown from scan lines with a noise of their own: the segmenter `scan_line_adaptive`.
+    pub struct ScanLineAdaptiveConfig("navigation.scan_line_adaptive") {
+        /// Columns of pixels in a scan line. One column alone does not tell how a plane lies across.
+        strip: usize = 8, "1", within(2.0, 32.0);
+        /// What one more plane costs: by how much twice the logarithm of the likelihood must rise.
+        price: f64 = 12.0, "1", POSITIVE;
+        /// Fewest rows of a piece of a scan line.
+        min_segment: usize = 3, "1", at_least(2.0);
+        /// How far real surfaces are from planes: mean square, as a multiple of the noise's.
+        uneven: f64 = 1.0, "1", NOT_NEGATIVE;
+        /// Pixels that err alike: of a matching window all tell little more than one.
+        alike: f64 = 4.0, "1", at_least(1.0);
+        /// A pixel belongs to a plane when it is closer to it than so many times the plane's noise.
+        accept: f64 = 4.0, "1", POSITIVE;
+        /// Numbers behind these that few will want to turn.
+        tuning: ScanLineAdaptiveTuning;
     }
 }
 
-impl ScanLineAdaptiveConfig {
-    /// Refuses what cannot be used, naming the key.
-    pub fn check(&self) -> Result<(), ConfigError> {
-        let key = |name: &str| format!("navigation.scan_line_adaptive.{name}");
-        let (strip, least) = (self.strip, self.min_segment);
-        // One column alone does not tell how a plane lies across.
-        require(
-            (2..=32).contains(&strip),
-            &key("strip"),
-            "2 to 32 pixels",
-            strip,
-        )?;
-        for (name, value) in [("price", self.price), ("accept", self.accept)] {
-            let usable = value > 0.0 && value.is_finite();
-            require(usable, &key(name), "finite and > 0", value)?;
-        }
-        let uneven = self.uneven;
-        let usable = uneven >= 0.0 && uneven.is_finite();
-        require(usable, &key("uneven"), "finite and >= 0", uneven)?;
-        let usable = self.alike >= 1.0 && self.alike.is_finite();
-        require(usable, &key("alike"), "finite and >= 1", self.alike)?;
-        require(least >= 2, &key("min_segment"), ">= 2 pixels", least)
+settings! {
+    /// Numbers behind the scan lines with a noise of their own that few will want to turn.
+    pub struct ScanLineAdaptiveTuning("navigation.scan_line_adaptive.tuning") {
+        /// Most rows of a piece of a scan line; what is longer is joined again.
+        longest: usize = 128, "1", within(2.0, 10000.0);
+        /// Share of a piece's pixels that must be seen for the piece to count.
+        seen: f64 = 0.5, "1", SHARE;
+        /// How often the borders between planes are looked over for pixels that a neighbour explains better.
+        border_rounds: usize = 3, "1", within(0.0, 100.0);
+        /// Which of the planes may be a floor.
+        free_planes: FreePlaneTuning;
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use settings::Table;
+
     use super::*;
 
     #[test]
@@ -70,35 +51,35 @@ mod tests {
         for (config, message) in [
             (
                 ScanLineAdaptiveConfig { strip: 1, ..base() },
-                "strip must be 2 to 32 pixels, got 1",
+                "strip must be from 2 to 32, got 1",
             ),
             (
                 ScanLineAdaptiveConfig {
                     price: f64::NAN,
                     ..base()
                 },
-                "price must be finite and > 0, got NaN",
+                "price must be > 0, got NaN",
             ),
             (
                 ScanLineAdaptiveConfig {
                     alike: 0.5,
                     ..base()
                 },
-                "alike must be finite and >= 1, got 0.5",
+                "alike must be >= 1, got 0.5",
             ),
             (
                 ScanLineAdaptiveConfig {
                     uneven: -1.0,
                     ..base()
                 },
-                "uneven must be finite and >= 0, got -1",
+                "uneven must be >= 0, got -1",
             ),
             (
                 ScanLineAdaptiveConfig {
                     min_segment: 1,
                     ..base()
                 },
-                "min_segment must be >= 2 pixels, got 1",
+                "min_segment must be >= 2, got 1",
             ),
         ] {
             let error = config.check().unwrap_err().to_string();

@@ -217,12 +217,15 @@ mod tests {
             disparity_px: &disparity_px,
             g: &disparity_px,
             sigma_px: &disparity_px,
+            finer: 1,
         };
         let (price, alike) = (12.0, 4.0);
         let cut_rules = CutRules {
             strip: 4,
             price,
             min_segment: 3,
+            longest: 128,
+            seen: 0.5,
             noise: NOISE,
             alike,
         };

@@ -13,16 +13,16 @@ mod patch;
 mod pieces;
 
 use sensing::Intrinsics;
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 
-use crate::finders::free_planes::FreePlanes;
+use crate::finders::free_planes::planes::FreePlanes;
 use crate::ground_plane::config::GroundConfig;
 use crate::ground_plane::grounded::Grounded;
 use crate::picture::pixels::Picture;
 use crate::picture::view::View;
 use crate::regions::finder::{Finder, Look};
 use crate::regions::region::Region;
-use borders::{NoisyPlane, settle_borders};
+use borders::{BorderRules, NoisyPlane, settle_borders};
 pub use config::ScanLineAdaptiveConfig;
 use merging::{MergeRules, Merging};
 use patch::NoiseRange;
@@ -49,6 +49,8 @@ impl ScanLineAdaptive {
                 strip: config.strip,
                 price: config.price,
                 min_segment: config.min_segment,
+                longest: config.tuning.longest,
+                seen: config.tuning.seen,
                 noise,
                 alike,
             },
@@ -59,7 +61,10 @@ impl ScanLineAdaptive {
                 alike,
                 min_telling: ground.min_region as f64,
             },
-            accept: config.accept as f32,
+            border_rules: BorderRules {
+                accept: config.accept as f32,
+                rounds: config.tuning.border_rounds,
+            },
             min_region: ground.min_region as f64,
             cutter: Cutter::default(),
             merging: Merging::default(),
@@ -67,7 +72,7 @@ impl ScanLineAdaptive {
             roots: Vec::new(),
             noisy_planes: Vec::new(),
             queue: Vec::new(),
-            planes: FreePlanes::default(),
+            planes: FreePlanes::new(config.tuning.free_planes.clone()),
         };
         Self::around(finder, ground, camera)
     }
@@ -78,8 +83,7 @@ impl ScanLineAdaptive {
 pub struct NoisyLines {
     cut_rules: CutRules,
     merge_rules: MergeRules,
-    /// Largest distance of a pixel from its plane, in the plane's noise.
-    accept: f32,
+    border_rules: BorderRules,
     /// Smallest region, pixels.
     min_region: f64,
     cutter: Cutter,
@@ -153,7 +157,7 @@ impl Finder for NoisyLines {
             self.find_planes();
             self.paint(picture.width, labels);
             let (planes, queue) = (&self.noisy_planes, &mut self.queue);
-            settle_borders(picture, planes, self.accept, labels, queue);
+            settle_borders(picture, planes, self.border_rules, labels, queue);
         }
         self.planes.show(view, labels, regions);
     }

@@ -5,9 +5,6 @@ use std::ops::Range;
 use super::patch::{NoiseRange, Patch};
 use crate::picture::pixels::Picture;
 
-/// Longest piece, rows: what is longer is joined again.
-const LONGEST: usize = 128;
-
 /// How scan lines are cut.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CutRules {
@@ -17,6 +14,10 @@ pub(super) struct CutRules {
     pub(super) price: f64,
     /// Shortest piece, rows.
     pub(super) min_segment: usize,
+    /// Longest piece, rows: what is longer is joined again.
+    pub(super) longest: usize,
+    /// Share of a piece's pixels that must be seen.
+    pub(super) seen: f64,
     pub(super) noise: NoiseRange,
     /// Pixels that err alike.
     pub(super) alike: f64,
@@ -54,7 +55,7 @@ impl Cutter {
             while end > 0 {
                 let first = self.best[end].1;
                 let patch = self.before[end].without(&self.before[first]);
-                let seen = 2.0 * patch.count() >= ((end - first) * rules.strip) as f64;
+                let seen = patch.count() >= rules.seen * ((end - first) * rules.strip) as f64;
                 if end - first >= rules.min_segment && seen {
                     pieces.push(Piece {
                         strip,
@@ -90,7 +91,7 @@ impl Cutter {
                 let patch = self.before[end].without(&self.before[start]);
                 self.best[start].0 + patch.cost(rules.noise) / rules.alike + rules.price
             };
-            let best = (end.saturating_sub(LONGEST)..end)
+            let best = (end.saturating_sub(rules.longest)..end)
                 .map(|start| (cost(start), start))
                 .min_by(|a, b| a.0.total_cmp(&b.0));
             self.best.extend(best);
@@ -107,6 +108,8 @@ mod tests {
         strip: 4,
         price: 20.0,
         min_segment: 3,
+        longest: 128,
+        seen: 0.5,
         noise: NoiseRange {
             least_px: 0.02,
             most_px: 0.5,
@@ -128,6 +131,7 @@ mod tests {
             disparity_px: &disparity_px,
             g: &disparity_px,
             sigma_px: &disparity_px,
+            finer: 1,
         };
         let mut pieces = Vec::new();
         Cutter::default().cut(picture, RULES, &mut pieces);

@@ -4,13 +4,11 @@ use std::ops::Range;
 
 use nalgebra::Vector2;
 
+use super::tuning::CutTuning;
 use crate::picture::pixels::Picture;
 use crate::picture::view::{View, to_f32};
 use crate::regions::fit::{RegionFit, terms};
 use crate::regions::region::Region;
-
-/// Misses beyond so many noises are left out.
-const OUTLIER: f32 = 6.0;
 
 /// A picture and the view that it was taken in.
 #[derive(Debug, Clone, Copy)]
@@ -76,17 +74,21 @@ impl Parts {
         &self.totals[region]
     }
 
-    /// Sums up the regions' pixels, every second one, by blocks of so many columns and rows.
+    /// Sums up the regions' pixels, one every few, by blocks of so many columns and rows.
     pub(super) fn collect(
         &mut self,
         seen: Seen<'_>,
         regions: &[Region],
         labels: &[u16],
         block: usize,
+        tuning: &CutTuning,
     ) {
         self.all.clear();
         self.totals.clear();
-        let fits = regions.iter().map(|region| RegionFit::at(region.q));
+        let shared_by = tuning.alike / tuning.stride as f64;
+        let fits = regions
+            .iter()
+            .map(|region| RegionFit::at(region.q, shared_by));
         self.totals.extend(fits);
         let width = seen.picture.width;
         let height = labels.len() / width;
@@ -94,7 +96,7 @@ impl Parts {
             for left in (0..width).step_by(block) {
                 let rows = top..(top + block).min(height);
                 let cols = left..(left + block).min(width);
-                self.add_block(seen, regions, labels, [cols, rows]);
+                self.add_block(seen, regions, labels, [cols, rows], tuning);
             }
         }
     }
@@ -106,7 +108,9 @@ impl Parts {
         regions: &[Region],
         labels: &[u16],
         [cols, rows]: [Range<usize>; 2],
+        tuning: &CutTuning,
     ) {
+        let (stride, outlier) = (tuning.stride, tuning.outlier);
         let picture = seen.picture;
         let mut part: Option<Part> = None;
         for row in rows {
@@ -115,7 +119,7 @@ impl Parts {
             let [disparity_px, g, sigma_px] = [picture.disparity_px, picture.g, picture.sigma_px]
                 .map(|image| &image[line.clone()]);
             let labels = &labels[line];
-            for i in ((cols.start + row) % 2..labels.len()).step_by(2) {
+            for i in ((cols.start + row) % stride..labels.len()).step_by(stride) {
                 let Some(region) = usize::from(labels[i]).checked_sub(1) else {
                     continue;
                 };
@@ -125,7 +129,7 @@ impl Parts {
                 let (q, precision) = (regions[region].q, 1.0 / sigma_px[i]);
                 let miss = (disparity_px[i] - q * g[i]) * precision;
                 // Not close also where nothing was seen.
-                let close = miss.abs() < OUTLIER;
+                let close = miss.abs() < outlier;
                 if q == 0.0 || !close {
                     continue;
                 }
@@ -139,7 +143,7 @@ impl Parts {
                 let values = terms(q, gxy, precision, miss);
                 self.totals[region].add(values);
                 part.sums.add(&Sums {
-                    pixels: 2.0,
+                    pixels: stride as f64,
                     by_g: values.map(|value| values[0] * value),
                 });
             }

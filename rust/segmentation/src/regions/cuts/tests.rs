@@ -23,6 +23,7 @@ fn cut(scene: &Scene, noise: &mut Noise) -> (Vec<u16>, Vec<u16>, Vec<Region>) {
         disparity_px: &disparity_px,
         g: &g,
         sigma_px: &sigma_px,
+        finer: 1,
     };
     let mut labels: Vec<u16> = levels
         .iter()

@@ -2,24 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::is_slope;
 use super::sums::{Seen, SlopeSums};
+use super::tuning::{SlopeGradients, SlopeGrowthTuning};
 use crate::picture::labels::MAX_REGIONS;
 use crate::regions::region::Region;
-
-/// How often a plane is fitted to what was grown, and grown anew.
-const ROUNDS: usize = 5;
-/// A pixel further off the plane than this, in noises, does not belong to it.
-pub(super) const ACCEPT: f32 = 3.0;
-/// What is squared at most of how far off something is, in noises: mismatches say no more than that it does not fit.
-const MOST_OFF: f32 = 9.0;
-/// By how much the plane may explain the pixels around a place worse than a level surface does, in squared noise: between
-/// treads and in the middle of a strip both explain them alike.
-const WORSE: f32 = 0.3;
-/// Pixels to each side that are looked at together.
-const AROUND: usize = 4;
-/// Pixels from the border of a slope in which its plane is not fitted.
-const BORDER: usize = 2;
 
 /// What a level region is to a slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +19,8 @@ pub(super) enum Reach {
 /// Grows planes. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Growth {
+    tuning: SlopeGrowthTuning,
+    gradients: SlopeGradients,
     /// What was grown.
     pub(super) pixels: Vec<usize>,
     /// Whether a pixel is among them.
@@ -45,6 +33,15 @@ pub(super) struct Growth {
 }
 
 impl Growth {
+    /// Buffers that are still empty.
+    pub(super) fn new(tuning: SlopeGrowthTuning, gradients: SlopeGradients) -> Self {
+        Self {
+            tuning,
+            gradients,
+            ..Self::default()
+        }
+    }
+
     /// Grows a plane from a pixel on; none where it is no slope. `is_found`: whether that is the plane of a slope, not of a window.
     pub(super) fn grow(
         &mut self,
@@ -54,6 +51,7 @@ impl Growth {
         regions: &[Region],
         labels: &[u16],
     ) -> Option<Vector3<f64>> {
+        let most_off = self.tuning.most_off;
         self.own_off.clear();
         self.own_off
             .extend(labels.iter().enumerate().map(|(at, &label)| {
@@ -61,37 +59,37 @@ impl Growth {
                     .checked_sub(1)
                     .map(|index| &regions[index]);
                 let q = own.map_or(0.0, |region| region.q);
-                off(seen.miss(at, [0.0, 0.0, q]))
+                off(seen.miss(at, [0.0, 0.0, q]), most_off)
             }));
         self.reaches.clear();
         self.reaches.resize(regions.len() + 1, Reach::Strip);
         if is_found {
             self.find_reaches(seen, &plane, regions, labels);
         }
-        for _ in 0..ROUNDS {
-            if !is_slope(&plane) {
+        for _ in 0..self.tuning.rounds {
+            if !self.gradients.hold(&plane) {
                 return None;
             }
             self.flood(seen, start, &plane, labels);
             plane = self.fit_inside(seen)?;
             self.find_reaches(seen, &plane, regions, labels);
         }
-        is_slope(&plane).then_some(plane)
+        self.gradients.hold(&plane).then_some(plane)
     }
 
     /// The plane through what was grown, away from its border: there a window saw something else, too.
     fn fit_inside(&self, seen: Seen<'_>) -> Option<Vector3<f64>> {
-        let width = seen.picture.width;
+        let (width, border) = (seen.picture.width, self.tuning.border);
         let mut sums = SlopeSums::default();
         for &at in &self.pixels {
             let col = at % width;
-            let is_inside = col >= BORDER
-                && col + BORDER < width
+            let is_inside = col >= border
+                && col + border < width
                 && [
-                    at.wrapping_sub(BORDER * width),
-                    at + BORDER * width,
-                    at.wrapping_sub(BORDER),
-                    at + BORDER,
+                    at.wrapping_sub(border * width),
+                    at + border * width,
+                    at.wrapping_sub(border),
+                    at + border,
                 ]
                 .iter()
                 .all(|&beside| self.members.get(beside) == Some(&true));
@@ -107,19 +105,20 @@ impl Growth {
         let width = seen.picture.width;
         let count = seen.picture.disparity_px.len();
         let abq = [plane.x, plane.y, plane.z].map(|value| value as f32);
+        let (most_off, around) = (self.tuning.most_off, self.tuning.around);
         self.better.clear();
         self.better.extend(
             self.own_off
                 .iter()
                 .enumerate()
-                .map(|(at, own)| own - off(seen.miss(at, abq))),
+                .map(|(at, own)| own - off(seen.miss(at, abq), most_off)),
         );
         self.average(width);
         self.members.clear();
         self.members.resize(count, false);
         self.pixels.clear();
         let (first_col, first_row) = (start % width, start / width);
-        let near = |at: usize, first: usize| at.abs_diff(first) <= AROUND;
+        let near = |at: usize, first: usize| at.abs_diff(first) <= around;
         // From around the start, where a single pixel may be missing.
         for at in 0..count {
             if near(at % width, first_col) && near(at / width, first_row) {
@@ -143,12 +142,12 @@ impl Growth {
     fn visit(&mut self, seen: Seen<'_>, at: usize, abq: [f32; 3], labels: &[u16]) {
         let miss = seen.miss(at, abq).abs();
         let fits = match self.reaches[usize::from(labels[at])] {
-            Reach::Strip => self.better[at] > -WORSE,
+            Reach::Strip => self.better[at] > -self.tuning.worse,
             Reach::Before { q, nearer } => {
                 self.better[at] > 0.0 && nearer == (seen.apart(at, abq, q) > 0.0)
             }
         };
-        if !self.members[at] && fits && miss < ACCEPT {
+        if !self.members[at] && fits && miss < self.tuning.accept {
             self.members[at] = true;
             self.pixels.push(at);
         }
@@ -164,6 +163,12 @@ impl Growth {
         labels: &[u16],
     ) {
         let abq = [plane.x, plane.y, plane.z].map(|value| value as f32);
+        let SlopeGrowthTuning {
+            most_off,
+            worse,
+            doubt,
+            ..
+        } = self.tuning;
         // By label and side: by how much the plane is better there, and in how many pixels.
         let mut sides = [[(0.0, 0.0); 2]; MAX_REGIONS + 1];
         for (at, &label) in labels.iter().enumerate() {
@@ -172,14 +177,14 @@ impl Growth {
             };
             let nearer = seen.apart(at, abq, regions[index].q) > 0.0;
             let side = &mut sides[usize::from(label)][usize::from(nearer)];
-            side.0 += self.own_off[at] - off(seen.miss(at, abq));
+            side.0 += self.own_off[at] - off(seen.miss(at, abq), most_off);
             side.1 += 1.0;
         }
         for (index, region) in regions.iter().enumerate() {
             let [further, nearer] = sides[index + 1];
             let mean = (further.0 + nearer.0) / f32::max(further.1 + nearer.1, 1.0);
-            let of = |side: (f32, f32)| (side.0 - 1.0) / (side.1 + 1.0);
-            self.reaches[index + 1] = if mean > -WORSE || region.q == 0.0 {
+            let of = |side: (f32, f32)| (side.0 - doubt) / (side.1 + 1.0);
+            self.reaches[index + 1] = if mean > -worse || region.q == 0.0 {
                 Reach::Strip
             } else {
                 Reach::Before {
@@ -192,25 +197,25 @@ impl Growth {
 
     /// Replaces `better` by its mean over the pixels around each.
     fn average(&mut self, width: usize) {
-        let height = self.better.len() / width;
+        let (height, around) = (self.better.len() / width, self.tuning.around);
         self.column_sums.clear();
         self.column_sums.resize(self.better.len(), 0.0);
         for (at, sum) in self.column_sums.iter_mut().enumerate() {
             let (col, row) = (at % width, at / width);
-            let rows = row.saturating_sub(AROUND)..(row + AROUND + 1).min(height);
+            let rows = row.saturating_sub(around)..(row + around + 1).min(height);
             let count = rows.len() as f32;
             *sum = rows.map(|row| self.better[row * width + col]).sum::<f32>() / count;
         }
         for (at, mean) in self.better.iter_mut().enumerate() {
             let (col, row) = (at % width, at / width);
-            let cols = col.saturating_sub(AROUND)..(col + AROUND + 1).min(width);
+            let cols = col.saturating_sub(around)..(col + around + 1).min(width);
             let count = cols.len() as f32;
             *mean = self.column_sums[row * width..][cols].iter().sum::<f32>() / count;
         }
     }
 }
 
-/// Squared distance in noises, at most [`MOST_OFF`]; that where nothing was seen.
-fn off(miss: f32) -> f32 {
-    (miss * miss).min(MOST_OFF)
+/// Squared distance in noises, at most `most_off`; that where nothing was seen.
+fn off(miss: f32, most_off: f32) -> f32 {
+    (miss * miss).min(most_off)
 }

@@ -2,19 +2,7 @@
 
 use nalgebra::{Vector2, Vector3};
 
-/// By how much a slope explains its pixels better than treads do, in squared noise: what is more than this tells of a slope, what is less of
-/// stairs. The frames' sum must reach so much, and is kept up to so much.
-const DOUBTFUL: f64 = 4.0;
-/// The same above this gradient: there the treads of stairs are narrow, and from afar a plane explains them by up to 8 better (slopes
-/// are told by 9 to 30).
-const DOUBTFUL_STEEP: f64 = 9.0;
-const STEEP: f64 = 0.2;
-const SURE: f64 = 4.0;
-const MOST_SURE: f64 = 16.0;
-/// What a frame without it takes from that.
-const FADES: f64 = 0.2;
-/// Slopes of two frames whose tilts differ by less than this are one.
-const SAME_TILT: f64 = 0.06;
+use super::tuning::SlopeMemoryTuning;
 
 /// The slope that the last frames told of.
 #[derive(Debug, Clone, Copy, Default)]
@@ -27,28 +15,37 @@ pub(super) struct Memory {
 
 impl Memory {
     /// Whether there is a slope for sure.
-    pub(super) fn is_sure(&self) -> bool {
-        self.sure > SURE
+    pub(super) fn is_sure(&self, tuning: &SlopeMemoryTuning) -> bool {
+        self.sure > tuning.sure
     }
 
     /// After a frame that does not show it.
-    pub(super) fn faded(&self) -> Self {
+    pub(super) fn faded(&self, tuning: &SlopeMemoryTuning) -> Self {
         Self {
-            sure: (self.sure - FADES).max(0.0),
+            sure: (self.sure - tuning.fades).max(0.0),
             ..*self
         }
     }
 
     /// After a frame that shows a plane, so much better than treads.
-    pub(super) fn told(&self, plane: &Vector3<f64>, better: f64) -> Self {
+    pub(super) fn told(
+        &self,
+        plane: &Vector3<f64>,
+        better: f64,
+        tuning: &SlopeMemoryTuning,
+    ) -> Self {
         let tilt = plane.xy() / plane.z;
-        let is_same = (tilt - self.tilt).norm() < SAME_TILT;
+        let is_same = (tilt - self.tilt).norm() < tuning.same_gradient;
         let before = if is_same { self.sure } else { 0.0 };
-        let is_steep = tilt.norm() > STEEP;
-        let doubtful = if is_steep { DOUBTFUL_STEEP } else { DOUBTFUL };
+        let is_steep = tilt.norm() > tuning.steep;
+        let doubtful = if is_steep {
+            tuning.doubtful_steep
+        } else {
+            tuning.doubtful
+        };
         Self {
             tilt,
-            sure: (before + better - doubtful).min(MOST_SURE),
+            sure: (before + better - doubtful).min(tuning.most_sure),
         }
     }
 }
@@ -60,11 +57,11 @@ mod tests {
     /// Whether a plane of this gradient is sure to be a slope after six frames that explain it so much better than treads.
     fn is_slope(gradient: f64, better: f64) -> bool {
         let plane = Vector3::new(gradient, 0.0, 1.0);
-        let mut memory = Memory::default();
+        let (mut memory, tuning) = (Memory::default(), SlopeMemoryTuning::default());
         for _ in 0..6 {
-            memory = memory.told(&plane, better);
+            memory = memory.told(&plane, better, &tuning);
         }
-        memory.is_sure()
+        memory.is_sure(&tuning)
     }
 
     /// Figures of frames of 40 mm steps and of slopes of 15 degrees.
@@ -78,11 +75,12 @@ mod tests {
     #[test]
     fn a_slope_is_forgotten_that_is_not_seen() {
         let plane = Vector3::new(0.12, 0.0, 1.0);
-        let mut memory = Memory::default().told(&plane, 100.0);
+        let tuning = SlopeMemoryTuning::default();
+        let mut memory = Memory::default().told(&plane, 100.0, &tuning);
         for _ in 0..59 {
-            memory = memory.faded();
+            memory = memory.faded(&tuning);
         }
-        assert!(memory.is_sure());
-        assert!(!memory.faded().faded().is_sure());
+        assert!(memory.is_sure(&tuning));
+        assert!(!memory.faded(&tuning).faded(&tuning).is_sure(&tuning));
     }
 }

@@ -5,9 +5,6 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use crate::picture::pixels::Picture;
 use crate::picture::view::View;
 
-/// Matching windows of 5x5 overlap: so many pixels tell as much as one independent one.
-const SHARED_BY: f64 = 25.0;
-
 /// A picture and how it is seen.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Seen<'a> {
@@ -84,20 +81,21 @@ impl SlopeSums {
         q.is_finite().then(|| direction * q)
     }
 
-    /// What a plane leaves over, in squared noise of independent pixels.
-    pub(super) fn cost(&self, plane: &Vector3<f64>) -> f64 {
+    /// What a plane leaves over, in squared noise of independent pixels; `alike` as in [`independent`].
+    pub(super) fn cost(&self, plane: &Vector3<f64>, alike: f64) -> f64 {
         let left = self.squares + plane.dot(&(self.moments * plane - 2.0 * self.products));
-        left.max(0.0) / SHARED_BY
+        left.max(0.0) / alike
     }
 
-    /// What the best level surface leaves over.
-    pub(super) fn level_cost(&self) -> f64 {
+    /// What the best level surface leaves over, in squared noise of independent pixels.
+    pub(super) fn level_cost(&self, alike: f64) -> f64 {
         let explained = self.products.z * self.products.z / self.moments[(2, 2)].max(1e-9);
-        (self.squares - explained).max(0.0) / SHARED_BY
+        (self.squares - explained).max(0.0) / alike
     }
 }
 
-/// What overlapping windows make of a sum of squares over pixels, in squared noise of independent ones.
-pub(super) const fn independent(squares: f64) -> f64 {
-    squares / SHARED_BY
+/// What overlapping windows make of a sum of squares over pixels, in squared noise of independent ones: so many of the pixels are
+/// `alike` that they tell as much as one.
+pub(super) const fn independent(squares: f64, alike: f64) -> f64 {
+    squares / alike
 }

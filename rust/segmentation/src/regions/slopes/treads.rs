@@ -3,30 +3,7 @@
 use nalgebra::{Rotation2, Vector2, Vector3};
 
 use super::sums::{Seen, independent};
-
-/// Pixels are put together by how far up the slope they are, m.
-const BIN_M: f64 = 0.01;
-/// Lowest step of stairs, m: treads of a flight that rises like the slope are as deep as the slope takes to rise by it.
-const STEP_M: f64 = 0.012;
-/// Least depth of a tread, m.
-const DEPTH_M: f64 = 0.05;
-/// Most that lies between two treads in the picture, m: a riser, and what the matching window makes of its edges.
-const RISER_M: f64 = 0.05;
-/// What a tread costs, in squared noise: where its edge is, and its height.
-const TREAD: f64 = 2.0;
-/// Directions that stairs may rise in beside the slope's own, rad: a plane through stairs that are seen in part turns.
-const TURNS_RAD: [f64; 5] = [
-    0.0,
-    -TURN_STEP_RAD,
-    TURN_STEP_RAD,
-    -2.0 * TURN_STEP_RAD,
-    2.0 * TURN_STEP_RAD,
-];
-const TURN_STEP_RAD: f64 = 0.15;
-/// The best direction is searched to this, rad: half a metre to the side an edge is then off by a bin.
-const LAST_TURN_RAD: f64 = 0.02;
-/// Most bins.
-const MOST_BINS: usize = 250;
+use super::tuning::{SlopeTuning, TreadTuning};
 
 /// What a plane is against the best treads.
 #[derive(Debug, Clone, Copy)]
@@ -49,10 +26,10 @@ struct Bins {
 
 impl Bins {
     /// Squared misses of the best level surface less those of the plane, in squared noise.
-    fn tread(&self, before: &Self) -> f64 {
+    fn tread(&self, before: &Self, alike: f64) -> f64 {
         let (weight, q) = (self.weight - before.weight, self.q - before.q);
         let level = self.qq - before.qq - q * q / weight;
-        independent(level - (self.plane - before.plane))
+        independent(level - (self.plane - before.plane), alike)
     }
 }
 
@@ -70,20 +47,26 @@ impl Treads {
         seen: Seen<'_>,
         plane: &Vector3<f64>,
         pixels: &[usize],
+        tuning: &SlopeTuning,
     ) -> Verdict {
+        let rules = &tuning.treads;
         let gradient = plane.xy() / plane.z;
         let tilt = gradient.norm();
         let mut length_m: f64 = 0.0;
         let mut try_turn = |turn_rad: f64| {
             let across = Rotation2::new(turn_rad) * gradient / tilt;
-            self.fill(seen, plane, pixels, &across);
-            length_m = length_m.max(self.bins.len() as f64 * BIN_M);
-            (self.lay((STEP_M / tilt).max(DEPTH_M)), turn_rad)
+            self.fill(seen, plane, pixels, &across, rules);
+            length_m = length_m.max(self.bins.len() as f64 * rules.bin);
+            let depth_m = (rules.step / tilt).max(rules.depth);
+            (self.lay(depth_m, tuning), turn_rad)
         };
         let lower = |a: &(f64, f64), b: &(f64, f64)| a.0.total_cmp(&b.0);
-        let mut best = TURNS_RAD.map(&mut try_turn).into_iter().min_by(lower);
-        let mut step_rad = TURN_STEP_RAD;
-        while step_rad > LAST_TURN_RAD
+        let beside = (1..=rules.turns).map(f64::from);
+        let turns = beside.flat_map(|turn| [-turn * rules.turn_step, turn * rules.turn_step]);
+        let turns = std::iter::once(0.0).chain(turns);
+        let mut best = turns.map(&mut try_turn).min_by(lower);
+        let mut step_rad = rules.turn_step;
+        while step_rad > rules.last_turn
             && let Some(so_far) = best
         {
             step_rad /= 2.0;
@@ -103,6 +86,7 @@ impl Treads {
         plane: &Vector3<f64>,
         pixels: &[usize],
         across: &Vector2<f64>,
+        rules: &TreadTuning,
     ) {
         let abq = [plane.x, plane.y, plane.z].map(|value| value as f32);
         let place_m = |at: usize| {
@@ -116,7 +100,7 @@ impl Treads {
             .fold(f64::INFINITY, f64::min);
         self.bins.clear();
         for &at in pixels {
-            let bin = (((place_m(at) - nearest_m) / BIN_M) as usize).min(MOST_BINS);
+            let bin = (((place_m(at) - nearest_m) / rules.bin) as usize).min(rules.most_bins);
             if bin >= self.bins.len() {
                 self.bins.resize(bin + 1, Bins::default());
             }
@@ -135,9 +119,11 @@ impl Treads {
 
     /// By how much the cheapest treads of this depth or more are worse than the plane. Of what lies between them neither says
     /// anything.
-    fn lay(&mut self, depth_m: f64) -> f64 {
+    fn lay(&mut self, depth_m: f64, tuning: &SlopeTuning) -> f64 {
+        let (rules, alike) = (&tuning.treads, tuning.alike);
         let count = self.bins.len();
-        let (deep, riser) = ((depth_m / BIN_M) as usize, (RISER_M / BIN_M) as usize);
+        let deep = (depth_m / rules.bin) as usize;
+        let riser = (rules.riser / rules.bin) as usize;
         let mut sum = Bins::default();
         self.bins.insert(0, sum);
         for bin in &mut self.bins[1..] {
@@ -160,7 +146,8 @@ impl Treads {
                 if end - start < deep && !in_part && start > riser {
                     continue;
                 }
-                let cost = self.best[start] + self.bins[end].tread(&self.bins[start]) + TREAD;
+                let tread = self.bins[end].tread(&self.bins[start], alike);
+                let cost = self.best[start] + tread + rules.price;
                 ends[end] = ends[end].min(cost);
             }
             let last = &ends[end.saturating_sub(riser)..=end];
