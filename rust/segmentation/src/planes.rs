@@ -53,7 +53,7 @@ pub struct Planes {
     pub labels: Vec<u16>,
     /// Position of each pixel's point in the robot's frame, m; NaN where nothing was seen.
     pub points_in_robot_m: Vec<[f32; 3]>,
-    /// `h` of the paper (000, section III.A): height of the horizontal plane that a pixel belongs to, m; NaN is *invalid*.
+    /// Height of the horizontal plane that a pixel belongs to, m: `h` of the paper (000, section III.A); NaN is *invalid*.
     pub floor_height_m: Vec<f32>,
     /// Pixels beside an edge between two level surfaces that are a step apart: the matching window saw both, so that
     /// neither their height nor their place is that of one of them.
@@ -102,7 +102,7 @@ pub trait Segmenter: Send + Sync {
     /// Fills `planes` from `scan`. Finding nothing is an ordinary product: no regions, no ground, not reliable.
     fn segment(&mut self, scan: &Scan, planes: &mut Planes) -> Result<(), SegmentError>;
 
-    /// The same where some of the floor is known; a segmenter that makes no use of that leaves it out.
+    /// Fills `planes` from `scan` where some of the floor is known; a segmenter that makes no use of that leaves it out.
     fn segment_known(
         &mut self,
         scan: &Scan,

@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 use settings::{POSITIVE, SHARE, settings, within};
 
-use crate::KnownFloor;
 use crate::picture::view::View;
+use crate::planes::KnownFloor;
 use crate::regions::finder::Finder;
-use crate::regions::surfaces::Surfaces;
+use crate::regions::surfaces::FrameSurfaces;
 
 settings! {
     /// How the camera's height is told by floor that is known from before.
@@ -68,7 +68,7 @@ impl KnownLevels {
     /// Looks up the known heights where the level regions of `surfaces` lie, seen from `camera_m` (robot frame).
     pub(crate) fn compare(
         &mut self,
-        surfaces: &Surfaces<impl Finder>,
+        surfaces: &FrameSurfaces<impl Finder>,
         view: &View,
         camera_m: &Vector3<f64>,
         known: &dyn KnownFloor,

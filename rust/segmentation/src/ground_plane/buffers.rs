@@ -8,7 +8,7 @@ use crate::regions::steps::{StepMarks, StepTuning};
 
 /// Pixels of one region that lie side by side.
 #[derive(Debug, Clone)]
-pub(super) struct Run {
+pub(super) struct LabelRun {
     pub(super) label: u16,
     pub(super) row: usize,
     pub(super) cols: Range<usize>,
@@ -17,7 +17,7 @@ pub(super) struct Run {
 /// What is kept while regions are described.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ProductBuffers {
-    pub(super) runs: Vec<Run>,
+    pub(super) runs: Vec<LabelRun>,
     pub(super) corners: Vec<Point2<f64>>,
     // By label: the number of the region in the product plus one, 0 for none; and its height, m, NaN for none.
     pub(super) floors: Vec<(u16, f32)>,

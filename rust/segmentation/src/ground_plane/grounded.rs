@@ -15,8 +15,9 @@ use crate::regions::cuts::Cuts;
 use crate::regions::finder::Finder;
 use crate::regions::roughness::Roughness;
 use crate::regions::slivers::Slivers;
-use crate::regions::slopes::Slopes;
-use crate::regions::surfaces::{SurfaceParts, Surfaces};
+use crate::regions::slopes::SlopeSearch;
+use crate::regions::surface_parts::SurfaceParts;
+use crate::regions::surfaces::FrameSurfaces;
 use crate::regions::walls::Walls;
 
 /// A segmenter with this way to find surfaces.
@@ -25,7 +26,7 @@ pub struct Grounded<F> {
     pub(super) config: GroundConfig,
     pub(super) camera: Intrinsics,
     pub(super) correction: Correction,
-    pub(super) surfaces: Surfaces<F>,
+    pub(super) surfaces: FrameSurfaces<F>,
     pub(super) search: HorizonSearch,
     pub(super) known: KnownLevels,
     pub(super) walls: Walls,
@@ -45,7 +46,7 @@ impl<F: Finder> Grounded<F> {
         let finer = fineness(pixels, tuning.enough_pixels);
         let parts = surface_parts(&config, &camera, finer);
         Ok(Self {
-            surfaces: Surfaces::new(finder, parts, &camera, finer),
+            surfaces: FrameSurfaces::new(finder, parts, &camera, finer),
             correction: Correction::new(tuning.correction),
             search: HorizonSearch::new(tuning.tilt_search),
             known: KnownLevels::new(tuning.known_floor),
@@ -76,6 +77,6 @@ fn surface_parts(config: &GroundConfig, camera: &Intrinsics, finer: usize) -> Su
         roughness: Roughness::new(config.noise_floor as f32, tuning.roughness),
         slivers: Slivers::new(tuning.slivers),
         cuts: Cuts::new(tuning.cuts),
-        slopes: Slopes::new(tuning.slopes),
+        slopes: SlopeSearch::new(tuning.slopes),
     }
 }

@@ -3,13 +3,13 @@
 use geometry::{Outline, Plane, Point, Pose, Robot};
 use nalgebra::{Isometry3, Point2, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::buffers::{ProductBuffers, Run};
+use super::buffers::{LabelRun, ProductBuffers};
 use crate::camera_pose::levelled::Levelled;
 use crate::ground_plane::grounded::Grounded;
 use crate::picture::view::{View, to_f32};
+use crate::planes::{PlaneRegion, Planes};
 use crate::regions::finder::Finder;
 use crate::regions::tilted::{TiltedRecord, over_rays};
-use crate::{PlaneRegion, Planes};
 
 /// What a pixel without a region has.
 const NO_REGION: (u16, f32) = (0, f32::NAN);
@@ -149,7 +149,7 @@ impl<F: Finder> Grounded<F> {
                 let cols = first..first + run.len();
                 first = cols.end;
                 if run[0] > 0 {
-                    runs.push(Run {
+                    runs.push(LabelRun {
                         label: run[0],
                         row,
                         cols,

@@ -5,15 +5,15 @@ use nalgebra::Vector2;
 
 use super::tuning::ReferenceTuning;
 
-use crate::KnownFloor;
 use crate::camera_pose::levelled::Levelled;
 use crate::ground_plane::grounded::Grounded;
-use crate::picture::near::Near;
+use crate::picture::near::NearFeet;
+use crate::planes::KnownFloor;
 use crate::regions::finder::Finder;
 
 /// What a frame's level surfaces tell of the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Reference {
+pub(super) enum PoseReference {
     /// The ground is seen: tilt and height.
     Ground {
         /// Which region it is.
@@ -28,7 +28,7 @@ pub(super) enum Reference {
     },
     /// Level surfaces are seen of which no height is known: the track holds.
     Level,
-    /// Nothing.
+    /// Nothing level is seen.
     None,
 }
 
@@ -39,13 +39,13 @@ impl<F: Finder> Grounded<F> {
         &mut self,
         by_joints: &Pose<Robot, Camera>,
         known: &dyn KnownFloor,
-    ) -> (Levelled, Reference) {
+    ) -> (Levelled, PoseReference) {
         let predicted = self.correction.predict(by_joints);
         if !self.correction.is_seasoned()
             && self.look_near(&Levelled::new(&self.camera, predicted, Vector2::zeros()))
         {
             let (levelled, reference) = self.refer(predicted, known, true);
-            if reference != Reference::None {
+            if reference != PoseReference::None {
                 return (levelled, reference);
             }
         }
@@ -60,15 +60,15 @@ impl<F: Finder> Grounded<F> {
         predicted: Pose<Robot, Camera>,
         known: &dyn KnownFloor,
         near: bool,
-    ) -> (Levelled, Reference) {
+    ) -> (Levelled, PoseReference) {
         let mut levelled = self.level(predicted, near);
         let mut reference = self.find_reference(&levelled, known);
         if (!self.correction.is_seasoned() || !self.correction.is_borne_out())
-            && let Reference::Ground { region, .. } = reference
+            && let PoseReference::Ground { region, .. } = reference
         {
             match self.slopes_near(&levelled, region) {
                 Some(true) => {
-                    reference = Reference::None;
+                    reference = PoseReference::None;
                     self.correction.doubt_afar();
                 }
                 Some(false) => levelled.near = true,
@@ -124,7 +124,7 @@ impl<F: Finder> Grounded<F> {
     /// Whether most of what is seen near the feet belongs to a region.
     fn is_underfoot(&self, levelled: &Levelled, index: usize) -> bool {
         let camera_m = &levelled.predicted.inner.translation.vector;
-        let reach = Near::new(&levelled.view, camera_m, self.config.search_reach);
+        let reach = NearFeet::new(&levelled.view, camera_m, self.config.search_reach);
         let width = self.camera.width;
         let lines = self.surfaces.images.disparity_px.chunks_exact(width);
         let labels = self.surfaces.labels.chunks_exact(width);
@@ -176,9 +176,9 @@ impl<F: Finder> Grounded<F> {
     }
 
     /// What the frame says of the camera's height, and which region is the ground.
-    fn find_reference(&mut self, levelled: &Levelled, known: &dyn KnownFloor) -> Reference {
+    fn find_reference(&mut self, levelled: &Levelled, known: &dyn KnownFloor) -> PoseReference {
         if !self.is_straight(levelled) {
-            return Reference::None;
+            return PoseReference::None;
         }
         let camera_m = levelled.predicted.inner.translation.vector;
         self.known
@@ -191,14 +191,14 @@ impl<F: Finder> Grounded<F> {
             && !self.searching()
             && let Some(rise_m) = self.known.rise_m(config.known_height, config.min_ground)
         {
-            return Reference::Known { rise_m };
+            return PoseReference::Known { rise_m };
         }
         if let Some(region) = ground {
             let rise_m = 1.0 / f64::from(self.surfaces.regions[region].q) - camera_m.z;
-            return Reference::Ground { region, rise_m };
+            return PoseReference::Ground { region, rise_m };
         }
         if self.searching() {
-            return Reference::None;
+            return PoseReference::None;
         }
         let surfaces = &self.surfaces;
         let levels = (0..surfaces.regions.len()).filter(|&i| {
@@ -207,9 +207,9 @@ impl<F: Finder> Grounded<F> {
                 && surfaces.fits[i].roughness() < config.tuning.reference.smooth
         });
         if levels.count() > 0 {
-            Reference::Level
+            PoseReference::Level
         } else {
-            Reference::None
+            PoseReference::None
         }
     }
 }

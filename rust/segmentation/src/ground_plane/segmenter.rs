@@ -3,11 +3,11 @@
 use nalgebra::Vector2;
 use sensing::Scan;
 
-use super::reference::Reference;
+use super::reference::PoseReference;
 use crate::camera_pose::levelled::Levelled;
 use crate::ground_plane::grounded::Grounded;
+use crate::planes::{KnownFloor, NothingKnown, Planes, SegmentError, Segmenter};
 use crate::regions::finder::{Finder, Look};
-use crate::{KnownFloor, NothingKnown, Planes, SegmentError, Segmenter};
 
 impl<F: Finder> Grounded<F> {
     /// Shows the surfaces of the picture that was read as if the joints had the camera's pose right.
@@ -50,7 +50,7 @@ impl<F: Finder> Segmenter for Grounded<F> {
         let turn = levelled.turn().scaled_axis().xy();
         let (mut ground, mut rise_m) = (None, 0.0);
         match reference {
-            Reference::Ground {
+            PoseReference::Ground {
                 region,
                 rise_m: rise,
             } => {
@@ -59,12 +59,12 @@ impl<F: Finder> Segmenter for Grounded<F> {
                 self.correction
                     .found(&predicted, &turn, rise_m, levelled.near);
             }
-            Reference::Known { rise_m: rise } => {
+            PoseReference::Known { rise_m: rise } => {
                 rise_m = rise;
                 self.correction.found(&predicted, &turn, rise_m, false);
             }
-            Reference::Level => self.correction.confirmed(),
-            Reference::None => {
+            PoseReference::Level => self.correction.confirmed(),
+            PoseReference::None => {
                 if self.searching() || !self.is_straight(&levelled) {
                     // Nothing to hold on to: what is seen is shown where the joints have it.
                     levelled = Levelled::new(&self.camera, predicted, Vector2::zeros());

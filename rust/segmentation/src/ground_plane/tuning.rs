@@ -3,7 +3,7 @@
 
 use settings::{NOT_NEGATIVE, POSITIVE, SHARE, settings, within};
 
-use crate::camera_pose::correction::CorrectionTuning;
+use crate::camera_pose::correction::tuning::CorrectionTuning;
 use crate::camera_pose::horizon::TiltSearchTuning;
 use crate::camera_pose::known::KnownFloorTuning;
 use crate::picture::median::MedianTuning;
@@ -14,7 +14,7 @@ use crate::regions::roughness::RoughnessTuning;
 use crate::regions::slivers::SliverTuning;
 use crate::regions::slopes::tuning::SlopeTuning;
 use crate::regions::steps::StepTuning;
-use crate::regions::surfaces::SurfaceTuning;
+use crate::regions::surface_parts::SurfaceTuning;
 use crate::regions::tilted::TiltedTuning;
 use crate::regions::walls::WallTuning;
 

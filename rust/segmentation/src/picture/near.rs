@@ -9,7 +9,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// Tells which pixels show what is up to a distance from the robot over the ground.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Near<'a> {
+pub(crate) struct NearFeet<'a> {
     view: &'a View,
     camera_m: &'a Vector3<f64>,
     reach_m: f64,
@@ -17,7 +17,7 @@ pub(crate) struct Near<'a> {
     possibly: f64,
 }
 
-impl<'a> Near<'a> {
+impl<'a> NearFeet<'a> {
     /// Up to `reach_m`, seen from `camera_m` (robot frame).
     pub(crate) fn new(view: &'a View, camera_m: &'a Vector3<f64>, reach_m: f64) -> Self {
         let square = reach_m * reach_m;
@@ -65,7 +65,7 @@ mod tests {
             };
             // As far as one of the pixels, or nearly so.
             let reach_m = (distance_m(CAMERA.width / 2) + off).max(0.0);
-            let near = Near::new(&view, &camera_m, reach_m);
+            let near = NearFeet::new(&view, &camera_m, reach_m);
             for (col, found) in near.along(row, &[d; CAMERA.width]).enumerate() {
                 prop_assert_eq!(found, distance_m(col) < reach_m);
             }
@@ -76,7 +76,7 @@ mod tests {
     fn what_was_not_seen_is_not_near() {
         let pose = camera_pose(0.0, 0.8).inner;
         let view = View::new(&CAMERA, &pose.rotation.to_rotation_matrix());
-        let near = Near::new(&view, &pose.translation.vector, 100.0);
+        let near = NearFeet::new(&view, &pose.translation.vector, 100.0);
         assert!(near.along(0, &[f32::NAN; 3]).all(|near| !near));
     }
 }

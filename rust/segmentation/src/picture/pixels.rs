@@ -7,7 +7,7 @@ pub struct Picture<'a> {
     pub width: usize,
     /// Disparities, px; NaN where nothing was seen.
     pub disparity_px: &'a [f32],
-    /// `g` of each pixel, m px.
+    /// Fall of each pixel's ray, the `g` of the view, m px.
     pub g: &'a [f32],
     /// Local noise, px.
     pub sigma_px: &'a [f32],

@@ -24,12 +24,12 @@ impl Linear {
         }
     }
 
-    /// `(per_col, per_row, origin)`.
+    /// The three coefficients: `(per_col, per_row, origin)`.
     pub(crate) fn coefficients(&self) -> Vector3<f64> {
         Vector3::new(self.per_col, self.per_row, self.origin).map(f64::from)
     }
 
-    /// The same along a row.
+    /// The function along one row.
     pub(crate) fn along(&self, row: usize) -> AlongRow {
         AlongRow {
             origin: self.origin,
@@ -68,11 +68,11 @@ impl AlongRow {
 /// `c / -ray_z`, and disparity is `f B` over depth. So `q = d / g = 1 / c` is the same all over the surface.
 #[derive(Debug, Clone, Copy)]
 pub struct View {
-    /// `f B` times the ray's x in the robot's axes.
+    /// Forward part of the ray: `f B` times its x in the robot's axes.
     pub x: Linear,
-    /// `f B` times the ray's y in the robot's axes.
+    /// Leftward part of the ray: `f B` times its y in the robot's axes.
     pub y: Linear,
-    /// `g`: `f B` times the ray's fall; positive below the horizon.
+    /// Fall of the ray, `g`: `f B` times its z, downwards; positive below the horizon.
     pub g: Linear,
 }
 

@@ -15,14 +15,14 @@ use nalgebra::Vector2;
 use crate::picture::labels::MAX_REGIONS;
 use crate::picture::pixels::Picture;
 use crate::picture::view::View;
-use crate::regions::fit::{Lie, Step};
+use crate::regions::fit::{LevelStep, Lie};
 use crate::regions::region::Region;
-use parts::{Part, Parts, Seen, Sums};
+use parts::{CutPicture, PartSums, RegionPart, RegionParts};
 use tuning::CutTuning;
 
 /// Which lines are tried: directions, the angle between them, and the step in which lines are moved.
 #[derive(Debug, Clone, Copy)]
-struct Search {
+struct LineSearch {
     directions: usize,
     turn_rad: f64,
     step_m: f64,
@@ -37,22 +37,22 @@ pub(crate) struct TiltPrior {
 
 /// A line across a region.
 #[derive(Debug, Clone, Copy)]
-struct Cut {
+struct RegionCut {
     /// Direction across the line, rad; what is less far in it is before the line.
     across_rad: f64,
     /// How what is before the line differs from the rest.
-    step: Step,
+    step: LevelStep,
 }
 
 /// Cuts regions. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Cuts {
     tuning: CutTuning,
-    parts: Parts,
+    parts: RegionParts,
     // Of the region that is being searched: its parts, how far each is in one direction, m, and their sums by places in it.
-    own: Vec<Part>,
+    own: Vec<RegionPart>,
     along_m: Vec<f64>,
-    places: Vec<Sums>,
+    places: Vec<PartSums>,
     nearer_px: Vec<f32>,
 }
 
@@ -66,9 +66,9 @@ impl Cuts {
     }
 
     /// The lines that are tried first.
-    fn coarse(&self) -> Search {
+    fn coarse(&self) -> LineSearch {
         let directions = self.tuning.coarse_directions;
-        Search {
+        LineSearch {
             directions,
             turn_rad: PI / directions as f64,
             step_m: self.tuning.coarse_step,
@@ -76,8 +76,8 @@ impl Cuts {
     }
 
     /// The lines that are tried around the best one.
-    const fn fine(&self) -> Search {
-        Search {
+    const fn fine(&self) -> LineSearch {
+        LineSearch {
             directions: self.tuning.fine_directions,
             turn_rad: self.tuning.fine_turn,
             step_m: self.tuning.fine_step,
@@ -93,7 +93,7 @@ impl Cuts {
         regions: &mut Vec<Region>,
         labels: &mut [u16],
     ) -> bool {
-        let seen = Seen { picture, view };
+        let seen = CutPicture { picture, view };
         let before = regions.len();
         let block = self.tuning.block * picture.finer;
         self.parts
@@ -123,9 +123,9 @@ impl Cuts {
         index: usize,
         region: &Region,
         tilt: TiltPrior,
-        search: Search,
+        search: LineSearch,
         around_rad: f64,
-    ) -> Option<Cut> {
+    ) -> Option<RegionCut> {
         let (certain, least_step_m) = (self.tuning.certain, self.tuning.least_step);
         if (region.support as f64) < 2.0 * self.tuning.least_side || region.q == 0.0 {
             return None;
@@ -149,7 +149,7 @@ impl Cuts {
     }
 
     /// The best line of one direction across the region whose parts are `own`.
-    fn best_across(&mut self, lie: &Lie, across_rad: f64, step_m: f64) -> Option<Cut> {
+    fn best_across(&mut self, lie: &Lie, across_rad: f64, step_m: f64) -> Option<RegionCut> {
         let (most_places, least_side) = (self.tuning.most_places, self.tuning.least_side);
         let across = Vector2::new(across_rad.cos(), across_rad.sin());
         self.along_m.clear();
@@ -167,13 +167,13 @@ impl Cuts {
                 place
             } as i32 as usize;
             if place >= self.places.len() {
-                self.places.resize(place + 1, Sums::default());
+                self.places.resize(place + 1, PartSums::default());
             }
             self.places[place].add(&part.sums);
         }
         let all: f64 = self.places.iter().map(|place| place.pixels).sum();
-        let mut before = Sums::default();
-        let mut best: Option<Step> = None;
+        let mut before = PartSums::default();
+        let mut best: Option<LevelStep> = None;
         for sums in self.places.iter().filter(|sums| sums.pixels > 0.0) {
             before.add(sums);
             if before.pixels < least_side || all - before.pixels < least_side {
@@ -186,16 +186,16 @@ impl Cuts {
                 (_, step) => step,
             };
         }
-        best.map(|step| Cut { across_rad, step })
+        best.map(|step| RegionCut { across_rad, step })
     }
 
     /// Makes two regions of one where both are large enough. A pixel goes with what lies around it: on average over a matching window
     /// it is closer to the one height or to the other.
     fn part(
         &mut self,
-        seen: Seen<'_>,
+        seen: CutPicture<'_>,
         index: usize,
-        step: &Step,
+        step: &LevelStep,
         regions: &mut Vec<Region>,
         labels: &mut [u16],
     ) {

@@ -177,7 +177,7 @@ impl RegionFit {
         certainty < significant || tilt.norm() < limit_rad
     }
 
-    /// `q` when the camera is tilted by `tilt`.
+    /// Disparity over `g` when the camera is tilted by `tilt`.
     pub(crate) fn q(&self, tilt: &Vector2<f64>) -> f64 {
         if self.gg() <= 0.0 {
             return self.q;
@@ -206,13 +206,13 @@ pub(crate) struct Lie {
 
 impl Lie {
     /// That a part of the region has another height than the rest. `sums`: of the part's g times each of its [`terms`].
-    pub(crate) fn step(&self, sums: [f64; 4]) -> Option<Step> {
+    pub(crate) fn step(&self, sums: [f64; 4]) -> Option<LevelStep> {
         let [gg, gx, gy, ge] = sums.map(|sum| sum / self.shared_by);
         let part = Vector3::new(gg, gx, gy);
         let drawn = self.covariance * part;
         let information = gg - part.dot(&drawn);
         let product = ge - part.dot(&self.best);
-        (information > 0.0).then(|| Step {
+        (information > 0.0).then(|| LevelStep {
             rise: product / information,
             certainty: product * product / information,
             rest: self.best - drawn * (product / information),
@@ -222,7 +222,7 @@ impl Lie {
 
 /// Two heights in one region.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Step {
+pub(crate) struct LevelStep {
     /// How much larger the part's `q` is than that of the rest, 1/m.
     pub(crate) rise: f64,
     /// By how much two heights explain the disparities better than one, in squared noise.

@@ -8,6 +8,7 @@ pub(crate) mod roughness;
 pub(crate) mod slivers;
 pub(crate) mod slopes;
 pub(crate) mod steps;
+pub(crate) mod surface_parts;
 pub(crate) mod surfaces;
 pub(crate) mod tilted;
 pub(crate) mod walls;

@@ -36,7 +36,7 @@ struct Deviation {
 pub(crate) struct Roughness {
     tuning: RoughnessTuning,
     regions: [Deviation; MAX_REGIONS + 1],
-    /// Of the ground, root mean square, px; none before any was seen.
+    /// Roughness of the ground, root mean square, px; none before any was seen.
     ground_px: Option<f32>,
     least_px: f32,
 }

@@ -22,7 +22,7 @@ settings! {
 
 /// What the columns of the image say of one region.
 #[derive(Debug, Clone, Copy, Default)]
-struct Columns {
+struct SliverColumns {
     runs: u32,
     between: u32,
     depth_m: f64,
@@ -30,7 +30,7 @@ struct Columns {
 
 /// A run of one region's pixels down a column.
 #[derive(Debug, Clone, Copy)]
-struct Run {
+struct ColumnRun {
     region: usize,
     first: usize,
     last: usize,
@@ -40,7 +40,7 @@ struct Run {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Slivers {
     tuning: SliverTuning,
-    columns: Vec<Columns>,
+    columns: Vec<SliverColumns>,
 }
 
 impl Slivers {
@@ -55,9 +55,9 @@ impl Slivers {
     /// Looks down one column every few for what lies between what.
     pub(crate) fn find(&mut self, labels: &[u16], width: usize, view: &View, regions: &[Region]) {
         self.columns.clear();
-        self.columns.resize(regions.len(), Columns::default());
+        self.columns.resize(regions.len(), SliverColumns::default());
         for col in (0..width).step_by(self.tuning.stride) {
-            let (mut above, mut here): (Option<Run>, Option<Run>) = (None, None);
+            let (mut above, mut here): (Option<ColumnRun>, Option<ColumnRun>) = (None, None);
             for (row, &label) in labels.iter().skip(col).step_by(width).enumerate() {
                 let Some(region) = usize::from(label).checked_sub(1) else {
                     continue;
@@ -68,7 +68,7 @@ impl Slivers {
                 match &mut here {
                     Some(run) if run.region == region => run.last = row,
                     _ => {
-                        let below = Run {
+                        let below = ColumnRun {
                             region,
                             first: row,
                             last: row,
@@ -99,8 +99,8 @@ impl Slivers {
         view: &View,
         regions: &[Region],
         col: usize,
-        run: Run,
-        beside: [Option<Run>; 2],
+        run: ColumnRun,
+        beside: [Option<ColumnRun>; 2],
     ) {
         let (q, gap) = (regions[run.region].q, self.tuning.gap);
         let columns = &mut self.columns[run.region];

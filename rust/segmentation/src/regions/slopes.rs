@@ -18,31 +18,31 @@ use crate::picture::pixels::Picture;
 use crate::picture::view::{Linear, View};
 use crate::regions::finder::Look;
 use crate::regions::region::Region;
-use growth::{Growth, Reach};
-use memory::Memory;
+use growth::{SlopeGrowth, StripReach};
+use memory::SlopeMemory;
 use seeds::seeds;
-use sums::Seen;
-use treads::Treads;
+use sums::SlopePicture;
+use treads::TreadFit;
 use tuning::SlopeTuning;
 
 /// Finds slopes. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Slopes {
+pub(crate) struct SlopeSearch {
     tuning: SlopeTuning,
-    growth: Growth,
-    treads: Treads,
+    growth: SlopeGrowth,
+    treads: TreadFit,
     // Where the slopes of this frame were grown from, and their planes.
     found: Vec<(usize, Linear)>,
     /// Pixels of what may be a slope or stairs.
     pub(crate) doubtful: Vec<bool>,
-    memory: Memory,
+    memory: SlopeMemory,
 }
 
-impl Slopes {
+impl SlopeSearch {
     /// No slope seen yet.
     pub(crate) fn new(tuning: SlopeTuning) -> Self {
         Self {
-            growth: Growth::new(tuning.growth.clone(), tuning.gradients.clone()),
+            growth: SlopeGrowth::new(tuning.growth.clone(), tuning.gradients.clone()),
             tuning,
             ..Self::default()
         }
@@ -58,7 +58,7 @@ impl Slopes {
         regions: &mut Vec<Region>,
         labels: &mut [u16],
     ) -> bool {
-        let seen = Seen { picture, view };
+        let seen = SlopePicture { picture, view };
         let before = regions.len();
         let mut learned = self.memory.faded(&self.tuning.memory);
         self.doubtful.clear();
@@ -124,7 +124,7 @@ impl Slopes {
     /// Grows a plane from a pixel on, and by how much it is better than treads; none where it is no slope.
     fn grow(
         &mut self,
-        seen: Seen<'_>,
+        seen: SlopePicture<'_>,
         start: (usize, Vector3<f64>),
         look: Look,
         regions: &[Region],
@@ -144,7 +144,7 @@ impl Slopes {
     /// Makes a region of the pixels that were grown, and of the rest of the strips that they were taken from.
     fn take(
         &self,
-        seen: Seen<'_>,
+        seen: SlopePicture<'_>,
         plane: &Vector3<f64>,
         regions: &mut Vec<Region>,
         labels: &mut [u16],
@@ -155,7 +155,7 @@ impl Slopes {
         for (at, label) in labels.iter_mut().enumerate() {
             if self.growth.members[at] {
                 *label = own;
-            } else if *label > 0 && self.growth.reaches[usize::from(*label)] == Reach::Strip {
+            } else if *label > 0 && self.growth.reaches[usize::from(*label)] == StripReach::Strip {
                 let fits = seen.miss(at, abq).abs() < accept;
                 *label = if fits { own } else { 0 };
             }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use settings::{ConfigError, POSITIVE, require, settings, within};
 
-use crate::Planes;
+use crate::planes::Planes;
 
 settings! {
     /// Which pixels lie so near to the edge of a step that they belong to neither surface.
@@ -35,12 +35,12 @@ impl StepTuning {
 
 /// Where a line of pixels last had a level surface, and how high, m.
 #[derive(Debug, Clone, Copy)]
-struct Last {
+struct LastLevel {
     at: usize,
     height_m: f32,
 }
 
-impl Last {
+impl LastLevel {
     /// Nothing yet: from no height is it a step to another.
     const NONE: Self = Self {
         at: 0,
@@ -64,7 +64,7 @@ impl Last {
 pub(crate) struct StepMarks {
     tuning: StepTuning,
     // The last level pixel of each column.
-    above: Vec<Last>,
+    above: Vec<LastLevel>,
 }
 
 impl StepMarks {
@@ -83,15 +83,15 @@ impl StepMarks {
         planes.at_step.fill(false);
         let height = planes.floor_height_m.len() / width.max(1);
         self.above.clear();
-        self.above.resize(width, Last::NONE);
+        self.above.resize(width, LastLevel::NONE);
         for (row, heights_m) in planes.floor_height_m.chunks_exact(width).enumerate() {
-            let mut left = Last::NONE;
+            let mut left = LastLevel::NONE;
             for ((col, &height_m), above) in heights_m.iter().enumerate().zip(&mut self.above) {
                 if height_m.is_nan() {
                     continue;
                 }
-                let from_left = Last { at: col, height_m };
-                let from_above = Last { at: row, height_m };
+                let from_left = LastLevel { at: col, height_m };
+                let from_above = LastLevel { at: row, height_m };
                 if left.height_m == height_m && above.height_m == height_m {
                     (left.at, above.at) = (col, row);
                     continue;

@@ -8,8 +8,8 @@ use nalgebra::{Isometry3, Matrix3, Point2, Point3, Unit, Vector3};
 use sensing::Intrinsics;
 use settings::{SHARE, settings};
 
-use crate::PlaneRegion;
 use crate::picture::view::Linear;
+use crate::planes::PlaneRegion;
 
 settings! {
     /// How planes in any direction are described.
@@ -76,7 +76,7 @@ pub(crate) fn over_rays(plane: &Linear, camera: &Intrinsics) -> Vector3<f64> {
 pub(crate) struct TiltedRecord<'a> {
     pose: Isometry3<f64>,
     in_camera: Vector3<f64>,
-    /// `f B`, m px.
+    /// Focal length times baseline, m px.
     scale: f64,
     support: usize,
     sum: Vector3<f64>,

@@ -6,8 +6,8 @@ use nalgebra::{Point2, Vector3};
 use sensing::Intrinsics;
 use settings::{POSITIVE, settings, within};
 
+use crate::planes::{PlaneRegion, Planes};
 use crate::regions::tilted::{PlaneSums, TiltedRecord};
-use crate::{PlaneRegion, Planes};
 
 settings! {
     /// How planes in any direction are found among the pixels that no level surface took.
@@ -31,7 +31,7 @@ settings! {
 const AT_INFINITY_PX: f64 = 1e-6;
 
 #[derive(Debug, Clone, Copy, Default)]
-struct Block {
+struct WallBlock {
     sums: PlaneSums,
     plane: Option<Vector3<f64>>,
     taken: bool,
@@ -43,7 +43,7 @@ pub(crate) struct Walls {
     tuning: WallTuning,
     // As in `TiltedTuning`.
     least_rise: f64,
-    blocks: Vec<Block>,
+    blocks: Vec<WallBlock>,
     members: Vec<usize>,
     corners: Vec<Point2<f64>>,
 }
@@ -70,7 +70,7 @@ impl Walls {
         planes: &mut Planes,
     ) {
         let block = self.tuning.block;
-        let image = Image {
+        let image = WallImage {
             disparity_px,
             camera,
             sigma_px,
@@ -93,7 +93,7 @@ impl Walls {
         }
     }
 
-    fn fit_blocks(&mut self, image: &Image<'_>, labels: &[u16]) {
+    fn fit_blocks(&mut self, image: &WallImage<'_>, labels: &[u16]) {
         let (min_block, smooth) = (self.tuning.min_block, self.tuning.smooth);
         self.blocks.clear();
         for block in 0..image.across * image.down {
@@ -111,7 +111,7 @@ impl Walls {
                 .then(|| sums.plane())
                 .flatten()
                 .filter(|plane| sums.roughness_px(plane) < smooth * image.block_sigma_px(block));
-            self.blocks.push(Block {
+            self.blocks.push(WallBlock {
                 sums,
                 plane,
                 taken: false,
@@ -120,7 +120,7 @@ impl Walls {
     }
 
     /// Joins blocks to the seed as long as they agree with the plane through all so far; `None` when too few did.
-    fn grow(&mut self, image: &Image<'_>, seed: usize) -> Option<Vector3<f64>> {
+    fn grow(&mut self, image: &WallImage<'_>, seed: usize) -> Option<Vector3<f64>> {
         let (agree, min_pixels) = (self.tuning.agree, self.tuning.min_pixels);
         self.members.clear();
         self.members.push(seed);
@@ -149,7 +149,7 @@ impl Walls {
 
     fn describe(
         &mut self,
-        image: &Image<'_>,
+        image: &WallImage<'_>,
         in_camera: &Vector3<f64>,
         label: u16,
         labels: &mut [u16],
@@ -174,7 +174,7 @@ impl Walls {
     }
 }
 
-struct Image<'a> {
+struct WallImage<'a> {
     disparity_px: &'a [f32],
     camera: &'a Intrinsics,
     sigma_px: &'a [f32],
@@ -184,7 +184,7 @@ struct Image<'a> {
     down: usize,
 }
 
-impl Image<'_> {
+impl WallImage<'_> {
     fn pixels(&self, block: usize) -> impl Iterator<Item = (usize, usize)> {
         let (left, top) = (
             block % self.across * self.block,

@@ -9,13 +9,13 @@ use crate::regions::tilted::PlaneSums;
 
 /// A pixel that was seen.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Pixel {
+pub(crate) struct SeenPixel {
     pub(crate) col: usize,
     pub(crate) row: usize,
     pub(crate) d: f32,
 }
 
-impl Pixel {
+impl SeenPixel {
     /// Whether a plane explains it to within `accept_px`.
     fn lies_on(&self, plane: &Linear, accept_px: f32) -> bool {
         let there = plane.at(self.col, self.row);
@@ -31,7 +31,7 @@ impl Pixel {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Remaining {
     width: usize,
-    pixels: Vec<Pixel>,
+    pixels: Vec<SeenPixel>,
 }
 
 impl Remaining {
@@ -42,7 +42,7 @@ impl Remaining {
         for (row, line) in picture.disparity_px.chunks_exact(picture.width).enumerate() {
             let seen = line.iter().enumerate().filter(|(_, d)| !d.is_nan());
             self.pixels
-                .extend(seen.map(|(col, &d)| Pixel { col, row, d }));
+                .extend(seen.map(|(col, &d)| SeenPixel { col, row, d }));
         }
     }
 
@@ -51,7 +51,7 @@ impl Remaining {
     }
 
     /// One of them; there must be any.
-    pub(crate) fn draw(&self, draws: &mut Draws) -> Pixel {
+    pub(crate) fn draw(&self, draws: &mut Draws) -> SeenPixel {
         self.pixels[draws.below(self.pixels.len())]
     }
 
@@ -92,7 +92,7 @@ impl Remaining {
 }
 
 /// The plane through three pixels; none where twice the area of their triangle in the picture is less than `least`, in pixels.
-pub(crate) fn through(pixels: [Pixel; 3], least: f64) -> Option<Linear> {
+pub(crate) fn through(pixels: [SeenPixel; 3], least: f64) -> Option<Linear> {
     let [a, b, c] = pixels.map(|p| Vector3::new(p.col as f64, p.row as f64, f64::from(p.d)));
     let normal = (b - a).cross(&(c - a));
     if normal.z.abs() < least {
@@ -113,7 +113,7 @@ mod tests {
         fn a_plane_through_three_pixels_explains_all_three(
             at in prop::array::uniform3((0..88usize, 0..72usize, 1.0..24.0f32)),
         ) {
-            let pixels = at.map(|(col, row, d)| Pixel { col, row, d });
+            let pixels = at.map(|(col, row, d)| SeenPixel { col, row, d });
             if let Some(plane) = through(pixels, 8.0) {
                 for pixel in pixels {
                     prop_assert!((plane.at(pixel.col, pixel.row) - pixel.d).abs() < 1e-2);

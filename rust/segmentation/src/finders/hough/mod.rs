@@ -13,7 +13,7 @@ use settings::{ConfigError, Table};
 
 use crate::finders::free_planes::draws::Draws;
 use crate::finders::free_planes::peeling::Peeling;
-use crate::finders::free_planes::remaining::{Pixel, Remaining, through};
+use crate::finders::free_planes::remaining::{Remaining, SeenPixel, through};
 use crate::ground_plane::config::GroundConfig;
 use crate::ground_plane::grounded::Grounded;
 use crate::picture::pixels::Picture;
@@ -99,16 +99,16 @@ impl Ballot {
 fn near(
     picture: Picture<'_>,
     labels: &[u16],
-    around: Pixel,
+    around: SeenPixel,
     window: usize,
     draws: &mut Draws,
-) -> Option<Pixel> {
+) -> Option<SeenPixel> {
     let col = (around.col + draws.below(window + 1)).checked_sub(window / 2)?;
     let row = (around.row + draws.below(window + 1)).checked_sub(window / 2)?;
     let at = row * picture.width + col;
     let d = *picture.disparity_px.get(at)?;
     let free = col < picture.width && !d.is_nan() && labels[at] == 0;
-    free.then_some(Pixel { col, row, d })
+    free.then_some(SeenPixel { col, row, d })
 }
 
 impl Finder for Votes {

@@ -69,7 +69,7 @@ struct Trials {
 }
 
 impl Trials {
-    /// Of the planes that are tried, the one that most of the remaining pixels lie on; of equals the first.
+    /// The plane that most of the remaining pixels lie on, among those that are tried; of equals the first.
     fn best(self, remaining: &Remaining, draws: &mut Draws) -> Option<Linear> {
         let mut best: Option<(usize, Linear)> = None;
         for _ in 0..self.samples {

@@ -7,7 +7,7 @@ const CHUNK: usize = 16;
 
 /// How often regions touch. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Contacts {
+pub(super) struct RegionContacts {
     regions: usize,
     // By pair of regions.
     pairs: Vec<(u32, f32)>,
@@ -15,7 +15,7 @@ pub(super) struct Contacts {
     differs: Vec<u16>,
 }
 
-impl Contacts {
+impl RegionContacts {
     /// How often the pixels of two regions touch, the one with the lower number first, and the sum of `sigma / g` there.
     pub(super) fn between(&self, i: usize, j: usize) -> (u32, f32) {
         self.pairs[i * self.regions + j]

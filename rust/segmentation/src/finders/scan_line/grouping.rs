@@ -1,8 +1,8 @@
 //! Region growing: segments of neighbouring strips that show one surface, then pixels, then regions of equal height.
 
-use super::contacts::{Contacts, places_of_some};
+use super::contacts::{RegionContacts, places_of_some};
 use super::rules::GrowthRules;
-use super::strips::Segment;
+use super::strips::LevelSegment;
 use crate::picture::labels::{MAX_REGIONS, count_labels};
 use crate::picture::pixels::Picture;
 use crate::regions::region::Region;
@@ -17,7 +17,7 @@ pub(super) struct Grouping {
     differs: Vec<u16>,
     // By the first segment of a group: its pixels, and the sum of its weights.
     groups: Vec<(u32, f32)>,
-    contacts: Contacts,
+    contacts: RegionContacts,
 }
 
 fn root(parent: &[usize], mut at: usize) -> usize {
@@ -33,7 +33,7 @@ impl Grouping {
     pub(super) fn group(
         &mut self,
         picture: Picture<'_>,
-        segments: &[Segment],
+        segments: &[LevelSegment],
         rules: GrowthRules,
         regions: &mut Vec<Region>,
         labels: &mut [u16],
@@ -79,7 +79,12 @@ impl Grouping {
     }
 
     /// Numbers the groups that are large enough, in the order of their first segments.
-    fn collect(&mut self, segments: &[Segment], rules: GrowthRules, regions: &mut Vec<Region>) {
+    fn collect(
+        &mut self,
+        segments: &[LevelSegment],
+        rules: GrowthRules,
+        regions: &mut Vec<Region>,
+    ) {
         regions.clear();
         self.groups.clear();
         self.groups.resize(segments.len(), (0, 0.0));
@@ -248,7 +253,7 @@ impl Grouping {
 }
 
 /// Whether two segments of neighbouring strips show one surface.
-fn alike(picture: Picture<'_>, rules: GrowthRules, a: &Segment, b: &Segment) -> bool {
+fn alike(picture: Picture<'_>, rules: GrowthRules, a: &LevelSegment, b: &LevelSegment) -> bool {
     let (first, end) = (a.first.max(b.first), a.end.min(b.end));
     let shorter = (a.end - a.first).min(b.end - b.first) as f64;
     if end < first || ((end - first) as f64) < rules.overlap * shorter {

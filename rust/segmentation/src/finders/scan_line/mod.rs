@@ -24,7 +24,7 @@ use crate::regions::region::Region;
 pub use config::ScanLineConfig;
 use grouping::Grouping;
 use rules::{GrowthRules, StripRules};
-use strips::{Segment, Strips};
+use strips::{LevelSegment, Strips};
 
 /// The scan-line segmenter.
 pub type ScanLine = Grounded<ScanLines>;
@@ -46,7 +46,7 @@ impl ScanLine {
 pub struct ScanLines {
     strip_rules: StripRules,
     growth_rules: GrowthRules,
-    segments: Vec<Segment>,
+    segments: Vec<LevelSegment>,
     strips: Strips,
     grouping: Grouping,
 }

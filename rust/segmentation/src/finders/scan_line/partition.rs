@@ -107,7 +107,7 @@ impl Partition {
         cheapest
     }
 
-    /// `before` and the squared residuals from `start` to `end`.
+    /// Cost `before` the rows, and their squared residuals from `start` to `end`.
     fn piece(&self, before: f64, start: usize, end: usize) -> f64 {
         let (a, b) = (self.sums[start], self.sums[end]);
         let weighted = b[1] - a[1];

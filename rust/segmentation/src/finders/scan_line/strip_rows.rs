@@ -8,7 +8,7 @@ use crate::picture::pixels::Picture;
 /// The rows of one strip. The loops run over the rows, so that pixel `k` of every row is taken at once: *lanes*. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct StripRows {
-    /// `q` of each row; of no use where the weight is 0.
+    /// Disparity over `g` of each row; of no use where the weight is 0.
     pub(super) q: Vec<f32>,
     /// Weight of each row, `(g / sigma)^2`; 0 where too few of its pixels agree.
     pub(super) weight: Vec<f32>,

@@ -14,7 +14,7 @@ const DROPPED: usize = usize::MAX - 1;
 
 /// A piece of a strip that lies on one horizontal surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Segment {
+pub(super) struct LevelSegment {
     /// Which strip.
     pub(super) strip: usize,
     /// First row.
@@ -47,7 +47,7 @@ impl Strips {
         &mut self,
         picture: Picture<'_>,
         rules: StripRules,
-        segments: &mut Vec<Segment>,
+        segments: &mut Vec<LevelSegment>,
     ) {
         let strips = picture.width.div_ceil(rules.strip);
         let height = picture.disparity_px.len() / picture.width;
@@ -81,7 +81,7 @@ impl Strips {
     }
 
     /// Cuts the rows collected; empties the collection.
-    fn cut_run(&mut self, strip: usize, rules: StripRules, segments: &mut Vec<Segment>) {
+    fn cut_run(&mut self, strip: usize, rules: StripRules, segments: &mut Vec<LevelSegment>) {
         if self.rows.len() >= rules.min_segment {
             let price = f64::from(rules.price);
             self.partition.solve(price, rules.min_segment);
@@ -134,14 +134,14 @@ impl Strips {
         }
     }
 
-    fn append(&self, strip: usize, segments: &mut Vec<Segment>) {
+    fn append(&self, strip: usize, segments: &mut Vec<LevelSegment>) {
         for (pair, choice) in self.partition.cuts.windows(2).zip(&self.from[1..]) {
             let (start, end) = (pair[0], pair[1]);
             if *choice == DROPPED {
                 continue;
             }
             let (q, weight) = self.partition.mean(start, end);
-            segments.push(Segment {
+            segments.push(LevelSegment {
                 strip,
                 first: self.rows[start],
                 end: self.rows[end - 1] + 1,
@@ -157,7 +157,7 @@ mod tests {
     use super::super::config::ScanLineConfig;
     use super::*;
 
-    fn cut(disparity_px: &[f32], g: &[f32], width: usize) -> Vec<Segment> {
+    fn cut(disparity_px: &[f32], g: &[f32], width: usize) -> Vec<LevelSegment> {
         let sigma_px = vec![0.125; disparity_px.len()];
         let picture = Picture {
             width,

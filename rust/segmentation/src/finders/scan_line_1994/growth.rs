@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::lines::Segment;
+use super::lines::StraightSegment;
 use crate::finders::free_planes::planes::FreePlanes;
 use crate::picture::pixels::Picture;
 use crate::picture::view::Linear;
@@ -10,7 +10,7 @@ use crate::regions::tilted::PlaneSums;
 
 /// What a region must be.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct GrowthRules {
+pub(super) struct PlaneGrowthRules {
     /// Columns of a scan line.
     pub(super) strip: usize,
     /// Largest distance of a segment's ends, and of a pixel, from the plane, px.
@@ -23,7 +23,7 @@ pub(super) struct GrowthRules {
 
 /// Grows regions. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Growth {
+pub(super) struct PlaneGrowth {
     /// Label of each segment; 0: none.
     label_of: Vec<u16>,
     /// Where each scan line's segments start.
@@ -34,13 +34,13 @@ pub(super) struct Growth {
     queue: Vec<usize>,
 }
 
-impl Growth {
+impl PlaneGrowth {
     /// Finds the planes and the pixels of each.
     pub(super) fn grow(
         &mut self,
         picture: Picture<'_>,
-        segments: &[Segment],
-        rules: GrowthRules,
+        segments: &[StraightSegment],
+        rules: PlaneGrowthRules,
         planes: &mut FreePlanes,
         labels: &mut [u16],
     ) {
@@ -74,7 +74,7 @@ impl Growth {
         planes.spread(picture, rules.accept_px, labels, &mut self.queue);
     }
 
-    fn index(&mut self, segments: &[Segment], strips: usize) {
+    fn index(&mut self, segments: &[StraightSegment], strips: usize) {
         self.starts.clear();
         let mut at = 0;
         for strip in 0..=strips {
@@ -92,7 +92,7 @@ impl Growth {
     }
 
     /// All triples of segments on three scan lines side by side that overlap, the longest first.
-    fn find_seeds(&mut self, segments: &[Segment], overlap: f64) {
+    fn find_seeds(&mut self, segments: &[StraightSegment], overlap: f64) {
         let mut seeds = std::mem::take(&mut self.seeds);
         seeds.clear();
         for (at, middle) in segments.iter().enumerate() {
@@ -113,9 +113,9 @@ impl Growth {
     /// Takes in segments beside the members as long as their ends lie on the plane through all of them; fills `members`.
     fn grow_one(
         &mut self,
-        segments: &[Segment],
+        segments: &[StraightSegment],
         seed: [usize; 3],
-        rules: GrowthRules,
+        rules: PlaneGrowthRules,
     ) -> Option<Vector3<f64>> {
         let mut sums = PlaneSums::default();
         for segment in seed {
@@ -154,7 +154,7 @@ impl Growth {
     }
 }
 
-fn lies_on(segment: &Segment, plane: &Vector3<f64>, accept_px: f64) -> bool {
+fn lies_on(segment: &StraightSegment, plane: &Vector3<f64>, accept_px: f64) -> bool {
     let rows = [segment.first, segment.end - 1];
     rows.iter().zip(segment.ends_px).all(|(&row, d)| {
         let there = plane.dot(&Vector3::new(segment.col, row as f64, 1.0));
@@ -165,9 +165,9 @@ fn lies_on(segment: &Segment, plane: &Vector3<f64>, accept_px: f64) -> bool {
 /// Labels the pixels of a segment that lie on the plane.
 fn paint(
     picture: Picture<'_>,
-    segment: &Segment,
+    segment: &StraightSegment,
     plane: &Linear,
-    rules: GrowthRules,
+    rules: PlaneGrowthRules,
     label: u16,
     labels: &mut [u16],
 ) {
@@ -216,7 +216,7 @@ mod tests {
             max_gap: 3,
             seen: 0.5,
         };
-        let rules = GrowthRules {
+        let rules = PlaneGrowthRules {
             strip: 4,
             accept_px: 0.3,
             min_region: 80,
@@ -225,7 +225,7 @@ mod tests {
         let mut segments = Vec::new();
         Lines::default().cut(picture, line_rules, &mut segments);
         let (mut planes, mut labels) = (FreePlanes::default(), vec![0; width * height]);
-        Growth::default().grow(picture, &segments, rules, &mut planes, &mut labels);
+        PlaneGrowth::default().grow(picture, &segments, rules, &mut planes, &mut labels);
         (labels, planes)
     }
 

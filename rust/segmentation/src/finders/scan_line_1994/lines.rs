@@ -20,14 +20,14 @@ pub(super) struct LineRules {
 
 /// A straight piece of a scan line.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Segment {
+pub(super) struct StraightSegment {
     /// Which scan line.
     pub(super) strip: usize,
     /// First row.
     pub(super) first: usize,
     /// One behind the last row.
     pub(super) end: usize,
-    /// Its middle column.
+    /// Middle column of the scan line.
     pub(super) col: f64,
     /// Disparities of the straight line at its two ends, px.
     pub(super) ends_px: [f64; 2],
@@ -35,7 +35,7 @@ pub(super) struct Segment {
     pub(super) sums: PlaneSums,
 }
 
-impl Segment {
+impl StraightSegment {
     /// Rows.
     pub(super) const fn length(&self) -> usize {
         self.end - self.first
@@ -64,7 +64,7 @@ impl Lines {
         &mut self,
         picture: Picture<'_>,
         rules: LineRules,
-        segments: &mut Vec<Segment>,
+        segments: &mut Vec<StraightSegment>,
     ) {
         segments.clear();
         let height = picture.disparity_px.len() / picture.width;
@@ -92,7 +92,7 @@ impl Lines {
         width: usize,
         rules: LineRules,
         strip: usize,
-        segments: &mut Vec<Segment>,
+        segments: &mut Vec<StraightSegment>,
     ) {
         self.pieces.clear();
         self.pieces.push((0, self.run.len()));
@@ -141,7 +141,7 @@ fn segment(
     width: usize,
     rules: LineRules,
     strip: usize,
-) -> Option<Segment> {
+) -> Option<StraightSegment> {
     let left = strip * rules.strip;
     let right = (left + rules.strip).min(width) - 1;
     let col = f64::midpoint(left as f64, right as f64);
@@ -159,7 +159,7 @@ fn segment(
     }
     let slope = (n * xy - x * y) / (n * xx - x * x);
     let at = |row: usize| y / n + slope * (row as f64 - x / n);
-    slope.is_finite().then(|| Segment {
+    slope.is_finite().then(|| StraightSegment {
         strip,
         first,
         end,

@@ -20,8 +20,8 @@ use crate::picture::view::View;
 use crate::regions::finder::{Finder, Look};
 use crate::regions::region::Region;
 pub use config::ScanLine1994Config;
-use growth::{Growth, GrowthRules};
-use lines::{LineRules, Lines, Segment};
+use growth::{PlaneGrowth, PlaneGrowthRules};
+use lines::{LineRules, Lines, StraightSegment};
 
 /// The scan-line segmenter of 1994.
 pub type ScanLine1994 = Grounded<StraightLines>;
@@ -42,7 +42,7 @@ impl ScanLine1994 {
                 max_gap: config.tuning.max_gap,
                 seen: config.tuning.seen,
             },
-            growth_rules: GrowthRules {
+            growth_rules: PlaneGrowthRules {
                 strip: config.strip,
                 accept_px: config.accept as f32,
                 min_region: ground.min_region,
@@ -50,7 +50,7 @@ impl ScanLine1994 {
             },
             segments: Vec::new(),
             lines: Lines::default(),
-            growth: Growth::default(),
+            growth: PlaneGrowth::default(),
             planes: FreePlanes::new(config.tuning.free_planes.clone()),
         };
         Self::around(finder, ground, camera)
@@ -61,10 +61,10 @@ impl ScanLine1994 {
 #[derive(Debug, Clone)]
 pub struct StraightLines {
     line_rules: LineRules,
-    growth_rules: GrowthRules,
-    segments: Vec<Segment>,
+    growth_rules: PlaneGrowthRules,
+    segments: Vec<StraightSegment>,
     lines: Lines,
-    growth: Growth,
+    growth: PlaneGrowth,
     planes: FreePlanes,
 }
 

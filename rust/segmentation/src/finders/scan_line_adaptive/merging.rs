@@ -3,7 +3,7 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-use super::patch::{NoiseRange, Patch};
+use super::patch::{NoiseRange, PlanePatch};
 use super::pieces::Piece;
 
 /// When two patches are one plane.
@@ -31,28 +31,28 @@ enum Question {
 
 /// Two patches side by side and what it costs to call them one.
 #[derive(Debug, Clone, Copy)]
-struct Pair {
+struct PatchPair {
     cost: f64,
     patches: [usize; 2],
     /// How often each had been joined when the cost was found.
     ages: [u32; 2],
 }
 
-impl PartialEq for Pair {
+impl PartialEq for PatchPair {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl Eq for Pair {}
+impl Eq for PatchPair {}
 
-impl PartialOrd for Pair {
+impl PartialOrd for PatchPair {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Pair {
+impl Ord for PatchPair {
     fn cmp(&self, other: &Self) -> Ordering {
         let by_cost = self.cost.total_cmp(&other.cost);
         by_cost.then(self.patches.cmp(&other.patches))
@@ -62,13 +62,13 @@ impl Ord for Pair {
 /// Joins patches. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Merging {
-    patches: Vec<Patch>,
+    patches: Vec<PlanePatch>,
     costs: Vec<f64>,
     ages: Vec<u32>,
     /// Which patch each was joined to; itself when to none.
     joined_to: Vec<usize>,
     beside: Vec<Vec<usize>>,
-    queue: BinaryHeap<Reverse<Pair>>,
+    queue: BinaryHeap<Reverse<PatchPair>>,
 }
 
 impl Merging {
@@ -105,7 +105,7 @@ impl Merging {
     }
 
     /// All pixels of a patch that is joined to no other.
-    pub(super) fn patch(&self, root: usize) -> &Patch {
+    pub(super) fn patch(&self, root: usize) -> &PlanePatch {
         &self.patches[root]
     }
 
@@ -161,7 +161,7 @@ impl Merging {
             Question::OnePlane => return,
         };
         if cost < rules.price * rules.alike + rules.uneven * smaller {
-            self.queue.push(Reverse(Pair {
+            self.queue.push(Reverse(PatchPair {
                 cost,
                 patches: [a, b],
                 ages: [self.ages[a], self.ages[b]],

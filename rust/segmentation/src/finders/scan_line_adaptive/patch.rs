@@ -14,7 +14,7 @@ pub(super) struct NoiseRange {
 
 /// Sums over pixels: of one, of column, row and disparity, and of the products of any two of these.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Patch {
+pub(super) struct PlanePatch {
     n: f64,
     x: f64,
     y: f64,
@@ -27,7 +27,7 @@ pub(super) struct Patch {
     dd: f64,
 }
 
-impl Patch {
+impl PlanePatch {
     /// Adds a pixel.
     pub(super) fn add(&mut self, col: usize, row: usize, d: f32) {
         let (x, y, d) = (col as f64, row as f64, f64::from(d));
@@ -137,8 +137,8 @@ mod tests {
         most_px: 10.0,
     };
 
-    fn patch(plane: [f64; 3], sigma_px: f64, seed: u64) -> Patch {
-        let (mut noise, mut patch) = (Noise::new(seed), Patch::default());
+    fn patch(plane: [f64; 3], sigma_px: f64, seed: u64) -> PlanePatch {
+        let (mut noise, mut patch) = (Noise::new(seed), PlanePatch::default());
         for (col, row) in (0..12).flat_map(|col| (3..40).map(move |row| (col, row))) {
             let d = plane[0] * col as f64 + plane[1] * row as f64 + plane[2];
             // Even within as much as gives this sigma.

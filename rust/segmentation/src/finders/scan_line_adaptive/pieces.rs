@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::patch::{NoiseRange, Patch};
+use super::patch::{NoiseRange, PlanePatch};
 use crate::picture::pixels::Picture;
 
 /// How scan lines are cut.
@@ -28,17 +28,17 @@ pub(super) struct CutRules {
 pub(super) struct Piece {
     /// Which scan line.
     pub(super) strip: usize,
-    /// Its rows.
+    /// Rows of the piece.
     pub(super) rows: Range<usize>,
-    /// Its pixels.
-    pub(super) patch: Patch,
+    /// Pixels of the piece.
+    pub(super) patch: PlanePatch,
 }
 
 /// Cuts scan lines. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Cutter {
     /// Sums over all rows before each one.
-    before: Vec<Patch>,
+    before: Vec<PlanePatch>,
     /// Cost of the best cut of all rows before each one, and where its last piece starts.
     best: Vec<(f64, usize)>,
 }
@@ -71,7 +71,7 @@ impl Cutter {
 
     fn sum_up(&mut self, picture: Picture<'_>, rules: CutRules, strip: usize) {
         let cols = strip * rules.strip..((strip + 1) * rules.strip).min(picture.width);
-        let mut sums = Patch::default();
+        let mut sums = PlanePatch::default();
         self.before.clear();
         self.before.push(sums);
         for (row, line) in picture.disparity_px.chunks_exact(picture.width).enumerate() {

@@ -12,13 +12,13 @@ use crate::regions::region::Region;
 
 /// A picture and the view that it was taken in.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Seen<'a> {
+pub(super) struct CutPicture<'a> {
     pub(super) picture: Picture<'a>,
     pub(super) view: &'a View,
 }
 
-impl Seen<'_> {
-    /// `g`, x and y of a pixel.
+impl CutPicture<'_> {
+    /// What the view has of a pixel: `g`, x and y.
     pub(super) fn gxy(&self, col: usize, row: usize) -> [f32; 3] {
         let g = self.picture.g[row * self.picture.width + col];
         [g, self.view.x.at(col, row), self.view.y.at(col, row)]
@@ -32,22 +32,22 @@ fn place_m(q: f32, [g, x, y]: [f32; 3]) -> Vector2<f64> {
 
 /// Pixels of one region that lie together.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Part {
+pub(super) struct RegionPart {
     pub(super) region: usize,
     /// Where they are on the region's surface, from below the camera, m.
     pub(super) place_m: Vector2<f64>,
-    pub(super) sums: Sums,
+    pub(super) sums: PartSums,
 }
 
 /// Sums over pixels.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Sums {
+pub(super) struct PartSums {
     pub(super) pixels: f64,
-    /// g times each of the terms of a fit.
+    /// Sums of `g` times each of the terms of a fit.
     pub(super) by_g: [f64; 4],
 }
 
-impl Sums {
+impl PartSums {
     pub(super) fn add(&mut self, other: &Self) {
         self.pixels += other.pixels;
         for (sum, more) in self.by_g.iter_mut().zip(other.by_g) {
@@ -58,14 +58,14 @@ impl Sums {
 
 /// The parts of all regions. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Parts {
-    all: Vec<Part>,
+pub(super) struct RegionParts {
+    all: Vec<RegionPart>,
     totals: Vec<RegionFit>,
 }
 
-impl Parts {
+impl RegionParts {
     /// The parts of one region.
-    pub(super) fn of(&self, region: usize) -> impl Iterator<Item = &Part> {
+    pub(super) fn of(&self, region: usize) -> impl Iterator<Item = &RegionPart> {
         self.all.iter().filter(move |part| part.region == region)
     }
 
@@ -77,7 +77,7 @@ impl Parts {
     /// Sums up the regions' pixels, one every few, by blocks of so many columns and rows.
     pub(super) fn collect(
         &mut self,
-        seen: Seen<'_>,
+        seen: CutPicture<'_>,
         regions: &[Region],
         labels: &[u16],
         block: usize,
@@ -104,7 +104,7 @@ impl Parts {
     /// Adds what in a block belongs to the region of its first pixel.
     fn add_block(
         &mut self,
-        seen: Seen<'_>,
+        seen: CutPicture<'_>,
         regions: &[Region],
         labels: &[u16],
         [cols, rows]: [Range<usize>; 2],
@@ -112,7 +112,7 @@ impl Parts {
     ) {
         let (stride, outlier) = (tuning.stride, tuning.outlier);
         let picture = seen.picture;
-        let mut part: Option<Part> = None;
+        let mut part: Option<RegionPart> = None;
         for row in rows {
             let (x, y) = (seen.view.x.along(row), seen.view.y.along(row));
             let line = row * picture.width + cols.start..row * picture.width + cols.end;
@@ -135,14 +135,14 @@ impl Parts {
                 }
                 let col = to_f32(cols.start + i);
                 let gxy = [g[i], x.at(col), y.at(col)];
-                let part = part.get_or_insert_with(|| Part {
+                let part = part.get_or_insert_with(|| RegionPart {
                     region,
                     place_m: place_m(q, gxy),
-                    sums: Sums::default(),
+                    sums: PartSums::default(),
                 });
                 let values = terms(q, gxy, precision, miss);
                 self.totals[region].add(values);
-                part.sums.add(&Sums {
+                part.sums.add(&PartSums {
                     pixels: stride as f64,
                     by_g: values.map(|value| values[0] * value),
                 });

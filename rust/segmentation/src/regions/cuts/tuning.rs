@@ -7,8 +7,8 @@ settings! {
     pub struct CutTuning("navigation.ground.tuning.cuts") {
         /// Columns and rows of the blocks of pixels that lines are tried with first; finer images have as many times more.
         block: usize = 4, "1", within(1.0, 100.0);
-        /// Of each row, and of each column, every so many pixels one takes part, so that they lie on the image like the fields of
-        /// one colour on a chessboard.
+        /// One of so many pixels takes part, along each row and along each column: they lie on the image like the fields of one
+        /// colour on a chessboard.
         stride: usize = 2, "1", within(1.0, 100.0);
         /// Directions that are tried at first for a line; they share half a turn evenly.
         coarse_directions: usize = 12, "1", within(1.0, 360.0);

@@ -2,14 +2,14 @@
 
 use nalgebra::Vector3;
 
-use super::sums::{Seen, SlopeSums};
+use super::sums::{SlopePicture, SlopeSums};
 use super::tuning::{SlopeGradients, SlopeGrowthTuning};
 use crate::picture::labels::MAX_REGIONS;
 use crate::regions::region::Region;
 
 /// What a level region is to a slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Reach {
+pub(super) enum StripReach {
     /// A part of it that was taken for level.
     Strip,
     /// What it begins or ends at: the slope is where its plane is nearer to the camera than the level surface, or further away.
@@ -18,21 +18,21 @@ pub(super) enum Reach {
 
 /// Grows planes. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Growth {
+pub(super) struct SlopeGrowth {
     tuning: SlopeGrowthTuning,
     gradients: SlopeGradients,
     /// What was grown.
     pub(super) pixels: Vec<usize>,
     /// Whether a pixel is among them.
     pub(super) members: Vec<bool>,
-    /// By label, how far a region reaches; no region is as good as a strip.
-    pub(super) reaches: Vec<Reach>,
+    /// How far a region reaches, by its label; a pixel without a region is as good as one of a strip.
+    pub(super) reaches: Vec<StripReach>,
     column_sums: Vec<f32>,
     better: Vec<f32>,
     own_off: Vec<f32>,
 }
 
-impl Growth {
+impl SlopeGrowth {
     /// Buffers that are still empty.
     pub(super) fn new(tuning: SlopeGrowthTuning, gradients: SlopeGradients) -> Self {
         Self {
@@ -45,7 +45,7 @@ impl Growth {
     /// Grows a plane from a pixel on; none where it is no slope. `is_found`: whether that is the plane of a slope, not of a window.
     pub(super) fn grow(
         &mut self,
-        seen: Seen<'_>,
+        seen: SlopePicture<'_>,
         (start, mut plane): (usize, Vector3<f64>),
         is_found: bool,
         regions: &[Region],
@@ -62,7 +62,7 @@ impl Growth {
                 off(seen.miss(at, [0.0, 0.0, q]), most_off)
             }));
         self.reaches.clear();
-        self.reaches.resize(regions.len() + 1, Reach::Strip);
+        self.reaches.resize(regions.len() + 1, StripReach::Strip);
         if is_found {
             self.find_reaches(seen, &plane, regions, labels);
         }
@@ -78,7 +78,7 @@ impl Growth {
     }
 
     /// The plane through what was grown, away from its border: there a window saw something else, too.
-    fn fit_inside(&self, seen: Seen<'_>) -> Option<Vector3<f64>> {
+    fn fit_inside(&self, seen: SlopePicture<'_>) -> Option<Vector3<f64>> {
         let (width, border) = (seen.picture.width, self.tuning.border);
         let mut sums = SlopeSums::default();
         for &at in &self.pixels {
@@ -101,7 +101,13 @@ impl Growth {
     }
 
     /// Collects what hangs together with a pixel and lies on the plane rather than on the level surfaces that were found.
-    fn flood(&mut self, seen: Seen<'_>, start: usize, plane: &Vector3<f64>, labels: &[u16]) {
+    fn flood(
+        &mut self,
+        seen: SlopePicture<'_>,
+        start: usize,
+        plane: &Vector3<f64>,
+        labels: &[u16],
+    ) {
         let width = seen.picture.width;
         let count = seen.picture.disparity_px.len();
         let abq = [plane.x, plane.y, plane.z].map(|value| value as f32);
@@ -139,11 +145,11 @@ impl Growth {
         }
     }
 
-    fn visit(&mut self, seen: Seen<'_>, at: usize, abq: [f32; 3], labels: &[u16]) {
+    fn visit(&mut self, seen: SlopePicture<'_>, at: usize, abq: [f32; 3], labels: &[u16]) {
         let miss = seen.miss(at, abq).abs();
         let fits = match self.reaches[usize::from(labels[at])] {
-            Reach::Strip => self.better[at] > -self.tuning.worse,
-            Reach::Before { q, nearer } => {
+            StripReach::Strip => self.better[at] > -self.tuning.worse,
+            StripReach::Before { q, nearer } => {
                 self.better[at] > 0.0 && nearer == (seen.apart(at, abq, q) > 0.0)
             }
         };
@@ -157,7 +163,7 @@ impl Growth {
     /// only behind the line where the two meet.
     fn find_reaches(
         &mut self,
-        seen: Seen<'_>,
+        seen: SlopePicture<'_>,
         plane: &Vector3<f64>,
         regions: &[Region],
         labels: &[u16],
@@ -185,9 +191,9 @@ impl Growth {
             let mean = (further.0 + nearer.0) / f32::max(further.1 + nearer.1, 1.0);
             let of = |side: (f32, f32)| (side.0 - doubt) / (side.1 + 1.0);
             self.reaches[index + 1] = if mean > -worse || region.q == 0.0 {
-                Reach::Strip
+                StripReach::Strip
             } else {
-                Reach::Before {
+                StripReach::Before {
                     q: region.q,
                     nearer: of(nearer) > of(further),
                 }

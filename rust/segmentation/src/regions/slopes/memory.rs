@@ -6,14 +6,14 @@ use super::tuning::SlopeMemoryTuning;
 
 /// The slope that the last frames told of.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Memory {
-    /// Its gradient.
+pub(super) struct SlopeMemory {
+    /// Gradient of the slope.
     pub(super) tilt: Vector2<f64>,
-    /// By how much it was better than treads, in squared noise.
+    /// What the frames told of it: by how much it was better than treads, in squared noise.
     pub(super) sure: f64,
 }
 
-impl Memory {
+impl SlopeMemory {
     /// Whether there is a slope for sure.
     pub(super) fn is_sure(&self, tuning: &SlopeMemoryTuning) -> bool {
         self.sure > tuning.sure
@@ -57,7 +57,7 @@ mod tests {
     /// Whether a plane of this gradient is sure to be a slope after six frames that explain it so much better than treads.
     fn is_slope(gradient: f64, better: f64) -> bool {
         let plane = Vector3::new(gradient, 0.0, 1.0);
-        let (mut memory, tuning) = (Memory::default(), SlopeMemoryTuning::default());
+        let (mut memory, tuning) = (SlopeMemory::default(), SlopeMemoryTuning::default());
         for _ in 0..6 {
             memory = memory.told(&plane, better, &tuning);
         }
@@ -76,7 +76,7 @@ mod tests {
     fn a_slope_is_forgotten_that_is_not_seen() {
         let plane = Vector3::new(0.12, 0.0, 1.0);
         let tuning = SlopeMemoryTuning::default();
-        let mut memory = Memory::default().told(&plane, 100.0, &tuning);
+        let mut memory = SlopeMemory::default().told(&plane, 100.0, &tuning);
         for _ in 0..59 {
             memory = memory.faded(&tuning);
         }

@@ -2,15 +2,15 @@
 
 use nalgebra::Vector3;
 
-use super::memory::Memory;
-use super::sums::{Seen, SlopeSums};
+use super::memory::SlopeMemory;
+use super::sums::{SlopePicture, SlopeSums};
 use super::tuning::SlopeTuning;
 
 /// Pixels where slopes may be, and the planes there: windows that a tilted plane explains better than a level surface does, with the
 /// tilt that is remembered where there is one.
 pub(super) fn seeds(
-    seen: Seen<'_>,
-    memory: &Memory,
+    seen: SlopePicture<'_>,
+    memory: &SlopeMemory,
     tuning: &SlopeTuning,
 ) -> Vec<(usize, Vector3<f64>)> {
     let (rules, stride) = (&tuning.seeds, tuning.seeds.stride);

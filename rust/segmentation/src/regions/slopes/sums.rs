@@ -7,13 +7,13 @@ use crate::picture::view::View;
 
 /// A picture and how it is seen.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Seen<'a> {
+pub(crate) struct SlopePicture<'a> {
     pub(crate) picture: Picture<'a>,
     pub(crate) view: &'a View,
 }
 
-impl Seen<'_> {
-    /// `X`, `Y`, `g` of a pixel.
+impl SlopePicture<'_> {
+    /// What the view has of a pixel: `X`, `Y`, `g`.
     pub(super) fn xyg(&self, at: usize) -> [f32; 3] {
         let (col, row) = (at % self.picture.width, at / self.picture.width);
         let (x, y) = (self.view.x.at(col, row), self.view.y.at(col, row));
@@ -34,7 +34,7 @@ impl Seen<'_> {
         (a * x + b * y + (q - level_q) * g) / self.picture.sigma_px[at]
     }
 
-    /// `X`, `Y`, `g` and disparity of a pixel, in noises; none where nothing was seen.
+    /// What the view has of a pixel and its disparity, in noises: `X`, `Y`, `g`, `d`; none where nothing was seen.
     pub(super) fn terms(&self, at: usize) -> Option<[f64; 4]> {
         let d = self.picture.disparity_px[at];
         let [x, y, g] = self.xyg(at);
@@ -52,7 +52,7 @@ pub(super) struct SlopeSums {
 }
 
 impl SlopeSums {
-    /// Adds a pixel by its [`Seen::terms`].
+    /// Adds a pixel by its [`SlopePicture::terms`].
     pub(super) fn add(&mut self, terms: Option<[f64; 4]>) {
         let Some([x, y, g, d]) = terms else { return };
         let place = Vector3::new(x, y, g);

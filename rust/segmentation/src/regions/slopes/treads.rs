@@ -2,12 +2,12 @@
 
 use nalgebra::{Rotation2, Vector2, Vector3};
 
-use super::sums::{Seen, independent};
+use super::sums::{SlopePicture, independent};
 use super::tuning::{SlopeTuning, TreadTuning};
 
 /// What a plane is against the best treads.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Verdict {
+pub(super) struct TreadVerdict {
     /// How long it is where it is seen, along its slope, m.
     pub(super) length_m: f64,
     /// By how much it explains the pixels better, in squared noise.
@@ -16,7 +16,7 @@ pub(super) struct Verdict {
 
 /// Sums over the pixels of bins: what a level surface and the plane make of them.
 #[derive(Debug, Clone, Copy, Default)]
-struct Bins {
+struct TreadBin {
     weight: f64,
     q: f64,
     qq: f64,
@@ -24,7 +24,7 @@ struct Bins {
     plane: f64,
 }
 
-impl Bins {
+impl TreadBin {
     /// Squared misses of the best level surface less those of the plane, in squared noise.
     fn tread(&self, before: &Self, alike: f64) -> f64 {
         let (weight, q) = (self.weight - before.weight, self.q - before.q);
@@ -35,20 +35,20 @@ impl Bins {
 
 /// Lays treads. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Treads {
-    bins: Vec<Bins>,
+pub(super) struct TreadFit {
+    bins: Vec<TreadBin>,
     best: Vec<f64>,
 }
 
-impl Treads {
+impl TreadFit {
     /// Compares a plane `(a, b, q)` with treads, over its pixels.
     pub(super) fn compare(
         &mut self,
-        seen: Seen<'_>,
+        seen: SlopePicture<'_>,
         plane: &Vector3<f64>,
         pixels: &[usize],
         tuning: &SlopeTuning,
-    ) -> Verdict {
+    ) -> TreadVerdict {
         let rules = &tuning.treads;
         let gradient = plane.xy() / plane.z;
         let tilt = gradient.norm();
@@ -73,7 +73,7 @@ impl Treads {
             let beside = [-step_rad, step_rad].map(|step| try_turn(so_far.1 + step));
             best = [so_far].into_iter().chain(beside).min_by(lower);
         }
-        Verdict {
+        TreadVerdict {
             better_than_treads: best.map_or(f64::INFINITY, |(worse, _)| worse),
             length_m,
         }
@@ -82,7 +82,7 @@ impl Treads {
     /// Adds up the pixels by where the plane has them in this direction, from the nearest on.
     fn fill(
         &mut self,
-        seen: Seen<'_>,
+        seen: SlopePicture<'_>,
         plane: &Vector3<f64>,
         pixels: &[usize],
         across: &Vector2<f64>,
@@ -102,7 +102,7 @@ impl Treads {
         for &at in pixels {
             let bin = (((place_m(at) - nearest_m) / rules.bin) as usize).min(rules.most_bins);
             if bin >= self.bins.len() {
-                self.bins.resize(bin + 1, Bins::default());
+                self.bins.resize(bin + 1, TreadBin::default());
             }
             let picture = seen.picture;
             let g = f64::from(picture.g[at]);
@@ -124,7 +124,7 @@ impl Treads {
         let count = self.bins.len();
         let deep = (depth_m / rules.bin) as usize;
         let riser = (rules.riser / rules.bin) as usize;
-        let mut sum = Bins::default();
+        let mut sum = TreadBin::default();
         self.bins.insert(0, sum);
         for bin in &mut self.bins[1..] {
             sum.weight += bin.weight;

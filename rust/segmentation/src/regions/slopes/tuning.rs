@@ -59,7 +59,7 @@ settings! {
     pub struct SeedTuning("navigation.ground.tuning.slopes.seeds") {
         /// Windows across the image, without those that overlap two of them by half.
         across: usize = 4, "1", within(1.0, 100.0);
-        /// Of the rows, and of the columns, of a window every so many one is looked at.
+        /// Every so many rows and columns of a window one pixel is looked at.
         stride: usize = 2, "1", within(1.0, 100.0);
         /// By how much a tilted plane must explain a window better than a level surface does, in squared noise.
         sure: f64 = 8.0, "1", NOT_NEGATIVE;
@@ -88,8 +88,8 @@ settings! {
         around: usize = 4, "1", within(0.0, 100.0);
         /// Columns and rows from the border of a slope in which its plane is not fitted.
         border: usize = 2, "1", within(0.0, 50.0);
-        /// Of the two sides of the line where the plane meets a level surface, one counts as if one more pixel of it were explained
-        /// worse by this, in squared noise: where hardly anything is seen, nothing is told.
+        /// Each side of the line where the plane meets a level surface is judged as if one more pixel of it were explained worse by
+        /// this, in squared noise: a side of which hardly anything is seen tells nothing.
         doubt: f32 = 1.0, "1", NOT_NEGATIVE;
     }
 }
