@@ -45,6 +45,7 @@ STAGES: Final[tuple[str, ...]] = (
     "stairs",
     "climbing",
     "static_map",
+    "guide",
 )
 """Stages with parameters (`[navigation.self_filter]`) that are not chosen by name."""
 

@@ -189,7 +189,12 @@ pub(crate) fn planner(
         other => return Err(unknown("planner", other, "a_star, voronoi")),
     };
     Ok(match static_map {
-        Some(map) => Box::new(Guided::new(near, map, size.height)?),
+        Some(map) => Box::new(Guided::new(
+            near,
+            map,
+            size.height,
+            table(tables, "guide")?,
+        )?),
         None => Box::new(near),
     })
 }

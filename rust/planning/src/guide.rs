@@ -1,35 +1,25 @@
 //! A guide for planners that see only what is near: the way through a map that is known beforehand, over all its levels (002, III.D).
 
+mod config;
 mod laid;
 
 use geometry::{Map, Pose, Robot};
 use known_map::{CostField, Floors, KnownMap, Prior, StandingRoom, Target};
 use mapping::FloorView;
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 use stairs::Staircase;
 
 use crate::keep::SLACK_M;
 use crate::plan::place_of;
 use crate::shortcut::lay;
 use crate::{AStar, Goal, Path, Plan, PlanError, Planner};
+pub use config::{GuideConfig, GuideTuning};
 use laid::laid_under;
-
-/// How far ahead on the guide's way the planner is sent, m.
-const AHEAD_M: f64 = 1.4;
-/// The planner is sent on when the robot is nearer than this to the place to which it was sent, m.
-const ON_M: f64 = 0.7;
-/// Radius of such a place, m.
-const RADIUS_M: f64 = 0.2;
-/// Beyond stairs it lies where the way has been level for this long, m.
-const LANDING_M: f64 = 0.3;
-/// Heights that differ by more than this are two levels, m.
-const LEVEL_M: f64 = 0.02;
-/// The robot that stands beside its own obstacle cells is not blocked by them, m.
-const OWN_M: f64 = 0.3;
 
 /// Plans by [`AStar`] to places on the guide's way, one after the other, and to the goal in the end.
 #[derive(Debug, Clone)]
 pub struct Guided {
+    tuning: GuideTuning,
     near: AStar,
     floors: Floors,
     prior: Prior,
@@ -42,13 +32,20 @@ pub struct Guided {
 }
 
 impl Guided {
-    /// Guides a planner through a map for a body of a radius and a height, m.
-    pub fn new(near: AStar, map: &KnownMap, height_m: f64) -> Result<Self, ConfigError> {
+    /// Guides a planner through a map for a body of a height, m, and of the planner's radius.
+    pub fn new(
+        near: AStar,
+        map: &KnownMap,
+        height_m: f64,
+        config: GuideConfig,
+    ) -> Result<Self, ConfigError> {
+        config.check()?;
         let floors = map.floors(StandingRoom {
             radius_m: near.needed_m(),
             height_m,
         })?;
         Ok(Self {
+            tuning: config.tuning,
             blocked: vec![false; floors.count()],
             prior: map.prior(height_m)?,
             near,
@@ -73,14 +70,14 @@ impl Guided {
             let [from, to] = [pair[0], pair[1]].map(|place| self.floors.at_m(place));
             let step_m = (to[0] - from[0]).hypot(to[1] - from[1]);
             walked_m += step_m;
-            if (to[2] - from[2]).abs() > LEVEL_M {
+            if (to[2] - from[2]).abs() > self.tuning.level {
                 climbs = true;
                 level_m = 0.0;
             } else {
                 level_m += step_m;
             }
-            let landed = climbs && level_m > LANDING_M;
-            if landed || (walked_m > AHEAD_M && !climbs) {
+            let landed = climbs && level_m > self.tuning.landing;
+            if landed || (walked_m > self.tuning.ahead && !climbs) {
                 let height_m = match goal.height_m {
                     // What the goal says of its level is finer than voxels.
                     Some(height_m) if (height_m - to[2]).abs() < self.floors.side_m() => height_m,
@@ -89,7 +86,7 @@ impl Guided {
                 let place = Goal {
                     x_m: to[0],
                     y_m: to[1],
-                    radius_m: RADIUS_M,
+                    radius_m: self.tuning.radius,
                     height_m: climbs.then_some(height_m),
                 };
                 return Some((place, pair[1]));
@@ -102,10 +99,10 @@ impl Guided {
     /// the window, on another level, and at steps.
     fn spare_m(&self, place: u32, robot_m: [f64; 3]) -> Option<f64> {
         let [x, y, z] = self.floors.at_m(place);
-        if (z - robot_m[2]).abs() > LEVEL_M || self.floors.is_at_step(place) {
+        if (z - robot_m[2]).abs() > self.tuning.level || self.floors.is_at_step(place) {
             return None;
         }
-        let near = (x - robot_m[0]).hypot(y - robot_m[1]) < OWN_M;
+        let near = (x - robot_m[0]).hypot(y - robot_m[1]) < self.tuning.own;
         let clearance_m = self.near.clearance_m(x, y)?;
         Some(if near {
             0.0
@@ -140,8 +137,10 @@ impl Guided {
     fn send(&mut self, at_m: [f64; 3], goal: &Goal) -> Option<Vec<u32>> {
         let way = self.way(at_m)?;
         let stays = self.sent.is_some_and(|(sent, place)| {
-            let far = (sent.x_m - at_m[0]).hypot(sent.y_m - at_m[1]) > ON_M;
-            let below = sent.height_m.is_some_and(|h| (h - at_m[2]).abs() > LEVEL_M);
+            let far = (sent.x_m - at_m[0]).hypot(sent.y_m - at_m[1]) > self.tuning.send_on;
+            let below = sent
+                .height_m
+                .is_some_and(|h| (h - at_m[2]).abs() > self.tuning.level);
             (far || below) && way.contains(&place)
         });
         if !stays {

@@ -50,7 +50,7 @@ fn house(things: &[Block]) -> Vec<Block> {
 fn guided(things: &[Block]) -> Guided {
     let boxes = [&[FLOOR], things].concat();
     let map = KnownMap::of_boxes(&boxes, CELL_M).unwrap();
-    Guided::new(planner(RADIUS_M), &map, HEIGHT_M).unwrap()
+    Guided::new(planner(RADIUS_M), &map, HEIGHT_M, GuideConfig::default()).unwrap()
 }
 
 /// What is seen from a place of things on the floor: obstacles and floor within sight, nothing beyond.
