@@ -24,6 +24,8 @@ mod stepper;
 mod walk;
 
 #[cfg(test)]
+mod laws;
+#[cfg(test)]
 pub(crate) mod simulation;
 #[cfg(test)]
 mod tests;
