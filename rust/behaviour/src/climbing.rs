@@ -10,8 +10,8 @@ mod config;
 mod finish;
 mod flight;
 mod footsteps;
+mod goal;
 mod head;
-mod here;
 mod inspection;
 mod leg;
 mod placement;
@@ -30,10 +30,11 @@ pub(crate) mod simulation;
 #[cfg(test)]
 mod tests;
 
-use geometry::{ConfigError, PlanarPose};
+use geometry::ConfigError;
 use planning::{Plan, Step};
 use stairs::{ClimbingConfig, Feet};
 
+use crate::machine::{Clock, Tick};
 use crate::{
     Arms, Behaviour, BehaviourError, Command, Decision, Motion, Outcome, Situation,
     WalkingBehaviour,
@@ -42,7 +43,6 @@ pub use config::StairClimbingConfig;
 use flight::Flight;
 use footsteps::Stance;
 use head::Head;
-use here::Here;
 use inspection::Inspection;
 use leg::Leg;
 use placement::Before;
@@ -102,8 +102,7 @@ pub struct StairClimbing {
     phase_s: f64,
     /// Time with sight since a step was taken or the last walk ended, s.
     idle_s: f64,
-    time_ns: Option<u64>,
-    frames_used: u64,
+    clock: Clock,
     head: Head,
     flight: Flight,
     stepper: Stepper,
@@ -152,8 +151,7 @@ impl StairClimbing {
             state_s: 0.0,
             phase_s: 0.0,
             idle_s: 0.0,
-            time_ns: None,
-            frames_used: 0,
+            clock: Clock::default(),
             flight: Flight::default(),
             stepper: Stepper::default(),
             run: Vec::new(),
@@ -171,35 +169,19 @@ impl StairClimbing {
         })
     }
 
-    fn here<'a>(&self, situation: &'a Situation<'a>) -> Here<'a> {
-        let origin = situation.estimate.map_from_robot.origin().inner;
-        let yaw_rad = situation.estimate.map_from_robot.yaw_rad();
-        let passed_ns = self
-            .time_ns
-            .map_or(0, |before_ns| situation.time_ns.saturating_sub(before_ns));
-        Here {
-            situation,
-            pose: PlanarPose::new(origin.x, origin.y, yaw_rad),
-            ground_m: origin.z,
-            passed_s: passed_ns as f64 * 1e-9,
-            new_frame: situation.frames_used != self.frames_used || self.time_ns.is_none(),
-        }
-    }
-
-    fn keep_time(&mut self, here: &Here<'_>) {
-        self.time_ns = Some(here.situation.time_ns);
-        self.frames_used = here.situation.frames_used;
-        self.state_s += here.passed_s;
-        self.phase_s += here.passed_s;
+    fn keep_time(&mut self, tick: &Tick<'_>) {
+        self.clock.count(tick);
+        self.state_s += tick.passed_s;
+        self.phase_s += tick.passed_s;
         // Who sees nothing has a limit of its own for that.
         if self.state != State::Blind {
-            self.idle_s += here.passed_s;
+            self.idle_s += tick.passed_s;
         }
-        self.flight.wait(here.passed_s);
-        if here.new_frame && self.state != State::Walk {
-            let Situation { plan, stairs, .. } = *here.situation;
+        self.flight.wait(tick.passed_s);
+        if tick.new_frame && self.state != State::Walk {
+            let Situation { plan, stairs, .. } = *tick.situation;
             self.flight
-                .refresh(plan, stairs, &here.pose, &self.climbing);
+                .refresh(plan, stairs, &tick.pose, &self.climbing);
         }
     }
 
@@ -224,18 +206,18 @@ impl StairClimbing {
         }
     }
 
-    fn before<'a>(&'a self, here: &Here<'_>) -> Before<'a> {
+    fn before<'a>(&'a self, tick: &Tick<'_>) -> Before<'a> {
         Before {
             config: &self.config,
             climbing: &self.climbing,
             feet: &self.feet,
-            pose: here.pose,
-            ground_m: here.ground_m,
+            pose: tick.pose,
+            ground_m: tick.ground_m,
         }
     }
 
     /// The decision of a state of the climb.
-    fn decision(&self, here: &Here<'_>, motion: Motion) -> Decision {
+    fn decision(&self, tick: &Tick<'_>, motion: Motion) -> Decision {
         let cheers = self.state == State::Finish && self.phase == Phase::Wait;
         Decision {
             command: Command {
@@ -245,15 +227,15 @@ impl StairClimbing {
             },
             state: self.state_name(),
             goal_passed: false,
-            outcome: self.outcome(here),
+            outcome: self.outcome(tick),
         }
     }
 
-    fn outcome(&self, here: &Here<'_>) -> Option<Outcome> {
-        if self.has_arrived(here) {
+    fn outcome(&self, tick: &Tick<'_>) -> Option<Outcome> {
+        if self.has_arrived(tick) {
             return Some(Outcome::GoalReached);
         }
-        let refused = self.state == State::Refuse && here.situation.standing;
+        let refused = self.state == State::Refuse && tick.situation.standing;
         refused.then(|| Outcome::Refused(self.refusal.clone()))
     }
 
@@ -267,22 +249,22 @@ impl StairClimbing {
 
 impl Behaviour for StairClimbing {
     fn next(&mut self, situation: &Situation<'_>) -> Result<Decision, BehaviourError> {
-        let here = self.here(situation);
-        self.keep_time(&here);
+        let tick = self.clock.read(situation);
+        self.keep_time(&tick);
         let stumbles = situation.stepping.stumbled && !self.had_stumbled;
         self.had_stumbled = situation.stepping.stumbled;
         if stumbles {
-            self.after_stumble(&here);
+            self.after_stumble(&tick);
         }
         if self.state == State::Walk {
             return if situation.estimate.lost {
-                self.walk_lost(&here)
+                self.walk_lost(&tick)
             } else {
-                self.walk(&here)
+                self.walk(&tick)
             };
         }
-        self.interrupt(&here);
-        let motion = self.act(&here);
-        Ok(self.decision(&here, motion))
+        self.interrupt(&tick);
+        let motion = self.act(&tick);
+        Ok(self.decision(&tick, motion))
     }
 }

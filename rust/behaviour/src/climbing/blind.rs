@@ -1,27 +1,28 @@
 //! Nothing is seen, or the robot does not know where it is: it stands before or on the stairs until that is over.
 
-use super::{Here, Phase, StairClimbing, State};
+use super::{Phase, StairClimbing, State};
 use crate::Motion;
+use crate::machine::Tick;
 
 /// Seeing nothing for this long is being blind, s;
 const BLIND_AFTER_S: f64 = 2.0;
 /// for this long, it is hopeless, s.
 const BLIND_LIMIT_S: f64 = 12.0;
 
-impl Here<'_> {
+impl Tick<'_> {
     pub(super) fn sees_nothing(&self) -> bool {
-        self.unseen_s() > BLIND_AFTER_S
+        self.unseen_s().unwrap_or(0.0) > BLIND_AFTER_S
     }
 }
 
 impl StairClimbing {
     /// Stands and looks down and around: from where the head points now perhaps nothing can be told.
-    pub(super) fn wait_for_sight(&mut self, here: &Here<'_>) -> Motion {
-        let lost = here.situation.estimate.lost;
+    pub(super) fn wait_for_sight(&mut self, tick: &Tick<'_>) -> Motion {
+        let lost = tick.situation.estimate.lost;
         if lost && self.on.is_none() {
             // Not on stairs: whoever walks can find out where it is.
             self.flight.clear();
-            self.walking.resume(here.situation);
+            self.walking.resume(tick.situation);
             self.enter(State::Walk);
             return Motion::Stand;
         }
@@ -29,18 +30,18 @@ impl StairClimbing {
             self.head.search(0.0);
             self.phase(Phase::Wait);
         }
-        if self.head.advance(here.situation.frames_used, here.passed_s) {
+        if self.head.advance(tick.situation.frames_used, tick.passed_s) {
             self.phase(Phase::Look);
         }
-        if !lost && !here.sees_nothing() {
+        if !lost && !tick.sees_nothing() {
             if self.on.is_some() {
-                self.begin_look(here);
+                self.begin_look(tick);
                 self.enter(State::Climb);
             } else {
-                self.begin_search(here);
+                self.begin_search(tick);
             }
         } else if self.state_s > BLIND_LIMIT_S {
-            let unseen_s = here.unseen_s();
+            let unseen_s = tick.unseen_s().unwrap_or(0.0);
             self.refuse(if lost {
                 format!(
                     "lost: the robot has not known where it is for {:.0} s, before or on stairs",

@@ -1,6 +1,7 @@
 //! The end of a climb: to the middle of where it led, arms up for a moment, and on (003, section V.D).
 
-use super::{Here, Phase, StairClimbing, State};
+use super::{Phase, StairClimbing, State};
+use crate::machine::Tick;
 use crate::{Motion, Velocity};
 
 /// The farthest that the robot walks away from the last edge before it is glad, from the edge to its middle, m.
@@ -12,28 +13,28 @@ const LONGEST_STOP_S: f64 = 3.0;
 
 impl StairClimbing {
     /// No step is left.
-    pub(super) fn end_climb(&mut self, here: &Here<'_>) {
-        if self.has_room(here) {
+    pub(super) fn end_climb(&mut self, tick: &Tick<'_>) {
+        if self.has_room(tick) {
             self.enter(State::Finish);
             return;
         }
-        let reason = here.no_way().unwrap_or_else(|| {
+        let reason = tick.no_way_reason().unwrap_or_else(|| {
             "blocked: the last step is too short to stand and to turn on".to_owned()
         });
-        self.look_again(here, || reason);
+        self.look_again(tick, || reason);
     }
 
     /// Whether the climb has ended at the goal, on a tread from which there is no walking on: there the robot stays.
-    fn stays_here(&self, here: &Here<'_>) -> bool {
-        here.is_in_the_goal() && !self.has_room(here)
+    fn stays_here(&self, tick: &Tick<'_>) -> bool {
+        tick.is_in_the_goal() && !self.has_room(tick)
     }
 
     /// Whether it declares from there that it has arrived: no walk will.
-    pub(super) fn has_arrived(&self, here: &Here<'_>) -> bool {
+    pub(super) fn has_arrived(&self, tick: &Tick<'_>) -> bool {
         self.state == State::Finish
             && self.has_cheered()
-            && here.situation.standing
-            && self.stays_here(here)
+            && tick.situation.standing
+            && self.stays_here(tick)
     }
 
     fn has_cheered(&self) -> bool {
@@ -41,11 +42,11 @@ impl StairClimbing {
     }
 
     /// One tick.
-    pub(super) fn finish(&mut self, here: &Here<'_>) -> Motion {
-        self.head.turn_to([0.35, 0.0], here.passed_s);
-        let stays = self.stays_here(here);
+    pub(super) fn finish(&mut self, tick: &Tick<'_>) -> Motion {
+        self.head.turn_to([0.35, 0.0], tick.passed_s);
+        let stays = self.stays_here(tick);
         let remaining_m = self.on.filter(|_| !stays).map_or(0.0, |step| {
-            let beyond_m = step.stair.front.beyond_m([here.pose.x_m, here.pose.y_m]);
+            let beyond_m = step.stair.front.beyond_m([tick.pose.x_m, tick.pose.y_m]);
             (0.5 * step.stair.depth_m()).min(FARTHEST_M) - beyond_m
         });
         match self.phase {
@@ -56,7 +57,7 @@ impl StairClimbing {
                 });
             }
             Phase::Look => self.phase(Phase::Step),
-            Phase::Step if here.situation.standing || self.phase_s > LONGEST_STOP_S => {
+            Phase::Step if tick.situation.standing || self.phase_s > LONGEST_STOP_S => {
                 self.phase(Phase::Wait);
             }
             Phase::Wait if self.has_cheered() && !stays => {
@@ -65,7 +66,7 @@ impl StairClimbing {
                 self.pauses = false;
                 self.flight.clear();
                 self.tries = super::Tries::default();
-                self.walking.resume(here.situation);
+                self.walking.resume(tick.situation);
                 self.enter(State::Walk);
             }
             Phase::Step | Phase::Wait => {}

@@ -7,15 +7,15 @@ use crate::Situation;
 impl WalkingBehaviour {
     /// Takes up walking where another behaviour left the robot: what was waited for before counts no more.
     pub(crate) fn resume(&mut self, situation: &Situation<'_>) {
-        self.time_ns = Some(situation.time_ns);
+        self.clock.skip_to(situation.time_ns);
         self.gazer.start(situation.gaze);
         self.progress = Progress::default();
         self.followed.forget();
         self.state = State::Walk;
         self.state_s = 0.0;
-        self.idle_s = 0.0;
-        self.no_plan_s = 0.0;
-        self.no_way_s = 0.0;
+        self.idle.reset();
+        self.no_plan.reset();
+        self.no_way.reset();
         self.looks = 0;
         self.turn_to_rad = None;
         self.watched_m = None;

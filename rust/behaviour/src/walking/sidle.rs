@@ -3,9 +3,10 @@
 use geometry::{PlanarPose, angle_between};
 use planning::{Path, Sidle};
 
+use super::WalkingBehaviour;
 use super::state::State;
 use super::track::turn_speed;
-use super::{Moment, WalkingBehaviour};
+use crate::machine::Tick;
 use crate::walking::gaze::glance;
 use crate::{Motion, Velocity};
 
@@ -65,7 +66,7 @@ pub(super) fn next_sidle<'a>(path: &'a Path, pose: &PlanarPose) -> Option<&'a Si
     path.sidles.iter().find(|sidle| !over(sidle))
 }
 
-impl Moment<'_> {
+impl Tick<'_> {
     /// Whether the robot is on a leg sideways, or where one begins.
     pub(super) fn is_at_sidle(&self) -> bool {
         self.track.is_some_and(|(path, track)| {
@@ -76,25 +77,24 @@ impl Moment<'_> {
 }
 
 impl WalkingBehaviour {
-    pub(super) fn sidle(&mut self, moment: &Moment<'_>) -> Motion {
-        let Some((path, _)) = moment.track else {
-            return self.without_way(moment);
+    pub(super) fn sidle(&mut self, tick: &Tick<'_>) -> Motion {
+        let Some((path, _)) = tick.track else {
+            return self.without_way(tick);
         };
-        if let Some(motion) = self.check_way(moment) {
+        if let Some(motion) = self.check_way(tick) {
             return motion;
         }
-        let on_leg = next_sidle(path, &moment.pose)
-            .filter(|_| moment.is_at_sidle())
-            .and_then(|sidle| OnLeg::new(path, sidle, &moment.pose));
+        let on_leg = next_sidle(path, &tick.pose)
+            .filter(|_| tick.is_at_sidle())
+            .and_then(|sidle| OnLeg::new(path, sidle, &tick.pose));
         let Some(on_leg) = on_leg else {
             self.enter(State::Walk);
             return Motion::Stand;
         };
-        self.idle_s = 0.0;
+        self.idle.reset();
         let bearing_rad = on_leg.along[1].atan2(on_leg.along[0]);
-        let gaze = glance(self.elapsed_s, bearing_rad, &self.config);
-        self.gazer
-            .turn(gaze, moment.passed_s, self.config.gaze_speed);
+        let gaze = glance(tick.elapsed_s, bearing_rad, &self.config);
+        self.gazer.turn(gaze, tick.passed_s, self.config.gaze_speed);
         Motion::Walk(self.sidestep(&on_leg))
     }
 

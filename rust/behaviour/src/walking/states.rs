@@ -2,7 +2,8 @@
 
 use geometry::{angle_between, wrap_angle};
 
-use super::{Moment, WalkingBehaviour};
+use super::WalkingBehaviour;
+use crate::machine::Tick;
 use crate::walking::ahead::unknown_ahead;
 use crate::walking::gaze::{Sweep, glance};
 use crate::walking::progress::Headway;
@@ -31,53 +32,53 @@ const STUMBLES: u32 = 3;
 
 impl WalkingBehaviour {
     /// One tick of the present state.
-    pub(super) fn act(&mut self, moment: &Moment<'_>) -> Motion {
+    pub(super) fn act(&mut self, tick: &Tick<'_>) -> Motion {
         match self.state {
-            State::LookAround => self.look_around(moment),
-            State::Walk => self.walk(moment),
-            State::Turn => self.turn(moment),
-            State::Sidle => self.sidle(moment),
-            State::Stop => self.stop(moment),
-            State::Arrive => self.arrive(moment),
+            State::LookAround => self.look_around(tick),
+            State::Walk => self.walk(tick),
+            State::Turn => self.turn(tick),
+            State::Sidle => self.sidle(tick),
+            State::Stop => self.stop(tick),
+            State::Arrive => self.arrive(tick),
             State::Refuse => {
-                self.gaze_at(moment, 0.0, self.config.gaze_far);
+                self.gaze_at(tick, 0.0, self.config.gaze_far);
                 Motion::Stand
             }
-            State::Blind => self.wait_for_sight(moment),
-            State::Locate => self.locate(moment),
+            State::Blind => self.wait_for_sight(tick),
+            State::Locate => self.locate(tick),
         }
     }
 
-    fn look_around(&mut self, moment: &Moment<'_>) -> Motion {
-        let frames = moment.situation.frames_used;
+    fn look_around(&mut self, tick: &Tick<'_>) -> Motion {
+        let frames = tick.situation.frames_used;
         let speed_radps = self.config.gaze_speed;
         let seen = self
             .sweep
-            .advance(&mut self.gazer, frames, moment.passed_s, speed_radps);
-        let found_a_way = self.looks > 0 && self.way_s > SURE_S;
+            .advance(&mut self.gazer, frames, tick.passed_s, speed_radps);
+        let found_a_way = self.looks > 0 && self.way.s() > SURE_S;
         if seen || found_a_way || self.state_s > LONGEST_LOOK_S {
-            if let Some((path, track)) = &moment.track {
-                let view = moment.situation.view;
+            if let Some((path, track)) = &tick.track {
+                let view = tick.situation.view;
                 self.looked.mark(path, track, view, &self.config);
                 self.looks = 0;
                 self.set_off(track);
             } else {
-                self.look_elsewhere(moment);
+                self.look_elsewhere(tick);
             }
         }
         Motion::Stand
     }
 
     /// There is no way from what was seen here: turn and look there, and give up when all around was looked at.
-    fn look_elsewhere(&mut self, moment: &Moment<'_>) {
+    fn look_elsewhere(&mut self, tick: &Tick<'_>) {
         self.looks += 1;
         if self.looks < LOOKS {
-            self.turn_to_rad = Some(wrap_angle(moment.pose.yaw_rad + LOOK_APART_RAD));
+            self.turn_to_rad = Some(wrap_angle(tick.pose.yaw_rad + LOOK_APART_RAD));
             self.enter(State::Turn);
             return;
         }
-        if self.no_way_s >= self.config.refuse_time
-            && let Some(reason) = moment.no_way_reason()
+        if self.no_way.s() >= self.config.refuse_time
+            && let Some(reason) = tick.no_way_reason()
         {
             self.refuse(reason);
             return;
@@ -98,30 +99,29 @@ impl WalkingBehaviour {
             && track.bearing_rad().abs() > self.config.turn_above
     }
 
-    fn walk(&mut self, moment: &Moment<'_>) -> Motion {
-        let Some((path, track)) = &moment.track else {
-            return self.without_way(moment);
+    fn walk(&mut self, tick: &Tick<'_>) -> Motion {
+        let Some((path, track)) = &tick.track else {
+            return self.without_way(tick);
         };
-        if let Some(motion) = self.check_way(moment) {
+        if let Some(motion) = self.check_way(tick) {
             return motion;
         }
-        let view = moment.situation.view;
+        let view = tick.situation.view;
         let (unknown, stays_unknown) = unknown_ahead(path, track, view, &self.looked, &self.config);
         if let Some(place_m) = unknown {
-            self.look(Sweep::at(moment.bearing_rad(place_m), &self.config));
+            self.look(Sweep::at(tick.bearing_rad(place_m), &self.config));
             return Motion::Stand;
         }
-        if moment.is_at_sidle() {
+        if tick.is_at_sidle() {
             self.enter(State::Sidle);
             return Motion::Stand;
         }
         if self.must_turn(track) {
             self.enter(State::Turn);
         }
-        self.idle_s = 0.0;
-        let gaze = glance(self.elapsed_s, track.bearing_rad(), &self.config);
-        self.gazer
-            .turn(gaze, moment.passed_s, self.config.gaze_speed);
+        self.idle.reset();
+        let gaze = glance(tick.elapsed_s, track.bearing_rad(), &self.config);
+        self.gazer.turn(gaze, tick.passed_s, self.config.gaze_speed);
         let limit_mps = if stays_unknown {
             self.config.creep_speed
         } else {
@@ -130,19 +130,19 @@ impl WalkingBehaviour {
         Motion::Walk(track.velocity(limit_mps, &self.config))
     }
 
-    fn turn(&mut self, moment: &Moment<'_>) -> Motion {
+    fn turn(&mut self, tick: &Tick<'_>) -> Motion {
         let error_rad = if let Some(goal_rad) = self.turn_to_rad {
-            if self.way_s > SURE_S {
+            if self.way.s() > SURE_S {
                 self.turn_to_rad = None;
                 self.enter(State::Stop);
                 return Motion::Stand;
             }
-            angle_between(moment.pose.yaw_rad, goal_rad)
+            angle_between(tick.pose.yaw_rad, goal_rad)
         } else {
-            let Some((_, track)) = &moment.track else {
-                return self.without_way(moment);
+            let Some((_, track)) = &tick.track else {
+                return self.without_way(tick);
             };
-            if let Some(motion) = self.check_way(moment) {
+            if let Some(motion) = self.check_way(tick) {
                 return motion;
             }
             track.bearing_rad()
@@ -162,7 +162,7 @@ impl WalkingBehaviour {
         } else {
             self.config.gaze_near
         };
-        self.gaze_at(moment, error_rad, down_rad);
+        self.gaze_at(tick, error_rad, down_rad);
         Motion::Walk(Velocity {
             yaw_radps: self.turn_velocity(error_rad),
             ..Velocity::default()
@@ -185,12 +185,12 @@ impl WalkingBehaviour {
     }
 
     /// Looks at what is new on the way, and at the watchdog; a motion when that ends the state.
-    pub(super) fn check_way(&mut self, moment: &Moment<'_>) -> Option<Motion> {
-        let (path, track) = moment.track.as_ref()?;
-        if moment.new_frame {
-            let (view, stairs) = (moment.situation.view, moment.situation.stairs);
-            let ground_m = moment.situation.estimate.map_from_robot.origin().inner.z;
-            let robot = (&moment.pose, ground_m);
+    pub(super) fn check_way(&mut self, tick: &Tick<'_>) -> Option<Motion> {
+        let (path, track) = tick.track.as_ref()?;
+        if tick.new_frame {
+            let (view, stairs) = (tick.situation.view, tick.situation.stairs);
+            let ground_m = tick.ground_m;
+            let robot = (&tick.pose, ground_m);
             let obstacle_m = self.followed.obstacle_m(view, stairs, robot, &self.config);
             self.followed.keep(path, track.nearest);
             if obstacle_m.is_some() {
@@ -199,9 +199,9 @@ impl WalkingBehaviour {
                 return Some(Motion::Stand);
             }
         }
-        let detour = moment.situation.plan.is_some_and(|plan| plan.replanned);
-        let remaining_m = track.goal_ahead_m(path, moment.situation.goal);
-        let passed_s = moment.passed_s;
+        let detour = tick.situation.plan.is_some_and(|plan| plan.replanned);
+        let remaining_m = track.goal_ahead_m(path, tick.situation.goal);
+        let passed_s = tick.passed_s;
         match self
             .progress
             .watch(remaining_m, detour, passed_s, &self.config)
@@ -219,8 +219,8 @@ impl WalkingBehaviour {
     }
 
     /// Just after a goal was passed the plan is not there yet; else the way is gone.
-    pub(super) fn without_way(&mut self, moment: &Moment<'_>) -> Motion {
-        let waiting = moment.situation.plan.is_none() && self.no_plan_s < HOLD_S;
+    pub(super) fn without_way(&mut self, tick: &Tick<'_>) -> Motion {
+        let waiting = tick.situation.plan.is_none() && self.no_plan.s() < HOLD_S;
         if waiting {
             return self.motion.clone();
         }
@@ -229,13 +229,13 @@ impl WalkingBehaviour {
         Motion::Stand
     }
 
-    fn stop(&mut self, moment: &Moment<'_>) -> Motion {
+    fn stop(&mut self, tick: &Tick<'_>) -> Motion {
         let bearing_rad = self
             .watched_m
-            .map_or(0.0, |place_m| moment.bearing_rad(place_m));
-        self.gaze_at(moment, bearing_rad, self.config.gaze_near);
-        if self.standing_s > 0.0 && self.state_s > self.config.stop_time {
-            if let Some((_, track)) = &moment.track {
+            .map_or(0.0, |place_m| tick.bearing_rad(place_m));
+        self.gaze_at(tick, bearing_rad, self.config.gaze_near);
+        if self.standing.s() > 0.0 && self.state_s > self.config.stop_time {
+            if let Some((_, track)) = &tick.track {
                 self.set_off(track);
             } else {
                 self.looks = 0;
@@ -256,18 +256,18 @@ impl WalkingBehaviour {
         }
     }
 
-    fn arrive(&mut self, moment: &Moment<'_>) -> Motion {
-        self.gaze_at(moment, 0.0, self.config.gaze_far);
-        if self.standing_s > self.config.arrive_time && !moment.is_in_the_disc() {
+    fn arrive(&mut self, tick: &Tick<'_>) -> Motion {
+        self.gaze_at(tick, 0.0, self.config.gaze_far);
+        if self.standing.s() > self.config.arrive_time && !tick.is_in_the_disc() {
             self.watched_m = None;
             self.enter(State::Stop);
         }
         Motion::Stand
     }
 
-    fn wait_for_sight(&mut self, moment: &Moment<'_>) -> Motion {
-        self.gaze_at(moment, 0.0, self.config.gaze_near);
-        let unseen_s = self.unseen_s(moment.situation);
+    fn wait_for_sight(&mut self, tick: &Tick<'_>) -> Motion {
+        self.gaze_at(tick, 0.0, self.config.gaze_near);
+        let unseen_s = tick.unseen_s().unwrap_or(tick.elapsed_s);
         if unseen_s < self.config.blind_after {
             self.look(Sweep::around(&self.config));
         } else if self.state_s > self.config.blind_limit {
@@ -276,10 +276,9 @@ impl WalkingBehaviour {
         Motion::Stand
     }
 
-    pub(super) fn gaze_at(&mut self, moment: &Moment<'_>, pan_rad: f64, down_rad: f64) {
+    pub(super) fn gaze_at(&mut self, tick: &Tick<'_>, pan_rad: f64, down_rad: f64) {
         let pan_rad = pan_rad.clamp(-self.config.sweep, self.config.sweep);
         let goal = Gaze { pan_rad, down_rad };
-        self.gazer
-            .turn(goal, moment.passed_s, self.config.gaze_speed);
+        self.gazer.turn(goal, tick.passed_s, self.config.gaze_speed);
     }
 }
