@@ -3,9 +3,9 @@
 use super::WalkingBehaviour;
 use super::state::State;
 use super::track::Track;
-use crate::Outcome;
 use crate::machine::Tick;
 use crate::walking::is_roomy;
+use crate::{Motion, Outcome};
 
 /// Nearer than this to its end a path is done, m.
 const PATH_END_M: f64 = 0.04;
@@ -62,17 +62,27 @@ impl WalkingBehaviour {
         tick.is_within(radius_m - self.config.via_margin.min(0.5 * radius_m))
     }
 
+    /// Stands at the goal for a while, and goes on when it has slipped out.
+    pub(super) fn arrive(&mut self, tick: &Tick<'_>) -> Motion {
+        self.gaze_at(tick, 0.0, self.config.gaze_far);
+        if self.rests() && !tick.is_in_the_disc() {
+            self.watched_m = None;
+            self.enter(State::Stop);
+        }
+        Motion::Stand
+    }
+
+    /// Whether it has stood long enough to say that it has arrived.
+    fn rests(&self) -> bool {
+        self.standing.s() > self.config.arrive_time
+    }
+
     pub(super) fn outcome(&self, tick: &Tick<'_>) -> Option<Outcome> {
-        match self.state {
+        match self.machine.state() {
             State::Arrive => {
-                let rests = self.standing.s() > self.config.arrive_time;
-                (rests && tick.is_in_the_disc()).then_some(Outcome::GoalReached)
+                (self.rests() && tick.is_in_the_disc()).then_some(Outcome::GoalReached)
             }
-            State::Refuse => tick
-                .situation
-                .standing
-                .then(|| Outcome::Refused(self.refusal.clone())),
-            _ => None,
+            _ => self.machine.refusal(tick.situation.standing),
         }
     }
 }

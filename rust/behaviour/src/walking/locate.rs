@@ -28,17 +28,28 @@ const ASIDE_M: [f64; 3] = [-0.12, 0.0, 0.12];
 /// and as level as this, m.
 const LEVEL_M: f64 = 0.012;
 
+/// What is known while the robot finds out where it is.
+#[derive(Debug, Clone)]
+pub(crate) struct Locating {
+    /// The look around at its beginning.
+    pub(super) sweep: Sweep,
+    /// The odometry frame in the map when the robot lost its place.
+    pub(super) lost_at: PlanarPose,
+}
+
 impl WalkingBehaviour {
     /// Begins to find out where it is.
     pub(super) fn begin_locating(&mut self, tick: &Tick<'_>) {
-        if self.state != State::Locate {
-            self.lost_at = Some(odometry_in_map(tick));
-            self.sweep = Sweep::around(&self.config);
-            // Who has just looked round turns on.
-            self.looked_round_s =
-                (self.looked_round_s).filter(|looked_s| tick.elapsed_s - looked_s < LOOK_HOLDS_S);
-            self.enter(State::Locate);
+        if matches!(self.machine.state(), State::Locate(_)) {
+            return;
         }
+        // A robot that has just looked round turns on.
+        self.looked_round_s =
+            (self.looked_round_s).filter(|looked_s| tick.elapsed_s - looked_s < LOOK_HOLDS_S);
+        self.enter(State::Locate(Locating {
+            sweep: Sweep::around(&self.config),
+            lost_at: odometry_in_map(tick),
+        }));
     }
 
     /// Stands and looks around, the ground before the feet first; turns on the spot, then goes in small circles where the floor
@@ -48,18 +59,21 @@ impl WalkingBehaviour {
             self.go_on(tick);
             return Motion::Stand;
         }
-        if self.state_s > self.config.locate_limit {
+        let lasted_s = self.machine.lasted_s();
+        if lasted_s > self.config.locate_limit {
             self.refuse(format!(
-                "lost: the robot has not found out where it is for {:.0} s",
-                self.state_s
+                "lost: the robot has not found out where it is for {lasted_s:.0} s"
             ));
             return Motion::Stand;
         }
         let Some(looked_s) = self.looked_round_s else {
             let frames = tick.situation.frames_used;
             let speed_radps = self.config.gaze_speed;
-            let seen = (self.sweep).advance(&mut self.gazer, frames, tick.passed_s, speed_radps);
-            if seen || self.state_s > LONGEST_LOOK_S {
+            let State::Locate(Locating { sweep, .. }) = self.machine.state_mut() else {
+                return Motion::Stand;
+            };
+            let seen = sweep.advance(&mut self.gazer, frames, tick.passed_s, speed_radps);
+            if seen || lasted_s > LONGEST_LOOK_S {
                 self.looked_round_s = Some(tick.elapsed_s);
             }
             return Motion::Stand;
@@ -86,7 +100,10 @@ impl WalkingBehaviour {
     /// Looks round at a place where it was not known to be; goes on where it is where it was.
     fn go_on(&mut self, tick: &Tick<'_>) {
         let now = odometry_in_map(tick);
-        let stayed = (self.lost_at).is_some_and(|before| now.distance_m(&before) < ELSEWHERE_M);
+        let stayed = match self.machine.state() {
+            State::Locate(Locating { lost_at, .. }) => now.distance_m(lost_at) < ELSEWHERE_M,
+            _ => false,
+        };
         match &tick.track {
             Some((_, track)) if stayed => self.set_off(track),
             _ => self.look(Sweep::around(&self.config)),

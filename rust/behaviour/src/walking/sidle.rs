@@ -77,6 +77,7 @@ impl Tick<'_> {
 }
 
 impl WalkingBehaviour {
+    /// One tick of the walk sideways.
     pub(super) fn sidle(&mut self, tick: &Tick<'_>) -> Motion {
         let Some((path, _)) = tick.track else {
             return self.without_way(tick);
@@ -91,7 +92,7 @@ impl WalkingBehaviour {
             self.enter(State::Walk);
             return Motion::Stand;
         };
-        self.idle.reset();
+        self.machine.gets_on();
         let bearing_rad = on_leg.along[1].atan2(on_leg.along[0]);
         let gaze = glance(tick.elapsed_s, bearing_rad, &self.config);
         self.gazer.turn(gaze, tick.passed_s, self.config.gaze_speed);
