@@ -99,8 +99,11 @@ impl<S: State> Machine<S> {
 
     /// Goes on in the present state, with what is known now.
     pub(crate) fn go_on(&mut self, state: S) {
-        debug_assert!(self.state.is_kind_of(&state), "{:?} {state:?}", self.state);
-        self.state = state;
+        let same = self.state.is_kind_of(&state);
+        debug_assert!(same, "{:?} is not {state:?}", self.state);
+        if same {
+            self.state = state;
+        }
     }
 
     /// Takes up a state where another behaviour left the robot: what was waited for before counts no more.
@@ -114,6 +117,13 @@ impl<S: State> Machine<S> {
     /// Something was done for the goal.
     pub(crate) const fn gets_on(&mut self) {
         self.idle.reset();
+    }
+
+    /// Has it have done nothing for the goal for so long, s.
+    #[cfg(test)]
+    pub(crate) fn set_idle_s(&mut self, idle_s: f64) {
+        self.idle.reset();
+        self.idle.count(true, idle_s);
     }
 
     /// The refusal, once the robot has given up and stands.

@@ -183,11 +183,11 @@ mod tests {
         simulation.goal.height_m = Some(0.12);
         simulation.planned_within_m = 0.0;
         let allowed = simulation.behaviour.config.tries;
-        simulation.behaviour.tries.searches = allowed;
+        simulation.behaviour.memory.tries.searches = allowed;
         simulation.run_until(60.0, |simulation| {
-            !simulation.behaviour.inspected.is_empty()
+            !simulation.behaviour.ahead.inspected.is_empty()
         });
-        assert_eq!(simulation.behaviour.tries.searches, allowed);
+        assert_eq!(simulation.behaviour.memory.tries.searches, allowed);
         simulation.planned_within_m = f64::INFINITY;
         let (outcome, _) = simulation.run(90.0);
         assert_eq!(

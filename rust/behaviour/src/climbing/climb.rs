@@ -1,19 +1,21 @@
-//! The climb: look, check the conditions, step; wait, correct, take back, give up (003, section V.C).
+//! The state `climb`: look, check the conditions, step; wait, correct, take back, give up (003, section V.C).
 
 use planning::Step;
 
-use super::{Pace, Phase, StairClimbing, State};
+use super::memory::Tries;
+use super::state::Climb;
+use super::{Pace, StairClimbing, State};
 use crate::Motion;
-use crate::climbing::flight::{covers, nearest};
+use crate::climbing::flight::covers;
 use crate::climbing::footsteps::{Stance, alternating, leading_side, level};
-use crate::climbing::placement::{Behind, Verdict, reason};
+use crate::climbing::placement::{Verdict, reason};
 use crate::climbing::stepper::Stepped;
 use crate::machine::Tick;
 
 impl StairClimbing {
-    /// The first step is within reach of a step.
+    /// Begins to climb: the first step is within reach.
     pub(super) fn begin_climb(&mut self, tick: &Tick<'_>) {
-        self.enter(State::Climb);
+        self.enter(State::Climb(Climb::Look));
         self.begin_look(tick);
     }
 
@@ -23,10 +25,10 @@ impl StairClimbing {
         let step = self.edge_to_watch().or(self.flight.first());
         let place_m = step.map_or([AHEAD_M, 0.0], |step| self.crossed_at_m(tick, step));
         self.head.look_at([place_m[0].max(0.15), place_m[1]]);
-        self.phase(Phase::Look);
+        self.machine.go_on(State::Climb(Climb::Look));
     }
 
-    /// Of the edges behind the next one that are wanted the first that is not well measured.
+    /// The first of the wanted edges behind the next one that is not well measured.
     fn edge_to_measure(&self) -> Option<&Step> {
         let wanted = self.config.edges_ahead as usize;
         let mut behind = self.flight.steps().iter().skip(1).take(wanted);
@@ -45,28 +47,35 @@ impl StairClimbing {
 
     /// One tick.
     pub(super) fn climb(&mut self, tick: &Tick<'_>) -> Motion {
-        match self.phase {
-            Phase::Look | Phase::Wait => {
-                let known = self.phase == Phase::Look
-                    && self.tries.missteps == 0
-                    && self.tries.looks == 0
-                    && self.knows_enough(tick);
+        match self.machine.state_mut() {
+            State::Climb(Climb::Look) => {
+                let tries = &self.memory.tries;
+                let known = tries.missteps == 0 && tries.looks == 0 && self.knows_enough(tick);
                 if self.look(tick, known) {
                     self.decide(tick);
                 }
             }
-            Phase::Step => {
-                let watched = self.edge_to_watch();
-                let place_m = watched.map_or([0.3, 0.0], |step| self.crossed_at_m(tick, step));
-                self.head.turn_to(place_m, tick.passed_s);
-                if tick.new_frame {
-                    self.go_on_without_a_stop(tick);
+            State::Climb(Climb::Wait { waited_s }) => {
+                *waited_s += tick.passed_s;
+                if self.look(tick, false) {
+                    self.decide(tick);
                 }
-                let stepped = self.stepper.advance(tick.situation, tick.passed_s);
-                self.after_steps(tick, stepped);
             }
+            _ => self.take_steps(tick),
         }
         self.stepper.motion()
+    }
+
+    /// One tick while the feet move.
+    fn take_steps(&mut self, tick: &Tick<'_>) {
+        let watched = self.edge_to_watch();
+        let place_m = watched.map_or([0.3, 0.0], |step| self.crossed_at_m(tick, step));
+        self.head.turn_to(place_m, tick.passed_s);
+        if tick.new_frame {
+            self.go_on_without_a_stop(tick);
+        }
+        let stepped = self.stepper.advance(tick.situation, tick.passed_s);
+        self.after_steps(tick, stepped);
     }
 
     /// Whether a glance will do: what is behind the next step was well measured, or the way leads on without a step.
@@ -78,7 +87,7 @@ impl StairClimbing {
         }
     }
 
-    /// After a look: what to do about the next step.
+    /// Decides after a look what to do about the next step.
     fn decide(&mut self, tick: &Tick<'_>) {
         let Some(first) = self.next_step(tick) else {
             self.end_climb(tick);
@@ -93,7 +102,7 @@ impl StairClimbing {
         let verdict = self.before(tick).check(&first, &self.behind(tick, &first));
         match verdict {
             Verdict::Go(stance) => {
-                if self.tries.missteps > 0 && !is_seen_now(tick, &first) {
+                if self.memory.tries.missteps > 0 && !is_seen_now(tick, &first) {
                     self.look_again(tick, || {
                         "blocked: the next step is not where it was seen".to_owned()
                     });
@@ -111,17 +120,16 @@ impl StairClimbing {
                 });
             }
             Verdict::Move(stance) => {
-                self.tries.moves += 1;
-                if self.tries.moves > self.config.tries {
+                self.memory.tries.moves += 1;
+                if self.memory.tries.moves > self.config.tries {
                     self.refuse(
                         "lost: the robot could not get in place for the next step".to_owned(),
                     );
                     return;
                 }
                 let holds = level(&tick.pose, &stance, self.feet.stance_m, &self.config);
-                self.run.clear();
                 self.stepper.start(holds, &tick.pose, tick.ground_m);
-                self.phase(Phase::Step);
+                self.move_feet(Vec::new());
             }
             Verdict::Look(depth_m) => self.look_again(tick, || {
                 format!(
@@ -133,83 +141,13 @@ impl StairClimbing {
         }
     }
 
-    /// The step to take now: the memorised one, else what is seen ahead. None where the climb has led to the goal, or to a place
-    /// from which the way goes on level, whatever stairs there are beyond it.
-    fn next_step(&mut self, tick: &Tick<'_>) -> Option<Step> {
-        if self.on.is_some() && tick.has_level_way() && self.has_room(tick) {
-            self.flight.clear();
-            return None;
-        }
-        if self.is_in_doubt() || self.flight.first().is_none() {
-            if let Some(steps) = self.planned_ahead(tick) {
-                self.flight.adopt(steps);
-            } else if tick.situation.plan.is_none() && self.flight.first().is_none() {
-                let reach_m = self.reach_m();
-                let (stairs, ground_m) = (tick.situation.stairs, tick.ground_m);
-                let step = nearest(stairs, &tick.pose, ground_m, reach_m, &self.climbing);
-                self.flight.adopt(step.as_slice());
-            }
-        }
-        let mut first = self.flight.first().copied()?;
-        if self.on.is_some() && tick.leaves_the_goal_by(&first) {
-            self.flight.clear();
-            return None;
-        }
-        if self.on.is_some() {
-            // A tread may be narrow and the edge behind it wide: wherever a plan crosses that, there is no walking to the side.
-            let at = [tick.pose.x_m, tick.pose.y_m];
-            first.crossing_m = first.stair.front.straight_on_m(at);
-        }
-        Some(first)
-    }
-
-    /// Whether the memorised step may have been a glance of something beside the way: no foot has tried it, and by now it is not
-    /// seen, or not planned and its edge never was measured.
-    pub(super) fn is_in_doubt(&self) -> bool {
-        let unseen = self.flight.is_out_of_sight();
-        let measured = self
-            .flight
-            .first()
-            .is_some_and(|first| self.is_usable(first));
-        self.tries.missteps == 0 && self.flight.is_lost() && (unseen || !measured)
-    }
-
-    /// The steps within reach that the plan leads over.
-    fn planned_ahead<'a>(&self, tick: &Tick<'a>) -> Option<&'a [Step]> {
-        let at = [tick.pose.x_m, tick.pose.y_m];
-        let beyond_m = |step: &Step| step.stair.front.beyond_m(at);
-        let path = tick.situation.plan?.way.as_ref().ok()?;
-        let steps = path.climbs.iter().find_map(|climb| {
-            // The plan may not have noticed yet that a step was taken.
-            let ahead = climb.steps.iter().position(|step| beyond_m(step) <= 0.0)?;
-            Some(&climb.steps[ahead..])
-        })?;
-        (beyond_m(&steps[0]) > -2.0 * self.reach_m()).then_some(steps)
-    }
-
-    /// How far ahead of the robot's middle the edge of a step may be that is taken next, m.
-    fn reach_m(&self) -> f64 {
-        0.5 * self.feet.length_m + 0.06
-    }
-
-    /// What is behind the next step, as far as it was measured.
-    fn behind(&self, tick: &Tick<'_>, first: &Step) -> Behind<'_> {
-        match self.flight.second() {
-            Some(second) if self.is_measured(second) || self.tries.looks >= self.config.tries => {
-                Behind::Step(second)
-            }
-            Some(second) => Behind::Unseen(super::placement::depth_m(first, second)),
-            None => self.before(tick).without_next(first),
-        }
-    }
-
     /// Looks once more; when that was done too often, the climb ends where there is room to walk on or nowhere left to go, and else
     /// the robot gives up for this reason.
     pub(super) fn look_again(&mut self, tick: &Tick<'_>, reason: impl FnOnce() -> String) {
-        self.tries.looks += 1;
-        if self.tries.looks > self.config.tries {
-            if self.on.is_some() && (self.has_room(tick) || tick.is_in_the_goal()) {
-                self.enter(State::Finish);
+        self.memory.tries.looks += 1;
+        if self.memory.tries.looks > self.config.tries {
+            if self.memory.on.is_some() && (self.has_room(tick) || tick.is_in_the_goal()) {
+                self.enter(State::FINISH);
                 return;
             }
             self.refuse(reason());
@@ -220,42 +158,45 @@ impl StairClimbing {
 
     /// Waits for what stands on the next step to go away.
     fn wait(&mut self, tick: &Tick<'_>) {
-        if self.phase != Phase::Wait {
-            self.begin_look(tick);
-            self.phase(Phase::Wait);
-        } else if self.phase_s > self.config.wait {
+        let waited_s = match self.machine.state() {
+            State::Climb(Climb::Wait { waited_s }) => *waited_s,
+            _ => 0.0,
+        };
+        if waited_s > self.config.wait {
             self.refuse(format!(
                 "blocked: something has stood on the next step for {:.0} s",
                 self.config.wait
             ));
         } else {
-            let waited_s = self.phase_s;
             self.begin_look(tick);
-            self.phase = Phase::Wait;
-            self.phase_s = waited_s;
+            self.machine.go_on(State::Climb(Climb::Wait { waited_s }));
         }
+    }
+
+    /// Moves the feet, to these stances where they are steps.
+    pub(super) fn move_feet(&mut self, run: Vec<Stance>) {
+        self.machine.go_on(State::Climb(Climb::Step { run }));
     }
 
     fn step(&mut self, tick: &Tick<'_>, stance: &Stance) {
         let first = leading_side(&tick.pose, &stance.pose);
-        self.run.clear();
-        self.run.push(*stance);
-        if self.pace == Pace::Continuous && !self.pauses {
-            let _ = self.lengthen_run(tick);
+        let mut run = vec![*stance];
+        if self.pace == Pace::Continuous && !self.memory.pauses {
+            let _ = self.lengthen_run(tick, &mut run);
         }
-        let holds = if self.run.len() > 1 {
-            alternating(first, &self.run, self.feet.stance_m)
+        let holds = if run.len() > 1 {
+            alternating(first, &run, self.feet.stance_m)
         } else {
             stance.both(first, self.feet.stance_m).to_vec()
         };
         let half_m = 0.5 * self.feet.length_m;
-        self.came_from = Some(Stance {
+        self.memory.came_from = Some(Stance {
             pose: tick.pose,
             height_m: tick.ground_m,
             bearing_m: [-half_m, half_m],
         });
         self.stepper.start(holds, &tick.pose, tick.ground_m);
-        self.phase(Phase::Step);
+        self.move_feet(run);
     }
 
     fn after_steps(&mut self, tick: &Tick<'_>, stepped: Stepped) {
@@ -277,9 +218,9 @@ impl StairClimbing {
             .first()
             .is_some_and(|step| step.stair.front.beyond_m(at) > 0.0)
         {
-            self.on = self.flight.taken();
-            self.idle_s = 0.0;
-            self.tries = super::Tries::default();
+            self.memory.on = self.flight.taken();
+            self.machine.gets_on();
+            self.memory.tries = Tries::default();
         }
     }
 }

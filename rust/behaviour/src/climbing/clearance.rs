@@ -23,7 +23,7 @@ impl StairClimbing {
         if crosses_another(stairs, &tick.pose, tick.ground_m, to, first, &self.climbing) {
             return false;
         }
-        let Some(on) = self.on else {
+        let Some(on) = self.memory.on else {
             return true;
         };
         if self.leaves_aside(&on, &tick.pose, &stance.pose) {
@@ -88,7 +88,7 @@ impl StairClimbing {
                 && stair.back.beyond_m(at) < 0.0
         };
         let mut known_now = tick.situation.stairs.stairs.iter().filter(stands_on);
-        self.on.is_none_or(|step| roomy(&step.stair)) || known_now.any(roomy)
+        self.memory.on.is_none_or(|step| roomy(&step.stair)) || known_now.any(roomy)
     }
 }
 
