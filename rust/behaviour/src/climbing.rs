@@ -49,7 +49,8 @@ use head::Head;
 use leg::Leg;
 use memory::Memory;
 use placement::Before;
-use state::{Finish, State};
+use state::Finish;
+pub(crate) use state::State;
 use stepper::Stepper;
 use walk::Ahead;
 

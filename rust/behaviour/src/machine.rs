@@ -8,6 +8,9 @@ mod sight;
 mod state;
 mod tick;
 
+#[cfg(test)]
+mod tests;
+
 pub(crate) use clock::{Clock, Stopwatch};
 pub(crate) use interruption::Interruption;
 pub(crate) use limits::Limits;

@@ -34,7 +34,7 @@ use gaze::{Gazer, Sweep};
 use obstacles::Followed;
 pub(crate) use obstacles::{is_edge, is_roomy};
 use progress::Progress;
-use state::State;
+pub(crate) use state::State;
 pub(crate) use track::Track;
 use unknown::Looked;
 
