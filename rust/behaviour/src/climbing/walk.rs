@@ -7,9 +7,9 @@ use crate::climbing::inspection::{self, Inspection};
 use crate::machine::{State as _, Stopwatch, Tick};
 use crate::{Behaviour, BehaviourError, Decision, Motion, Outcome, Situation};
 
-/// The first look around may end after this when stairs lie on the way, s: by then all near ground was looked at;
+/// The first look around may end after this when stairs lie on the way, s: by then all near ground was looked at.
 const FIRST_LOOK_S: f64 = 3.8;
-/// without stops, the ground on the way to them was.
+/// Before a climb without stops it may end after this, s: by then the ground on the way was looked at.
 const FIRST_GLANCE_S: f64 = 1.8;
 /// A climb must be on the plan this long to be counted on, s.
 const SURE_S: f64 = 0.4;

@@ -9,12 +9,13 @@ use crate::walking::gaze::Sweep;
 use crate::walking::state::State;
 use crate::{Motion, Velocity};
 
-/// The head sways so far to each side of straight ahead, rad, in this time, s: walls tell more than the floor before the feet.
+/// The head sways so far to each side of straight ahead, rad: walls tell more than the floor before the feet.
 const SWAY_RAD: f64 = 0.6;
+/// The head sways to and fro in this time, s.
 const SWAY_S: f64 = 4.0;
 /// The look around at the start ends after this, whatever the frames do, s.
 const LONGEST_LOOK_S: f64 = 12.0;
-/// Who lost its place again within this time does not begin with a look around, s.
+/// A robot that lost its place again within this time does not begin with a look around, s.
 const LOOK_HOLDS_S: f64 = 30.0;
 /// After as much turning, rad, small circles tell more than turning on.
 const TURNED_RAD: f64 = 4.0;
@@ -22,10 +23,11 @@ const TURNED_RAD: f64 = 4.0;
 const CIRCLE_SHARE: f64 = 0.6;
 /// The odometry frame moves further than this in the map, m, when the robot finds itself elsewhere.
 const ELSEWHERE_M: f64 = 0.2;
-/// Floor is needed so far ahead to walk on, m, each so far to the side,
+/// Floor is needed so far ahead to walk on, m.
 const AHEAD_M: [f64; 3] = [0.15, 0.25, 0.35];
+/// Floor is needed so far to the side, m, at each distance ahead.
 const ASIDE_M: [f64; 3] = [-0.12, 0.0, 0.12];
-/// and as level as this, m.
+/// Floor to walk on is as level as this, m.
 const LEVEL_M: f64 = 0.012;
 
 /// What is known while the robot finds out where it is.

@@ -14,9 +14,9 @@ use crate::{Motion, Velocity};
 const DONE_M: f64 = 0.02;
 /// It begins when the robot is this near to where it has to turn, m.
 const THERE_M: f64 = 0.03;
-/// The robot turns on the spot until its heading is no further off than this, rad,
+/// The robot turns on the spot until its heading is no further off than this, rad.
 const TURNED_RAD: f64 = 0.06;
-/// and again when it is further off than this, rad.
+/// The robot turns on the spot again when its heading is further off than this, rad.
 const ASTRAY_RAD: f64 = 0.2;
 /// Further beside the leg than this it goes on only once it is back, m.
 const BESIDE_M: f64 = 0.03;
@@ -133,8 +133,9 @@ mod tests {
     use proptest::prelude::*;
     use stairs::{ClimbingConfig, Feet};
 
-    /// Of the robot from front to back and across, and the radius of the planner's circle, m.
+    /// Size of the robot from front to back and across, m.
     const BOX_M: [f64; 2] = [0.2, 0.35];
+    /// Radius of the planner's circle, m.
     const RADIUS_M: f64 = 0.14;
     /// Where in its cell a wall ends the map does not tell: half a cell, m.
     const HALF_M: f64 = 0.02;
