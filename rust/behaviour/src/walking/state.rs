@@ -4,6 +4,9 @@ use super::gaze::Sweep;
 use super::locate::Locating;
 use crate::machine::{self, Idling};
 
+/// A robot that looks around may see nothing for so many times as long as one that does not.
+const LOOK_AROUND_PATIENCE: f64 = 4.0;
+
 /// What the robot is doing, and what it knows only while it does.
 #[derive(Debug, Clone)]
 pub(crate) enum State {
@@ -118,7 +121,7 @@ impl machine::State for State {
     /// A robot that stands and looks around may look where there is no ground for a while.
     fn patience(&self) -> f64 {
         match self {
-            Self::LookAround(_) => 4.0,
+            Self::LookAround(_) => LOOK_AROUND_PATIENCE,
             _ => 1.0,
         }
     }
