@@ -11,7 +11,8 @@ mod tick;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use clock::{Clock, Stopwatch};
+use clock::Clock;
+pub(crate) use clock::Stopwatch;
 pub(crate) use interruption::Interruption;
 pub(crate) use limits::Limits;
 pub(crate) use sight::Sight;
