@@ -20,14 +20,14 @@ const FEW: usize = 2;
 
 /// The floor around a robot that stands at this height.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Brink<'a> {
+pub(super) struct DropOff<'a> {
     pub(super) view: &'a FloorView,
     pub(super) feet: &'a Feet,
     /// Height of the floor that the robot stands on, m.
     pub(super) level_m: f64,
 }
 
-impl Brink<'_> {
+impl DropOff<'_> {
     /// Whether a walk brings the feet nearer to lower floor than they are, within their next step.
     pub(super) fn is_neared(&self, pose: &PlanarPose, velocity: &Velocity) -> bool {
         let way = [velocity.x_mps, velocity.y_mps, velocity.yaw_radps].map(|rate| rate * AHEAD_S);
@@ -106,8 +106,8 @@ mod tests {
         }
     }
 
-    fn brink(view: &FloorView) -> Brink<'_> {
-        Brink {
+    fn drop_off(view: &FloorView) -> DropOff<'_> {
+        DropOff {
             view,
             feet: &FEET,
             level_m: 0.05,
@@ -124,20 +124,20 @@ mod tests {
     #[test]
     fn a_walk_towards_the_side_of_a_platform_is_noticed_before_a_sole_is_beyond_it() {
         let view = platform();
-        let brink = brink(&view);
+        let drop_off = drop_off(&view);
         // The outer side of the left sole is 8 cm from the middle.
-        assert!(!brink.is_neared(&PlanarPose::new(0.0, 0.1, 0.0), &sideways(0.04)));
-        assert!(brink.is_neared(&PlanarPose::new(0.0, 0.17, 0.0), &sideways(0.04)));
-        assert!(!brink.is_neared(&PlanarPose::new(0.0, 0.17, 0.0), &sideways(-0.04)));
+        assert!(!drop_off.is_neared(&PlanarPose::new(0.0, 0.1, 0.0), &sideways(0.04)));
+        assert!(drop_off.is_neared(&PlanarPose::new(0.0, 0.17, 0.0), &sideways(0.04)));
+        assert!(!drop_off.is_neared(&PlanarPose::new(0.0, 0.17, 0.0), &sideways(-0.04)));
     }
 
     #[test]
     fn toes_may_reach_over_an_edge_and_heels_may_not() {
         let view = platform();
-        let brink = brink(&view);
+        let drop_off = drop_off(&view);
         let ahead_rad = std::f64::consts::FRAC_PI_2;
-        assert!(!brink.is_under(&PlanarPose::new(0.0, 0.26, ahead_rad)));
-        assert!(brink.is_under(&PlanarPose::new(0.0, 0.26, -ahead_rad)));
+        assert!(!drop_off.is_under(&PlanarPose::new(0.0, 0.26, ahead_rad)));
+        assert!(drop_off.is_under(&PlanarPose::new(0.0, 0.26, -ahead_rad)));
     }
 
     proptest! {
@@ -147,7 +147,7 @@ mod tests {
         ) {
             let mut view = platform();
             view.cells = Grid::filled(50, 50, Surface::Floor(0.045));
-            prop_assert!(!brink(&view).is_neared(&PlanarPose::new(x_m, y_m, yaw_rad), &sideways(y_mps)));
+            prop_assert!(!drop_off(&view).is_neared(&PlanarPose::new(x_m, y_m, yaw_rad), &sideways(y_mps)));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Walking as a part of a longer way: begun, broken off and taken up again by another behaviour.
+//! Walking as a part of a longer way: another behaviour breaks it off, and hands the robot over again.
 
 use super::state::State;
 use super::{Progress, WalkingBehaviour};
@@ -7,23 +7,19 @@ use crate::Situation;
 impl WalkingBehaviour {
     /// Takes up walking where another behaviour left the robot: what was waited for before counts no more.
     pub(crate) fn resume(&mut self, situation: &Situation<'_>) {
-        self.time_ns = Some(situation.time_ns);
+        self.machine.resume(State::Walk, situation.time_ns);
         self.gazer.start(situation.gaze);
         self.progress = Progress::default();
         self.followed.forget();
-        self.state = State::Walk;
-        self.state_s = 0.0;
-        self.idle_s = 0.0;
-        self.no_plan_s = 0.0;
-        self.no_way_s = 0.0;
+        self.no_plan.reset();
+        self.no_way.reset();
         self.looks = 0;
-        self.turn_to_rad = None;
         self.watched_m = None;
     }
 
     /// Whether it stands and looks around.
     pub(crate) fn is_looking_around(&self) -> bool {
-        self.state == State::LookAround
+        matches!(self.machine.state(), State::LookAround(_))
     }
 
     /// Ends a look around early, once a way is sure: what must be known on it has been seen.
