@@ -34,8 +34,8 @@ pub trait Setting {
     /// JSON schema of its values.
     fn schema(bounds: &Bounds) -> Value;
 
-    /// The settings in it, where it is a table.
-    fn parameters(_key: &str) -> Option<Vec<Parameter>> {
+    /// The settings in it with its values for defaults, where it is a table.
+    fn parameters(&self, _key: &str) -> Option<Vec<Parameter>> {
         None
     }
 
