@@ -6,11 +6,11 @@ use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
 use settings::ConfigError;
 
-use crate::extract::Extraction;
-use crate::fits::Fits;
-use crate::joints::{cut_off, join};
-use crate::memory::Memory;
-use crate::view::View;
+use crate::edges::fits::Fits;
+use crate::edges::joints::{cut_off, join};
+use crate::frame::extract::Extraction;
+use crate::frame::view::View;
+use crate::treads::memory::Memory;
 use crate::{Stair, Staircase, StairsConfig};
 
 /// Why a frame was not searched for stairs. The stairs are unchanged.

@@ -3,7 +3,7 @@
 use geometry::{Map, Point, Pose, Robot};
 use nalgebra::Vector2;
 
-use crate::line::Line;
+use crate::lines::line::Line;
 
 /// A straight edge of a level surface. Its ends are left and right for one who goes over it from front to back.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,9 +3,9 @@
 use super::prisms::{Prism, frame};
 use super::*;
 use crate::Stair;
-use crate::extract::level_edge;
-use crate::view::View;
-use crate::visible::seen_ends;
+use crate::frame::extract::level_edge;
+use crate::frame::view::View;
+use crate::frame::visible::seen_ends;
 
 pub(super) fn ground() -> Prism {
     Prism::new(&[[-3.0, -3.0], [5.0, -3.0], [5.0, 3.0], [-3.0, 3.0]], 0.0)

@@ -6,7 +6,7 @@
 use geometry::{Camera, Map, Pose};
 use nalgebra::{Matrix2, Point2, Point3, Vector2, Vector3};
 
-use crate::line::Line;
+use crate::lines::line::Line;
 use crate::{Edge, EdgeFit, FittedEdge};
 
 /// Looks that are kept of each edge.

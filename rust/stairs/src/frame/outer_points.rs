@@ -4,10 +4,10 @@ use geometry::Robot;
 use segmentation::Planes;
 
 use crate::Edge;
-use crate::extract::level_edge;
-use crate::line::Line;
-use crate::robust_line::Row;
-use crate::view::View;
+use crate::frame::extract::level_edge;
+use crate::frame::view::View;
+use crate::lines::line::Line;
+use crate::lines::robust_line::Row;
 
 /// Points further from the side of the hull than this many fringes belong to other sides.
 const WINDOW: f64 = 3.0;

@@ -2,7 +2,7 @@
 
 use nalgebra::Point2;
 
-use crate::line::{Line, LineSum};
+use crate::lines::line::{Line, LineSum};
 
 /// Least number of points.
 const FEW: usize = 6;

@@ -3,7 +3,7 @@
 use geometry::Outline;
 use nalgebra::{Point2, Vector2};
 
-use crate::line::LineSum;
+use crate::lines::line::LineSum;
 
 /// Pieces longer than this must point along their side, m.
 const LONG_PIECE_M: f64 = 0.025;

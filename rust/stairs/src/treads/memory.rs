@@ -4,10 +4,10 @@ use geometry::{Map, Pose, Robot};
 use mapping::FloorView;
 use nalgebra::Point2;
 
-use crate::extract::Sighting;
-use crate::merge::{contradict, merge_all, overlap};
-use crate::tread::Tread;
-use crate::view::{Shows, View};
+use crate::frame::extract::Sighting;
+use crate::frame::view::{Shows, View};
+use crate::treads::merge::{contradict, merge_all, overlap};
+use crate::treads::tread::Tread;
 use crate::{Stair, StairsConfig};
 
 /// Places of a tread that must be seen to tell that it is not there, of five by five: more than a strip along each side, which shows what

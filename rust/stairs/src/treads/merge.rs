@@ -3,7 +3,7 @@
 use geometry::Map;
 
 use crate::Edge;
-use crate::tread::Tread;
+use crate::treads::tread::Tread;
 
 /// Share of the smaller of two treads that must lie in both for them to be one.
 const SHARED: f64 = 0.25;
@@ -87,7 +87,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::extract::{Sighting, level_edge};
+    use crate::frame::extract::{Sighting, level_edge};
     use crate::{Sides, Stair};
 
     const SIMILAR_M: f64 = 0.009;

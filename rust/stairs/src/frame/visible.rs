@@ -3,7 +3,7 @@
 use geometry::Robot;
 use nalgebra::{Point3, Vector2};
 
-use crate::view::{Shows, View};
+use crate::frame::view::{Shows, View};
 use crate::{Edge, Sides, Stair, StairsConfig};
 
 /// Share of a side's places that must show that the surface ends there.

@@ -5,12 +5,12 @@ use nalgebra::Point2;
 use segmentation::Planes;
 use sensing::Intrinsics;
 
-use crate::boundary::side;
-use crate::outer_points::{OuterPoints, Rows};
-use crate::shared_edges::{SharedEdge, SharedEdges};
-use crate::size::{is_cut_short, is_large_enough};
-use crate::view::View;
-use crate::visible::{is_solid, seen_ends};
+use crate::frame::outer_points::{OuterPoints, Rows};
+use crate::frame::shared_edges::{SharedEdge, SharedEdges};
+use crate::frame::size::{is_cut_short, is_large_enough};
+use crate::frame::view::View;
+use crate::frame::visible::{is_solid, seen_ends};
+use crate::lines::boundary::side;
 use crate::{Edge, Stair, StairsConfig};
 
 /// Front and back may differ by this much in heading before the back is doubted, cosine.

@@ -3,7 +3,7 @@
 use geometry::Outline;
 use nalgebra::{Point2, Vector2};
 
-use crate::border::Border;
+use crate::treads::border::Border;
 
 /// Fronts that point further apart than this are different sides, cosine.
 const SAME_SIDE: f64 = 0.82;
@@ -168,7 +168,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::border::Weights;
+    use crate::treads::border::Weights;
 
     /// An edge that was seen, from its right to its left end.
     fn border(right: [f64; 2], left: [f64; 2], weight: f64) -> Border {

@@ -4,10 +4,10 @@ use geometry::{Map, Point, Pose, Robot};
 use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
 
-use crate::fusion::FusedEdge;
-use crate::joints::{apart_m, before, part_beside};
-use crate::line::Line;
-use crate::view::View;
+use crate::edges::fusion::FusedEdge;
+use crate::edges::joints::{apart_m, before, part_beside};
+use crate::frame::view::View;
+use crate::lines::line::Line;
 use crate::{Edge, EdgeFit, EdgeModel, Stair, StairsConfig};
 
 /// Edges fitted in a frame: those in view that the robot, going straight on, would cross first.

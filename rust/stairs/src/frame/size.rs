@@ -2,7 +2,7 @@
 
 use geometry::Robot;
 
-use crate::view::View;
+use crate::frame::view::View;
 use crate::{Edge, Stair, StairsConfig};
 
 /// Whether both edges and the depth between them are long enough for a stair (003, section IV.B).
@@ -38,7 +38,7 @@ mod tests {
     use segmentation::Planes;
 
     use super::*;
-    use crate::extract::level_edge;
+    use crate::frame::extract::level_edge;
     use crate::synthetic::{CAMERA, camera_pose};
 
     /// A level quadrangle between two edges square to the way, each around y = 0.

@@ -3,9 +3,9 @@
 use geometry::{Map, Outline, Point, Pose, Robot};
 use nalgebra::{Point2, Vector3};
 
-use crate::aspect::{Aspect, Aspects};
-use crate::border::{Border, Weights};
-use crate::extract::Sighting;
+use crate::frame::extract::Sighting;
+use crate::treads::aspect::{Aspect, Aspects};
+use crate::treads::border::{Border, Weights};
 use crate::{Edge, Sides, Stair};
 
 /// Sightings that a tread is worth after a step: those that follow soon weigh more.

@@ -3,7 +3,7 @@
 use geometry::{Map, Point};
 use nalgebra::Point2;
 
-use crate::line::Line;
+use crate::lines::line::Line;
 use crate::{Edge, Stair};
 
 /// Farthest that the two may lie apart, m.

@@ -3,7 +3,7 @@
 use geometry::Outline;
 use nalgebra::{Point2, Vector2};
 
-use crate::line::{Line, LineSum};
+use crate::lines::line::{Line, LineSum};
 
 /// Share of the sightings that must have seen where a side ends for it to end there, against those that saw it go on.
 const BELIEVED: f64 = 0.2;

@@ -6,9 +6,9 @@ use segmentation::Planes;
 
 use crate::Edge;
 use crate::StairsConfig;
-use crate::extract::level_edge;
-use crate::robust_line::Row;
-use crate::view::View;
+use crate::frame::extract::level_edge;
+use crate::frame::view::View;
+use crate::lines::robust_line::Row;
 
 /// Pixels that a surface must have in a column in one piece to count there.
 const LEAST_RUN: u16 = 3;
