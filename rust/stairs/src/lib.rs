@@ -17,8 +17,14 @@ mod synthetic;
 mod tests;
 
 pub use climbing::conditions::{Ahead, Stand, Tolerance, Unready, conditions};
+pub use climbing::config::{ClimbingConfig, ClimbingTuning, ParameterSet};
 pub use climbing::footing::{Feet, Footing, Onward, Unfit};
-pub use config::{ClimbingConfig, ParameterSet, StairsConfig};
+pub use config::{
+    BorderTuning, CoarseTuning, EdgeModelTuning, EdgesTuning, ExcerptTuning, FitsTuning,
+    FrameTuning, FusionTuning, JointsTuning, LinesTuning, MemoryTuning, MergingTuning,
+    PlacesTuning, RefineTuning, SharedEdgesTuning, SidesTuning, StairsConfig, StairsTuning,
+    TreadsTuning, ViewTuning, VisibilityTuning, WindowTuning,
+};
 pub use edges::edge_model::{EdgeModel, FittedEdge, Untrusted};
 pub use recognizer::{Recognizer, StairsError};
 pub use stair::{Edge, EdgeFit, Sides, Stair, Staircase};

@@ -20,7 +20,7 @@ pub struct Stand {
     pub askew_rad: f64,
     /// From between the feet to the stair's left side, margin included, m.
     pub left_m: f64,
-    /// The same to the right, m.
+    /// From between the feet to the stair's right side, margin included, m.
     pub right_m: f64,
 }
 

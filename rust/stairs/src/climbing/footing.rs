@@ -2,9 +2,6 @@
 
 use crate::ClimbingConfig;
 
-/// How much further than it must be a heel comes down behind a riser where the ground goes on, m: it sinks along that.
-const SPARE_BELOW_M: f64 = 0.01;
-
 /// The feet of a robot, side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Feet {
@@ -81,7 +78,9 @@ impl Footing {
         let set = config.set_for(rise_m);
         let least_heel_m = set.front_x_limit;
         let heel_m = match onward {
-            Onward::Level if rise_m < 0.0 => least_heel_m.max(config.level_x) + SPARE_BELOW_M,
+            Onward::Level if rise_m < 0.0 => {
+                least_heel_m.max(config.level_x) + config.tuning.spare_below
+            }
             Onward::Level => least_heel_m.max(config.level_x),
             Onward::Edge {
                 depth_m,

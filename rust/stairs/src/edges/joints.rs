@@ -4,23 +4,14 @@ use geometry::{Map, Point};
 use nalgebra::Point2;
 
 use crate::lines::line::Line;
-use crate::{Edge, Stair};
-
-/// Farthest that the two may lie apart, m.
-const APART_M: f64 = 0.04;
-/// Cosine of the largest angle between them.
-const PARALLEL: f64 = 0.966;
-/// Share of a stair's width that another must have to begin on it,
-const WIDE: f64 = 0.6;
-/// and how deep the stair must be before that, m.
-const LEAST_DEPTH_M: f64 = 0.05;
+use crate::{Edge, JointsTuning, Stair, StairsConfig};
 
 /// Index of the stair that ends where another begins.
-pub(crate) fn before(stairs: &[Stair<Map>], index: usize, own_height_m: f64) -> Option<usize> {
+pub(crate) fn before(stairs: &[Stair<Map>], index: usize, config: &StairsConfig) -> Option<usize> {
     let stair = &stairs[index];
     let apart = |other: &Stair<Map>| {
-        let differ = (other.height_m() - stair.height_m()).abs() > own_height_m;
-        apart_m(&other.back, &stair.front).filter(|_| differ)
+        let differ = (other.height_m() - stair.height_m()).abs() > config.own_height;
+        apart_m(&other.back, &stair.front, &config.tuning.edges.joints).filter(|_| differ)
     };
     let others = stairs.iter().enumerate().filter(|(at, _)| *at != index);
     let near = others.filter_map(|(at, other)| Some((apart(other)?, at)));
@@ -29,10 +20,10 @@ pub(crate) fn before(stairs: &[Stair<Map>], index: usize, own_height_m: f64) -> 
 }
 
 /// How far two edges lie apart, m, if they may be one.
-pub(crate) fn apart_m(a: &Edge<Map>, b: &Edge<Map>) -> Option<f64> {
+pub(crate) fn apart_m(a: &Edge<Map>, b: &Edge<Map>, tuning: &JointsTuning) -> Option<f64> {
     let place = middle_of_both(a, b)?;
     let apart_m = (a.beyond_m(place.into()) - b.beyond_m(place.into())).abs();
-    (a.across().dot(&b.across()) > PARALLEL && apart_m < APART_M).then_some(apart_m)
+    (a.across().dot(&b.across()) > tuning.parallel && apart_m < tuning.apart).then_some(apart_m)
 }
 
 /// The middle of the stretch that two nearly parallel edges have beside each other.
@@ -54,7 +45,7 @@ pub(crate) fn part_beside(edge: &Edge<Map>, other: &Edge<Map>) -> Option<Edge<Ma
 
 /// The first edge's line, and from where to where on it both edges lie, m.
 fn beside(a: &Edge<Map>, b: &Edge<Map>) -> Option<(Line, [f64; 2])> {
-    let line = Line::along(a)?;
+    let line = a.line()?;
     let span = |edge: &Edge<Map>| {
         [&edge.right, &edge.left].map(|end| line.along.dot(&(end.inner.xy() - line.at)))
     };
@@ -65,42 +56,44 @@ fn beside(a: &Edge<Map>, b: &Edge<Map>) -> Option<(Line, [f64; 2])> {
 
 /// Ends a stair where another one begins on it, whose front was seen more often than that the stair ends farther back: from afar the
 /// next step is taken for a part of this one, for a frame.
-pub(crate) fn cut_off(stairs: &mut [Stair<Map>], own_height_m: f64) {
+pub(crate) fn cut_off(stairs: &mut [Stair<Map>], config: &StairsConfig) {
+    let tuning = &config.tuning.edges.joints;
     for index in 0..stairs.len() {
         let stair = &stairs[index];
         let begins = stairs
             .iter()
-            .filter(|other| (other.height_m() - stair.height_m()).abs() > own_height_m)
+            .filter(|other| (other.height_m() - stair.height_m()).abs() > config.own_height)
             .filter(|other| other.seen_ends.front > stair.seen_ends.back)
-            .filter_map(|other| Some((begins_at_m(stair, &other.front)?, other.front)))
+            .filter_map(|other| Some((begins_at_m(stair, &other.front, tuning)?, other.front)))
             .min_by(|(a_m, _), (b_m, _)| a_m.total_cmp(b_m));
-        if let Some(line) = begins.and_then(|(_, front)| Line::along(&front)) {
+        if let Some(line) = begins.and_then(|(_, front)| front.line()) {
             stairs[index].back = stairs[index].back.onto(&line);
         }
     }
 }
 
 /// How far behind a stair's front an edge lies that crosses most of the stair, m.
-fn begins_at_m(stair: &Stair<Map>, edge: &Edge<Map>) -> Option<f64> {
+fn begins_at_m(stair: &Stair<Map>, edge: &Edge<Map>, tuning: &JointsTuning) -> Option<f64> {
     let part = part_beside(edge, &stair.back)?;
     let middle = part.middle().inner;
     let at = [middle.x, middle.y];
     let depth_m = stair.front.beyond_m(at);
-    let crosses = part.length_m() > WIDE * stair.back.length_m()
-        && stair.back.across().dot(&edge.across()) > PARALLEL;
-    let within = depth_m > LEAST_DEPTH_M && stair.back.beyond_m(at) < -APART_M;
+    let crosses = part.length_m() > tuning.wide * stair.back.length_m()
+        && stair.back.across().dot(&edge.across()) > tuning.parallel;
+    let within = depth_m > tuning.least_depth && stair.back.beyond_m(at) < -tuning.apart;
     (crosses && within).then_some(depth_m)
 }
 
 /// Makes one edge of the back of each stair and the front of the next, each by how much of its support saw it.
-pub(crate) fn join(stairs: &mut [Stair<Map>], own_height_m: f64) {
+pub(crate) fn join(stairs: &mut [Stair<Map>], config: &StairsConfig) {
+    let unseen = config.tuning.edges.joints.unseen;
     for index in 0..stairs.len() {
-        let Some(before) = before(stairs, index, own_height_m) else {
+        let Some(before) = before(stairs, index, config) else {
             continue;
         };
         let (back, front) = (stairs[before].back, stairs[index].front);
         let (nearer, farther) = (stairs[before].seen_ends.back, stairs[index].seen_ends.front);
-        let share = (farther as f64 + 1.0) / (nearer as f64 + farther as f64 + 2.0);
+        let share = (farther as f64 + unseen) / (nearer as f64 + farther as f64 + 2.0 * unseen);
         if let Some(line) = between(&back, &front, share) {
             stairs[before].back = back.onto(&line);
             stairs[index].front = front.onto(&line);
@@ -112,7 +105,7 @@ pub(crate) fn join(stairs: &mut [Stair<Map>], own_height_m: f64) {
 fn between(a: &Edge<Map>, b: &Edge<Map>, share: f64) -> Option<Line> {
     let at = middle_of_both(a, b)?;
     let [from, to] = [a, b].map(|edge| at - edge.across() * edge.beyond_m(at.into()));
-    let [from_along, to_along] = [Line::along(a)?.along, Line::along(b)?.along];
+    let [from_along, to_along] = [a.line()?.along, b.line()?.along];
     Some(Line {
         at: from + (to - from) * share,
         along: (from_along.lerp(&to_along, share)).try_normalize(1e-9)?,
@@ -125,8 +118,6 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-
-    const OWN_HEIGHT_M: f64 = 0.01;
 
     /// A stair across the way, `width_m` wide, seen to end in front and behind by so many points.
     fn stair(
@@ -151,7 +142,7 @@ mod tests {
             stair([0.84, to_m], 0.09, 0.9, [2600, back_seen]),
             stair([0.96, 1.36], 0.09 + rise_m, next_width_m, [1900, 1400]),
         ];
-        cut_off(&mut stairs, OWN_HEIGHT_M);
+        cut_off(&mut stairs, &StairsConfig::default());
         stairs[0].back.middle().inner.x
     }
 

@@ -11,18 +11,8 @@ use crate::frame::size::{is_cut_short, is_large_enough};
 use crate::frame::view::View;
 use crate::frame::visible::{is_solid, seen_ends};
 use crate::lines::boundary::side;
-use crate::{Edge, Stair, StairsConfig};
-
-/// Front and back may differ by this much in heading before the back is doubted, cosine.
-const OPPOSITE: f64 = 0.9;
-/// A front that points further away from the robot than this is a side, cosine.
-const FACES: f64 = 0.5;
-/// Edges to neighbours count from this share of the longest on.
-const LONG_ENOUGH: f64 = 0.5;
-/// How far a surface may seem to reach into one that it lies before, m.
-const BEFORE_M: f64 = 0.05;
-/// Least height of the camera above a surface, m.
-const LEAST_BELOW_M: f64 = 0.05;
+use crate::stair::level_edge;
+use crate::{Edge, FrameTuning, Stair, StairsConfig, StairsTuning};
 
 /// One stair as one frame shows it.
 #[derive(Debug, Clone)]
@@ -49,7 +39,7 @@ pub(crate) struct Extraction {
 impl Extraction {
     /// Finds the level surfaces of a frame.
     pub(crate) fn read(&mut self, planes: &Planes, camera: Intrinsics, config: &StairsConfig) {
-        let view = View::new(planes, camera);
+        let view = View::new(planes, camera, &config.tuning.view);
         self.outer_points.read(planes, camera.width);
         self.shared_edges.read(planes, &view, camera.width, config);
         self.found.clear();
@@ -76,34 +66,40 @@ impl Extraction {
         view: &View<'_>,
         config: &StairsConfig,
     ) -> Option<Sighting> {
-        let shared_front = self.shared(view, |edge| edge.farther == index);
-        let surface = Surface::new(index, view, shared_front.as_ref())?;
+        let tuning = &config.tuning.frame;
+        let shared_front = self.shared(view, tuning, |edge| edge.farther == index);
+        let surface = Surface::new(index, view, shared_front.as_ref(), tuning)?;
         let reference = surface.reference;
         let front = match &shared_front {
             Some(front) => front.at_height(surface.height_m),
-            None => self.front(&surface, view)?,
+            None => self.front(&surface, view, &config.tuning)?,
         };
-        if front.across().dot(&reference.coords) < FACES * reference.coords.norm() {
+        if front.across().dot(&reference.coords) < tuning.faces * reference.coords.norm() {
             return None;
         }
-        let parallel = |back: &Edge<Robot>| front.across().dot(&back.across()) > OPPOSITE;
-        let shared_back = self.shared(view, |edge| edge.nearer == index && parallel(&edge.edge));
+        let parallel = |back: &Edge<Robot>| front.across().dot(&back.across()) > tuning.opposite;
+        let shared_back = self.shared(view, tuning, |edge| {
+            edge.nearer == index && parallel(&edge.edge)
+        });
         let surface = surface.before(shared_back.as_ref())?;
         let back = shared_back.map_or_else(
-            || self.back(&surface, view),
+            || self.back(&surface, view, &config.tuning),
             |back| Some(back.at_height(surface.height_m)),
         );
         let back = match back.filter(parallel) {
             Some(back) => back,
             // A spike of the hull, or no straight side: as the front, through the middle of what is there.
-            None => self
-                .outer_points
-                .parallel(view, (index, Rows::Highest), &front)?,
+            None => self.outer_points.parallel(
+                view,
+                (index, Rows::Highest),
+                &front,
+                &config.tuning.lines,
+            )?,
         };
         let reference = surface.reference;
         let reference = Point::new(reference.x, reference.y, surface.height_m);
         let mut stair = Stair::seen(front, back, reference, view.region(index).support);
-        if !is_solid(&stair, view) {
+        if !is_solid(&stair, view, &config.tuning) {
             return None;
         }
         let shared = [shared_front.is_some(), shared_back.is_some()];
@@ -117,30 +113,45 @@ impl Extraction {
     }
 
     /// The side of the hull that the line from the robot enters, without its fringes.
-    fn front(&mut self, surface: &Surface, view: &View<'_>) -> Option<Edge<Robot>> {
+    fn front(
+        &mut self,
+        surface: &Surface,
+        view: &View<'_>,
+        tuning: &StairsTuning,
+    ) -> Option<Edge<Robot>> {
         let [enters, _] = surface.cuts()?;
         // Counter-clockwise such a side goes from left to right.
-        let [left, right] = side(&surface.hull, enters.edge, surface.fringe_m);
+        let [left, right] = side(&surface.hull, enters.edge, surface.fringe_m, &tuning.lines);
         let rough = level_edge([right, left], surface.height_m);
         let rows = (surface.index, Rows::Lowest);
         let smooth = self
             .outer_points
-            .through(view, rows, &rough, surface.fringe_m);
+            .through(view, rows, &rough, surface.fringe_m, tuning);
         Some(smooth.unwrap_or(rough))
     }
 
     /// The side of the hull that the line leaves, without its fringes; `None` where it is not straight.
-    fn back(&mut self, surface: &Surface, view: &View<'_>) -> Option<Edge<Robot>> {
+    fn back(
+        &mut self,
+        surface: &Surface,
+        view: &View<'_>,
+        tuning: &StairsTuning,
+    ) -> Option<Edge<Robot>> {
         let [_, leaves] = surface.cuts()?;
-        let [right, left] = side(&surface.hull, leaves.edge, surface.fringe_m);
+        let [right, left] = side(&surface.hull, leaves.edge, surface.fringe_m, &tuning.lines);
         let rough = level_edge([right, left], surface.height_m);
         let rows = (surface.index, Rows::Highest);
         self.outer_points
-            .through(view, rows, &rough, surface.fringe_m)
+            .through(view, rows, &rough, surface.fringe_m, tuning)
     }
 
     /// The edge to the neighbour with the smallest difference in height, of those edges that are long enough.
-    fn shared(&self, view: &View<'_>, wanted: impl Fn(&SharedEdge) -> bool) -> Option<Edge<Robot>> {
+    fn shared(
+        &self,
+        view: &View<'_>,
+        tuning: &FrameTuning,
+        wanted: impl Fn(&SharedEdge) -> bool,
+    ) -> Option<Edge<Robot>> {
         let of_region = || self.shared_edges.edges.iter().filter(|edge| wanted(edge));
         let longest_m = of_region()
             .map(|edge| edge.edge.length_m())
@@ -150,7 +161,7 @@ impl Extraction {
             near.zip(far)
                 .map_or(f64::INFINITY, |(near_m, far_m)| (far_m - near_m).abs())
         };
-        let long = of_region().filter(|edge| edge.edge.length_m() > LONG_ENOUGH * longest_m);
+        let long = of_region().filter(|edge| edge.edge.length_m() > tuning.long_enough * longest_m);
         long.min_by(|a, b| rise_m(a).total_cmp(&rise_m(b)))
             .map(|edge| edge.edge)
     }
@@ -166,7 +177,12 @@ struct Surface {
 }
 
 impl Surface {
-    fn new(index: usize, view: &View<'_>, front: Option<&Edge<Robot>>) -> Option<Self> {
+    fn new(
+        index: usize,
+        view: &View<'_>,
+        front: Option<&Edge<Robot>>,
+        tuning: &FrameTuning,
+    ) -> Option<Self> {
         let region = view.region(index);
         let (height_m, hull) = (region.floor_height_m?, region.boundary.clone()?);
         let reference = region.mean.inner.xy();
@@ -178,7 +194,7 @@ impl Surface {
             reference,
             fringe_m: view.fringe_m(height_m, away_m),
         };
-        let usable = away_m > 1e-3 && view.height_m() - height_m > LEAST_BELOW_M;
+        let usable = away_m > tuning.nearest && view.looks_down_on(height_m);
         whole
             .cut_off(front.filter(|_| usable), 1.0)
             .filter(|_| usable)
@@ -210,17 +226,9 @@ impl Surface {
     }
 }
 
-/// Right and left end at a height.
-pub(crate) fn level_edge([right, left]: [Point2<f64>; 2], z_m: f64) -> Edge<Robot> {
-    let at = |p: Point2<f64>| Point::new(p.x, p.y, z_m);
-    Edge {
-        left: at(left),
-        right: at(right),
-    }
-}
-
 /// Whether the surface is at the robot's own height, with nothing of another height on the way to it.
 fn is_own_level(found: &[Sighting], index: usize, config: &StairsConfig) -> bool {
+    let tuning = &config.tuning.frame;
     let stair = &found[index].stair;
     let own = |stair: &Stair<Robot>| stair.height_m().abs() < config.own_height;
     let to = stair.reference.inner.xy();
@@ -232,8 +240,8 @@ fn is_own_level(found: &[Sighting], index: usize, config: &StairsConfig) -> bool
     let reach_m = cuts_m(&found[index].hull).map_or(0.0, |[enters_m, _]| enters_m);
     let between = |other: &Sighting| {
         cuts_m(&other.hull).is_some_and(|[enters_m, leaves_m]| {
-            let deep = leaves_m - enters_m > config.min_depth / 2.0;
-            let before = enters_m > 0.0 && leaves_m < reach_m + BEFORE_M;
+            let deep = leaves_m - enters_m > config.min_depth * tuning.between_depth;
+            let before = enters_m > 0.0 && leaves_m < reach_m + tuning.overlap;
             deep && before && !own(&other.stair)
         })
     };

@@ -3,16 +3,10 @@
 use geometry::Robot;
 use segmentation::Planes;
 
-use crate::Edge;
-use crate::frame::extract::level_edge;
 use crate::frame::view::View;
-use crate::lines::line::Line;
 use crate::lines::robust_line::Row;
-
-/// Points further from the side of the hull than this many fringes belong to other sides.
-const WINDOW: f64 = 3.0;
-/// Share of the side's length that the points must span.
-const SPANNED: f64 = 0.5;
+use crate::stair::level_edge;
+use crate::{Edge, LinesTuning, StairsTuning};
 
 /// Which side of a surface is meant, by its rows in the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,6 +26,7 @@ pub(crate) struct OuterPoints {
     row: Row,
 }
 
+/// Rows of a column in which a region does not show.
 const NONE: [u16; 2] = [u16::MAX, 0];
 
 impl OuterPoints {
@@ -59,18 +54,20 @@ impl OuterPoints {
         (region, rows): (usize, Rows),
         rough: &Edge<Robot>,
         fringe_m: f64,
+        tuning: &StairsTuning,
     ) -> Option<Edge<Robot>> {
         let (right, length_m) = (rough.right.inner.xy(), rough.length_m());
-        let line = Line::along(rough)?;
+        let line = rough.line()?;
+        let window_m = tuning.frame.side_window * fringe_m;
         self.gather(view, region, rows, rough.left.inner.z);
         self.row.points.retain(|(_, point)| {
             let along_m = line.along.dot(&(point - right));
             let beside = along_m < -fringe_m || along_m > length_m + fringe_m;
-            !beside && line.offset_m(point).abs() < WINDOW * fringe_m
+            !beside && line.offset_m(point).abs() < window_m
         });
-        let straight = self.row.straight(Some(line), fringe_m)?;
+        let straight = self.row.straight(Some(line), fringe_m, &tuning.lines)?;
         let ends = [&rough.right, &rough.left].map(|end| straight.line.nearest(&end.inner.xy()));
-        let enough = straight.spanned_m > SPANNED * length_m;
+        let enough = straight.spanned_m > tuning.lines.spanned * length_m;
         enough.then(|| level_edge(ends, rough.left.inner.z))
     }
 
@@ -80,9 +77,10 @@ impl OuterPoints {
         view: &View<'_>,
         (region, rows): (usize, Rows),
         edge: &Edge<Robot>,
+        tuning: &LinesTuning,
     ) -> Option<Edge<Robot>> {
         self.gather(view, region, rows, edge.left.inner.z);
-        let median_m = self.row.median_offset_m(&Line::along(edge)?)?;
+        let median_m = self.row.median_offset_m(&edge.line()?, tuning)?;
         Some(edge.shifted(median_m))
     }
 

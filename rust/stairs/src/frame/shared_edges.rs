@@ -4,18 +4,10 @@
 use geometry::Robot;
 use segmentation::Planes;
 
-use crate::Edge;
-use crate::StairsConfig;
-use crate::frame::extract::level_edge;
 use crate::frame::view::View;
 use crate::lines::robust_line::Row;
-
-/// Pixels that a surface must have in a column in one piece to count there.
-const LEAST_RUN: u16 = 3;
-/// Pixels between two surfaces of which one ends where the other begins: what a riser takes from near.
-const LARGEST_GAP: u16 = 14;
-/// Least length of an edge, m.
-const LEAST_LENGTH_M: f64 = 0.05;
+use crate::stair::level_edge;
+use crate::{Edge, StairsConfig, StairsTuning};
 
 /// One column's change from a surface to the next behind it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -68,12 +60,14 @@ impl SharedEdges {
             edges,
         } = self;
         let pairs = changes.chunk_by(|a, b| (a.nearer, a.farther) == (b.nearer, b.farther));
-        edges.extend(pairs.filter_map(|pair| fit(pair, planes, view, row)));
+        edges.extend(pairs.filter_map(|pair| fit(pair, planes, view, row, &config.tuning)));
     }
 
     /// Follows a column from its bottom up.
     fn read_column(&mut self, planes: &Planes, col: usize, width: usize, config: &StairsConfig) {
         let level_m = |region: u16| planes.regions[usize::from(region)].floor_height_m;
+        let tuning = &config.tuning.frame.shared_edges;
+        let (least_run, largest_gap) = (tuning.least_run, tuning.largest_gap);
         let mut last: Option<(u16, u16)> = None;
         let (mut run, mut run_start, mut run_length) = (0, 0, 0);
         for row in (0..planes.labels.len() / width).rev() {
@@ -88,15 +82,15 @@ impl SharedEdges {
                 (run, run_start, run_length) = (label, row, 0);
             }
             run_length += 1;
-            if run_length < LEAST_RUN {
+            if run_length < least_run {
                 continue;
             }
             let region = run - 1;
-            if run_length == LEAST_RUN
+            if run_length == least_run
                 && let Some((nearer, last_row)) = last
                 && let (Some(near_m), Some(far_m)) = (level_m(nearer), level_m(region))
                 && (near_m - far_m).abs() > config.own_height
-                && last_row.saturating_sub(run_start) <= LARGEST_GAP
+                && last_row.saturating_sub(run_start) <= largest_gap
             {
                 self.changes.push(Change {
                     nearer,
@@ -112,7 +106,13 @@ impl SharedEdges {
 }
 
 /// The line through the changes between two regions.
-fn fit(pair: &[Change], planes: &Planes, view: &View<'_>, row: &mut Row) -> Option<SharedEdge> {
+fn fit(
+    pair: &[Change],
+    planes: &Planes,
+    view: &View<'_>,
+    row: &mut Row,
+    tuning: &StairsTuning,
+) -> Option<SharedEdge> {
     let first = pair.first()?;
     let [nearer, farther] = [first.nearer, first.farther].map(usize::from);
     let near_m = planes.regions[nearer].floor_height_m?;
@@ -135,9 +135,11 @@ fn fit(pair: &[Change], planes: &Planes, view: &View<'_>, row: &mut Row) -> Opti
     }
     let away_m = row.points.first()?.1.coords.norm();
     let fringe_m = view.fringe_m(near_m, away_m);
-    let straight = row.straight(None, fringe_m)?;
+    let straight = row.straight(None, fringe_m, &tuning.lines)?;
     let edge = level_edge(straight.ends, far_m);
-    (straight.spanned_m > LEAST_LENGTH_M.max(edge.length_m() / 2.0)).then_some(SharedEdge {
+    let least_m = tuning.frame.shared_edges.least_length;
+    let least_m = least_m.max(edge.length_m() * tuning.lines.spanned);
+    (straight.spanned_m > least_m).then_some(SharedEdge {
         nearer,
         farther,
         edge,

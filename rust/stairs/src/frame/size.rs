@@ -38,7 +38,8 @@ mod tests {
     use segmentation::Planes;
 
     use super::*;
-    use crate::frame::extract::level_edge;
+    use crate::ViewTuning;
+    use crate::stair::level_edge;
     use crate::synthetic::{CAMERA, camera_pose};
 
     /// A level quadrangle between two edges square to the way, each around y = 0.
@@ -73,7 +74,8 @@ mod tests {
     fn an_edge_that_leaves_the_picture_may_be_long_enough_and_one_that_ends_in_it_is_not() {
         let mut planes = Planes::new(CAMERA.width * CAMERA.height);
         planes.robot_from_camera = camera_pose(0.0, 0.75);
-        let view = View::new(&planes, CAMERA);
+        let tuning = ViewTuning::default();
+        let view = View::new(&planes, CAMERA, &tuning);
         let row = 0.5 * CAMERA.height as f64;
         let at = |col: f64| view.on_level([col, row], 0.03).unwrap();
         let (middle, border) = (at(0.5 * CAMERA.width as f64), at(0.0));

@@ -5,17 +5,7 @@ use nalgebra::{Isometry3, Point2, Point3, Vector2, Vector3};
 use segmentation::{PlaneRegion, Planes};
 use sensing::Intrinsics;
 
-/// How far beyond a side the picture is asked whether the surface goes on, px: half a matching window and one more, and
-/// farther where a riser lies between.
-const BEYOND_PX: [f64; 3] = [3.5, 6.0, 8.5];
-/// A point belongs to a surface when their heights differ by less than this, m, and by less than [`HEIGHT_NOISE`] says.
-const SAME_HEIGHT_M: f64 = 0.008;
-/// Noise of a single point's height at 1 m, m; it grows with the squared distance.
-const HEIGHT_NOISE: f64 = 0.025;
-/// Least fringe of a boundary, m.
-const FRINGE_M: f64 = 0.008;
-/// Places along a side at which the picture is asked.
-const PLACES: usize = 7;
+use crate::ViewTuning;
 
 /// The planes of a frame, seen through its camera.
 #[derive(Debug, Clone, Copy)]
@@ -23,6 +13,7 @@ pub(crate) struct View<'a> {
     planes: &'a Planes,
     camera: Intrinsics,
     camera_from_robot: Isometry3<f64>,
+    tuning: &'a ViewTuning,
 }
 
 /// What a pixel shows against a level surface.
@@ -37,12 +28,13 @@ pub(crate) enum Shows {
 }
 
 impl<'a> View<'a> {
-    pub(crate) fn new(planes: &'a Planes, camera: Intrinsics) -> Self {
+    pub(crate) fn new(planes: &'a Planes, camera: Intrinsics, tuning: &'a ViewTuning) -> Self {
         let robot_from_camera: geometry::Pose<Robot, Camera> = planes.robot_from_camera;
         Self {
             planes,
             camera,
             camera_from_robot: robot_from_camera.inner.inverse(),
+            tuning,
         }
     }
 
@@ -52,15 +44,20 @@ impl<'a> View<'a> {
     }
 
     /// Height of the camera above the ground, m.
-    pub(crate) fn height_m(&self) -> f64 {
+    fn height_m(&self) -> f64 {
         self.planes.robot_from_camera.inner.translation.z
+    }
+
+    /// Whether the camera is high enough above a surface at this height, m, to look at it.
+    pub(crate) fn looks_down_on(&self, height_m: f64) -> bool {
+        self.height_m() - height_m > self.tuning.least_below
     }
 
     /// How wide the fringes of a surface are, `away_m` away, m: what one row of pixels covers.
     pub(crate) fn fringe_m(&self, height_m: f64, away_m: f64) -> f64 {
-        let below_m = (self.height_m() - height_m).max(0.05);
+        let below_m = (self.height_m() - height_m).max(self.tuning.least_below);
         let row_m = (below_m.powi(2) + away_m.powi(2)) / (self.camera.focal_px * below_m);
-        row_m.max(FRINGE_M)
+        row_m.max(self.tuning.fringe)
     }
 
     /// Where the ray through a place of the image (column, row) meets the level at this height; `None` where it does not.
@@ -82,7 +79,7 @@ impl<'a> View<'a> {
     fn pixel(&self, point: &Point3<f64>) -> Option<Vector2<f64>> {
         let seen = self.camera_from_robot * point;
         let (cx, cy) = self.camera.principal_point_px();
-        (seen.z > 0.05).then(|| {
+        (seen.z > self.tuning.nearest_depth).then(|| {
             Vector2::new(
                 cx + self.camera.focal_px * seen.x / seen.z,
                 cy + self.camera.focal_px * seen.y / seen.z,
@@ -114,12 +111,16 @@ impl<'a> View<'a> {
             return None;
         }
         let level_m = f64::from(self.planes.floor_height_m[at]);
+        let same_m = self.tuning.same_height;
         let (above_m, slack_m) = if level_m.is_nan() {
             let eye = self.planes.robot_from_camera.inner.translation.vector;
             let away = (Point3::from(point).coords - eye).norm_squared();
-            (point[2] - height_m, SAME_HEIGHT_M + HEIGHT_NOISE * away)
+            (
+                point[2] - height_m,
+                same_m + self.tuning.height_noise * away,
+            )
         } else {
-            (level_m - height_m, SAME_HEIGHT_M)
+            (level_m - height_m, same_m)
         };
         Some(if above_m > slack_m {
             Shows::Higher
@@ -139,10 +140,11 @@ impl<'a> View<'a> {
     /// What is out of view shows nothing.
     pub(crate) fn beyond(&self, [a, b]: [&Point3<f64>; 2], outward: &Vector2<f64>) -> Beyond {
         let mut found = Beyond::default();
-        for i in 0..PLACES {
-            let share = (i as f64 + 1.0) / (PLACES as f64 + 1.0);
+        let places = self.tuning.places;
+        for i in 0..places {
+            let share = (i as f64 + 1.0) / (places as f64 + 1.0);
             let on = a + (b - a) * share;
-            let out = on + outward.push(0.0) * 0.01;
+            let out = on + outward.push(0.0) * self.tuning.outward;
             let (Some(from), Some(to)) = (self.pixel(&on), self.pixel(&out)) else {
                 continue;
             };
@@ -151,11 +153,14 @@ impl<'a> View<'a> {
                 continue;
             }
             let outwards = (to - from) / length;
-            let shows = BEYOND_PX.map(|px| self.shows(&(from + outwards * px), on.z));
+            let shows = self
+                .tuning
+                .beyond
+                .map(|px| self.shows(&(from + outwards * px), on.z));
             let other = |shows: &Option<Shows>| !matches!(shows, None | Some(Shows::Surface));
             match shows.into_iter().find(other).flatten() {
-                Some(Shows::Lower) => found.lower += 1.0 / PLACES as f64,
-                Some(Shows::Higher) => found.higher += 1.0 / PLACES as f64,
+                Some(Shows::Lower) => found.lower += 1.0 / places as f64,
+                Some(Shows::Higher) => found.higher += 1.0 / places as f64,
                 Some(Shows::Surface) | None => {}
             }
         }

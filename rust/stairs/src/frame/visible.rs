@@ -4,26 +4,19 @@ use geometry::Robot;
 use nalgebra::{Point3, Vector2};
 
 use crate::frame::view::{Shows, View};
-use crate::{Edge, Sides, Stair, StairsConfig};
-
-/// Share of a side's places that must show that the surface ends there.
-const ENDS: f64 = 0.5;
-/// Share of a stair's places that must show the surface, of those that show anything.
-const SOLID: f64 = 0.6;
-/// What an edge counts that was seen from one of its sides only: fringes move it by centimetres.
-const ONE_SIDED: usize = 8;
+use crate::{Edge, Sides, Stair, StairsConfig, StairsTuning};
 
 /// Whether the surface is seen at most of the places of the stair: hulls are optimistic.
-pub(crate) fn is_solid(stair: &Stair<Robot>, view: &View<'_>) -> bool {
+pub(crate) fn is_solid(stair: &Stair<Robot>, view: &View<'_>, tuning: &StairsTuning) -> bool {
     let (mut surface, mut other) = (0, 0);
-    for place in stair.places() {
+    for place in stair.places(&tuning.places) {
         match view.shows_at(&place.inner) {
             Some(Shows::Surface) => surface += 1,
             Some(Shows::Higher | Shows::Lower) => other += 1,
             None => {}
         }
     }
-    f64::from(surface) >= SOLID * f64::from(surface + other) && surface > 0
+    f64::from(surface) >= tuning.frame.solid * f64::from(surface + other) && surface > 0
 }
 
 /// Which sides end the surface and not only the view; of its front and its back, those that are `shared` with a neighbour
@@ -34,17 +27,18 @@ pub(crate) fn seen_ends(
     view: &View<'_>,
     config: &StairsConfig,
 ) -> Sides {
+    let tuning = &config.tuning.frame;
     let Stair { front, back, .. } = stair;
     let beyond = |edge: &Edge<Robot>, outward: Vector2<f64>| {
         view.beyond([&edge.left.inner, &edge.right.inner], &outward)
     };
     let support = |is_shared: bool, ends: bool| match (is_shared, ends) {
         (true, _) => stair.support,
-        (false, true) => stair.support.div_ceil(ONE_SIDED),
+        (false, true) => stair.support.div_ceil(tuning.one_sided),
         (false, false) => 0,
     };
-    let ends_before = beyond(front, -front.across()).lower >= ENDS;
-    let ends_behind = beyond(back, back.across()).any() >= ENDS;
+    let ends_before = beyond(front, -front.across()).lower >= tuning.side_ends;
+    let ends_behind = beyond(back, back.across()).any() >= tuning.side_ends;
     let mut seen = Sides {
         front: support(shared[0], ends_before),
         back: support(shared[1], ends_behind),
@@ -60,7 +54,8 @@ pub(crate) fn seen_ends(
     let ends = |side: [&Point3<f64>; 2], outward: Vector2<f64>| {
         // Where the picture cuts a surface to a corner, that is no side.
         let deep_m = outward.normalize().perp(&(side[1] - side[0]).xy()).abs();
-        deep_m > config.min_depth / 2.0 && view.beyond(side, &outward).any() >= ENDS
+        deep_m > config.min_depth * tuning.side_depth
+            && view.beyond(side, &outward).any() >= tuning.side_ends
     };
     let is_left = ends([&front.left.inner, &back.left.inner], left);
     let is_right = ends([&front.right.inner, &back.right.inner], -left);

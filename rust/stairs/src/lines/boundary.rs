@@ -3,28 +3,31 @@
 use geometry::Outline;
 use nalgebra::{Point2, Vector2};
 
+use crate::LinesTuning;
 use crate::lines::line::LineSum;
-
-/// Pieces longer than this must point along their side, m.
-const LONG_PIECE_M: f64 = 0.025;
-/// Cosine of the largest angle between a long piece and its side.
-const PARALLEL: f64 = 0.9;
 
 /// The side of a hull to which the piece from corner `edge` to the next belongs: neighbours are taken in while all stay
 /// within `fringe_m` of one line, so that fringes do not split it. Its ends, counter-clockwise.
-pub(crate) fn side(hull: &Outline, edge: usize, fringe_m: f64) -> [Point2<f64>; 2] {
+pub(crate) fn side(
+    hull: &Outline,
+    edge: usize,
+    fringe_m: f64,
+    tuning: &LinesTuning,
+) -> [Point2<f64>; 2] {
     let corners = hull.corners();
     let n = corners.len();
+    let is_straight =
+        |first: usize, pieces: usize| is_straight(corners, first, pieces, fringe_m, tuning);
     let (mut first, mut pieces) = (edge, 1);
     let (mut forward, mut backward) = (true, true);
     while (forward || backward) && pieces + 1 < n {
         if forward {
-            forward = is_straight(corners, first, pieces + 1, fringe_m);
+            forward = is_straight(first, pieces + 1);
             pieces += usize::from(forward);
         }
         if backward && pieces + 1 < n {
             let before = (first + n - 1) % n;
-            backward = is_straight(corners, before, pieces + 1, fringe_m);
+            backward = is_straight(before, pieces + 1);
             if backward {
                 (first, pieces) = (before, pieces + 1);
             }
@@ -32,7 +35,7 @@ pub(crate) fn side(hull: &Outline, edge: usize, fringe_m: f64) -> [Point2<f64>; 
     }
     let line = sum(corners, first, pieces);
     let ends = [corners[first], corners[(first + pieces) % n]];
-    line.line()
+    line.line(tuning.agreement)
         .map_or(ends, |line| ends.map(|end| line.nearest(&end)))
 }
 
@@ -47,15 +50,22 @@ fn sum(corners: &[Point2<f64>], first: usize, pieces: usize) -> LineSum {
     line
 }
 
-fn is_straight(corners: &[Point2<f64>], first: usize, pieces: usize, fringe_m: f64) -> bool {
+fn is_straight(
+    corners: &[Point2<f64>],
+    first: usize,
+    pieces: usize,
+    fringe_m: f64,
+    tuning: &LinesTuning,
+) -> bool {
     let n = corners.len();
-    let Some(line) = sum(corners, first, pieces).line() else {
+    let Some(line) = sum(corners, first, pieces).line(tuning.agreement) else {
         return false;
     };
     (first..first + pieces).all(|i| {
         let (a, b) = (corners[i % n], corners[(i + 1) % n]);
         let piece: Vector2<f64> = b - a;
         let near = [a, b].iter().all(|p| line.offset_m(p).abs() <= fringe_m);
-        near && (piece.norm() < LONG_PIECE_M || piece.dot(&line.along) > PARALLEL * piece.norm())
+        near && (piece.norm() < tuning.long_piece
+            || piece.dot(&line.along) > tuning.piece_parallel * piece.norm())
     })
 }

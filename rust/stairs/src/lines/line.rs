@@ -1,10 +1,6 @@
 //! A straight line through many segments: the sum of their moments, so that the order of summing does not matter.
 
-use crate::Edge;
 use nalgebra::{Matrix2, Point2, Vector2};
-
-/// Cosine of the largest angle between the line and the mean of the segments; beyond, they lie beside each other.
-const AGREES: f64 = 0.9;
 
 /// A line in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,15 +12,6 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// Through an edge, from right to left.
-    pub(crate) fn along<F>(edge: &Edge<F>) -> Option<Self> {
-        let (right, left) = (edge.right.inner.xy(), edge.left.inner.xy());
-        Some(Self {
-            at: right,
-            along: (left - right).try_normalize(1e-9)?,
-        })
-    }
-
     /// Square to the line, to the right of its direction: from front to back where the line goes from right to left.
     pub(crate) fn across(&self) -> Vector2<f64> {
         Vector2::new(self.along.y, -self.along.x)
@@ -85,8 +72,9 @@ impl LineSum {
         self.weight
     }
 
-    /// The line with the least squared distance from all segments; `None` without a segment of some length.
-    pub(crate) fn line(&self) -> Option<Line> {
+    /// The line with the least squared distance from all segments; `None` without a segment of some length. Where it turns away from
+    /// their mean direction by more than the angle of this cosine, they lie beside each other, and it has their mean direction.
+    pub(crate) fn line(&self, agreement_needed: f64) -> Option<Line> {
         let rough = self.along.try_normalize(1e-9)?;
         let mean = self.places / self.weight;
         let spread = self.squares / self.weight - mean * mean.transpose();
@@ -95,7 +83,7 @@ impl LineSum {
         let agreement = along.dot(&rough);
         Some(Line {
             at: mean.into(),
-            along: if agreement.abs() > AGREES {
+            along: if agreement.abs() > agreement_needed {
                 along * agreement.signum()
             } else {
                 rough

@@ -2,14 +2,8 @@
 
 use nalgebra::Point2;
 
+use crate::LinesTuning;
 use crate::lines::line::{Line, LineSum};
-
-/// Least number of points.
-const FEW: usize = 6;
-/// Rounds of fitting.
-const ROUNDS: usize = 4;
-/// Columns that may be missing between two neighbours.
-const MISSING: usize = 4;
 
 /// Points by their column in the picture, from left to right. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
@@ -33,17 +27,26 @@ pub(crate) struct Straight {
 impl Row {
     /// The line that most points lie close to, within `fringe_m` of their median's parallel. Begins with `line`, or with
     /// all points.
-    pub(crate) fn straight(&mut self, line: Option<Line>, fringe_m: f64) -> Option<Straight> {
-        let first = line.or_else(|| self.close_to(None, f64::INFINITY)?.0.line())?;
+    pub(crate) fn straight(
+        &mut self,
+        line: Option<Line>,
+        fringe_m: f64,
+        tuning: &LinesTuning,
+    ) -> Option<Straight> {
+        let all = |row: &Self| {
+            let (sum, ..) = row.close_to(None, f64::INFINITY, tuning)?;
+            sum.line(tuning.agreement)
+        };
+        let first = line.or_else(|| all(self))?;
         let (mut line, mut found) = (first, None);
-        for _ in 0..ROUNDS {
-            let median_m = self.median_offset_m(&line)?;
+        for _ in 0..tuning.rounds {
+            let median_m = self.median_offset_m(&line, tuning)?;
             let middle = Line {
                 at: line.at + line.across() * median_m,
                 ..line
             };
-            let (sum, ends, spanned_m) = self.close_to(Some(&middle), fringe_m)?;
-            line = sum.line()?;
+            let (sum, ends, spanned_m) = self.close_to(Some(&middle), fringe_m, tuning)?;
+            line = sum.line(tuning.agreement)?;
             found = Some(Straight {
                 line,
                 ends: ends.map(|end| line.nearest(&end)),
@@ -54,8 +57,8 @@ impl Row {
     }
 
     /// Median of the points' places behind a line, m; `None` for too few points.
-    pub(crate) fn median_offset_m(&mut self, line: &Line) -> Option<f64> {
-        if self.points.len() < FEW {
+    pub(crate) fn median_offset_m(&mut self, line: &Line, tuning: &LinesTuning) -> Option<f64> {
+        if self.points.len() < tuning.fewest_points {
             return None;
         }
         self.offsets.clear();
@@ -72,6 +75,7 @@ impl Row {
         &self,
         line: Option<&Line>,
         fringe_m: f64,
+        tuning: &LinesTuning,
     ) -> Option<(LineSum, [Point2<f64>; 2], f64)> {
         let (mut sum, mut spanned_m) = (LineSum::default(), 0.0);
         let mut ends: Option<[Point2<f64>; 2]> = None;
@@ -82,7 +86,7 @@ impl Row {
             }
             // To the right in the picture is to the right of the line.
             if let Some((last_col, last)) = before
-                && col - last_col <= MISSING
+                && col - last_col <= tuning.missing_columns
             {
                 sum.add([&point, &last], 1.0);
                 spanned_m += (last - point).norm();

@@ -4,11 +4,7 @@ use geometry::Outline;
 use nalgebra::{Point2, Vector2};
 
 use crate::lines::line::{Line, LineSum};
-
-/// Share of the sightings that must have seen where a side ends for it to end there, against those that saw it go on.
-const BELIEVED: f64 = 0.2;
-/// Sightings that go on for less than this beyond the end agree with it, m.
-const AGREES_M: f64 = 0.02;
+use crate::{BorderTuning, StairsTuning};
 
 /// One end of an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -43,14 +39,14 @@ impl End {
     }
 
     /// Where it is, of sightings of this weight in all.
-    fn place(&self, all: f64) -> Option<Point2<f64>> {
+    fn place(&self, all: f64, tuning: &BorderTuning) -> Option<Point2<f64>> {
         let reached = self.reached?;
         if self.weight <= 0.0 {
             return Some(reached);
         }
         let seen = Point2::from(self.places / self.weight);
-        let agrees = nalgebra::distance(&seen, &reached) < AGREES_M;
-        Some(if agrees || self.weight > BELIEVED * all {
+        let agrees = nalgebra::distance(&seen, &reached) < tuning.agrees;
+        Some(if agrees || self.weight > tuning.believed * all {
             seen
         } else {
             reached
@@ -63,11 +59,11 @@ impl End {
 pub(crate) struct Weights {
     /// Supporting points of the sighting.
     pub(crate) all: f64,
-    /// The same where the edge was seen to end the surface, else 0.
+    /// Those points where the edge was seen to end the surface, else 0.
     pub(crate) edge: f64,
-    /// The same for its left end.
+    /// Those points where its left end was seen, else 0.
     pub(crate) left: f64,
-    /// The same for its right end.
+    /// Those points where its right end was seen, else 0.
     pub(crate) right: f64,
 }
 
@@ -95,8 +91,8 @@ impl Border {
     }
 
     /// Adds another sum of sightings of the same edge.
-    pub(crate) fn add_border(&mut self, other: &Self) {
-        let to_left = self.along();
+    pub(crate) fn add_border(&mut self, other: &Self, tuning: &StairsTuning) {
+        let to_left = self.along(tuning);
         self.seen.add_sum(&other.seen);
         self.unseen.add_sum(&other.unseen);
         self.left.add_end(&other.left, &to_left);
@@ -132,39 +128,48 @@ impl Border {
     }
 
     /// Direction from front to back, square to it; nothing where nothing is known.
-    pub(crate) fn across(&self) -> Vector2<f64> {
-        let along = self.along();
+    pub(crate) fn across(&self, tuning: &StairsTuning) -> Vector2<f64> {
+        let along = self.along(tuning);
         Vector2::new(along.y, -along.x)
     }
 
     /// Direction from right to left; nothing where nothing is known.
-    pub(crate) fn along(&self) -> Vector2<f64> {
-        let line = self.seen.line().or_else(|| self.unseen.line());
+    pub(crate) fn along(&self, tuning: &StairsTuning) -> Vector2<f64> {
+        let agreement = tuning.lines.agreement;
+        let seen = self.seen.line(agreement);
+        let line = seen.or_else(|| self.unseen.line(agreement));
         line.map_or_else(Vector2::zeros, |line| line.along)
     }
 
     /// The edge, right end first. Where it was never seen it is drawn outside of all of the hull, on the side that
     /// `outward` says: 1 for the back, -1 for the front. Sightings that did not see it count against it only where they go
     /// on beyond it: from near by, only what lies behind a front is in view.
-    pub(crate) fn ends(&self, hull: &Outline, outward: f64) -> Option<[Point2<f64>; 2]> {
+    pub(crate) fn ends(
+        &self,
+        hull: &Outline,
+        outward: f64,
+        tuning: &StairsTuning,
+    ) -> Option<[Point2<f64>; 2]> {
+        let agreement = tuning.lines.agreement;
+        let tuning = &tuning.treads.border;
         let all = self.weight();
-        let mostly_seen = self.seen.weight() > BELIEVED * all;
+        let mostly_seen = self.seen.weight() > tuning.believed * all;
         let goes_on = |seen: &Line| {
-            let unseen = self.unseen.line();
-            unseen.is_some_and(|unseen| outward * seen.offset_m(&unseen.at) > AGREES_M)
+            let unseen = self.unseen.line(agreement);
+            unseen.is_some_and(|unseen| outward * seen.offset_m(&unseen.at) > tuning.agrees)
         };
-        let seen = self.seen.line();
+        let seen = self.seen.line(agreement);
         let seen = seen.filter(|seen| mostly_seen || !goes_on(seen));
         let line = seen.or_else(|| {
-            let mut line: Line = self.unseen.line()?;
+            let mut line: Line = self.unseen.line(agreement)?;
             let out = |p: &Point2<f64>| outward * line.offset_m(p);
             let outermost = hull.corners().iter().map(out).fold(f64::MIN, f64::max);
             line.at += line.across() * outward * outermost;
             Some(line)
         })?;
         Some([
-            line.nearest(&self.right.place(all)?),
-            line.nearest(&self.left.place(all)?),
+            line.nearest(&self.right.place(all, tuning)?),
+            line.nearest(&self.left.place(all, tuning)?),
         ])
     }
 }
@@ -187,16 +192,17 @@ mod tests {
             };
             Border::new([&at(x_m, -0.2), &at(x_m, 0.2)], weights)
         };
+        let tuning = StairsTuning::default();
         let mut border = sighting(0.4, 12.0);
         for _ in 1..seen {
-            border.add_border(&sighting(0.4, 12.0));
+            border.add_border(&sighting(0.4, 12.0), &tuning);
         }
         for _ in 0..unseen {
-            border.add_border(&sighting(unseen_at_m, 0.0));
+            border.add_border(&sighting(unseen_at_m, 0.0), &tuning);
         }
         let corners = [at(hull_from_m, 0.0), at(0.5, -0.2), at(0.5, 0.2)];
         let [right, left] = border
-            .ends(&Outline::hull(&corners).unwrap(), -1.0)
+            .ends(&Outline::hull(&corners).unwrap(), -1.0, &tuning)
             .unwrap();
         nalgebra::center(&right, &left).x
     }

@@ -8,17 +8,7 @@ use crate::frame::extract::Sighting;
 use crate::frame::view::{Shows, View};
 use crate::treads::merge::{contradict, merge_all, overlap};
 use crate::treads::tread::Tread;
-use crate::{Stair, StairsConfig};
-
-/// Places of a tread that must be seen to tell that it is not there, of five by five: more than a strip along each side, which shows what
-/// lies beside a tread that is taken for wider than it is, and may be all that is not too near to be seen.
-const LOOKED_AT: usize = 11;
-/// Share of them that must show something lower.
-const SEEN_THROUGH: f64 = 0.6;
-
-/// Places along a front that are looked at for a slope before it, as shares of its length, and how far from it, m.
-const FRONT_SHARES: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
-const BESIDE_M: f64 = 0.06;
+use crate::{Stair, StairsConfig, StairsTuning};
 
 /// The treads around the robot, seen or remembered.
 #[derive(Debug, Clone, Default)]
@@ -37,17 +27,17 @@ impl Memory {
         for tread in &mut self.treads {
             // One more than is remembered is forgotten.
             for _ in 0..times.min(u64::from(config.forget_steps) + 1) {
-                tread.step();
+                tread.step(&config.tuning);
             }
         }
     }
 
     /// Forgets treads where the map has a slope: its level strips are no stairs, and what it leads to is walked onto.
-    pub(crate) fn leave_slopes(&mut self, floor: &FloorView) {
+    pub(crate) fn leave_slopes(&mut self, floor: &FloorView, tuning: &StairsTuning) {
         self.treads.retain(|tread| {
             tread
                 .stair()
-                .is_none_or(|stair| !is_of_slope(&stair, floor))
+                .is_none_or(|stair| !is_of_slope(&stair, floor, tuning))
         });
     }
 
@@ -60,13 +50,13 @@ impl Memory {
         config: &StairsConfig,
     ) {
         let robot = map_from_robot.origin().inner.xy();
-        self.look_for_gone(view, map_from_robot);
+        self.look_for_gone(view, map_from_robot, &config.tuning);
         let known = self.treads.len();
         for sighting in sightings {
-            let Some(tread) = Tread::new(sighting, map_from_robot) else {
+            let Some(tread) = Tread::new(sighting, map_from_robot, &config.tuning) else {
                 continue;
             };
-            let same = |old: &Tread| overlap(old, &tread, config.similar_height);
+            let same = |old: &Tread| overlap(old, &tread, config);
             let counts = if sighting.own_level {
                 self.treads[..known]
                     .iter()
@@ -78,27 +68,33 @@ impl Memory {
                 self.treads.push(tread);
             }
         }
-        merge_all(&mut self.treads, config.similar_height);
+        merge_all(&mut self.treads, config);
         self.drop_contradicted(config);
         let far =
             |tread: &Tread| nalgebra::distance(&tread.middle(), &robot) > config.forget_distance;
         self.treads
             .retain(|tread| !far(tread) && tread.steps_ago <= config.forget_steps);
         for tread in &mut self.treads {
-            tread.face(&robot);
+            tread.face(&robot, &config.tuning);
         }
         self.frames = self.frames.saturating_add(1);
     }
 
     /// Counts the frames in which something lower shows where a tread should be.
-    fn look_for_gone(&mut self, view: &View<'_>, map_from_robot: &Pose<Map, Robot>) {
+    fn look_for_gone(
+        &mut self,
+        view: &View<'_>,
+        map_from_robot: &Pose<Map, Robot>,
+        tuning: &StairsTuning,
+    ) {
+        let memory = &tuning.treads.memory;
         let robot_from_map = map_from_robot.inverse();
         for tread in &mut self.treads {
             let Some(stair) = tread.stair() else {
                 continue;
             };
             let (mut there, mut gone) = (0_usize, 0_usize);
-            for place in stair.transformed(&robot_from_map).places() {
+            for place in stair.transformed(&robot_from_map).places(&tuning.places) {
                 match view.shows_at(&place.inner) {
                     Some(Shows::Surface) => there += 1,
                     Some(Shows::Lower) => gone += 1,
@@ -106,8 +102,8 @@ impl Memory {
                 }
             }
             let looked_at = there + gone;
-            if looked_at >= LOOKED_AT {
-                let through = gone as f64 >= SEEN_THROUGH * looked_at as f64;
+            if looked_at >= memory.looked_at {
+                let through = gone as f64 >= memory.seen_through * looked_at as f64;
                 tread.contradicted = if through { tread.contradicted + 1 } else { 0 };
             }
         }
@@ -122,7 +118,7 @@ impl Memory {
         let mut index = 0;
         while index < self.treads.len() {
             let tread = &self.treads[index];
-            let better = |other: &Tread| contradict(other, tread);
+            let better = |other: &Tread| contradict(other, tread, &config.tuning.treads.merging);
             if tread.steps_ago > 0 && self.treads[..index].iter().any(better) {
                 let _ = self.treads.remove(index);
             } else {
@@ -133,10 +129,11 @@ impl Memory {
 
     /// The stairs that are sure enough, no two in one place.
     pub(crate) fn stairs(&self, config: &StairsConfig, stairs: &mut Vec<Stair<Map>>) {
+        let merging = &config.tuning.treads.merging;
         stairs.clear();
         for (index, tread) in self.treads.iter().enumerate() {
             let known = |tread: &Tread| tread.sightings >= config.min_frames;
-            let better = |other: &Tread| known(other) && contradict(other, tread);
+            let better = |other: &Tread| known(other) && contradict(other, tread, merging);
             if known(tread) && !self.treads[..index].iter().any(better) {
                 stairs.extend(tread.stair());
             }
@@ -145,18 +142,22 @@ impl Memory {
 }
 
 /// Whether most of a stair lies on a slope, or most of its front along one.
-fn is_of_slope(stair: &Stair<Map>, floor: &FloorView) -> bool {
+fn is_of_slope(stair: &Stair<Map>, floor: &FloorView, tuning: &StairsTuning) -> bool {
+    let memory = &tuning.treads.memory;
+    let (front_places, beside_m) = (&memory.front_places, memory.beside);
     let is_sloped = |at: [f64; 2]| floor.gradient_at(at[0], at[1]) != [0.0; 2];
-    let on = stair.places().map(|place| place.inner);
+    let on = stair.places(&tuning.places).map(|place| place.inner);
     let on = on.filter(|place| is_sloped([place.x, place.y])).count();
     let (front, across) = (&stair.front, stair.front.across());
-    let along = FRONT_SHARES.iter().filter(|&&share| {
+    let along = front_places.iter().filter(|&&share| {
         let place = front.right.inner.lerp(&front.left.inner, share);
-        [-BESIDE_M, 0.0, BESIDE_M].iter().any(|beside_m| {
+        [-beside_m, 0.0, beside_m].iter().any(|beside_m| {
             is_sloped([place.x + across.x * beside_m, place.y + across.y * beside_m])
         })
     });
-    2 * on >= stair.places().count() || 2 * along.count() > FRONT_SHARES.len()
+    let (all, all_along) = (stair.places(&tuning.places).count(), front_places.len());
+    on as f64 >= memory.on_slope * all as f64
+        || along.count() as f64 > memory.along_slope * all_along as f64
 }
 
 /// Whether a tread lies under the robot.

@@ -2,26 +2,19 @@
 
 use geometry::Map;
 
-use crate::Edge;
 use crate::treads::tread::Tread;
-
-/// Share of the smaller of two treads that must lie in both for them to be one.
-const SHARED: f64 = 0.25;
-
-/// Share of a tread from which on a higher one that lies over it hides it.
-const COVERED: f64 = 0.5;
-
-/// Edges of one stair that was seen in two pieces lie on one line, within this, m, and no further apart than this.
-const ONE_LINE_M: f64 = 0.03;
+use crate::{Edge, MergingTuning, StairsConfig};
 
 /// Whether two treads are the same: similar heights, and enough of the smaller one in both, or side by side.
-pub(crate) fn overlap(a: &Tread, b: &Tread, similar_height_m: f64) -> bool {
-    (a.height_m() - b.height_m()).abs() <= similar_height_m
-        && (shared(a, b) >= SHARED || side_by_side(a, b))
+pub(crate) fn overlap(a: &Tread, b: &Tread, config: &StairsConfig) -> bool {
+    let tuning = &config.tuning.treads.merging;
+    (a.height_m() - b.height_m()).abs() <= config.similar_height
+        && (shared(a, b) >= tuning.shared || side_by_side(a, b, tuning))
 }
 
 /// Whether two treads are pieces of one: fronts and backs on one line and hardly a gap between.
-fn side_by_side(a: &Tread, b: &Tread) -> bool {
+fn side_by_side(a: &Tread, b: &Tread, tuning: &MergingTuning) -> bool {
+    let one_line_m = tuning.one_line;
     let (Some(a), Some(b)) = (a.stair(), b.stair()) else {
         return false;
     };
@@ -30,7 +23,7 @@ fn side_by_side(a: &Tread, b: &Tread) -> bool {
             let ends = [b.left.inner, b.right.inner].map(|end| a.beyond_m([end.x, end.y]).abs());
             ends[0].max(ends[1])
         };
-        off_m(a, b).max(off_m(b, a)) < ONE_LINE_M
+        off_m(a, b).max(off_m(b, a)) < one_line_m
     };
     let gap_m = |a: &Edge<Map>, b: &Edge<Map>| {
         let along = (a.left.inner - a.right.inner).normalize();
@@ -41,7 +34,7 @@ fn side_by_side(a: &Tread, b: &Tread) -> bool {
     };
     on_one_line(&a.front, &b.front)
         && on_one_line(&a.back, &b.back)
-        && gap_m(&a.front, &b.front).min(gap_m(&a.back, &b.back)) < ONE_LINE_M
+        && gap_m(&a.front, &b.front).min(gap_m(&a.back, &b.back)) < one_line_m
 }
 
 /// Share of the smaller of two treads that lies in both.
@@ -54,255 +47,30 @@ pub(crate) fn shared(a: &Tread, b: &Tread) -> f64 {
 
 /// Whether two treads cannot both be there: the higher one covers most of the lower one, which then could not be seen. What
 /// is lower and much larger lies around the higher one: hulls close over what stands on a floor.
-pub(crate) fn contradict(a: &Tread, b: &Tread) -> bool {
+pub(crate) fn contradict(a: &Tread, b: &Tread, tuning: &MergingTuning) -> bool {
     let lower = if a.height_m() < b.height_m() { a } else { b };
     let (Some(of_a), Some(of_b), Some(covered)) = (a.outline(), b.outline(), lower.outline())
     else {
         return false;
     };
-    of_a.shared_area_m2(of_b) > COVERED * covered.area_m2()
+    of_a.shared_area_m2(of_b) > tuning.covered * covered.area_m2()
 }
 
 /// Merges overlapping pairs until there are none. The set shrinks with each, so that this ends.
-pub(crate) fn merge_all(treads: &mut Vec<Tread>, similar_height_m: f64) {
-    while let Some((kept, gone)) = overlapping_pair(treads, similar_height_m) {
+pub(crate) fn merge_all(treads: &mut Vec<Tread>, config: &StairsConfig) {
+    while let Some((kept, gone)) = overlapping_pair(treads, config) {
         let gone = treads.swap_remove(gone);
-        treads[kept].add(&gone);
+        treads[kept].add(&gone, &config.tuning);
     }
 }
 
 /// The first pair that overlaps, the smaller index first.
-fn overlapping_pair(treads: &[Tread], similar_height_m: f64) -> Option<(usize, usize)> {
+fn overlapping_pair(treads: &[Tread], config: &StairsConfig) -> Option<(usize, usize)> {
     (0..treads.len()).find_map(|i| {
-        let j =
-            (i + 1..treads.len()).find(|&j| overlap(&treads[i], &treads[j], similar_height_m))?;
+        let j = (i + 1..treads.len()).find(|&j| overlap(&treads[i], &treads[j], config))?;
         Some((i, j))
     })
 }
 
 #[cfg(test)]
-mod tests {
-    use geometry::{Outline, Point, Pose, Robot};
-    use nalgebra::Point2;
-    use proptest::prelude::*;
-
-    use super::*;
-    use crate::frame::extract::{Sighting, level_edge};
-    use crate::{Sides, Stair};
-
-    const SIMILAR_M: f64 = 0.009;
-
-    /// A level rectangle ahead, of which no end was seen.
-    fn tread(x_m: f64, y_m: f64, depth_m: f64, height_m: f64) -> Tread {
-        let corner = |x: f64, y: f64| Point2::new(x, y);
-        let (near, far, right, left) = (x_m, x_m + depth_m, y_m - 0.1, y_m + 0.1);
-        let corners = [
-            corner(near, right),
-            corner(far, right),
-            corner(far, left),
-            corner(near, left),
-        ];
-        let sighting = Sighting {
-            stair: Stair::seen(
-                level_edge([corners[0], corners[3]], height_m),
-                level_edge([corners[1], corners[2]], height_m),
-                Point::<Robot>::new(x_m + depth_m / 2.0, y_m, height_m),
-                100,
-            ),
-            hull: Outline::hull(&corners).unwrap(),
-            own_level: false,
-            large_enough: true,
-        };
-        Tread::new(&sighting, &Pose::identity()).unwrap()
-    }
-
-    /// A sill ahead, its front from `right` to `left`, with what was seen to end it.
-    fn sill([right, left]: [(f64, f64); 2], seen: Sides) -> Tread {
-        const DEEP_M: f64 = 0.09;
-        let [right, left] = [right, left].map(|(x, y)| Point2::new(x, y));
-        let behind = |p: Point2<f64>| Point2::new(p.x + DEEP_M, p.y);
-        let corners = [right, behind(right), behind(left), left];
-        let mut stair = Stair::seen(
-            level_edge([right, left], 0.038),
-            level_edge([behind(right), behind(left)], 0.038),
-            Point::<Robot>::new(right.x + 0.5 * DEEP_M, 0.5 * (right.y + left.y), 0.038),
-            800,
-        );
-        stair.seen_ends = seen;
-        let sighting = Sighting {
-            stair,
-            hull: Outline::hull(&corners).unwrap(),
-            own_level: false,
-            large_enough: true,
-        };
-        Tread::new(&sighting, &Pose::identity()).unwrap()
-    }
-
-    #[test]
-    fn one_skewed_look_at_a_part_of_a_remembered_stair_does_not_cut_it_off() {
-        let seen = |front: usize, back: usize, sides: usize| Sides {
-            front,
-            back,
-            left: sides,
-            right: sides,
-        };
-        let mut known = sill([(0.4, -0.45), (0.4, 0.4)], seen(800, 800, 0));
-        for _ in 0..8 {
-            known.add(&sill([(0.4, -0.45), (0.4, 0.4)], seen(800, 800, 0)));
-        }
-        known.step();
-        known.add(&sill([(0.35, -0.45), (0.46, -0.2)], seen(0, 100, 800)));
-        let front = known.stair().unwrap().front;
-        assert!(front.left.inner.y > 0.35, "{front:?}");
-    }
-
-    fn treads() -> impl Strategy<Value = Vec<Tread>> {
-        let one = (0.3..1.5f64, -0.5..0.5f64, 0.08..0.3f64, 0..4i32);
-        let one = one.prop_map(|(x, y, depth, level)| tread(x, y, depth, 0.03 * f64::from(level)));
-        prop::collection::vec(one, 0..12)
-    }
-
-    /// What is left, as numbers to compare.
-    fn left(treads: &[Tread]) -> Vec<[i64; 6]> {
-        let mut left: Vec<_> = treads
-            .iter()
-            .map(|tread| {
-                let stair = tread.stair().unwrap();
-                let (near, far) = (stair.front.middle().inner, stair.back.middle().inner);
-                let numbers = [
-                    near.x,
-                    near.y,
-                    far.x,
-                    far.y,
-                    stair.height_m(),
-                    stair.front.length_m(),
-                ];
-                numbers.map(|number| (number * 1e6).round() as i64)
-            })
-            .collect();
-        left.sort_unstable();
-        left
-    }
-
-    proptest! {
-        /// S-M7 and S-M8.
-        #[test]
-        fn merging_ends_with_no_two_that_overlap_and_every_one_inside_one_of_them(mut treads in treads()) {
-            let before = treads.clone();
-            merge_all(&mut treads, SIMILAR_M);
-            prop_assert!(treads.len() <= before.len());
-            for (i, a) in treads.iter().enumerate() {
-                for b in &treads[i + 1..] {
-                    prop_assert!(!overlap(a, b, SIMILAR_M));
-                }
-            }
-            for old in &before {
-                let old = old.stair().unwrap();
-                let inside = treads.iter().any(|new| {
-                    let level = (new.height_m() - old.height_m()).abs() < 1e-6;
-                    let new = new.stair().unwrap();
-                    let corners = [old.front.left, old.front.right, old.back.left, old.back.right];
-                    level && corners.iter().all(|corner| {
-                        let at = [corner.inner.x, corner.inner.y];
-                        new.front.beyond_m(at) > -1e-9 && new.back.beyond_m(at) < 1e-9
-                    })
-                });
-                prop_assert!(inside);
-            }
-        }
-
-        /// S-M5.
-        #[test]
-        fn margins_are_never_negative_and_with_the_edges_cover_all_that_was_seen(mut treads in treads()) {
-            let before = treads.clone();
-            merge_all(&mut treads, SIMILAR_M);
-            for tread in &treads {
-                let stair = tread.stair().unwrap();
-                prop_assert!(stair.left_margin_m >= 0.0 && stair.right_margin_m >= 0.0);
-                let along = (stair.front.left.inner - stair.front.right.inner).normalize();
-                let span = |edge: &Edge<Map>| [edge.right, edge.left].map(|end| along.dot(&end.inner.coords));
-                let ([right, left], [right_too, left_too]) = (span(&stair.front), span(&stair.back));
-                let covers = [
-                    right.min(right_too) - stair.right_margin_m - 1e-9,
-                    left.max(left_too) + stair.left_margin_m + 1e-9,
-                ];
-                // Those that lie within it became part of it.
-                for old in before.iter().filter(|old| shared(old, tread) > 0.999) {
-                    let old = old.stair().unwrap();
-                    let level = (old.height_m() - tread.height_m()).abs() < 1e-6;
-                    let [low, high] = span(&old.front);
-                    prop_assert!(!level || covers[0] <= low && high <= covers[1]);
-                }
-            }
-        }
-
-        #[test]
-        fn what_is_merged_was_seen_from_as_near_as_the_nearest_of_its_parts(mut treads in treads()) {
-            let nearest_m = |treads: &[Tread]| {
-                let seen_from_m = treads.iter().map(|tread| tread.stair().unwrap().seen_from_m);
-                seen_from_m.fold(f64::INFINITY, f64::min)
-            };
-            let before_m = nearest_m(&treads);
-            merge_all(&mut treads, SIMILAR_M);
-            prop_assert_eq!(nearest_m(&treads), before_m);
-        }
-
-        /// A staircase on a floor whose hull is as large as this.
-        #[test]
-        fn a_floor_around_a_tread_stands_not_in_its_place_and_a_tread_as_large_does(
-            x in 0.3..1.5f64, depth in 0.08..0.3f64, low in 0.01..0.1f64, wider in 2.1..20.0f64,
-        ) {
-            let step = tread(x, 0.0, depth, 0.0);
-            let around = tread(x - 0.05, 0.0, wider * depth + 0.05, -low);
-            prop_assert!(!contradict(&around, &step) && !contradict(&step, &around));
-            let other = tread(x, 0.0, depth, -low);
-            prop_assert!(contradict(&other, &step) && contradict(&step, &other));
-        }
-
-        /// Two steps that were taken for one reach from the front of the first to the back of the second.
-        #[test]
-        fn a_tread_that_lies_over_a_lower_one_cannot_be_there_with_it(
-            x in 0.3..1.5f64, depth in 0.08..0.3f64, deeper in 1.0..8.0f64, rise in 0.01..0.05f64,
-        ) {
-            let step = tread(x, 0.0, depth, 0.0);
-            let over = tread(x, 0.0, deeper * depth, rise);
-            prop_assert!(contradict(&over, &step) && contradict(&step, &over));
-        }
-
-        #[test]
-        fn overlap_is_symmetric(a in treads(), b in treads()) {
-            for (a, b) in a.iter().zip(&b) {
-                prop_assert_eq!(overlap(a, b, SIMILAR_M), overlap(b, a, SIMILAR_M));
-            }
-        }
-    }
-
-    /// Sightings of treads that lie well apart, each shifted a little, in any order.
-    #[test]
-    fn the_order_of_sightings_does_not_matter() {
-        let mut noise = crate::synthetic::Noise::new(5);
-        let sightings: Vec<_> = (0..24)
-            .map(|i| {
-                let level = f64::from(i % 4);
-                tread(
-                    0.4 + 0.12 * level + noise.within(0.01),
-                    noise.within(0.05),
-                    0.1,
-                    0.03 * level,
-                )
-            })
-            .collect();
-        let mut expected = sightings.clone();
-        merge_all(&mut expected, SIMILAR_M);
-        assert_eq!(expected.len(), 4);
-        for round in 1..24 {
-            let mut treads = sightings.clone();
-            treads.rotate_left(round);
-            if round % 2 == 0 {
-                treads.reverse();
-            }
-            merge_all(&mut treads, SIMILAR_M);
-            assert_eq!(left(&treads), left(&expected));
-        }
-    }
-}
+mod tests;

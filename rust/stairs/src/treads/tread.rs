@@ -6,10 +6,7 @@ use nalgebra::{Point2, Vector3};
 use crate::frame::extract::Sighting;
 use crate::treads::aspect::{Aspect, Aspects};
 use crate::treads::border::{Border, Weights};
-use crate::{Edge, Sides, Stair};
-
-/// Sightings that a tread is worth after a step: those that follow soon weigh more.
-const REMEMBERED_SIGHTINGS: f64 = 2.0;
+use crate::{Edge, Sides, Stair, StairsTuning};
 
 /// Sums over the sightings of one tread. Sums commute: the order of sightings does not matter.
 #[derive(Debug, Clone)]
@@ -33,7 +30,11 @@ pub(crate) struct Tread {
 }
 
 impl Tread {
-    pub(crate) fn new(sighting: &Sighting, map_from_robot: &Pose<Map, Robot>) -> Option<Self> {
+    pub(crate) fn new(
+        sighting: &Sighting,
+        map_from_robot: &Pose<Map, Robot>,
+        tuning: &StairsTuning,
+    ) -> Option<Self> {
         let stair = sighting.stair.transformed(map_from_robot);
         let corners: Vec<_> = sighting
             .hull
@@ -70,13 +71,13 @@ impl Tread {
             contradicted: 0,
             shape: None,
         };
-        tread.shape();
+        tread.shape(tuning);
         Some(tread)
     }
 
     /// Adds another tread that is the same one.
-    pub(crate) fn add(&mut self, other: &Self) {
-        self.aspects.add(&other.aspects);
+    pub(crate) fn add(&mut self, other: &Self, tuning: &StairsTuning) {
+        self.aspects.add(&other.aspects, tuning);
         let corners: Vec<_> = [&self.hull, &other.hull]
             .iter()
             .flat_map(|hull| hull.corners())
@@ -92,26 +93,27 @@ impl Tread {
         self.seen_from_m = self.seen_from_m.min(other.seen_from_m);
         self.steps_ago = self.steps_ago.min(other.steps_ago);
         self.contradicted = 0;
-        self.shape();
+        self.shape(tuning);
     }
 
     /// The robot stepped: what is known is remembered, and counts less against what will be seen.
-    pub(crate) fn step(&mut self) {
+    pub(crate) fn step(&mut self, tuning: &StairsTuning) {
+        let remembered = tuning.treads.remembered_sightings;
         self.steps_ago = self.steps_ago.saturating_add(1);
-        let factor = REMEMBERED_SIGHTINGS / self.worth;
+        let factor = remembered / self.worth;
         if factor < 1.0 {
             self.aspects.scale(factor);
             self.weight *= factor;
             self.reference *= factor;
-            self.worth = REMEMBERED_SIGHTINGS;
+            self.worth = remembered;
         }
-        self.shape();
+        self.shape(tuning);
     }
 
     /// Makes the side on which the robot is the front.
-    pub(crate) fn face(&mut self, robot: &Point2<f64>) {
-        if self.aspects.face(&self.hull, robot) {
-            self.shape();
+    pub(crate) fn face(&mut self, robot: &Point2<f64>, tuning: &StairsTuning) {
+        if self.aspects.face(&self.hull, robot, tuning) {
+            self.shape(tuning);
         }
     }
 
@@ -139,15 +141,15 @@ impl Tread {
         self.shape.as_ref().map(|(_, outline)| outline)
     }
 
-    fn shape(&mut self) {
+    fn shape(&mut self, tuning: &StairsTuning) {
         self.shape = self
-            .sum()
+            .sum(tuning)
             .and_then(|stair| Some((stair, quadrangle(&stair)?)));
     }
 
     /// The smallest quadrangle with the directions of the edges around all sightings, but no larger than the ends that
     /// were seen, with the margins that the hull has beyond it.
-    fn sum(&self) -> Option<Stair<Map>> {
+    fn sum(&self, tuning: &StairsTuning) -> Option<Stair<Map>> {
         let reference = self.reference / self.weight;
         let Aspect {
             front: before,
@@ -155,10 +157,10 @@ impl Tread {
             ..
         } = self.aspects.present();
         let [front, back] = [
-            before.ends(&self.hull, -1.0)?,
-            behind.ends(&self.hull, 1.0)?,
+            before.ends(&self.hull, -1.0, tuning)?,
+            behind.ends(&self.hull, 1.0, tuning)?,
         ];
-        let along = before.along();
+        let along = before.along(tuning);
         let span = |p: &Point2<f64>| along.dot(&p.coords);
         let corners = self.hull.corners().iter().map(span);
         let (least, most) = corners.fold((f64::MAX, f64::MIN), |(a, b), s| (a.min(s), b.max(s)));

@@ -3,18 +3,9 @@
 use super::excerpt::Excerpt;
 use super::sight::{Sight, Step, first_met};
 
-/// The grid: steps to each side of the guess, and their size, m and rad.
-const PLACES: i32 = 5;
-const PLACE_STEP_M: f64 = 0.01;
-const HEADINGS: i32 = 3;
-const HEADING_STEP_RAD: f64 = 0.11;
-/// Residuals count up to this, px.
-const LARGEST_PX: f32 = 0.4;
-/// About so many pixels are looked at.
-const SAMPLES: usize = 200;
-/// Fewest pixels that tell anything.
-const FEWEST: usize = 60;
-/// Samples that are worked on at once.
+use crate::CoarseTuning;
+
+/// Samples that are worked on at once: as many as a vector of the processor holds. It tells in which order they are summed.
 const LANES: usize = 4;
 
 /// Samples of the excerpt, one quantity a list.
@@ -28,8 +19,8 @@ pub(super) struct Coarse {
 }
 
 impl Coarse {
-    pub(super) fn with_room() -> Self {
-        let list = || Vec::with_capacity(2 * SAMPLES);
+    pub(super) fn with_room(tuning: &CoarseTuning) -> Self {
+        let list = || Vec::with_capacity(2 * tuning.samples);
         Self {
             near_px: list(),
             far_px: list(),
@@ -45,21 +36,30 @@ impl Coarse {
         excerpt: &Excerpt,
         sight: &Sight,
         guess: &Step,
+        tuning: &CoarseTuning,
     ) -> Option<Step> {
-        self.sample(excerpt, sight, guess)?;
+        self.sample(excerpt, sight, guess, tuning)?;
+        let CoarseTuning {
+            places,
+            place_step,
+            headings,
+            heading_step,
+            largest,
+            ..
+        } = *tuning;
         let mut best: Option<(f32, Step)> = None;
-        for i in -HEADINGS..=HEADINGS {
-            for j in -PLACES..=PLACES {
+        for i in -headings..=headings {
+            for j in -places..=places {
                 let step = Step {
-                    place_m: guess.place_m + f64::from(j) * PLACE_STEP_M,
-                    heading_rad: guess.heading_rad + f64::from(i) * HEADING_STEP_RAD,
+                    place_m: guess.place_m + f64::from(j) * place_step,
+                    heading_rad: guess.heading_rad + f64::from(i) * heading_step,
                     ..*guess
                 };
                 let ahead_m = -step.beyond_m(&sight.position_m.xy());
-                if ahead_m < 0.02 {
+                if ahead_m < sight.clear_m {
                     continue;
                 }
-                let cost = self.cost(&step, ahead_m);
+                let cost = self.cost(&step, ahead_m, largest);
                 if best.is_none_or(|(least, _)| cost < least) {
                     best = Some((cost, step));
                 }
@@ -68,7 +68,13 @@ impl Coarse {
         best.map(|(_, step)| step)
     }
 
-    fn sample(&mut self, excerpt: &Excerpt, sight: &Sight, guess: &Step) -> Option<()> {
+    fn sample(
+        &mut self,
+        excerpt: &Excerpt,
+        sight: &Sight,
+        guess: &Step,
+        tuning: &CoarseTuning,
+    ) -> Option<()> {
         let faces = guess.faces(sight)?;
         for list in [
             &mut self.near_px,
@@ -79,11 +85,11 @@ impl Coarse {
         ] {
             list.clear();
         }
-        if excerpt.chosen.len() < FEWEST {
+        if excerpt.chosen.len() < tuning.fewest {
             return None;
         }
         // An odd stride that shares no factor with usual widths spreads the samples over rows and columns.
-        let stride = excerpt.chosen.len().div_ceil(SAMPLES);
+        let stride = excerpt.chosen.len().div_ceil(tuning.samples);
         for pixel in excerpt.chosen.iter().step_by(stride) {
             let (col, row) = (pixel.col, pixel.row);
             self.near_px.push(faces.near.at(col, row) as f32);
@@ -106,7 +112,8 @@ impl Coarse {
         Some(())
     }
 
-    fn cost(&self, step: &Step, ahead_m: f64) -> f32 {
+    /// Sum of the squared residuals, each of no more than `largest_px`.
+    fn cost(&self, step: &Step, ahead_m: f64, largest_px: f32) -> f32 {
         let normal = step.normal() / ahead_m;
         let (nx, ny) = (normal.x as f32, normal.y as f32);
         let is_rising = step.far_height_m > step.near_height_m;
@@ -122,7 +129,7 @@ impl Coarse {
                 let riser = nx * x[lane] + ny * y[lane];
                 let seen = first_met(is_rising, near[lane], far[lane], riser);
                 let miss = (observed[lane] - seen).abs();
-                let miss = if miss < LARGEST_PX { miss } else { LARGEST_PX };
+                let miss = if miss < largest_px { miss } else { largest_px };
                 *sum += miss * miss;
             }
         }

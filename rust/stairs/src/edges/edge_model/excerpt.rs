@@ -7,24 +7,7 @@ use sensing::{Intrinsics, Scan};
 
 use super::product::Untrusted;
 use super::sight::{Faces, Sight, Step};
-use crate::Edge;
-
-/// Pixels this far before and behind the edge take part, m; what is behind is less than the shortest tread.
-pub(super) const BEFORE_M: f64 = 0.07;
-pub(super) const BEHIND_M: f64 = 0.075;
-/// At most so much of an edge is looked at, m, and at least so much of it must be in view.
-const LONGEST_M: f64 = 0.44;
-const SHORTEST_M: f64 = 0.08;
-/// Taken off at each end of the edge: half a window and what the ends may be wrong, m.
-const END_M: f64 = 0.01;
-/// Places along the guess that are looked up in the picture.
-const PLACES: usize = 41;
-/// The guess may be so far outside the picture, pixels: it may be off.
-const OUTSIDE_PX: f64 = 5.0;
-/// Of areas with more pixels than this only every second, third ... takes part: neighbouring windows overlap and tell the same.
-const MANY: usize = 500;
-/// Least disparity of a surface, px: farther away nothing can be told.
-pub(super) const FARTHEST_PX: f32 = 1.5;
+use crate::{Edge, EdgeModelTuning, ExcerptTuning};
 
 /// Columns and rows of a picture, from and up to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,27 +55,29 @@ pub(super) fn stretch_in_view(
     planes: &Planes,
     guess: &Edge<Robot>,
     height_m: f64,
+    tuning: &ExcerptTuning,
 ) -> Result<Stretch, Untrusted> {
     let (left, right) = (guess.left.inner.coords.xy(), guess.right.inner.coords.xy());
+    let (places, outside_px) = (tuning.places, tuning.outside);
     let mut ends: Option<(f64, f64)> = None;
-    for i in 0..PLACES {
-        let part = i as f64 / (PLACES - 1) as f64;
+    for i in 0..places {
+        let part = i as f64 / (places - 1) as f64;
         let place = right.lerp(&left, part).push(height_m);
-        if let Some((col, row)) = pixel_of(camera, planes, &place)
-            && (-OUTSIDE_PX..camera.width as f64 + OUTSIDE_PX).contains(&col)
-            && (-OUTSIDE_PX..camera.height as f64 + OUTSIDE_PX).contains(&row)
+        if let Some((col, row)) = pixel_of(camera, planes, &place, tuning)
+            && (-outside_px..camera.width as f64 + outside_px).contains(&col)
+            && (-outside_px..camera.height as f64 + outside_px).contains(&row)
         {
             ends = Some((ends.map_or(part, |(first, _)| first), part));
         }
     }
     let (first, last) = ends.ok_or(Untrusted::OutOfView)?;
     let length_m = (last - first) * (left - right).norm();
-    if length_m < SHORTEST_M {
+    if length_m < tuning.shortest {
         return Err(Untrusted::OutOfView);
     }
     Ok(Stretch {
         middle_m: right.lerp(&left, 0.5 * (first + last)),
-        half_m: 0.5 * length_m.min(LONGEST_M) - END_M,
+        half_m: 0.5 * length_m.min(tuning.longest) - tuning.end,
     })
 }
 
@@ -103,12 +88,17 @@ pub(super) fn pixel_m(camera: &Intrinsics, planes: &Planes, place: &Vector3<f64>
 }
 
 /// Column and row at which a place is seen; `None` when it is not in front of the camera.
-fn pixel_of(camera: &Intrinsics, planes: &Planes, place: &Vector3<f64>) -> Option<(f64, f64)> {
+fn pixel_of(
+    camera: &Intrinsics,
+    planes: &Planes,
+    place: &Vector3<f64>,
+    tuning: &ExcerptTuning,
+) -> Option<(f64, f64)> {
     let seen = planes
         .robot_from_camera
         .inner
         .inverse_transform_point(&Point3::from(*place));
-    if seen.z < 0.05 {
+    if seen.z < tuning.nearest_depth {
         return None;
     }
     let (cx, cy) = camera.principal_point_px();
@@ -116,24 +106,25 @@ fn pixel_of(camera: &Intrinsics, planes: &Planes, place: &Vector3<f64>) -> Optio
     Some((cx + seen.x * scale, cy + seen.y * scale))
 }
 
-/// The rectangle of pixels around a step; `slack_m` more than takes part.
+/// The rectangle of pixels around a step: by the model's slack more than takes part.
 pub(super) fn area_of(
     camera: &Intrinsics,
     planes: &Planes,
     step: &Step,
     half_m: f64,
-    slack_m: f64,
+    tuning: &EdgeModelTuning,
 ) -> Result<Area, Untrusted> {
+    let (slack_m, tuning) = (tuning.slack, &tuning.excerpt);
     let (normal, along) = (step.normal(), step.along());
     let mut low = (f64::INFINITY, f64::INFINITY);
     let mut high = (f64::NEG_INFINITY, f64::NEG_INFINITY);
     for (beyond_m, height_m) in [
-        (-BEFORE_M - slack_m, step.near_height_m),
-        (BEHIND_M + slack_m, step.far_height_m),
+        (-tuning.before - slack_m, step.near_height_m),
+        (tuning.behind + slack_m, step.far_height_m),
     ] {
         for aside_m in [-half_m, half_m] {
             let place = step.anchor_m + normal * (step.place_m + beyond_m) + along * aside_m;
-            let (col, row) = pixel_of(camera, planes, &place.push(height_m))
+            let (col, row) = pixel_of(camera, planes, &place.push(height_m), tuning)
                 .unwrap_or((0.5 * camera.width as f64, camera.height as f64));
             low = (low.0.min(col), low.1.min(row));
             high = (high.0.max(col), high.1.max(row));
@@ -174,14 +165,21 @@ impl Excerpt {
     }
 
     /// Chooses the pixels that are close to the step's edge.
-    pub(super) fn choose(&mut self, sight: &Sight, step: &Step, half_m: f64, area: &Area) {
+    pub(super) fn choose(
+        &mut self,
+        sight: &Sight,
+        step: &Step,
+        half_m: f64,
+        area: &Area,
+        tuning: &ExcerptTuning,
+    ) {
         let Some(faces) = step.faces(sight) else {
             self.chosen.clear();
             return;
         };
-        let zone = Zone::new(sight, step, half_m);
+        let zone = Zone::new(sight, step, half_m, tuning);
         let columns = area.columns();
-        let thinned = self.observed_px.len().div_ceil(MANY).max(1);
+        let thinned = self.observed_px.len().div_ceil(tuning.many).max(1);
         self.thinned = thinned as u32;
         self.chosen.clear();
         for (index, line) in self.observed_px.chunks_exact(columns).enumerate() {
@@ -214,17 +212,23 @@ struct Zone {
     ahead_m: f64,
     aside_m: f64,
     half_m: f64,
+    before_m: f64,
+    behind_m: f64,
+    least_px: f32,
     along: super::sight::Linear,
     across: super::sight::Linear,
 }
 
 impl Zone {
-    fn new(sight: &Sight, step: &Step, half_m: f64) -> Self {
+    fn new(sight: &Sight, step: &Step, half_m: f64, tuning: &ExcerptTuning) -> Self {
         let camera = sight.position_m.xy();
         Self {
             ahead_m: -step.beyond_m(&camera),
             aside_m: step.along().dot(&(camera - step.anchor_m)),
             half_m,
+            before_m: tuning.before,
+            behind_m: tuning.behind,
+            least_px: tuning.least_disparity,
             along: sight.along(&step.along()),
             across: sight.along(&step.normal()),
         }
@@ -235,13 +239,13 @@ impl Zone {
             faces.near.at(col, row) as f32,
             faces.far.at(col, row) as f32,
         );
-        if near.min(far) < FARTHEST_PX {
+        if near.min(far) < self.least_px {
             return false;
         }
         let (across, along) = (self.across.at(col, row), self.along.at(col, row));
         let on_near_m = across / f64::from(near) - self.ahead_m;
         let on_far_m = across / f64::from(far) - self.ahead_m;
         let aside_m = self.aside_m + along / f64::from(faces.seen(col, row));
-        on_near_m > -BEFORE_M && on_far_m < BEHIND_M && aside_m.abs() < self.half_m
+        on_near_m > -self.before_m && on_far_m < self.behind_m && aside_m.abs() < self.half_m
     }
 }

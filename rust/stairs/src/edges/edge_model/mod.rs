@@ -16,55 +16,34 @@ mod visible;
 mod window;
 
 use geometry::{Point, Robot};
-use nalgebra::{Matrix4, Vector4};
+use nalgebra::Vector4;
 use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
 
-use crate::Edge;
+use crate::{Edge, EdgeModelTuning};
 use coarse::Coarse;
 use excerpt::{Excerpt, Stretch, area_of, pixel_m, stretch_in_view};
 pub use product::{FittedEdge, Untrusted};
 use refine::Equations;
 use sight::{Sight, Step};
 
-/// Least change of height that shows, m.
-const LEAST_RISE_M: f64 = 0.008;
-/// How far the first look goes beyond the pixels that take part in the end, m.
-const SLACK_M: f64 = 0.03;
-/// Steps of the refinement, with another choice of pixels after the first few.
-const ROUNDS: [usize; 2] = [3, 6];
-/// The refinement is at rest below these changes of place (m) and heading (rad).
-const REST: (f64, f64) = (0.0003, 0.002);
-/// What its last step may change at most: pixels that change surfaces keep it moving a little.
-const UNREST: (f64, f64) = (0.0015, 0.015);
-/// Weighs turns (rad) against shifts (m): squared distance of the ends from the middle, m2.
-const LEVER_M2: f64 = 0.01;
-/// Largest change at once.
-const STRIDE: (f64, f64) = (0.012, 0.12);
-/// Farthest that an edge may lie from its guess, m and rad.
-const REACH: (f64, f64) = (0.08, 0.6);
-/// Fewest pixels that a fit rests on.
-const FEWEST: usize = 150;
-/// Largest residuals, in the expected noise.
-const ROUGHEST: f64 = 1.7;
-/// What no noise explains, m and rad: the surfaces' tilt, pixels at the border. Joined to every sigma.
-const MODEL_SIGMA: (f64, f64) = (0.0015, 0.01);
-
 /// Fits edges. Keeps its buffers.
 #[derive(Debug, Clone)]
 pub struct EdgeModel {
     camera: Intrinsics,
+    tuning: EdgeModelTuning,
     excerpt: Excerpt,
     coarse: Coarse,
 }
 
 impl EdgeModel {
     /// For images of this camera.
-    pub fn new(camera: Intrinsics) -> Self {
+    pub fn new(camera: Intrinsics, tuning: EdgeModelTuning) -> Self {
         Self {
             camera,
             excerpt: Excerpt::with_room(camera.width * camera.height),
-            coarse: Coarse::with_room(),
+            coarse: Coarse::with_room(&tuning.coarse),
+            tuning,
         }
     }
 
@@ -78,10 +57,12 @@ impl EdgeModel {
         near_height_m: f64,
         far_height_m: f64,
     ) -> Result<FittedEdge, Untrusted> {
-        let sight = Sight::new(&self.camera, &planes.robot_from_camera);
+        let clear_m = self.tuning.camera_clear;
+        let sight = Sight::new(&self.camera, &planes.robot_from_camera, clear_m);
         self.check_input(scan, &sight, guess, [near_height_m, far_height_m])?;
-        let stretch =
-            stretch_in_view(&self.camera, planes, guess, near_height_m.max(far_height_m))?;
+        let excerpt = &self.tuning.excerpt;
+        let highest_m = near_height_m.max(far_height_m);
+        let stretch = stretch_in_view(&self.camera, planes, guess, highest_m, excerpt)?;
         let start = Step {
             anchor_m: stretch.middle_m,
             place_m: 0.0,
@@ -90,34 +71,37 @@ impl EdgeModel {
             far_height_m,
         };
         let half_m = stretch.half_m;
-        let area = area_of(&self.camera, planes, &start, half_m, SLACK_M)?;
+        let area = area_of(&self.camera, planes, &start, half_m, &self.tuning)?;
         self.excerpt.cut(scan, &area);
-        self.excerpt.choose(&sight, &start, half_m, &area);
+        self.excerpt.choose(&sight, &start, half_m, &area, excerpt);
         let found = self
             .coarse
-            .search(&self.excerpt, &sight, &start)
+            .search(&self.excerpt, &sight, &start, &self.tuning.coarse)
             .ok_or(Untrusted::OutOfView)?;
         let mut step = found;
         let mut equations = None;
-        for round in ROUNDS {
-            self.excerpt.choose(&sight, &step, half_m, &area);
+        for round in self.tuning.rounds {
+            self.excerpt.choose(&sight, &step, half_m, &area, excerpt);
             equations = self.refine(&sight, &start, &mut step, round)?;
         }
         let equations = equations.ok_or(Untrusted::NotSettled)?;
         let middle = (step.anchor_m + step.normal() * step.place_m).push(near_height_m);
         let pixel_m = pixel_m(&self.camera, planes, &middle);
-        visible::check(&self.excerpt, &area, &sight, &step, (half_m, pixel_m))?;
-        if equations.roughness > ROUGHEST {
+        let width_m = (half_m, pixel_m);
+        visible::check(&self.excerpt, &area, &sight, &step, width_m, &self.tuning)?;
+        if equations.roughness > self.tuning.roughest {
             return Err(Untrusted::Rough(equations.roughness));
         }
         let covariance = equations.covariance().ok_or(Untrusted::NotSettled)?;
-        Ok(product_of(
-            guess,
-            &stretch,
-            &step,
-            &covariance,
-            equations.roughness,
-        ))
+        let scale = equations.roughness.max(1.0);
+        let sigma = |i: usize, model: f64| (scale * covariance[(i, i)].sqrt()).hypot(model);
+        Ok(FittedEdge {
+            edge: onto_step(guess, &stretch, &step),
+            place_sigma_m: sigma(0, self.tuning.model_place),
+            heading_sigma_rad: sigma(1, self.tuning.model_heading),
+            near_height_m: step.near_height_m,
+            far_height_m: step.far_height_m,
+        })
     }
 
     fn check_input(
@@ -136,7 +120,7 @@ impl EdgeModel {
             return Err(Untrusted::BadGuess);
         }
         let rise_m = heights_m[1] - heights_m[0];
-        if rise_m.abs() < LEAST_RISE_M {
+        if rise_m.abs() < self.tuning.least_rise {
             return Err(Untrusted::NoContrast(rise_m));
         }
         Ok(())
@@ -150,40 +134,45 @@ impl EdgeModel {
         step: &mut Step,
         rounds: usize,
     ) -> Result<Option<Equations>, Untrusted> {
-        if self.excerpt.chosen.len() < FEWEST / self.excerpt.thinned as usize {
+        let tuning = &self.tuning;
+        if self.excerpt.chosen.len() < tuning.fewest_pixels / self.excerpt.thinned as usize {
             return Err(Untrusted::OutOfView);
         }
         let (mut before, mut share) = (Vector4::zeros(), 1.0);
         let mut last = None;
+        let (far, wide) = (tuning.stride_place, tuning.stride_heading);
+        let rest = (tuning.rest_place, tuning.rest_heading);
+        let unrest = (tuning.unrest_place, tuning.unrest_heading);
         for _ in 0..rounds {
             let mut equations =
-                Equations::sum(&self.excerpt, sight, step).ok_or(Untrusted::WrongSide)?;
-            equations.hold_heights([
+                Equations::sum(&self.excerpt, sight, step, tuning).ok_or(Untrusted::WrongSide)?;
+            let heights_m = [
                 start.near_height_m - step.near_height_m,
                 start.far_height_m - step.far_height_m,
-            ]);
+            ];
+            equations.hold_heights(heights_m, tuning.refine.height_sigma);
             let wanted = equations.change().ok_or(Untrusted::NotSettled)?;
             // Pixels that change surfaces can throw it from side to side.
-            if wanted[0] * before[0] + LEVER_M2 * wanted[1] * before[1] < 0.0 {
-                share *= 0.5;
+            if wanted[0] * before[0] + tuning.lever * wanted[1] * before[1] < 0.0 {
+                share *= tuning.damping;
             }
             let change = wanted * share;
             before = change;
-            step.place_m += change[0].clamp(-STRIDE.0, STRIDE.0);
-            step.heading_rad += change[1].clamp(-STRIDE.1, STRIDE.1);
-            step.near_height_m += change[2].clamp(-STRIDE.0, STRIDE.0);
-            step.far_height_m += change[3].clamp(-STRIDE.0, STRIDE.0);
-            if (step.place_m - start.place_m).abs() > REACH.0
-                || (step.heading_rad - start.heading_rad).abs() > REACH.1
+            step.place_m += change[0].clamp(-far, far);
+            step.heading_rad += change[1].clamp(-wide, wide);
+            step.near_height_m += change[2].clamp(-far, far);
+            step.far_height_m += change[3].clamp(-far, far);
+            if (step.place_m - start.place_m).abs() > tuning.reach_place
+                || (step.heading_rad - start.heading_rad).abs() > tuning.reach_heading
             {
                 return Err(Untrusted::NotSettled);
             }
             last = Some(equations);
-            if smaller(&change, REST) {
+            if smaller(&change, rest) {
                 break;
             }
         }
-        Ok(last.filter(|_| smaller(&before, UNREST)))
+        Ok(last.filter(|_| smaller(&before, unrest)))
     }
 }
 
@@ -191,17 +180,9 @@ fn smaller(change: &Vector4<f64>, than: (f64, f64)) -> bool {
     change[0].abs() < than.0 && change[1].abs() < than.1
 }
 
-fn product_of(
-    guess: &Edge<Robot>,
-    stretch: &Stretch,
-    step: &Step,
-    covariance: &Matrix4<f64>,
-    roughness: f64,
-) -> FittedEdge {
-    let scale = roughness.max(1.0);
-    let sigma = |i: usize, model: f64| (scale * covariance[(i, i)].sqrt()).hypot(model);
+/// The guess, its ends moved square to the step's edge onto it, at the refined height of the surface they belong to.
+fn onto_step(guess: &Edge<Robot>, stretch: &Stretch, step: &Step) -> Edge<Robot> {
     let (normal, along) = (step.normal(), step.along());
-    // The ends of the guess, moved square to the edge onto it, at the refined height of the surface they belong to.
     let place = |end: &Point<Robot>| {
         let aside_m = along.dot(&(end.inner.coords.xy() - stretch.middle_m));
         let on_edge = stretch.middle_m + normal * step.place_m + along * aside_m;
@@ -209,14 +190,8 @@ fn product_of(
         let [near, far] = heights_m.map(|height_m| (end.inner.z - height_m).abs());
         Point::wrap(on_edge.push(heights_m[usize::from(far < near)]).into())
     };
-    FittedEdge {
-        edge: Edge {
-            left: place(&guess.left),
-            right: place(&guess.right),
-        },
-        place_sigma_m: sigma(0, MODEL_SIGMA.0),
-        heading_sigma_rad: sigma(1, MODEL_SIGMA.1),
-        near_height_m: step.near_height_m,
-        far_height_m: step.far_height_m,
+    Edge {
+        left: place(&guess.left),
+        right: place(&guess.right),
     }
 }

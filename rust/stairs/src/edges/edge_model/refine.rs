@@ -6,15 +6,10 @@ use super::excerpt::Excerpt;
 use super::sight::{Faces, Linear, Sight, Step};
 use super::window::{Matcher, PIXELS};
 
-/// Calibrated noise of a disparity, px.
-pub(super) const NOISE_PX: f32 = 0.125;
-/// Residuals count fully up to this, and not at all beyond that, px.
-const HUBER_PX: f32 = 2.0 * NOISE_PX;
-const OUTLIER_PX: f32 = 16.0 * NOISE_PX;
-/// Finite steps of place (m) and heading (rad) where disparities jump: about half a pixel.
-const TRIAL: (f64, f64) = (0.004, 0.04);
-/// How well the heights are known before, m.
-const HEIGHT_SIGMA_M: f64 = 0.006;
+use crate::EdgeModelTuning;
+
+/// Mean size of a normal variable, in its sigma.
+const MEAN_SIZE: f64 = 0.798;
 
 /// The equations of one step, and how large the residuals are.
 #[derive(Debug, Clone, Copy)]
@@ -31,28 +26,33 @@ struct Model {
     matcher: Matcher,
     /// A little farther, a little nearer; turned a little left, a little right.
     around: [Matcher; 4],
+    /// How much farther and nearer, m, and how far turned, rad.
+    trial: (f64, f64),
 }
 
 impl Model {
-    fn new(sight: &Sight, step: &Step) -> Option<Self> {
+    fn new(sight: &Sight, step: &Step, tuning: &EdgeModelTuning) -> Option<Self> {
+        let trial = (tuning.refine.trial_place, tuning.refine.trial_heading);
+        let window = &tuning.window;
         let moved = |place_m: f64, turn_rad: f64| {
             let moved = Step {
                 place_m: step.place_m + place_m,
                 heading_rad: step.heading_rad + turn_rad,
                 ..*step
             };
-            moved.faces(sight).map(|faces| Matcher::new(&faces))
+            moved.faces(sight).map(|faces| Matcher::new(&faces, window))
         };
         let faces = step.faces(sight)?;
         Some(Self {
-            matcher: Matcher::new(&faces),
+            matcher: Matcher::new(&faces, window),
             faces,
             around: [
-                moved(TRIAL.0, 0.0)?,
-                moved(-TRIAL.0, 0.0)?,
-                moved(0.0, TRIAL.1)?,
-                moved(0.0, -TRIAL.1)?,
+                moved(trial.0, 0.0)?,
+                moved(-trial.0, 0.0)?,
+                moved(0.0, trial.1)?,
+                moved(0.0, -trial.1)?,
             ],
+            trial,
         })
     }
 
@@ -76,8 +76,8 @@ impl Model {
         if seen.jumps && !faces.rising {
             // The window takes one side or the other: what changes shows in finite steps only.
             let there = self.around.each_ref().map(|other| other.value_px(c, r));
-            by_place = (there[0] - there[1]) / (2.0 * TRIAL.0 as f32);
-            by_heading = (there[2] - there[3]) / (2.0 * TRIAL.1 as f32);
+            by_place = (there[0] - there[1]) / (2.0 * self.trial.0 as f32);
+            by_heading = (there[2] - there[3]) / (2.0 * self.trial.1 as f32);
         }
         let changes = [
             by_place,
@@ -92,8 +92,16 @@ impl Model {
 impl Equations {
     /// Sums over the chosen pixels of what was seen less what the step shows; `None` when the camera is on no side of
     /// the edge from which it could be seen.
-    pub(super) fn sum(excerpt: &Excerpt, sight: &Sight, step: &Step) -> Option<Self> {
-        let model = Model::new(sight, step)?;
+    pub(super) fn sum(
+        excerpt: &Excerpt,
+        sight: &Sight,
+        step: &Step,
+        tuning: &EdgeModelTuning,
+    ) -> Option<Self> {
+        let noise_px = tuning.refine.noise;
+        let huber_px = tuning.refine.huber * noise_px;
+        let outlier_px = tuning.refine.outlier * noise_px;
+        let model = Model::new(sight, step, tuning)?;
         let mut information = [[0.0_f32; 4]; 4];
         let mut product = [0.0_f32; 4];
         let mut size_px = 0.0_f32;
@@ -101,12 +109,12 @@ impl Equations {
             let (value_px, changes) = model.show(pixel.col, pixel.row);
             let miss = pixel.observed_px - value_px;
             let size = miss.abs();
-            size_px += size.min(OUTLIER_PX);
-            if size > OUTLIER_PX {
+            size_px += size.min(outlier_px);
+            if size > outlier_px {
                 continue;
             }
-            let weight = if size > HUBER_PX {
-                HUBER_PX / size
+            let weight = if size > huber_px {
+                huber_px / size
             } else {
                 1.0
             };
@@ -120,19 +128,19 @@ impl Equations {
         }
         // Windows overlap: all pixels of a window together tell as much as one independent one.
         let thinned = f64::from(excerpt.thinned);
-        let share = thinned / (f64::from(NOISE_PX).powi(2) * PIXELS as f64);
+        let share = thinned / (f64::from(noise_px).powi(2) * PIXELS as f64);
         let entry = |i: usize, j: usize| f64::from(information[i.min(j)][i.max(j)]) * share;
         Some(Self {
             information: Matrix4::from_fn(entry),
             product: Vector4::from_fn(|i, _| f64::from(product[i]) * share),
-            // The mean size of a normal variable is 0.8 of its sigma.
-            roughness: f64::from(size_px / NOISE_PX) / (0.798 * excerpt.chosen.len().max(1) as f64),
+            roughness: f64::from(size_px / noise_px)
+                / (MEAN_SIZE * excerpt.chosen.len().max(1) as f64),
         })
     }
 
-    /// Adds what is known of the heights: they should change by `heights_m` (near, far).
-    pub(super) fn hold_heights(&mut self, heights_m: [f64; 2]) {
-        let weight = 1.0 / HEIGHT_SIGMA_M.powi(2);
+    /// Adds what is known of the heights: they should change by `heights_m` (near, far), which are known to `sigma_m`.
+    pub(super) fn hold_heights(&mut self, heights_m: [f64; 2], sigma_m: f64) {
+        let weight = 1.0 / sigma_m.powi(2);
         for (i, wanted_m) in heights_m.iter().enumerate() {
             self.information[(2 + i, 2 + i)] += weight;
             self.product[2 + i] += weight * wanted_m;

@@ -49,17 +49,22 @@ impl Linear {
     }
 }
 
-/// Where the camera is, and its rays times focal length and baseline, robot axes.
+/// Where the camera is, how far it must be from what it sees, m, and its rays times focal length and baseline, robot axes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sight {
     pub(super) position_m: Vector3<f64>,
+    pub(super) clear_m: f64,
     pub(super) x: Linear,
     pub(super) y: Linear,
     pub(super) fall: Linear,
 }
 
 impl Sight {
-    pub(super) fn new(camera: &Intrinsics, robot_from_camera: &Pose<Robot, Camera>) -> Self {
+    pub(super) fn new(
+        camera: &Intrinsics,
+        robot_from_camera: &Pose<Robot, Camera>,
+        clear_m: f64,
+    ) -> Self {
         let (cx, cy) = camera.principal_point_px();
         let turn = robot_from_camera.inner.rotation.to_rotation_matrix();
         let axis = |axis: usize, sign: f64| {
@@ -72,6 +77,7 @@ impl Sight {
         };
         Self {
             position_m: robot_from_camera.inner.translation.vector,
+            clear_m,
             x: axis(0, 1.0),
             y: axis(1, 1.0),
             fall: axis(2, -1.0),
@@ -113,9 +119,6 @@ pub(super) struct Faces {
     pub(super) rising: bool,
 }
 
-/// The camera must be this far in front of the riser and above both surfaces, m.
-const CLEAR_M: f64 = 0.02;
-
 impl Step {
     pub(super) fn normal(&self) -> Vector2<f64> {
         Vector2::new(self.heading_rad.cos(), self.heading_rad.sin())
@@ -138,7 +141,7 @@ impl Step {
         let (above_near_m, above_far_m) =
             (camera.z - self.near_height_m, camera.z - self.far_height_m);
         let ahead_m = -self.beyond_m(&camera.xy());
-        if above_near_m.min(above_far_m).min(ahead_m) < CLEAR_M {
+        if above_near_m.min(above_far_m).min(ahead_m) < sight.clear_m {
             return None;
         }
         let near = sight.fall.times(1.0 / above_near_m);

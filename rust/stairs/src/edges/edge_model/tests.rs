@@ -98,7 +98,13 @@ impl View {
     }
 
     fn fit(&self, scan: &Scan, guess: &Edge<Robot>) -> Result<FittedEdge, Untrusted> {
-        EdgeModel::new(CAMERA).fit(scan, &self.planes(), guess, 0.0, self.rise_m)
+        EdgeModel::new(CAMERA, EdgeModelTuning::default()).fit(
+            scan,
+            &self.planes(),
+            guess,
+            0.0,
+            self.rise_m,
+        )
     }
 
     /// Error of the place, m, at the true edge's point that is nearest to the robot, and of the heading, rad.
@@ -168,7 +174,7 @@ fn windows_that_see_both_surfaces_do_not_shift_the_edge() {
 #[test]
 fn heights_that_are_off_are_refined() {
     let view = near_view(0.03);
-    let fitted = EdgeModel::new(CAMERA)
+    let fitted = EdgeModel::new(CAMERA, EdgeModelTuning::default())
         .fit(
             &view.exact(),
             &view.planes(),

@@ -1,21 +1,14 @@
 //! Whether enough of both surfaces is in view to trust an edge.
 
-use super::excerpt::{Area, Excerpt, FARTHEST_PX};
+use super::excerpt::{Area, Excerpt};
 use super::product::Untrusted;
-use super::refine::NOISE_PX;
 use super::sight::{Sight, Step};
 
-/// Slices of the edge that are looked at.
+use crate::EdgeModelTuning;
+
+/// Room for slices of the edge, of which there is one a pixel: more than any edge in a picture of the robots' width has. Of a wider
+/// picture a slice holds more than one pixel a row.
 const SLICES: usize = 96;
-/// Pixels of a surface that a slice must show, away from the edge by more than a window reaches.
-const PIXELS: u16 = 3;
-const AWAY_PX: f64 = 2.5;
-/// A pixel belongs to a surface when it is closer than this, px.
-const CLOSE_PX: f32 = 3.0 * NOISE_PX;
-/// Share of the slices that must show enough of a surface.
-const MOST: f64 = 0.6;
-/// Fewest slices: less of an edge says nothing of its heading.
-const FEWEST: usize = 14;
 
 /// Checks that both surfaces are seen along most of the edge, which is `half_m` long to each side and where a pixel is
 /// `pixel_m` wide.
@@ -25,20 +18,26 @@ pub(super) fn check(
     sight: &Sight,
     step: &Step,
     (half_m, pixel_m): (f64, f64),
+    tuning: &EdgeModelTuning,
 ) -> Result<(), Untrusted> {
-    let counts =
-        Counts::of(excerpt, area, sight, step, (half_m, pixel_m)).ok_or(Untrusted::WrongSide)?;
+    let counts = Counts::of(excerpt, area, sight, step, (half_m, pixel_m), tuning)
+        .ok_or(Untrusted::WrongSide)?;
+    let tuning = &tuning.visibility;
     let seen = counts.any.iter().filter(|&&any| any).count();
-    if seen < FEWEST {
+    if seen < tuning.fewest {
         return Err(Untrusted::OutOfView);
     }
     let share = |counts: &[u16; SLICES]| {
-        counts.iter().filter(|&&count| count >= PIXELS).count() as f64 / seen as f64
+        counts
+            .iter()
+            .filter(|&&count| count >= tuning.pixels)
+            .count() as f64
+            / seen as f64
     };
-    if share(&counts.near) < MOST {
+    if share(&counts.near) < tuning.most {
         return Err(Untrusted::NearHidden(share(&counts.near)));
     }
-    if share(&counts.far) < MOST {
+    if share(&counts.far) < tuning.most {
         return Err(Untrusted::FarHidden(share(&counts.far)));
     }
     Ok(())
@@ -58,7 +57,10 @@ impl Counts {
         sight: &Sight,
         step: &Step,
         (half_m, pixel_m): (f64, f64),
+        tuning: &EdgeModelTuning,
     ) -> Option<Self> {
+        let (visibility, least_px) = (&tuning.visibility, tuning.excerpt.least_disparity);
+        let close_px = visibility.close * tuning.refine.noise;
         let faces = step.faces(sight)?;
         let along = sight.along(&step.along());
         let aside_m = step.along().dot(&(sight.position_m.xy() - step.anchor_m));
@@ -68,7 +70,7 @@ impl Counts {
         } else {
             before.times(-1.0)
         };
-        let away_px = [AWAY_PX * before.steepness(), AWAY_PX * behind.steepness()];
+        let away_px = [&before, &behind].map(|gap| visibility.away * gap.steepness());
         // A slice is as wide as a pixel at the edge, so that it holds about one pixel a row.
         let slices = ((2.0 * half_m / pixel_m) as usize).clamp(1, SLICES);
         let mut counts = Self {
@@ -83,7 +85,7 @@ impl Counts {
                     faces.near.at(col, row) as f32,
                     faces.far.at(col, row) as f32,
                 );
-                if observed.is_nan() || near.min(far) < FARTHEST_PX {
+                if observed.is_nan() || near.min(far) < least_px {
                     continue;
                 }
                 let place_m = aside_m + along.at(col, row) / f64::from(faces.seen(col, row));
@@ -94,9 +96,9 @@ impl Counts {
                 let slice = slice as usize;
                 counts.any[slice] = true;
                 if before.at(col, row) > away_px[0] {
-                    counts.near[slice] += u16::from((observed - near).abs() < CLOSE_PX);
+                    counts.near[slice] += u16::from((observed - near).abs() < close_px);
                 } else if behind.at(col, row) > away_px[1] {
-                    counts.far[slice] += u16::from((observed - far).abs() < CLOSE_PX);
+                    counts.far[slice] += u16::from((observed - far).abs() < close_px);
                 }
             }
         }

@@ -5,20 +5,20 @@
 
 use super::sight::{Faces, Linear, first_met};
 
-/// Pixels from a window's middle to its border, pixels in a window.
-const REACH: f64 = 2.0;
+use crate::WindowTuning;
+
+/// Pixels of a side of a matching window: what the cameras of both robots match with. The arrays below are made for it.
 const SIDE: usize = 5;
+/// Pixels from a window's middle to its border.
+const REACH: f64 = 2.0;
+/// Pixels in a window.
 pub(super) const PIXELS: usize = SIDE * SIDE;
-/// Lanes that are worked on at once, and a window's pixels in whole lanes: the last one is repeated, and counts once.
+/// Pixels that are worked on at once: as many as a vector of the processor holds. It tells in which order they are summed.
 const LANES: usize = 8;
+/// A window's pixels in whole lanes: the last one is repeated, and counts once.
 const PADDED: usize = 32;
+/// A value for each pixel of a window.
 type Lot = [f32; PADDED];
-/// Surfaces closer than this in disparity blend, px: about the half width of a correlation's peak.
-const BANDWIDTH_PX: f32 = 1.0;
-/// Windows whose disparities differ by more take one side or the other before long, px.
-const SUSPECT_PX: f32 = 0.75;
-/// Steps of the mean shift.
-const SHIFTS: usize = 4;
 
 /// What the window around a pixel gives.
 #[derive(Debug, Clone, Copy)]
@@ -77,10 +77,15 @@ pub(super) struct Matcher {
     far_reach_px: f32,
     /// Share of the near surface that a pixel gains per pixel of disparity at its border.
     sharpness: f32,
+    /// Difference of disparities below which surfaces blend, and beyond which a window takes one side before long, px.
+    bandwidth_px: f32,
+    suspect_px: f32,
+    /// Steps of the mean shift.
+    shifts: usize,
 }
 
 impl Matcher {
-    pub(super) fn new(faces: &Faces) -> Self {
+    pub(super) fn new(faces: &Faces, tuning: &WindowTuning) -> Self {
         let before = faces.near.mix(1.0, &faces.riser, -1.0);
         let behind = faces.riser.mix(1.0, &faces.far, -1.0);
         let reach = |gap: &Linear| (REACH * (gap.per_col().abs() + gap.per_row().abs())) as f32;
@@ -93,6 +98,9 @@ impl Matcher {
             near_reach_px: reach(&before) + if faces.rising { 0.0 } else { 0.5 * steepness },
             far_reach_px: reach(&behind),
             sharpness: 1.0 / steepness,
+            bandwidth_px: tuning.bandwidth,
+            suspect_px: tuning.suspect,
+            shifts: tuning.shifts,
         }
     }
 
@@ -194,7 +202,7 @@ impl Matcher {
             };
         }
         let (mut most, mut spread) = most_and_spread(&values);
-        let jumps = spread > SUSPECT_PX;
+        let jumps = spread > self.suspect_px;
         if jumps && !self.rising {
             // A mixed pixel would be a bridge between the surfaces, and matchers have none.
             for (i, value) in values.iter_mut().enumerate() {
@@ -205,10 +213,10 @@ impl Matcher {
             }
             (most, spread) = most_and_spread(&values);
         }
-        let chosen = if spread < BANDWIDTH_PX {
+        let chosen = if spread < self.bandwidth_px {
             counted(|_| true, &values)
         } else {
-            near_mode(&values, most)
+            self.near_mode(&values, most)
         };
         Window {
             values,
@@ -216,6 +224,22 @@ impl Matcher {
             chosen,
             jumps,
         }
+    }
+
+    /// Which of a window's disparities (1, else 0) belong to the mode that mean shift finds from `start`.
+    fn near_mode(&self, values: &Lot, start: f32) -> Lot {
+        let bandwidth_px = self.bandwidth_px;
+        let mut mode = start;
+        let mut chosen = [0.0; PADDED];
+        for _ in 0..self.shifts {
+            chosen = counted(|value| (value - mode).abs() < bandwidth_px, values);
+            let before = mode;
+            mode = sum_of(&chosen, |i| values[i]) / sum_of(&chosen, |_| 1.0).max(1.0);
+            if mode == before {
+                break;
+            }
+        }
+        chosen
     }
 }
 
@@ -279,20 +303,5 @@ fn counted(wanted: impl Fn(f32) -> bool, values: &Lot) -> Lot {
         *chosen = if wanted(value) { 1.0 } else { 0.0 };
     }
     chosen[PIXELS..].fill(0.0);
-    chosen
-}
-
-/// Which of a window's disparities (1, else 0) belong to the mode that mean shift finds from `start`.
-fn near_mode(values: &Lot, start: f32) -> Lot {
-    let mut mode = start;
-    let mut chosen = [0.0; PADDED];
-    for _ in 0..SHIFTS {
-        chosen = counted(|value| (value - mode).abs() < BANDWIDTH_PX, values);
-        let before = mode;
-        mode = sum_of(&chosen, |i| values[i]) / sum_of(&chosen, |_| 1.0).max(1.0);
-        if mode == before {
-            break;
-        }
-    }
     chosen
 }
