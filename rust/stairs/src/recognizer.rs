@@ -9,8 +9,8 @@ use settings::{ConfigError, Table};
 use crate::edges::fits::Fits;
 use crate::edges::joints::{cut_off, join};
 use crate::frame::extract::Extraction;
-use crate::frame::view::View;
-use crate::treads::memory::Memory;
+use crate::frame::view::PlanesView;
+use crate::treads::memory::TreadMemory;
 use crate::{Stair, Staircase, StairsConfig};
 
 /// Why a frame was not searched for stairs. The stairs are unchanged.
@@ -35,7 +35,7 @@ pub struct Recognizer {
     config: StairsConfig,
     camera: Intrinsics,
     extraction: Extraction,
-    memory: Memory,
+    memory: TreadMemory,
     fits: Fits,
     steps_taken: u64,
     staircase: Staircase,
@@ -48,7 +48,7 @@ impl Recognizer {
         Ok(Self {
             camera,
             extraction: Extraction::default(),
-            memory: Memory::default(),
+            memory: TreadMemory::default(),
             fits: Fits::new(camera, &config.tuning),
             steps_taken: 0,
             staircase: Staircase::default(),
@@ -58,7 +58,7 @@ impl Recognizer {
 
     /// Drops what was seen: the robot found itself at another place than it had believed.
     pub fn forget(&mut self) {
-        self.memory = Memory::default();
+        self.memory = TreadMemory::default();
         self.fits.forget();
         self.staircase = Staircase::default();
     }
@@ -91,7 +91,7 @@ impl Recognizer {
             self.fits.step(stepped, &self.config);
             self.steps_taken = steps_taken;
         }
-        let view = View::new(planes, self.camera, &self.config.tuning.view);
+        let view = PlanesView::new(planes, self.camera, &self.config.tuning.view);
         if planes.reliable {
             self.extraction.read(planes, self.camera, &self.config);
             self.memory
@@ -124,7 +124,7 @@ impl Recognizer {
     }
 }
 
-/// Those ahead before those behind, each the nearest first along the walking direction.
+/// Puts the stairs ahead before those behind, the nearest first along the walking direction.
 fn sort_by_nearness(stairs: &mut [Stair<Map>], map_from_robot: &Pose<Map, Robot>) {
     let robot_from_map = map_from_robot.inverse();
     let ahead_m = |stair: &Stair<Map>| (robot_from_map * stair.reference).inner.x;

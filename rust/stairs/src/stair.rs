@@ -4,7 +4,7 @@ use geometry::{Map, Point, Pose, Robot};
 use nalgebra::{Point2, Vector2};
 
 use crate::PlacesTuning;
-use crate::lines::line::Line;
+use crate::lines::line::StraightLine;
 
 /// A straight edge of a level surface. Its ends are left and right for one who goes over it from front to back.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,9 +115,9 @@ impl<F> Edge<F> {
     }
 
     /// The line through it, from right to left; `None` where it has no length.
-    pub(crate) fn line(&self) -> Option<Line> {
+    pub(crate) fn line(&self) -> Option<StraightLine> {
         let (right, left) = (self.right.inner.xy(), self.left.inner.xy());
-        Some(Line {
+        Some(StraightLine {
             at: right,
             along: (left - right).try_normalize(1e-9)?,
         })
@@ -139,7 +139,7 @@ impl<F> Edge<F> {
     }
 
     /// This edge on a line.
-    pub(crate) fn onto(&self, line: &Line) -> Self {
+    pub(crate) fn onto(&self, line: &StraightLine) -> Self {
         let at = |end: &Point<F>| {
             let place = line.nearest(&end.inner.xy());
             Point::new(place.x, place.y, end.inner.z)

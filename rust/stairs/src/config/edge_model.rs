@@ -139,13 +139,13 @@ settings! {
     pub struct VisibilityTuning("navigation.stairs.tuning.edge_model.visibility") {
         /// Pixels of a surface that a slice must show.
         pixels: u16 = 3, "px", at_least(1.0);
-        /// How far from the edge those pixels must lie: more than a matching window reaches.
+        /// How far from the edge the pixels must lie that show a surface: more than a matching window reaches.
         away: f64 = 2.5, "px", NOT_NEGATIVE;
         /// How close to a surface a pixel must be to belong to it, in the noise.
         close: f32 = 3.0, "1", POSITIVE;
         /// Share of the slices that must show enough of a surface.
         most: f64 = 0.6, "1", SHARE;
-        /// Fewest slices: less of an edge says nothing of its heading.
+        /// Fewest slices that must show anything: less of an edge says nothing of its heading.
         fewest: usize = 14, "1", at_least(1.0);
     }
 }

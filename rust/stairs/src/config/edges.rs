@@ -17,15 +17,15 @@ settings! {
 settings! {
     /// When the back of one stair and the front of another are one edge.
     pub struct JointsTuning("navigation.stairs.tuning.edges.joints") {
-        /// Farthest that the two may lie apart.
+        /// Farthest that the back of a stair and the front of the next may lie apart to be one edge.
         apart: f64 = 0.04, "m", POSITIVE;
-        /// Cosine of the largest angle between them.
+        /// Cosine of the largest angle between the back of a stair and the front of the next for them to be one edge.
         parallel: f64 = 0.966, "1", SHARE;
         /// Share of a stair's width that another must have to begin on it and end it.
         wide: f64 = 0.6, "1", NOT_NEGATIVE;
         /// How deep a stair must be before another may begin on it and end it.
         least_depth: f64 = 0.05, "m", NOT_NEGATIVE;
-        /// Points by which each of the two counts as seen besides those that saw it, so that one edge comes of two that nothing
+        /// Points by which back and front each count as seen besides those that saw it, so that one edge comes of two that nothing
         /// saw end.
         unseen: f64 = 1.0, "1", POSITIVE;
     }

@@ -28,9 +28,9 @@ settings! {
     pub struct PlacesTuning("navigation.stairs.tuning.places") {
         /// Places from front to back, and as many from right to left.
         each_way: usize = 5, "1", within(1.0, 100.0);
-        /// Where the first of them lies, as a share of the way.
+        /// Where the first place lies, as a share of the way from edge to edge.
         first: f64 = 0.1, "1", SHARE;
-        /// How far each lies from the one before, as a share of the way.
+        /// How far each place lies from the one before, as a share of the way from edge to edge.
         apart: f64 = 0.2, "1", SHARE;
     }
     check PlacesTuning::are_inside;

@@ -66,7 +66,7 @@ settings! {
         /// Places of a stair that must be seen to tell that it is not there: more than a strip along each side, which shows what
         /// lies beside a stair that is taken for wider than it is, and may be all that is not too near to be seen.
         looked_at: usize = 11, "1", at_least(1.0);
-        /// Share of them that must show something lower.
+        /// Share of the places that are seen which must show something lower.
         seen_through: f64 = 0.6, "1", SHARE;
         /// Share of a stair's places from which on it lies on a slope of the map, and is no stair.
         on_slope: f64 = 0.5, "1", SHARE;
@@ -74,7 +74,7 @@ settings! {
         along_slope: f64 = 0.5, "1", SHARE;
         /// Places along a front that are looked at for a slope before it, as shares of its length.
         front_places: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9], "1", SHARE;
-        /// How far before and behind a front those places lie, besides the ones on it.
+        /// How far before and behind a front the map is asked for a slope, besides on it.
         beside: f64 = 0.06, "m", NOT_NEGATIVE;
     }
 }

@@ -6,8 +6,8 @@ use sensing::{Intrinsics, Scan};
 
 use crate::edges::fusion::FusedEdge;
 use crate::edges::joints::{apart_m, before, part_beside};
-use crate::frame::view::View;
-use crate::lines::line::Line;
+use crate::frame::view::PlanesView;
+use crate::lines::line::StraightLine;
 use crate::{Edge, EdgeFit, EdgeModel, EdgesTuning, FitsTuning, Stair, StairsConfig, StairsTuning};
 
 /// Fits edges and keeps what is found.
@@ -54,7 +54,7 @@ impl Fits {
     pub(crate) fn see(
         &mut self,
         (scan, planes): (&Scan, &Planes),
-        view: &View<'_>,
+        view: &PlanesView<'_>,
         stairs: &[Stair<Map>],
         map_from_robot: &Pose<Map, Robot>,
         config: &StairsConfig,
@@ -124,7 +124,7 @@ impl Fits {
         order: impl Fn([f64; 2]) -> [f64; 2],
         height_m: f64,
         tuning: &EdgesTuning,
-    ) -> Option<(Line, EdgeFit)> {
+    ) -> Option<(StraightLine, EdgeFit)> {
         let sure = self
             .edges
             .iter()
@@ -153,7 +153,7 @@ fn is_sure(fit: &EdgeFit, tuning: &FitsTuning) -> bool {
 /// The front edges ahead of the robot that are in view, with the levels on both sides.
 fn wanted(
     stairs: &[Stair<Map>],
-    view: &View<'_>,
+    view: &PlanesView<'_>,
     map_from_robot: &Pose<Map, Robot>,
     config: &StairsConfig,
 ) -> Vec<Wanted> {
@@ -186,7 +186,7 @@ fn wanted(
 fn guess(
     stair: &Stair<Map>,
     before: Option<&Stair<Map>>,
-    view: &View<'_>,
+    view: &PlanesView<'_>,
     robot_from_map: &Pose<Robot, Map>,
     tuning: &FitsTuning,
 ) -> Edge<Robot> {

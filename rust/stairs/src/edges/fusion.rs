@@ -6,12 +6,12 @@
 use geometry::{Camera, Map, Pose};
 use nalgebra::{Matrix2, Point2, Point3, Vector2, Vector3};
 
-use crate::lines::line::Line;
+use crate::lines::line::StraightLine;
 use crate::{Edge, EdgeFit, FittedEdge, FusionTuning};
 
 /// What the frames from one place in one direction say.
 #[derive(Debug, Clone, Copy)]
-struct Look {
+struct EdgeLook {
     direction: Vector3<f64>,
     camera: Point3<f64>,
     frames: u32,
@@ -26,7 +26,7 @@ struct Look {
     moved_heading: f64,
 }
 
-impl Look {
+impl EdgeLook {
     fn new(fitted: &Edge<Map>, sigmas: (f64, f64), map_from_camera: &Pose<Map, Camera>) -> Self {
         Self {
             direction: map_from_camera.inner.rotation * Vector3::z(),
@@ -75,7 +75,7 @@ pub(crate) struct FusedEdge {
     pub(crate) heights_m: [f64; 2],
     /// Steps since it was last fitted.
     pub(crate) steps_ago: u32,
-    looks: Vec<Look>,
+    looks: Vec<EdgeLook>,
     edge: Edge<Map>,
     ends: Edge<Map>,
     fit: EdgeFit,
@@ -91,7 +91,7 @@ impl FusedEdge {
     ) -> Self {
         let sigmas = (fitted.place_sigma_m, fitted.heading_sigma_rad);
         let mut looks = Vec::with_capacity(tuning.looks);
-        looks.push(Look::new(edge, sigmas, camera));
+        looks.push(EdgeLook::new(edge, sigmas, camera));
         Self {
             heights_m,
             steps_ago: 0,
@@ -115,7 +115,7 @@ impl FusedEdge {
         tuning: &FusionTuning,
     ) {
         let sigmas = (fitted.place_sigma_m, fitted.heading_sigma_rad);
-        let frame = Look::new(edge, sigmas, camera);
+        let frame = EdgeLook::new(edge, sigmas, camera);
         self.steps_ago = 0;
         self.ends = *edge;
         let mut looks = self.looks.iter_mut();
@@ -153,14 +153,7 @@ impl FusedEdge {
 
     /// Least squares over the looks for the place at their common middle and the heading; looks that do not fit count less.
     fn solve(&mut self, tuning: &FusionTuning) {
-        let FusionTuning {
-            fixed,
-            robust,
-            rounds,
-            common_place,
-            common_heading,
-            ..
-        } = *tuning;
+        let robust = tuning.robust;
         let count = self.looks.len() as f64;
         let middle: Vector2<f64> = self
             .looks
@@ -169,17 +162,17 @@ impl FusedEdge {
             .sum::<Vector2<f64>>()
             / count;
         let heading_rad = self.edge.heading_rad();
-        let Some(Line { along, .. }) = self.edge.line() else {
+        let Some(StraightLine { along, .. }) = self.edge.line() else {
             return;
         };
         let across = self.edge.across();
         let mut found = Vector2::zeros();
         let mut information = Matrix2::zeros();
-        for _ in 0..rounds {
+        for _ in 0..tuning.rounds {
             information = Matrix2::zeros();
             let mut sum = Vector2::zeros();
             for look in &self.looks {
-                let (place_variance, heading_variance) = look.variances(fixed);
+                let (place_variance, heading_variance) = look.variances(tuning.fixed);
                 let off = look.middle.coords - middle;
                 // Farther left by `t` a line that is turned lies `t * turn` farther to the front.
                 let rows = Matrix2::new(1.0, -along.dot(&off), 0.0, 1.0);
@@ -206,15 +199,15 @@ impl FusedEdge {
             return;
         };
         let turned = nalgebra::Rotation2::new(found[1]) * along;
-        let line = Line {
+        let line = StraightLine {
             at: (middle + across * found[0]).into(),
             along: turned,
         };
         self.edge = self.ends.onto(&line);
         self.fit = EdgeFit {
             frames: self.looks.iter().map(|look| look.frames).sum(),
-            place_sigma_m: covariance[(0, 0)].sqrt().hypot(common_place),
-            heading_sigma_rad: covariance[(1, 1)].sqrt().hypot(common_heading),
+            place_sigma_m: covariance[(0, 0)].sqrt().hypot(tuning.common_place),
+            heading_sigma_rad: covariance[(1, 1)].sqrt().hypot(tuning.common_heading),
         };
     }
 }

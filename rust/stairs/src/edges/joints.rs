@@ -3,7 +3,7 @@
 use geometry::{Map, Point};
 use nalgebra::Point2;
 
-use crate::lines::line::Line;
+use crate::lines::line::StraightLine;
 use crate::{Edge, JointsTuning, Stair, StairsConfig};
 
 /// Index of the stair that ends where another begins.
@@ -44,7 +44,7 @@ pub(crate) fn part_beside(edge: &Edge<Map>, other: &Edge<Map>) -> Option<Edge<Ma
 }
 
 /// The first edge's line, and from where to where on it both edges lie, m.
-fn beside(a: &Edge<Map>, b: &Edge<Map>) -> Option<(Line, [f64; 2])> {
+fn beside(a: &Edge<Map>, b: &Edge<Map>) -> Option<(StraightLine, [f64; 2])> {
     let line = a.line()?;
     let span = |edge: &Edge<Map>| {
         [&edge.right, &edge.left].map(|end| line.along.dot(&(end.inner.xy() - line.at)))
@@ -102,11 +102,11 @@ pub(crate) fn join(stairs: &mut [Stair<Map>], config: &StairsConfig) {
 }
 
 /// The line between two edges: `share` of the way from the first to the second.
-fn between(a: &Edge<Map>, b: &Edge<Map>, share: f64) -> Option<Line> {
+fn between(a: &Edge<Map>, b: &Edge<Map>, share: f64) -> Option<StraightLine> {
     let at = middle_of_both(a, b)?;
     let [from, to] = [a, b].map(|edge| at - edge.across() * edge.beyond_m(at.into()));
     let [from_along, to_along] = [a.line()?.along, b.line()?.along];
-    Some(Line {
+    Some(StraightLine {
         at: from + (to - from) * share,
         along: (from_along.lerp(&to_along, share)).try_normalize(1e-9)?,
     })

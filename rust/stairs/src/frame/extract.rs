@@ -5,10 +5,10 @@ use nalgebra::Point2;
 use segmentation::Planes;
 use sensing::Intrinsics;
 
-use crate::frame::outer_points::{OuterPoints, Rows};
+use crate::frame::outer_points::{OuterPoints, OuterRows};
 use crate::frame::shared_edges::{SharedEdge, SharedEdges};
 use crate::frame::size::{is_cut_short, is_large_enough};
-use crate::frame::view::View;
+use crate::frame::view::PlanesView;
 use crate::frame::visible::{is_solid, seen_ends};
 use crate::lines::boundary::side;
 use crate::stair::level_edge;
@@ -16,7 +16,7 @@ use crate::{Edge, FrameTuning, Stair, StairsConfig, StairsTuning};
 
 /// One stair as one frame shows it.
 #[derive(Debug, Clone)]
-pub(crate) struct Sighting {
+pub(crate) struct StairSighting {
     /// The stair; its margins are zero.
     pub(crate) stair: Stair<Robot>,
     /// Its whole boundary, robot frame, m.
@@ -33,13 +33,13 @@ pub(crate) struct Extraction {
     outer_points: OuterPoints,
     shared_edges: SharedEdges,
     /// What the last frame showed: level surfaces that may be stairs, and those that the robot may stand on.
-    pub(crate) found: Vec<Sighting>,
+    pub(crate) found: Vec<StairSighting>,
 }
 
 impl Extraction {
     /// Finds the level surfaces of a frame.
     pub(crate) fn read(&mut self, planes: &Planes, camera: Intrinsics, config: &StairsConfig) {
-        let view = View::new(planes, camera, &config.tuning.view);
+        let view = PlanesView::new(planes, camera, &config.tuning.view);
         self.outer_points.read(planes, camera.width);
         self.shared_edges.read(planes, &view, camera.width, config);
         self.found.clear();
@@ -63,12 +63,12 @@ impl Extraction {
     fn sighting(
         &mut self,
         index: usize,
-        view: &View<'_>,
+        view: &PlanesView<'_>,
         config: &StairsConfig,
-    ) -> Option<Sighting> {
+    ) -> Option<StairSighting> {
         let tuning = &config.tuning.frame;
         let shared_front = self.shared(view, tuning, |edge| edge.farther == index);
-        let surface = Surface::new(index, view, shared_front.as_ref(), tuning)?;
+        let surface = LevelSurface::new(index, view, shared_front.as_ref(), tuning)?;
         let reference = surface.reference;
         let front = match &shared_front {
             Some(front) => front.at_height(surface.height_m),
@@ -91,7 +91,7 @@ impl Extraction {
             // A spike of the hull, or no straight side: as the front, through the middle of what is there.
             None => self.outer_points.parallel(
                 view,
-                (index, Rows::Highest),
+                (index, OuterRows::Highest),
                 &front,
                 &config.tuning.lines,
             )?,
@@ -104,7 +104,7 @@ impl Extraction {
         }
         let shared = [shared_front.is_some(), shared_back.is_some()];
         stair.seen_ends = seen_ends(&stair, shared, view, config);
-        Some(Sighting {
+        Some(StairSighting {
             stair,
             hull: surface.hull,
             own_level: false,
@@ -115,15 +115,15 @@ impl Extraction {
     /// The side of the hull that the line from the robot enters, without its fringes.
     fn front(
         &mut self,
-        surface: &Surface,
-        view: &View<'_>,
+        surface: &LevelSurface,
+        view: &PlanesView<'_>,
         tuning: &StairsTuning,
     ) -> Option<Edge<Robot>> {
         let [enters, _] = surface.cuts()?;
         // Counter-clockwise such a side goes from left to right.
         let [left, right] = side(&surface.hull, enters.edge, surface.fringe_m, &tuning.lines);
         let rough = level_edge([right, left], surface.height_m);
-        let rows = (surface.index, Rows::Lowest);
+        let rows = (surface.index, OuterRows::Lowest);
         let smooth = self
             .outer_points
             .through(view, rows, &rough, surface.fringe_m, tuning);
@@ -133,14 +133,14 @@ impl Extraction {
     /// The side of the hull that the line leaves, without its fringes; `None` where it is not straight.
     fn back(
         &mut self,
-        surface: &Surface,
-        view: &View<'_>,
+        surface: &LevelSurface,
+        view: &PlanesView<'_>,
         tuning: &StairsTuning,
     ) -> Option<Edge<Robot>> {
         let [_, leaves] = surface.cuts()?;
         let [right, left] = side(&surface.hull, leaves.edge, surface.fringe_m, &tuning.lines);
         let rough = level_edge([right, left], surface.height_m);
-        let rows = (surface.index, Rows::Highest);
+        let rows = (surface.index, OuterRows::Highest);
         self.outer_points
             .through(view, rows, &rough, surface.fringe_m, tuning)
     }
@@ -148,7 +148,7 @@ impl Extraction {
     /// The edge to the neighbour with the smallest difference in height, of those edges that are long enough.
     fn shared(
         &self,
-        view: &View<'_>,
+        view: &PlanesView<'_>,
         tuning: &FrameTuning,
         wanted: impl Fn(&SharedEdge) -> bool,
     ) -> Option<Edge<Robot>> {
@@ -168,7 +168,7 @@ impl Extraction {
 }
 
 /// A level region without what its hull has in front of its front and behind its back.
-struct Surface {
+struct LevelSurface {
     index: usize,
     height_m: f64,
     hull: Outline,
@@ -176,10 +176,10 @@ struct Surface {
     fringe_m: f64,
 }
 
-impl Surface {
+impl LevelSurface {
     fn new(
         index: usize,
-        view: &View<'_>,
+        view: &PlanesView<'_>,
         front: Option<&Edge<Robot>>,
         tuning: &FrameTuning,
     ) -> Option<Self> {
@@ -227,7 +227,7 @@ impl Surface {
 }
 
 /// Whether the surface is at the robot's own height, with nothing of another height on the way to it.
-fn is_own_level(found: &[Sighting], index: usize, config: &StairsConfig) -> bool {
+fn is_own_level(found: &[StairSighting], index: usize, config: &StairsConfig) -> bool {
     let tuning = &config.tuning.frame;
     let stair = &found[index].stair;
     let own = |stair: &Stair<Robot>| stair.height_m().abs() < config.own_height;
@@ -238,7 +238,7 @@ fn is_own_level(found: &[Sighting], index: usize, config: &StairsConfig) -> bool
         Some(cuts.map(|cut| from_robot_m(&cut.at)))
     };
     let reach_m = cuts_m(&found[index].hull).map_or(0.0, |[enters_m, _]| enters_m);
-    let between = |other: &Sighting| {
+    let between = |other: &StairSighting| {
         cuts_m(&other.hull).is_some_and(|[enters_m, leaves_m]| {
             let deep = leaves_m - enters_m > config.min_depth * tuning.between_depth;
             let before = enters_m > 0.0 && leaves_m < reach_m + tuning.overlap;

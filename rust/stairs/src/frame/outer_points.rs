@@ -3,14 +3,14 @@
 use geometry::Robot;
 use segmentation::Planes;
 
-use crate::frame::view::View;
+use crate::frame::view::PlanesView;
 use crate::lines::robust_line::Row;
 use crate::stair::level_edge;
 use crate::{Edge, LinesTuning, StairsTuning};
 
 /// Which side of a surface is meant, by its rows in the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Rows {
+pub(crate) enum OuterRows {
     /// The lowest: the near side.
     Lowest,
     /// The highest: the far side.
@@ -50,8 +50,8 @@ impl OuterPoints {
     /// too little of it is straight.
     pub(crate) fn through(
         &mut self,
-        view: &View<'_>,
-        (region, rows): (usize, Rows),
+        view: &PlanesView<'_>,
+        (region, rows): (usize, OuterRows),
         rough: &Edge<Robot>,
         fringe_m: f64,
         tuning: &StairsTuning,
@@ -74,8 +74,8 @@ impl OuterPoints {
     /// The side of the region parallel to an edge, through the middle of its points, as long as the edge.
     pub(crate) fn parallel(
         &mut self,
-        view: &View<'_>,
-        (region, rows): (usize, Rows),
+        view: &PlanesView<'_>,
+        (region, rows): (usize, OuterRows),
         edge: &Edge<Robot>,
         tuning: &LinesTuning,
     ) -> Option<Edge<Robot>> {
@@ -85,11 +85,15 @@ impl OuterPoints {
     }
 
     /// Collects the outermost points of a region, from left to right.
-    fn gather(&mut self, view: &View<'_>, region: usize, which: Rows, height_m: f64) {
+    fn gather(&mut self, view: &PlanesView<'_>, region: usize, which: OuterRows, height_m: f64) {
         self.row.points.clear();
         let rows = &self.rows[region * self.width..(region + 1) * self.width];
         for (col, &[high, low]) in rows.iter().enumerate().filter(|(_, rows)| **rows != NONE) {
-            let row = if which == Rows::Lowest { low } else { high };
+            let row = if which == OuterRows::Lowest {
+                low
+            } else {
+                high
+            };
             let point = view.on_level([col as f64, f64::from(row)], height_m);
             self.row.points.extend(point.map(|point| (col, point)));
         }

@@ -4,14 +4,14 @@
 use geometry::Robot;
 use segmentation::Planes;
 
-use crate::frame::view::View;
+use crate::frame::view::PlanesView;
 use crate::lines::robust_line::Row;
 use crate::stair::level_edge;
 use crate::{Edge, StairsConfig, StairsTuning};
 
 /// One column's change from a surface to the next behind it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Change {
+struct LabelChange {
     nearer: u16,
     farther: u16,
     col: u16,
@@ -33,9 +33,9 @@ pub(crate) struct SharedEdge {
 /// Finds edges. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct SharedEdges {
-    changes: Vec<Change>,
+    changes: Vec<LabelChange>,
     row: Row,
-    /// Those of the last frame.
+    /// Edges of the last frame.
     pub(crate) edges: Vec<SharedEdge>,
 }
 
@@ -44,7 +44,7 @@ impl SharedEdges {
     pub(crate) fn read(
         &mut self,
         planes: &Planes,
-        view: &View<'_>,
+        view: &PlanesView<'_>,
         width: usize,
         config: &StairsConfig,
     ) {
@@ -92,7 +92,7 @@ impl SharedEdges {
                 && (near_m - far_m).abs() > config.own_height
                 && last_row.saturating_sub(run_start) <= largest_gap
             {
-                self.changes.push(Change {
+                self.changes.push(LabelChange {
                     nearer,
                     farther: region,
                     col: col as u16,
@@ -107,9 +107,9 @@ impl SharedEdges {
 
 /// The line through the changes between two regions.
 fn fit(
-    pair: &[Change],
+    pair: &[LabelChange],
     planes: &Planes,
-    view: &View<'_>,
+    view: &PlanesView<'_>,
     row: &mut Row,
     tuning: &StairsTuning,
 ) -> Option<SharedEdge> {

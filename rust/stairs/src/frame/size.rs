@@ -2,7 +2,7 @@
 
 use geometry::Robot;
 
-use crate::frame::view::View;
+use crate::frame::view::PlanesView;
 use crate::{Edge, Stair, StairsConfig};
 
 /// Whether both edges and the depth between them are long enough for a stair (003, section IV.B).
@@ -12,7 +12,11 @@ pub(crate) fn is_large_enough(stair: &Stair<Robot>, config: &StairsConfig) -> bo
 }
 
 /// Whether a stair is deep enough and its edges are, or where they are too short may go on outside the picture.
-pub(crate) fn is_cut_short(stair: &Stair<Robot>, view: &View<'_>, config: &StairsConfig) -> bool {
+pub(crate) fn is_cut_short(
+    stair: &Stair<Robot>,
+    view: &PlanesView<'_>,
+    config: &StairsConfig,
+) -> bool {
     let may_be_long = |edge: &Edge<Robot>| {
         let missing_m = config.min_edge - edge.length_m();
         let Some(left) = (edge.left.inner - edge.right.inner).try_normalize(1e-6) else {
@@ -75,7 +79,7 @@ mod tests {
         let mut planes = Planes::new(CAMERA.width * CAMERA.height);
         planes.robot_from_camera = camera_pose(0.0, 0.75);
         let tuning = ViewTuning::default();
-        let view = View::new(&planes, CAMERA, &tuning);
+        let view = PlanesView::new(&planes, CAMERA, &tuning);
         let row = 0.5 * CAMERA.height as f64;
         let at = |col: f64| view.on_level([col, row], 0.03).unwrap();
         let (middle, border) = (at(0.5 * CAMERA.width as f64), at(0.0));

@@ -9,7 +9,7 @@ use crate::ViewTuning;
 
 /// The planes of a frame, seen through its camera.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct View<'a> {
+pub(crate) struct PlanesView<'a> {
     planes: &'a Planes,
     camera: Intrinsics,
     camera_from_robot: Isometry3<f64>,
@@ -27,7 +27,7 @@ pub(crate) enum Shows {
     Lower,
 }
 
-impl<'a> View<'a> {
+impl<'a> PlanesView<'a> {
     pub(crate) fn new(planes: &'a Planes, camera: Intrinsics, tuning: &'a ViewTuning) -> Self {
         let robot_from_camera: geometry::Pose<Robot, Camera> = planes.robot_from_camera;
         Self {
@@ -138,8 +138,8 @@ impl<'a> View<'a> {
 
     /// Shares of the places just beyond a side, from `a` to `b`, that show something lower and something higher than it.
     /// What is out of view shows nothing.
-    pub(crate) fn beyond(&self, [a, b]: [&Point3<f64>; 2], outward: &Vector2<f64>) -> Beyond {
-        let mut found = Beyond::default();
+    pub(crate) fn beyond(&self, [a, b]: [&Point3<f64>; 2], outward: &Vector2<f64>) -> BeyondSide {
+        let mut found = BeyondSide::default();
         let places = self.tuning.places;
         for i in 0..places {
             let share = (i as f64 + 1.0) / (places as f64 + 1.0);
@@ -170,15 +170,15 @@ impl<'a> View<'a> {
 
 /// Shares of the places just beyond a side of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Beyond {
-    /// That show something lower.
+pub(crate) struct BeyondSide {
+    /// Share of the places that show something lower.
     pub(crate) lower: f64,
-    /// That show something higher.
+    /// Share of the places that show something higher.
     pub(crate) higher: f64,
 }
 
-impl Beyond {
-    /// That show something of another height.
+impl BeyondSide {
+    /// Share of the places that show something of another height.
     pub(crate) fn any(&self) -> f64 {
         self.lower + self.higher
     }

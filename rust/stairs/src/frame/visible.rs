@@ -3,11 +3,11 @@
 use geometry::Robot;
 use nalgebra::{Point3, Vector2};
 
-use crate::frame::view::{Shows, View};
+use crate::frame::view::{PlanesView, Shows};
 use crate::{Edge, Sides, Stair, StairsConfig, StairsTuning};
 
 /// Whether the surface is seen at most of the places of the stair: hulls are optimistic.
-pub(crate) fn is_solid(stair: &Stair<Robot>, view: &View<'_>, tuning: &StairsTuning) -> bool {
+pub(crate) fn is_solid(stair: &Stair<Robot>, view: &PlanesView<'_>, tuning: &StairsTuning) -> bool {
     let (mut surface, mut other) = (0, 0);
     for place in stair.places(&tuning.places) {
         match view.shows_at(&place.inner) {
@@ -24,7 +24,7 @@ pub(crate) fn is_solid(stair: &Stair<Robot>, view: &View<'_>, tuning: &StairsTun
 pub(crate) fn seen_ends(
     stair: &Stair<Robot>,
     shared: [bool; 2],
-    view: &View<'_>,
+    view: &PlanesView<'_>,
     config: &StairsConfig,
 ) -> Sides {
     let tuning = &config.tuning.frame;

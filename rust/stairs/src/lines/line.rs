@@ -4,14 +4,14 @@ use nalgebra::{Matrix2, Point2, Vector2};
 
 /// A line in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Line {
+pub(crate) struct StraightLine {
     /// A point on it, m.
     pub(crate) at: Point2<f64>,
     /// Its direction, length 1.
     pub(crate) along: Vector2<f64>,
 }
 
-impl Line {
+impl StraightLine {
     /// Square to the line, to the right of its direction: from front to back where the line goes from right to left.
     pub(crate) fn across(&self) -> Vector2<f64> {
         Vector2::new(self.along.y, -self.along.x)
@@ -74,14 +74,14 @@ impl LineSum {
 
     /// The line with the least squared distance from all segments; `None` without a segment of some length. Where it turns away from
     /// their mean direction by more than the angle of this cosine, they lie beside each other, and it has their mean direction.
-    pub(crate) fn line(&self, agreement_needed: f64) -> Option<Line> {
+    pub(crate) fn line(&self, agreement_needed: f64) -> Option<StraightLine> {
         let rough = self.along.try_normalize(1e-9)?;
         let mean = self.places / self.weight;
         let spread = self.squares / self.weight - mean * mean.transpose();
         let turn = 0.5 * (2.0 * spread.m12).atan2(spread.m11 - spread.m22);
         let along = Vector2::new(turn.cos(), turn.sin());
         let agreement = along.dot(&rough);
-        Some(Line {
+        Some(StraightLine {
             at: mean.into(),
             along: if agreement.abs() > agreement_needed {
                 along * agreement.signum()

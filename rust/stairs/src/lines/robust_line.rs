@@ -3,7 +3,7 @@
 use nalgebra::Point2;
 
 use crate::LinesTuning;
-use crate::lines::line::{Line, LineSum};
+use crate::lines::line::{LineSum, StraightLine};
 
 /// Points by their column in the picture, from left to right. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
@@ -17,7 +17,7 @@ pub(crate) struct Row {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Straight {
     /// The line, from right to left.
-    pub(crate) line: Line,
+    pub(crate) line: StraightLine,
     /// Its outermost points, right and left.
     pub(crate) ends: [Point2<f64>; 2],
     /// How much of it the points span, m.
@@ -29,7 +29,7 @@ impl Row {
     /// all points.
     pub(crate) fn straight(
         &mut self,
-        line: Option<Line>,
+        line: Option<StraightLine>,
         fringe_m: f64,
         tuning: &LinesTuning,
     ) -> Option<Straight> {
@@ -41,7 +41,7 @@ impl Row {
         let (mut line, mut found) = (first, None);
         for _ in 0..tuning.rounds {
             let median_m = self.median_offset_m(&line, tuning)?;
-            let middle = Line {
+            let middle = StraightLine {
                 at: line.at + line.across() * median_m,
                 ..line
             };
@@ -57,7 +57,11 @@ impl Row {
     }
 
     /// Median of the points' places behind a line, m; `None` for too few points.
-    pub(crate) fn median_offset_m(&mut self, line: &Line, tuning: &LinesTuning) -> Option<f64> {
+    pub(crate) fn median_offset_m(
+        &mut self,
+        line: &StraightLine,
+        tuning: &LinesTuning,
+    ) -> Option<f64> {
         if self.points.len() < tuning.fewest_points {
             return None;
         }
@@ -73,7 +77,7 @@ impl Row {
     /// length of the pieces, m.
     fn close_to(
         &self,
-        line: Option<&Line>,
+        line: Option<&StraightLine>,
         fringe_m: f64,
         tuning: &LinesTuning,
     ) -> Option<(LineSum, [Point2<f64>; 2], f64)> {

@@ -3,7 +3,7 @@
 use super::prisms::{Prism, frame};
 use super::*;
 use crate::Stair;
-use crate::frame::view::View;
+use crate::frame::view::PlanesView;
 use crate::frame::visible::seen_ends;
 use crate::stair::level_edge;
 
@@ -179,7 +179,7 @@ fn a_corner_that_the_picture_cuts_off_a_tread_is_not_where_it_ends() {
     let right_end = |front: [[f64; 2]; 2], back: [[f64; 2]; 2], pan_rad: f64| {
         let (_, planes) = frame(&prisms, &Pose::identity(), &camera_pose(pan_rad, 1.0));
         let config = StairsConfig::default();
-        let view = View::new(&planes, CAMERA, &config.tuning.view);
+        let view = PlanesView::new(&planes, CAMERA, &config.tuning.view);
         let edge = |[right, left]: [[f64; 2]; 2]| level_edge([right.into(), left.into()], -0.03);
         let (front, back) = (edge(front), edge(back));
         let stair = Stair::seen(front, back, front.middle(), 200);

@@ -3,12 +3,12 @@
 use geometry::Outline;
 use nalgebra::{Point2, Vector2};
 
-use crate::lines::line::{Line, LineSum};
+use crate::lines::line::{LineSum, StraightLine};
 use crate::{BorderTuning, StairsTuning};
 
 /// One end of an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct End {
+struct BorderEnd {
     // Of the ends that were seen: weight and weighted sum of the places.
     weight: f64,
     places: Vector2<f64>,
@@ -16,7 +16,7 @@ struct End {
     reached: Option<Point2<f64>>,
 }
 
-impl End {
+impl BorderEnd {
     fn add(&mut self, place: &Point2<f64>, weight: f64, outward: &Vector2<f64>) {
         self.weight += weight;
         self.places += place.coords * weight;
@@ -59,11 +59,11 @@ impl End {
 pub(crate) struct Weights {
     /// Supporting points of the sighting.
     pub(crate) all: f64,
-    /// Those points where the edge was seen to end the surface, else 0.
+    /// Supporting points where the edge was seen to end the surface, else 0.
     pub(crate) edge: f64,
-    /// Those points where its left end was seen, else 0.
+    /// Supporting points where the edge's left end was seen, else 0.
     pub(crate) left: f64,
-    /// Those points where its right end was seen, else 0.
+    /// Supporting points where the edge's right end was seen, else 0.
     pub(crate) right: f64,
 }
 
@@ -72,8 +72,8 @@ pub(crate) struct Weights {
 pub(crate) struct Border {
     seen: LineSum,
     unseen: LineSum,
-    left: End,
-    right: End,
+    left: BorderEnd,
+    right: BorderEnd,
 }
 
 impl Border {
@@ -154,14 +154,14 @@ impl Border {
         let tuning = &tuning.treads.border;
         let all = self.weight();
         let mostly_seen = self.seen.weight() > tuning.believed * all;
-        let goes_on = |seen: &Line| {
+        let goes_on = |seen: &StraightLine| {
             let unseen = self.unseen.line(agreement);
             unseen.is_some_and(|unseen| outward * seen.offset_m(&unseen.at) > tuning.agrees)
         };
         let seen = self.seen.line(agreement);
         let seen = seen.filter(|seen| mostly_seen || !goes_on(seen));
         let line = seen.or_else(|| {
-            let mut line: Line = self.unseen.line(agreement)?;
+            let mut line: StraightLine = self.unseen.line(agreement)?;
             let out = |p: &Point2<f64>| outward * line.offset_m(p);
             let outermost = hull.corners().iter().map(out).fold(f64::MIN, f64::max);
             line.at += line.across() * outward * outermost;

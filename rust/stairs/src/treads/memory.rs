@@ -4,21 +4,21 @@ use geometry::{Map, Pose, Robot};
 use mapping::FloorView;
 use nalgebra::Point2;
 
-use crate::frame::extract::Sighting;
-use crate::frame::view::{Shows, View};
+use crate::frame::extract::StairSighting;
+use crate::frame::view::{PlanesView, Shows};
 use crate::treads::merge::{contradict, merge_all, overlap};
 use crate::treads::tread::Tread;
 use crate::{Stair, StairsConfig, StairsTuning};
 
 /// The treads around the robot, seen or remembered.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Memory {
+pub(crate) struct TreadMemory {
     treads: Vec<Tread>,
     /// Frames merged since the last step.
     pub(crate) frames: u32,
 }
 
-impl Memory {
+impl TreadMemory {
     /// The robot stepped this often: what was seen is now remembered.
     pub(crate) fn step(&mut self, times: u64, config: &StairsConfig) {
         self.frames = 0;
@@ -44,8 +44,8 @@ impl Memory {
     /// Takes in what a frame showed.
     pub(crate) fn see(
         &mut self,
-        sightings: &[Sighting],
-        view: &View<'_>,
+        sightings: &[StairSighting],
+        view: &PlanesView<'_>,
         map_from_robot: &Pose<Map, Robot>,
         config: &StairsConfig,
     ) {
@@ -83,7 +83,7 @@ impl Memory {
     /// Counts the frames in which something lower shows where a tread should be.
     fn look_for_gone(
         &mut self,
-        view: &View<'_>,
+        view: &PlanesView<'_>,
         map_from_robot: &Pose<Map, Robot>,
         tuning: &StairsTuning,
     ) {

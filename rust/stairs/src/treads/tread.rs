@@ -3,7 +3,7 @@
 use geometry::{Map, Outline, Point, Pose, Robot};
 use nalgebra::{Point2, Vector3};
 
-use crate::frame::extract::Sighting;
+use crate::frame::extract::StairSighting;
 use crate::treads::aspect::{Aspect, Aspects};
 use crate::treads::border::{Border, Weights};
 use crate::{Edge, Sides, Stair, StairsTuning};
@@ -31,7 +31,7 @@ pub(crate) struct Tread {
 
 impl Tread {
     pub(crate) fn new(
-        sighting: &Sighting,
+        sighting: &StairSighting,
         map_from_robot: &Pose<Map, Robot>,
         tuning: &StairsTuning,
     ) -> Option<Self> {

@@ -1,7 +1,7 @@
 //! A first look: the best of a grid of places and headings, without what the matching window does.
 
 use super::excerpt::Excerpt;
-use super::sight::{Sight, Step, first_met};
+use super::sight::{CameraSight, StepModel, first_met};
 
 use crate::CoarseTuning;
 
@@ -34,10 +34,10 @@ impl Coarse {
     pub(super) fn search(
         &mut self,
         excerpt: &Excerpt,
-        sight: &Sight,
-        guess: &Step,
+        sight: &CameraSight,
+        guess: &StepModel,
         tuning: &CoarseTuning,
-    ) -> Option<Step> {
+    ) -> Option<StepModel> {
         self.sample(excerpt, sight, guess, tuning)?;
         let CoarseTuning {
             places,
@@ -47,10 +47,10 @@ impl Coarse {
             largest,
             ..
         } = *tuning;
-        let mut best: Option<(f32, Step)> = None;
+        let mut best: Option<(f32, StepModel)> = None;
         for i in -headings..=headings {
             for j in -places..=places {
-                let step = Step {
+                let step = StepModel {
                     place_m: guess.place_m + f64::from(j) * place_step,
                     heading_rad: guess.heading_rad + f64::from(i) * heading_step,
                     ..*guess
@@ -71,8 +71,8 @@ impl Coarse {
     fn sample(
         &mut self,
         excerpt: &Excerpt,
-        sight: &Sight,
-        guess: &Step,
+        sight: &CameraSight,
+        guess: &StepModel,
         tuning: &CoarseTuning,
     ) -> Option<()> {
         let faces = guess.faces(sight)?;
@@ -113,7 +113,7 @@ impl Coarse {
     }
 
     /// Sum of the squared residuals, each of no more than `largest_px`.
-    fn cost(&self, step: &Step, ahead_m: f64, largest_px: f32) -> f32 {
+    fn cost(&self, step: &StepModel, ahead_m: f64, largest_px: f32) -> f32 {
         let normal = step.normal() / ahead_m;
         let (nx, ny) = (normal.x as f32, normal.y as f32);
         let is_rising = step.far_height_m > step.near_height_m;

@@ -6,7 +6,7 @@ use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
 
 use super::product::Untrusted;
-use super::sight::{Faces, Sight, Step};
+use super::sight::{CameraSight, StepFaces, StepModel};
 use crate::{Edge, EdgeModelTuning, ExcerptTuning};
 
 /// Columns and rows of a picture, from and up to.
@@ -24,7 +24,7 @@ impl Area {
 
 /// A pixel that takes part.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pixel {
+pub(super) struct EdgePixel {
     pub(super) col: f64,
     pub(super) row: f64,
     /// Its disparity, px.
@@ -36,8 +36,8 @@ pub(super) struct Pixel {
 pub(super) struct Excerpt {
     /// Disparities in `area`, row by row, px; NaN where nothing was seen.
     observed_px: Vec<f32>,
-    /// Those of them that take part.
-    pub(super) chosen: Vec<Pixel>,
+    /// The pixels of the area that take part.
+    pub(super) chosen: Vec<EdgePixel>,
     /// Every so many of those that could take part does.
     pub(super) thinned: u32,
 }
@@ -110,7 +110,7 @@ fn pixel_of(
 pub(super) fn area_of(
     camera: &Intrinsics,
     planes: &Planes,
-    step: &Step,
+    step: &StepModel,
     half_m: f64,
     tuning: &EdgeModelTuning,
 ) -> Result<Area, Untrusted> {
@@ -167,8 +167,8 @@ impl Excerpt {
     /// Chooses the pixels that are close to the step's edge.
     pub(super) fn choose(
         &mut self,
-        sight: &Sight,
-        step: &Step,
+        sight: &CameraSight,
+        step: &StepModel,
         half_m: f64,
         area: &Area,
         tuning: &ExcerptTuning,
@@ -189,7 +189,7 @@ impl Excerpt {
             for (i, &observed_px) in line.iter().enumerate().skip(first).step_by(thinned) {
                 let col = (area.cols.0 + i) as f64;
                 if observed_px > 0.0 && zone.holds(&faces, col, row) {
-                    self.chosen.push(Pixel {
+                    self.chosen.push(EdgePixel {
                         col,
                         row,
                         observed_px,
@@ -215,12 +215,12 @@ struct Zone {
     before_m: f64,
     behind_m: f64,
     least_px: f32,
-    along: super::sight::Linear,
-    across: super::sight::Linear,
+    along: super::sight::PixelLinear,
+    across: super::sight::PixelLinear,
 }
 
 impl Zone {
-    fn new(sight: &Sight, step: &Step, half_m: f64, tuning: &ExcerptTuning) -> Self {
+    fn new(sight: &CameraSight, step: &StepModel, half_m: f64, tuning: &ExcerptTuning) -> Self {
         let camera = sight.position_m.xy();
         Self {
             ahead_m: -step.beyond_m(&camera),
@@ -234,7 +234,7 @@ impl Zone {
         }
     }
 
-    fn holds(&self, faces: &Faces, col: f64, row: f64) -> bool {
+    fn holds(&self, faces: &StepFaces, col: f64, row: f64) -> bool {
         let (near, far) = (
             faces.near.at(col, row) as f32,
             faces.far.at(col, row) as f32,

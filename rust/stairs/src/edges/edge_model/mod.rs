@@ -7,6 +7,7 @@
 
 mod coarse;
 mod excerpt;
+mod lot;
 mod product;
 mod refine;
 mod sight;
@@ -25,7 +26,7 @@ use coarse::Coarse;
 use excerpt::{Excerpt, Stretch, area_of, pixel_m, stretch_in_view};
 pub use product::{FittedEdge, Untrusted};
 use refine::Equations;
-use sight::{Sight, Step};
+use sight::{CameraSight, StepModel};
 
 /// Fits edges. Keeps its buffers.
 #[derive(Debug, Clone)]
@@ -58,12 +59,12 @@ impl EdgeModel {
         far_height_m: f64,
     ) -> Result<FittedEdge, Untrusted> {
         let clear_m = self.tuning.camera_clear;
-        let sight = Sight::new(&self.camera, &planes.robot_from_camera, clear_m);
+        let sight = CameraSight::new(&self.camera, &planes.robot_from_camera, clear_m);
         self.check_input(scan, &sight, guess, [near_height_m, far_height_m])?;
         let excerpt = &self.tuning.excerpt;
         let highest_m = near_height_m.max(far_height_m);
         let stretch = stretch_in_view(&self.camera, planes, guess, highest_m, excerpt)?;
-        let start = Step {
+        let start = StepModel {
             anchor_m: stretch.middle_m,
             place_m: 0.0,
             heading_rad: guess.heading_rad(),
@@ -107,7 +108,7 @@ impl EdgeModel {
     fn check_input(
         &self,
         scan: &Scan,
-        sight: &Sight,
+        sight: &CameraSight,
         guess: &Edge<Robot>,
         heights_m: [f64; 2],
     ) -> Result<(), Untrusted> {
@@ -129,9 +130,9 @@ impl EdgeModel {
     /// Improves `step` until it rests; the equations are those where it does, `None` when it does not.
     fn refine(
         &self,
-        sight: &Sight,
-        start: &Step,
-        step: &mut Step,
+        sight: &CameraSight,
+        start: &StepModel,
+        step: &mut StepModel,
         rounds: usize,
     ) -> Result<Option<Equations>, Untrusted> {
         let tuning = &self.tuning;
@@ -181,7 +182,7 @@ fn smaller(change: &Vector4<f64>, than: (f64, f64)) -> bool {
 }
 
 /// The guess, its ends moved square to the step's edge onto it, at the refined height of the surface they belong to.
-fn onto_step(guess: &Edge<Robot>, stretch: &Stretch, step: &Step) -> Edge<Robot> {
+fn onto_step(guess: &Edge<Robot>, stretch: &Stretch, step: &StepModel) -> Edge<Robot> {
     let (normal, along) = (step.normal(), step.along());
     let place = |end: &Point<Robot>| {
         let aside_m = along.dot(&(end.inner.coords.xy() - stretch.middle_m));

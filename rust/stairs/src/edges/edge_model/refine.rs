@@ -3,8 +3,9 @@
 use nalgebra::{Matrix4, Vector4};
 
 use super::excerpt::Excerpt;
-use super::sight::{Faces, Linear, Sight, Step};
-use super::window::{Matcher, PIXELS};
+use super::lot::PIXELS;
+use super::sight::{CameraSight, PixelLinear, StepFaces, StepModel};
+use super::window::Matcher;
 
 use crate::EdgeModelTuning;
 
@@ -22,7 +23,7 @@ pub(super) struct Equations {
 
 /// What a step shows, and what its neighbours in place and heading do.
 struct Model {
-    faces: Faces,
+    faces: StepFaces,
     matcher: Matcher,
     /// A little farther, a little nearer; turned a little left, a little right.
     around: [Matcher; 4],
@@ -31,11 +32,11 @@ struct Model {
 }
 
 impl Model {
-    fn new(sight: &Sight, step: &Step, tuning: &EdgeModelTuning) -> Option<Self> {
+    fn new(sight: &CameraSight, step: &StepModel, tuning: &EdgeModelTuning) -> Option<Self> {
         let trial = (tuning.refine.trial_place, tuning.refine.trial_heading);
         let window = &tuning.window;
         let moved = |place_m: f64, turn_rad: f64| {
-            let moved = Step {
+            let moved = StepModel {
                 place_m: step.place_m + place_m,
                 heading_rad: step.heading_rad + turn_rad,
                 ..*step
@@ -62,7 +63,7 @@ impl Model {
         let seen = self.matcher.look(c, r);
         let [near, far, riser] = seen.by_face;
         let faces = &self.faces;
-        let part = |share: f32, change: &Linear| {
+        let part = |share: f32, change: &PixelLinear| {
             if share == 0.0 {
                 0.0
             } else {
@@ -94,8 +95,8 @@ impl Equations {
     /// the edge from which it could be seen.
     pub(super) fn sum(
         excerpt: &Excerpt,
-        sight: &Sight,
-        step: &Step,
+        sight: &CameraSight,
+        step: &StepModel,
         tuning: &EdgeModelTuning,
     ) -> Option<Self> {
         let noise_px = tuning.refine.noise;

@@ -6,13 +6,13 @@ use sensing::Intrinsics;
 
 /// A function of the pixel that is linear in column and row.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Linear {
+pub(super) struct PixelLinear {
     origin: f64,
     per_col: f64,
     per_row: f64,
 }
 
-impl Linear {
+impl PixelLinear {
     /// The value at a pixel, which may lie outside the picture.
     #[inline]
     pub(super) fn at(&self, col: f64, row: f64) -> f64 {
@@ -51,15 +51,15 @@ impl Linear {
 
 /// Where the camera is, how far it must be from what it sees, m, and its rays times focal length and baseline, robot axes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sight {
+pub(super) struct CameraSight {
     pub(super) position_m: Vector3<f64>,
     pub(super) clear_m: f64,
-    pub(super) x: Linear,
-    pub(super) y: Linear,
-    pub(super) fall: Linear,
+    pub(super) x: PixelLinear,
+    pub(super) y: PixelLinear,
+    pub(super) fall: PixelLinear,
 }
 
-impl Sight {
+impl CameraSight {
     pub(super) fn new(
         camera: &Intrinsics,
         robot_from_camera: &Pose<Robot, Camera>,
@@ -69,7 +69,7 @@ impl Sight {
         let turn = robot_from_camera.inner.rotation.to_rotation_matrix();
         let axis = |axis: usize, sign: f64| {
             let part = |i: usize| sign * camera.baseline_m * turn[(axis, i)];
-            Linear {
+            PixelLinear {
                 origin: part(2) * camera.focal_px - part(0) * cx - part(1) * cy,
                 per_col: part(0),
                 per_row: part(1),
@@ -85,14 +85,14 @@ impl Sight {
     }
 
     /// Rays along a level direction.
-    pub(super) fn along(&self, direction: &Vector2<f64>) -> Linear {
+    pub(super) fn along(&self, direction: &Vector2<f64>) -> PixelLinear {
         self.x.mix(direction.x, &self.y, direction.y)
     }
 }
 
 /// A step: level in front of the edge, level behind it, upright between.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Step {
+pub(super) struct StepModel {
     /// A place that the edge passes close to, robot frame, m.
     pub(super) anchor_m: Vector2<f64>,
     /// How far the edge passes beyond it, m.
@@ -105,21 +105,21 @@ pub(super) struct Step {
 
 /// The step's three planes in the picture: disparities, px, and what changes them.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Faces {
-    pub(super) near: Linear,
-    pub(super) far: Linear,
-    pub(super) riser: Linear,
+pub(super) struct StepFaces {
+    pub(super) near: PixelLinear,
+    pub(super) far: PixelLinear,
+    pub(super) riser: PixelLinear,
     /// Change of `riser` with the edge's place, px/m, and with its heading, px/rad.
-    pub(super) riser_by_place: Linear,
-    pub(super) riser_by_heading: Linear,
+    pub(super) riser_by_place: PixelLinear,
+    pub(super) riser_by_heading: PixelLinear,
     /// Change of `near` and of `far` with the surfaces' heights, px/m.
-    pub(super) near_by_height: Linear,
-    pub(super) far_by_height: Linear,
+    pub(super) near_by_height: PixelLinear,
+    pub(super) far_by_height: PixelLinear,
     /// Whether the far surface is the higher one, so that the riser shows.
     pub(super) rising: bool,
 }
 
-impl Step {
+impl StepModel {
     pub(super) fn normal(&self) -> Vector2<f64> {
         Vector2::new(self.heading_rad.cos(), self.heading_rad.sin())
     }
@@ -136,7 +136,7 @@ impl Step {
     }
 
     /// The planes; `None` when the camera is not above both surfaces and in front of the edge.
-    pub(super) fn faces(&self, sight: &Sight) -> Option<Faces> {
+    pub(super) fn faces(&self, sight: &CameraSight) -> Option<StepFaces> {
         let camera = sight.position_m;
         let (above_near_m, above_far_m) =
             (camera.z - self.near_height_m, camera.z - self.far_height_m);
@@ -148,7 +148,7 @@ impl Step {
         let far = sight.fall.times(1.0 / above_far_m);
         let riser = sight.along(&self.normal()).times(1.0 / ahead_m);
         let aside_m = self.along().dot(&(camera.xy() - self.anchor_m));
-        Some(Faces {
+        Some(StepFaces {
             near,
             far,
             riser,
@@ -165,7 +165,7 @@ impl Step {
     }
 }
 
-impl Faces {
+impl StepFaces {
     /// The disparity that the ray of a pixel meets first, px.
     #[inline]
     pub(super) fn seen(&self, col: f64, row: f64) -> f32 {

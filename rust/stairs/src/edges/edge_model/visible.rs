@@ -2,7 +2,7 @@
 
 use super::excerpt::{Area, Excerpt};
 use super::product::Untrusted;
-use super::sight::{Sight, Step};
+use super::sight::{CameraSight, StepModel};
 
 use crate::EdgeModelTuning;
 
@@ -15,8 +15,8 @@ const SLICES: usize = 96;
 pub(super) fn check(
     excerpt: &Excerpt,
     area: &Area,
-    sight: &Sight,
-    step: &Step,
+    sight: &CameraSight,
+    step: &StepModel,
     (half_m, pixel_m): (f64, f64),
     tuning: &EdgeModelTuning,
 ) -> Result<(), Untrusted> {
@@ -54,8 +54,8 @@ impl Counts {
     fn of(
         excerpt: &Excerpt,
         area: &Area,
-        sight: &Sight,
-        step: &Step,
+        sight: &CameraSight,
+        step: &StepModel,
         (half_m, pixel_m): (f64, f64),
         tuning: &EdgeModelTuning,
     ) -> Option<Self> {

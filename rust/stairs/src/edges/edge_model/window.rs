@@ -3,22 +3,10 @@
 //! Where the disparities inside a window differ by less than the width of the correlation's peak, the match is their
 //! mean; where they differ by more, it is the mean of those around the nearest surface (mean shift with a flat kernel).
 
-use super::sight::{Faces, Linear, first_met};
+use super::lot::{Lot, PADDED, PIXELS, REACH, SIDE, counted, most_and_spread, sum_of};
+use super::sight::{PixelLinear, StepFaces, first_met};
 
 use crate::WindowTuning;
-
-/// Pixels of a side of a matching window: what the cameras of both robots match with. The arrays below are made for it.
-const SIDE: usize = 5;
-/// Pixels from a window's middle to its border.
-const REACH: f64 = 2.0;
-/// Pixels in a window.
-pub(super) const PIXELS: usize = SIDE * SIDE;
-/// Pixels that are worked on at once: as many as a vector of the processor holds. It tells in which order they are summed.
-const LANES: usize = 8;
-/// A window's pixels in whole lanes: the last one is repeated, and counts once.
-const PADDED: usize = 32;
-/// A value for each pixel of a window.
-type Lot = [f32; PADDED];
 
 /// What the window around a pixel gives.
 #[derive(Debug, Clone, Copy)]
@@ -33,15 +21,15 @@ pub(super) struct Match {
 
 /// A plane in the picture, and what it adds to its disparity at each pixel of a window.
 #[derive(Debug, Clone, Copy)]
-struct Plane {
+struct WindowPlane {
     origin: f32,
     per_col: f32,
     per_row: f32,
     offsets: Lot,
 }
 
-impl Plane {
-    fn new(linear: &Linear) -> Self {
+impl WindowPlane {
+    fn new(linear: &PixelLinear) -> Self {
         let (origin, per_col, per_row) = (
             linear.at(0.0, 0.0) as f32,
             linear.per_col() as f32,
@@ -68,9 +56,9 @@ impl Plane {
 /// Matches windows on a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Matcher {
-    near: Plane,
-    far: Plane,
-    riser: Plane,
+    near: WindowPlane,
+    far: WindowPlane,
+    riser: WindowPlane,
     rising: bool,
     /// How much near less riser, and riser less far, differ at most between a window's middle and its border, px.
     near_reach_px: f32,
@@ -85,15 +73,16 @@ pub(super) struct Matcher {
 }
 
 impl Matcher {
-    pub(super) fn new(faces: &Faces, tuning: &WindowTuning) -> Self {
+    pub(super) fn new(faces: &StepFaces, tuning: &WindowTuning) -> Self {
         let before = faces.near.mix(1.0, &faces.riser, -1.0);
         let behind = faces.riser.mix(1.0, &faces.far, -1.0);
-        let reach = |gap: &Linear| (REACH * (gap.per_col().abs() + gap.per_row().abs())) as f32;
+        let reach =
+            |gap: &PixelLinear| (REACH * (gap.per_col().abs() + gap.per_row().abs())) as f32;
         let steepness = before.steepness().max(1e-6) as f32;
         Self {
-            near: Plane::new(&faces.near),
-            far: Plane::new(&faces.far),
-            riser: Plane::new(&faces.riser),
+            near: WindowPlane::new(&faces.near),
+            far: WindowPlane::new(&faces.far),
+            riser: WindowPlane::new(&faces.riser),
             rising: faces.rising,
             near_reach_px: reach(&before) + if faces.rising { 0.0 } else { 0.5 * steepness },
             far_reach_px: reach(&behind),
@@ -189,7 +178,7 @@ impl Matcher {
     }
 
     /// The disparities around a pixel where more than one plane shows.
-    fn window(&self, [near, far, riser]: [f32; 3]) -> Window {
+    fn window(&self, [near, far, riser]: [f32; 3]) -> MatchedWindow {
         let mut values = [0.0_f32; PADDED];
         for (i, value) in values.iter_mut().enumerate() {
             let n = near + self.near.offsets[i];
@@ -218,7 +207,7 @@ impl Matcher {
         } else {
             self.near_mode(&values, most)
         };
-        Window {
+        MatchedWindow {
             values,
             share: 1.0 / sum_of(&chosen, |_| 1.0).max(1.0),
             chosen,
@@ -244,7 +233,7 @@ impl Matcher {
 }
 
 /// What a window sees, and which of it the match is made of.
-struct Window {
+struct MatchedWindow {
     values: Lot,
     /// 1 for those that count, else 0; and one through their number.
     chosen: Lot,
@@ -252,7 +241,7 @@ struct Window {
     jumps: bool,
 }
 
-impl Window {
+impl MatchedWindow {
     fn mean(&self, of: &Lot) -> f32 {
         self.share * sum_of(&self.chosen, |i| of[i])
     }
@@ -260,48 +249,4 @@ impl Window {
     fn mean_px(&self) -> f32 {
         self.mean(&self.values)
     }
-}
-
-/// Largest disparity, and how far below it the smallest is, px.
-fn most_and_spread(values: &Lot) -> (f32, f32) {
-    let most = extreme(values, |a, b| if a > b { a } else { b });
-    let least = extreme(values, |a, b| if a < b { a } else { b });
-    (most, most - least)
-}
-
-/// The value that is picked of all: halves against each other.
-#[inline]
-fn extreme(values: &Lot, pick: impl Fn(f32, f32) -> f32) -> f32 {
-    let mut left = *values;
-    let mut half = PADDED / 2;
-    while half > 0 {
-        for i in 0..half {
-            left[i] = pick(left[i], left[i + half]);
-        }
-        half /= 2;
-    }
-    left[0]
-}
-
-/// Sum over the chosen pixels of a window (1, others 0).
-#[inline]
-fn sum_of(chosen: &Lot, value: impl Fn(usize) -> f32) -> f32 {
-    let mut lanes = [0.0_f32; LANES];
-    for first in (0..PADDED).step_by(LANES) {
-        for lane in 0..LANES {
-            lanes[lane] += chosen[first + lane] * value(first + lane);
-        }
-    }
-    lanes.iter().sum()
-}
-
-/// 1 for the pixels of a window whose disparity is wanted, else 0.
-#[inline]
-fn counted(wanted: impl Fn(f32) -> bool, values: &Lot) -> Lot {
-    let mut chosen = [0.0; PADDED];
-    for (chosen, &value) in chosen.iter_mut().zip(values) {
-        *chosen = if wanted(value) { 1.0 } else { 0.0 };
-    }
-    chosen[PIXELS..].fill(0.0);
-    chosen
 }

@@ -112,7 +112,7 @@ fn an_edge_whose_middle_is_out_of_view_is_looked_for_behind_the_stair_before_it_
     let mut planes = Planes::new(CAMERA.width * CAMERA.height);
     planes.robot_from_camera = camera_pose(0.0, 1.0);
     let tuning = StairsTuning::default();
-    let view = View::new(&planes, CAMERA, &tuning.view);
+    let view = PlanesView::new(&planes, CAMERA, &tuning.view);
     let stair = |[front_m, back_m]: [f64; 2], ends_m: [f64; 2], z_m| {
         let edge = |x_m: f64| {
             let [right, left] = ends_m.map(|y_m| Point::<Robot>::new(x_m, y_m, z_m));
@@ -143,7 +143,7 @@ fn of_steps_ahead_and_the_sides_of_the_stairs_the_steps_are_fitted() {
     let mut planes = Planes::new(CAMERA.width * CAMERA.height);
     planes.robot_from_camera = camera_pose(0.0, 0.8);
     let tuning = StairsTuning::default();
-    let view = View::new(&planes, CAMERA, &tuning.view);
+    let view = PlanesView::new(&planes, CAMERA, &tuning.view);
     let stair = |right: [f64; 2], left: [f64; 2], deep: [f64; 2], z_m: f64| {
         let edge = |by: f64| Edge {
             left: Point::<Robot>::new(left[0] + by * deep[0], left[1] + by * deep[1], z_m),

@@ -5,7 +5,7 @@ use nalgebra::Point2;
 use proptest::prelude::*;
 
 use super::*;
-use crate::frame::extract::Sighting;
+use crate::frame::extract::StairSighting;
 use crate::stair::level_edge;
 use crate::{Sides, Stair, StairsTuning};
 
@@ -19,7 +19,7 @@ fn tread(x_m: f64, y_m: f64, depth_m: f64, height_m: f64) -> Tread {
         corner(far, left),
         corner(near, left),
     ];
-    let sighting = Sighting {
+    let sighting = StairSighting {
         stair: Stair::seen(
             level_edge([corners[0], corners[3]], height_m),
             level_edge([corners[1], corners[2]], height_m),
@@ -46,7 +46,7 @@ fn sill([right, left]: [(f64, f64); 2], seen: Sides) -> Tread {
         800,
     );
     stair.seen_ends = seen;
-    let sighting = Sighting {
+    let sighting = StairSighting {
         stair,
         hull: Outline::hull(&corners).unwrap(),
         own_level: false,
