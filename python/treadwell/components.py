@@ -40,7 +40,9 @@ COMPONENTS: Final[dict[str, dict[str, str]]] = {
 
 STAGES: Final[tuple[str, ...]] = (
     "proprioception",
+    "scan",
     "self_filter",
+    "perception",
     "ground",
     "stairs",
     "climbing",

@@ -101,7 +101,7 @@ impl StairClimbing {
         pace: Pace,
     ) -> Result<Self, ConfigError> {
         config.check()?;
-        climbing.check()?;
+        settings::Table::check(&climbing)?;
         Ok(Self {
             head: Head::new(config.gaze_speed, config.gaze_steep),
             config,

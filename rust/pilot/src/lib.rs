@@ -11,7 +11,7 @@ mod timing;
 
 pub use added::{Added, Make, Maker, Making, add, added};
 pub use error::PilotError;
-pub use perception::Perception;
+pub use perception::{Perception, PerceptionConfig, PerceptionTuning};
 pub use registry::{Components, segmenter, world_model};
 pub use settings::{GoalSettings, Navigation, Settings, StartSettings};
 pub use tick::{Pilot, Tick};

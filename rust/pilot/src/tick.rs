@@ -8,14 +8,15 @@ use localization::{Estimate, Guess, Localizer};
 use planning::{Plan, Planner};
 use proprioception::{BodyStateHistory, Proprioception};
 use robot::Body;
-use sensing::{Frame, Intrinsics, Observation, Scan, SelfFilter};
+use sensing::{Frame, Intrinsics, Observation, Scan, ScanConfig, SelfFilter};
+use settings::Table;
 use volume::octree::Octree;
 use walking::relief::{Mapped, Slopes};
 use walking::{JointTargets, Walker};
 
 use crate::added::{self, Making};
 use crate::goals::Goals;
-use crate::perception::{Perception, TakenBy};
+use crate::perception::{Perception, PerceptionConfig, TakenBy};
 use crate::registry::table;
 use crate::registry::{self, Components};
 use crate::timing::{Stage, Timing};
@@ -69,7 +70,10 @@ impl Pilot {
         let feet = registry::feet(&body, &walker);
         let mount = &body.description().camera;
         let camera = Intrinsics::from(mount);
-        let scan = Scan::pooled(camera, mount.pool);
+        let tables = &settings.navigation.tables;
+        let scan_config: ScanConfig = table(tables, "scan")?;
+        scan_config.check()?;
+        let scan = Scan::pooled(camera, mount.pool, scan_config);
         let making = Making {
             settings,
             body: &body,
@@ -83,6 +87,8 @@ impl Pilot {
             Ok,
         )?;
         let self_filter = SelfFilter::new(&body, &table(tables, "self_filter")?)?;
+        let perception: PerceptionConfig = table(tables, "perception")?;
+        perception.check()?;
         let world_model = given.world_model.map_or_else(
             || registry::world_model(&settings.navigation.world_model, tables, told),
             Ok,
@@ -97,6 +103,7 @@ impl Pilot {
                 registry::recognizer(settings, scan.camera)?,
                 self_filter,
                 scan,
+                perception,
             ),
             localizer: given
                 .localizer

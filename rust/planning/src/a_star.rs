@@ -47,7 +47,7 @@ impl AStar {
         robot_radius_m: f64,
     ) -> Result<Self, ConfigError> {
         config.check()?;
-        climbing.check()?;
+        settings::Table::check(&climbing)?;
         let radius_m = config.radius.unwrap_or(robot_radius_m);
         let holds = radius_m > 0.0 && radius_m.is_finite();
         require(holds, "navigation.a_star.radius", "> 0", radius_m)?;

@@ -7,5 +7,5 @@ mod self_filter;
 
 pub use camera::Intrinsics;
 pub use observation::{Frame, Observation, ObservationError};
-pub use scan::{Scan, ScanError};
-pub use self_filter::{SelfFilter, SelfFilterConfig};
+pub use scan::{Scan, ScanConfig, ScanError, ScanTuning};
+pub use self_filter::{SelfFilter, SelfFilterConfig, SelfFilterTuning};

@@ -18,8 +18,8 @@ pub trait Table: Serialize + DeserializeOwned + Default {
     /// Refuses what cannot be used, as settings of the table `key`.
     fn check_as(&self, key: &str) -> Result<(), ConfigError>;
 
-    /// The settings of the table `key`, tables within it included.
-    fn parameters_as(key: &str) -> Vec<Parameter>;
+    /// The settings of the table `key` with its values for defaults, tables within it included.
+    fn parameters_as(&self, key: &str) -> Vec<Parameter>;
 
     /// Refuses what cannot be used.
     fn check(&self) -> Result<(), ConfigError> {
@@ -28,7 +28,7 @@ pub trait Table: Serialize + DeserializeOwned + Default {
 
     /// Every setting, tables within included.
     fn parameters() -> Vec<Parameter> {
-        Self::parameters_as(Self::KEY)
+        Self::default().parameters_as(Self::KEY)
     }
 }
 
@@ -151,7 +151,7 @@ pub fn describe<T: Setting + Serialize>(all: &mut Vec<Parameter>, default: &T, a
         meaning,
         source,
     } = as_is;
-    if let Some(inner) = T::parameters(&key) {
+    if let Some(inner) = default.parameters(&key) {
         all.extend(inner);
         return;
     }
