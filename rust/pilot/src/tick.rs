@@ -6,7 +6,7 @@ use behaviour::{Behaviour, Decision, Gaze, Situation, Stepping};
 use geometry::{Map, Odometry, Pose, Robot};
 use localization::{Estimate, Guess, Localizer};
 use planning::{Plan, Planner};
-use proprioception::{BodyStateHistory, Proprioception};
+use proprioception::{BodyStateHistory, Proprioception, ProprioceptionConfig};
 use robot::Body;
 use sensing::{Frame, Intrinsics, Observation, Scan, SelfFilter};
 use volume::octree::Octree;
@@ -76,6 +76,7 @@ impl Pilot {
         };
         added::fill(&mut given, &making)?;
         let tables = &settings.navigation.tables;
+        let senses: ProprioceptionConfig = table(tables, "proprioception")?;
         let segmenter = given.segmenter.map_or_else(
             || registry::segmenter(&settings.navigation.segmenter, tables, scan.camera),
             Ok,
@@ -87,8 +88,8 @@ impl Pilot {
         )?;
         Ok(Self {
             map_from_odometry_at_start: Pose::wrap(settings.start_or_origin().inner),
-            proprioception: Proprioception::new(&body, table(tables, "proprioception")?)?,
-            history: BodyStateHistory::default(),
+            proprioception: Proprioception::new(&body, senses.clone())?,
+            history: BodyStateHistory::for_pictures(&senses.tuning.history),
             perception: Perception::new(
                 segmenter,
                 world_model,

@@ -2,7 +2,7 @@
 
 use robot::Side;
 
-use crate::ProprioceptionConfig;
+use crate::config::ProprioceptionConfig;
 
 /// Loads and holds of both feet.
 #[derive(Debug, Clone)]
