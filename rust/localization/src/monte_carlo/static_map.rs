@@ -1,9 +1,9 @@
 //! The map that is known beforehand, as the localizer reads it.
 
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 use volume::{DistanceField, RangeField, SolidVoxels, Standing, standing};
 
-use super::{MonteCarloConfig, RangeModel};
+use super::config::{MonteCarloConfig, RangeModel};
 
 /// What does not change: how far rays get, how near surfaces are, and where one can stand.
 #[derive(Debug, Clone)]
@@ -45,6 +45,6 @@ mod tests {
             ..MonteCarloConfig::default()
         };
         let error = StaticMap::new(&solid, &config).unwrap_err();
-        assert_eq!(error.key, "navigation.monte_carlo.body");
+        assert_eq!(error.key, "navigation.monte_carlo.body.0");
     }
 }
