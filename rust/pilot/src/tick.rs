@@ -156,7 +156,8 @@ impl Pilot {
             self.plan = None;
         }
         let targets = self.timing.measure(Stage::Walk, || {
-            let slopes = Mapped::around(self.perception.view(), &estimate.map_from_robot);
+            let (view, tuning) = (self.perception.view(), self.walker.relief_tuning());
+            let slopes = Mapped::around(view, &estimate.map_from_robot, tuning);
             let slopes = slopes.as_ref().map(|slopes| slopes as &dyn Slopes);
             self.walker
                 .step(&decision.command, observation, state, slopes)
