@@ -52,22 +52,6 @@ CLASS_NAME: Final = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*", re
 """A user's own component: `package.module:Class`."""
 
 
-def is_component(slot: str, name: str) -> bool:
-    """Say whether `name` can stand in `slot`: a component's, or `package.module:Class`."""
-    return (
-        name in COMPONENTS[slot]
-        or (len(name) <= 256 and bool(CLASS_NAME.fullmatch(name)))
-        or name in known(slot)
-    )
-
-
-def known(slot: str) -> dict[str, str]:
-    """Return name -> one line, of all that can stand in `slot`: the list, and what others add."""
-    from treadwell.additions import additions
-
-    return {**COMPONENTS[slot], **additions(slot)}
-
-
 def parameter_tables() -> list[str]:
     """Return the names that a table `[navigation.<name>]` can have, sorted."""
     names = {name for slot in COMPONENTS.values() for name in slot}

@@ -1,24 +1,22 @@
 //! A guide for planners that see only what is near: the way through a map that is known beforehand, over all its levels (002, III.D).
 
-mod floors;
-mod prior;
+mod laid;
 
 use geometry::{Map, Pose, Robot};
+use known_map::{CostField, Floors, KnownMap, Prior, StandingRoom, Target};
 use mapping::FloorView;
 use settings::ConfigError;
 use stairs::Staircase;
-use volume::SolidVoxels;
 
 use crate::keep::SLACK_M;
 use crate::plan::place_of;
 use crate::shortcut::lay;
 use crate::{AStar, Goal, Path, Plan, PlanError, Planner};
-use floors::{Field, Floors, NONE};
-use prior::Prior;
+use laid::laid_under;
 
-/// How far ahead on the guide's way the planner is sent, m,
+/// How far ahead on the guide's way the planner is sent, m.
 const AHEAD_M: f64 = 1.4;
-/// and how near it may come to that place before it is sent on, m.
+/// The planner is sent on when the robot is nearer than this to the place to which it was sent, m.
 const ON_M: f64 = 0.7;
 /// Radius of such a place, m.
 const RADIUS_M: f64 = 0.2;
@@ -35,7 +33,7 @@ pub struct Guided {
     near: AStar,
     floors: Floors,
     prior: Prior,
-    field: Field,
+    field: CostField,
     /// Places where something stands that the map does not have.
     blocked: Vec<bool>,
     goal: Option<Goal>,
@@ -45,14 +43,17 @@ pub struct Guided {
 
 impl Guided {
     /// Guides a planner through a map for a body of a radius and a height, m.
-    pub fn new(near: AStar, solid: &SolidVoxels, height_m: f64) -> Result<Self, ConfigError> {
-        let floors = Floors::new(solid, [near.needed_m(), height_m]);
+    pub fn new(near: AStar, map: &KnownMap, height_m: f64) -> Result<Self, ConfigError> {
+        let floors = map.floors(StandingRoom {
+            radius_m: near.needed_m(),
+            height_m,
+        })?;
         Ok(Self {
-            blocked: vec![false; floors.len()],
-            prior: Prior::new(solid, height_m),
+            blocked: vec![false; floors.count()],
+            prior: map.prior(height_m)?,
             near,
             floors,
-            field: Field::default(),
+            field: CostField::default(),
             goal: None,
             sent: None,
         })
@@ -60,14 +61,9 @@ impl Guided {
 
     /// The guide's way from where the robot stands: its places.
     fn way(&self, at_m: [f64; 3]) -> Option<Vec<u32>> {
-        let leads = |place: u32| self.field.cost_m[place as usize].is_finite();
-        let mut place = self.floors.under(at_m, leads)?;
-        let mut way = vec![place];
-        while self.field.next[place as usize] != NONE {
-            place = self.field.next[place as usize];
-            way.push(place);
-        }
-        Some(way)
+        let leads = |place: u32| self.field.cost_m(place).is_finite();
+        let first = self.floors.under(at_m, leads)?;
+        Some(std::iter::successors(Some(first), |place| self.field.next(*place)).collect())
     }
 
     /// Where on a way the planner is sent: so far ahead, or to where it is level again behind stairs; `None` to the goal itself.
@@ -87,7 +83,7 @@ impl Guided {
             if landed || (walked_m > AHEAD_M && !climbs) {
                 let height_m = match goal.height_m {
                     // What the goal says of its level is finer than voxels.
-                    Some(height_m) if (height_m - to[2]).abs() < self.floors.side_m => height_m,
+                    Some(height_m) if (height_m - to[2]).abs() < self.floors.side_m() => height_m,
                     _ => to[2],
                 };
                 let place = Goal {
@@ -120,12 +116,12 @@ impl Guided {
 
     /// Takes note of what stands in the window that the map does not have, on the robot's level, and looks for the way anew.
     fn look_again(&mut self, robot_m: [f64; 3], goal: &Goal) {
-        for place in 0..self.floors.len() as u32 {
+        for place in 0..self.floors.count() as u32 {
             if let Some(spare_m) = self.spare_m(place, robot_m) {
                 self.blocked[place as usize] = spare_m < 0.0;
             }
         }
-        self.floors.aim(goal, &self.blocked, &mut self.field);
+        (self.floors).aim(&target(goal), &self.blocked, &mut self.field);
         self.sent = None;
     }
 
@@ -172,7 +168,16 @@ impl Guided {
         }
         path.unknown.resize(path.points_m.len(), false);
         path.clearance_m.resize(path.points_m.len(), f64::INFINITY);
-        path.cost_m += f64::from(self.field.cost_m[place as usize]);
+        path.cost_m += f64::from(self.field.cost_m(place));
+    }
+}
+
+/// A goal as the known map's floors see it.
+const fn target(goal: &Goal) -> Target {
+    Target {
+        at_m: [goal.x_m, goal.y_m],
+        radius_m: goal.radius_m,
+        height_m: goal.height_m,
     }
 }
 
@@ -191,7 +196,7 @@ impl Guided {
         let way = self.send(near.at_m, goal);
         let target = self.sent.filter(|_| way.is_some());
         let mut plan = (self.near).plan(
-            &self.prior.laid_under(near.view, near.at_m),
+            &laid_under(&self.prior, near.view, near.at_m),
             near.stairs,
             near.start,
             target.as_ref().map_or(goal, |(g, _)| g),
@@ -217,7 +222,7 @@ impl Planner for Guided {
         let at_m = [place.x_m, place.y_m, height_m];
         if self.goal != Some(*goal) {
             self.blocked.fill(false);
-            self.floors.aim(goal, &self.blocked, &mut self.field);
+            (self.floors).aim(&target(goal), &self.blocked, &mut self.field);
             (self.goal, self.sent) = (Some(*goal), None);
         }
         let near = Near {

@@ -2,27 +2,24 @@
 
 #[cfg(test)]
 mod arbitrary;
+mod camera_pose;
 #[cfg(test)]
 mod comparison;
-mod free_planes;
-mod grounded;
-mod histogram;
-mod hough;
+mod finders;
+mod ground_plane;
+mod picture;
 mod planes;
-mod ransac;
-mod scan_line;
-mod scan_line_1994;
-mod scan_line_adaptive;
+mod regions;
 #[cfg(test)]
 mod synthetic;
 #[cfg(test)]
 mod tiny_pictures;
 
-pub use grounded::GroundConfig;
-pub use histogram::{Histogram, HistogramConfig};
-pub use hough::{Hough, HoughConfig};
+pub use finders::histogram::{Histogram, HistogramConfig};
+pub use finders::hough::{Hough, HoughConfig};
+pub use finders::ransac::{Ransac, RansacConfig};
+pub use finders::scan_line::{ScanLine, ScanLineConfig};
+pub use finders::scan_line_1994::{ScanLine1994, ScanLine1994Config};
+pub use finders::scan_line_adaptive::{ScanLineAdaptive, ScanLineAdaptiveConfig};
+pub use ground_plane::config::GroundConfig;
 pub use planes::{KnownFloor, NothingKnown, PlaneRegion, Planes, SegmentError, Segmenter};
-pub use ransac::{Ransac, RansacConfig};
-pub use scan_line::{ScanLine, ScanLineConfig};
-pub use scan_line_1994::{ScanLine1994, ScanLine1994Config};
-pub use scan_line_adaptive::{ScanLineAdaptive, ScanLineAdaptiveConfig};

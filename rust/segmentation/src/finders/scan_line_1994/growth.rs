@@ -1,0 +1,248 @@
+//! Regions grown from three neighbouring segments that lie on one plane.
+
+use nalgebra::Vector3;
+
+use super::lines::Segment;
+use crate::finders::free_planes::planes::FreePlanes;
+use crate::picture::pixels::Picture;
+use crate::picture::view::Linear;
+use crate::regions::tilted::PlaneSums;
+
+/// What a region must be.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct GrowthRules {
+    /// Columns of a scan line.
+    pub(super) strip: usize,
+    /// Largest distance of a segment's ends, and of a pixel, from the plane, px.
+    pub(super) accept_px: f32,
+    /// Smallest region, pixels.
+    pub(super) min_region: usize,
+    /// Share of the shorter one of two segments that must lie beside the other one.
+    pub(super) overlap: f64,
+}
+
+/// Grows regions. Keeps its buffers.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Growth {
+    /// Label of each segment; 0: none.
+    label_of: Vec<u16>,
+    /// Where each scan line's segments start.
+    starts: Vec<usize>,
+    /// Triples of segments and their length together.
+    seeds: Vec<(usize, [usize; 3])>,
+    members: Vec<usize>,
+    queue: Vec<usize>,
+}
+
+impl Growth {
+    /// Finds the planes and the pixels of each.
+    pub(super) fn grow(
+        &mut self,
+        picture: Picture<'_>,
+        segments: &[Segment],
+        rules: GrowthRules,
+        planes: &mut FreePlanes,
+        labels: &mut [u16],
+    ) {
+        planes.clear();
+        labels.fill(0);
+        self.label_of.clear();
+        self.label_of.resize(segments.len(), 0);
+        self.index(segments, picture.width.div_ceil(rules.strip));
+        self.find_seeds(segments, rules.overlap);
+        for at in 0..self.seeds.len() {
+            let (_, seed) = self.seeds[at];
+            if planes.is_full() || seed.iter().any(|&segment| self.label_of[segment] > 0) {
+                continue;
+            }
+            let Some(plane) = self.grow_one(segments, seed, rules) else {
+                continue;
+            };
+            let label = planes.add(Linear::new(&plane));
+            for &member in &self.members {
+                self.label_of[member] = label;
+                paint(
+                    picture,
+                    &segments[member],
+                    &Linear::new(&plane),
+                    rules,
+                    label,
+                    labels,
+                );
+            }
+        }
+        planes.spread(picture, rules.accept_px, labels, &mut self.queue);
+    }
+
+    fn index(&mut self, segments: &[Segment], strips: usize) {
+        self.starts.clear();
+        let mut at = 0;
+        for strip in 0..=strips {
+            while at < segments.len() && segments[at].strip < strip {
+                at += 1;
+            }
+            self.starts.push(at);
+        }
+    }
+
+    /// The segments of a scan line; none beside the picture.
+    fn of_strip(&self, strip: Option<usize>) -> std::ops::Range<usize> {
+        let bounds = strip.and_then(|s| Some((*self.starts.get(s)?, *self.starts.get(s + 1)?)));
+        bounds.map_or(0..0, |(start, end)| start..end)
+    }
+
+    /// All triples of segments on three scan lines side by side that overlap, the longest first.
+    fn find_seeds(&mut self, segments: &[Segment], overlap: f64) {
+        let mut seeds = std::mem::take(&mut self.seeds);
+        seeds.clear();
+        for (at, middle) in segments.iter().enumerate() {
+            for left in self.of_strip(middle.strip.checked_sub(1)) {
+                for right in self.of_strip(Some(middle.strip + 1)) {
+                    let (a, b) = (&segments[left], &segments[right]);
+                    if a.overlaps(middle, overlap) && b.overlaps(middle, overlap) {
+                        let length = a.length() + middle.length() + b.length();
+                        seeds.push((length, [left, at, right]));
+                    }
+                }
+            }
+        }
+        seeds.sort_by_key(|&(length, _)| std::cmp::Reverse(length));
+        self.seeds = seeds;
+    }
+
+    /// Takes in segments beside the members as long as their ends lie on the plane through all of them; fills `members`.
+    fn grow_one(
+        &mut self,
+        segments: &[Segment],
+        seed: [usize; 3],
+        rules: GrowthRules,
+    ) -> Option<Vector3<f64>> {
+        let mut sums = PlaneSums::default();
+        for segment in seed {
+            sums.join(&segments[segment].sums);
+        }
+        let mut plane = sums.plane()?;
+        let accept_px = f64::from(rules.accept_px);
+        if !seed
+            .iter()
+            .all(|&segment| lies_on(&segments[segment], &plane, accept_px))
+        {
+            return None;
+        }
+        self.members.clear();
+        self.members.extend(seed);
+        self.queue.clear();
+        self.queue.extend(seed);
+        while let Some(at) = self.queue.pop() {
+            let segment = &segments[at];
+            for strip in [segment.strip.checked_sub(1), Some(segment.strip + 1)] {
+                for beside in self.of_strip(strip) {
+                    let other = &segments[beside];
+                    let free = self.label_of[beside] == 0 && !self.members.contains(&beside);
+                    let joins = free && other.overlaps(segment, rules.overlap);
+                    if joins && lies_on(other, &plane, accept_px) {
+                        self.members.push(beside);
+                        self.queue.push(beside);
+                        sums.join(&other.sums);
+                        plane = sums.plane().unwrap_or(plane);
+                    }
+                }
+            }
+        }
+        let rows: usize = self.members.iter().map(|&at| segments[at].length()).sum();
+        (rows * rules.strip >= rules.min_region).then_some(plane)
+    }
+}
+
+fn lies_on(segment: &Segment, plane: &Vector3<f64>, accept_px: f64) -> bool {
+    let rows = [segment.first, segment.end - 1];
+    rows.iter().zip(segment.ends_px).all(|(&row, d)| {
+        let there = plane.dot(&Vector3::new(segment.col, row as f64, 1.0));
+        (d - there).abs() < accept_px
+    })
+}
+
+/// Labels the pixels of a segment that lie on the plane.
+fn paint(
+    picture: Picture<'_>,
+    segment: &Segment,
+    plane: &Linear,
+    rules: GrowthRules,
+    label: u16,
+    labels: &mut [u16],
+) {
+    let left = segment.strip * rules.strip;
+    for row in segment.first..segment.end {
+        for col in left..(left + rules.strip).min(picture.width) {
+            let at = row * picture.width + col;
+            if lies_at(
+                picture.disparity_px[at],
+                plane.at(col, row),
+                rules.accept_px,
+            ) {
+                labels[at] = label;
+            }
+        }
+    }
+}
+
+fn lies_at(d: f32, there: f32, accept_px: f32) -> bool {
+    there > 0.0 && (d - there).abs() < accept_px
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::lines::{LineRules, Lines};
+    use super::*;
+    use crate::picture::view::View;
+    use crate::synthetic::{CAMERA, camera_pose};
+
+    fn grown(d: impl Fn(usize, usize) -> f32) -> (Vec<u16>, FreePlanes) {
+        let (width, height) = (CAMERA.width, CAMERA.height);
+        let disparity_px: Vec<f32> = (0..width * height)
+            .map(|at| d(at % width, at / width))
+            .collect();
+        let picture = Picture {
+            width,
+            disparity_px: &disparity_px,
+            g: &disparity_px,
+            sigma_px: &disparity_px,
+            finer: 1,
+        };
+        let line_rules = LineRules {
+            strip: 4,
+            split_px: 0.3,
+            min_segment: 4,
+            max_gap: 3,
+            seen: 0.5,
+        };
+        let rules = GrowthRules {
+            strip: 4,
+            accept_px: 0.3,
+            min_region: 80,
+            overlap: 0.5,
+        };
+        let mut segments = Vec::new();
+        Lines::default().cut(picture, line_rules, &mut segments);
+        let (mut planes, mut labels) = (FreePlanes::default(), vec![0; width * height]);
+        Growth::default().grow(picture, &segments, rules, &mut planes, &mut labels);
+        (labels, planes)
+    }
+
+    #[test]
+    fn one_plane_is_one_region_of_all_pixels() {
+        let (labels, _) = grown(|col, row| 4.0 + 0.02 * col as f32 + 0.1 * row as f32);
+        assert!(labels.iter().all(|&label| label == 1));
+    }
+
+    #[test]
+    fn two_planes_that_meet_are_two_regions() {
+        let (labels, planes) = grown(|_, row| 4.0 + 0.15 * (row as f32 - 36.0).abs());
+        let rotation = camera_pose(0.0, 0.8).inner.rotation.to_rotation_matrix();
+        let mut regions = Vec::new();
+        planes.show(&View::new(&CAMERA, &rotation), &labels, &mut regions);
+        assert_eq!(regions.len(), 2);
+        assert_ne!(labels[0], labels[labels.len() - 1]);
+        assert!(regions.iter().all(|region| region.support > 2500));
+    }
+}

@@ -1,0 +1,179 @@
+//! Slopes: surfaces that are tilted, walkable or too steep to be walked on, each kept as one region with its own plane.
+//!
+//! A segmenter of level surfaces cuts a slope into level strips, which is what stairs look like, too. So a plane is grown through
+//! them, `d = a X + b Y + q g`, over what it fits better than the level surfaces do. It is a slope if it explains all of that
+//! better than the best flight of treads does that rises as much.
+
+mod growth;
+mod memory;
+mod seeds;
+mod sums;
+mod treads;
+pub(crate) mod tuning;
+
+use nalgebra::Vector3;
+
+use crate::picture::labels::MAX_REGIONS;
+use crate::picture::pixels::Picture;
+use crate::picture::view::{Linear, View};
+use crate::regions::finder::Look;
+use crate::regions::region::Region;
+use growth::{Growth, Reach};
+use memory::Memory;
+use seeds::seeds;
+use sums::Seen;
+use treads::Treads;
+use tuning::SlopeTuning;
+
+/// Finds slopes. Keeps its buffers.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Slopes {
+    tuning: SlopeTuning,
+    growth: Growth,
+    treads: Treads,
+    // Where the slopes of this frame were grown from, and their planes.
+    found: Vec<(usize, Linear)>,
+    /// Pixels of what may be a slope or stairs.
+    pub(crate) doubtful: Vec<bool>,
+    memory: Memory,
+}
+
+impl Slopes {
+    /// No slope seen yet.
+    pub(crate) fn new(tuning: SlopeTuning) -> Self {
+        Self {
+            growth: Growth::new(tuning.growth.clone(), tuning.gradients.clone()),
+            tuning,
+            ..Self::default()
+        }
+    }
+
+    /// Takes the pixels of slopes from the level regions and appends a region for each; says whether there were any. `look`: what a
+    /// frame shows is learned once.
+    pub(crate) fn find(
+        &mut self,
+        picture: Picture<'_>,
+        view: &View,
+        look: Look,
+        regions: &mut Vec<Region>,
+        labels: &mut [u16],
+    ) -> bool {
+        let seen = Seen { picture, view };
+        let before = regions.len();
+        let mut learned = self.memory.faded(&self.tuning.memory);
+        self.doubtful.clear();
+        self.doubtful.resize(labels.len(), false);
+        let starts = match look {
+            Look::First => seeds(seen, &self.memory, &self.tuning),
+            Look::Again => self.found_again(view),
+        };
+        self.found.clear();
+        for (start, plane) in starts {
+            if regions.len() == MAX_REGIONS {
+                break;
+            }
+            if usize::from(labels[start]) > before {
+                continue;
+            }
+            let Some((plane, better)) = self.grow(seen, (start, plane), look, regions, labels)
+            else {
+                continue;
+            };
+            let told = self.memory.told(&plane, better, &self.tuning.memory);
+            if told.sure > learned.sure {
+                learned = told;
+            }
+            if told.is_sure(&self.tuning.memory) {
+                self.take(seen, &plane, regions, labels);
+                self.found.push((start, view.plane(&plane)));
+            } else if better > 0.0 {
+                for &at in &self.growth.pixels {
+                    self.doubtful[at] = true;
+                }
+            }
+        }
+        if self.memory.is_sure(&self.tuning.memory) && regions.len() == before {
+            self.doubt_all_but_largest(regions, labels);
+        }
+        if look == Look::First {
+            self.memory = learned;
+        }
+        regions.len() > before
+    }
+
+    /// Where a slope was seen just now and is not told from level strips, nothing but the largest level surface, the ground, is sure.
+    fn doubt_all_but_largest(&mut self, regions: &[Region], labels: &[u16]) {
+        let largest = (0..regions.len()).max_by_key(|&index| regions[index].support);
+        let ground = largest.map_or(0, |index| index as u16 + 1);
+        for (doubtful, &label) in self.doubtful.iter_mut().zip(labels) {
+            *doubtful |= label != ground;
+        }
+    }
+
+    /// What the last look found, in another view.
+    fn found_again(&self, view: &View) -> Vec<(usize, Vector3<f64>)> {
+        let Some(parts) = view.parts_of_planes() else {
+            return Vec::new();
+        };
+        let found = self.found.iter();
+        found
+            .map(|(start, plane)| (*start, parts * plane.coefficients()))
+            .collect()
+    }
+
+    /// Grows a plane from a pixel on, and by how much it is better than treads; none where it is no slope.
+    fn grow(
+        &mut self,
+        seen: Seen<'_>,
+        start: (usize, Vector3<f64>),
+        look: Look,
+        regions: &[Region],
+        labels: &[u16],
+    ) -> Option<(Vector3<f64>, f64)> {
+        let is_found = look == Look::Again;
+        let plane = self.growth.grow(seen, start, is_found, regions, labels)?;
+        let pixels = &self.growth.pixels;
+        if pixels.len() < (self.tuning.least_share * labels.len() as f64) as usize {
+            return None;
+        }
+        let verdict = self.treads.compare(seen, &plane, pixels, &self.tuning);
+        let better = verdict.better_than_treads;
+        (verdict.length_m > self.tuning.least_length).then_some((plane, better))
+    }
+
+    /// Makes a region of the pixels that were grown, and of the rest of the strips that they were taken from.
+    fn take(
+        &self,
+        seen: Seen<'_>,
+        plane: &Vector3<f64>,
+        regions: &mut Vec<Region>,
+        labels: &mut [u16],
+    ) {
+        let accept = self.tuning.growth.accept;
+        let abq = [plane.x, plane.y, plane.z].map(|value| value as f32);
+        let own = regions.len() as u16 + 1;
+        for (at, label) in labels.iter_mut().enumerate() {
+            if self.growth.members[at] {
+                *label = own;
+            } else if *label > 0 && self.growth.reaches[usize::from(*label)] == Reach::Strip {
+                let fits = seen.miss(at, abq).abs() < accept;
+                *label = if fits { own } else { 0 };
+            }
+        }
+        regions.push(Region {
+            plane: Some(seen.view.plane(plane)),
+            is_slope: true,
+            ..Region::default()
+        });
+        for region in regions.iter_mut() {
+            region.support = 0;
+        }
+        for &label in labels.iter().filter(|label| **label > 0) {
+            regions[usize::from(label) - 1].support += 1;
+        }
+        // A number without pixels is no surface.
+        for region in regions.iter_mut().filter(|region| region.support == 0) {
+            region.q = 0.0;
+        }
+    }
+}
