@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use robot::Side;
 
 use crate::config::ProprioceptionConfig;
-use crate::contact::Contacts;
+use crate::contact::FootContacts;
 
 /// The legs as they are now.
 #[derive(Debug, Clone, Copy)]
@@ -88,7 +88,7 @@ impl LegOdometry {
     pub(crate) fn update(
         &mut self,
         legs: &LegPosture,
-        contacts: &Contacts,
+        contacts: &FootContacts,
         config: &ProprioceptionConfig,
     ) -> Pose<Odometry, Robot> {
         let level_m = self.place_torso(legs, contacts.weights(config));
@@ -131,7 +131,7 @@ impl LegOdometry {
     fn renew_anchors(
         &mut self,
         legs: &LegPosture,
-        contacts: &Contacts,
+        contacts: &FootContacts,
         config: &ProprioceptionConfig,
     ) {
         // What two anchors differ by on level ground is the error of a tilt.
@@ -216,7 +216,7 @@ mod tests {
         const SAG_M: f64 = 0.001;
         const RISE_M: f64 = 0.03;
         let config = ProprioceptionConfig::default();
-        let mut contacts = Contacts::new(65.0, &config);
+        let mut contacts = FootContacts::new(65.0, &config);
         let mut odometry = LegOdometry::new();
         let legs = |soles_m: [f64; 2], left: f64| LegPosture {
             odometry_from_torso_rotation: UnitQuaternion::identity(),
@@ -248,7 +248,7 @@ mod tests {
     fn climbed_m(on_slope: bool) -> f64 {
         const STEP_M: f64 = 0.005;
         let config = ProprioceptionConfig::default();
-        let mut contacts = Contacts::new(65.0, &config);
+        let mut contacts = FootContacts::new(65.0, &config);
         let mut odometry = LegOdometry::new();
         let legs = |soles_m: [f64; 2]| LegPosture {
             odometry_from_torso_rotation: UnitQuaternion::identity(),

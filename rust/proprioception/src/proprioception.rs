@@ -9,7 +9,7 @@ use settings::{ConfigError, Table};
 use crate::attitude::{AttitudeFilter, ImuSample};
 use crate::body_state::{BodyState, ProprioceptionError};
 use crate::config::ProprioceptionConfig;
-use crate::contact::Contacts;
+use crate::contact::FootContacts;
 use crate::leg_odometry::{LegOdometry, LegPosture, TrunkMotion, odometry_from_torso};
 use crate::levelling::Levelling;
 use crate::play::Play;
@@ -24,7 +24,7 @@ pub struct Proprioception {
     trunk: TrunkChain,
     attitude: AttitudeFilter,
     levelling: Levelling,
-    contacts: Contacts,
+    contacts: FootContacts,
     odometry: LegOdometry,
     motion: TrunkMotion,
     state: BodyState,
@@ -43,7 +43,7 @@ impl Proprioception {
             trunk: TrunkChain::new(body, &config.tuning.motion),
             attitude: AttitudeFilter::new(&config),
             levelling: Levelling::new(),
-            contacts: Contacts::new(body.mass_kg() * GRAVITY_MPS2, &config),
+            contacts: FootContacts::new(body.mass_kg() * GRAVITY_MPS2, &config),
             odometry: LegOdometry::new(),
             motion: TrunkMotion::default(),
             state: BodyState {

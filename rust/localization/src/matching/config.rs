@@ -2,7 +2,7 @@
 
 use settings::{POSITIVE, settings, within};
 
-use super::tuning::MatchingTuning;
+use super::tuning::MatchingLocalizerTuning;
 
 settings! {
     /// The localizer `matching`: leg odometry whose heading is kept by what stands out of the floor.
@@ -58,7 +58,7 @@ settings! {
         /// Until this time nothing is matched: the robot is put down and settles.
         settling: f64 = 1.2, "s", POSITIVE;
         /// Numbers that few will want to turn.
-        tuning: MatchingTuning;
+        tuning: MatchingLocalizerTuning;
     }
 }
 

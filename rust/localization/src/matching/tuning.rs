@@ -4,7 +4,7 @@ use settings::{POSITIVE, SHARE, above, at_least, settings, within};
 
 settings! {
     /// The finer settings of the localizer `matching`.
-    pub struct MatchingTuning("navigation.matching.tuning") {
+    pub struct MatchingLocalizerTuning("navigation.matching.tuning") {
         /// How beams are read from a frame.
         profile: ProfileTuning;
         /// How a keyframe keeps the surfaces that were seen.

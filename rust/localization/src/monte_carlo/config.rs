@@ -16,8 +16,6 @@ const RANGE_NOISE: Bounds = at_least(1e-6);
 const SHORT_RATE: Bounds = above_to(0.0, 1e6);
 /// Most particles that memory has room for: so many take 150 MB, and as much again in a search.
 const MOST_PARTICLES: f64 = 1e6;
-/// Bounds of the body's size, m: where it may stand is asked voxel by voxel of it.
-const BODY: Bounds = above_to(0.0, 5.0);
 
 /// How measured ranges are compared with the map.
 #[derive(
@@ -125,8 +123,8 @@ settings! {
         follow_bands: [f64; 3] = [0.02, 0.004, 0.02], "m, m, rad", POSITIVE;
         /// The estimate follows all at once where it is off by more than this: m, rad.
         follow_within: [f64; 2] = [0.3, 0.35], "m, rad", POSITIVE;
-        /// Radius and height of what the robot needs to stand somewhere.
-        body: [f64; 2] = [0.1, 0.55], "m", BODY;
+        /// Radius and height of what the robot needs to stand somewhere: asked voxel by voxel of it.
+        body: [f64; 2] = [0.1, 0.55], "m", above_to(0.0, 5.0);
         /// Numbers that few will want to turn.
         tuning: MonteCarloTuning;
     }

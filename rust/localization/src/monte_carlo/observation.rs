@@ -13,7 +13,7 @@ use super::guesses::Guesses;
 use super::motion::BodyReading;
 use super::particle::TorsoPose;
 use super::static_map::StaticMap;
-use super::tuning::{FitTuning, HeightTuning};
+use super::tuning::{FrameFitTuning, HeightTuning};
 
 /// Beams of which the likelihoods are multiplied before their logarithm is taken: each lies between 1e-9 and 1e9, so that the
 /// product of four of them has room in single precision.
@@ -58,7 +58,7 @@ pub(super) struct SeenFrame {
     /// The soles' middle in the torso's frame, m.
     sole_m: [f64; 3],
     height: HeightTuning,
-    explains: FitTuning,
+    explains: FrameFitTuning,
 }
 
 impl SeenFrame {

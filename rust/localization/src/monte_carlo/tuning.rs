@@ -13,13 +13,13 @@ settings! {
     /// The finer settings of the localizer `monte_carlo`.
     pub struct MonteCarloTuning("navigation.monte_carlo.tuning") {
         /// How the ground is found in a frame.
-        ground: GroundTuning;
+        ground: GroundPointsTuning;
         /// How likely a torso's height over the map's ground is.
         height: HeightTuning;
         /// How likelihoods are flattened.
         weights: WeightsTuning;
         /// How well a place explains a frame.
-        fit: FitTuning;
+        fit: FrameFitTuning;
         /// Which beams end on what is not mapped.
         unmapped: UnmappedTuning;
         /// When frames stop to fit.
@@ -33,7 +33,7 @@ settings! {
 
 settings! {
     /// How the ground is found in a frame.
-    pub struct GroundTuning("navigation.monte_carlo.tuning.ground") {
+    pub struct GroundPointsTuning("navigation.monte_carlo.tuning.ground") {
         /// Columns of the grid on which the picture is read, at most: a hundred beams need no more.
         columns: usize = 80, "1", within(4.0, 10_000.0);
         /// Share of the picture's width, to each side of a pixel, over which its normal is taken.
@@ -81,7 +81,7 @@ settings! {
 
 settings! {
     /// How well a place explains a frame.
-    pub struct FitTuning("navigation.monte_carlo.tuning.fit") {
+    pub struct FrameFitTuning("navigation.monte_carlo.tuning.fit") {
         /// A range fits within so many standard deviations.
         sigmas: f64 = 3.0, "1", POSITIVE;
         /// What ends before the map's surface counts so much against a pose as what ends behind it.
