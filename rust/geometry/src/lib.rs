@@ -21,6 +21,7 @@
 mod angle;
 mod area;
 mod frames;
+mod gravity;
 mod lattice;
 mod outline;
 mod planar;
@@ -32,6 +33,7 @@ mod storage;
 pub use angle::{angle_between, wrap_angle};
 pub use area::CellArea;
 pub use frames::{Camera, LeftSole, Map, Odometry, RightSole, Robot, Torso, World};
+pub use gravity::GRAVITY_MPS2;
 pub use lattice::{Cell, Grid, Lattice};
 pub use outline::{Cut, Outline, OutlineError};
 pub use planar::PlanarPose;

@@ -3,11 +3,11 @@
 mod localizer;
 mod matching;
 mod monte_carlo;
-mod odometry_localizer;
+mod odometry;
 
 pub use localizer::{Estimate, Guess, Localizer, LocalizerError};
 pub use matching::{MatchingConfig, MatchingLocalizer};
 pub use monte_carlo::{
     Belief, MonteCarloConfig, MonteCarloLocalizer, RangeModel, StaticMap, TorsoPose,
 };
-pub use odometry_localizer::{OdometryLocalizer, OdometryLocalizerConfig};
+pub use odometry::{OdometryLocalizer, OdometryLocalizerConfig};

@@ -6,7 +6,7 @@ use behaviour::{Behaviour, Decision, Gaze, Situation, Stepping};
 use geometry::{Map, Odometry, Pose, Robot};
 use localization::{Estimate, Guess, Localizer};
 use planning::{Plan, Planner};
-use proprioception::{BodyStateHistory, Proprioception};
+use proprioception::{BodyStateHistory, Proprioception, ProprioceptionConfig};
 use robot::Body;
 use sensing::{Frame, Intrinsics, Observation, Scan, ScanConfig, SelfFilter};
 use settings::Table;
@@ -82,6 +82,7 @@ impl Pilot {
             static_map: known_map.as_ref(),
         };
         added::fill(&mut given, &making)?;
+        let senses: ProprioceptionConfig = table(tables, "proprioception")?;
         let segmenter = given.segmenter.map_or_else(
             || registry::segmenter(&settings.navigation.segmenter, tables, scan.camera),
             Ok,
@@ -95,8 +96,8 @@ impl Pilot {
         )?;
         Ok(Self {
             map_from_odometry_at_start: Pose::wrap(settings.start_or_origin().inner),
-            proprioception: Proprioception::new(&body, table(tables, "proprioception")?)?,
-            history: BodyStateHistory::default(),
+            proprioception: Proprioception::new(&body, senses.clone())?,
+            history: BodyStateHistory::for_pictures(&senses.tuning.history),
             perception: Perception::new(
                 segmenter,
                 world_model,
@@ -164,7 +165,8 @@ impl Pilot {
             self.plan = None;
         }
         let targets = self.timing.measure(Stage::Walk, || {
-            let slopes = Mapped::around(self.perception.view(), &estimate.map_from_robot);
+            let (view, tuning) = (self.perception.view(), self.walker.relief_tuning());
+            let slopes = Mapped::around(view, &estimate.map_from_robot, tuning);
             let slopes = slopes.as_ref().map(|slopes| slopes as &dyn Slopes);
             self.walker
                 .step(&decision.command, observation, state, slopes)

@@ -1,38 +1,19 @@
 //! The localizer `odometry`: leg odometry as it is, its height drawn to the floor in the map.
 
+mod config;
+
 use geometry::{Map, Odometry, Pose, Robot};
 use mapping::{FloorView, Surface};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use segmentation::Planes;
-use serde::{Deserialize, Serialize};
-use settings::{ConfigError, require};
+use settings::{ConfigError, Table};
 
-use crate::{Estimate, Localizer, LocalizerError};
+use crate::localizer::{Estimate, Localizer, LocalizerError};
 use proprioception::BodyState;
 
-/// Settings of [`OdometryLocalizer`]: `[navigation.odometry]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct OdometryLocalizerConfig {
-    /// Share by which a depth frame draws the robot's height to the floor's; 0: never.
-    pub height_gain: f64,
-    /// A floor further away than this is another level, m.
-    pub height_gate: f64,
-}
+pub use config::OdometryLocalizerConfig;
 
-impl Default for OdometryLocalizerConfig {
-    fn default() -> Self {
-        Self {
-            height_gain: 0.1,
-            height_gate: 0.012,
-        }
-    }
-}
-
-/// How far from the middle between the feet their soles' middles are, to each side, about, m.
-const SOLE_Y_M: f64 = 0.04;
-
-/// Section IV of 000: (x, y, yaw) by odometry, z_R filtered with Floor(x_R, y_R).
+/// The localizer of section IV of 000: (x, y, yaw) by odometry, z_R filtered with Floor(x_R, y_R).
 #[derive(Debug, Clone)]
 pub struct OdometryLocalizer {
     config: OdometryLocalizerConfig,
@@ -46,20 +27,7 @@ impl OdometryLocalizer {
         map_from_robot_at_start: Pose<Map, Robot>,
         config: OdometryLocalizerConfig,
     ) -> Result<Self, ConfigError> {
-        let gain = config.height_gain;
-        require(
-            (0.0..=1.0).contains(&gain),
-            "navigation.odometry.height_gain",
-            "between 0 and 1",
-            gain,
-        )?;
-        let gate = config.height_gate;
-        require(
-            gate.is_finite() && gate > 0.0,
-            "navigation.odometry.height_gate",
-            "> 0",
-            gate,
-        )?;
+        config.check()?;
         Ok(Self {
             config,
             map_from_robot_at_start,
@@ -67,7 +35,7 @@ impl OdometryLocalizer {
         })
     }
 
-    /// At the first body state the robot is where it was told to start.
+    /// The odometry frame in the map: at the first body state the robot is where it was told to start.
     fn map_from_odometry(&mut self, body: &BodyState) -> Pose<Map, Odometry> {
         let start = self.map_from_robot_at_start;
         *self
@@ -92,7 +60,8 @@ impl OdometryLocalizer {
     /// another: then nothing is sure.
     fn floor_above_m(&self, map_from_robot: &Pose<Map, Robot>, view: &FloorView) -> Option<f64> {
         let (mut sum_m, mut count) = (0.0, 0.0);
-        for y_m in [-SOLE_Y_M, 0.0, SOLE_Y_M] {
+        let aside_m = self.config.tuning.sole_aside;
+        for y_m in [-aside_m, 0.0, aside_m] {
             let place = map_from_robot.inner * Point3::new(0.0, y_m, 0.0);
             if let Surface::Floor(floor_m) = view.at(place.x, place.y) {
                 let above_m = f64::from(floor_m) - place.z;
@@ -228,7 +197,7 @@ mod tests {
             .to_string();
         assert_eq!(
             message,
-            "navigation.odometry.height_gain must be between 0 and 1, got 1.5"
+            "navigation.odometry.height_gain must be from 0 to 1, got 1.5"
         );
     }
 }
