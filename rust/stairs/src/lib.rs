@@ -6,6 +6,7 @@ mod border;
 mod boundary;
 mod conditions;
 mod config;
+mod edge_line;
 mod edge_model;
 mod extract;
 mod fits;
@@ -33,6 +34,7 @@ mod tests;
 
 pub use conditions::{Ahead, Stand, Tolerance, Unready, conditions};
 pub use config::{ClimbingConfig, ParameterSet, StairsConfig};
+pub use edge_line::EdgeLine;
 pub use edge_model::{EdgeModel, FittedEdge, Untrusted};
 pub use footing::{Feet, Footing, Onward, Unfit};
 pub use recognizer::{Recognizer, StairsError};
