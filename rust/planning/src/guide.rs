@@ -9,9 +9,8 @@ use settings::ConfigError;
 use stairs::Staircase;
 use volume::SolidVoxels;
 
-use crate::keep::SLACK_M;
+use crate::path::shortcut::lay;
 use crate::plan::place_of;
-use crate::shortcut::lay;
 use crate::{AStar, Goal, Path, Plan, PlanError, Planner};
 use floors::{Field, Floors, NONE};
 use prior::Prior;
@@ -137,7 +136,7 @@ impl Guided {
         let beyond = way.iter().skip_while(|place| **place != sent);
         beyond
             .filter_map(|place| self.spare_m(*place, robot_m))
-            .any(|spare_m| spare_m < -SLACK_M)
+            .any(|spare_m| spare_m < -self.near.terrain.room.slack)
     }
 
     /// The place where the planner is sent by now.
