@@ -44,6 +44,7 @@ STAGES: Final[tuple[str, ...]] = (
     "ground",
     "stairs",
     "climbing",
+    "terrain",
     "static_map",
 )
 """Stages with parameters (`[navigation.self_filter]`) that are not chosen by name."""
