@@ -21,6 +21,7 @@
 
 mod angle;
 mod area;
+mod dijkstra;
 pub mod distance;
 mod frames;
 mod goal;
@@ -35,6 +36,7 @@ mod storage;
 
 pub use angle::{angle_between, wrap_angle};
 pub use area::CellArea;
+pub use dijkstra::Dijkstra;
 pub use frames::{Camera, LeftSole, Map, Odometry, RightSole, Robot, Torso, World};
 pub use goal::Goal;
 pub use lattice::{Cell, Grid, Lattice};

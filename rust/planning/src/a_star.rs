@@ -1,5 +1,8 @@
 //! The planner: a path by A*, kept as long as it holds.
 
+mod choice;
+mod path_search;
+
 use geometry::{Map, Pose, Robot};
 use mapping::FloorView;
 use settings::{ConfigError, Table, require};
@@ -21,7 +24,6 @@ pub struct AStar {
     pub(crate) config: AStarConfig,
     pub(crate) climbing: ClimbingConfig,
     pub(crate) feet: Feet,
-    rules_config: TerrainConfig,
     pub(crate) rules: Rules,
     pub(crate) terrain: Terrain,
     pub(crate) links: ClimbLinks,
@@ -67,7 +69,6 @@ impl AStar {
             config,
             climbing,
             feet,
-            rules_config: TerrainConfig::default(),
             rules: Rules::default(),
             links: ClimbLinks::default(),
             search: Search::default(),
@@ -81,7 +82,7 @@ impl AStar {
     pub fn with_rules(mut self, config: TerrainConfig) -> Result<Self, ConfigError> {
         config.check()?;
         self.terrain.room = config.room.clone();
-        self.rules_config = config;
+        self.rules.config = config;
         Ok(self)
     }
 
@@ -131,7 +132,7 @@ impl Planner for AStar {
             heading_rad: start.yaw_rad,
             gradient: view.gradient_at(start.x_m, start.y_m),
         };
-        let levelled = (self.goal_level).of(goal, view, &stand, &self.rules_config.goal_level);
+        let levelled = (self.goal_level).of(goal, view, &stand, &self.rules.config.goal_level);
         self.viewpoints.begin(&levelled);
         self.look(view, stairs, stand, &levelled);
         self.outside.look(&self.terrain, stand.at_m, &levelled);
@@ -169,14 +170,13 @@ impl AStar {
     fn look(&mut self, view: &FloorView, stairs: &Staircase, stand: Stand, goal: &Goal) {
         let sightings = self.config.step_sightings;
         let seen = (&stand, goal);
-        let landings = &self.rules_config.longer_landings;
+        let landings = &self.rules.config.longer_landings;
         let stairs = (self.landings).read(stairs, view, seen, sightings, landings);
         let sight = Sight {
             view,
             stairs,
             stand,
             goal_m: goal.height_m,
-            config: &self.rules_config,
         };
         self.rules.read(&mut self.terrain, &sight);
         let scene = Scene {

@@ -4,19 +4,7 @@ use serde::{Deserialize, Serialize};
 use settings::{ANY, Bounds, above_to, settings, within};
 use terrain::CellSettings;
 
-use crate::climb_links::chains::ClimbsTuning;
-use crate::climb_links::directed_stairs::DirectedStairsTuning;
-use crate::climb_links::entries::EntriesTuning;
-use crate::climb_links::room_at_edges::RoomAtEdgesTuning;
-use crate::outside_window::OutsideWindowTuning;
-use crate::path::choice::ChoiceTuning;
-use crate::path::ends::EndsTuning;
-use crate::path::legs::LegsTuning;
-use crate::path::path_search::PathSearchTuning;
-use crate::path::rest::FollowedPathTuning;
-use crate::path::viewpoints::ViewpointsTuning;
-use crate::refusal::RefusalTuning;
-use crate::sideways_passages::SidewaysPassagesTuning;
+use crate::tuning::PlanningTuning;
 
 /// Lengths in metres may be no greater: a window is not much larger.
 const LENGTH: Bounds = within(0.0, 10.0);
@@ -102,38 +90,6 @@ settings! {
         lane: f64 = 0.08, "m", within(0.005, 10.0);
         /// Numbers that decide something, but that few will want to turn.
         tuning: PlanningTuning;
-    }
-}
-
-settings! {
-    /// Numbers of the planner that decide something, but that few will want to turn.
-    pub struct PlanningTuning("navigation.a_star.tuning") {
-        /// What belongs together of stairs, and what lies before and behind their edges.
-        directed_stairs: DirectedStairsTuning;
-        /// Where there is room at edges.
-        room_at_edges: RoomAtEdgesTuning;
-        /// How a climb begins.
-        entries: EntriesTuning;
-        /// How a climb goes on and ends.
-        climbs: ClimbsTuning;
-        /// Which passages are walked sideways.
-        sideways_passages: SidewaysPassagesTuning;
-        /// Where a route may end.
-        ends: EndsTuning;
-        /// Which routes are looked for.
-        path_search: PathSearchTuning;
-        /// Where the robot looks from.
-        viewpoints: ViewpointsTuning;
-        /// How a route becomes a path.
-        legs: LegsTuning;
-        /// When a path is followed no more.
-        followed_path: FollowedPathTuning;
-        /// Which of two paths is taken.
-        choice: ChoiceTuning;
-        /// What is remembered of the ground outside of the window.
-        outside_window: OutsideWindowTuning;
-        /// Which word a refusal has.
-        refusal: RefusalTuning;
     }
 }
 

@@ -10,10 +10,12 @@ mod plan;
 mod refusal;
 pub mod search;
 mod sideways_passages;
+mod tuning;
 
 pub use a_star::AStar;
-pub use config::{AStarConfig, Footprint, PlanningTuning};
+pub use config::{AStarConfig, Footprint};
 pub use geometry::Goal;
 pub use guide::Guided;
 pub use plan::{Climb, NoWay, Path, Plan, PlanError, Planner, Refusal, Sidle, Step};
 pub use terrain::{TerrainConfig, VoronoiConfig};
+pub use tuning::PlanningTuning;

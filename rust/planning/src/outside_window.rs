@@ -5,14 +5,12 @@
 
 mod ground;
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
+use geometry::Dijkstra;
 use geometry::distance::CellDistances;
-use settings::{NOT_NEGATIVE, settings, within};
 use terrain::Terrain;
 
 use crate::Goal;
+use crate::tuning::OutsideWindowTuning;
 use ground::{Ground, SIDE, cell_at};
 
 /// The way is looked for over nodes of so many of them each way. Of four all lie beside each other, so that a node says exactly which
@@ -31,18 +29,6 @@ const STEPS: [(isize, isize, f32); 8] = [
     (-1, -1, std::f32::consts::SQRT_2),
 ];
 
-settings! {
-    /// What is remembered of the ground outside of the window.
-    pub struct OutsideWindowTuning("navigation.a_star.tuning.outside_window") {
-        /// How much longer a way is taken to be that leaves the window where there is no room: what was seen may be gone.
-        shut: f64 = 10.0, "m", NOT_NEGATIVE;
-        /// The way outside of the window is looked for anew after so many plans at most.
-        plans: u32 = 8, "1", within(1.0, 1.0e6);
-        /// From so near it is believed that something has gone: from afar parts of a wall are floor for a while.
-        near: f64 = 1.2, "m", within(0.0, 10.0);
-    }
-}
-
 /// The ground around as it was when it was seen last.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct OutsideWindow {
@@ -55,7 +41,7 @@ pub(crate) struct OutsideWindow {
     weights: Vec<f32>,
     /// Length of the way from each node to the goal, in nodes; infinite where none leads.
     to_goal: Vec<f32>,
-    queue: BinaryHeap<Reverse<(u32, u32)>>,
+    dijkstra: Dijkstra,
     goal: Option<Goal>,
     plans: u32,
     field: Field,
@@ -181,11 +167,10 @@ impl OutsideWindow {
         }
     }
 
-    /// Dijkstra's algorithm from the goal over what is open.
+    /// Finds the way from everywhere to the goal over what is open.
     fn aim(&mut self, goal: &Goal) {
         self.to_goal.clear();
         self.to_goal.resize(NODES * NODES, f32::INFINITY);
-        self.queue.clear();
         let at = (self.ground.lattice).and_then(|lattice| cell_at(&lattice, [goal.x_m, goal.y_m]));
         let Some(goal) = at
             .map(|at| at.map(|at| at / APART))
@@ -194,30 +179,19 @@ impl OutsideWindow {
             return;
         };
         self.open[goal] = ALL;
-        self.to_goal[goal] = 0.0;
-        self.queue.push(Reverse((0, goal as u32)));
-        while let Some(Reverse((length, from))) = self.queue.pop() {
+        let (open, weights) = (&self.open, &self.weights);
+        let steps = |from: u32| {
             let from = from as usize;
-            if f32::from_bits(length) > self.to_goal[from] {
-                continue;
-            }
-            for (cols, rows, step) in STEPS {
-                if self.open[from] & facing(cols, rows) == 0 {
-                    continue;
+            STEPS.iter().filter_map(move |&(cols, rows, step)| {
+                if open[from] & facing(cols, rows) == 0 {
+                    return None;
                 }
-                let to = node(from % NODES, from / NODES, cols, rows);
-                let leads = |to: &usize| self.open[*to] & facing(-cols, -rows) != 0;
-                let Some(to) = to.filter(leads) else {
-                    continue;
-                };
-                let further = self.to_goal[from] + step * self.weights[to];
-                if further < self.to_goal[to] {
-                    self.to_goal[to] = further;
-                    // Positive numbers are in the order of their bits.
-                    self.queue.push(Reverse((further.to_bits(), to as u32)));
-                }
-            }
-        }
+                let to = node(from % NODES, from / NODES, cols, rows)?;
+                (open[to] & facing(-cols, -rows) != 0).then(|| (to as u32, step * weights[to]))
+            })
+        };
+        (self.dijkstra).begin_at(&mut self.to_goal, goal as u32, 0.0);
+        self.dijkstra.run(&mut self.to_goal, steps, |_, _| {});
     }
 }
 

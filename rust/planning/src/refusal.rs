@@ -4,7 +4,6 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use geometry::two_levels;
-use settings::{settings, within};
 use stairs::{ClimbingConfig, Unfit};
 use terrain::Terrain;
 
@@ -13,17 +12,8 @@ use crate::path::ends::Ends;
 use crate::search::neighbours::Cells;
 use crate::search::steps::ANYWHERE;
 use crate::search::{Route, Search};
+use crate::tuning::RefusalTuning;
 use crate::{Goal, NoWay, Refusal};
-
-settings! {
-    /// Which word a refusal has.
-    pub struct RefusalTuning("navigation.a_star.tuning.refusal") {
-        /// Gaps narrower than this are cracks between obstacles as the map has them, no ways.
-        crack: f64 = 0.1, "m", within(0.0, 10.0);
-        /// A way down of more than this is a drop, no step.
-        drop: f64 = 0.1, "m", within(0.0, 10.0);
-    }
-}
 
 /// What decides on a word.
 type Words<'a> = (&'a ClimbingConfig, &'a RefusalTuning);

@@ -6,31 +6,13 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use geometry::wrap_angle;
-use settings::{NOT_NEGATIVE, settings, within};
 
 use crate::climb_links::room_at_edges::distance_m;
 use crate::climb_links::{ClimbLinks, Fit, Scene, Way};
+use crate::tuning::SidewaysPassagesTuning;
 
 /// Two quarters of a turn, before and behind, rad: to walk sideways is to turn there and back.
 pub(crate) const TURNS_RAD: f64 = 2.0 * FRAC_PI_2;
-
-settings! {
-    /// Which passages are walked sideways.
-    pub struct SidewaysPassagesTuning("navigation.a_star.tuning.sideways_passages") {
-        /// Number of directions, evenly around, in which the robot walks sideways.
-        directions: u32 = 16, "1", within(4.0, 360.0);
-        /// From inside a passage it goes on by directions no further off than this from where its side points.
-        aside: f64 = 0.3, "rad", within(0.0, 3.2);
-        /// Passages are no longer than this.
-        longest: f64 = 2.0, "m", within(0.0, 10.0);
-        /// A passage begins in a cell with room for the circle that lies no more than so many cells further from an obstacle than it has to.
-        entrance: f64 = 1.5, "1", NOT_NEGATIVE;
-        /// After so many strides of half a cell the robot has left the cell where a passage begins.
-        first_strides: u32 = 3, "1", within(1.0, 100.0);
-        /// Cells with room for the circle that are no further apart than so many cells need no passage between them.
-        apart: f64 = 2.0, "1", NOT_NEGATIVE;
-    }
-}
 
 impl ClimbLinks {
     /// Finds the passages: from a cell with room for the circle to another, or from where the robot stands in one.

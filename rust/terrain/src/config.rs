@@ -1,6 +1,6 @@
 //! Settings of the rules: one table for each, in the order in which they act.
 
-use settings::{above_to, settings, within};
+use settings::settings;
 
 use crate::goal_level::GoalLevelConfig;
 use crate::longer_landings::LongerLandingsConfig;
@@ -12,6 +12,7 @@ use crate::rules::platform_edges::PlatformEdgesConfig;
 use crate::rules::shadows::ShadowsConfig;
 use crate::rules::slopes::SlopesConfig;
 use crate::rules::stair_cells::StairCellsConfig;
+use crate::terrain::RoomConfig;
 
 settings! {
     /// What a cell is: one table for each rule that has settings of its own, in the order in which the rules act.
@@ -38,17 +39,5 @@ settings! {
         edge_costs: EdgeCostsConfig;
         /// How room along a way is measured.
         room: RoomConfig;
-    }
-}
-
-settings! {
-    /// How room along a way is measured.
-    pub struct RoomConfig("navigation.terrain.room") {
-        /// Room may seem this much less than it was, or half a cell less where that is less, before a way is given up.
-        slack: f64 = 0.03, "m", within(0.0, 1.0);
-        /// A straight way is looked at in pieces of this share of a cell.
-        piece: f64 = 0.25, "1", above_to(0.0, 1.0);
-        /// A line of places between two points is looked at in steps of this share of a cell where only what stands there matters.
-        stride: f64 = 0.5, "1", above_to(0.0, 1.0);
     }
 }

@@ -2,6 +2,9 @@
 //!
 //! [`RULES`] is the list of all rules in the order in which they act. They read a view, the stairs and what the known map laid under
 //! the view ([`Sight`]) into a [`Terrain`], which planner and behaviour ask. [`support`] says what lies under soles and around a place.
+//!
+//! Two questions come before the rules, as they turn on the goal: which level it lies on ([`GoalLevel`]), and which landing goes on to it
+//! ([`LongerLandings`]).
 
 mod cells;
 mod config;
@@ -17,7 +20,7 @@ mod terrain;
 #[cfg(test)]
 mod testing;
 
-pub use config::{RoomConfig, TerrainConfig};
+pub use config::TerrainConfig;
 pub use goal_level::{GoalLevel, GoalLevelConfig};
 pub use longer_landings::{LongerLandings, LongerLandingsConfig};
 pub use rules::voronoi::VoronoiConfig;
@@ -26,4 +29,4 @@ pub use sight::{CellSettings, Limits, Needs, Rectangle, Sight, Stand};
 pub use slope_cells::SlopeCells;
 pub use stair_cells::StairCells;
 pub use stair_outline::StairOutline;
-pub use terrain::Terrain;
+pub use terrain::{RoomConfig, Terrain};

@@ -24,24 +24,29 @@ mod steep_slopes;
 mod tall_edges;
 pub mod voronoi;
 
-use crate::{Sight, Terrain, VoronoiConfig};
+use crate::{Sight, Terrain, TerrainConfig};
+use voronoi::VoronoiConfig;
 
 /// All rules, in order.
 pub const RULES: [Rule; 19] = [
     Rule {
         name: "stair_cells",
         decides: "which cells belong to recognised stairs or lie beside them, and how high those are",
-        apply: |_, terrain, sight| stair_cells::apply(terrain, sight),
+        apply: |rules, terrain, sight| {
+            stair_cells::apply(terrain, sight, &rules.config.stair_cells);
+        },
     },
     Rule {
         name: "obstacles",
         decides: "what stands there: what is seen, but a riser beside a stair; and what is unknown",
-        apply: |_, terrain, sight| obstacles::apply(terrain, sight),
+        apply: |rules, terrain, sight| obstacles::apply(terrain, sight, &rules.config.obstacles),
     },
     Rule {
         name: "far_levels",
         decides: "that what looks like a higher level from afar is unknown until it was near",
-        apply: |rules, terrain, sight| rules.far_levels.apply(terrain, sight),
+        apply: |rules, terrain, sight| {
+            (rules.far_levels).apply(terrain, sight, &rules.config.far_levels);
+        },
     },
     Rule {
         name: "lone_cells",
@@ -56,12 +61,14 @@ pub const RULES: [Rule; 19] = [
     Rule {
         name: "laid_stairs",
         decides: "that stairs overwrite heights, but well inside the robot's own level",
-        apply: |rules, terrain, sight| rules.laid_stairs.apply(terrain, sight),
+        apply: |rules, terrain, sight| {
+            (rules.laid_stairs).apply(terrain, sight, &rules.config.laid_stairs);
+        },
     },
     Rule {
         name: "slopes",
         decides: "which cells are tilted, and which may be level strips of a slope",
-        apply: |_, terrain, sight| slopes::apply(terrain, sight),
+        apply: |rules, terrain, sight| slopes::apply(terrain, sight, &rules.config.slopes),
     },
     Rule {
         name: "gaps",
@@ -81,7 +88,7 @@ pub const RULES: [Rule; 19] = [
     Rule {
         name: "shadows",
         decides: "that there is an edge across a few unseen cells between two levels",
-        apply: |_, terrain, sight| shadows::apply(terrain, sight),
+        apply: |rules, terrain, _| shadows::apply(terrain, &rules.config.shadows),
     },
     Rule {
         name: "steep_slopes",
@@ -91,7 +98,9 @@ pub const RULES: [Rule; 19] = [
     Rule {
         name: "platform_edges",
         decides: "that a raised level under the robot has an edge where nothing was seen beside it",
-        apply: |rules, terrain, sight| rules.platform_edges.apply(terrain, sight),
+        apply: |rules, terrain, sight| {
+            (rules.platform_edges).apply(terrain, sight, &rules.config.platform_edges);
+        },
     },
     Rule {
         name: "tall_edges",
@@ -120,7 +129,7 @@ pub const RULES: [Rule; 19] = [
     Rule {
         name: "edge_costs",
         decides: "what a metre costs near to edges, and that nobody walks on one",
-        apply: |rules, terrain, sight| rules.edge_costs.apply(terrain, sight),
+        apply: |rules, terrain, _| rules.edge_costs.apply(terrain, &rules.config.edge_costs),
     },
     Rule {
         name: "escape",
@@ -142,6 +151,8 @@ pub struct Rule {
 /// What the rules remember from one view to the next, and their buffers. Reused.
 #[derive(Debug, Clone, Default)]
 pub struct Rules {
+    /// Their settings.
+    pub config: TerrainConfig,
     far_levels: far_levels::FarLevels,
     lone_cells: lone_cells::LoneCells,
     laid_stairs: laid_stairs::LaidStairs,

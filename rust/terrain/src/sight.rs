@@ -3,8 +3,6 @@
 use mapping::FloorView;
 use stairs::Staircase;
 
-use crate::TerrainConfig;
-
 /// Where the robot stands, in the map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stand {
@@ -107,6 +105,4 @@ pub struct Sight<'a> {
     pub stand: Stand,
     /// Height of the goal, m, where it is known.
     pub goal_m: Option<f64>,
-    /// The rules' own settings.
-    pub config: &'a TerrainConfig,
 }

@@ -3,8 +3,21 @@
 use geometry::distance::{CellDistances, NOTHING_NEAR};
 use geometry::{Cell, CellArea, Lattice};
 use mapping::FloorView;
+use settings::{above_to, settings, within};
 
-use crate::{CellSettings, Needs, RoomConfig, SlopeCells, StairCells, Stand};
+use crate::{CellSettings, Needs, SlopeCells, StairCells, Stand};
+
+settings! {
+    /// How room along a way is measured.
+    pub struct RoomConfig("navigation.terrain.room") {
+        /// Room may seem this much less than it was, or half a cell less where that is less, before a way is given up.
+        slack: f64 = 0.03, "m", within(0.0, 1.0);
+        /// A straight way is looked at in pieces of this share of a cell.
+        piece: f64 = 0.25, "1", above_to(0.0, 1.0);
+        /// A line of places between two points is looked at in steps of this share of a cell where only what stands there matters.
+        stride: f64 = 0.5, "1", above_to(0.0, 1.0);
+    }
+}
 
 /// How far away something is that is not there, m.
 const FAR_AWAY_M: u16 = u16::MAX;

@@ -4,7 +4,7 @@ use geometry::{Grid, Lattice, Map, Point};
 use mapping::{FloorView, Surface};
 use stairs::{Edge, Sides, Stair, Staircase};
 
-use crate::{CellSettings, Limits, Needs, Rectangle, Rules, Sight, Stand, Terrain, TerrainConfig};
+use crate::{CellSettings, Limits, Needs, Rectangle, Rules, Sight, Stand, Terrain};
 
 /// Side of a cell, m.
 const CELL_M: f64 = 0.05;
@@ -132,14 +132,13 @@ impl Floor {
         terrain
     }
 
-    /// The same with rules that remember, over a terrain that was read before.
+    /// Reads it up to a rule with rules that remember, over a terrain that was read before.
     pub(crate) fn read(&self, rules: &mut Rules, terrain: &mut Terrain, rule: &str) {
         let sight = Sight {
             view: &self.view,
             stairs: &self.stairs,
             stand: self.stand,
             goal_m: self.goal_m,
-            config: &TerrainConfig::default(),
         };
         rules.read_until(rule, terrain, &sight);
     }

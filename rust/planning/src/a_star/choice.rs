@@ -1,20 +1,11 @@
 //! The path before, or a new one.
 
 use geometry::{PlanarPose, angle_between};
-use settings::{settings, within};
 use terrain::Stand;
 
-use super::ends::End;
-use super::followed_path::FollowedPath;
+use crate::path::ends::End;
+use crate::path::followed_path::FollowedPath;
 use crate::{AStar, Goal, NoWay, Path, Plan};
-
-settings! {
-    /// Which of two paths is taken.
-    pub struct ChoiceTuning("navigation.a_star.tuning.choice") {
-        /// Where a path leads at first is seen this far from the robot.
-        setting_off: f64 = 0.25, "m", within(0.0, 10.0);
-    }
-}
 
 impl AStar {
     /// What is left of the path before where it holds.

@@ -1,27 +1,13 @@
 //! A new path: to the goal, to stairs of which a limit is in doubt, or to a place to look from.
 
-use settings::{NOT_NEGATIVE, settings};
 use terrain::{Stand, Terrain};
 
-use super::ends::{End, Ends, end_of, run};
-use super::followed_path::FollowedPath;
 use crate::climb_links::Fit;
+use crate::path::ends::{End, Ends, end_of, run};
+use crate::path::followed_path::FollowedPath;
 use crate::refusal::{explain, first_limit};
 use crate::search::Route;
 use crate::{AStar, Goal, NoWay, Refusal};
-
-settings! {
-    /// Which routes are looked for.
-    pub struct PathSearchTuning("navigation.a_star.tuning.path_search") {
-        /// A way to a goal in the window that costs more than so many times the straight one, and `far_more` on top, may be shorter around
-        /// the window.
-        far: f64 = 2.0, "1", NOT_NEGATIVE;
-        /// What the straight way to a goal in the window is lengthened by before it is compared.
-        far_more: f64 = 0.5, "m", NOT_NEGATIVE;
-        /// A route over more unseen ground than this is but a guess.
-        guess: f64 = 1.0, "m", NOT_NEGATIVE;
-    }
-}
 
 impl AStar {
     /// A new path over the terrain.

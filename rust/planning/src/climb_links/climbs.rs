@@ -1,7 +1,6 @@
 //! From stair to stair: the steps of a climb, and where it ends.
 
 use geometry::{Map, same_level};
-use settings::{NOT_NEGATIVE, POSITIVE, settings, within};
 use stairs::{EdgeLine, Footing, Onward, Stair, Unfit};
 
 use super::directed_stairs::{After, ground_behind};
@@ -10,22 +9,6 @@ use super::room_at_edges::{
 };
 use super::{ClimbLinks, Fit, Scene, Stride, Way};
 use crate::Step;
-
-settings! {
-    /// How a climb goes on and ends.
-    pub struct ClimbsTuning("navigation.a_star.tuning.climbs") {
-        /// Heels come to stand this far beyond an edge where no limit says better.
-        heel: f64 = 0.015, "m", within(-1.0, 1.0);
-        /// The stair was looked at from where a way to it begins when the robot looked from this near to that.
-        looked: f64 = 0.25, "m", within(0.0, 10.0);
-        /// Nobody climbs more steps in one go.
-        most_steps: usize = 32, "1", within(1.0, 1000.0);
-        /// What lies behind the last stair is paid for with this, and by the height that is missing.
-        hope: f64 = 0.3, "m", NOT_NEGATIVE;
-        /// What is missing of a height, or is too high for a step, is paid for as so many steps of this height.
-        rise: f64 = 0.03, "m", POSITIVE;
-    }
-}
 
 /// A stair to step on first, and from where.
 pub(super) struct Entry {
@@ -104,14 +87,9 @@ impl ClimbLinks {
             before = Some((way, landing, cost_m));
             level_m = stair.height_m();
             let depth_m;
-            (stair, index, depth_m) = match after {
-                After::Stair(next, depth_m) => (self.stairs.all()[next].stair, Some(next), depth_m),
-                After::Ground(height_m, depth_m) => {
-                    let ground_depth_m = tuning.directed_stairs.ground_depth;
-                    let ground = ground_behind(&stair, height_m, ground_depth_m);
-                    (ground, None, depth_m)
-                }
-                After::Level | After::Wall | After::Unknown => break,
+            (stair, index, depth_m) = match self.behind(scene, &stair, after) {
+                Some(next) => next,
+                None => break,
             };
             fixed = depth_m <= scene.config.stride;
             let next = EdgeLine::of(&stair.front);
@@ -121,6 +99,26 @@ impl ClimbLinks {
         // Steps that no way ends with are none.
         let used = self.ways.last().map_or(0, |way| way.end);
         self.strides.truncate(used.max(first));
+    }
+
+    /// What is stepped on behind a stair: the stair or the ground there, its index among the stairs, and how far behind it begins, m.
+    fn behind(
+        &self,
+        scene: &Scene<'_>,
+        stair: &Stair<Map>,
+        after: After,
+    ) -> Option<(Stair<Map>, Option<usize>, f64)> {
+        match after {
+            After::Stair(next, depth_m) => {
+                Some((self.stairs.all()[next].stair, Some(next), depth_m))
+            }
+            After::Ground(height_m, depth_m) => {
+                let ground_depth_m = scene.config.tuning.directed_stairs.ground_depth;
+                let ground = ground_behind(stair, height_m, ground_depth_m);
+                Some((ground, None, depth_m))
+            }
+            After::Level | After::Wall | After::Unknown => None,
+        }
     }
 
     /// One step onto a stair.

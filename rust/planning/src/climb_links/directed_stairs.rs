@@ -1,35 +1,10 @@
 //! The stairs as they are met from either side, and what lies before and behind their edges.
 
 use geometry::{Map, Point, two_levels};
-use settings::{at_least, settings, within};
 use stairs::{ClimbingConfig, Edge, EdgeLine, Sides, Stair, Staircase};
 use terrain::Terrain;
 
-settings! {
-    /// What belongs together of stairs, and what lies before and behind their edges.
-    pub struct DirectedStairsTuning("navigation.a_star.tuning.directed_stairs") {
-        /// Edges that belong together differ by no more than this in heading: a turn of a spiral staircase is a few degrees.
-        askew: f64 = 0.6, "rad", within(0.0, 1.5);
-        /// A stair begins this near to where the one before it ends.
-        joint: f64 = 0.06, "m", within(0.0, 1.0);
-        /// A stair begins this near to where the one before it ends, where that end is only where the view ended.
-        loose_joint: f64 = 0.1, "m", within(0.0, 1.0);
-        /// Least depth of ground between two edges that are told apart.
-        least_depth: f64 = 0.03, "m", within(0.0, 1.0);
-        /// How deep the floor at the foot of an edge is taken to be, where nothing follows.
-        ground_depth: f64 = 0.3, "m", within(0.0, 10.0);
-        /// Depths behind an edge that is askew are stretched as if its cosine were at least this.
-        least_cosine: f64 = 0.5, "1", within(0.01, 1.0);
-        /// How far before or behind an edge the level there is read.
-        away: [f64; 4] = [0.04, 0.08, 0.12, 0.16], "m", within(0.0, 1.0);
-        /// How far to the left the level beside an edge is read at each of those distances.
-        aside: [f64; 3] = [-0.04, 0.0, 0.04], "m", within(-1.0, 1.0);
-        /// Of the places where a level is read, so many must be known.
-        enough: usize = 3, "1", within(1.0, 12.0);
-        /// Something stands behind an edge where it does in so large a part of the places, one in so many.
-        walls: usize = 2, "1", at_least(1.0);
-    }
-}
+use crate::tuning::DirectedStairsTuning;
 
 /// Places where a level is read: as many as the settings have distances, times those to the side.
 const PLACES: usize = 4 * 3;

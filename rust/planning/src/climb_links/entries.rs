@@ -1,28 +1,13 @@
 //! How a climb begins: where the robot lines up before the edge of a stair, or stands before it already.
 
 use geometry::{Map, angle_between, same_level, two_levels};
-use settings::{settings, within};
 use stairs::{EdgeLine, Stair, Staircase};
 use terrain::StairOutline;
 
-use super::chains::Entry;
+use super::climbs::Entry;
 use super::directed_stairs::{After, DirectedStairs, differs, ground_behind, level_before};
 use super::room_at_edges::{distance_m, lanes, range_m, run_to_cell, walkable};
 use super::{ClimbLinks, Scene};
-
-settings! {
-    /// How a climb begins.
-    pub struct EntriesTuning("navigation.a_star.tuning.entries") {
-        /// From a tread the robot steps on without moving up to an edge first when it is within this.
-        reach: f64 = 0.16, "m", within(0.0, 1.0);
-        /// It turns no more than this on a tread.
-        turn: f64 = 0.5, "rad", within(0.0, 3.2);
-        /// The robot stands where it should by this.
-        in_place: f64 = 0.015, "m", within(0.0, 1.0);
-        /// The robot stands on a stair when its middle is no further than this outside of the stair's outline.
-        outside: f64 = 0.02, "m", within(0.0, 1.0);
-    }
-}
 
 impl ClimbLinks {
     /// Finds all ways over the stairs for a robot that stands as the scene says.

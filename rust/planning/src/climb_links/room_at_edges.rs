@@ -2,28 +2,11 @@
 
 use geometry::{Lattice, Map, same_level};
 use mapping::Surface;
-use settings::{settings, within};
 use stairs::{EdgeLine, Stair};
 use terrain::Terrain;
 
 use super::Scene;
 use crate::search::octile;
-
-settings! {
-    /// Where there is room at edges.
-    pub struct RoomAtEdgesTuning("navigation.a_star.tuning.room_at_edges") {
-        /// How far from an edge the robot lines up, or walks on as it came, at most.
-        run: f64 = 0.35, "m", within(0.0, 10.0);
-        /// Heights that differ by no more than this are one level.
-        tolerance: f64 = 0.012, "m", within(0.0, 1.0);
-        /// An edge that is no wider than this, beyond what the feet need, is crossed near its middle.
-        narrow: f64 = 0.3, "m", within(0.0, 10.0);
-        /// The share of the room beside its middle in which such a narrow edge is crossed.
-        narrow_share: f64 = 0.5, "1", within(0.0, 1.0);
-        /// What stands on a stair reaches higher than what may still be a riser by this.
-        riser: f64 = 0.1, "m", within(0.0, 10.0);
-    }
-}
 
 /// From a place at an edge straight on (`side` 1) or back (-1) to the first cell where the robot may be; the place there.
 pub(crate) fn run_to_cell(
@@ -78,7 +61,8 @@ pub(crate) fn inside_m(terrain: &Terrain, from_m: [f64; 2], towards_m: [f64; 2])
 /// Whether nothing stands, and no other level lies, on the straight way between two places.
 pub(crate) fn walkable(scene: &Scene<'_>, from_m: [f64; 2], to_m: [f64; 2], level_m: f64) -> bool {
     let terrain = scene.terrain;
-    let tolerance_m = scene.config.tuning.room_at_edges.tolerance;
+    let tuning = &scene.config.tuning.room_at_edges;
+    let tolerance_m = tuning.tolerance;
     let stride_m = terrain.room.stride * terrain.lattice.cell_m;
     let pieces = (distance_m(from_m, to_m) / stride_m).ceil();
     (0..=pieces as usize).all(|piece| {
@@ -89,8 +73,8 @@ pub(crate) fn walkable(scene: &Scene<'_>, from_m: [f64; 2], to_m: [f64; 2], leve
         ];
         terrain.index_at(at).is_some_and(|cell| {
             let level = terrain.level_m(cell);
-            // The last cell lies at the edge.
-            let last = piece as f64 >= pieces - 2.0;
+            // The last pieces lie at the edge.
+            let last = piece as f64 >= pieces - tuning.at_edge;
             !terrain.blocked[cell]
                 && (last || level.is_none_or(|height_m| same_level(height_m, level_m, tolerance_m)))
         })

@@ -4,7 +4,8 @@ use geometry::Lattice;
 
 use terrain::Terrain;
 
-/// Cells of the ground around the window, as large as its own: so many on a side, which is a power of two for the indices' sake.
+/// Cells of the ground around the window, as large as its own, on a side: what lies further off than half of them is forgotten. A size of
+/// arrays, known when it is compiled, so that columns and rows of a cell need no division.
 pub(super) const SIDE: usize = 512;
 
 /// The ground around as it was when it was seen last.

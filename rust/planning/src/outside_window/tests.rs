@@ -131,10 +131,9 @@ fn what_stands_near_is_remembered_however_far_the_robot_has_come() {
             stairs: &Staircase::default(),
             stand,
             goal_m: far.height_m,
-            config: &terrain::TerrainConfig::default(),
         };
         rules.read(&mut terrain, &sight);
-        let near_m = super::OutsideWindowTuning::default().near;
+        let near_m = crate::tuning::OutsideWindowTuning::default().near;
         moves += usize::from(ground.take_in(&terrain, stand.at_m, near_m));
         // The post of two windows ago stands in the same place.
         let lattice = ground.lattice.unwrap();

@@ -1,28 +1,12 @@
 //! Routes to the goal: where they may end, in the goal's disc, or at the window's border when the goal lies outside.
 
 use geometry::{same_level, two_levels};
-use settings::{NOT_NEGATIVE, POSITIVE, at_least, settings, within};
 use terrain::Terrain;
 
 use crate::climb_links::{ClimbLinks, Fit};
 use crate::outside_window::OutsideWindow;
 use crate::search::{Graph, Route, Search, octile};
 use crate::{AStarConfig, Goal};
-
-settings! {
-    /// Where a route may end.
-    pub struct EndsTuning("navigation.a_star.tuning.ends") {
-        /// How much worse a place off the goal's middle is than walking there: above 1.09, so that the octile distance to the middle stays
-        /// below the cost.
-        pull: f64 = 2.0, "1", at_least(1.09);
-        /// Heights that differ from the goal's by no more than this are on its level.
-        tolerance: f64 = 0.02, "m", within(0.0, 1.0);
-        /// What is paid for a goal on another level that nothing known leads to.
-        blind: f64 = 1.0, "m", NOT_NEGATIVE;
-        /// What is missing of the height of such a goal is paid for as so many steps of this height.
-        rise: f64 = 0.03, "m", POSITIVE;
-    }
-}
 
 /// Where a path ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,23 +1,13 @@
 //! From a route to a path: legs that are walked, and legs that are climbed or walked sideways.
 
-use settings::{at_least, settings, within};
 use terrain::Terrain;
 
 use super::followed_path::FollowedPath;
 use super::shortcut::{lay, walk};
 use crate::climb_links::{ClimbLinks, Fit, Stride, Way};
 use crate::search::Route;
+use crate::tuning::LegsTuning;
 use crate::{Climb, Sidle};
-
-settings! {
-    /// How a route becomes a path.
-    pub struct LegsTuning("navigation.a_star.tuning.legs") {
-        /// A step begins where the one before it ended when it is no further away than this.
-        same_place: f64 = 0.01, "m", within(0.0, 1.0);
-        /// The straight way is taken where it costs no more than so many times what the cells cost that it replaces.
-        straighter: f64 = 1.002, "1", at_least(1.0);
-    }
-}
 
 /// Two places are one up to this, m: a rounding guard.
 const NO_WAY_M: f64 = 1e-9;

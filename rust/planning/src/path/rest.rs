@@ -1,7 +1,6 @@
 //! What is left of the path that is being followed, where it holds: its passed part cut off, its steps as the stairs are seen now.
 
 use geometry::same_level;
-use settings::{NOT_NEGATIVE, settings, within};
 use stairs::EdgeLine;
 use terrain::{Stand, Terrain};
 
@@ -9,29 +8,8 @@ use super::ends::End;
 use super::followed_path::FollowedPath;
 use crate::climb_links::room_at_edges::distance_m;
 use crate::climb_links::{ClimbLinks, Fit, Stride};
+use crate::tuning::FollowedPathTuning;
 use crate::{AStarConfig, Climb, Path, Sidle};
-
-settings! {
-    /// When a path is followed no more.
-    pub struct FollowedPathTuning("navigation.a_star.tuning.followed_path") {
-        /// How far ahead on the path the robot is looked for: a path may come back to where it passed.
-        progress: f64 = 0.6, "m", within(0.0, 100.0);
-        /// A path that ends at the window's border is planned anew when less than this is left of it.
-        horizon: f64 = 1.0, "m", within(0.0, 100.0);
-        /// An edge that moved by more than this is another one.
-        moved: f64 = 0.03, "m", within(0.0, 1.0);
-        /// An edge that turned by more than this is another one.
-        turned: f64 = 0.25, "rad", within(0.0, 3.2);
-        /// An edge is another one, too, when the height of its stair, or its rise, differs by more than this.
-        lifted: f64 = 0.012, "m", within(0.0, 1.0);
-        /// The lane over stairs is chosen anew when another one saves so much by what stands beside it.
-        roomier: f64 = 0.25, "m", NOT_NEGATIVE;
-        /// Heights that differ by no more than this are one level.
-        tolerance: f64 = 0.012, "m", within(0.0, 1.0);
-        /// A step is taken once the robot has made this share of its way.
-        taken: f64 = 0.5, "1", within(0.0, 1.0);
-    }
-}
 
 impl FollowedPath {
     /// What is left of it where it holds.

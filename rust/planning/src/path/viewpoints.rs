@@ -1,30 +1,12 @@
 //! Where to go and look when no known way leads to the goal: unseen ground, edges of levels that nothing is known to join.
 
-use settings::{NOT_NEGATIVE, settings, within};
 use terrain::Terrain;
 
 use super::ends::Ends;
 use crate::Goal;
 use crate::climb_links::{ClimbLinks, Fit};
 use crate::search::{Graph, Route, Search};
-
-settings! {
-    /// Where the robot looks from.
-    pub struct ViewpointsTuning("navigation.a_star.tuning.viewpoints") {
-        /// Unseen ground is worth a look when it is unseen so many cells around as well.
-        patch: usize = 1, "1", within(0.0, 20.0);
-        /// An edge is looked at from a place that is no more than so many cells away.
-        edge: usize = 5, "1", within(0.0, 100.0);
-        /// A place that was looked from shows what lies this near to it.
-        seen: f64 = 0.35, "m", within(0.0, 10.0);
-        /// The robot is where it wanted to look from when it is this near.
-        there: f64 = 0.12, "m", within(0.0, 10.0);
-        /// Frames that it looks for from one place.
-        frames: u32 = 25, "1", within(1.0, 1.0e6);
-        /// What a metre from there to the goal counts: unseen ground may cost so much more than what is seen.
-        detour: f64 = 2.0, "1", NOT_NEGATIVE;
-    }
-}
+use crate::tuning::ViewpointsTuning;
 
 /// The places that were looked from. Reused.
 #[derive(Debug, Clone, Default)]

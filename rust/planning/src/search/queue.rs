@@ -2,7 +2,8 @@
 
 use super::steps::Trail;
 
-/// Width of a bucket, in cells: how the queue is stored, not what is found, as every cheaper way is found whatever the order.
+/// Width of a bucket, in cells: how the queue is stored. The cost that is found is the least whatever it is; of ways that cost the same it
+/// may decide which one is found.
 const WIDTH: f64 = 0.5;
 
 /// The last bucket: what is estimated higher is in it too, in no order, so that no price takes gigabytes.

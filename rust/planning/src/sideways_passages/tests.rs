@@ -147,7 +147,7 @@ fn what_is_narrower_than_the_body_is_deep_is_refused_with_its_figures() {
 }
 
 #[test]
-fn who_is_in_the_slit_already_goes_on_as_it_is_turned() {
+fn who_is_in_the_passage_already_goes_on_as_it_is_turned() {
     let mut view = floor(0.04);
     wall(&mut view, 0.12, 0.3, 0.02);
     let mut oriented = planner(Footprint::Oriented);
@@ -171,7 +171,7 @@ fn who_is_in_the_slit_already_goes_on_as_it_is_turned() {
 }
 
 #[test]
-fn a_slit_that_is_blocked_meanwhile_is_given_up() {
+fn a_passage_that_is_blocked_meanwhile_is_given_up() {
     let mut view = floor(0.04);
     wall(&mut view, 0.05, 0.3, 0.02);
     let mut oriented = planner(Footprint::Oriented);

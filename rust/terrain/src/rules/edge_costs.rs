@@ -2,8 +2,8 @@
 
 use settings::{SHARE, settings};
 
+use crate::Terrain;
 use crate::rules::by_distance::Costs;
-use crate::{Sight, Terrain};
 
 settings! {
     /// What being near to an edge costs.
@@ -20,13 +20,13 @@ pub(super) struct EdgeCosts {
 }
 
 impl EdgeCosts {
-    pub(super) fn apply(&mut self, terrain: &mut Terrain, sight: &Sight<'_>) {
+    pub(super) fn apply(&mut self, terrain: &mut Terrain, config: &EdgeCostsConfig) {
         if !terrain.any_edge {
             return;
         }
         let settings = terrain.settings;
         let (cell_m, feet_m) = (terrain.lattice.cell_m, terrain.needs.feet_m);
-        let soft_m = sight.config.edge_costs.reach * settings.soft_range;
+        let soft_m = config.reach * settings.soft_range;
         // An edge lies between the cells beside it.
         self.costs
             .fill(&settings, feet_m, soft_m, |cells| (cells + 0.5) * cell_m);

@@ -26,9 +26,14 @@ pub(super) struct FarLevels {
 }
 
 impl FarLevels {
-    pub(super) fn apply(&mut self, terrain: &mut Terrain, sight: &Sight<'_>) {
+    pub(super) fn apply(
+        &mut self,
+        terrain: &mut Terrain,
+        sight: &Sight<'_>,
+        config: &FarLevelsConfig,
+    ) {
         self.look(&mut terrain.nearest_m, sight.view, sight.stand.at_m);
-        doubt(terrain, sight);
+        doubt(terrain, sight, config.low);
     }
 
     /// Takes in where the robot is; moves with the view's window.
@@ -64,9 +69,10 @@ impl FarLevels {
     }
 }
 
-/// Makes unknown what lies on a higher level and was never near, unless a recognised stair or a slope says what it is.
-fn doubt(terrain: &mut Terrain, sight: &Sight<'_>) {
-    let (range_m, low_m) = (terrain.settings.judge_range, sight.config.far_levels.low);
+/// Makes unknown what lies on a higher level and was never near, unless a recognised stair or a slope says what it is. What ends lower than `low_m` above
+/// the ground may be a riser.
+fn doubt(terrain: &mut Terrain, sight: &Sight<'_>, low_m: f64) {
+    let range_m = terrain.settings.judge_range;
     let (floor_m, ground_m) = (terrain.needs.limits.floor_m, sight.stand.height_m);
     for (index, surface) in sight.view.cells.values().iter().enumerate() {
         let sloped = sight.view.gradients.values()[index] != [0.0; 2];

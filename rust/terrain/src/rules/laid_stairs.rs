@@ -25,14 +25,18 @@ pub(super) struct LaidStairs {
 }
 
 impl LaidStairs {
-    pub(super) fn apply(&mut self, terrain: &mut Terrain, sight: &Sight<'_>) {
+    pub(super) fn apply(
+        &mut self,
+        terrain: &mut Terrain,
+        sight: &Sight<'_>,
+        config: &LaidStairsConfig,
+    ) {
         let (heights_m, treads_m) = (&mut terrain.height_m, &mut terrain.stairs.height_m);
         if !terrain.stairs.any {
             return;
         }
         let (robot_m, floor_m) = (sight.stand.height_m, terrain.needs.limits.floor_m);
-        let (config, cols) = (&sight.config.laid_stairs, terrain.cols);
-        let size = [cols, heights_m.len() / cols];
+        let size = [terrain.cols, heights_m.len() / terrain.cols];
         let is_lower = |tread_m: f32| f64::from(tread_m) - robot_m < -floor_m;
         let lower = (0..heights_m.len()).filter(|&index| is_lower(treads_m[index]));
         let inside = lower.filter(|&index| {

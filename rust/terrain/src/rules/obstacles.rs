@@ -13,8 +13,8 @@ settings! {
     }
 }
 
-pub(super) fn apply(terrain: &mut Terrain, sight: &Sight<'_>) {
-    let riser_m = sight.config.obstacles.riser;
+pub(super) fn apply(terrain: &mut Terrain, sight: &Sight<'_>, config: &ObstaclesConfig) {
+    let riser_m = config.riser;
     terrain.blocked.clear();
     terrain.unknown.clear();
     for (index, surface) in sight.view.cells.values().iter().enumerate() {

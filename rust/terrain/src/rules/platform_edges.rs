@@ -32,8 +32,13 @@ pub(super) struct PlatformEdges {
 impl PlatformEdges {
     /// Marks what ends the level on which the robot stands. Around itself it sees no ground: there it has its own, unless it stands on a
     /// stair.
-    pub(super) fn apply(&mut self, terrain: &mut Terrain, sight: &Sight<'_>) {
-        if !is_raised(terrain, sight) {
+    pub(super) fn apply(
+        &mut self,
+        terrain: &mut Terrain,
+        sight: &Sight<'_>,
+        config: &PlatformEdgesConfig,
+    ) {
+        if !is_raised(terrain, sight, config) {
             return;
         }
         let stand = &sight.stand;
@@ -44,8 +49,9 @@ impl PlatformEdges {
         } else {
             terrain.settings.blind
         };
-        self.find_ground(terrain, sight, blind_m);
-        self.close_gaps(terrain, stand, sight.config.platform_edges.gap);
+        let tolerance_m = config.level * terrain.settings.max_step;
+        self.find_ground(terrain, sight, (tolerance_m, blind_m));
+        self.close_gaps(terrain, stand, config.gap);
         let size = [terrain.cols, self.ground.len() / terrain.cols.max(1)];
         for (index, &ground) in self.ground.iter().enumerate() {
             if !ground {
@@ -61,9 +67,13 @@ impl PlatformEdges {
         }
     }
 
-    fn find_ground(&mut self, terrain: &mut Terrain, sight: &Sight<'_>, blind_m: f64) {
+    fn find_ground(
+        &mut self,
+        terrain: &mut Terrain,
+        sight: &Sight<'_>,
+        (tolerance_m, blind_m): (f64, f64),
+    ) {
         let (view, stand) = (sight.view, &sight.stand);
-        let tolerance_m = sight.config.platform_edges.level * terrain.settings.max_step;
         let on_level = |height_m: f32| same_level(f64::from(height_m), stand.height_m, tolerance_m);
         let (lattice, cols) = (&view.lattice, view.cells.cols());
         self.ground.clear();
@@ -113,10 +123,9 @@ impl PlatformEdges {
 }
 
 /// Whether something known, or the goal, lies lower than the robot stands.
-fn is_raised(terrain: &Terrain, sight: &Sight<'_>) -> bool {
+fn is_raised(terrain: &Terrain, sight: &Sight<'_>, config: &PlatformEdgesConfig) -> bool {
     let heights = sight.stairs.stairs.iter().map(stairs::Stair::height_m);
     let lowest_known_m = heights.chain(sight.goal_m).fold(f64::INFINITY, f64::min);
-    let config = &sight.config.platform_edges;
     let below_m = sight.stand.height_m - config.raised * terrain.settings.max_step;
     let lower = |height: &&f32| f64::from(**height) < below_m;
     lowest_known_m < below_m || terrain.height_m.iter().filter(lower).count() >= config.lower_cells

@@ -3,7 +3,7 @@
 use geometry::two_levels;
 use settings::{settings, within};
 
-use crate::{Sight, Terrain};
+use crate::Terrain;
 
 settings! {
     /// What is the shadow below an edge.
@@ -13,8 +13,8 @@ settings! {
     }
 }
 
-pub(super) fn apply(terrain: &mut Terrain, sight: &Sight<'_>) {
-    let (cols, widest) = (terrain.cols, sight.config.shadows.widest);
+pub(super) fn apply(terrain: &mut Terrain, config: &ShadowsConfig) {
+    let (cols, widest) = (terrain.cols, config.widest);
     let rows = terrain.height_m.len() / cols.max(1);
     for row in 0..rows {
         mark_line(terrain, row * cols, 1, cols, widest);

@@ -13,7 +13,7 @@ settings! {
     }
 }
 
-pub(super) fn apply(terrain: &mut Terrain, sight: &Sight<'_>) {
+pub(super) fn apply(terrain: &mut Terrain, sight: &Sight<'_>, config: &SlopesConfig) {
     let slopes = &mut terrain.slopes;
     slopes.cols = sight.view.cells.cols();
     slopes.cell_m = sight.view.lattice.cell_m as f32;
@@ -30,7 +30,7 @@ pub(super) fn apply(terrain: &mut Terrain, sight: &Sight<'_>) {
     let size = [slopes.cols, gradients.len() / slopes.cols];
     for (index, gradient) in gradients.iter().enumerate() {
         if *gradient != [0.0; 2] && slopes.too_steep_at(index).is_none() {
-            for cell in around(index, sight.config.slopes.strip, size) {
+            for cell in around(index, config.strip, size) {
                 slopes.near[cell] = true;
             }
         }

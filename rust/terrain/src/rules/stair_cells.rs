@@ -14,10 +14,10 @@ settings! {
     }
 }
 
-pub(super) fn apply(terrain: &mut Terrain, sight: &Sight<'_>) {
+pub(super) fn apply(terrain: &mut Terrain, sight: &Sight<'_>, config: &StairCellsConfig) {
     let stairs = &sight.stairs.stairs;
     let (size, step_m) = ([terrain.cols, terrain.rows], terrain.needs.limits.step_m);
-    let joint_m = sight.config.stair_cells.joint;
+    let joint_m = config.joint;
     terrain.stairs.clear(size[0] * size[1], !stairs.is_empty());
     for stair in stairs {
         let apart = !stairs
