@@ -46,6 +46,7 @@ STAGES: Final[tuple[str, ...]] = (
     "ground",
     "stairs",
     "climbing",
+    "terrain",
     "static_map",
     "guide",
 )

@@ -181,6 +181,7 @@ pub(crate) fn planner(
         let (config, climbing) = (table(tables, "a_star")?, table(tables, "climbing")?);
         let near = AStar::new(config, climbing, feet, size.radius)?;
         let sides = [size.depth, size.width].map(|m| m.unwrap_or(2.0 * size.radius));
+        let near = near.with_rules(table(tables, "terrain")?)?;
         Ok::<_, PilotError>(near.with_rectangle(sides))
     };
     let near = match settings.navigation.planner.as_str() {

@@ -1,11 +1,16 @@
 //! A* on a grid with eight neighbours, links between cells, and flat arrays; a diagonal step needs both of its corners free.
 
+pub mod links;
+pub(crate) mod neighbours;
+mod queue;
+pub(crate) mod steps;
+
 use std::f64::consts::SQRT_2;
 
-use crate::links::Links;
-use crate::neighbours::Cells;
-use crate::queue::{Entry, Queue};
-use crate::steps::ANYWHERE;
+use links::Links;
+use neighbours::Cells;
+use queue::{Entry, Queue};
+use steps::ANYWHERE;
 
 /// No cell before this one.
 const NONE: u32 = u32::MAX;

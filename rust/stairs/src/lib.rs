@@ -3,6 +3,7 @@
 
 mod climbing;
 mod config;
+mod edge_line;
 mod edges;
 mod frame;
 mod lines;
@@ -25,6 +26,7 @@ pub use config::{
     PlacesTuning, RefineTuning, SharedEdgesTuning, SidesTuning, StairsConfig, StairsTuning,
     TreadsTuning, ViewTuning, VisibilityTuning, WindowTuning,
 };
+pub use edge_line::EdgeLine;
 pub use edges::edge_model::{EdgeModel, FittedEdge, Untrusted};
 pub use recognizer::{Recognizer, StairsError};
 pub use stair::{Edge, EdgeFit, Sides, Stair, Staircase};

@@ -4,6 +4,7 @@ use geometry::{Map, Point, Pose, Robot};
 use nalgebra::{Point2, Vector2};
 
 use crate::PlacesTuning;
+use crate::edge_line::EdgeLine;
 use crate::lines::line::StraightLine;
 
 /// A straight edge of a level surface. Its ends are left and right for one who goes over it from front to back.
@@ -94,17 +95,13 @@ impl<F> Edge<F> {
     }
 
     /// How far a place lies beyond the edge, m; negative in front of it.
-    pub fn beyond_m(&self, [x_m, y_m]: [f64; 2]) -> f64 {
-        let (sin, cos) = self.heading_rad().sin_cos();
-        let middle = self.middle().inner;
-        (x_m - middle.x) * cos + (y_m - middle.y) * sin
+    pub fn beyond_m(&self, at_m: [f64; 2]) -> f64 {
+        EdgeLine::of(self).beyond_m(at_m)
     }
 
     /// How far to the left of the edge's middle a place lies, m.
-    pub fn aside_m(&self, [x_m, y_m]: [f64; 2]) -> f64 {
-        let (sin, cos) = self.heading_rad().sin_cos();
-        let middle = self.middle().inner;
-        (y_m - middle.y) * cos - (x_m - middle.x) * sin
+    pub fn aside_m(&self, at_m: [f64; 2]) -> f64 {
+        EdgeLine::of(self).offset_m(at_m)
     }
 
     /// Where one crosses its line who goes straight on from a place, square to it, m.
