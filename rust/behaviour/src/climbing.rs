@@ -35,7 +35,9 @@ pub(crate) mod simulation;
 #[cfg(test)]
 mod tests;
 
+use crate::part::{BehaviourNeeds, BehaviourPart};
 use settings::ConfigError;
+use settings::{MakeError, Part, read};
 use stairs::{ClimbingConfig, Feet};
 
 use crate::machine::{Interruption, Limits, Machine, State as _, Tick};
@@ -53,6 +55,36 @@ use state::Finish;
 pub(crate) use state::State;
 use stepper::Stepper;
 use walk::Ahead;
+
+/// How `stair_climbing` is listed and made.
+pub(crate) const STEP_BY_STEP: BehaviourPart = Part {
+    name: "stair_climbing",
+    about: "walks where it can, climbs where stairs lead on, both feet on each step",
+    source: Some("003, section V"),
+    tables: &[],
+    make: |needs| {
+        Ok(Box::new(StairClimbing::of(
+            needs,
+            "stair_climbing",
+            Pace::StepByStep,
+        )?))
+    },
+};
+
+/// How `continuous` is listed and made.
+pub(crate) const CONTINUOUS: BehaviourPart = Part {
+    name: "continuous",
+    about: "climbs one foot a step without stopping where the treads allow it",
+    source: Some("003, section VI, future work"),
+    tables: &[],
+    make: |needs| {
+        Ok(Box::new(StairClimbing::of(
+            needs,
+            "continuous",
+            Pace::Continuous,
+        )?))
+    },
+};
 
 /// How long a climb waits for what, and in what words it gives up.
 const LIMITS: Limits = Limits {
@@ -92,6 +124,17 @@ pub struct StairClimbing {
 }
 
 impl StairClimbing {
+    /// The behaviour that the table `[navigation.<name>]`, and those of walking and climbing, describe.
+    pub(crate) fn of(
+        needs: &BehaviourNeeds<'_>,
+        name: &str,
+        pace: Pace,
+    ) -> Result<Self, MakeError> {
+        let walking = WalkingBehaviour::of(needs)?;
+        let (config, climbing) = (read(needs.tables, name)?, read(needs.tables, "climbing")?);
+        Ok(Self::new(config, walking, climbing, needs.feet, pace)?)
+    }
+
     /// Refuses settings that cannot be used.
     pub fn new(
         config: StairClimbingConfig,

@@ -24,8 +24,10 @@ mod simulation;
 #[cfg(test)]
 mod tests;
 
+use crate::part::{BehaviourNeeds, BehaviourPart};
 use planning::Goal;
 use settings::ConfigError;
+use settings::{MakeError, Part, read};
 
 use crate::machine::{Interruption, Limits, Machine, State as _, Stopwatch, Tick};
 use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Situation};
@@ -37,6 +39,15 @@ use progress::Progress;
 pub(crate) use state::State;
 pub(crate) use track::Track;
 use unknown::Looked;
+
+/// How it is listed and made.
+pub(crate) const PART: BehaviourPart = Part {
+    name: "walking",
+    about: "walks the path, looks around, stops for what appears, refuses where no way is",
+    source: Some("000, section V"),
+    tables: &[],
+    make: |needs| Ok(Box::new(WalkingBehaviour::of(needs)?)),
+};
 
 /// Standing, looking and waiting without a step towards the goal ends after this, s.
 const LONGEST_IDLE_S: f64 = 75.0;
@@ -70,6 +81,11 @@ pub struct WalkingBehaviour {
 }
 
 impl WalkingBehaviour {
+    /// The behaviour that `[navigation.walking]` describes.
+    pub(crate) fn of(needs: &BehaviourNeeds<'_>) -> Result<Self, MakeError> {
+        Ok(Self::new(read(needs.tables, "walking")?)?)
+    }
+
     /// Refuses settings that cannot be used.
     pub fn new(config: WalkingConfig) -> Result<Self, ConfigError> {
         config.check()?;

@@ -39,24 +39,33 @@ pub struct Description {
     pub key: &'static str,
     /// What it is for.
     pub about: &'static str,
-    /// Its settings.
-    pub parameters: fn() -> Vec<Parameter>,
+    list: fn(&str) -> Vec<Parameter>,
 }
 
 impl Description {
     /// That of a table.
     pub const fn of<T: Table>() -> Self {
+        Self::at::<T>(T::KEY)
+    }
+
+    /// That of a table which stands at another key than its own.
+    pub const fn at<T: Table>(key: &'static str) -> Self {
         Self {
-            key: T::KEY,
+            key,
             about: T::ABOUT,
-            parameters: T::parameters,
+            list: defaults_of::<T>,
         }
+    }
+
+    /// Its settings.
+    pub fn parameters(&self) -> Vec<Parameter> {
+        (self.list)(self.key)
     }
 
     /// JSON schema of the table.
     pub fn schema(&self) -> Value {
         let mut schema = object(self.about);
-        for parameter in (self.parameters)() {
+        for parameter in self.parameters() {
             let below = &parameter.key[self.key.len() + 1..];
             let mut table = &mut schema;
             let mut names: Vec<_> = below.split('.').collect();
@@ -71,6 +80,10 @@ impl Description {
         }
         schema
     }
+}
+
+fn defaults_of<T: Table>(key: &str) -> Vec<Parameter> {
+    T::default().parameters_as(key)
 }
 
 fn object(about: &str) -> Value {

@@ -10,10 +10,12 @@ mod surfaces;
 mod tests;
 mod tuning;
 
+use crate::part::LocalizerPart;
 use geometry::{Map, PlanarPose, Pose, Robot};
 use mapping::FloorView;
 use segmentation::Planes;
 use settings::{ConfigError, Table};
+use settings::{Description, Part, read};
 
 pub use config::MatchingConfig;
 use heading_filter::HeadingFilter;
@@ -23,6 +25,25 @@ use profile::UprightBeam;
 use crate::localizer::{Estimate, Localizer, LocalizerError};
 use crate::odometry::{OdometryLocalizer, OdometryLocalizerConfig};
 use proprioception::BodyState;
+
+/// How it is listed and made.
+pub(crate) const PART: LocalizerPart = Part {
+    name: "matching",
+    about: "legs' odometry, its heading kept by upright surfaces that are seen again",
+    source: None,
+    tables: &[Description::of::<MatchingConfig>()],
+    make: |needs| {
+        let (odometry, config) = (
+            read(needs.tables, "odometry")?,
+            read(needs.tables, "matching")?,
+        );
+        Ok(Box::new(MatchingLocalizer::new(
+            needs.start_or_origin(),
+            odometry,
+            config,
+        )?))
+    },
+};
 
 /// Keeps places as [`OdometryLocalizer`] does, and corrects the heading: the upright surfaces of a frame are laid on those of earlier
 /// ones, and by how far they have to be turned, over the time between, the gyroscope's bias and the heading's error are known.

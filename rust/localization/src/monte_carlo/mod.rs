@@ -26,6 +26,8 @@ mod weights;
 #[cfg(test)]
 mod world;
 
+use crate::part::LocalizerPart;
+use settings::{Description, MakeError, Part, read};
 use std::sync::Arc;
 
 use geometry::{Map, Odometry, Pose, Robot};
@@ -46,6 +48,28 @@ use observation::SeenFrame;
 use proprioception::BodyState;
 use search::PlaceSearch;
 use tracking::Tracking;
+
+/// How it is listed and made.
+pub(crate) const PART: LocalizerPart = Part {
+    name: "monte_carlo",
+    about: "particles in six dimensions against a static map",
+    source: Some("Maier, Hornung and Bennewitz 2012 (002, section III.C)"),
+    tables: &[Description::of::<MonteCarloConfig>()],
+    make: |needs| {
+        let config = read(needs.tables, "monte_carlo")?;
+        let told = needs.known_map.ok_or_else(|| {
+            MakeError::Text(
+                "navigation.localizer: monte_carlo has to be told a static map".to_owned(),
+            )
+        })?;
+        let map = Arc::new(StaticMap::new(told, &config)?);
+        Ok(Box::new(MonteCarloLocalizer::new(
+            map,
+            needs.start,
+            config,
+        )?))
+    },
+};
 
 /// Monte Carlo localization in a static map: tracks from a start that is told, finds the place where none is, and finds it again
 /// where frames stop to fit.

@@ -2,16 +2,33 @@
 
 mod config;
 
+use crate::part::LocalizerPart;
 use geometry::{Map, Odometry, Pose, Robot};
 use mapping::{FloorView, Surface};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use segmentation::Planes;
 use settings::{ConfigError, Table};
+use settings::{Description, Part, read};
 
 use crate::localizer::{Estimate, Localizer, LocalizerError};
 use proprioception::BodyState;
 
 pub use config::OdometryLocalizerConfig;
+
+/// How it is listed and made.
+pub(crate) const PART: LocalizerPart = Part {
+    name: "odometry",
+    about: "legs' odometry from encoders, gyro and foot contact",
+    source: Some("000, section IV"),
+    tables: &[Description::of::<OdometryLocalizerConfig>()],
+    make: |needs| {
+        let config = read(needs.tables, "odometry")?;
+        Ok(Box::new(OdometryLocalizer::new(
+            needs.start_or_origin(),
+            config,
+        )?))
+    },
+};
 
 /// The localizer of section IV of 000: (x, y, yaw) by odometry, z_R filtered with Floor(x_R, y_R).
 #[derive(Debug, Clone)]

@@ -12,10 +12,12 @@ mod known_surfaces;
 mod local_columns;
 mod tuning;
 
+use crate::part::WorldModelPart;
 use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use known_map::{KnownMap, Limits, MapAround};
 use segmentation::Planes;
 use settings::ConfigError;
+use settings::{Description, Part, read};
 
 use crate::{FloorView, Fog, FogConfig, Insertion, MapError, Surface, Voxel, WorldModel};
 use beams::Ground;
@@ -27,6 +29,18 @@ pub use tuning::{BeamsTuning, EmptySightTuning, KnownSurfacesTuning, TwoMapsTuni
 use volume::Ray;
 use volume::octree::{Cast, Octree, Sighting, ViewLayers, probability};
 use volume::{Clearing, Update};
+
+/// How it is listed and made.
+pub(crate) const PART: WorldModelPart = Part {
+    name: "octree",
+    about: "a static map that is told and a local one of what is seen, octrees",
+    source: Some("Maier, Hornung and Bennewitz 2012 (002)"),
+    tables: &[Description::of::<TwoMapsConfig>()],
+    make: |needs| {
+        let (config, fog) = (read(needs.tables, "octree")?, read(needs.tables, "fog")?);
+        Ok(Box::new(TwoMaps::new(config, &fog, needs.known_map)?))
+    },
+};
 
 /// Keeps the static and the local map, the floors, and the view made of them.
 #[derive(Debug, Clone)]
