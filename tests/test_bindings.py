@@ -87,7 +87,7 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
         ({"localizer": "truth"}, r"navigation\.localizer must be one of odometry, .*, got truth"),
         (
             {"localizer": "matching", "matching": {"offset": 0}},
-            r"navigation\.matching\.offset must be finite and > 0, got 0",
+            r"navigation\.matching\.offset must be > 0, got 0",
         ),
         (
             {"behaviour": "x"},
