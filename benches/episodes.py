@@ -1,4 +1,4 @@
-"""Many episodes of some scenarios, random seeds, every noise on: the counts in docs/results.md.
+"""Many episodes of some scenarios, random seeds, every noise on: the counts in docs/results.
 
 python benches/episodes.py slalom doorway --seeds 100-119 --workers 2
 """
@@ -14,11 +14,12 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
+from into_results import add_options, write
 
 from treadwell.episode import Episode
 from treadwell.errors import TreadwellError
 from treadwell.experiments.stairs import steps_row
-from treadwell.judging.step_watch import StepError, StepWatch
+from treadwell.measuring.step_watch import StepError, StepWatch
 from treadwell.physics.audit import replay_audit
 
 
@@ -132,6 +133,22 @@ def summary(scenario: str, runs: list[Run]) -> str:
     )
 
 
+def results_row(scenario: str, runs: list[Run], *, audited: bool) -> dict[str, object]:
+    """Return the row of a scenario in docs/results."""
+    measured = {
+        "passed": f"{sum(one.passed() for one in runs)} of {len(runs)}",
+        "falls": str(sum(one.falls for one in runs)),
+        "collisions": str(sum(len(one.collisions) for one in runs)),
+        "simulated time, median": f"{np.median([one.simulated_s for one in runs]):.1f} s",
+        "odometry at the end, median": (
+            f"{100 * np.median([one.odometry_error_m for one in runs]):.1f} cm"
+        ),
+    }
+    if audited:
+        measured["audits that are the same"] = str(sum(one.audit == "same" for one in runs))
+    return {"what": f"`{scenario}`", "measured": measured}
+
+
 def word(one: Run) -> str:
     """Return how a run ended: the outcome, or the word of the reason behind it."""
     reason = (one.reason or "").partition(":")[0]
@@ -157,6 +174,7 @@ def main() -> None:
     parser.add_argument("--set", action="append", default=[], dest="overrides")
     parser.add_argument("--audit", action="store_true", help="step every run again in plain MuJoCo")
     parser.add_argument("--json", type=Path)
+    add_options(parser)
     options = parser.parse_args()
     jobs = [
         (scenario, seed, tuple(options.overrides), options.audit)
@@ -179,6 +197,11 @@ def main() -> None:
     for scenario in options.scenarios:
         sys.stdout.write(summary(scenario, [one for one in runs if one.scenario == scenario]))
     sys.stdout.write(timing(runs))
+    rows = [
+        results_row(name, [one for one in runs if one.scenario == name], audited=options.audit)
+        for name in options.scenarios
+    ]
+    write(options, "Passed", options.seeds, rows)
     if options.json:
         options.json.write_text(json.dumps([asdict(one) for one in runs], indent=1))
 

@@ -21,13 +21,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from into_results import add_options, write
 
 from treadwell._core import Octree
-from treadwell.course.assets import build_files
-from treadwell.course.xml import check_xml
 from treadwell.data import data_folder
 from treadwell.errors import InputError, TreadwellError
 from treadwell.judging.result import read_result
+from treadwell.mjcf.build import build_files
+from treadwell.mjcf.xml import check_xml
 from treadwell.recording.file import whole_length
 from treadwell.recording.observation_log import read_answers, read_observations
 from treadwell.recording.trajectory import read_trajectory
@@ -180,7 +181,7 @@ def contained(good: Path, seed: int, number: int) -> str:
         if READERS[kind][1] not in (_world, _mesh):
             return f"FAULT crashed or hung ({kind})"
         try:
-            limited("build", [str(path), "x"], "x")
+            limited(build_files, [str(path), "x"], "x")
         except InputError:
             return "contained"
         return "FAULT crashed, and was taken in the child"
@@ -232,6 +233,7 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--keep", type=Path)
+    add_options(parser)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         good = Path(folder)
@@ -241,6 +243,9 @@ def main() -> int:
         print(f"{kind:12s} {came:10s} {times}")
     faults = sum(times for (_, came), times in found.items() if came == "FAULT")
     print(f"{options.count} files, {faults} faults")
+    found_none = f"{faults} in {options.count:,}"
+    rows = [{"what": "traceback, hang or false success", "measured": found_none}]
+    write(options, "Hostile files, generated", [options.seed], rows)
     return 1 if faults else 0
 
 

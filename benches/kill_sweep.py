@@ -14,6 +14,8 @@ import time
 from pathlib import Path
 from typing import Any
 
+from into_results import add_options, write
+
 SHORT = """
 schema = 1
 name = "short"
@@ -73,6 +75,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--kills", type=int, default=50)
     parser.add_argument("--episodes", type=int, default=120)
+    add_options(parser)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         scenario = Path(folder) / "short.toml"
@@ -90,6 +93,9 @@ def main() -> None:
         f"killed {killed} times: {len(document['episodes'])} of {options.episodes} episodes, "
         f"{len(lost)} lost, {doubled} doubled\n"
     )
+    done = f"{len(lost)} / {doubled} of {options.episodes}, killed {killed} times"
+    rows = [{"what": "episodes lost / doubled", "measured": done}]
+    write(options, "Kill -9 at random times", None, rows)
     sys.exit(bool(lost or doubled))
 
 

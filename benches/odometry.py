@@ -13,6 +13,8 @@ from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 from episodes import seeds
+from into_results import add_options, write
+from numpy.typing import NDArray
 
 from treadwell.episode import Episode
 from treadwell.protocols import Decision
@@ -40,7 +42,7 @@ class Walk:
         if there and self.done_at == math.inf:
             self.done_at = time
         walking = time > STANDING_S and self.done_at == math.inf
-        return Decision("walk", self.velocity if walking else None, (0.0, 0.7))
+        return Decision("walk", self.velocity if walking else None, gaze=(0.0, 0.7))
 
 
 TASKS = {
@@ -74,7 +76,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seeds", type=seeds, default=list(range(20)))
     parser.add_argument("--workers", type=int, default=2)
+    add_options(parser)
     options = parser.parse_args()
+    rows: list[dict[str, object]] = []
     with ProcessPoolExecutor(options.workers) as pool:
         for task in TASKS:
             errors = np.array(list(pool.map(run, [(task, seed) for seed in options.seeds])))
@@ -85,6 +89,16 @@ def main() -> None:
                 f"{np.median(degrees):.2f} and {np.percentile(degrees, 95):.2f} degrees\n"
             )
             sys.stdout.flush()
+            measured = {
+                "position, median / 95 %": _two(metres, "cm"),
+                "heading, median / 95 %": _two(degrees, "degrees"),
+            }
+            rows.append({"what": task, "measured": measured})
+    write(options, "Leg odometry", options.seeds, rows)
+
+
+def _two(errors: NDArray[np.float64], unit: str) -> str:
+    return f"{np.median(errors):.2f} / {np.percentile(errors, 95):.2f} {unit}"
 
 
 if __name__ == "__main__":

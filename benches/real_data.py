@@ -14,12 +14,14 @@ from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
+from into_results import add_options, write
 from numpy.typing import NDArray
+from real_data_cells import results_table
 from real_frames import RealFrame, labelled_table, room, simulated_scan, through_stereo
 
 from treadwell._core import Planes, Segmenter
 from treadwell.components import COMPONENTS
-from treadwell.judging.regions import RegionCounts, compare_regions
+from treadwell.measuring.regions import RegionCounts, compare_regions
 from treadwell.senses.depth import Pinhole
 
 Floats = NDArray[np.float64]
@@ -284,13 +286,19 @@ def fit_of(frame: RealFrame, planes: Planes) -> dict[str, float]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--data", type=Path, default=os.environ.get("TREADWELL_DATA"))
-    data = parser.parse_args().data
+    add_options(parser, table=False)
+    options = parser.parse_args()
+    data = options.data
     if data is None:
         parser.error("say where the data are: --data FOLDER or TREADWELL_DATA")
     for rows in (table_rows, scan_rows, room_rows):
+        found = []
         for row in rows(Path(data)):
             shown = {k: round(v, 3) if isinstance(v, float) else v for k, v in row.items()}
             print(json.dumps(shown), flush=True)
+            found.append(row)
+        title, table = results_table(found)
+        write(options, title, None, table, "TREADWELL_DATA=FOLDER python benches/real_data.py")
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
+from into_results import add_options, write
 
 import treadwell
 from treadwell._core import Pilot
@@ -110,12 +111,24 @@ def seam_ms(slot: str, seconds: float) -> dict[str, Any]:
     }
 
 
+def results_row(row: dict[str, Any]) -> dict[str, Any]:
+    """The row of a slot in docs/results."""
+    measured = {
+        "a tick, mean": f"{row['a_tick']:.3f} ms",
+        "a call, median": f"{row['median']:.3f} ms",
+        "a call, 99 of 100": f"{row['p99']:.3f} ms",
+    }
+    return {"what": row["slot"], "measured": measured}
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=20.0, help="simulated, for each slot")
     parser.add_argument("--json", action="store_true")
+    add_options(parser)
     asked = parser.parse_args()
     rows = [seam_ms(slot, asked.seconds) for slot in PARTS]
+    write(asked, "What a part in Python costs", None, [results_row(row) for row in rows])
     if asked.json:
         print(json.dumps({"unit": "ms", "seam": rows}))
         return

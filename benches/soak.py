@@ -18,6 +18,8 @@ import time
 from pathlib import Path
 from statistics import fmean
 
+from into_results import add_options, write
+
 from treadwell.runner import run
 
 SCENARIOS = ("slalom", "stairs_up", "visitor_nao")
@@ -38,6 +40,7 @@ def main() -> int:
     parser.add_argument("--scenarios", nargs="+", default=SCENARIOS)
     parser.add_argument("--first-seed", type=int, default=0)
     parser.add_argument("--allowed", type=float, default=10.0, help="growth, MB")
+    add_options(parser)
     arguments = parser.parse_args()
     simulated_s, seed = 0.0, arguments.first_seed
     begin, wanted_s = time.perf_counter(), 3600.0 * arguments.hours
@@ -60,6 +63,15 @@ def main() -> int:
     wall_s = round(time.perf_counter() - begin)
     rounded = {name: round(value, 2) for name, value in grown_mb.items()}
     print(json.dumps({"grown_mb": rounded, "most_mb": max(late), "wall_s": wall_s}))
+    rows = [
+        {
+            "what": f"{name} of a tenth of the time, second / last",
+            "measured": f"{of(early):.1f} / {of(late):.1f} MB",
+        }
+        for name, of in (("mean", fmean), ("least", min))
+    ]
+    title = f"Memory over {arguments.hours:g} hours of simulated time in one process"
+    write(arguments, title, range(arguments.first_seed, seed), rows)
     return int(max(grown_mb.values()) > arguments.allowed)
 
 

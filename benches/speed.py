@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 from episodes import seeds
+from into_results import add_options, write
 
 from treadwell.runner import run
 
@@ -40,7 +41,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--scenario", default="slalom")
     parser.add_argument("--seeds", type=seeds, default=list(range(5)))
+    add_options(parser)
     options = parser.parse_args()
+    rows: list[dict[str, str]] = []
     os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
     import rerun  # noqa: F401
 
@@ -68,6 +71,17 @@ def main() -> None:
             f"of the wall time, segmentation and map {np.median(both):.2f} ms a frame\n"
         )
         sys.stdout.flush()
+        times = f"{np.median(factors):.1f} times real time"
+        spread = f"{min(factors):.1f} to {max(factors):.1f}"
+        by_processor = f"{np.median(processor):.1f} by processor time"
+        rows.append(
+            {"what": f"{title} recording", "measured": f"{times} ({spread}), {by_processor}"}
+        )
+        if not record:
+            share = f"{100 * np.median(shares):.0f} %"
+            what = "share of the core, walking included, in the wall time"
+            rows.append({"what": what, "measured": share})
+    write(options, f"Whole runs of `{options.scenario}` on one core", options.seeds, rows)
 
 
 if __name__ == "__main__":

@@ -18,11 +18,12 @@ from pathlib import Path
 
 import numpy as np
 from episodes import seeds
+from into_results import add_options, write
 from numpy.typing import NDArray
 
 from treadwell._core import Situation
 from treadwell.episode import Episode
-from treadwell.judging.step_watch import EDGE_M, HEADING_RAD, HEIGHT_M
+from treadwell.measuring.step_watch import EDGE_M, HEADING_RAD, HEIGHT_M
 from treadwell.protocols import Decision
 
 Floats = NDArray[np.float64]
@@ -163,15 +164,21 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("places", nargs="+", choices=["up", "down", "sill"])
     parser.add_argument("--seeds", type=seeds, default=list(range(20)))
+    add_options(parser)
     options = parser.parse_args()
+    rows: list[dict[str, object]] = []
     for kind in options.places:
         outcomes = [run(kind, seed) for seed in options.seeds]
         errors = np.array([outcome for outcome in outcomes if outcome is not None])
+        measured = {"found": f"{len(errors)} of {len(outcomes)}"}
+        measured |= {"errors": row(errors)} if len(errors) else {}
+        rows.append({"what": f"`{kind}`", "measured": measured})
         if not len(errors):
             sys.stdout.write(f"{kind:<5} found 0 of {len(outcomes)}\n")
             continue
         sys.stdout.write(f"{kind:<5} found {len(errors)} of {len(outcomes)}: {row(errors)}\n")
         sys.stdout.flush()
+    write(options, "The first step as it is known from before it", options.seeds, rows)
 
 
 if __name__ == "__main__":

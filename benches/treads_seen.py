@@ -21,8 +21,8 @@ from tread_shares import HEAD, Seen, join
 from treadwell._core import BodyState, FloorView, Planes, Situation
 from treadwell.course.stairs import treads_of
 from treadwell.episode import Episode
-from treadwell.judging.ground_truth import pose_matrix
 from treadwell.physics.simulation import Start
+from treadwell.poses import pose_matrix
 from treadwell.protocols import Decision, Pose
 from treadwell.scenario.elements import Stairs
 from treadwell.senses.depth import Cast, DepthCamera

@@ -1,12 +1,13 @@
-"""Whether a change leaves every run as it was, to the last bit: the proof of a change that only moves code.
+"""Whether a change leaves every run as it was, to the last bit: for changes that only move code.
 
-    python benches/unchanged.py record FOLDER     # at the commit before: 12 scenarios x 2 seeds, and a short run of each other part
-    python benches/unchanged.py check FOLDER      # at any later commit: 0 where nothing changed, 1 with run and tick where two part
+    python benches/unchanged.py record FOLDER     # at the commit before
+    python benches/unchanged.py check FOLDER      # at any later one: 0 where nothing changed
 
-`check` replays each recording and compares every joint target and every belief; then it runs each scenario
-again and compares both trajectories, the map, `physics.npz` and `result.json` but for `configuration`,
-`version` and times. `--replay-only` leaves the second half out, `--only NAME` takes the runs whose name has
-NAME in it. The recordings take 600 MB and are not committed.
+`record` keeps 12 scenarios x 2 seeds, and a short run of each part that none of them names (600 MB,
+not committed). `check` replays each recording and compares every joint target and every belief;
+then it runs each scenario again and compares both trajectories, the map, `physics.npz` and
+`result.json` but for `configuration`, `version` and times. It names run and tick where two part.
+`--replay-only` leaves the second half out, `--only NAME` takes the runs whose name has NAME in it.
 """
 
 import argparse

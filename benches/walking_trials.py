@@ -24,6 +24,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 from climbing import Errors, elements
+from into_results import add_options, write
 from numpy.typing import NDArray
 from walking_tasks import COURSES, EDGES, TASKS, Job, Motion, climb, told
 
@@ -223,6 +224,12 @@ def summary(task: str, trials: list[Trial]) -> dict[str, object]:
     }
 
 
+def results_row(result: dict[str, object]) -> dict[str, object]:
+    """Return the row of a task in docs/results."""
+    measured = {"falls": f"{result['falls']} of {result['trials']}", "steps": str(result["steps"])}
+    return {"what": f"`{result['task']}`", "measured": measured}
+
+
 def main() -> int:
     """Run the trials of a task and print what came out."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -244,6 +251,7 @@ def main() -> int:
     parser.add_argument("--head-weight", type=float, default=0.0, help="more on the head, kg")
     parser.add_argument("--gait", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--json", type=Path, help="file for all trials")
+    add_options(parser)
     arguments = parser.parse_args()
     gait = {key: float(value) for key, value in (item.split("=") for item in arguments.gait)}
     first = Job(
@@ -277,6 +285,12 @@ def main() -> int:
         json.dump(result, sys.stdout)
         print(flush=True)
         results.append(result | {"each": [asdict(trial) for trial in trials]})
+    write(
+        arguments,
+        f"Falls: {', '.join(arguments.task)}",
+        range(arguments.first_seed, arguments.first_seed + arguments.trials),
+        [results_row(result) for result in results],
+    )
     if arguments.json:
         arguments.json.write_text(json.dumps(results, indent=1), encoding="utf-8")
     return 0

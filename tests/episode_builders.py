@@ -10,16 +10,17 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from treadwell.course.build import Course, build_course
-from treadwell.judging.map_memory import RememberedMap
+from treadwell.course.build import build_course
+from treadwell.course.course import Course
 from treadwell.judging.result import Result
+from treadwell.map_memory import RememberedMap
 from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import Simulation, Start
 from treadwell.poses import pose_matrix
-from treadwell.recording.trace import StairTrace, Trace
 from treadwell.robot.load import Robot, load_robot
 from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
+from treadwell.trace import StairTrace, Trace
 
 STEP = """
 [[course]]

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 import treadwell
-from treadwell.additions import additions, class_of, installed
+from treadwell.additions import additions, class_of, installed, is_component, known
 from treadwell.cli.app import execute
-from treadwell.components import COMPONENTS, is_component, known
+from treadwell.components import COMPONENTS
 from treadwell.errors import InputError
 from treadwell.scenario.loading import load_scenario
 

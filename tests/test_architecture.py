@@ -1,17 +1,23 @@
-"""The house rules that one would else have to trust: crate order, file length, tests."""
+"""The house rules that one would else have to trust: order of floors, file length, tests."""
 
 import re
 import tomllib
+from functools import cache
 from pathlib import Path
 
 import pytest
+from import_graph import ROOT as DOOR
+from import_graph import between_floors, circle, floor_of, imports, modules
 
 ROOT = Path(__file__).resolve().parent.parent
+PACKAGE = ROOT / "python" / "treadwell"
 LONGEST_FILE = 400
 # Tested through what uses them, by the test named.
 TESTED_BY = {
     "cli.verify": "test_difference.py",
+    "progress": "test_cli.py",
     "protocols": "test_components.py",
+    "version": "test_bindings.py",
     "cli.compare": "test_comparison.py",
     "comparing.tables": "test_comparison.py",
     "cli.options": "test_cli.py",
@@ -26,10 +32,11 @@ TESTED_BY = {
     "course.pieces": "test_course.py",
     "recording.products": "test_recording.py",
     "recording.stair_shapes": "test_recording.py",
+    "reporting.data_uri": "test_reporting.py",
     "sweeps.folder": "test_sweeps.py",
     "sweeps.job": "test_sweeps.py",
     "sweeps.summary": "test_sweeps.py",
-    "judging.climb_line": "test_solvable.py",
+    "solving.climb_line": "test_solvable.py",
     "robot.stance": "test_robot_template.py",
     "scenario.messages": "test_scenario.py",
     "scenario.types": "test_scenario.py",
@@ -40,6 +47,20 @@ TESTED_BY = {
 def members() -> list[str]:
     workspace = tomllib.loads((ROOT / "Cargo.toml").read_text())["workspace"]
     return [Path(member).name for member in workspace["members"]]
+
+
+@cache
+def harness() -> dict[str, set[str]]:
+    return imports(PACKAGE)
+
+
+def floors() -> list[list[str]]:
+    """The rows of ARCHITECTURE.md's table of the harness, from the ground up."""
+    page = (ROOT / "ARCHITECTURE.md").read_text()
+    _, _, section = page.partition("## The harness: `python/treadwell/`\n")
+    table = section.partition("\n## ")[0]
+    rows = [line.split("|")[1] for line in table.splitlines() if line.startswith("| `")]
+    return [re.findall(r"`([^`]+)`", row) for row in rows]
 
 
 def sources(pattern: str, *folders: str) -> list[Path]:
@@ -70,6 +91,51 @@ def test_a_crate_is_named_like_its_folder_and_declares_only_what_it_uses(crate: 
     assert not unused, f"{crate} declares {unused} and does not use them"
 
 
+def test_what_stands_in_the_harness_stands_in_its_table_once() -> None:
+    listed = sorted(name for row in floors() for name in row)
+    there = {floor_of(name) for name in modules(PACKAGE)}
+    assert listed == sorted(f"{name}/" if (PACKAGE / name).is_dir() else name for name in there)
+
+
+@pytest.mark.parametrize("row", range(len(floors())))
+def test_a_floor_imports_only_from_itself_and_the_floors_above_it_in_the_table(row: int) -> None:
+    order = [[name.removesuffix("/") for name in names] for names in floors()]
+    allowed = {name for names in order[: row + 1] for name in names}
+    graph = harness()
+    wrong = [
+        f"{name} imports {found}"
+        for name in graph
+        if floor_of(name) in order[row]
+        for found in sorted(graph[name])
+        if floor_of(found) not in allowed
+    ]
+    assert not wrong, f"on a higher floor stands what is imported: {wrong}"
+
+
+def test_no_import_goes_in_a_circle() -> None:
+    graph = harness()
+    assert not circle(between_floors(graph))
+    assert not circle(graph)
+
+
+def test_imports_are_found_wherever_they_stand(tmp_path: Path) -> None:
+    (tmp_path / "inner").mkdir()
+    for name in ("__init__", "low", "inner/__init__", "inner/deep", "typed", "late"):
+        (tmp_path / f"{name}.py").write_text("")
+    (tmp_path / "high.py").write_text(
+        "import os\nfrom treadwell import low\nfrom treadwell._core import Pilot\n"
+        "if TYPE_CHECKING:\n    from treadwell.typed import Thing\n"
+        "def f():\n    import treadwell\n    import_module('treadwell.late:main')\n"
+        "    from treadwell.inner.deep import X\n"
+    )
+    graph = imports(tmp_path)
+    assert graph["high"] == {DOOR, "low", "typed", "late", "inner.deep"}
+    assert between_floors(graph)["high"] == {DOOR, "low", "typed", "late", "inner"}
+    assert not circle(graph)
+    (tmp_path / "inner" / "deep.py").write_text("def g():\n    import treadwell.high\n")
+    assert set(circle(imports(tmp_path))) == {"high", "inner.deep"}
+
+
 def test_no_source_file_is_longer_than_the_limit() -> None:
     files = sources("*.rs", "rust") + sources("*.py", "python", "tests", "benches")
     lengths = {path.relative_to(ROOT): len(path.read_text().splitlines()) for path in files}
@@ -88,11 +154,10 @@ def test_every_python_module_has_a_test() -> None:
     texts = "\n".join(path.read_text() for path in (ROOT / "tests").glob("test_*.py"))
     assert set(TESTED_BY.values()) <= tests
     untested = []
-    package = ROOT / "python" / "treadwell"
-    for path in sorted(package.rglob("*.py")):
+    for path in sorted(PACKAGE.rglob("*.py")):
         if path.stem == "__init__" or "__pycache__" in path.parts:
             continue
-        name = ".".join(path.relative_to(package).with_suffix("").parts)
+        name = ".".join(path.relative_to(PACKAGE).with_suffix("").parts)
         parent, _, leaf = name.rpartition(".")
         imported = re.search(
             rf"treadwell\.{re.escape(name)}\b|from treadwell\.?{parent} import .*\b{leaf}\b", texts
@@ -113,11 +178,11 @@ def test_every_rust_crate_has_tests_beside_its_code() -> None:
 
 def test_the_senses_and_the_core_cannot_read_the_truth() -> None:
     """What runs before the core's tick imports no judge, and the core knows no simulator."""
-    package = ROOT / "python" / "treadwell"
-    before = [package / "observation.py", package / "protocols.py"]
-    before += sorted((package / "senses").glob("*.py")) + sorted((package / "physics").glob("*.py"))
+    before = [PACKAGE / "observation.py", PACKAGE / "protocols.py"]
+    before += sorted((PACKAGE / "senses").glob("*.py")) + sorted((PACKAGE / "physics").glob("*.py"))
     assert len(before) > 6
+    truth = r"treadwell\.(judging|measuring|solving|recording|trace)\b"
     for path in before:
-        assert not re.search(r"treadwell\.(judging|recording)", path.read_text()), path.name
+        assert not re.search(truth, path.read_text()), path.name
     core = "\n".join(path.read_text() for path in (ROOT / "rust").rglob("*.rs"))
     assert "mujoco" not in core.lower().replace("mujoco's quaternions", "")

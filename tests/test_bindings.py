@@ -40,8 +40,8 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
 @pytest.mark.parametrize(
     ("navigation", "message"),
     [
-        ({"fog": {"cell": 0}}, r"navigation\.fog\.cell must be > 0, got 0"),
-        ({"fog": {"cell": -0.04}}, r"navigation\.fog\.cell must be > 0, got -0\.04"),
+        ({"fog": {"cell": 0}}, r"navigation\.fog\.cell must be from 0\.001 to 10, got 0"),
+        ({"fog": {"cell": -0.04}}, r"navigation\.fog\.cell must be from 0\.001 to 10, got -"),
         ({"fog": {"sell": 0.04}}, r"navigation\.fog\.sell: unknown field `sell`"),
         ({"fog": {"cell": "wide"}}, r"navigation\.fog\.cell: .*wide"),
         ({"scan_line": {"no": 1}}, r"navigation\.scan_line\.no: unknown field `no`"),

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from episode_builders import trace, world
 
-from treadwell.judging.ceiling_watch import CeilingErrors, CeilingWatch
-from treadwell.judging.map_memory import FLOOR, OBSTACLE
-from treadwell.judging.watch import Watch
+from treadwell.map_memory import FLOOR, OBSTACLE
+from treadwell.measuring.ceiling_watch import CeilingErrors, CeilingWatch
+from treadwell.measuring.watch import Watch
 
 WORLD = world("""
 [[course]]

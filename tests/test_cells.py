@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from episode_builders import BOX, trace, world
 
-from treadwell.judging.cells import covered_by, lattice
+from treadwell.measuring.cells import covered_by, lattice
 
 WORLD = world(BOX)
 

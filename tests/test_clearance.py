@@ -7,7 +7,7 @@ import pytest
 
 from treadwell._core import swept_clearance
 from treadwell.course.build import build_course
-from treadwell.judging.clearance import least_clearance
+from treadwell.measuring.clearance import least_clearance
 from treadwell.robot.load import load_robot
 from treadwell.scenario.loading import load_scenario
 

@@ -15,7 +15,7 @@ from treadwell.cli.app import execute
 from treadwell.cli.check import checked
 from treadwell.cli.list import listed
 from treadwell.cli.output import guarded
-from treadwell.cli.progress import Progress, line
+from treadwell.cli.progress import ProgressLine, line
 from treadwell.components import COMPONENTS
 from treadwell.errors import InputError, TreadwellError
 from treadwell.scenario.loading import scenario_names
@@ -206,7 +206,7 @@ def test_progress_without_a_terminal_writes_a_line_at_times_and_changes(
 ) -> None:
     stream = io.StringIO()
     monkeypatch.setattr(sys, "stderr", stream)
-    with Progress("slalom") as progress:
+    with ProgressLine("slalom") as progress:
         for tick in range(1000):
             progress.update(tick * 0.01, "walk" if tick < 300 else "search", 2.0, 8.0)
     lines = stream.getvalue().splitlines()
@@ -218,7 +218,7 @@ def test_progress_without_a_terminal_writes_a_line_at_times_and_changes(
 def test_progress_on_a_terminal_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
     stream = io.StringIO()
     monkeypatch.setattr(sys, "stderr", stream)
-    with Progress("slalom", terminal=True) as progress:
+    with ProgressLine("slalom", terminal=True) as progress:
         progress.update(1.0, "walk", 2.0, 8.0)
     assert "\n" not in stream.getvalue().strip()
     assert "2.00 m to the goal" in line(1.0, "walk", 2.0, 8.0)

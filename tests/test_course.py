@@ -12,13 +12,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from treadwell.course.assets import read_mjcf
-from treadwell.course.build import Course, build_course
+from treadwell.course.build import build_course
+from treadwell.course.course import Course
 from treadwell.course.geometry import COLOURS, GROUND, PARKED
 from treadwell.course.outlines import rectangle, signed_distance
 from treadwell.course.plan import all_elements
 from treadwell.course.scatter import LOWEST, Ground
 from treadwell.course.stairs import stairs_pieces, treads_of
-from treadwell.course.xml import check_xml
 from treadwell.errors import InputError
 from treadwell.robot.load import load_robot
 from treadwell.scenario.elements import ELEMENTS, Stairs
@@ -365,10 +365,3 @@ def test_a_broken_mjcf_world_is_named_with_its_scenario_file(tmp_path: Path) -> 
     )
     with pytest.raises(InputError, match=r"own\.toml: course\.mjcf\.file: room\.xml: unclosed"):
         build_course(load_scenario(path), ROBOT)
-
-
-def test_entities_are_refused_before_they_grow(tmp_path: Path) -> None:
-    path = tmp_path / "room.xml"
-    path.write_text('<!DOCTYPE a [<!ENTITY b "c">]><mujoco>&b;</mujoco>')
-    with pytest.raises(InputError, match="DOCTYPE"):
-        check_xml(path, tmp_path, "room")

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from episode_builders import World, trace, world
 
-from treadwell.judging.element_watch import ElementCells, ElementWatch
-from treadwell.judging.map_memory import FLOOR, OBSTACLE
-from treadwell.judging.watch import Watch
+from treadwell.map_memory import FLOOR, OBSTACLE
+from treadwell.measuring.element_watch import ElementCells, ElementWatch
+from treadwell.measuring.watch import Watch
 
 COURSE = """
 [[course]]

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
-from treadwell.course.build import Course, build_course
+from treadwell.course.build import build_course
+from treadwell.course.course import Course
 from treadwell.course.events import PUSH_SECONDS, Events
 from treadwell.course.geometry import PARKED
 from treadwell.physics.audit import replay_audit

@@ -20,7 +20,7 @@ from treadwell.experiments.experiment import NOTHING, Case, Experiment, Table, m
 from treadwell.experiments.stairs import PHASES, STAIRS, phase_seconds, stairs_tables
 from treadwell.experiments.stairs_cases import CLAIMS
 from treadwell.judging.result import Result, StateEntry
-from treadwell.judging.step_watch import KnownTop, StepError
+from treadwell.measuring.step_watch import KnownTop, StepError
 from treadwell.runner import Run
 from treadwell.scenario.elements import Stairs
 from treadwell.scenario.loading import load_scenario, scenario_names

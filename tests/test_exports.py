@@ -31,8 +31,8 @@ from treadwell.exports.mcap import NAME as MCAP
 from treadwell.exports.ply import height_mesh
 from treadwell.exports.recorded_points import seen_points
 from treadwell.exports.tum import export_tum
-from treadwell.judging.map_memory import FLOOR, OBSTACLE
 from treadwell.judging.result import read_result
+from treadwell.map_memory import FLOOR, OBSTACLE
 from treadwell.recording.map_file import read_map, write_map
 from treadwell.recording.observation_log import read_observations
 from treadwell.recording.trajectory import read_trajectory

@@ -6,7 +6,7 @@ from experiment_builders import rows_of, watched
 
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.fog import fog_tables
-from treadwell.judging.pose_watch import PoseErrors
+from treadwell.measuring.pose_watch import PoseErrors
 
 
 def test_the_heights_drift_is_the_largest_of_each_run() -> None:

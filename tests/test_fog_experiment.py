@@ -13,10 +13,10 @@ from treadwell.core_settings import MAPPED
 from treadwell.episode import Episode
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.fog import FOG, fog_tables
-from treadwell.judging.map_memory import RememberedMap
-from treadwell.judging.map_watch import MapFrame, MapHistory
-from treadwell.judging.regions import RegionCounts
 from treadwell.judging.result import MapCounts, SurfaceEntry
+from treadwell.map_memory import RememberedMap
+from treadwell.measuring.map_watch import MapFrame, MapHistory
+from treadwell.measuring.regions import RegionCounts
 from treadwell.runner import Run, run_episode
 
 

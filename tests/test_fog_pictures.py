@@ -9,7 +9,7 @@ from episode_builders import grid, result, scenario
 from treadwell.errors import RecordingError
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.fog_pictures import draw_panels, fog_pictures
-from treadwell.judging.map_memory import FLOOR, RememberedMap
+from treadwell.map_memory import FLOOR, RememberedMap
 from treadwell.runner import Run
 
 BOUNDS = (0.0, 1.0, -0.5, 0.5)

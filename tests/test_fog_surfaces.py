@@ -9,8 +9,8 @@ from experiment_builders import MADE, rows_of, watched
 
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.fog import fog_tables
-from treadwell.judging.ceiling_watch import CeilingErrors
-from treadwell.judging.element_watch import ElementCells
+from treadwell.measuring.ceiling_watch import CeilingErrors
+from treadwell.measuring.element_watch import ElementCells
 from treadwell.runner import Run
 from treadwell.scenario.loading import load_scenario
 

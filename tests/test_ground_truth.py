@@ -8,8 +8,9 @@ from episode_builders import qrio, world
 from hypothesis import given
 from hypothesis import strategies as st
 
-from treadwell.judging.ground_truth import GroundTruth, Sole, wrapped
+from treadwell.judging.ground_truth import GroundTruth, wrapped
 from treadwell.poses import pose_matrix
+from treadwell.trace import Sole
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.7, -2.5, math.pi])

@@ -13,6 +13,7 @@ from treadwell._core import Octree
 from treadwell.cli.app import execute
 from treadwell.errors import TreadwellError
 from treadwell.limited import Limits, limited
+from treadwell.mjcf.build import build_files
 from treadwell.recording.observation_log import NAME
 from treadwell.recording.verification import verify_run
 
@@ -198,10 +199,10 @@ def test_a_child_that_goes_on_and_on_is_ended(tmp_path: Path) -> None:
     files.world(inside)(path)
     watch = Watch()
     with pytest.raises(TreadwellError, match="this: cannot be read within 1 s"):
-        limited("build", [str(path), "this"], "this", Limits(cpu_seconds=1))
+        limited(build_files, [str(path), "this"], "this", Limits(cpu_seconds=1))
     watch.check()
     with pytest.raises(TreadwellError, match="takes too long"):
-        limited("build", [str(path), "this"], "this", Limits(deadline_seconds=0.2))
+        limited(build_files, [str(path), "this"], "this", Limits(deadline_seconds=0.2))
 
 
 def test_a_child_that_takes_all_memory_is_ended(tmp_path: Path) -> None:
@@ -209,7 +210,7 @@ def test_a_child_that_takes_all_memory_is_ended(tmp_path: Path) -> None:
     files.model("<size memory='3G'/><worldbody><geom size='1'/></worldbody>")(path)
     limits = Limits(memory_bytes=2 << 30)
     with pytest.raises(TreadwellError, match=r"x\.xml"):
-        limited("build", [str(path), str(path)], str(path), limits)
+        limited(build_files, [str(path), str(path)], str(path), limits)
 
 
 def test_two_hundred_files_are_made_by_hand() -> None:

@@ -9,7 +9,7 @@ import pytest
 from episode_builders import grid
 
 from treadwell.errors import InputError
-from treadwell.judging.map_memory import FLOOR, OBSTACLE
+from treadwell.map_memory import FLOOR, OBSTACLE
 from treadwell.recording.map_file import read_map, write_map
 
 VOXELS = np.array([[0.02, 0.06, 0.1, 0.04], [1.0, 1.0, 1.0, 0.08]], np.float32)

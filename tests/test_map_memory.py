@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from treadwell.judging.map_memory import FLOOR, OBSTACLE, UNKNOWN, MapMemory
+from treadwell.map_memory import FLOOR, OBSTACLE, UNKNOWN, MapMemory
 
 CELL = 0.04
 

@@ -8,8 +8,8 @@ from episode_builders import BOX, STEP, flight, grid, result, trace, world
 from matplotlib.colors import to_rgb
 from matplotlib.image import imread
 
-from treadwell.judging.map_memory import FLOOR, OBSTACLE
 from treadwell.judging.result import CollisionEntry
+from treadwell.map_memory import FLOOR, OBSTACLE
 from treadwell.poses import pose_matrix
 from treadwell.protocols import Footstep
 from treadwell.recording.map_picture import draw_map

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from episode_builders import trace, world
 
-from treadwell.judging.map_memory import FLOOR, OBSTACLE
-from treadwell.judging.map_watch import MapFrame, MapWatch
-from treadwell.judging.watch import Watch
+from treadwell.map_memory import FLOOR, OBSTACLE
+from treadwell.measuring.map_watch import MapFrame, MapWatch
+from treadwell.measuring.watch import Watch
 
 BOX = """
 [[course]]

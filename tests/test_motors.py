@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from treadwell.physics.motors import JointTargets, MotorLimits, Motors
+from treadwell.physics.motors import JointTargets, Motors
+from treadwell.robot.motor_limits import MotorLimits
 
 STEP = 0.002
 PLAY = np.radians(0.3)

@@ -19,8 +19,8 @@ from treadwell.experiments.nao_localization import binned, filter_walks, found_a
 from treadwell.experiments.nao_maps import local_map
 from treadwell.experiments.nao_pictures import draw_errors, nao_pictures
 from treadwell.judging.result import CollisionEntry, MapCounts, Timing
-from treadwell.judging.visitor_watch import Avoidance
-from treadwell.judging.walk_watch import Unmapped, Walk, WalkWatch
+from treadwell.measuring.visitor_watch import Avoidance
+from treadwell.measuring.walk_watch import Unmapped, Walk, WalkWatch
 from treadwell.runner import Run, run_episode
 from treadwell.scenario.loading import load_scenario
 

@@ -6,10 +6,10 @@ from typing import Any
 import pytest
 from episode_builders import trace, world
 
-from treadwell.judging.ground_truth import Sole
-from treadwell.judging.pose_watch import PoseErrors, PoseWatch
-from treadwell.judging.watch import Watch
+from treadwell.measuring.pose_watch import PoseErrors, PoseWatch
+from treadwell.measuring.watch import Watch
 from treadwell.poses import pose_matrix
+from treadwell.trace import Sole
 
 WORLD = world()
 

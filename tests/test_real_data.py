@@ -8,7 +8,7 @@ import pytest
 import real_data
 from real_frames import RealFrame, labelled_table, room, simulated_scan, through_stereo
 
-from treadwell.judging.regions import RegionCounts
+from treadwell.measuring.regions import RegionCounts
 from treadwell.senses.depth import Pinhole
 
 DATA = os.environ.get("TREADWELL_DATA")

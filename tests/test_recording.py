@@ -11,14 +11,13 @@ import pytest
 from episode_builders import BOX, STEP, World, entities, flight, qrio, trace, world
 
 from treadwell.errors import InputError, RecordingError
-from treadwell.judging.ground_truth import Sole
 from treadwell.protocols import Footstep
 from treadwell.recording import products
 from treadwell.recording import recorder as recording
 from treadwell.recording.file import cut_to_whole_messages, whole_length
 from treadwell.recording.layout import CLIMB, PATH
 from treadwell.recording.recorder import NAME, Recorder
-from treadwell.recording.trace import Trace
+from treadwell.trace import Sole, Trace
 
 FRAME = 80_000_000
 

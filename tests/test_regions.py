@@ -6,7 +6,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from treadwell.judging.regions import RegionCounts, compare_regions
+from treadwell.measuring.regions import RegionCounts, compare_regions
 
 LABELS = arrays(np.int64, (6, 8), elements=st.integers(0, 4))
 

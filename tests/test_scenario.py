@@ -9,7 +9,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from treadwell.components import COMPONENTS, is_component, parameter_tables
+from treadwell.additions import is_component
+from treadwell.components import COMPONENTS, parameter_tables
 from treadwell.errors import InputError
 from treadwell.scenario.elements import ELEMENTS
 from treadwell.scenario.events import EVENTS

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from episode_builders import BOX, STEP, grid, world
 
-from treadwell.judging.map_memory import FLOOR, OBSTACLE, RememberedMap
-from treadwell.judging.measures import PoseErrors, timing
-from treadwell.judging.score import map_counts, surfaces, true_cells
+from treadwell.map_memory import FLOOR, OBSTACLE, RememberedMap
+from treadwell.measuring.measures import PoseErrors, timing
+from treadwell.measuring.score import map_counts, surfaces, true_cells
 from treadwell.poses import pose_matrix
 
 CURTAIN = """

@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from treadwell.judging.regions import RegionCounts
-from treadwell.judging.segmentation_watch import SegmentationWatch, connected
+from treadwell.measuring.regions import RegionCounts
+from treadwell.measuring.segmentation_watch import SegmentationWatch, connected
 from treadwell.random_streams import RandomStreams
 from treadwell.scenario.model import Sensors as Senses
 from treadwell.senses.sensors import Sensors

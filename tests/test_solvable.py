@@ -7,11 +7,11 @@ import pytest
 from episode_builders import qrio, scenario
 
 from treadwell.course.build import build_course
-from treadwell.judging.robot_limits import Limits, limits_of
-from treadwell.judging.solvable import is_solvable
-from treadwell.judging.true_ground import TrueGround, edges_of
 from treadwell.robot.load import load_robot
 from treadwell.scenario.loading import load_scenario
+from treadwell.solving.robot_limits import Limits, limits_of
+from treadwell.solving.solvable import is_solvable
+from treadwell.solving.true_ground import TrueGround, edges_of
 
 ROOT = Path(__file__).parents[1]
 WALLS = """

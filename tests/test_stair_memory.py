@@ -4,7 +4,7 @@ import numpy as np
 from episode_builders import flight, trace, world
 
 from treadwell.recording.stair_memory import StairMemory, outline
-from treadwell.recording.trace import StairTrace
+from treadwell.trace import StairTrace
 
 
 def remembered(*frames: tuple[StairTrace, ...]) -> list[StairTrace]:

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from episode_builders import STEP, world
 
-from treadwell.judging.ground_truth import Sole
-from treadwell.judging.step_watch import StepError, StepWatch, true_edge
+from treadwell.measuring.step_watch import StepError, StepWatch, true_edge
+from treadwell.trace import Sole
 
 
 def sole(x: float, z: float, y: float = 0.0) -> Sole:

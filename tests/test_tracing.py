@@ -7,8 +7,8 @@ import pytest
 
 import treadwell
 from treadwell.poses import pose_matrix
-from treadwell.recording.trace import Trace
 from treadwell.recording.tracing import trace_of, transformed
+from treadwell.trace import Trace
 
 
 @pytest.fixture(scope="module")

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from episode_builders import qrio, trace, world
 
-from treadwell.judging.visitor_watch import SEEN_POINTS, Avoidance, VisitorWatch
-from treadwell.judging.watch import Watch
+from treadwell.measuring.visitor_watch import SEEN_POINTS, Avoidance, VisitorWatch
+from treadwell.measuring.watch import Watch
 from treadwell.poses import pose_matrix
 
 VISITOR = """

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from episode_builders import qrio, trace, world
 
-from treadwell.judging.map_memory import FLOOR, OBSTACLE
-from treadwell.judging.walk_watch import Walk, WalkWatch
-from treadwell.judging.watch import Watch
+from treadwell.map_memory import FLOOR, OBSTACLE
+from treadwell.measuring.walk_watch import Walk, WalkWatch
+from treadwell.measuring.watch import Watch
 from treadwell.poses import pose_matrix
 
 COURSE = """

@@ -5,11 +5,15 @@ python benches/peers/distance.py [--side N]   needs: pip install opencv-python-h
 
 import argparse
 import sys
+from pathlib import Path
 from time import process_time
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from into_results import add_options, write
 
 from treadwell._core import squared_distances
 
@@ -33,7 +37,9 @@ def main() -> None:
     """Print the best of many rounds, one thread each, and whether both say the same."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--side", type=int, default=400)
-    side = parser.parse_args().side
+    add_options(parser)
+    options = parser.parse_args()
+    side, rows = options.side, []
     cv2.setNumThreads(1)
     for name, blocked in grids(side).items():
         free = (~blocked).astype(np.uint8)
@@ -50,6 +56,8 @@ def main() -> None:
             f"{side}x{side}, {name}: core {core:.2f} ms, OpenCV {peer:.2f} ms, "
             f"{peer / core:.1f} times faster; differ by {off:.0e} cells at most\n"
         )
+        rows.append({"what": name, "measured": f"{peer / core:.1f} times faster, {core:.2f} ms"})
+    write(options, f"Distance transform, {side}x{side}, against OpenCV's precise one", None, rows)
 
 
 if __name__ == "__main__":

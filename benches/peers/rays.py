@@ -7,11 +7,15 @@ What Python spends on a call of castRay is measured by rays of no length and tak
 
 import argparse
 import sys
+from pathlib import Path
 from time import process_time
 
 import numpy as np
 import pyoctomap
 from numpy.typing import NDArray
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from into_results import add_options, write
 
 from treadwell._core import Octree, RangeField
 from treadwell.timing.frames import Frames
@@ -61,8 +65,12 @@ def octomap_ms(tree: pyoctomap.OcTree, cast: Rays, reach: float) -> tuple[float,
     return 1e3 * (process_time() - started), np.array(ended)
 
 
-def compare(frames: Frames, cell: float) -> None:
-    """Print what the rays take in both maps, and how often they say the same."""
+def compare(frames: Frames, cell: float) -> dict[str, str]:
+    """Print what the rays take in both maps, and how often they say the same.
+
+    Returns:
+        The row of docs/results.
+    """
     ours, theirs = Octree(cell), pyoctomap.OcTree(cell)
     for index, (x, y, z) in enumerate(frames.position.tolist()):
         points = frames.points(index)
@@ -84,16 +92,19 @@ def compare(frames: Frames, cell: float) -> None:
         f"{np.median(peer):.1f} ms without Python's calls; {np.median(ratios):.0f} times faster "
         f"({min(ratios):.0f} to {max(ratios):.0f}); both end or neither {same:.2%}\n"
     )
+    faster = f"{min(ratios):.0f} to {max(ratios):.0f} times faster; both end or neither {same:.0%}"
+    return {"what": f"voxels of {100 * cell:.0f} cm", "measured": faster}
 
 
 def main() -> None:
     """Compare in the room of the benches."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--cells", type=float, nargs="+", default=[0.04, 0.02])
+    add_options(parser)
     given = parser.parse_args()
     frames = room("320x240", 40)
-    for cell in given.cells:
-        compare(frames, cell)
+    rows = [compare(frames, cell) for cell in given.cells]
+    write(given, "Rays of a localization step, against OctoMap's castRay", None, rows)
 
 
 if __name__ == "__main__":

@@ -7,17 +7,16 @@
 """
 
 import os
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 from treadwell.gymnasium_hook import register_with_gymnasium
+from treadwell.version import __version__
 
 if TYPE_CHECKING:
     from treadwell.episode import Episode
     from treadwell.replaying.replay import replay
     from treadwell.runner import run
 
-__version__ = version("treadwell")
 __all__ = ["Episode", "__version__", "replay", "run"]
 
 if os.environ.get("TREADWELL_CORE"):

@@ -1,11 +1,11 @@
-"""Components that others add by name: installed packages, and a core of the user's own."""
+"""Components that others add by name, in packages or a core of the user's own; what there is."""
 
 import sys
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from typing import Final
 
-from treadwell.components import COMPONENTS
+from treadwell.components import CLASS_NAME, COMPONENTS
 from treadwell.errors import InputError
 
 GROUP: Final = "treadwell.components"
@@ -33,6 +33,20 @@ def additions(slot: str) -> dict[str, str]:
     """Return name -> one line, of all that is there beside `COMPONENTS`."""
     packages = {name: _origin(points[0]) for name, points in installed(slot).items()}
     return {**packages, **compiled(slot)}
+
+
+def is_component(slot: str, name: str) -> bool:
+    """Say whether `name` can stand in `slot`: a component's, or `package.module:Class`."""
+    return (
+        name in COMPONENTS[slot]
+        or (len(name) <= 256 and bool(CLASS_NAME.fullmatch(name)))
+        or name in known(slot)
+    )
+
+
+def known(slot: str) -> dict[str, str]:
+    """Return name -> one line, of all that can stand in `slot`: the list, and what others add."""
+    return {**COMPONENTS[slot], **additions(slot)}
 
 
 def class_of(slot: str, name: str) -> str:

@@ -45,27 +45,12 @@ STAGES: Final[tuple[str, ...]] = (
     "stairs",
     "climbing",
     "static_map",
+    "guide",
 )
 """Stages with parameters (`[navigation.self_filter]`) that are not chosen by name."""
 
 CLASS_NAME: Final = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*", re.ASCII)
 """A user's own component: `package.module:Class`."""
-
-
-def is_component(slot: str, name: str) -> bool:
-    """Say whether `name` can stand in `slot`: a component's, or `package.module:Class`."""
-    return (
-        name in COMPONENTS[slot]
-        or (len(name) <= 256 and bool(CLASS_NAME.fullmatch(name)))
-        or name in known(slot)
-    )
-
-
-def known(slot: str) -> dict[str, str]:
-    """Return name -> one line, of all that can stand in `slot`: the list, and what others add."""
-    from treadwell.additions import additions
-
-    return {**COMPONENTS[slot], **additions(slot)}
 
 
 def parameter_tables() -> list[str]:

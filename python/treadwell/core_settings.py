@@ -17,7 +17,7 @@ from treadwell.scenario.model import Navigation, Scenario
 
 if TYPE_CHECKING:
     # A replay tells the core the same without MuJoCo, which these two need.
-    from treadwell.course.build import Course
+    from treadwell.course.course import Course
     from treadwell.robot.load import Robot
 
 MAPPED = frozenset({"monte_carlo", "octree"})

@@ -10,18 +10,13 @@ import os
 import resource
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
 from treadwell.errors import InputError
 
-TASKS: Final = {
-    "build": "treadwell.course.assets:build_files",
-    "audit": "treadwell.physics.audit:replay_lengths",
-}
-"""Name -> the function that the child calls with the arguments, strings; it returns plain data."""
 PACKAGE_FOLDER: Final = Path(__file__).resolve().parent.parent
 
 
@@ -40,19 +35,24 @@ class Limits:
     memory_bytes: int = 4 << 30
 
 
-def limited(task: str, arguments: Sequence[str], what: str, limits: Limits = Limits()) -> Any:  # noqa: ANN401
-    """Return what a task of `TASKS` returns, called in a child process.
+def limited(
+    task: Callable[..., object],
+    arguments: Sequence[str],
+    what: str,
+    limits: Limits = Limits(),
+) -> Any:  # noqa: ANN401
+    """Return what a function returns, called in a child process.
 
     Args:
-        task: its name.
-        arguments: for the function.
+        task: a module's function of strings, which returns plain data.
+        arguments: for it.
         what: begins the message of an error.
         limits: what it may take.
 
     Raises:
         InputError: the task raised one, crashed, or reached a limit.
     """
-    command = [sys.executable, "-P", "-m", "treadwell.limited", task]
+    command = [sys.executable, "-P", "-m", "treadwell.limited", place_of(task)]
     command += [str(limits.cpu_seconds), str(limits.memory_bytes), *arguments]
     inherited = os.environ.get("PYTHONPATH")
     paths = [str(PACKAGE_FOLDER), *([inherited] if inherited else [])]
@@ -82,11 +82,16 @@ def limited(task: str, arguments: Sequence[str], what: str, limits: Limits = Lim
     )
 
 
+def place_of(task: Callable[..., object]) -> str:
+    """Return where a child process finds a function, as `package.module:function`."""
+    return f"{task.__module__}:{task.__qualname__}"
+
+
 def _main(arguments: Sequence[str]) -> None:
     """Do a task, and write what came of it as the last line of standard output."""
     task, cpu_seconds, memory_bytes, *rest = arguments
     # What the imports take does not count.
-    module, _, name = TASKS[task].partition(":")
+    module, _, name = task.partition(":")
     function = getattr(importlib.import_module(module), name)
     used = resource.getrusage(resource.RUSAGE_SELF)
     cpu = int(cpu_seconds) + int(used.ru_utime + used.ru_stime) + 1

@@ -10,6 +10,7 @@ from types import ModuleType
 from typing import Final
 
 from treadwell.errors import InputError
+from treadwell.version import __version__
 
 VARIABLE: Final = "TREADWELL_CORE"
 MODULE: Final = "treadwell._core"
@@ -47,8 +48,6 @@ class _Loader(ExtensionFileLoader):
 
     def exec_module(self, module: ModuleType) -> None:
         super().exec_module(module)
-        from treadwell import __version__
-
         version = module.version() if hasattr(module, "version") else "of no version"
         if version != __version__:
             raise InputError(

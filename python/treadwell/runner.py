@@ -8,26 +8,26 @@ from typing import Any
 
 import numpy as np
 
-from treadwell import __version__
-from treadwell.cli.progress import Progress
 from treadwell.episode import Episode, Step
 from treadwell.errors import CoreError, SimulationError, TreadwellError
 from treadwell.interruption import Interruption
-from treadwell.judging.clearance import least_clearance
-from treadwell.judging.map_memory import MapMemory, RememberedMap
-from treadwell.judging.measures import PoseErrors, timing
 from treadwell.judging.result import CollisionEntry, Result, StateEntry
-from treadwell.judging.score import map_counts, surfaces, true_cells
-from treadwell.judging.step_watch import KnownTop, StepError, StepWatch
 from treadwell.judging.verdict import Verdict
-from treadwell.judging.watch import Watch
+from treadwell.map_memory import MapMemory, RememberedMap
+from treadwell.measuring.clearance import least_clearance
+from treadwell.measuring.measures import PoseErrors, timing
+from treadwell.measuring.score import map_counts, surfaces, true_cells
+from treadwell.measuring.step_watch import KnownTop, StepError, StepWatch
+from treadwell.measuring.watch import Watch
 from treadwell.physics.simulation import TICK_NS
+from treadwell.progress import Progress
 from treadwell.recording.run_folder import make_run_folder
 from treadwell.recording.stair_memory import StairMemory
-from treadwell.recording.trace import Trace
 from treadwell.recording.tracing import trace_of
 from treadwell.recording.trajectory import Trajectory
 from treadwell.recording.writers import NoWriters, Writers, open_viewer
+from treadwell.trace import Trace
+from treadwell.version import __version__
 
 
 @dataclass(frozen=True, slots=True)

@@ -48,7 +48,7 @@ def _options(
     *, version: Annotated[bool, typer.Option("--version", help="Show the version.")] = False
 ) -> None:
     if version:
-        from treadwell import __version__
+        from treadwell.version import __version__
 
         typer.echo(f"treadwell {__version__}")
         raise typer.Exit

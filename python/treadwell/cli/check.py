@@ -4,7 +4,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from treadwell.cli.output import write_table
-from treadwell.course.build import Course, build_course
+from treadwell.course.build import build_course
+from treadwell.course.course import Course
 from treadwell.robot.load import load_robot
 from treadwell.scenario.events import EventTable
 from treadwell.scenario.loading import load_scenario

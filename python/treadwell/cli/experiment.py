@@ -13,6 +13,7 @@ from treadwell.cli.output import (
     write_message,
     write_table,
 )
+from treadwell.cli.progress import ProgressLine
 from treadwell.experiments.catalogue import find_experiment
 from treadwell.experiments.conduct import Report, conduct
 
@@ -40,7 +41,8 @@ def experiment(
         InputError: there is no such experiment or case, or the folder cannot be taken.
     """
     chosen = find_experiment(name).narrowed(only)
-    report = conduct(chosen, seeds, out, workers=workers or os.cpu_count() or 1)
+    workers = workers or os.cpu_count() or 1
+    report = conduct(chosen, seeds, out, workers=workers, progress=ProgressLine)
     if as_json:
         write_json(report.document())
     else:

@@ -62,6 +62,7 @@ def _robots() -> list[dict[str, str]]:
 
 
 def _components() -> dict[str, dict[str, str]]:
-    from treadwell.components import COMPONENTS, known
+    from treadwell.additions import known
+    from treadwell.components import COMPONENTS
 
     return {slot: known(slot) for slot in COMPONENTS}

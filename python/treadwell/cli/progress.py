@@ -25,7 +25,7 @@ def line(time_s: float, state: str, distance_m: float, real_time_factor: float) 
     )
 
 
-class Progress:
+class ProgressLine:
     """Shows on standard error how a run gets on.
 
     On a terminal one line renews itself; otherwise a plain line is written every five simulated

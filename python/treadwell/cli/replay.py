@@ -13,7 +13,7 @@ from treadwell.cli.output import (
     write_message,
     write_table,
 )
-from treadwell.cli.progress import Progress
+from treadwell.cli.progress import ProgressLine
 
 
 def replay(run_dir: Path, *, settings: Sequence[str], out: Path | None, as_json: bool) -> int:
@@ -27,7 +27,7 @@ def replay(run_dir: Path, *, settings: Sequence[str], out: Path | None, as_json:
     """
     from treadwell.replaying.replay import replay as replay_run
 
-    with Progress(run_dir.name) as progress:
+    with ProgressLine(run_dir.name) as progress:
         done = replay_run(run_dir, overrides=settings, out=out, progress=progress)
     document = done.result.document()
     facts = document["replay"]

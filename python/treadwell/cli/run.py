@@ -13,7 +13,7 @@ from treadwell.cli.output import (
     write_message,
     write_table,
 )
-from treadwell.cli.progress import Progress
+from treadwell.cli.progress import ProgressLine
 
 STATUS: Final = {"interrupted": INTERRUPTED, "error": ERROR}
 """Outcomes that are not the robot's doing -> exit status."""
@@ -44,7 +44,7 @@ def run(
     """
     from treadwell.runner import run as run_episode
 
-    with Progress(Path(scenario).stem) as progress:
+    with ProgressLine(Path(scenario).stem) as progress:
         result = run_episode(
             scenario,
             robot=robot,

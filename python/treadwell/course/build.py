@@ -1,119 +1,21 @@
-"""The course: a scenario's elements and the robot as one MuJoCo model, and what stands where."""
+"""Builds a course: a scenario's elements and the robot as one MuJoCo model."""
 
 import math
-from dataclasses import dataclass, field
-from typing import Final
 
 import mujoco
 import numpy as np
-import numpy.typing as npt
 
-from treadwell.course.assets import compiled, mjcf_pieces, read_mjcf
+from treadwell.course.assets import mjcf_pieces, read_mjcf
 from treadwell.course.check import check_start
+from treadwell.course.course import LEVEL_TOLERANCE, Course, CourseElement, Place, levels_at
 from treadwell.course.geometry import PREFIX, add_ground, add_movable_body, add_pieces
-from treadwell.course.levels import levels, surface_height
 from treadwell.course.outlines import Floats
-from treadwell.course.pieces import Piece, Top, about_z
+from treadwell.course.pieces import about_z
 from treadwell.course.plan import PlannedElement, plan_elements
 from treadwell.errors import InputError
+from treadwell.mjcf.build import compiled
 from treadwell.robot.load import Robot
 from treadwell.scenario.model import Scenario
-
-LEVEL_TOLERANCE: Final = 0.02
-"""Metres: a height that a scenario names means the surface within this."""
-
-
-@dataclass(frozen=True)
-class CourseElement:
-    """One element as it was built.
-
-    Attributes:
-        name: unique on the course.
-        kind: as in the scenario file.
-        mapped: whether an a-priori map has it.
-        texture: how well stereo sees it, 0 to 1.
-        pieces: its convex solids in the world frame, where the scenario file puts them.
-        tops: its walkable surfaces in the world frame; empty for an obstacle.
-        geom_ids: its geoms; geom `geom_ids[i]` is piece `i`.
-        mocap_id: its row of `data.mocap_pos` when events can move it, else None.
-        origin: (3,) world: where its body stands when it is where the file puts it.
-        present: whether it is there from the beginning.
-    """
-
-    name: str
-    kind: str
-    mapped: bool
-    texture: float
-    pieces: tuple[Piece, ...]
-    tops: tuple[Top, ...]
-    geom_ids: tuple[int, ...]
-    mocap_id: int | None
-    origin: Floats
-    present: bool
-
-    @property
-    def walkable(self) -> bool:
-        """Whether it has tops to walk on."""
-        return bool(self.tops)
-
-
-@dataclass(frozen=True)
-class Place:
-    """A pose on the course: world x, y, height of the surface there (m) and yaw (rad)."""
-
-    position: tuple[float, float]
-    height: float
-    yaw: float
-
-
-@dataclass(frozen=True, eq=False)
-class Course:
-    """The model, with the robot standing at the start, and what stands where.
-
-    Attributes:
-        model: compiled; options are the robot's.
-        elements: in the order of the file, scattered ones in place, those of events last.
-        start: where the robot stands.
-        goal_height: height of the surface at the goal, metres.
-        qpos: (nq,) the robot in its standing posture at the start.
-        texture: (ngeom,) how well stereo sees each geom, 0 to 1.
-        geom_element: (ngeom,) index into `elements`, -1 for the ground and the robot.
-    """
-
-    model: mujoco.MjModel
-    elements: tuple[CourseElement, ...]
-    start: Place
-    goal_height: float
-    qpos: Floats
-    texture: Floats
-    geom_element: npt.NDArray[np.intp]
-    _by_name: dict[str, CourseElement] = field(default_factory=dict)
-
-    def element(self, name: str) -> CourseElement | None:
-        """Return an element by its name, None when there is none."""
-        if not self._by_name:
-            self._by_name.update({element.name: element for element in self.elements})
-        return self._by_name.get(name)
-
-    def tops(self) -> list[tuple[CourseElement, Top]]:
-        """Return every walkable top that is there from the beginning, with its element."""
-        return [(e, top) for e in self.elements if e.present for top in e.tops]
-
-    def height_at(self, points: Floats) -> Floats:
-        """Return the height of the highest surface at world points (n, 2), metres."""
-        points = np.atleast_2d(np.asarray(points, dtype=np.float64))
-        return surface_height([top for _, top in self.tops()], points)
-
-    def levels_at(self, x: float, y: float) -> list[float]:
-        """Return the heights of all surfaces at a world point that something can stand on."""
-        return levels_at(self.elements, x, y)
-
-
-def levels_at(elements: tuple[CourseElement, ...], x: float, y: float) -> list[float]:
-    """Return the heights of all surfaces of elements, and of the ground, at a world point."""
-    there = [element for element in elements if element.present and element.walkable]
-    tops = [top for element in there for top in element.tops]
-    return levels(tops, [piece for element in there for piece in element.pieces], x, y)
 
 
 def build_course(scenario: Scenario, robot: Robot) -> Course:

@@ -1,10 +1,11 @@
 """Whether a course can be started on: nothing in the robot, ground under it, joints that exist."""
 
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import mujoco
 import numpy as np
 
+from treadwell.course.course import Course
 from treadwell.course.geometry import GROUND
 from treadwell.course.outlines import signed_distance
 from treadwell.errors import InputError
@@ -13,16 +14,13 @@ from treadwell.scenario.events import EncoderOffset
 from treadwell.scenario.messages import nearest
 from treadwell.scenario.model import Scenario
 
-if TYPE_CHECKING:
-    from treadwell.course.build import Course
-
 DEEPEST_CONTACT: Final = 0.003
 """Metres that a part of the robot may lie inside something at the start."""
 UNEVEN: Final = 0.015
 """Metres by which the surface may differ under the soles' corners."""
 
 
-def check_start(scenario: Scenario, robot: Robot, course: "Course") -> None:
+def check_start(scenario: Scenario, robot: Robot, course: Course) -> None:
     """Refuse a scenario in which the robot cannot stand at its start.
 
     Raises:
@@ -47,7 +45,7 @@ def check_start(scenario: Scenario, robot: Robot, course: "Course") -> None:
             )
 
 
-def _inside(course: "Course", robot: Robot) -> str:
+def _inside(course: Course, robot: Robot) -> str:
     """Return the element whose outline the robot's middle stands in, nothing if there is none."""
     point = np.array([course.start.position])
     floor, head = course.start.height + 0.01, course.start.height + robot.file.body.height
@@ -61,7 +59,7 @@ def _inside(course: "Course", robot: Robot) -> str:
     return ""
 
 
-def _touching(course: "Course", data: mujoco.MjData) -> str:
+def _touching(course: Course, data: mujoco.MjData) -> str:
     """Return the element that a part of the standing robot lies in, nothing when there is none."""
     for contact in data.contact:
         indices = course.geom_element[contact.geom]
@@ -73,7 +71,7 @@ def _touching(course: "Course", data: mujoco.MjData) -> str:
     return ""
 
 
-def _check_ground(course: "Course", robot: Robot, data: mujoco.MjData, where: str) -> None:
+def _check_ground(course: Course, robot: Robot, data: mujoco.MjData, where: str) -> None:
     """Refuse a start at which a corner of a sole hangs over something lower."""
     corners = []
     for leg in (robot.file.legs.left, robot.file.legs.right):

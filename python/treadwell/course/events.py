@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike
 
-from treadwell.course.build import LEVEL_TOLERANCE, Course, CourseElement
+from treadwell.course.course import LEVEL_TOLERANCE, Course, CourseElement
 from treadwell.course.geometry import parked
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import about_z

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from treadwell._core import Octree
-from treadwell.course.build import Course, CourseElement
+from treadwell.course.course import Course, CourseElement
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import bounds
 from treadwell.errors import InputError
@@ -39,9 +39,9 @@ def map_resolution(table: Mapping[str, object], where: str) -> float:
         InputError: there is another key, or the resolution cannot be.
     """
     for key in table:
-        if key != "resolution":
+        if key not in ("resolution", "tuning"):  # what stands under `tuning` the core checks
             raise InputError(
-                f"{where}: navigation.static_map.{key}: unknown key; allowed: resolution"
+                f"{where}: navigation.static_map.{key}: unknown key; allowed: resolution, tuning"
             )
     value = table.get("resolution", RESOLUTION)
     if (

@@ -3,19 +3,20 @@
 import json
 import sys
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from treadwell import __version__
-from treadwell.cli.progress import Progress
 from treadwell.episode import Episode
 from treadwell.errors import SimulationError
 from treadwell.experiments.drawn import write_scenario
 from treadwell.experiments.experiment import Case, Experiment, Picture, Table
 from treadwell.judging.result import write_whole
+from treadwell.progress import Progress
 from treadwell.recording.run_folder import make_experiment_folder
 from treadwell.runner import Run, run_episode
+from treadwell.version import __version__
 from treadwell.workers.answers import Answer, Done, Raised
 from treadwell.workers.pool import Pool
 
@@ -106,7 +107,7 @@ def conduct(
     out: Path | None = None,
     *,
     workers: int = 1,
-    progress: Callable[[str], Progress] = Progress,
+    progress: Callable[[str], AbstractContextManager[Progress]] | None = None,
 ) -> Report:
     """Run an experiment, write its folder, and return the report. After Ctrl-C: of what there is.
 
@@ -115,7 +116,8 @@ def conduct(
         seeds: of each case; a case may ask for more or fewer, from the first on.
         out: the folder; it must be new or empty.
         workers: processes that run episodes at the same time; the results are the same.
-        progress: makes what is told how a run gets on, from its title; for one worker.
+        progress: makes what is told how a run gets on, from its title; for one worker. None: nobody
+            is told.
 
     Raises:
         InputError: the folder cannot be taken, or a scenario is bad.
@@ -157,10 +159,13 @@ def _done(job: Job, progress: Progress | None = None) -> Run:
     return case.afterwards(done) if case.afterwards is not None and whole else done
 
 
-def _one_by_one(jobs: Sequence[Job], progress: Callable[[str], Progress]) -> Iterator[Run]:
+def _one_by_one(
+    jobs: Sequence[Job], progress: Callable[[str], AbstractContextManager[Progress]] | None
+) -> Iterator[Run]:
     """Do the runs one after the other, up to the one that is interrupted."""
     for number, job in enumerate(jobs, start=1):
-        with progress(_title(number, len(jobs), job)) as shown:
+        title = _title(number, len(jobs), job)
+        with nullcontext() if progress is None else progress(title) as shown:
             done = _done(job, shown)
         if done.outcome == "interrupted":
             return

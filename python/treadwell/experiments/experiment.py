@@ -7,7 +7,7 @@ from statistics import median
 from typing import Any
 
 from treadwell.errors import InputError
-from treadwell.judging.watch import Watch
+from treadwell.measuring.watch import Watch
 from treadwell.runner import Run
 
 Draw = Callable[[int], dict[str, Any]]

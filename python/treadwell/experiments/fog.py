@@ -11,8 +11,8 @@ from treadwell.experiments.fog_levels import three_levels, worse_senses
 from treadwell.experiments.fog_pictures import fog_pictures
 from treadwell.experiments.fog_surfaces import ceilings, slopes_walked, surfaces
 from treadwell.experiments.level_heights import level_heights
-from treadwell.judging.map_watch import MapFrame, MapHistory
-from treadwell.judging.regions import RegionCounts
+from treadwell.measuring.map_watch import MapFrame, MapHistory
+from treadwell.measuring.regions import RegionCounts
 from treadwell.runner import Run
 
 

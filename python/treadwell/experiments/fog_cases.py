@@ -6,12 +6,12 @@ from typing import Final
 
 from treadwell.components import COMPONENTS
 from treadwell.experiments.experiment import Case
-from treadwell.judging.ceiling_watch import CeilingWatch
-from treadwell.judging.element_watch import ElementWatch
-from treadwell.judging.map_watch import MapWatch
-from treadwell.judging.pose_watch import PoseWatch
-from treadwell.judging.segmentation_watch import SegmentationWatch
-from treadwell.judging.watch import Watch
+from treadwell.measuring.ceiling_watch import CeilingWatch
+from treadwell.measuring.element_watch import ElementWatch
+from treadwell.measuring.map_watch import MapWatch
+from treadwell.measuring.pose_watch import PoseWatch
+from treadwell.measuring.segmentation_watch import SegmentationWatch
+from treadwell.measuring.watch import Watch
 
 FOG: Final = "fog"
 WORLD_MODELS: Final = (FOG, "averaging")

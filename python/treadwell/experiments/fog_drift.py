@@ -6,7 +6,7 @@ from itertools import chain
 
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.experiment import Results, Table, middle
-from treadwell.judging.pose_watch import PoseErrors
+from treadwell.measuring.pose_watch import PoseErrors
 from treadwell.runner import Run
 
 

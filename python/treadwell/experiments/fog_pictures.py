@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from treadwell.errors import RecordingError
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.experiment import Picture, Results
-from treadwell.judging.map_memory import RememberedMap
-from treadwell.judging.map_watch import MapHistory
+from treadwell.map_memory import RememberedMap
+from treadwell.measuring.map_watch import MapHistory
 from treadwell.recording.map_picture import draw_cells, height_colours, height_span
 
 Panel = tuple[str, RememberedMap]

@@ -5,8 +5,8 @@ from collections.abc import Iterable
 
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.experiment import NOTHING, Results, Table, middle, share
-from treadwell.judging.ceiling_watch import CeilingErrors
-from treadwell.judging.element_watch import ElementCells
+from treadwell.measuring.ceiling_watch import CeilingErrors
+from treadwell.measuring.element_watch import ElementCells
 
 
 def ceilings(results: Results) -> Table:

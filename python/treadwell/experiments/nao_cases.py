@@ -6,8 +6,8 @@ from typing import Final
 
 from treadwell.experiments.experiment import NOTHING, Case
 from treadwell.experiments.nao_filters import with_other_draws
-from treadwell.judging.visitor_watch import VisitorWatch
-from treadwell.judging.walk_watch import WalkWatch
+from treadwell.measuring.visitor_watch import VisitorWatch
+from treadwell.measuring.walk_watch import WalkWatch
 
 WORLD_MODELS: Final = ("octree", "fog")
 """The paper's map and the one of Gutmann 2005; both on the same scenarios."""

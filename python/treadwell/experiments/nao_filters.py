@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from treadwell.judging.walk_watch import Walk
+from treadwell.measuring.walk_watch import Walk
 from treadwell.recording.trajectory import ESTIMATE, headings, read_trajectory
 from treadwell.replaying.replay import replay
 from treadwell.runner import Run

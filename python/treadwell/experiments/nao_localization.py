@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from treadwell.experiments import nao_cases as cases
 from treadwell.experiments.experiment import NOTHING, Results, Table, middle, share
-from treadwell.judging.walk_watch import Walk
+from treadwell.measuring.walk_watch import Walk
 from treadwell.runner import Run
 
 Floats = NDArray[np.float64]

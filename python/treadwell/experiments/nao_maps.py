@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 from treadwell.experiments import nao_cases as cases
 from treadwell.experiments.experiment import NOTHING, Results, Table, middle, share
-from treadwell.judging.visitor_watch import Avoidance
-from treadwell.judging.walk_watch import Unmapped
+from treadwell.measuring.visitor_watch import Avoidance
+from treadwell.measuring.walk_watch import Unmapped
 from treadwell.runner import Run
 
 

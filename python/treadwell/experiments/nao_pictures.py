@@ -21,8 +21,8 @@ from treadwell.experiments.nao_localization import (
     filter_walks,
     in_hallway,
 )
-from treadwell.judging.map_memory import FLOOR, OBSTACLE, RememberedMap
-from treadwell.judging.walk_watch import Walk
+from treadwell.map_memory import FLOOR, OBSTACLE, RememberedMap
+from treadwell.measuring.walk_watch import Walk
 
 Floats = NDArray[np.float64]
 

@@ -15,7 +15,7 @@ from treadwell.experiments.stairs_cases import (
     basin_name,
 )
 from treadwell.judging.result import Result
-from treadwell.judging.step_watch import EDGE_M, HEADING_RAD, HEIGHT_M, StepError
+from treadwell.measuring.step_watch import EDGE_M, HEADING_RAD, HEIGHT_M, StepError
 from treadwell.runner import Run
 
 PHASES: Final[dict[str, tuple[tuple[str, ...], float]]] = {

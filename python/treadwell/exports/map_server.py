@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from treadwell.errors import InputError
 from treadwell.exports.files import write_bytes
-from treadwell.judging.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
 from treadwell.judging.result import write_whole
+from treadwell.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import read_map
 

@@ -16,8 +16,8 @@ from treadwell.errors import InputError
 from treadwell.exports.files import whole_file
 from treadwell.exports.map_server import seen_part
 from treadwell.exports.recorded_points import SeenPoints, seen_points
-from treadwell.judging.map_memory import RememberedMap
 from treadwell.judging.result import read_result
+from treadwell.map_memory import RememberedMap
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import read_map
 from treadwell.recording.observation_log import NAME as OBSERVATIONS

@@ -15,7 +15,7 @@ from treadwell.errors import InputError
 from treadwell.exports.files import write_bytes
 from treadwell.exports.map_server import seen_part
 from treadwell.exports.recorded_points import seen_points
-from treadwell.judging.map_memory import UNKNOWN, RememberedMap
+from treadwell.map_memory import UNKNOWN, RememberedMap
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import read_map
 from treadwell.recording.recorder import NAME as RECORDING

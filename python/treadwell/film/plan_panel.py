@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-from treadwell.judging.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
+from treadwell.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
 
 Floats = NDArray[np.float64]
 _PAPER: Final = (222, 224, 228)

@@ -1,1 +1,1 @@
-"""The truth: falls, collisions, arrival, errors, the result. Nothing of it enters the core."""
+"""The truth: falls, collisions, arrival, the verdict, the result. Nothing of it enters the core."""

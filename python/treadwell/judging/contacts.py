@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from treadwell.course.build import Course
+from treadwell.course.course import Course
 from treadwell.robot.load import Robot
 
 SAME_CONTACT_SECONDS = 0.5

@@ -9,25 +9,9 @@ from numpy.typing import NDArray
 
 from treadwell.poses import pose_matrix
 from treadwell.robot.load import Robot
+from treadwell.trace import Sole
 
 Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True)
-class Sole:
-    """The true pose of a sole.
-
-    Attributes:
-        x: m, world, of its centre on the underside.
-        y: m, world.
-        z: m, world.
-        forward: (x, y) of the sole's x axis in the world.
-    """
-
-    x: float
-    y: float
-    z: float
-    forward: tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)

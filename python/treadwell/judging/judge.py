@@ -4,12 +4,13 @@ import math
 
 import mujoco
 
-from treadwell.course.build import Course
+from treadwell.course.course import Course
 from treadwell.judging.contacts import Collision, Contacts, Touch
-from treadwell.judging.ground_truth import GroundFrame, GroundTruth, Sole
+from treadwell.judging.ground_truth import GroundFrame, GroundTruth
 from treadwell.judging.level_changes import LevelChanges
 from treadwell.robot.load import Robot
 from treadwell.scenario.model import Scenario
+from treadwell.trace import Sole
 
 FALLEN_TILT = 0.8
 """Rad by which the torso may lean."""

@@ -153,7 +153,7 @@ def replay_limited(folder: Path) -> tuple[int, int | None]:
         )
     seconds = FIXED_SECONDS + int(STEP_SECONDS * _steps(path))
     limits = Limits(cpu_seconds=seconds, deadline_seconds=60.0 + 10.0 * seconds)
-    rows, different = limited("audit", [str(folder)], str(model), limits)
+    rows, different = limited(replay_lengths, [str(folder)], str(model), limits)
     return int(rows), None if different is None else int(different)
 
 

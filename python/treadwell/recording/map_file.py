@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.errors import InputError
-from treadwell.judging.map_memory import OBSTACLE, RememberedMap
+from treadwell.map_memory import OBSTACLE, RememberedMap
 
 NAME: Final = "map.npz"
 _MOST_CELLS: Final = 2**26

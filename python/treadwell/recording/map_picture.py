@@ -14,12 +14,12 @@ from matplotlib.patches import Circle, Patch, Polygon
 from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
-from treadwell.course.build import Course
-from treadwell.judging.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
+from treadwell.course.course import Course
 from treadwell.judging.result import Result
+from treadwell.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
 from treadwell.recording.stair_memory import StairMemory, outline
-from treadwell.recording.trace import StairTrace
 from treadwell.recording.trajectory import Trajectory
+from treadwell.trace import StairTrace
 
 NAME: Final = "map.png"
 _UNKNOWN: Final = (0.80, 0.80, 0.82)

@@ -22,7 +22,6 @@ from typing import TYPE_CHECKING, Any, Final
 
 from mcap.writer import CompressionType, Writer
 
-from treadwell import __version__
 from treadwell._core import Octree
 from treadwell._core import version as core_version
 from treadwell.errors import InputError, RecordingError
@@ -30,6 +29,7 @@ from treadwell.observation import Observation
 from treadwell.recording import cdr, messages
 from treadwell.recording.log_file import BrokenLogError, Front, read_front, read_messages
 from treadwell.scenario.model import Scenario
+from treadwell.version import __version__
 
 if TYPE_CHECKING:
     from treadwell.core_settings import CoreInput

@@ -6,8 +6,8 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from treadwell.judging.map_memory import FLOOR
 from treadwell.judging.result import STAGES
+from treadwell.map_memory import FLOOR
 from treadwell.recording.frame_log import FrameLog
 from treadwell.recording.layout import (
     CLIMB,
@@ -22,7 +22,7 @@ from treadwell.recording.layout import (
     plane_colours,
 )
 from treadwell.recording.stair_shapes import StairShapes
-from treadwell.recording.trace import Trace
+from treadwell.trace import Trace
 
 _TRACK_SPACING = 0.03
 """Metres between the points of a drawn trajectory."""

@@ -9,13 +9,13 @@ import mujoco
 import numpy as np
 
 from treadwell._core import Octree
-from treadwell.course.build import Course
+from treadwell.course.course import Course
 from treadwell.course.pieces import bounds
 from treadwell.errors import InputError, RecordingError
 from treadwell.recording.file import cut_to_whole_messages, room
-from treadwell.recording.trace import Trace
 from treadwell.robot.load import Robot
 from treadwell.scenario.model import Scenario
+from treadwell.trace import Trace
 
 if TYPE_CHECKING:
     from treadwell.recording.shapes import Shapes

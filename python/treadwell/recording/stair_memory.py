@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.recording.trace import FLOOR_DEPTH, StairTrace, Trace
+from treadwell.trace import FLOOR_DEPTH, StairTrace, Trace
 
 _SAME_HEIGHT: Final = 0.012
 """Metres by which two sightings of one stair may differ."""

@@ -16,7 +16,7 @@ from treadwell.recording.layout import (
     PLANNED_SOLE,
     STAIR,
 )
-from treadwell.recording.trace import FLOOR_DEPTH, StairTrace, Trace
+from treadwell.trace import FLOOR_DEPTH, StairTrace, Trace
 
 _Colour = tuple[int, int, int, int]
 

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from treadwell._core import Pilot, Stair
 from treadwell.episode import Episode, Step
 from treadwell.poses import pose_matrix
-from treadwell.recording.trace import StairTrace, Trace
+from treadwell.trace import StairTrace, Trace
 
 _MOST_GUESSES = 1000
 """So many guesses of a localizer are shown, about, evenly out of all."""

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from treadwell._core import Octree
 from treadwell.recording.frame_log import FrameLog
 from treadwell.recording.layout import ESTIMATE, height_colours
-from treadwell.recording.trace import Trace
+from treadwell.trace import Trace
 
 Floats = NDArray[np.floating]
 

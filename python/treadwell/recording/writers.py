@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from treadwell.episode import Episode, Step
 from treadwell.errors import CoreError, InputError, RecordingError
-from treadwell.judging.map_memory import RememberedMap
 from treadwell.judging.result import Result
+from treadwell.map_memory import RememberedMap
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import write_map
 from treadwell.recording.map_picture import draw_map
@@ -18,8 +18,8 @@ from treadwell.recording.messages import encode_command, encode_estimate
 from treadwell.recording.scenario_file import NAME as SCENARIO
 from treadwell.recording.scenario_file import write_scenario
 from treadwell.recording.stair_memory import StairMemory
-from treadwell.recording.trace import Trace
 from treadwell.recording.trajectory import ESTIMATE, TRUTH, Trajectory, quaternion
+from treadwell.trace import Trace
 
 if TYPE_CHECKING:
     from treadwell.recording.observation_log import ObservationLog

@@ -6,17 +6,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
 
-from treadwell import __version__
 from treadwell._core import Pilot, Tick
-from treadwell.cli.progress import Progress
 from treadwell.core_settings import build_core, guards, user_components
 from treadwell.errors import CoreError, InputError, RecordingError
 from treadwell.guard import Guard, blamed
 from treadwell.interruption import Interruption
-from treadwell.judging.measures import PoseErrors, timing
 from treadwell.judging.result import LocalizationErrors, StateEntry
+from treadwell.measuring.measures import PoseErrors, timing
 from treadwell.observation import Floats, Observation
 from treadwell.poses import pose_matrix, rotation_of
+from treadwell.progress import Progress
 from treadwell.recording.log_file import BrokenLogError
 from treadwell.recording.messages import encode_command, encode_estimate
 from treadwell.recording.observation_log import read_answers, read_observations, read_truth
@@ -25,6 +24,7 @@ from treadwell.recording.trajectory import ESTIMATE, Trajectory
 from treadwell.replaying.difference import Answer, Difference, between_answers
 from treadwell.replaying.result import FirstDifference, ReplayFacts, ReplayResult
 from treadwell.replaying.source import Source, open_source
+from treadwell.version import __version__
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,5 @@
 """Pictures for the page, as data URIs of sane size."""
 
-import base64
 import io
 import json
 import subprocess
@@ -13,6 +12,7 @@ from typing import Final
 from PIL import Image, UnidentifiedImageError
 
 from treadwell.errors import InputError
+from treadwell.reporting.data_uri import data_uri, jpeg_uri
 
 _LARGEST: Final = 400_000
 """Bytes of a picture that goes into the page as it is."""
@@ -43,7 +43,7 @@ def picture_uri(path: Path) -> str:
         with Image.open(io.BytesIO(content), formats=["PNG"]) as picture:
             picture.load()
             if len(content) <= _LARGEST and picture.width <= 2 * _WIDEST:
-                return _uri("image/png", content)
+                return data_uri("image/png", content)
             picture.thumbnail((_WIDEST, 4 * _WIDEST))
             return jpeg_uri(picture)
     except OSError as error:
@@ -77,15 +77,4 @@ def film_uri(path: Path) -> str | None:
     """Return a film as a data URI; None where it is too large to go into a page."""
     if path.stat().st_size > _LARGEST_VIDEO:
         return None
-    return _uri(_TYPES[path.suffix.lower()], path.read_bytes())
-
-
-def jpeg_uri(picture: Image.Image) -> str:
-    """Return a picture as a data URI."""
-    buffer = io.BytesIO()
-    picture.convert("RGB").save(buffer, "JPEG", quality=85)
-    return _uri("image/jpeg", buffer.getvalue())
-
-
-def _uri(kind: str, content: bytes) -> str:
-    return f"data:{kind};base64,{base64.b64encode(content).decode('ascii')}"
+    return data_uri(_TYPES[path.suffix.lower()], path.read_bytes())

@@ -17,7 +17,7 @@ def page(runs: Sequence[RunSection], sweeps: Sequence[SweepSection]) -> str:
     """Return the page of runs and sweeps, what failed before what passed."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    from treadwell import __version__
+    from treadwell.version import __version__
 
     environment = Environment(
         loader=FileSystemLoader(_TEMPLATES),

@@ -10,7 +10,7 @@ from PIL import Image
 from treadwell.errors import InputError
 from treadwell.film.film import scene_of, state_at
 from treadwell.film.poses import TICK_S
-from treadwell.reporting.images import jpeg_uri
+from treadwell.reporting.data_uri import jpeg_uri
 
 SIZE: Final = (320, 256)
 """Pixels of a picture."""

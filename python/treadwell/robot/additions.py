@@ -11,8 +11,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.course.assets import compiled
 from treadwell.errors import InputError
+from treadwell.mjcf.build import compiled
 from treadwell.robot.file import LegTable, RobotFile
 
 STAND = "stand"

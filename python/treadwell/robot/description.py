@@ -7,9 +7,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.physics.motors import MotorLimits
 from treadwell.robot.file import LegTable, RobotFile
 from treadwell.robot.followers import followers
+from treadwell.robot.motor_limits import MotorLimits
 
 Floats = NDArray[np.float64]
 

@@ -1,88 +1,88 @@
 """The parsed `robot.toml` of a robot's folder: what the MJCF cannot say of the robot."""
 
 import json
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Self
 
-from pydantic import (
-    BaseModel,
-    ConfigDict,
-    Field,
-    FiniteFloat,
-    StringConstraints,
-    field_validator,
-    model_validator,
-)
+from pydantic import Field, FiniteFloat, StringConstraints, field_validator, model_validator
 
-Name = Annotated[str, StringConstraints(min_length=1, max_length=100)]
-Positive = Annotated[FiniteFloat, Field(gt=0.0)]
-NotNegative = Annotated[FiniteFloat, Field(ge=0.0)]
-Share = Annotated[FiniteFloat, Field(ge=0.0, le=1.0)]
-Position = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
-
-
-class Table(BaseModel):
-    """A table of the file: unknown keys, NaN and infinity are refused."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
+from treadwell.robot.camera_file import CameraTable
+from treadwell.robot.tables import Name, NotNegative, Position, Positive, Table
 
 
 class RobotTable(Table):
-    """`[robot]`: who it is and the name of its MJCF file, which lies in the same folder."""
+    """`[robot]`: who it is."""
 
     name: Name
+    """The robot's name: its folder's."""
     description: str = ""
+    """One line for `treadwell list robots`."""
     model: Annotated[str, StringConstraints(pattern=r"^[\w.-]+\.xml$")]
+    """The MJCF file in the same folder."""
 
 
 class BodyTable(Table):
-    """`[body]`: the link that is the torso; radius and height (m) of the cylinder around it all.
-
-    `depth` (front to back) and `width`: of the upright box that holds it while it walks sideways,
-    m; the cylinder's where they are not given.
-    """
+    """`[body]`: the size of the whole robot."""
 
     torso: Name
+    """The link that counts as the trunk."""
     radius: Positive
+    """Radius of the upright cylinder that holds the robot while it walks, m."""
     height: Positive
+    """Height of the top of the head while it stands, m."""
     depth: Positive | None = None
+    """Front to back, the upright box that holds it while it walks sideways, m; default: the
+    cylinder's diameter.
+    """
     width: Positive | None = None
+    """Across, the same box, m; default: the cylinder's diameter."""
 
 
 class SoleTable(Table):
-    """`[legs.*.sole]`: a rectangle; its centre in the link's frame, on the ground, metres."""
+    """`[legs.*.sole]`: the rectangle that a foot stands on."""
 
     link: Name
+    """The link that carries it."""
     position: Position
+    """Its centre in the link's frame, on the ground, m."""
     length: Positive
+    """Extent forward, m."""
     width: Positive
+    """Extent across, m."""
 
 
 class SensorsTable(Table):
-    """`[legs.*.sensors]`: the rectangle with a force sensor at each corner; as for a sole."""
+    """`[legs.*.sensors]`: the rectangle with a force sensor at each corner."""
 
     position: Position
+    """Its centre in the link's frame, m."""
     length: Positive
+    """Extent forward, m."""
     width: Positive
+    """Extent across, m."""
 
 
 class LegTable(Table):
-    """`[legs.*]`: joints from the hip down (yaw, roll, pitch, knee, ankle pitch, ankle roll).
-
-    `forces` names the contact sensor of the sole: its net force, and where that acts; it is added
-    where the MJCF has none. Without `sensors`, there is one under each corner of the sole.
-    """
+    """`[legs.*]`: a leg."""
 
     joints: tuple[Name, Name, Name, Name, Name, Name]
+    """The joints from the hip down: yaw, roll, pitch, knee, ankle pitch, ankle roll."""
     forces: Name
+    """The contact sensor of the sole: its net force, and where that acts; added where the MJCF has
+    none.
+    """
     sole: SoleTable
+    """The rectangle that it stands on."""
     sensors: SensorsTable | None = None
+    """Where the force sensors are; default: one under each corner of the sole."""
 
 
 class LegsTable(Table):
     """`[legs]`: both. A `forces` that is not named is `left_sole_forces`, `right_sole_forces`."""
 
     left: LegTable
+    """The left leg."""
     right: LegTable
+    """The right leg."""
 
     @model_validator(mode="before")
     @classmethod
@@ -96,172 +96,100 @@ class LegsTable(Table):
 
 
 class TrunkTable(Table):
-    """`[trunk]`: the joints between pelvis and torso, from below; there may be none."""
+    """`[trunk]`: what is between pelvis and torso."""
 
     joints: tuple[Name, ...] = ()
+    """The joints from below; there may be none."""
 
 
 class HeadTable(Table):
-    """`[head]`: the joints that turn and nod the camera."""
+    """`[head]`: the joints that turn the camera."""
 
     pan: Name
+    """The joint that turns it left and right."""
     tilt: Name
+    """The joint that nods."""
 
 
 class ArmsTable(Table):
-    """`[arms]`: angles (rad) of joints of the arms, at rest and when they are raised in joy."""
+    """`[arms]`: where the arms are held."""
 
-    rest: dict[Name, FiniteFloat] = {}
-    raised: dict[Name, FiniteFloat] = {}
+    rest: dict[Name, FiniteFloat] = Field(default_factory=dict)
+    """Angles of joints of the arms at rest, rad."""
+    raised: dict[Name, FiniteFloat] = Field(default_factory=dict)
+    """Angles when they are raised in joy, rad."""
 
 
 class ImuTable(Table):
-    """`[imu]`: the site, its sensors, standard deviations per axis: rad/s and m/s².
-
-    With `link` and `position` (m) the site is added; sensors are where the MJCF has none.
-    """
+    """`[imu]`: the inertial measurement unit, and how it errs."""
 
     site: Name = "imu"
+    """The site of the MJCF where it sits; with `link` it is added."""
     link: Name | None = None
+    """The link on which the site is added."""
     position: Position = (0.0, 0.0, 0.0)
+    """The added site's place in the link's frame, m."""
     gyro: Name = "gyro"
+    """The gyro of the MJCF; added where it has none."""
     accelerometer: Name = "accelerometer"
+    """The accelerometer of the MJCF; added where it has none."""
     gyro_noise: NotNegative = 0.0
+    """Standard deviation of an axis of the gyro at a tick, rad/s."""
     gyro_bias: NotNegative = 0.0
+    """Standard deviation of an axis' constant error, rad/s."""
     accelerometer_noise: NotNegative = 0.0
+    """Standard deviation of an axis of the accelerometer at a tick, m/s²."""
     accelerometer_bias: NotNegative = 0.0
+    """Standard deviation of an axis' constant error, m/s²."""
 
 
 class EncodersTable(Table):
-    """`[encoders]`: quantum and whole play (rad); bounds of constant errors (rad, m)."""
+    """`[encoders]`: how joint angles and the camera mount err."""
 
     quantum: NotNegative = 0.0
+    """Step of an encoder, rad."""
     play: NotNegative = 0.0
+    """Whole lost motion of a gear, rad; encoders sit on the motors' side of it."""
     leg_offset: NotNegative = 0.0
+    """Bound of the constant error of a leg's encoder, rad."""
     camera_roll_pitch_error: NotNegative = 0.0
+    """Bound of the camera's constant error in roll and pitch, rad."""
     camera_yaw_error: NotNegative = 0.0
+    """Bound of its constant error in yaw, rad."""
     camera_position_error: NotNegative = 0.0
+    """Bound of the constant error of its place, m."""
 
 
 class FeetTable(Table):
-    """`[feet]`: standard deviation of a force sensor: share of the value, and newtons."""
+    """`[feet]`: how the force sensors err."""
 
     force_noise: NotNegative = 0.0
+    """Standard deviation as a share of the force."""
     force_noise_absolute: NotNegative = 0.0
-
-
-class StereoTable(Table):
-    """`[camera.stereo]`: baseline (m), matching window, noise and limits of disparity (pixels)."""
-
-    baseline: Positive
-    window: Annotated[int, Field(ge=1, le=31)]
-    disparity_noise_fixed: NotNegative = 0.0
-    disparity_noise_temporal: NotNegative = 0.0
-    quantum: NotNegative = 0.0
-    min_disparity: Positive
-    max_disparity: Positive
-    mismatch_rate: Share = 0.0
-    dropout_rate: Share = 0.0
-
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        if self.window % 2 == 0:
-            raise ValueError("window must be odd")
-        if self.max_disparity <= self.min_disparity:
-            raise ValueError("max_disparity must be above min_disparity")
-        return self
-
-
-class StructuredLightTable(Table):
-    """`[camera.structured_light]`: baseline, nearest, farthest (m), noise (px), shares, rad."""
-
-    baseline: Positive
-    window: Annotated[int, Field(ge=1, le=31)]
-    disparity_noise: NotNegative
-    quantum: NotNegative = 0.0
-    nearest: Positive
-    farthest: Positive
-    lateral_noise: NotNegative = 0.0
-    edge_dropout: Share = 0.0
-    steepest: Annotated[FiniteFloat, Field(gt=0.0, le=1.5708)]
-
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        if self.farthest <= self.nearest:
-            raise ValueError("farthest must be above nearest")
-        if self.disparity_noise < self.quantum / 12.0**0.5:
-            raise ValueError("disparity_noise must hold that of rounding, quantum / sqrt(12)")
-        return self
-
-
-class MountTable(Table):
-    """`[camera.mount]`: the link that carries a camera which the MJCF does not have.
-
-    `position` of the lens in the link's frame, m; it looks along the link's x, tipped `down`, rad.
-    """
-
-    link: Name
-    position: Position
-    down: FiniteFloat = 0.0
-
-
-class CameraTable(Table):
-    """`[camera]`: a camera of the MJCF; image size (pixels), fields of view (rad), period (s).
-
-    With `mount` it is added to the MJCF.
-
-    `sensor` names the table that says how it errs. The core takes `pool` pixels a side for one.
-    """
-
-    name: Name
-    sensor: Literal["stereo", "structured_light"]
-    width: Annotated[int, Field(ge=8, le=640)]
-    height: Annotated[int, Field(ge=8, le=480)]
-    horizontal_fov: Annotated[FiniteFloat, Field(gt=0.0, lt=3.0)]
-    vertical_fov: Annotated[FiniteFloat, Field(gt=0.0, lt=3.0)]
-    period: Positive
-    pool: Annotated[int, Field(ge=1, le=8)] = 1
-    mount: MountTable | None = None
-    stereo: StereoTable | None = None
-    structured_light: StructuredLightTable | None = None
-
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        ticks = self.period / 0.01
-        if ticks < 1.0 - 1e-9 or abs(ticks - round(ticks)) > 1e-6:
-            raise ValueError("period must be a multiple of the control tick, 0.01 s")
-        if self.width % self.pool or self.height % self.pool:
-            raise ValueError(f"pool must divide width and height, got {self.pool}")
-        tables = {"stereo": self.stereo, "structured_light": self.structured_light}
-        if [name for name, table in tables.items() if table is not None] != [self.sensor]:
-            raise ValueError(f"sensor {self.sensor!r} needs its own table, and no other sensor's")
-        return self
-
-    @property
-    def triangulation(self) -> StereoTable | StructuredLightTable:
-        """The sensor's table: both kinds have a baseline and a window."""
-        table = self.stereo or self.structured_light
-        assert table is not None
-        return table
+    """Standard deviation beside that, N."""
 
 
 class MotorsTable(Table):
-    """`[motors.*]`: torques (N·m), speed (rad/s) and servo gains that some joints share.
-
-    `stall_torque` is where the torque-speed line starts; without it, at `peak_torque`. The joints'
-    own `damping` (N·m·s/rad), dry `friction` (N·m) and `armature` (kg·m²) are the MJCF's where they
-    are not given.
-    """
+    """`[motors.*]`: a kind of motor, and the joints that have one."""
 
     joints: Annotated[tuple[Name, ...], Field(min_length=1)]
+    """The joints with such a motor."""
     peak_torque: Positive
+    """Largest torque, N·m."""
     stall_torque: Positive | None = None
+    """Torque at which the torque-speed line starts, N·m; default: `peak_torque`."""
     no_load_speed: Positive
+    """Speed at which no torque is left, rad/s."""
     kp: Positive
+    """Stiffness of the servo, N·m/rad."""
     kv: NotNegative
+    """Damping of the servo, N·m·s/rad."""
     damping: NotNegative | None = None
+    """The joints' own damping, N·m·s/rad; default: the MJCF's."""
     friction: NotNegative | None = None
+    """The joints' dry friction, N·m; default: the MJCF's."""
     armature: NotNegative | None = None
+    """The motor's inertia at the joint, kg·m²; default: the MJCF's."""
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -271,27 +199,40 @@ class MotorsTable(Table):
 
 
 class RobotFile(Table):
-    """The whole file. `gait` goes to the walker as it is; a scenario goes over `navigation`.
-
-    `stand` (joint to angle, rad; 0 for the others) stands for a keyframe, `ranges` (joint to its
-    least and largest angle, rad) for those that the MJCF does not have.
-    """
+    """The whole file `robot.toml`: what the MJCF cannot say of the robot."""
 
     robot: RobotTable
-    stand: dict[Name, FiniteFloat] = {}
-    ranges: dict[Name, tuple[FiniteFloat, FiniteFloat]] = {}
+    """Who it is."""
+    stand: dict[Name, FiniteFloat] = Field(default_factory=dict)
+    """Angles of the upright stance, rad, 0 for the joints that are not named; default: the MJCF's
+    keyframe.
+    """
+    ranges: dict[Name, tuple[FiniteFloat, FiniteFloat]] = Field(default_factory=dict)
+    """Least and largest angle of joints whose range the MJCF does not have, rad."""
     body: BodyTable
+    """The size of the whole robot."""
     legs: LegsTable
+    """Both legs."""
     trunk: TrunkTable = TrunkTable()
+    """What is between pelvis and torso."""
     head: HeadTable
+    """The joints that turn the camera."""
     arms: ArmsTable = ArmsTable()
+    """Where the arms are held."""
     imu: ImuTable = ImuTable()
+    """The inertial measurement unit."""
     encoders: EncodersTable = EncodersTable()
+    """How joint angles err."""
     feet: FeetTable = FeetTable()
+    """How the force sensors err."""
     camera: CameraTable
+    """The depth camera."""
     motors: dict[Name, MotorsTable]
-    gait: dict[str, Any] = {}
-    navigation: dict[Name, dict[str, Any]] = {}
+    """Kinds of motors, by a name of the file's own."""
+    gait: dict[str, Any] = Field(default_factory=dict)
+    """The walker's parameters: `treadwell list parameters gait`."""
+    navigation: dict[Name, dict[str, Any]] = Field(default_factory=dict)
+    """Parameters of components with this robot; a scenario's go over them."""
 
     @field_validator("ranges")
     @classmethod

@@ -11,16 +11,16 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.course.assets import check_builds, compiled, read_spec
-from treadwell.course.xml import check_xml
 from treadwell.data import data_folder
 from treadwell.errors import InputError
-from treadwell.physics.motors import MotorLimits
+from treadwell.mjcf.build import check_builds, compiled, read_spec
+from treadwell.mjcf.xml import check_xml
 from treadwell.robot.additions import STAND, complete
 from treadwell.robot.check import check_robot
 from treadwell.robot.description import describe
 from treadwell.robot.file import MotorsTable, RobotFile
 from treadwell.robot.followers import followers
+from treadwell.robot.motor_limits import MotorLimits
 from treadwell.robot.reading import read_robot_file
 from treadwell.scenario.messages import shortened
 

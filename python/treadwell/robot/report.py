@@ -7,8 +7,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from treadwell.course.assets import compiled
 from treadwell.errors import InputError
+from treadwell.mjcf.build import compiled
 from treadwell.robot.anatomy import Anatomy, nameless
 from treadwell.robot.file import SoleTable
 from treadwell.robot.load import Robot, load_folder, robot_spec

@@ -28,6 +28,7 @@ class ElementTable(Table):
     """What every element has."""
 
     name: ElementName | None = None
+    """What overrides, events and results call it; no two elements have the same."""
     mapped: bool = True
     """False leaves it out of the a-priori map."""
     texture: Fraction = 1.0
@@ -38,17 +39,25 @@ class Stairs(ElementTable):
     """A flight of steps. Position: middle of the first riser's foot; yaw: direction of ascent."""
 
     kind: Literal["stairs"]
+    """Which kind of element it is."""
     position: Point2 = (0.6, 0.0)
+    """Middle of the first riser's foot: world x, y, m."""
     yaw: Angle = 0.0
+    """Direction of ascent, rad."""
     steps: Annotated[int, Field(ge=1, le=MOST_STEPS)] = 4
+    """Number of steps, the landing included."""
     rise: RiseOrList = 0.03
+    """Height of a step, m: one for all, or a list with one for each."""
     tread: LengthOrList = 0.12
+    """Depth of a step, m: one for all, or a list with one for each."""
     width: Length = 0.33
+    """Extent across the direction of ascent, m."""
     landing: Length = 0.33
-    """Depth of the topmost step: it takes the place of the last tread."""
+    """Depth of the topmost step, m: it takes the place of the last tread."""
     descent: bool = False
+    """Whether the same steps lead down again behind the landing."""
     turn: Annotated[float, Field(ge=-0.8, le=0.8)] = 0.0
-    """Each step's front edge is turned about its middle by this against the one below."""
+    """Each step's front edge is turned about its middle by this against the one below, rad."""
 
     @model_validator(mode="after")
     def _one_entry_per_step(self) -> Self:
@@ -75,49 +84,73 @@ class Sill(ElementTable):
     """A low bar to step over or onto. Position: middle of the near edge; yaw: walking direction."""
 
     kind: Literal["sill"]
+    """Which kind of element it is."""
     position: Point2 = (1.5, 0.0)
+    """Middle of the near edge: world x, y, m."""
     yaw: Angle = 0.0
+    """Walking direction, rad."""
     rise: Rise = 0.038
+    """Height above the ground, m."""
     depth: Length = 0.09
+    """Extent in walking direction, m."""
     width: Length = 1.0
+    """Extent across, m."""
 
 
 class Platform(ElementTable):
     """A block with a walkable top. Position: its centre."""
 
     kind: Literal["platform"]
+    """Which kind of element it is."""
     position: Point2 = (2.5, 0.0)
+    """Its centre: world x, y, m."""
     yaw: Angle = 0.0
+    """Heading of its length, rad."""
     size: Size3 = (0.6, 1.0, 0.03)
+    """Length, width and height, m."""
 
 
 class Box(ElementTable):
     """An obstacle. Position: its centre; `base`: height of its underside above the ground."""
 
     kind: Literal["box"]
+    """Which kind of element it is."""
     position: Point2 = (1.0, 0.4)
+    """Its centre: world x, y, m."""
     yaw: Angle = 0.0
+    """Heading of its length, rad."""
     size: Size3 = (0.2, 0.1, 0.3)
+    """Length, width and height, m."""
     base: Height = 0.0
+    """Height of its underside above the ground, m: an overhang or a curtain where it is above 0."""
 
 
 class Cylinder(ElementTable):
     """An upright round obstacle. Position: its axis."""
 
     kind: Literal["cylinder"]
+    """Which kind of element it is."""
     position: Point2 = (1.2, -0.4)
+    """Its axis: world x, y, m."""
     radius: Length = 0.05
+    """Radius, m."""
     height: Length = 0.4
+    """Height, m."""
 
 
 class Wall(ElementTable):
     """An upright wall along a line."""
 
     kind: Literal["wall"]
+    """Which kind of element it is."""
     from_: Annotated[Point2, Field(alias="from")] = (0.0, 1.0)
+    """One end of its line: world x, y, m."""
     to: Point2 = (3.0, 1.0)
+    """The other end: world x, y, m."""
     height: Length = 0.6
+    """Height, m."""
     thickness: Length = 0.05
+    """Thickness, m, half of it to either side of the line."""
 
     @model_validator(mode="after")
     def _has_a_length(self) -> Self:
@@ -132,42 +165,58 @@ class Ramp(ElementTable):
     """An inclined walkable plane. Position: middle of the low edge; yaw: direction of ascent."""
 
     kind: Literal["ramp"]
+    """Which kind of element it is."""
     position: Point2 = (3.0, 0.0)
+    """Middle of the low edge: world x, y, m."""
     yaw: Angle = 0.0
+    """Direction of ascent, rad."""
     length: Length = 0.8
+    """Extent along the ground in the direction of ascent, m."""
     width: Length = 0.6
+    """Extent across, m."""
     rise: Rise = 0.06
+    """Height of the high edge above the low one, m."""
 
 
 class Rubble(ElementTable):
     """A rough patch that cannot be walked on. Position: its centre."""
 
     kind: Literal["rubble"]
+    """Which kind of element it is."""
     position: Point2 = (1.8, 0.5)
+    """Its centre: world x, y, m."""
     yaw: Angle = 0.0
+    """Heading of its length, rad."""
     size: Size2 = (0.3, 0.3)
+    """Length and width, m."""
     amplitude: Rise = 0.03
-    """Height of the highest peak."""
+    """Height of the highest peak, m."""
 
 
 class Mesh(ElementTable):
     """A body of any shape from an .stl or .obj file in the scenario file's folder."""
 
     kind: Literal["mesh"]
+    """Which kind of element it is."""
     file: FileName
+    """Its file, `.stl` or `.obj`, beside the scenario file."""
     position: Point3 = (0.0, 0.0, 0.0)
+    """Where the file's origin goes: world x, y, z, m."""
     yaw: Angle = 0.0
+    """Heading of the file's x axis, rad."""
 
 
 class Scatter(ElementTable):
     """Random boxes and cylinders, 0.08 m or higher, that leave a way from start to goal."""
 
     kind: Literal["scatter"]
+    """Which kind of element it is."""
     area: Annotated[tuple[Point2, Point2], Field(strict=False)] = ((0.5, -0.8), (2.5, 0.8))
-    """Two opposite corners of the area in which their centres lie."""
+    """Two opposite corners of the area in which their centres lie: world x, y, m."""
     count: Annotated[int, Field(ge=1, le=200)] = 6
+    """How many there are."""
     size: Size2 = (0.05, 0.25)
-    """Smallest and largest edge."""
+    """Smallest and largest edge, m."""
 
     @model_validator(mode="after")
     def _is_ordered(self) -> Self:
@@ -187,7 +236,9 @@ class Mjcf(ElementTable):
     """An MJCF world in the scenario file's folder, added as it is."""
 
     kind: Literal["mjcf"]
+    """Which kind of element it is."""
     file: FileName
+    """Its MJCF file, beside the scenario file."""
 
 
 Element = Annotated[

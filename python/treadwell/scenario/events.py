@@ -25,10 +25,11 @@ class EventTable(Table):
     """When it happens: `at` a time, or when the robot comes `near` a point."""
 
     at: Seconds | None = None
-    """Simulated seconds."""
+    """Time at which it happens, simulated seconds."""
     near: Point2 | None = None
-    """World x, y; the event happens once, when the robot is `within` this distance."""
+    """World x, y, m: it happens once, when the robot comes as near to it as `within` says."""
     within: Length | None = None
+    """Distance from `near`, m."""
 
     @model_validator(mode="after")
     def _has_one_trigger(self) -> Self:
@@ -47,64 +48,82 @@ class Add(EventTable):
     """An element appears."""
 
     do: Literal["add"]
+    """What happens."""
     element: MovableElement
+    """The element, as in `[[course]]`."""
 
 
 class Remove(EventTable):
     """An element vanishes; nothing happens when it is not there."""
 
     do: Literal["remove"]
+    """What happens."""
     name: ElementName
+    """The element's name."""
 
 
 class Move(EventTable):
     """An element moves in a straight line; nothing happens when it is not there."""
 
     do: Literal["move"]
+    """What happens."""
     name: ElementName
+    """The element's name."""
     to: Point2
+    """Where it goes: world x, y, m."""
     speed: Annotated[float, Field(gt=0.0, le=10.0)] = 0.2
-    """Metres a second."""
+    """Speed, m/s."""
 
 
 class Push(EventTable):
     """A constant force on the torso for 0.1 s."""
 
     do: Literal["push"]
+    """What happens."""
     impulse: Annotated[tuple[Impulse, Impulse, Impulse], Field(strict=False)]
-    """World x, y, z in N·s."""
+    """Force times time along world x, y, z, N·s."""
 
 
 class Kidnap(EventTable):
     """The robot is put somewhere else as it stands."""
 
     do: Literal["kidnap"]
+    """What happens."""
     position: Point2
+    """Where it is put: world x, y, m."""
     yaw: Angle = 0.0
+    """Its heading there, rad."""
     height: Height | None = None
-    """The level; the highest surface there when left out."""
+    """The level, m; the highest surface there when left out."""
 
 
 class Blind(EventTable):
     """The depth camera sees nothing for a while."""
 
     do: Literal["blind"]
+    """What happens."""
     duration: Seconds
+    """How long, simulated seconds."""
 
 
 class ChangeFriction(EventTable):
     """The friction of the soles on everything changes."""
 
     do: Literal["friction"]
+    """What happens."""
     value: Friction
+    """The coefficient from then on."""
 
 
 class EncoderOffset(EventTable):
     """A joint's encoder reads wrong by this from now on."""
 
     do: Literal["encoder_offset"]
+    """What happens."""
     joint: Annotated[str, Field(min_length=1, max_length=64)]
+    """The joint's name."""
     value: Angle
+    """What is added to the angle that it reads, rad."""
 
 
 Event = Annotated[

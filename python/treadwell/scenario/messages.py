@@ -8,7 +8,8 @@ from typing import Any, Final
 from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
-from treadwell.components import known, parameter_tables
+from treadwell.additions import known
+from treadwell.components import parameter_tables
 from treadwell.scenario.elements import ELEMENTS
 from treadwell.scenario.events import EVENTS
 from treadwell.scenario.model import Expect, Goal, Navigation, Physics, Scenario, Sensors, Start

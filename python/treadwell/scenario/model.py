@@ -13,7 +13,8 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
-from treadwell.components import COMPONENTS, is_component, known, parameter_tables
+from treadwell.additions import is_component, known
+from treadwell.components import COMPONENTS, parameter_tables
 from treadwell.scenario.elements import Element
 from treadwell.scenario.events import Add, Event
 from treadwell.scenario.types import (
@@ -41,9 +42,11 @@ class Start(Table):
     """Where the robot starts, in the world frame."""
 
     position: Point2 = (0.0, 0.0)
+    """World x, y, m."""
     height: Height | None = None
-    """The level, when several lie above each other; default: the highest surface there."""
+    """The level, m, when several lie above each other; default: the highest surface there."""
     yaw: Angle = 0.0
+    """Heading, rad, counter-clockwise from world x."""
     known: bool = True
     """False: the core is not told where it starts."""
 
@@ -52,11 +55,13 @@ class Goal(Table):
     """The disc in which the robot has to come to a stand."""
 
     position: Point2 = (2.0, 0.0)
+    """Its middle: world x, y, m."""
     height: Height | None = None
-    """The level, as of the start. Scored only where it is given."""
+    """The level, m, as of the start. Scored only where it is given."""
     radius: Length = 0.15
+    """The robot stops at any pose inside this on which it can stand, m."""
     via: Annotated[tuple[Point2, ...], Field(strict=False, max_length=100)] = ()
-    """Points to pass in this order, each within `radius`, before the goal."""
+    """Points to pass in this order, each within `radius`, before the goal: world x, y, m."""
 
 
 class Physics(Table):
@@ -72,9 +77,13 @@ class Sensors(Table):
     """Which of the senses have their noise."""
 
     depth: Literal["noisy", "ideal"] = "noisy"
+    """The depth camera: with the errors of the robot's own sensor, or without any."""
     encoders: Literal["noisy", "ideal"] = "noisy"
+    """The joints' encoders, and how well the camera's mount is known."""
     imu: Literal["noisy", "ideal"] = "noisy"
+    """The inertial measurement unit: noise and bias of gyro and accelerometer."""
     feet: Literal["noisy", "ideal"] = "noisy"
+    """The force sensors of the soles."""
     latency: Annotated[float, Field(ge=0.0, le=2.0)] = 0.0
     """Seconds from exposure to arrival of a depth image."""
     camera_roll_pitch_error: Annotated[float, Field(ge=0.0, le=0.5)] | None = None
@@ -91,10 +100,15 @@ class Navigation(Table):
     model_config = ConfigDict(extra="allow")
 
     world_model: str = "fog"
+    """What keeps the map: a name of `treadwell list components`, or `package.module:Class`."""
     segmenter: str = "scan_line"
+    """What finds planes in a depth image."""
     localizer: str = "odometry"
+    """What keeps the robot's pose in the map."""
     planner: str = "a_star"
+    """What finds the way."""
     behaviour: str = "stair_climbing"
+    """What decides."""
     call_limit: Annotated[Seconds, Field(gt=0.0)] = 30.0
     """Seconds of wall-clock time that one call of a component in Python may take."""
 
@@ -132,30 +146,50 @@ class Expect(Table):
     """What makes a run pass. What is None is not asked for."""
 
     outcome: Literal["goal_reached", "refused"] = "goal_reached"
+    """How it has to end."""
     max_time: Limit | None = None
+    """Time it may take at most, simulated seconds."""
     max_falls: Count | None = 0
+    """Falls at most."""
     max_collisions: Count | None = None
+    """Collisions at most."""
     max_translation_error: Limit | None = None
+    """Mean distance between the believed and the true place at most, m."""
     max_height_error: Limit | None = None
+    """Error of the worst mapped surface at most, m."""
 
 
 class Scenario(Table):
     """A whole scenario file, as it is run."""
 
     schema_: Annotated[Literal[1], Field(alias="schema")]
+    """The version of this form."""
     name: Name
+    """The scenario's name; it becomes part of a run folder's name."""
     description: Annotated[str, Field(max_length=500)] = ""
+    """One line for `treadwell list scenarios`."""
     robot: Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f]{1,500}$")] = "qrio"
+    """A robot of `treadwell list robots`, or the path to a robot's folder."""
     seed: Annotated[int, Field(ge=0, lt=SEEDS)] = 0
+    """What all that is random is drawn from."""
     time_limit: Annotated[Seconds, Field(gt=0.0)] = 120.0
+    """The episode ends after this, simulated seconds."""
     start: Start
+    """Where the robot starts."""
     goal: Goal
+    """Where it shall come to a stand."""
     course: Annotated[tuple[Element, ...], Field(strict=False, max_length=MOST_ELEMENTS)] = ()
+    """What stands on the ground, a table `[[course]]` for each element."""
     event: Annotated[tuple[Event, ...], Field(strict=False, max_length=MOST_EVENTS)] = ()
+    """What happens on the way, a table `[[event]]` for each."""
     physics: Physics = Physics()
+    """What of the physics is other than usual."""
     sensors: Sensors = Sensors()
+    """Which senses have their noise."""
     navigation: Navigation = Navigation()
+    """Which components navigate, and their parameters."""
     expect: Expect = Expect()
+    """What makes a run pass."""
 
     _path: Path | None = PrivateAttr(default=None)
 

@@ -20,6 +20,7 @@ class Table(BaseModel):
         frozen=True,
         populate_by_name=True,
         validate_default=False,
+        use_attribute_docstrings=True,
     )
 
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from treadwell.episode import Episode
-from treadwell.judging.solvable import is_solvable
 from treadwell.runner import play_episode, run_episode
+from treadwell.solving.solvable import is_solvable
 from treadwell.sweeps.request import Key
 from treadwell.sweeps.row import Row, make_row
 

@@ -5,13 +5,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from treadwell import __version__
 from treadwell.data import data_folder
 from treadwell.errors import InputError
 from treadwell.robot.load import load_robot
 from treadwell.scenario.loading import find_scenario, load_scenario
 from treadwell.sweeps.content import build_hash, is_foreign, line_hash
 from treadwell.sweeps.variants import variants
+from treadwell.version import __version__
 
 SCHEMA: Final = "treadwell.sweep/1"
 

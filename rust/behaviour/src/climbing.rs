@@ -3,50 +3,66 @@
 //! On the plan's legs that are walked the behaviour `walking` decides. Before a leg that is climbed 003's states take over:
 //! align, approach, climb, finish. Decides from the [`Situation`] alone; whatever it waits for, it waits in bounded time.
 
-mod ascent;
+mod align;
+mod approach;
 mod blind;
-mod brink;
+mod clearance;
+mod climb;
 mod config;
+mod continuous;
+mod drop_off;
+mod edges;
 mod finish;
 mod flight;
 mod footsteps;
+mod goal;
 mod head;
-mod here;
 mod inspection;
 mod leg;
+mod memory;
+mod next_step;
 mod placement;
-mod room;
-mod run;
+mod search;
 mod setback;
 mod state;
-mod states;
 mod stepper;
 mod walk;
 
+#[cfg(test)]
+mod laws;
 #[cfg(test)]
 pub(crate) mod simulation;
 #[cfg(test)]
 mod tests;
 
-use geometry::PlanarPose;
-use planning::{Plan, Step};
 use settings::ConfigError;
 use stairs::{ClimbingConfig, Feet};
 
+use crate::machine::{Interruption, Limits, Machine, State as _, Tick};
 use crate::{
     Arms, Behaviour, BehaviourError, Command, Decision, Motion, Outcome, Situation,
     WalkingBehaviour,
 };
 pub use config::StairClimbingConfig;
 use flight::Flight;
-use footsteps::Stance;
 use head::Head;
-use here::Here;
-use inspection::Inspection;
 use leg::Leg;
+use memory::Memory;
 use placement::Before;
-use state::State;
+use state::Finish;
+pub(crate) use state::State;
 use stepper::Stepper;
+use walk::Ahead;
+
+/// How long a climb waits for what, and in what words it gives up.
+const LIMITS: Limits = Limits {
+    blind_after_s: 2.0,
+    blind_limit_s: 12.0,
+    blind_from_the_start: false,
+    idle_limit_s: 60.0,
+    idle_words: "no step could be taken",
+    place_words: ", before or on stairs",
+};
 
 /// How stairs are climbed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,36 +73,6 @@ pub enum Pace {
     Continuous,
 }
 
-/// What a state is at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Phase {
-    /// Stands and looks.
-    Look,
-    /// Moves its feet.
-    Step,
-    /// Waits for something to go away.
-    Wait,
-}
-
-/// How often something was tried without success.
-#[derive(Debug, Clone, Copy, Default)]
-struct Tries {
-    /// Looks at the same step.
-    looks: u32,
-    /// Moves to the place from which a step is taken.
-    moves: u32,
-    /// Lanes that were left for another one before the first step.
-    lanes: u32,
-    /// Steps that were taken back.
-    missteps: u32,
-    /// Searches for stairs without a climb after them.
-    searches: u32,
-    /// Stairs that were looked at from near by.
-    inspections: u32,
-    /// Walks that came upon a level which was not seen.
-    stumbles: u32,
-}
-
 /// Walks to the goal, and over stairs.
 #[derive(Debug, Clone)]
 pub struct StairClimbing {
@@ -95,37 +81,14 @@ pub struct StairClimbing {
     feet: Feet,
     pace: Pace,
     walking: WalkingBehaviour,
-    state: State,
-    phase: Phase,
-    state_s: f64,
-    phase_s: f64,
-    /// Time with sight since a step was taken or the last walk ended, s.
-    idle_s: f64,
-    time_ns: Option<u64>,
-    frames_used: u64,
+    machine: Machine<State>,
     head: Head,
     flight: Flight,
     stepper: Stepper,
-    /// The stances of a climb without stops that is on its way.
-    run: Vec<Stance>,
-    /// Whether a climb without stops goes on step by step, after a step of it failed.
-    pauses: bool,
-    /// The stair that the robot stands on, once it has climbed one.
-    on: Option<Step>,
-    /// Where it stood before the last step.
-    came_from: Option<Stance>,
-    tries: Tries,
+    memory: Memory,
+    ahead: Ahead,
     /// Whether the walker had stumbled at the last tick.
     had_stumbled: bool,
-    refusal: String,
-    /// The plan for `walking`: cut off before the next climb.
-    walk_plan: Option<Plan>,
-    climb_ahead_s: f64,
-    inspection: Option<Inspection>,
-    /// Whether the look around at the start is over.
-    looked_around: bool,
-    /// Edges of stairs that were looked at from near by, m.
-    inspected: Vec<[f64; 2]>,
 }
 
 impl StairClimbing {
@@ -146,142 +109,123 @@ impl StairClimbing {
             feet,
             pace,
             walking,
-            state: State::Walk,
-            phase: Phase::Look,
-            state_s: 0.0,
-            phase_s: 0.0,
-            idle_s: 0.0,
-            time_ns: None,
-            frames_used: 0,
+            machine: Machine::new(State::Walk, LIMITS),
             flight: Flight::default(),
             stepper: Stepper::default(),
-            run: Vec::new(),
-            pauses: false,
-            on: None,
-            came_from: None,
-            tries: Tries::default(),
+            memory: Memory::default(),
+            ahead: Ahead::default(),
             had_stumbled: false,
-            refusal: String::new(),
-            walk_plan: None,
-            climb_ahead_s: 0.0,
-            inspection: None,
-            looked_around: false,
-            inspected: Vec::new(),
         })
     }
 
-    fn here<'a>(&self, situation: &'a Situation<'a>) -> Here<'a> {
-        let origin = situation.estimate.map_from_robot.origin().inner;
-        let yaw_rad = situation.estimate.map_from_robot.yaw_rad();
-        let passed_ns = self
-            .time_ns
-            .map_or(0, |before_ns| situation.time_ns.saturating_sub(before_ns));
-        Here {
-            situation,
-            pose: PlanarPose::new(origin.x, origin.y, yaw_rad),
-            ground_m: origin.z,
-            passed_s: passed_ns as f64 * 1e-9,
-            new_frame: situation.frames_used != self.frames_used || self.time_ns.is_none(),
+    fn keep_time(&mut self, tick: &Tick<'_>) {
+        self.machine.keep_time(tick);
+        self.flight.wait(tick.passed_s);
+        if tick.new_frame && !self.is_walking() {
+            let Situation { plan, stairs, .. } = *tick.situation;
+            self.flight
+                .refresh(plan, stairs, &tick.pose, &self.climbing);
         }
     }
 
-    fn keep_time(&mut self, here: &Here<'_>) {
-        self.time_ns = Some(here.situation.time_ns);
-        self.frames_used = here.situation.frames_used;
-        self.state_s += here.passed_s;
-        self.phase_s += here.passed_s;
-        // Who sees nothing has a limit of its own for that.
-        if self.state != State::Blind {
-            self.idle_s += here.passed_s;
-        }
-        self.flight.wait(here.passed_s);
-        if here.new_frame && self.state != State::Walk {
-            let Situation { plan, stairs, .. } = *here.situation;
-            self.flight
-                .refresh(plan, stairs, &here.pose, &self.climbing);
-        }
+    const fn is_walking(&self) -> bool {
+        matches!(self.machine.state(), State::Walk)
     }
 
     fn enter(&mut self, next: State) {
-        debug_assert!(self.state == next || self.state.may_become(next));
-        if self.state.may_become(next) {
-            self.state = next;
-            self.state_s = 0.0;
-            self.phase(Phase::Look);
-        }
-    }
-
-    const fn phase(&mut self, next: Phase) {
-        self.phase = next;
-        self.phase_s = 0.0;
+        let _ = self.machine.enter(next);
     }
 
     fn refuse(&mut self, reason: String) {
-        if self.state != State::Refuse {
-            self.refusal = reason;
-            self.enter(State::Refuse);
+        self.enter(State::refuse(reason));
+    }
+
+    /// Ends a state of the climb if something happened that must, while no foot is on its way.
+    fn interrupt(&mut self, tick: &Tick<'_>) {
+        if self.stepper.is_running() {
+            return;
+        }
+        match self.machine.interruption(tick, || false) {
+            None | Some(Interruption::Stumble | Interruption::Arrival) => {}
+            Some(Interruption::Lost | Interruption::Blind) => {
+                self.enter(State::Blind { looks: false });
+            }
+            Some(Interruption::Idle(reason)) => self.refuse(reason),
         }
     }
 
-    fn before<'a>(&'a self, here: &Here<'_>) -> Before<'a> {
+    /// One tick of a state of the climb.
+    fn act(&mut self, tick: &Tick<'_>) -> Motion {
+        match self.machine.state() {
+            State::Walk | State::Refuse { .. } => Motion::Stand,
+            State::Search => self.search(tick),
+            State::Align => self.align(tick),
+            State::Approach(approach) => self.approach(tick, *approach),
+            State::Climb(_) => self.climb(tick),
+            State::StepBack { .. } => self.step_back(tick),
+            State::Finish { part, lasted_s } => self.finish(tick, *part, *lasted_s),
+            State::Blind { looks } => self.wait_for_sight(tick, *looks),
+        }
+    }
+
+    fn before<'a>(&'a self, tick: &Tick<'_>) -> Before<'a> {
         Before {
             config: &self.config,
             climbing: &self.climbing,
             feet: &self.feet,
-            pose: here.pose,
-            ground_m: here.ground_m,
+            pose: tick.pose,
+            ground_m: tick.ground_m,
         }
     }
 
     /// The decision of a state of the climb.
-    fn decision(&self, here: &Here<'_>, motion: Motion) -> Decision {
-        let cheers = self.state == State::Finish && self.phase == Phase::Wait;
+    fn decision(&self, tick: &Tick<'_>, motion: Motion) -> Decision {
+        let state = self.machine.state();
+        let cheers = matches!(
+            state,
+            State::Finish {
+                part: Finish::Cheer,
+                ..
+            }
+        );
         Decision {
             command: Command {
                 motion,
                 gaze: self.head.gazer.at(),
                 arms: if cheers { Arms::Raised } else { Arms::AtRest },
             },
-            state: self.state_name(),
+            state: state.name(),
             goal_passed: false,
-            outcome: self.outcome(here),
+            outcome: self.outcome(tick),
         }
     }
 
-    fn outcome(&self, here: &Here<'_>) -> Option<Outcome> {
-        if self.has_arrived(here) {
+    fn outcome(&self, tick: &Tick<'_>) -> Option<Outcome> {
+        if self.has_arrived(tick) {
             return Some(Outcome::GoalReached);
         }
-        let refused = self.state == State::Refuse && here.situation.standing;
-        refused.then(|| Outcome::Refused(self.refusal.clone()))
-    }
-
-    const fn state_name(&self) -> &'static str {
-        match (self.state, self.phase) {
-            (State::Climb, Phase::Wait) => "stop",
-            (state, _) => state.name(),
-        }
+        self.machine.refusal(tick.situation.standing)
     }
 }
 
 impl Behaviour for StairClimbing {
     fn next(&mut self, situation: &Situation<'_>) -> Result<Decision, BehaviourError> {
-        let here = self.here(situation);
-        self.keep_time(&here);
+        let tick = self.machine.read(situation);
+        self.keep_time(&tick);
         let stumbles = situation.stepping.stumbled && !self.had_stumbled;
         self.had_stumbled = situation.stepping.stumbled;
         if stumbles {
-            self.after_stumble(&here);
+            self.after_stumble(&tick);
         }
-        if self.state == State::Walk {
+        if self.is_walking() {
             return if situation.estimate.lost {
-                self.walk_lost(&here)
+                self.walk_lost(&tick)
             } else {
-                self.walk(&here)
+                self.walk(&tick)
             };
         }
-        self.interrupt(&here);
-        let motion = self.act(&here);
-        Ok(self.decision(&here, motion))
+        self.interrupt(&tick);
+        let motion = self.act(&tick);
+        Ok(self.decision(&tick, motion))
     }
 }

@@ -3,6 +3,7 @@
 mod climbing;
 mod command;
 mod decision;
+mod machine;
 mod walking;
 
 pub use climbing::{Pace, StairClimbing, StairClimbingConfig};

@@ -11,6 +11,7 @@ use numpy::{
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use settings::Table as _;
 use volume::{OccupancyGrid, Picture, Placement, ProbabilityTable, Ray, Size};
 
 use crate::error::{bad_setting, failed, unpanicked};

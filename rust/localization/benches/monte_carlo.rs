@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use geometry::{Camera, Grid, Lattice, Pose, Robot};
+use known_map::KnownMap;
 use localization::{Localizer, MonteCarloConfig, MonteCarloLocalizer, RangeModel, StaticMap};
 use mapping::{FloorView, Surface};
 use nalgebra::{
@@ -97,16 +98,18 @@ fn no_view() -> FloorView {
 
 /// Whole steps: beams drawn from a frame of 320 x 240, guesses moved, weighed and drawn anew.
 fn steps(criterion: &mut Criterion) {
-    let (Ok(solid), Ok(pool)) = (
-        SolidVoxels::of_boxes(&BOXES, SIDE_M),
+    let (Ok(known), Ok(pool)) = (
+        KnownMap::of_boxes(&BOXES, SIDE_M),
         rayon::ThreadPoolBuilder::new().num_threads(1).build(),
     ) else {
         return;
     };
-    let field = RangeField::new(&solid);
+    let Ok(field) = known.ranges() else {
+        return;
+    };
     // To and fro, so that every frame is due.
     let places = [place(3.0), place(3.03)];
-    let frames = places.map(|robot| (robot, frame(&field, &robot)));
+    let frames = places.map(|robot| (robot, frame(field, &robot)));
     for (name, range_model) in [
         ("step, ray casting", RangeModel::RayCast),
         ("step, likelihood field", RangeModel::LikelihoodField),
@@ -116,7 +119,7 @@ fn steps(criterion: &mut Criterion) {
             most_particles: 500,
             ..MonteCarloConfig::default()
         };
-        let Ok(map) = StaticMap::new(&solid, &config) else {
+        let Ok(map) = StaticMap::new(&known, &config) else {
             return;
         };
         let start = Some(Pose::wrap(places[1]));

@@ -5,8 +5,10 @@ mod model;
 pub mod surface;
 mod two_maps;
 
-pub use averaging::{Averaging, AveragingConfig};
+pub use averaging::{Averaging, AveragingConfig, AveragingTuning};
 pub use model::{FloorView, Insertion, MapError, Surface, Voxel, WorldModel};
-pub use surface::{Fog, FogConfig};
-pub use two_maps::{TwoMaps, TwoMapsConfig};
+pub use surface::{Fog, FogConfig, FogTuning};
+pub use two_maps::{
+    BeamsTuning, EmptySightTuning, KnownSurfacesTuning, TwoMaps, TwoMapsConfig, TwoMapsTuning,
+};
 pub use volume::{Clearing, Update};

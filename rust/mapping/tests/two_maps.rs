@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use common::{Block, camera, interior, is_obstacle, look};
 use geometry::{Map, Pose, Robot};
+use known_map::{KnownMap, KnownMapConfig};
 use mapping::{FogConfig, MapError, Surface, TwoMaps, TwoMapsConfig, Update, WorldModel};
 use proptest::prelude::*;
 use segmentation::Planes;
@@ -23,9 +24,13 @@ fn config(resolution: f64) -> TwoMapsConfig {
     }
 }
 
+fn known(tree: Octree) -> KnownMap {
+    KnownMap::new(Arc::new(tree), KnownMapConfig::default()).unwrap()
+}
+
 fn maps(resolution: f64, static_map: Option<Octree>) -> TwoMaps {
     let floors = FogConfig::default();
-    TwoMaps::new(config(resolution), &floors, static_map.map(Arc::new)).unwrap()
+    TwoMaps::new(config(resolution), &floors, static_map.map(known).as_ref()).unwrap()
 }
 
 /// A map in which the voxels with their middle in a block are occupied, and those below the ground.
@@ -348,7 +353,7 @@ fn a_static_map_that_would_be_cut_into_too_many_voxels_is_refused() {
     let bytes = [&bytes[..], &2.0_f32.to_le_bytes(), &[0]].concat();
     let whole = Octree::from_bytes("whole.ot", &bytes).unwrap();
     let floors = FogConfig::default();
-    let refused = TwoMaps::new(config(0.04), &floors, Some(Arc::new(whole)));
+    let refused = TwoMaps::new(config(0.04), &floors, Some(&known(whole)));
     let said = refused.unwrap_err().to_string();
     let allowed = "navigation.octree.resolution must be so coarse that the static map has";
     assert!(said.starts_with(allowed), "{said}");
@@ -362,7 +367,7 @@ fn with_a_window_as_large_as_there_is_a_static_map_is_looked_at_around_the_robot
         layers_below: 1,
         ..FogConfig::default()
     };
-    let told = Arc::new(told(&[]));
-    let maps = TwoMaps::new(config(VOXEL_M), &floors, Some(told)).unwrap();
+    let told = known(told(&[]));
+    let maps = TwoMaps::new(config(VOXEL_M), &floors, Some(&told)).unwrap();
     assert_eq!(maps.view().cells.cols(), 1990);
 }

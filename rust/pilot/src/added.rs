@@ -3,6 +3,7 @@
 use std::sync::{Arc, PoisonError, RwLock};
 
 use behaviour::Behaviour;
+use known_map::KnownMap;
 use localization::Localizer;
 use mapping::WorldModel;
 use planning::Planner;
@@ -12,7 +13,6 @@ use sensing::Intrinsics;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use stairs::Feet;
-use volume::octree::Octree;
 
 use crate::registry::table;
 use crate::{Components, PilotError, Settings};
@@ -29,7 +29,7 @@ pub struct Making<'a> {
     /// The camera of the scans.
     pub camera: Intrinsics,
     /// What is known of the place beforehand.
-    pub static_map: Option<&'a Arc<Octree>>,
+    pub static_map: Option<&'a Arc<KnownMap>>,
 }
 
 impl Making<'_> {

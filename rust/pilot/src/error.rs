@@ -8,7 +8,7 @@ use proprioception::ProprioceptionError;
 use robot::BodyError;
 use segmentation::SegmentError;
 use sensing::{ObservationError, ScanError};
-use settings::ConfigError;
+use settings::{ConfigError, MakeError};
 use stairs::StairsError;
 use walking::WalkError;
 
@@ -54,6 +54,15 @@ pub enum PilotError {
     /// The walker failed.
     #[error("walker: {0}")]
     Walker(#[from] WalkError),
+}
+
+impl From<MakeError> for PilotError {
+    fn from(error: MakeError) -> Self {
+        match error {
+            MakeError::Config(error) => Self::Config(error),
+            MakeError::Text(text) => Self::Settings(text),
+        }
+    }
 }
 
 impl PilotError {

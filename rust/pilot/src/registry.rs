@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use behaviour::{Behaviour, Pace, StairClimbing, WalkingBehaviour};
 use geometry::Pose;
+use known_map::{KnownMap, KnownMapConfig};
 use localization::{
     Localizer, MatchingLocalizer, MonteCarloConfig, MonteCarloLocalizer, OdometryLocalizer,
     StaticMap,
@@ -15,9 +16,8 @@ use segmentation::{Histogram, Hough, Ransac, ScanLine, ScanLine1994, ScanLineAda
 use sensing::Intrinsics;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use settings::{ConfigError, Tables};
+use settings::{ConfigError, Table, Tables};
 use stairs::{Feet, Recognizer};
-use volume::SolidVoxels;
 use volume::octree::Octree;
 use walking::Walker;
 
@@ -43,7 +43,7 @@ pub(crate) fn table<T: DeserializeOwned + Serialize + Default>(
     tables: &Tables,
     name: &str,
 ) -> Result<T, PilotError> {
-    settings::read(tables, name).map_err(PilotError::Settings)
+    Ok(settings::read(tables, name)?)
 }
 
 fn unknown(slot: &str, name: &str, known: &str) -> PilotError {
@@ -97,11 +97,22 @@ pub fn segmenter(
     }
 }
 
-/// The world model of a name, with what `[navigation.<name>]` says, and the static map where the robot was told one.
+/// The map that the robot was told, if any, with what `[navigation.static_map]` says.
+pub(crate) fn known_map(
+    tables: &Tables,
+    told: Option<&Arc<Octree>>,
+) -> Result<Option<Arc<KnownMap>>, PilotError> {
+    let config: KnownMapConfig = table(tables, "static_map")?;
+    config.check()?;
+    let made = |tree| KnownMap::new(Arc::clone(tree), config).map(Arc::new);
+    Ok(told.map(made).transpose()?)
+}
+
+/// The world model of a name, with what `[navigation.<name>]` says, and the map that the robot was told, if any.
 pub fn world_model(
     name: &str,
     tables: &Tables,
-    static_map: Option<&Arc<Octree>>,
+    static_map: Option<&KnownMap>,
 ) -> Result<Box<dyn WorldModel>, PilotError> {
     match name {
         "fog" => Ok(Box::new(Fog::new(table(tables, "fog")?)?)),
@@ -109,7 +120,7 @@ pub fn world_model(
         name @ "octree" => Ok(Box::new(TwoMaps::new(
             table(tables, name)?,
             &table(tables, "fog")?,
-            static_map.map(Arc::clone),
+            static_map,
         )?)),
         other => Err(unknown("world_model", other, "fog, averaging, octree")),
     }
@@ -125,7 +136,7 @@ pub(crate) fn recognizer(
 
 pub(crate) fn localizer(
     settings: &Settings,
-    static_map: Option<&Arc<Octree>>,
+    static_map: Option<&KnownMap>,
 ) -> Result<Box<dyn Localizer>, PilotError> {
     let tables = &settings.navigation.tables;
     let start = settings.start_or_origin();
@@ -146,7 +157,7 @@ pub(crate) fn localizer(
                     "navigation.localizer: monte_carlo has to be told a static map".to_owned(),
                 )
             })?;
-            let map = Arc::new(StaticMap::new(&solid(told)?, &config)?);
+            let map = Arc::new(StaticMap::new(told, &config)?);
             let start = settings.start.map(Pose::from);
             Ok(Box::new(MonteCarloLocalizer::new(map, start, config)?))
         }
@@ -158,14 +169,9 @@ pub(crate) fn localizer(
     }
 }
 
-/// The occupied voxels of a map as a dense grid.
-fn solid(map: &Octree) -> Result<SolidVoxels, PilotError> {
-    SolidVoxels::occupied(map).map_err(|error| PilotError::Settings(format!("static map: {error}")))
-}
-
 pub(crate) fn planner(
     settings: &Settings,
-    static_map: Option<&Arc<Octree>>,
+    static_map: Option<&KnownMap>,
     body: &Body,
     feet: Feet,
 ) -> Result<Box<dyn Planner>, PilotError> {
@@ -183,7 +189,12 @@ pub(crate) fn planner(
         other => return Err(unknown("planner", other, "a_star, voronoi")),
     };
     Ok(match static_map {
-        Some(map) => Box::new(Guided::new(near, &solid(map)?, size.height)?),
+        Some(map) => Box::new(Guided::new(
+            near,
+            map,
+            size.height,
+            table(tables, "guide")?,
+        )?),
         None => Box::new(near),
     })
 }

@@ -61,6 +61,9 @@ impl Pilot {
         static_map: Option<&Arc<Octree>>,
         mut given: Components,
     ) -> Result<Self, PilotError> {
+        let tables = &settings.navigation.tables;
+        let known_map = registry::known_map(tables, static_map)?;
+        let told = known_map.as_deref();
         let body = Body::new(settings.robot.clone())?;
         let walker = Walker::new(&body)?;
         let feet = registry::feet(&body, &walker);
@@ -72,17 +75,16 @@ impl Pilot {
             body: &body,
             feet,
             camera: scan.camera,
-            static_map,
+            static_map: known_map.as_ref(),
         };
         added::fill(&mut given, &making)?;
-        let tables = &settings.navigation.tables;
         let segmenter = given.segmenter.map_or_else(
             || registry::segmenter(&settings.navigation.segmenter, tables, scan.camera),
             Ok,
         )?;
         let self_filter = SelfFilter::new(&body, &table(tables, "self_filter")?)?;
         let world_model = given.world_model.map_or_else(
-            || registry::world_model(&settings.navigation.world_model, tables, static_map),
+            || registry::world_model(&settings.navigation.world_model, tables, told),
             Ok,
         )?;
         Ok(Self {
@@ -98,10 +100,10 @@ impl Pilot {
             ),
             localizer: given
                 .localizer
-                .map_or_else(|| registry::localizer(settings, static_map), Ok)?,
+                .map_or_else(|| registry::localizer(settings, told), Ok)?,
             planner: given
                 .planner
-                .map_or_else(|| registry::planner(settings, static_map, &body, feet), Ok)?,
+                .map_or_else(|| registry::planner(settings, told, &body, feet), Ok)?,
             behaviour: given
                 .behaviour
                 .map_or_else(|| registry::behaviour(settings, feet), Ok)?,

@@ -1,41 +1,29 @@
 //! A guide for planners that see only what is near: the way through a map that is known beforehand, over all its levels (002, III.D).
 
-mod floors;
-mod prior;
+mod config;
+mod laid;
 
 use geometry::{Map, Pose, Robot};
+use known_map::{CostField, Floors, KnownMap, Prior, StandingRoom, Target};
 use mapping::FloorView;
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 use stairs::Staircase;
-use volume::SolidVoxels;
 
 use crate::keep::SLACK_M;
 use crate::plan::place_of;
 use crate::shortcut::lay;
 use crate::{AStar, Goal, Path, Plan, PlanError, Planner};
-use floors::{Field, Floors, NONE};
-use prior::Prior;
-
-/// How far ahead on the guide's way the planner is sent, m,
-const AHEAD_M: f64 = 1.4;
-/// and how near it may come to that place before it is sent on, m.
-const ON_M: f64 = 0.7;
-/// Radius of such a place, m.
-const RADIUS_M: f64 = 0.2;
-/// Beyond stairs it lies where the way has been level for this long, m.
-const LANDING_M: f64 = 0.3;
-/// Heights that differ by more than this are two levels, m.
-const LEVEL_M: f64 = 0.02;
-/// The robot that stands beside its own obstacle cells is not blocked by them, m.
-const OWN_M: f64 = 0.3;
+pub use config::{GuideConfig, GuideTuning};
+use laid::laid_under;
 
 /// Plans by [`AStar`] to places on the guide's way, one after the other, and to the goal in the end.
 #[derive(Debug, Clone)]
 pub struct Guided {
+    tuning: GuideTuning,
     near: AStar,
     floors: Floors,
     prior: Prior,
-    field: Field,
+    field: CostField,
     /// Places where something stands that the map does not have.
     blocked: Vec<bool>,
     goal: Option<Goal>,
@@ -44,15 +32,25 @@ pub struct Guided {
 }
 
 impl Guided {
-    /// Guides a planner through a map for a body of a radius and a height, m.
-    pub fn new(near: AStar, solid: &SolidVoxels, height_m: f64) -> Result<Self, ConfigError> {
-        let floors = Floors::new(solid, [near.needed_m(), height_m]);
+    /// Guides a planner through a map for a body of a height, m, and of the planner's radius.
+    pub fn new(
+        near: AStar,
+        map: &KnownMap,
+        height_m: f64,
+        config: GuideConfig,
+    ) -> Result<Self, ConfigError> {
+        config.check()?;
+        let floors = map.floors(StandingRoom {
+            radius_m: near.needed_m(),
+            height_m,
+        })?;
         Ok(Self {
-            blocked: vec![false; floors.len()],
-            prior: Prior::new(solid, height_m),
+            tuning: config.tuning,
+            blocked: vec![false; floors.count()],
+            prior: map.prior(height_m)?,
             near,
             floors,
-            field: Field::default(),
+            field: CostField::default(),
             goal: None,
             sent: None,
         })
@@ -60,14 +58,9 @@ impl Guided {
 
     /// The guide's way from where the robot stands: its places.
     fn way(&self, at_m: [f64; 3]) -> Option<Vec<u32>> {
-        let leads = |place: u32| self.field.cost_m[place as usize].is_finite();
-        let mut place = self.floors.under(at_m, leads)?;
-        let mut way = vec![place];
-        while self.field.next[place as usize] != NONE {
-            place = self.field.next[place as usize];
-            way.push(place);
-        }
-        Some(way)
+        let leads = |place: u32| self.field.cost_m(place).is_finite();
+        let first = self.floors.under(at_m, leads)?;
+        Some(std::iter::successors(Some(first), |place| self.field.next(*place)).collect())
     }
 
     /// Where on a way the planner is sent: so far ahead, or to where it is level again behind stairs; `None` to the goal itself.
@@ -77,23 +70,23 @@ impl Guided {
             let [from, to] = [pair[0], pair[1]].map(|place| self.floors.at_m(place));
             let step_m = (to[0] - from[0]).hypot(to[1] - from[1]);
             walked_m += step_m;
-            if (to[2] - from[2]).abs() > LEVEL_M {
+            if (to[2] - from[2]).abs() > self.tuning.level {
                 climbs = true;
                 level_m = 0.0;
             } else {
                 level_m += step_m;
             }
-            let landed = climbs && level_m > LANDING_M;
-            if landed || (walked_m > AHEAD_M && !climbs) {
+            let landed = climbs && level_m > self.tuning.landing;
+            if landed || (walked_m > self.tuning.ahead && !climbs) {
                 let height_m = match goal.height_m {
                     // What the goal says of its level is finer than voxels.
-                    Some(height_m) if (height_m - to[2]).abs() < self.floors.side_m => height_m,
+                    Some(height_m) if (height_m - to[2]).abs() < self.floors.side_m() => height_m,
                     _ => to[2],
                 };
                 let place = Goal {
                     x_m: to[0],
                     y_m: to[1],
-                    radius_m: RADIUS_M,
+                    radius_m: self.tuning.radius,
                     height_m: climbs.then_some(height_m),
                 };
                 return Some((place, pair[1]));
@@ -106,10 +99,10 @@ impl Guided {
     /// the window, on another level, and at steps.
     fn spare_m(&self, place: u32, robot_m: [f64; 3]) -> Option<f64> {
         let [x, y, z] = self.floors.at_m(place);
-        if (z - robot_m[2]).abs() > LEVEL_M || self.floors.is_at_step(place) {
+        if (z - robot_m[2]).abs() > self.tuning.level || self.floors.is_at_step(place) {
             return None;
         }
-        let near = (x - robot_m[0]).hypot(y - robot_m[1]) < OWN_M;
+        let near = (x - robot_m[0]).hypot(y - robot_m[1]) < self.tuning.own;
         let clearance_m = self.near.clearance_m(x, y)?;
         Some(if near {
             0.0
@@ -120,12 +113,12 @@ impl Guided {
 
     /// Takes note of what stands in the window that the map does not have, on the robot's level, and looks for the way anew.
     fn look_again(&mut self, robot_m: [f64; 3], goal: &Goal) {
-        for place in 0..self.floors.len() as u32 {
+        for place in 0..self.floors.count() as u32 {
             if let Some(spare_m) = self.spare_m(place, robot_m) {
                 self.blocked[place as usize] = spare_m < 0.0;
             }
         }
-        self.floors.aim(goal, &self.blocked, &mut self.field);
+        (self.floors).aim(&target(goal), &self.blocked, &mut self.field);
         self.sent = None;
     }
 
@@ -144,8 +137,10 @@ impl Guided {
     fn send(&mut self, at_m: [f64; 3], goal: &Goal) -> Option<Vec<u32>> {
         let way = self.way(at_m)?;
         let stays = self.sent.is_some_and(|(sent, place)| {
-            let far = (sent.x_m - at_m[0]).hypot(sent.y_m - at_m[1]) > ON_M;
-            let below = sent.height_m.is_some_and(|h| (h - at_m[2]).abs() > LEVEL_M);
+            let far = (sent.x_m - at_m[0]).hypot(sent.y_m - at_m[1]) > self.tuning.send_on;
+            let below = sent
+                .height_m
+                .is_some_and(|h| (h - at_m[2]).abs() > self.tuning.level);
             (far || below) && way.contains(&place)
         });
         if !stays {
@@ -172,7 +167,16 @@ impl Guided {
         }
         path.unknown.resize(path.points_m.len(), false);
         path.clearance_m.resize(path.points_m.len(), f64::INFINITY);
-        path.cost_m += f64::from(self.field.cost_m[place as usize]);
+        path.cost_m += f64::from(self.field.cost_m(place));
+    }
+}
+
+/// A goal as the known map's floors see it.
+const fn target(goal: &Goal) -> Target {
+    Target {
+        at_m: [goal.x_m, goal.y_m],
+        radius_m: goal.radius_m,
+        height_m: goal.height_m,
     }
 }
 
@@ -191,7 +195,7 @@ impl Guided {
         let way = self.send(near.at_m, goal);
         let target = self.sent.filter(|_| way.is_some());
         let mut plan = (self.near).plan(
-            &self.prior.laid_under(near.view, near.at_m),
+            &laid_under(&self.prior, near.view, near.at_m),
             near.stairs,
             near.start,
             target.as_ref().map_or(goal, |(g, _)| g),
@@ -217,7 +221,7 @@ impl Planner for Guided {
         let at_m = [place.x_m, place.y_m, height_m];
         if self.goal != Some(*goal) {
             self.blocked.fill(false);
-            self.floors.aim(goal, &self.blocked, &mut self.field);
+            (self.floors).aim(&target(goal), &self.blocked, &mut self.field);
             (self.goal, self.sent) = (Some(*goal), None);
         }
         let near = Near {

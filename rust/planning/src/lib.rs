@@ -39,6 +39,6 @@ mod voronoi;
 
 pub use a_star::AStar;
 pub use config::{AStarConfig, Footprint};
-pub use guide::Guided;
+pub use guide::{GuideConfig, GuideTuning, Guided};
 pub use plan::{Climb, Goal, NoWay, Path, Plan, PlanError, Planner, Refusal, Sidle, Step};
 pub use voronoi::VoronoiConfig;

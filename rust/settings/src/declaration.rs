@@ -302,7 +302,7 @@ mod tests {
         let grid: Grid = read(&tables, "grid").unwrap();
         assert_eq!((grid.tuning.nu, grid.tuning.offsets[1]), (0.5, 0.5));
         let tables = Tables::from([("grid".to_owned(), json!({"tuning": {"mu": 0.5}}))]);
-        let error = read::<Grid>(&tables, "grid").unwrap_err();
+        let error = read::<Grid>(&tables, "grid").unwrap_err().to_string();
         assert!(error.starts_with("navigation.grid.tuning"), "{error}");
         assert!(error.contains("unknown field `mu`"), "{error}");
     }

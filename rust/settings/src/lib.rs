@@ -7,6 +7,7 @@ extern crate self as settings;
 mod bounds;
 mod declaration;
 mod error;
+mod part;
 mod setting;
 mod table;
 
@@ -15,6 +16,7 @@ pub use bounds::{
     from_below, within,
 };
 pub use error::{ConfigError, require, require_positive};
+pub use part::{MakeError, Part};
 #[doc(hidden)]
 pub use setting::words_of;
 pub use setting::{Parameter, Setting};

@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
-use crate::{Bounds, ConfigError, Parameter, Setting};
+use crate::{Bounds, ConfigError, MakeError, Parameter, Setting};
 
 /// A struct whose fields are settings. Declared by [`crate::settings!`].
 pub trait Table: Serialize + DeserializeOwned + Default {
@@ -89,12 +89,13 @@ pub type Tables = BTreeMap<String, Value>;
 pub fn read<T: DeserializeOwned + Serialize + Default>(
     tables: &Tables,
     name: &str,
-) -> Result<T, String> {
+) -> Result<T, MakeError> {
     let Some(given) = tables.get(name) else {
         return Ok(T::default());
     };
-    let refused =
-        |key: &str, error: &dyn std::fmt::Display| format!("navigation.{name}{key}: {error}");
+    let refused = |key: &str, error: &dyn std::fmt::Display| {
+        MakeError::Text(format!("navigation.{name}{key}: {error}"))
+    };
     let mut settings = serde_json::to_value(T::default()).map_err(|error| refused("", &error))?;
     overlay(&mut settings, given);
     serde_path_to_error::deserialize(settings).map_err(|error| {

@@ -1,4 +1,4 @@
-//! The same exact traversal as [`super::VoxelWalk`], many voxels at a time: for every cell that a segment passes, seen from
+//! The exact traversal of [`super::VoxelWalk`], many voxels at a time: for every cell that a segment passes, seen from
 //! above, the run of layers that it passes there.
 
 use super::ray::Part;
@@ -18,7 +18,7 @@ const MOST_LAYERS: i64 = 65 * ONE;
 pub(super) struct Slabs {
     /// Slabs after the first.
     count: i32,
-    /// v and height where it starts, at the first border, and from border to border; fixed point.
+    /// Fixed-point v and height where the segment starts, at the first border, and from border to border.
     start: [i64; 2],
     at_border: [i64; 2],
     step: [i64; 2],

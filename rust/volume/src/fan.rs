@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use super::raster::{ROWS, Raster};
 
-/// A ray that rises or falls more than so many voxels on a voxel's way is not taken in.
+/// A ray that rises or falls more than so many voxels on a voxel's way is not taken in, but followed by itself; the marks are the same.
 const STEEPEST: f64 = 4.0;
-/// Bins for each ray, if all were evenly spread: a voxel's sure part is to hold whole bins.
+/// Bins for each ray, if all were evenly spread: a voxel's sure part is to hold whole bins. More or fewer only take longer.
 const BINS: f32 = 6.0;
 /// Most columns, and most bins for a slope of one.
 const COLS: usize = 2048;
@@ -24,7 +24,7 @@ struct Beam {
     ray: u32,
 }
 
-/// The same by its bin; or a bin, and the next ray of its block.
+/// A ray by its bin; or a bin, and the next ray of its block.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Place {
     col: u16,
@@ -52,7 +52,7 @@ pub(super) struct Fan {
     starts: Vec<u32>,
     /// Bins of the rays that have been let in.
     raster: Raster,
-    /// Those rays by block: the first, and by ray its bin and the next.
+    /// The rays that have been let in, by block: the first, and by ray its bin and the next.
     heads: Vec<u32>,
     links: Vec<Place>,
 }

@@ -1,11 +1,11 @@
 //! What of a grid shows in a picture: a space between planes.
 
-use super::occupancy::Size;
 use super::picture::{Linear, Sight};
+use super::placement::Size;
 
 /// Planes around what shows in the picture and is not too deep.
 const PLANES: usize = 6;
-/// No place is looked up that is nearer to the camera than this, m.
+/// No place is looked up that is nearer to the camera than this, m: there a division by the depth would lose it, and no camera sees.
 const NEAREST_M: f32 = 0.01;
 
 /// Layers of a cell, first and last.
@@ -83,7 +83,7 @@ fn per(slope: f32) -> f32 {
 }
 
 impl Frustum {
-    /// Of a picture in which nothing is deeper than `farthest_m`.
+    /// What shows in a picture in which nothing is deeper than `farthest_m`.
     pub(super) fn new(sight: &Sight, farthest_m: f32, size: Size) -> Self {
         let [width, height] = sight.size_px.map(|n| n as f32);
         let (depth, across, down) = (&sight.depth, &sight.across, &sight.down);

@@ -9,6 +9,7 @@ mod modes;
 mod occupancy;
 pub mod octree;
 mod picture;
+mod placement;
 mod probability;
 mod projected;
 mod raster;
@@ -20,10 +21,9 @@ mod voxels;
 
 pub use locator::Locator;
 pub use modes::{Clearing, Update};
-pub use occupancy::{OccupancyGrid, Placement, Ray, Size};
+pub use occupancy::OccupancyGrid;
 pub use picture::Picture;
+pub use placement::{Placement, Ray, Size};
 pub use probability::{ProbabilityTable, bayes};
 pub use ray::VoxelWalk;
-pub use solid::{
-    DistanceField, LANES, Lanes, RangeField, SolidError, SolidVoxels, Standing, standing,
-};
+pub use solid::{DistanceField, LANES, Lanes, RangeField, SolidError, SolidVoxels};

@@ -2,7 +2,7 @@
 
 use geometry::Lattice;
 
-use super::occupancy::{Placement, Size};
+use super::placement::{Placement, Size};
 
 /// Nearer to a border than this, in voxels, a product with one over the voxel's size does not tell on which side of it a place is.
 const AT_BORDER: f64 = 1e-9;
@@ -21,7 +21,7 @@ pub struct Locator<const AXES: usize> {
 }
 
 impl Locator<3> {
-    /// Of voxels.
+    /// A locator of voxels.
     pub(super) fn of_voxels(placement: &Placement, size: Size) -> Self {
         let Placement {
             lattice,
@@ -35,7 +35,7 @@ impl Locator<3> {
 }
 
 impl Locator<2> {
-    /// Of the cells of a grid with so many columns and rows.
+    /// A locator of the cells of a grid with so many columns and rows.
     pub fn of_cells(lattice: &Lattice, [cols, rows]: [usize; 2]) -> Self {
         let size = [cols, rows].map(|n| n as i32);
         Self::new(lattice.origin_m, [lattice.cell_m; 2], size)

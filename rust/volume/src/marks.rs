@@ -5,16 +5,16 @@ use geometry::{Cell, CellArea};
 use super::columns::Slabs;
 use super::fan::Fan;
 use super::locator::Locator;
-use super::occupancy::{Placement, Ray, Size};
 use super::picture::Sight;
-use super::projected::Projector;
+use super::placement::{Placement, Ray, Size};
+use super::projected::{LOOKS, Projector};
 use super::ray::{Last, Part, Reach};
 use super::reaches::Reaches;
 use super::sweep::{Marked, Sweep, Way};
 use super::voxels::{Column, Voxels};
 use crate::Clearing;
 
-/// Fewer rays of one way are followed one by one.
+/// Fewer rays of one way are followed one by one; the marks are the same either way.
 const FEW: usize = 64;
 /// Voxels that a ray goes ahead at most; more than a grid has.
 const FARTHEST: f64 = 1e6;
@@ -30,6 +30,8 @@ pub(super) struct Marks {
     fans: [Fan; 4],
     ends: Vec<[f64; 3]>,
     reaches: Reaches,
+    /// Lines of sight along columns, and as many along rows, that are looked at of what is likely to be occupied.
+    pub(super) looks: usize,
 }
 
 impl Marks {
@@ -43,6 +45,7 @@ impl Marks {
             fans: Default::default(),
             ends: Vec::new(),
             reaches: Reaches::default(),
+            looks: LOOKS,
         }
     }
 
@@ -82,7 +85,7 @@ impl Marks {
         reach.area()
     }
 
-    /// The same for the rays of a picture, each with its pixel: looks from the voxels into the picture, and leaves out what is
+    /// Marks what the rays of a picture, each with its pixel, hit and passed: looks from the voxels into the picture, and leaves out what is
     /// settled, and voxels of which no ray goes by the places that are looked at.
     pub(super) fn look(
         &mut self,
@@ -108,7 +111,7 @@ impl Marks {
         }
         self.reaches.gather();
         let (hits, passed) = (&self.hits, &mut self.passed);
-        let projector = Projector::new(sight, &self.reaches, farthest_m, self.size);
+        let projector = Projector::new(sight, &self.reaches, (farthest_m, self.looks), self.size);
         area.join(projector.visit(
             |cell| {
                 let Column { known, likely } = voxels.column(cell);

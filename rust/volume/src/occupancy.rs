@@ -1,64 +1,15 @@
 //! The voxel occupancy grid: equations (1), (3), (4), (6) and (10) of 000.
 
-use geometry::{Cell, CellArea, Lattice};
+use geometry::{Cell, CellArea, Lattice, runs};
 
 use super::marks::Marks;
 use super::picture::{Picture, Sight};
+use super::placement::{Placement, Ray, Size};
+use super::projected::LOOKS;
 use super::ray::Part;
 use super::voxels::{Voxels, bits};
 use super::{ProbabilityTable, VoxelWalk};
 use crate::{Clearing, Update};
-use geometry::runs;
-
-/// Number of voxels along each axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Size {
-    /// Along x.
-    pub cols: usize,
-    /// Along y.
-    pub rows: usize,
-    /// Along z, at most 64.
-    pub layers: usize,
-}
-
-impl Size {
-    /// Columns, rows and layers.
-    pub(super) fn voxels(self) -> [i32; 3] {
-        [self.cols, self.rows, self.layers].map(|n| n as i32)
-    }
-}
-
-/// Where the voxels lie in the map frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Placement {
-    /// The cells seen from above.
-    pub lattice: Lattice,
-    /// Lower bound of layer 0, m.
-    pub bottom_m: f64,
-    /// Height of a layer, m.
-    pub layer_m: f64,
-}
-
-impl Placement {
-    /// A point of the map frame in voxels.
-    pub(super) fn in_voxels(&self, point_m: [f64; 3]) -> [f64; 3] {
-        let Lattice { origin_m, cell_m } = self.lattice;
-        [
-            (point_m[0] - origin_m[0]) / cell_m,
-            (point_m[1] - origin_m[1]) / cell_m,
-            (point_m[2] - self.bottom_m) / self.layer_m,
-        ]
-    }
-}
-
-/// One line of sight.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ray {
-    /// Its end in the map frame, m.
-    pub end_m: [f64; 3],
-    /// Whether something was seen at its end; false: it was only seen to be free up to there.
-    pub hit: bool,
-}
 
 /// Probabilities of occupancy over the robot's surroundings.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,6 +31,17 @@ impl OccupancyGrid {
         }
     }
 
+    /// Lines of sight that are looked at along columns, and as many along rows, where nobody says another number.
+    pub const LOOKS: usize = LOOKS;
+
+    /// Looks at so many lines of sight along columns, and as many along rows, of a voxel that is likely to be occupied, before it
+    /// counts as not passed ([`Clearing::Projected`]).
+    #[must_use]
+    pub const fn with_looks(mut self, looks: usize) -> Self {
+        self.marks.looks = looks;
+        self
+    }
+
     /// Where the voxels lie.
     pub const fn placement(&self) -> &Placement {
         &self.placement
@@ -96,7 +58,7 @@ impl OccupancyGrid {
         self.is_occupied_at(self.placement.lattice.cell_at(x_m, y_m), z_m)
     }
 
-    /// The same at a height of a cell of the grid.
+    /// Whether the probability at a height of a cell of the grid exceeds `p_occ`.
     pub fn is_occupied_at(&self, cell: Cell, height_m: f64) -> bool {
         self.voxel_of(cell, height_m)
             .is_some_and(|(cell, layer)| self.voxels.occupied(cell) >> layer & 1 == 1)
@@ -113,14 +75,14 @@ impl OccupancyGrid {
         self.obstacle_height_at(self.cell_index(cell)?)
     }
 
-    /// The same of the cell that is stored at an index, row by row.
+    /// Equation (10) for the cell that is stored at an index, row by row.
     #[inline]
     pub fn obstacle_height_at(&self, index: usize) -> Option<f64> {
         let layer = self.voxels.occupied(index).checked_ilog2();
         layer.map(|layer| self.center_m(layer as usize))
     }
 
-    /// The other way round: height of the centre of the lowest occupied voxel of a cell whose centre lies above a height, m.
+    /// Height of the centre of the lowest occupied voxel of a cell whose centre lies above a height, m.
     pub fn lowest_above_m(&self, cell: Cell, height_m: f64) -> Option<f64> {
         let mask = self.voxels.occupied(self.cell_index(cell)?);
         bits(mask)
@@ -154,7 +116,7 @@ impl OccupancyGrid {
         }
     }
 
-    /// The same with rays that are a picture's, each with the number of its pixel, row by row; no pixel has two.
+    /// Takes in rays that are a picture's, each with the number of its pixel, row by row; no pixel has two.
     pub fn insert_picture(
         &mut self,
         eye_m: [f64; 3],

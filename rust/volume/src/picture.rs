@@ -2,7 +2,7 @@
 
 use geometry::{Camera, Map, Pose};
 
-use super::occupancy::Placement;
+use super::placement::Placement;
 
 /// A pinhole camera's picture: where its lines of sight lie side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +35,7 @@ pub(super) struct Linear {
 }
 
 impl Linear {
-    /// Its value in the middle of the lowest voxel of a cell.
+    /// Value in the middle of the lowest voxel of a cell.
     #[inline]
     pub(super) fn at(&self, col: usize, row: usize) -> f32 {
         self.origin + self.step[0] * col as f32 + self.step[1] * row as f32
@@ -73,7 +73,7 @@ pub(super) struct Sight {
     origin_m: f64,
 }
 
-/// Of half a voxel: the rest is more than what 32 bits may lose.
+/// Share of half a voxel that counts as within it: the rest is more than what 32 bits may lose, a rounding guard.
 const WITHIN: f32 = 0.98;
 
 impl Sight {

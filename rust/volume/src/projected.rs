@@ -4,13 +4,13 @@ use geometry::{Cell, CellArea};
 
 use super::columns::run;
 use super::frustum::Frustum;
-use super::occupancy::Size;
 use super::picture::Sight;
+use super::placement::Size;
 use super::reaches::{LEVELS, Level, Reaches};
 use super::voxels::{Column, bits};
 
-/// Of what is likely to be occupied, at most so many lines of sight along columns, and as many along rows, are looked at.
-const LOOKS: usize = 6;
+/// Lines of sight along columns, and as many along rows, that are looked at where nobody says another number.
+pub(super) const LOOKS: usize = 6;
 
 /// A level of the picture as it is looked up.
 struct Lens<'a> {
@@ -57,17 +57,25 @@ pub(super) struct Projector<'a> {
     lenses: [Lens<'a>; LEVELS],
     frustum: Frustum,
     size: Size,
+    looks: usize,
 }
 
 impl<'a> Projector<'a> {
-    /// For lines of sight that reach `farthest_m` deep at most.
-    pub(super) fn new(sight: &'a Sight, reaches: &'a Reaches, farthest_m: f32, size: Size) -> Self {
+    /// A projector of lines of sight that reach `farthest_m` deep at most. Of what is likely to be occupied, at most `looks` of them
+    /// along columns, and as many along rows, are looked at.
+    pub(super) fn new(
+        sight: &'a Sight,
+        reaches: &'a Reaches,
+        (farthest_m, looks): (f32, usize),
+        size: Size,
+    ) -> Self {
         let levels = reaches.levels().each_ref();
         Self {
             lenses: levels.map(|level| Lens::new(level, sight)),
             frustum: Frustum::new(sight, farthest_m, size),
             sight,
             size,
+            looks,
         }
     }
 
@@ -150,7 +158,7 @@ impl<'a> Projector<'a> {
             let (middle_px, end) = (from_corner / depth_m, self.sight.size_px[way] as f32);
             let first = (middle_px - half_px).clamp(0.0, end) as usize;
             let last = (middle_px + half_px + 1.0).clamp(0.0, end) as usize;
-            (first..last).step_by((last - first).div_ceil(LOOKS).max(1))
+            (first..last).step_by((last - first).div_ceil(self.looks).max(1))
         };
         let middle = self.sight.beyond_eye(voxel);
         let Level { size, depths_m, .. } = self.lenses[0].level;
@@ -164,7 +172,7 @@ impl<'a> Projector<'a> {
     }
 }
 
-/// Those of some layers for which it holds.
+/// The layers, of some, for which it holds.
 #[inline]
 fn layers(among: u64, holds: impl Fn(usize) -> bool) -> u64 {
     let mut found = 0;

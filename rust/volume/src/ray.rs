@@ -67,7 +67,7 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// Of no ray yet.
+    /// The reach of no ray yet.
     pub(super) fn new(eye: [f64; 3], size: [i32; 3]) -> Self {
         Self {
             eye,

@@ -5,7 +5,7 @@
 pub(super) struct Level {
     /// Columns and rows.
     pub(super) size: [usize; 2],
-    /// m; 0 where no line of sight is.
+    /// Depth to which lines of sight reach, m; 0 where there is none.
     pub(super) depths_m: Vec<f32>,
     /// Side of a tile, pixels.
     pub(super) tile_px: f32,

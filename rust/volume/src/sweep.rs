@@ -5,20 +5,20 @@ use std::ops::Range;
 
 use super::columns::{Slabs, run};
 use super::fan::{Fan, Grain};
-use super::occupancy::Size;
+use super::placement::Size;
 use super::raster::Band;
 use super::ray::Part;
 use super::voxels::bits;
 
-/// Of a bin: more than what 32 bits may lose.
+/// Part of a bin that is more than what 32 bits may lose: a rounding guard.
 const MARGIN: f64 = 1e-3;
-/// Of a voxel: far more than the rounding of a ray.
+/// Part of a voxel that is far more than the rounding of a ray: a rounding guard, behind which every ray is followed exactly.
 const NEAR: f64 = 1e-4;
 /// Nearer to the eye, in voxels, bins are too small for their margin.
 const NEAREST: f64 = 0.01;
 /// What is nearer is taken to be so far: by then no ray that is not steep has left [`NEAR`].
 const TOUCHED: f64 = 1e-5;
-/// Most layers.
+/// Layers at most: one bit each of a word.
 const LAYERS: usize = 64;
 
 /// Where rays go: an axis of the grid, and the one across.
@@ -136,7 +136,7 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// The other voxels of a slab that a ray may pass: asks the rays.
+    /// Asks the rays about the voxels of a slab that one may pass and that are not marked yet.
     fn look(&self, fan: &Fan, slab: i32, marked: &mut Marked<'_>) {
         let Depth { enter, leave } = self.depth(slab);
         let grain = fan.grain();

@@ -23,14 +23,14 @@ pub(super) struct Voxels {
 /// Layers of a cell, one bit each.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Column {
-    /// Those of which nothing is to be found out.
+    /// The layers of which nothing is to be found out.
     pub(super) known: u64,
-    /// Those that are rather occupied than not.
+    /// The layers that are rather occupied than not.
     pub(super) likely: u64,
 }
 
 impl Voxels {
-    /// Of which nothing is known: 0.5 everywhere, equation (4).
+    /// Voxels of which nothing is known: 0.5 everywhere, equation (4).
     pub(super) fn new(size: Size, table: ProbabilityTable) -> Self {
         let Size { cols, rows, layers } = size;
         Self {

@@ -1,54 +1,34 @@
-//! Nothing is seen, or the robot does not know where it is: it stands before or on the stairs until that is over.
+//! The state `blind`: nothing is seen, or the robot does not know where it is, and it stands before or on the stairs until that is
+//! over.
 
-use super::{Here, Phase, StairClimbing, State};
+use super::state::Climb;
+use super::{StairClimbing, State};
 use crate::Motion;
-
-/// Seeing nothing for this long is being blind, s;
-const BLIND_AFTER_S: f64 = 2.0;
-/// for this long, it is hopeless, s.
-const BLIND_LIMIT_S: f64 = 12.0;
-
-impl Here<'_> {
-    pub(super) fn sees_nothing(&self) -> bool {
-        self.unseen_s() > BLIND_AFTER_S
-    }
-}
+use crate::machine::{Sight, Tick};
 
 impl StairClimbing {
-    /// Stands and looks down and around: from where the head points now perhaps nothing can be told.
-    pub(super) fn wait_for_sight(&mut self, here: &Here<'_>) -> Motion {
-        let lost = here.situation.estimate.lost;
-        if lost && self.on.is_none() {
+    /// One tick of standing and looking down and around: from where the head points now perhaps nothing can be told.
+    pub(super) fn wait_for_sight(&mut self, tick: &Tick<'_>, looks: bool) -> Motion {
+        if tick.situation.estimate.lost && self.memory.on.is_none() {
             // Not on stairs: whoever walks can find out where it is.
             self.flight.clear();
-            self.walking.resume(here.situation);
+            self.walking.resume(tick.situation);
             self.enter(State::Walk);
             return Motion::Stand;
         }
-        if self.phase == Phase::Look {
+        if !looks {
             self.head.search(0.0);
-            self.phase(Phase::Wait);
         }
-        if self.head.advance(here.situation.frames_used, here.passed_s) {
-            self.phase(Phase::Look);
-        }
-        if !lost && !here.sees_nothing() {
-            if self.on.is_some() {
-                self.begin_look(here);
-                self.enter(State::Climb);
-            } else {
-                self.begin_search(here);
+        let looks = !self.head.advance(tick.situation.frames_used, tick.passed_s);
+        self.machine.go_on(State::Blind { looks });
+        match self.machine.sight(tick) {
+            Sight::Back if self.memory.on.is_some() => {
+                self.enter(State::Climb(Climb::Look));
+                self.begin_look(tick);
             }
-        } else if self.state_s > BLIND_LIMIT_S {
-            let unseen_s = here.unseen_s();
-            self.refuse(if lost {
-                format!(
-                    "lost: the robot has not known where it is for {:.0} s, before or on stairs",
-                    self.state_s
-                )
-            } else {
-                format!("lost: nothing has been seen for {unseen_s:.0} s, before or on stairs")
-            });
+            Sight::Back => self.begin_search(tick),
+            Sight::Away => {}
+            Sight::Hopeless(reason) => self.refuse(reason),
         }
         Motion::Stand
     }
@@ -68,7 +48,7 @@ mod tests {
         simulation.run_until(60.0, |simulation| simulation.ground_m() > 0.05);
         simulation.blind = true;
         simulation.run_until(90.0, |simulation| simulation.was_in("blind"));
-        simulation.behaviour.idle_s = 54.0;
+        simulation.behaviour.machine.set_idle_s(54.0);
         let sees_at_s = simulation.now_s() + 8.0;
         simulation.run_until(90.0, |simulation| simulation.now_s() > sees_at_s);
         simulation.blind = false;

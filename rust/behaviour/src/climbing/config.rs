@@ -27,11 +27,11 @@ pub struct StairClimbingConfig {
     pub gaze_steep: f64,
     /// Speed of the gaze, rad/s.
     pub gaze_speed: f64,
-    /// An edge is stepped by when this many frames fitted it,
+    /// An edge is stepped by when this many frames fitted it.
     pub edge_frames: u32,
-    /// its place is as sure as this, m,
+    /// An edge is stepped by when its place is as sure as this, m.
     pub edge_sigma: f64,
-    /// and its heading as this, rad.
+    /// An edge is stepped by when its heading is as sure as this, rad.
     pub heading_sigma: f64,
     /// Edges behind the next one that are looked at before it is stepped by: more for a camera that sees nothing near its feet.
     pub edges_ahead: u32,
@@ -42,11 +42,11 @@ pub struct StairClimbingConfig {
     /// Highest step, up or down, that is climbed without a stop: a knee that lifts the body from far below the next step bears no
     /// more than this, m.
     pub run_rise: f64,
-    /// Most that a careful step on the level moves a foot ahead of the other, m;
+    /// Most that a careful step on the level moves a foot ahead of the other, m.
     pub step_forward: f64,
-    /// to the side, m;
+    /// Most that a careful step on the level moves a foot to the side, m.
     pub step_side: f64,
-    /// and turns it, rad.
+    /// Most that a careful step on the level turns a foot, rad.
     pub step_turn: f64,
     /// How long the robot waits for what stands on the next step, s.
     pub wait: f64,

@@ -1,6 +1,8 @@
 //! The end of a climb: to the middle of where it led, arms up for a moment, and on (003, section V.D).
 
-use super::{Here, Phase, StairClimbing, State};
+use super::state::Finish;
+use super::{Memory, StairClimbing, State};
+use crate::machine::Tick;
 use crate::{Motion, Velocity};
 
 /// The farthest that the robot walks away from the last edge before it is glad, from the edge to its middle, m.
@@ -12,64 +14,66 @@ const LONGEST_STOP_S: f64 = 3.0;
 
 impl StairClimbing {
     /// No step is left.
-    pub(super) fn end_climb(&mut self, here: &Here<'_>) {
-        if self.has_room(here) {
-            self.enter(State::Finish);
+    pub(super) fn end_climb(&mut self, tick: &Tick<'_>) {
+        if self.has_room(tick) {
+            self.enter(State::FINISH);
             return;
         }
-        let reason = here.no_way().unwrap_or_else(|| {
+        let reason = tick.no_way_reason().unwrap_or_else(|| {
             "blocked: the last step is too short to stand and to turn on".to_owned()
         });
-        self.look_again(here, || reason);
+        self.look_again(tick, || reason);
     }
 
     /// Whether the climb has ended at the goal, on a tread from which there is no walking on: there the robot stays.
-    fn stays_here(&self, here: &Here<'_>) -> bool {
-        here.is_in_the_goal() && !self.has_room(here)
+    fn stays_here(&self, tick: &Tick<'_>) -> bool {
+        tick.is_in_the_goal() && !self.has_room(tick)
     }
 
     /// Whether it declares from there that it has arrived: no walk will.
-    pub(super) fn has_arrived(&self, here: &Here<'_>) -> bool {
-        self.state == State::Finish
-            && self.has_cheered()
-            && here.situation.standing
-            && self.stays_here(here)
+    pub(super) fn has_arrived(&self, tick: &Tick<'_>) -> bool {
+        let cheered = matches!(self.machine.state(), State::Finish { part, lasted_s }
+            if self.has_cheered(*part, *lasted_s));
+        cheered && tick.situation.standing && self.stays_here(tick)
     }
 
-    fn has_cheered(&self) -> bool {
-        self.phase == Phase::Wait && self.phase_s > self.config.cheer
+    fn has_cheered(&self, part: Finish, lasted_s: f64) -> bool {
+        part == Finish::Cheer && lasted_s > self.config.cheer
     }
 
-    /// One tick.
-    pub(super) fn finish(&mut self, here: &Here<'_>) -> Motion {
-        self.head.turn_to([0.35, 0.0], here.passed_s);
-        let stays = self.stays_here(here);
-        let remaining_m = self.on.filter(|_| !stays).map_or(0.0, |step| {
-            let beyond_m = step.stair.front.beyond_m([here.pose.x_m, here.pose.y_m]);
+    /// One tick; `part` had lasted so long at the last one, s.
+    pub(super) fn finish(&mut self, tick: &Tick<'_>, part: Finish, lasted_s: f64) -> Motion {
+        let lasted_s = lasted_s + tick.passed_s;
+        self.head.turn_to([0.35, 0.0], tick.passed_s);
+        let stays = self.stays_here(tick);
+        let remaining_m = self.memory.on.filter(|_| !stays).map_or(0.0, |step| {
+            let beyond_m = step.stair.front.beyond_m([tick.pose.x_m, tick.pose.y_m]);
             (0.5 * step.stair.depth_m()).min(FARTHEST_M) - beyond_m
         });
-        match self.phase {
-            Phase::Look if remaining_m > 0.02 && self.phase_s < LONGEST_WALK_S => {
+        let next = match part {
+            Finish::Leave if remaining_m > 0.02 && lasted_s < LONGEST_WALK_S => {
+                self.machine.go_on(State::Finish { part, lasted_s });
                 return Motion::Walk(Velocity {
                     x_mps: (1.5 * remaining_m).clamp(0.02, 0.08),
                     ..Velocity::default()
                 });
             }
-            Phase::Look => self.phase(Phase::Step),
-            Phase::Step if here.situation.standing || self.phase_s > LONGEST_STOP_S => {
-                self.phase(Phase::Wait);
-            }
-            Phase::Wait if self.has_cheered() && !stays => {
-                self.on = None;
-                self.came_from = None;
-                self.pauses = false;
+            Finish::Leave => Finish::Stop,
+            Finish::Stop if tick.situation.standing || lasted_s > LONGEST_STOP_S => Finish::Cheer,
+            Finish::Cheer if self.has_cheered(part, lasted_s) && !stays => {
+                self.memory = Memory::default();
                 self.flight.clear();
-                self.tries = super::Tries::default();
-                self.walking.resume(here.situation);
+                self.walking.resume(tick.situation);
                 self.enter(State::Walk);
+                return Motion::Stand;
             }
-            Phase::Step | Phase::Wait => {}
-        }
+            Finish::Stop | Finish::Cheer => part,
+        };
+        let lasted_s = if next == part { lasted_s } else { 0.0 };
+        self.machine.go_on(State::Finish {
+            part: next,
+            lasted_s,
+        });
         Motion::Stand
     }
 }

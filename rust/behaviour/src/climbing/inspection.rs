@@ -5,10 +5,10 @@ use mapping::{FloorView, Surface};
 use planning::{Path, Plan, Step};
 use stairs::Stair;
 
-use crate::climbing::Here;
 use crate::climbing::flight::is_step;
 use crate::climbing::leg::align_pose;
 use crate::climbing::placement::Before;
+use crate::machine::Tick;
 
 /// Stairs further away than this are left alone, m.
 const FARTHEST_M: f64 = 1.5;
@@ -35,13 +35,13 @@ pub(crate) struct Inspection {
 impl Inspection {
     /// The nearest stair that was not looked at from near by, where the plan has no way, or none to the goal's level.
     pub(crate) fn find(
-        here: &Here<'_>,
+        tick: &Tick<'_>,
         before: &Before<'_>,
         inspected: &[[f64; 2]],
     ) -> Option<Self> {
-        let situation = here.situation;
+        let situation = tick.situation;
         let no_way = situation.plan?.way.is_err();
-        if !no_way && !here.goal_is_elsewhere(before.climbing.floor_max) {
+        if !no_way && !tick.goal_is_elsewhere(before.climbing.floor_max) {
             return None;
         }
         situation
@@ -54,8 +54,8 @@ impl Inspection {
                 let away_m = |place: &[f64; 2]| distance_m(*place, found.edge_m);
                 !inspected.iter().any(|place| away_m(place) < INSPECTED_M)
             })
-            .filter(|found| found.is_free(situation.view, &here.pose, here.ground_m))
-            .min_by(|a, b| a.away_m(&here.pose).total_cmp(&b.away_m(&here.pose)))
+            .filter(|found| found.is_free(situation.view, &tick.pose, tick.ground_m))
+            .min_by(|a, b| a.away_m(&tick.pose).total_cmp(&b.away_m(&tick.pose)))
     }
 
     fn of(stair: &Stair<Map>, before: &Before<'_>) -> Option<Self> {
@@ -183,11 +183,11 @@ mod tests {
         simulation.goal.height_m = Some(0.12);
         simulation.planned_within_m = 0.0;
         let allowed = simulation.behaviour.config.tries;
-        simulation.behaviour.tries.searches = allowed;
+        simulation.behaviour.memory.tries.searches = allowed;
         simulation.run_until(60.0, |simulation| {
-            !simulation.behaviour.inspected.is_empty()
+            !simulation.behaviour.ahead.inspected.is_empty()
         });
-        assert_eq!(simulation.behaviour.tries.searches, allowed);
+        assert_eq!(simulation.behaviour.memory.tries.searches, allowed);
         simulation.planned_within_m = f64::INFINITY;
         let (outcome, _) = simulation.run(90.0);
         assert_eq!(

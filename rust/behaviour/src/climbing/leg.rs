@@ -20,11 +20,11 @@ pub(crate) struct Leg<'a> {
 
 /// A walk ends this near to the place where the robot aligns, m.
 const NEAR_M: f64 = 0.14;
-/// A robot that is no further to the side than this walks straight on to the edge, m;
+/// A robot that is no further to the side than this walks straight on to the edge, m.
 const ASIDE_M: f64 = 0.12;
-/// one that heads for the edge, from no further to the side than this, must stop before it, m.
+/// A robot that heads for the edge, from no further to the side than this, must stop before it, m.
 const STOPS_ASIDE_M: f64 = 0.25;
-/// It heads for the edge from this cosine on.
+/// A robot heads for the edge from this cosine of its angle to it on.
 const HEADS_FOR_IT: f64 = 0.7;
 
 impl<'a> Leg<'a> {
@@ -60,7 +60,7 @@ impl<'a> Leg<'a> {
         self.align.distance_m(pose) < NEAR_M || on_the_way
     }
 
-    /// The same plan for one who walks: its path ends where the robot aligns.
+    /// The part of the plan that is walked: its path ends where the robot aligns.
     pub(crate) fn walk(&self, plan: &Plan) -> Option<Plan> {
         let path = plan.way.as_ref().ok()?;
         let end = self.from_point.min(path.points_m.len().checked_sub(1)?);

@@ -1,5 +1,4 @@
-//! Whether the next stair may be stepped on from here ([`stairs::conditions`]: 003, section V.C, Fig. 9), and where the feet
-//! go.
+//! Whether the next stair may be stepped on from here ([`stairs::conditions`]: 003, section V.C), and where the feet go.
 
 use geometry::{Map, PlanarPose, Point, angle_between};
 use planning::Step;

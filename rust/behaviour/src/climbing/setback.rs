@@ -2,9 +2,10 @@
 
 use robot::Side;
 
-use super::{Here, Phase, StairClimbing, State};
+use super::{StairClimbing, State};
 use crate::climbing::footsteps::Foothold;
 use crate::climbing::stepper::Stepped;
+use crate::machine::{State as _, Tick};
 use crate::{Misstep, Motion};
 
 /// What a misstep says of the world.
@@ -16,55 +17,55 @@ pub(super) const fn told(misstep: Misstep) -> &'static str {
 }
 
 impl StairClimbing {
-    /// A step was taken back: look again, let the other foot try again, or give up.
-    pub(super) fn after_misstep(&mut self, here: &Here<'_>, misstep: Misstep, landed: usize) {
-        self.tries.missteps += 1;
+    /// Looks again, lets the other foot try again, or gives up: a step was taken back.
+    pub(super) fn after_misstep(&mut self, tick: &Tick<'_>, misstep: Misstep, landed: usize) {
+        self.memory.tries.missteps += 1;
         let what = told(misstep);
         let holds = self.stepper.holds().to_vec();
         let missed = holds.get(landed).copied();
-        let stands_on = landed.checked_sub(1).and_then(|last| self.run.get(last));
-        if let (Some(stance), Some(missed), true) = (stands_on, missed, self.run.len() > 1) {
+        let run = self.run();
+        let stands_on = landed.checked_sub(1).and_then(|last| run.get(last));
+        if let (Some(stance), Some(missed), true) = (stands_on, missed, run.len() > 1) {
             // Together on the step that the other foot stands on, and on step by step.
             let beside = stance.foothold(missed.side, self.feet.stance_m);
-            self.run.clear();
-            self.pauses = true;
-            self.stepper.start(vec![beside], &here.pose, here.ground_m);
-            self.phase(Phase::Step);
+            self.memory.pauses = true;
+            self.stepper.start(vec![beside], &tick.pose, tick.ground_m);
+            self.move_feet(Vec::new());
         } else if landed == 0 {
-            if self.tries.missteps >= self.config.tries {
+            if self.memory.tries.missteps >= self.config.tries {
                 self.refuse(format!("blocked: {what}"));
             } else {
-                self.pauses = true;
-                self.begin_look(here);
+                self.memory.pauses = true;
+                self.begin_look(tick);
             }
-        } else if self.tries.missteps == 1 && missed.is_some() {
+        } else if self.memory.tries.missteps == 1 && missed.is_some() {
             // The feet stand on two levels: the other one tries once more.
             self.stepper
-                .start(holds[landed..].to_vec(), &here.pose, here.ground_m);
-            self.phase(Phase::Step);
+                .start(holds[landed..].to_vec(), &tick.pose, tick.ground_m);
+            self.move_feet(run);
         } else {
-            self.take_back(here, &holds[..landed.min(holds.len())]);
-            self.refusal = format!("blocked: {what}");
+            let reason = format!("blocked: {what}");
+            self.take_back(tick, &holds[..landed.min(holds.len())], reason);
         }
     }
 
-    /// A walking foot came upon a level that was not seen: look for stairs from here, or give up.
-    pub(super) fn after_stumble(&mut self, here: &Here<'_>) {
-        self.tries.stumbles += 1;
-        if self.tries.stumbles > self.config.tries {
+    /// Looks for stairs from here, or gives up: a walking foot came upon a level that was not seen.
+    pub(super) fn after_stumble(&mut self, tick: &Tick<'_>) {
+        self.memory.tries.stumbles += 1;
+        if self.memory.tries.stumbles > self.config.tries {
             self.refuse(format!("blocked: {}", told(Misstep::Obstructed)));
-        } else if self.state.may_become(State::Search) {
-            self.on = None;
-            self.head.gazer.start(here.situation.gaze);
+        } else if self.machine.state().may_become(&State::Search) {
+            self.memory.on = None;
+            self.head.gazer.start(tick.situation.gaze);
             self.flight.clear();
-            self.begin_search(here);
+            self.begin_search(tick);
         }
     }
 
-    /// Back to where the robot stood before the last list.
-    fn take_back(&mut self, here: &Here<'_>, landed: &[Foothold]) {
-        let Some(from) = self.came_from else {
-            self.refuse("blocked: a step could not be finished".to_owned());
+    /// Moves back to where the robot stood before the last list, and gives up for this reason.
+    fn take_back(&mut self, tick: &Tick<'_>, landed: &[Foothold], reason: String) {
+        let Some(from) = self.memory.came_from else {
+            self.refuse(reason);
             return;
         };
         let sides = Side::BOTH
@@ -73,20 +74,20 @@ impl StairClimbing {
         let holds = sides
             .map(|side| from.foothold(side, self.feet.stance_m))
             .collect();
-        self.enter(State::StepBack);
-        self.stepper.start(holds, &here.pose, here.ground_m);
-        self.phase(Phase::Step);
+        self.enter(State::StepBack { reason });
+        self.stepper.start(holds, &tick.pose, tick.ground_m);
     }
 
     /// One tick of moving back: on the level to look again, from a step that failed to give up.
-    pub(super) fn step_back(&mut self, here: &Here<'_>) -> Motion {
-        match self.stepper.advance(here.situation, here.passed_s) {
+    pub(super) fn step_back(&mut self, tick: &Tick<'_>) -> Motion {
+        match self.stepper.advance(tick.situation, tick.passed_s) {
             Stepped::Running => {}
-            _ if self.on.is_some() || self.tries.missteps > 1 => {
-                let reason = std::mem::take(&mut self.refusal);
-                self.refuse(reason);
+            _ if self.memory.on.is_some() || self.memory.tries.missteps > 1 => {
+                if let State::StepBack { reason } = self.machine.state() {
+                    self.refuse(reason.clone());
+                }
             }
-            _ => self.begin_search(here),
+            _ => self.begin_search(tick),
         }
         self.stepper.motion()
     }

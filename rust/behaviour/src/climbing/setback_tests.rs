@@ -110,7 +110,7 @@ fn on_a_tread_the_robot_goes_straight_on_wherever_a_plan_crosses_the_next_edge()
         Pace::StepByStep,
     );
     simulation.run_until(60.0, |simulation| {
-        on_stairs(simulation) == 2 && simulation.behaviour.on.is_some()
+        on_stairs(simulation) == 2 && simulation.behaviour.memory.on.is_some()
     });
     let mut next = *simulation.behaviour.flight.first().unwrap();
     next.crossing_m[1] += 0.12;

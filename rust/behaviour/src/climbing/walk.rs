@@ -1,15 +1,39 @@
-//! The walk to the next climb, or nearer to stairs of which too little is known (003: search).
+//! The state `walk`: the walk to the next climb, or nearer to stairs of which too little is known (003: search).
 
-use super::{Here, Leg, Pace, StairClimbing, State};
+use planning::Plan;
+
+use super::{Leg, Pace, StairClimbing, State};
 use crate::climbing::inspection::{self, Inspection};
+use crate::machine::{State as _, Stopwatch, Tick};
 use crate::{Behaviour, BehaviourError, Decision, Motion, Outcome, Situation};
 
-/// The first look around may end after this when stairs lie on the way, s: by then all near ground was looked at;
+/// The first look around may end after this when stairs lie on the way, s: by then all near ground was looked at.
 const FIRST_LOOK_S: f64 = 3.8;
-/// without stops, the ground on the way to them was.
+/// Before a climb without stops it may end after this, s: by then the ground on the way was looked at.
 const FIRST_GLANCE_S: f64 = 1.8;
 /// A climb must be on the plan this long to be counted on, s.
-pub(super) const SURE_S: f64 = 0.4;
+const SURE_S: f64 = 0.4;
+
+/// What a walk finds ahead of it. It stays in mind while the robot climbs.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Ahead {
+    /// The plan for `walking`: cut off before the next climb.
+    plan: Option<Plan>,
+    /// How long the plan has led to a climb, or to stairs that need a closer look.
+    pub(super) climb: Stopwatch,
+    inspection: Option<Inspection>,
+    /// Whether the look around at the start is over.
+    looked_around: bool,
+    /// Edges of stairs that were looked at from near by, m.
+    pub(super) inspected: Vec<[f64; 2]>,
+}
+
+impl Ahead {
+    /// Whether a climb can be counted on.
+    pub(super) fn is_sure(&self) -> bool {
+        self.climb.s() > SURE_S
+    }
+}
 
 impl StairClimbing {
     const fn first_look_s(&self) -> f64 {
@@ -20,82 +44,75 @@ impl StairClimbing {
     }
 
     /// The next climb of the plan.
-    pub(super) fn leg<'a>(&self, here: &Here<'a>) -> Option<Leg<'a>> {
+    pub(super) fn leg<'a>(&self, tick: &Tick<'a>) -> Option<Leg<'a>> {
         Leg::next(
-            here.situation.plan,
+            tick.situation.plan,
             &self.config,
             &self.climbing,
             &self.feet,
         )
     }
 
-    pub(super) fn count_climb_ahead(&mut self, climbs: bool, passed_s: f64) {
-        self.climb_ahead_s = if climbs {
-            self.climb_ahead_s + passed_s
-        } else {
-            0.0
-        };
-    }
-
     /// A tick of `walking` while the robot does not know where it is.
-    pub(super) fn walk_lost(&mut self, here: &Here<'_>) -> Result<Decision, BehaviourError> {
-        self.walk_plan = None;
-        self.idle_s = 0.0;
-        self.walking.next(here.situation)
+    pub(super) fn walk_lost(&mut self, tick: &Tick<'_>) -> Result<Decision, BehaviourError> {
+        self.ahead.plan = None;
+        self.machine.gets_on();
+        self.walking.next(tick.situation)
     }
 
     /// A tick of `walking` on the way to the next climb, to stairs that need a closer look, or to the goal.
-    pub(super) fn walk(&mut self, here: &Here<'_>) -> Result<Decision, BehaviourError> {
-        let situation = here.situation;
-        let leg = self.leg(here).filter(|_| !here.is_at_the_goal());
-        self.idle_s = 0.0;
+    pub(super) fn walk(&mut self, tick: &Tick<'_>) -> Result<Decision, BehaviourError> {
+        let situation = tick.situation;
+        let leg = self.leg(tick).filter(|_| !tick.is_at_the_goal());
+        self.machine.gets_on();
         let looking = self.walking.is_looking_around();
-        self.looked_around |= !looking;
-        let first_look = looking && !self.looked_around;
-        if here.new_frame {
-            self.inspection = if leg.is_none() && !here.is_at_the_goal() {
-                Inspection::find(here, &self.before(here), &self.inspected)
+        self.ahead.looked_around |= !looking;
+        let first_look = looking && !self.ahead.looked_around;
+        if tick.new_frame {
+            self.ahead.inspection = if leg.is_none() && !tick.is_at_the_goal() {
+                Inspection::find(tick, &self.before(tick), &self.ahead.inspected)
             } else {
                 None
             };
         }
-        self.count_climb_ahead(leg.is_some() || self.inspection.is_some(), here.passed_s);
-        let sure = self.climb_ahead_s > SURE_S;
+        let climbs = leg.is_some() || self.ahead.inspection.is_some();
+        self.ahead.climb.count(climbs, tick.passed_s);
+        let sure = self.ahead.is_sure();
         if let Some(leg) = &leg {
-            if sure && leg.is_reached(&here.pose) && !looking {
+            if sure && leg.is_reached(&tick.pose) && !looking {
                 self.flight.adopt(leg.steps);
                 self.head.gazer.start(situation.gaze);
                 self.enter(State::Align);
-                return Ok(self.decision(here, Motion::Stand));
+                return Ok(self.decision(tick, Motion::Stand));
             }
-            if here.new_frame || self.walk_plan.is_none() {
-                self.walk_plan = situation.plan.and_then(|plan| leg.walk(plan));
+            if tick.new_frame || self.ahead.plan.is_none() {
+                self.ahead.plan = situation.plan.and_then(|plan| leg.walk(plan));
             }
-        } else if let Some(inspection) = self.inspection {
-            if sure && inspection.is_reached(&here.pose) && !looking {
-                self.inspect(here, &inspection);
-                return Ok(self.decision(here, Motion::Stand));
+        } else if let Some(inspection) = self.ahead.inspection {
+            if sure && inspection.is_reached(&tick.pose) && !looking {
+                self.inspect(tick, &inspection);
+                return Ok(self.decision(tick, Motion::Stand));
             }
-            if here.new_frame || self.walk_plan.is_none() {
-                self.walk_plan = Some(inspection.plan(&here.pose));
+            if tick.new_frame || self.ahead.plan.is_none() {
+                self.ahead.plan = Some(inspection.plan(&tick.pose));
             }
-        } else if here.is_at_the_goal() && !here.has_level_way() {
+        } else if tick.is_at_the_goal() && !tick.has_level_way() {
             // It stands there already, whatever the planner makes of the surface under its feet.
             let decision = self.walking.next(&Situation {
-                plan: Some(&inspection::straight_plan(&here.pose, here.goal_m())),
+                plan: Some(&inspection::straight_plan(&tick.pose, tick.goal_m())),
                 ..*situation
             })?;
             return Ok(decision);
         } else {
-            self.walk_plan = None;
+            self.ahead.plan = None;
             let decision = self.walking.next(situation)?;
-            return Ok(self.unless_stairs_may_help(here, decision));
+            return Ok(self.unless_stairs_may_help(tick, decision));
         }
-        if first_look && sure && self.state_s > self.first_look_s() {
+        if first_look && sure && self.machine.lasted_s() > self.first_look_s() {
             self.walking.end_look();
         }
         let mut decision = self.walking.next(&Situation {
-            plan: self.walk_plan.as_ref(),
+            plan: self.ahead.plan.as_ref(),
             last_goal: false,
             ..*situation
         })?;
@@ -107,26 +124,26 @@ impl StairClimbing {
     }
 
     /// Looks at stairs from near by.
-    fn inspect(&mut self, here: &Here<'_>, inspection: &Inspection) {
-        self.inspected.push(inspection.edge_m);
+    fn inspect(&mut self, tick: &Tick<'_>, inspection: &Inspection) {
+        self.ahead.inspected.push(inspection.edge_m);
         self.flight.clear();
-        self.head.gazer.start(here.situation.gaze);
-        self.tries.inspections += 1;
-        self.look_for_steps(here);
-        self.head.inspect(here.in_robot(inspection.edge_m));
+        self.head.gazer.start(tick.situation.gaze);
+        self.memory.tries.inspections += 1;
+        self.look_for_steps(tick);
+        self.head.inspect(tick.in_robot(inspection.edge_m));
     }
 
     /// Before a refusal that stairs could prevent, the robot searches for stairs.
-    fn unless_stairs_may_help(&mut self, here: &Here<'_>, decision: Decision) -> Decision {
+    fn unless_stairs_may_help(&mut self, tick: &Tick<'_>, decision: Decision) -> Decision {
         let refuses = matches!(decision.outcome, Some(Outcome::Refused(_)));
-        let stairs_help = here.goal_is_elsewhere(self.climbing.floor_max)
-            || !here.situation.stairs.stairs.is_empty();
-        let has_looked = self.tries.searches + self.tries.inspections > 0;
-        if refuses && stairs_help && here.no_way().is_some() && !has_looked {
-            self.head.gazer.start(here.situation.gaze);
+        let stairs_help = tick.goal_is_elsewhere(self.climbing.floor_max)
+            || !tick.situation.stairs.stairs.is_empty();
+        let has_looked = self.memory.tries.searches + self.memory.tries.inspections > 0;
+        if refuses && stairs_help && tick.no_way_reason().is_some() && !has_looked {
+            self.head.gazer.start(tick.situation.gaze);
             self.flight.clear();
-            self.begin_search(here);
-            return self.decision(here, Motion::Stand);
+            self.begin_search(tick);
+            return self.decision(tick, Motion::Stand);
         }
         decision
     }

@@ -1,13 +1,11 @@
 //! Whether the robot has arrived: in the goal's disc, and on its level where one is told.
 
-use geometry::PlanarPose;
-use planning::Goal;
-
+use super::WalkingBehaviour;
 use super::state::State;
 use super::track::Track;
-use super::{Moment, WalkingBehaviour};
+use crate::machine::Tick;
 use crate::walking::is_roomy;
-use crate::{Outcome, Situation};
+use crate::{Motion, Outcome};
 
 /// Nearer than this to its end a path is done, m.
 const PATH_END_M: f64 = 0.04;
@@ -15,19 +13,16 @@ const PATH_END_M: f64 = 0.04;
 /// and climbed for long knows its height no better.
 const SAME_LEVEL_M: f64 = 0.04;
 
-/// Whether the robot is on the goal's level, as far as one is told: below a platform it may stand in the disc and be nowhere near.
-fn is_on_the_level(situation: &Situation<'_>) -> bool {
-    let ground_m = situation.estimate.map_from_robot.origin().inner.z;
-    let height_m = situation.goal.height_m;
-    height_m.is_none_or(|height_m| (height_m - ground_m).abs() <= SAME_LEVEL_M)
-}
+impl Tick<'_> {
+    /// Whether the robot is on the goal's level, as far as one is told: below a platform it may stand in the disc and be nowhere near.
+    fn is_on_the_goals_level(&self) -> bool {
+        self.goal_off_level_m()
+            .is_none_or(|off_m| off_m <= SAME_LEVEL_M)
+    }
 
-impl Moment<'_> {
     /// Whether the robot is no further from the goal's middle than this, m, and on its level.
     fn is_within(&self, radius_m: f64) -> bool {
-        let goal = self.situation.goal;
-        let away_m = (goal.x_m - self.pose.x_m).hypot(goal.y_m - self.pose.y_m);
-        away_m <= radius_m && is_on_the_level(self.situation)
+        self.goal_away_m() <= radius_m && self.is_on_the_goals_level()
     }
 
     pub(super) fn is_in_the_disc(&self) -> bool {
@@ -37,19 +32,12 @@ impl Moment<'_> {
 
 impl WalkingBehaviour {
     /// A path may end at the rim of the goal's disc: where there is room, the way goes on to its middle.
-    pub(super) fn lengthened(
-        &self,
-        track: Track,
-        pose: &PlanarPose,
-        situation: &Situation<'_>,
-    ) -> Track {
-        let Goal {
-            x_m, y_m, radius_m, ..
-        } = *situation.goal;
-        let away_m = (x_m - pose.x_m).hypot(y_m - pose.y_m);
+    pub(super) fn lengthened(&self, track: Track, tick: &Tick<'_>) -> Track {
+        let (pose, [x_m, y_m]) = (&tick.pose, tick.goal_m());
         let half_way = [f64::midpoint(x_m, pose.x_m), f64::midpoint(y_m, pose.y_m)];
-        let roomy = |place_m| is_roomy(situation.view, place_m, self.config.slow_clearance);
-        let near = away_m < radius_m + PATH_END_M && is_on_the_level(situation);
+        let roomy = |place_m| is_roomy(tick.situation.view, place_m, self.config.slow_clearance);
+        let near = tick.goal_away_m() < tick.situation.goal.radius_m + PATH_END_M
+            && tick.is_on_the_goals_level();
         if near && roomy([x_m, y_m]) && roomy(half_way) {
             track.going_on_to(pose.inverse().apply(x_m, y_m))
         } else {
@@ -58,39 +46,51 @@ impl WalkingBehaviour {
     }
 
     /// Deep inside the goal's disc, or as deep as the way leads.
-    pub(super) fn has_arrived(&self, moment: &Moment<'_>) -> bool {
-        let radius_m = moment.situation.goal.radius_m;
-        let way_done = moment
-            .track
-            .map_or(moment.no_way(), |(_, track)| track.whole_m() < PATH_END_M);
-        moment.situation.last_goal
-            && (moment.is_within(self.config.arrive_share * radius_m)
-                || (way_done && moment.is_in_the_disc()))
+    pub(super) fn has_arrived(&self, tick: &Tick<'_>) -> bool {
+        let radius_m = tick.situation.goal.radius_m;
+        let way_done = tick.track.map_or(tick.finds_no_way(), |(_, track)| {
+            track.whole_m() < PATH_END_M
+        });
+        tick.situation.last_goal
+            && (tick.is_within(self.config.arrive_share * radius_m)
+                || (way_done && tick.is_in_the_disc()))
     }
 
     /// Well inside the goal's disc.
-    pub(super) fn is_inside(&self, moment: &Moment<'_>) -> bool {
-        let radius_m = moment.situation.goal.radius_m;
-        moment.is_within(radius_m - self.config.via_margin.min(0.5 * radius_m))
+    pub(super) fn is_inside(&self, tick: &Tick<'_>) -> bool {
+        let radius_m = tick.situation.goal.radius_m;
+        tick.is_within(radius_m - self.config.via_margin.min(0.5 * radius_m))
     }
 
-    pub(super) fn outcome(&self, moment: &Moment<'_>) -> Option<Outcome> {
-        match self.state {
+    /// Stands at the goal for a while, and goes on when it has slipped out.
+    pub(super) fn arrive(&mut self, tick: &Tick<'_>) -> Motion {
+        self.gaze_at(tick, 0.0, self.config.gaze_far);
+        if self.rests() && !tick.is_in_the_disc() {
+            self.watched_m = None;
+            self.enter(State::Stop);
+        }
+        Motion::Stand
+    }
+
+    /// Whether it has stood long enough to say that it has arrived.
+    fn rests(&self) -> bool {
+        self.standing.s() > self.config.arrive_time
+    }
+
+    pub(super) fn outcome(&self, tick: &Tick<'_>) -> Option<Outcome> {
+        match self.machine.state() {
             State::Arrive => {
-                let rests = self.standing_s > self.config.arrive_time;
-                (rests && moment.is_in_the_disc()).then_some(Outcome::GoalReached)
+                (self.rests() && tick.is_in_the_disc()).then_some(Outcome::GoalReached)
             }
-            State::Refuse => moment
-                .situation
-                .standing
-                .then(|| Outcome::Refused(self.refusal.clone())),
-            _ => None,
+            _ => self.machine.refusal(tick.situation.standing),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use geometry::PlanarPose;
+
     use super::*;
     use crate::walking::simulation::Simulation;
 

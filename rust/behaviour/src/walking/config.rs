@@ -22,9 +22,9 @@ pub struct WalkingConfig {
     pub creep_speed: f64,
     /// How far ahead on the path the robot steers to, m.
     pub lookahead: f64,
-    /// A heading further off than this is turned to on the spot, rad,
+    /// A heading further off than this is turned to on the spot, rad.
     pub turn_above: f64,
-    /// until it is no further off than this, rad.
+    /// A turn on the spot ends when the heading is no further off than this, rad.
     pub turn_until: f64,
     /// Nearer than this to its end the path is followed with side steps instead of turns, m.
     pub approach: f64,
@@ -56,17 +56,17 @@ pub struct WalkingConfig {
     pub via_margin: f64,
     /// The robot declares that it has arrived after standing this long, s.
     pub arrive_time: f64,
-    /// Without a frame for longer than this the robot stands and waits, s;
+    /// Without a frame for longer than this the robot stands and waits, s.
     pub blind_after: f64,
-    /// it gives up after this, s.
+    /// Without a frame it gives up after waiting for this long, s.
     pub blind_limit: f64,
-    /// it gives up after it did not know where it is for this long, s.
+    /// A robot that does not know where it is gives up after this, s.
     pub locate_limit: f64,
     /// "No way" must be the planner's answer for this long, s, and in all directions looked at.
     pub refuse_time: f64,
-    /// Without headway for this long the robot looks around, s;
+    /// Without headway for this long the robot looks around, s.
     pub patience: f64,
-    /// it gives up after this many times.
+    /// After more looks around without headway than this the robot gives up.
     pub tries: u32,
 }
 

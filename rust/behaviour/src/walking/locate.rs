@@ -3,17 +3,19 @@
 use geometry::PlanarPose;
 use mapping::{FloorView, Surface};
 
-use super::{Moment, WalkingBehaviour};
+use super::WalkingBehaviour;
+use crate::machine::Tick;
 use crate::walking::gaze::Sweep;
 use crate::walking::state::State;
 use crate::{Motion, Velocity};
 
-/// The head sways so far to each side of straight ahead, rad, in this time, s: walls tell more than the floor before the feet.
+/// The head sways so far to each side of straight ahead, rad: walls tell more than the floor before the feet.
 const SWAY_RAD: f64 = 0.6;
+/// The head sways to and fro in this time, s.
 const SWAY_S: f64 = 4.0;
 /// The look around at the start ends after this, whatever the frames do, s.
 const LONGEST_LOOK_S: f64 = 12.0;
-/// Who lost its place again within this time does not begin with a look around, s.
+/// A robot that lost its place again within this time does not begin with a look around, s.
 const LOOK_HOLDS_S: f64 = 30.0;
 /// After as much turning, rad, small circles tell more than turning on.
 const TURNED_RAD: f64 = 4.0;
@@ -21,53 +23,68 @@ const TURNED_RAD: f64 = 4.0;
 const CIRCLE_SHARE: f64 = 0.6;
 /// The odometry frame moves further than this in the map, m, when the robot finds itself elsewhere.
 const ELSEWHERE_M: f64 = 0.2;
-/// Floor is needed so far ahead to walk on, m, each so far to the side,
+/// Floor is needed so far ahead to walk on, m.
 const AHEAD_M: [f64; 3] = [0.15, 0.25, 0.35];
+/// Floor is needed so far to the side, m, at each distance ahead.
 const ASIDE_M: [f64; 3] = [-0.12, 0.0, 0.12];
-/// and as level as this, m.
+/// Floor to walk on is as level as this, m.
 const LEVEL_M: f64 = 0.012;
+
+/// What is known while the robot finds out where it is.
+#[derive(Debug, Clone)]
+pub(crate) struct Locating {
+    /// The look around at its beginning.
+    pub(super) sweep: Sweep,
+    /// The odometry frame in the map when the robot lost its place.
+    pub(super) lost_at: PlanarPose,
+}
 
 impl WalkingBehaviour {
     /// Begins to find out where it is.
-    pub(super) fn begin_locating(&mut self, moment: &Moment<'_>) {
-        if self.state != State::Locate {
-            self.lost_at = Some(odometry_in_map(moment));
-            self.sweep = Sweep::around(&self.config);
-            // Who has just looked round turns on.
-            self.looked_round_s =
-                (self.looked_round_s).filter(|looked_s| self.elapsed_s - looked_s < LOOK_HOLDS_S);
-            self.enter(State::Locate);
+    pub(super) fn begin_locating(&mut self, tick: &Tick<'_>) {
+        if matches!(self.machine.state(), State::Locate(_)) {
+            return;
         }
+        // A robot that has just looked round turns on.
+        self.looked_round_s =
+            (self.looked_round_s).filter(|looked_s| tick.elapsed_s - looked_s < LOOK_HOLDS_S);
+        self.enter(State::Locate(Locating {
+            sweep: Sweep::around(&self.config),
+            lost_at: odometry_in_map(tick),
+        }));
     }
 
     /// Stands and looks around, the ground before the feet first; turns on the spot, then goes in small circles where the floor
     /// ahead is free, and gives up in the end.
-    pub(super) fn locate(&mut self, moment: &Moment<'_>) -> Motion {
-        if !moment.situation.estimate.lost {
-            self.go_on(moment);
+    pub(super) fn locate(&mut self, tick: &Tick<'_>) -> Motion {
+        if !tick.situation.estimate.lost {
+            self.go_on(tick);
             return Motion::Stand;
         }
-        if self.state_s > self.config.locate_limit {
+        let lasted_s = self.machine.lasted_s();
+        if lasted_s > self.config.locate_limit {
             self.refuse(format!(
-                "lost: the robot has not found out where it is for {:.0} s",
-                self.state_s
+                "lost: the robot has not found out where it is for {lasted_s:.0} s"
             ));
             return Motion::Stand;
         }
         let Some(looked_s) = self.looked_round_s else {
-            let frames = moment.situation.frames_used;
+            let frames = tick.situation.frames_used;
             let speed_radps = self.config.gaze_speed;
-            let seen = (self.sweep).advance(&mut self.gazer, frames, moment.passed_s, speed_radps);
-            if seen || self.state_s > LONGEST_LOOK_S {
-                self.looked_round_s = Some(self.elapsed_s);
+            let State::Locate(Locating { sweep, .. }) = self.machine.state_mut() else {
+                return Motion::Stand;
+            };
+            let seen = sweep.advance(&mut self.gazer, frames, tick.passed_s, speed_radps);
+            if seen || lasted_s > LONGEST_LOOK_S {
+                self.looked_round_s = Some(tick.elapsed_s);
             }
             return Motion::Stand;
         };
-        let turned_s = self.elapsed_s - looked_s;
+        let turned_s = tick.elapsed_s - looked_s;
         let phase = std::f64::consts::TAU * turned_s / SWAY_S;
-        self.gaze_at(moment, SWAY_RAD * phase.sin(), self.config.gaze_far);
+        self.gaze_at(tick, SWAY_RAD * phase.sin(), self.config.gaze_far);
         let turn_radps = self.config.turn_speed;
-        let circles = turned_s * turn_radps > TURNED_RAD && is_free_ahead(moment);
+        let circles = turned_s * turn_radps > TURNED_RAD && is_free_ahead(tick);
         Motion::Walk(if circles {
             Velocity {
                 x_mps: self.config.creep_speed,
@@ -83,10 +100,13 @@ impl WalkingBehaviour {
     }
 
     /// Looks round at a place where it was not known to be; goes on where it is where it was.
-    fn go_on(&mut self, moment: &Moment<'_>) {
-        let now = odometry_in_map(moment);
-        let stayed = (self.lost_at).is_some_and(|before| now.distance_m(&before) < ELSEWHERE_M);
-        match &moment.track {
+    fn go_on(&mut self, tick: &Tick<'_>) {
+        let now = odometry_in_map(tick);
+        let stayed = match self.machine.state() {
+            State::Locate(Locating { lost_at, .. }) => now.distance_m(lost_at) < ELSEWHERE_M,
+            _ => false,
+        };
+        match &tick.track {
             Some((_, track)) if stayed => self.set_off(track),
             _ => self.look(Sweep::around(&self.config)),
         }
@@ -94,19 +114,19 @@ impl WalkingBehaviour {
 }
 
 /// The odometry frame in the map: it moves when the robot finds itself elsewhere.
-fn odometry_in_map(moment: &Moment<'_>) -> PlanarPose {
-    let frame = &moment.situation.estimate.map_from_odometry;
+fn odometry_in_map(tick: &Tick<'_>) -> PlanarPose {
+    let frame = &tick.situation.estimate.map_from_odometry;
     let origin = frame.origin().inner;
     PlanarPose::new(origin.x, origin.y, frame.yaw_rad())
 }
 
 /// Whether the floor before the feet is known, level and free.
-fn is_free_ahead(moment: &Moment<'_>) -> bool {
-    let view: &FloorView = moment.situation.view;
-    let ground_m = moment.situation.estimate.map_from_robot.origin().inner.z;
+fn is_free_ahead(tick: &Tick<'_>) -> bool {
+    let view: &FloorView = tick.situation.view;
+    let ground_m = tick.ground_m;
     AHEAD_M.iter().all(|&ahead_m| {
         ASIDE_M.iter().all(|&aside_m| {
-            let (x, y) = moment.pose.apply(ahead_m, aside_m);
+            let (x, y) = tick.pose.apply(ahead_m, aside_m);
             matches!(view.at(x, y), Surface::Floor(height_m) if (f64::from(height_m) - ground_m).abs() < LEVEL_M)
         })
     })

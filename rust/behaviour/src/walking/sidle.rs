@@ -3,9 +3,10 @@
 use geometry::{PlanarPose, angle_between};
 use planning::{Path, Sidle};
 
+use super::WalkingBehaviour;
 use super::state::State;
 use super::track::turn_speed;
-use super::{Moment, WalkingBehaviour};
+use crate::machine::Tick;
 use crate::walking::gaze::glance;
 use crate::{Motion, Velocity};
 
@@ -13,9 +14,9 @@ use crate::{Motion, Velocity};
 const DONE_M: f64 = 0.02;
 /// It begins when the robot is this near to where it has to turn, m.
 const THERE_M: f64 = 0.03;
-/// The robot turns on the spot until its heading is no further off than this, rad,
+/// The robot turns on the spot until its heading is no further off than this, rad.
 const TURNED_RAD: f64 = 0.06;
-/// and again when it is further off than this, rad.
+/// The robot turns on the spot again when its heading is further off than this, rad.
 const ASTRAY_RAD: f64 = 0.2;
 /// Further beside the leg than this it goes on only once it is back, m.
 const BESIDE_M: f64 = 0.03;
@@ -65,7 +66,7 @@ pub(super) fn next_sidle<'a>(path: &'a Path, pose: &PlanarPose) -> Option<&'a Si
     path.sidles.iter().find(|sidle| !over(sidle))
 }
 
-impl Moment<'_> {
+impl Tick<'_> {
     /// Whether the robot is on a leg sideways, or where one begins.
     pub(super) fn is_at_sidle(&self) -> bool {
         self.track.is_some_and(|(path, track)| {
@@ -76,25 +77,25 @@ impl Moment<'_> {
 }
 
 impl WalkingBehaviour {
-    pub(super) fn sidle(&mut self, moment: &Moment<'_>) -> Motion {
-        let Some((path, _)) = moment.track else {
-            return self.without_way(moment);
+    /// One tick of the walk sideways.
+    pub(super) fn sidle(&mut self, tick: &Tick<'_>) -> Motion {
+        let Some((path, _)) = tick.track else {
+            return self.without_way(tick);
         };
-        if let Some(motion) = self.check_way(moment) {
+        if let Some(motion) = self.check_way(tick) {
             return motion;
         }
-        let on_leg = next_sidle(path, &moment.pose)
-            .filter(|_| moment.is_at_sidle())
-            .and_then(|sidle| OnLeg::new(path, sidle, &moment.pose));
+        let on_leg = next_sidle(path, &tick.pose)
+            .filter(|_| tick.is_at_sidle())
+            .and_then(|sidle| OnLeg::new(path, sidle, &tick.pose));
         let Some(on_leg) = on_leg else {
             self.enter(State::Walk);
             return Motion::Stand;
         };
-        self.idle_s = 0.0;
+        self.machine.gets_on();
         let bearing_rad = on_leg.along[1].atan2(on_leg.along[0]);
-        let gaze = glance(self.elapsed_s, bearing_rad, &self.config);
-        self.gazer
-            .turn(gaze, moment.passed_s, self.config.gaze_speed);
+        let gaze = glance(tick.elapsed_s, bearing_rad, &self.config);
+        self.gazer.turn(gaze, tick.passed_s, self.config.gaze_speed);
         Motion::Walk(self.sidestep(&on_leg))
     }
 
@@ -132,8 +133,9 @@ mod tests {
     use proptest::prelude::*;
     use stairs::{ClimbingConfig, Feet};
 
-    /// Of the robot from front to back and across, and the radius of the planner's circle, m.
+    /// Size of the robot from front to back and across, m.
     const BOX_M: [f64; 2] = [0.2, 0.35];
+    /// Radius of the planner's circle, m.
     const RADIUS_M: f64 = 0.14;
     /// Where in its cell a wall ends the map does not tell: half a cell, m.
     const HALF_M: f64 = 0.02;

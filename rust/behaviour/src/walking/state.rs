@@ -1,14 +1,21 @@
 //! The states of the behaviour `walking`, and which may follow which.
 
-/// What the robot is doing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+use super::gaze::Sweep;
+use super::locate::Locating;
+use crate::machine::{self, Idling};
+
+/// A robot that looks around may see nothing for so many times as long as one that does not.
+const LOOK_AROUND_PATIENCE: f64 = 4.0;
+
+/// What the robot is doing, and what it knows only while it does.
+#[derive(Debug, Clone)]
 pub(crate) enum State {
     /// Stands and turns the head, to know the ground around or a place on the path.
-    LookAround,
+    LookAround(Sweep),
     /// Follows the path.
     Walk,
-    /// Turns on the spot.
-    Turn,
+    /// Turns on the spot: to a heading, rad, to look around from there, or to where the path leads.
+    Turn { to_rad: Option<f64> },
     /// Walks sideways.
     Sidle,
     /// Stands because something appeared or the way is gone.
@@ -16,60 +23,106 @@ pub(crate) enum State {
     /// Stands at the goal.
     Arrive,
     /// Stands, having given up.
-    Refuse,
+    Refuse { reason: String },
     /// Stands because nothing is seen.
     Blind,
     /// Turns and circles to find out where it is.
-    Locate,
+    Locate(Locating),
 }
 
 impl State {
     /// All of them.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 9] = [
-        Self::LookAround,
-        Self::Walk,
-        Self::Turn,
-        Self::Sidle,
-        Self::Stop,
-        Self::Arrive,
-        Self::Refuse,
-        Self::Blind,
-        Self::Locate,
-    ];
-
-    /// The name in the recording's lane.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::LookAround => "look_around",
-            Self::Walk => "walk",
-            Self::Turn => "turn",
-            Self::Sidle => "sidle",
-            Self::Stop => "stop",
-            Self::Arrive => "arrive",
-            Self::Refuse => "refuse",
-            Self::Blind => "blind",
-            Self::Locate => "locate",
-        }
+    pub(crate) fn all() -> [Self; 9] {
+        let sweep = Sweep::through(&[]);
+        let lost_at = geometry::PlanarPose::default();
+        [
+            Self::LookAround(sweep),
+            Self::Walk,
+            Self::Turn { to_rad: None },
+            Self::Sidle,
+            Self::Stop,
+            Self::Arrive,
+            Self::Refuse {
+                reason: String::new(),
+            },
+            Self::Blind,
+            Self::Locate(Locating { sweep, lost_at }),
+        ]
     }
 
     /// Whether the feet may move.
-    pub(crate) const fn moves(self) -> bool {
-        matches!(self, Self::Walk | Self::Turn | Self::Sidle | Self::Locate)
+    pub(crate) const fn moves(&self) -> bool {
+        matches!(
+            self,
+            Self::Walk | Self::Turn { .. } | Self::Sidle | Self::Locate(_)
+        )
+    }
+}
+
+impl machine::State for State {
+    fn name(&self) -> &'static str {
+        match self {
+            Self::LookAround(_) => "look_around",
+            Self::Walk => "walk",
+            Self::Turn { .. } => "turn",
+            Self::Sidle => "sidle",
+            Self::Stop => "stop",
+            Self::Arrive => "arrive",
+            Self::Refuse { .. } => "refuse",
+            Self::Blind => "blind",
+            Self::Locate(_) => "locate",
+        }
     }
 
-    /// Whether `next` may follow. Refusing is final; one who has arrived can only have slipped out again.
-    pub(crate) const fn may_become(self, next: Self) -> bool {
+    /// Refusing is final; a robot that has arrived can only have slipped out again.
+    fn may_become(&self, next: &Self) -> bool {
         match self {
-            Self::LookAround => !matches!(next, Self::Stop),
-            Self::Walk | Self::Turn | Self::Sidle | Self::Stop => true,
+            Self::LookAround(_) => !matches!(next, Self::Stop),
+            Self::Walk | Self::Turn { .. } | Self::Sidle | Self::Stop => true,
             Self::Arrive => matches!(next, Self::Stop),
             Self::Blind => matches!(
                 next,
-                Self::LookAround | Self::Refuse | Self::Arrive | Self::Locate
+                Self::LookAround(_) | Self::Refuse { .. } | Self::Arrive | Self::Locate(_)
             ),
-            Self::Locate => !matches!(next, Self::Arrive | Self::Blind),
-            Self::Refuse => false,
+            Self::Locate(_) => !matches!(next, Self::Arrive | Self::Blind),
+            Self::Refuse { .. } => false,
+        }
+    }
+
+    fn refuse(reason: String) -> Self {
+        Self::Refuse { reason }
+    }
+
+    fn refusal(&self) -> Option<&str> {
+        match self {
+            Self::Refuse { reason } => Some(reason),
+            _ => None,
+        }
+    }
+
+    /// A robot that cannot tell where it is or what is around has limits of its own for that.
+    fn idling(&self) -> Idling {
+        match self {
+            Self::Locate(_) | Self::Blind => Idling::Pauses,
+            Self::Walk => Idling::Ends,
+            _ => Idling::Counts,
+        }
+    }
+
+    fn ends_by_a_stumble(&self) -> bool {
+        self.moves()
+    }
+
+    fn is_interruptible(&self) -> bool {
+        !matches!(self, Self::Refuse { .. } | Self::Arrive)
+    }
+
+    /// A robot that stands and looks around may look where there is no ground for a while.
+    fn patience(&self) -> f64 {
+        match self {
+            Self::LookAround(_) => LOOK_AROUND_PATIENCE,
+            _ => 1.0,
         }
     }
 }

@@ -12,9 +12,9 @@ use crate::walking::sidle::next_sidle;
 pub(crate) struct Track {
     /// Index of the path's point next to the robot.
     pub(crate) nearest: usize,
-    /// From the robot along the path to its end, or to where it has to turn to walk sideways, m,
+    /// From the robot along the path to its end, or to where it has to turn to walk sideways, m.
     pub(crate) remaining_m: f64,
-    /// and from there on to its end, m.
+    /// From where it has to turn to walk sideways on to the path's end, m.
     pub(crate) beyond_m: f64,
     /// The point to steer to, in the robot's frame, m.
     pub(crate) target_m: [f64; 2],
@@ -74,7 +74,7 @@ impl Track {
         self.whole_m() + from_end_m
     }
 
-    /// The same way with a last straight piece to this place, in the robot's frame, m.
+    /// This way with a last straight piece to a place, in the robot's frame, m.
     pub(crate) fn going_on_to(self, (x, y): (f64, f64)) -> Self {
         Self {
             target_m: [x, y],

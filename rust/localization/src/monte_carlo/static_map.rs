@@ -1,28 +1,33 @@
-//! The map that is known beforehand, as the localizer reads it.
+//! The known map as the localizer reads it.
 
+use std::sync::Arc;
+
+use known_map::{KnownMap, Standing, StandingRoom};
 use settings::ConfigError;
-use volume::{DistanceField, RangeField, SolidVoxels, Standing, standing};
+use volume::{DistanceField, RangeField};
 
 use super::{MonteCarloConfig, RangeModel};
 
 /// What does not change: how far rays get, how near surfaces are, and where one can stand.
 #[derive(Debug, Clone)]
 pub struct StaticMap {
-    pub(super) ranges: RangeField,
+    pub(super) ranges: Arc<RangeField>,
     /// For the likelihood field alone.
-    pub(super) distances: Option<DistanceField>,
+    pub(super) distances: Option<Arc<DistanceField>>,
     pub(super) places: Vec<Standing>,
 }
 
 impl StaticMap {
-    /// The map of these voxels, the ground among them.
-    pub fn new(solid: &SolidVoxels, config: &MonteCarloConfig) -> Result<Self, ConfigError> {
+    /// What the localizer needs of a map, the ground among it.
+    pub fn new(map: &KnownMap, config: &MonteCarloConfig) -> Result<Self, ConfigError> {
         config.check()?;
         let by_field = config.range_model == RangeModel::LikelihoodField;
+        let [radius_m, height_m] = config.body;
+        let distances = || map.distances().map(Arc::clone);
         Ok(Self {
-            ranges: RangeField::new(solid),
-            distances: by_field.then(|| DistanceField::new(solid)),
-            places: standing(solid, config.body),
+            ranges: Arc::clone(map.ranges()?),
+            distances: by_field.then(distances).transpose()?,
+            places: map.standing(StandingRoom { radius_m, height_m })?,
         })
     }
 
@@ -39,12 +44,12 @@ mod tests {
     #[test]
     fn settings_are_looked_at_before_the_map_is_made_with_them() {
         let ground = [[[0.0, 0.0, -0.04], [0.4, 0.4, 0.0]]];
-        let solid = SolidVoxels::of_boxes(&ground, 0.04).unwrap();
+        let map = KnownMap::of_boxes(&ground, 0.04).unwrap();
         let config = MonteCarloConfig {
             body: [-0.1, 0.55],
             ..MonteCarloConfig::default()
         };
-        let error = StaticMap::new(&solid, &config).unwrap_err();
+        let error = StaticMap::new(&map, &config).unwrap_err();
         assert_eq!(error.key, "navigation.monte_carlo.body");
     }
 }

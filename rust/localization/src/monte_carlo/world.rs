@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use geometry::{Camera, Grid, Lattice, PlanarPose, Pose, Robot};
+use known_map::KnownMap;
 use mapping::{FloorView, Surface};
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use segmentation::Planes;
 use sensing::Intrinsics;
-use volume::SolidVoxels;
 
 use super::random::{Purpose, Stream};
 use super::{MonteCarloConfig, MonteCarloLocalizer, StaticMap};
@@ -112,8 +112,8 @@ impl World {
     }
 
     pub(super) fn map(&self, config: &MonteCarloConfig) -> Arc<StaticMap> {
-        let solid = SolidVoxels::of_boxes(&self.mapped, SIDE_M).unwrap();
-        Arc::new(StaticMap::new(&solid, config).unwrap())
+        let known = KnownMap::of_boxes(&self.mapped, SIDE_M).unwrap();
+        Arc::new(StaticMap::new(&known, config).unwrap())
     }
 
     /// Distance along a ray, and whether its end is ground: the top of something that is no higher.

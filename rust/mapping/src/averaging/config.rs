@@ -1,83 +1,48 @@
 //! Parameters of the averaged height map, checked once.
 
-use serde::{Deserialize, Serialize};
-use settings::{ConfigError, require};
+use settings::{NOT_NEGATIVE, POSITIVE, at_least, settings, within};
 
-use crate::surface::require_usable_side;
+use crate::FogConfig;
+use crate::surface::MatchingTuning;
 
-/// Parameters of the averaged height map: `[navigation.averaging]`. Where a key is one of `[navigation.fog]`, too, it means the
-/// same and has the same default, so that both are compared on equal terms.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct AveragingConfig {
-    /// Side of a cell, m.
-    pub cell: f64,
-    /// Cells along each side of the window.
-    pub cells: usize,
-    /// A cell that lies more than this above one beside it is an obstacle, m; what is lower can be climbed (003, Table I:
-    /// steps up to 50 mm).
-    pub rise: f64,
-    /// Points further away than this are left out, m.
-    pub max_range: f64,
-    /// Frames are shifted in height to fit the known heights by at most this, m.
-    pub match_gate: f64,
-    /// Points that must fit the known heights before a frame is shifted, or used without a ground plane.
-    pub min_pairs: usize,
-    /// Radius around the robot in which unseen cells are shown as floor at its height (it stands there), m.
-    pub footprint: f64,
-}
-
-impl Default for AveragingConfig {
-    fn default() -> Self {
-        Self {
-            cell: 0.04,
-            cells: 100,
-            rise: 0.05,
-            max_range: 4.0,
-            match_gate: 0.02,
-            min_pairs: 150,
-            footprint: 0.12,
-        }
+settings! {
+    /// The averaged height map, after Kagami et al. 2003. A key that `[navigation.fog]` has as well means the same there and has the
+    /// same default, so that both are compared on equal terms.
+    pub struct AveragingConfig("navigation.averaging") {
+        /// Side of a cell.
+        cell: f64 = 0.04, "m", within(0.001, 10.0);
+        /// Cells along each side of the window.
+        cells: usize = 100, "1", within(4.0, FogConfig::MOST_CELLS as f64);
+        /// A cell that lies more than this above one beside it is an obstacle; what is lower can be climbed.
+        rise: f64 = 0.05, "m", POSITIVE, "003, Table I: steps up to 50 mm";
+        /// Points that are further away than this are left out.
+        max_range: f64 = 4.0, "m", POSITIVE;
+        /// Frames are shifted in height to fit the known heights by at most this.
+        match_gate: f64 = 0.02, "m", NOT_NEGATIVE;
+        /// Points that must fit the known heights before a frame is shifted, or used without a ground plane.
+        min_pairs: usize = 150, "1", at_least(1.0);
+        /// Unseen cells up to this far from the robot's middle are shown as floor at its height, since it stands there.
+        footprint: f64 = 0.12, "m", NOT_NEGATIVE;
+        /// Numbers that few will want to turn.
+        tuning: AveragingTuning;
     }
 }
 
-impl AveragingConfig {
-    /// Refuses what cannot be used, naming the key.
-    pub fn check(&self) -> Result<(), ConfigError> {
-        let name = |key: &str| format!("navigation.averaging.{key}");
-        for (key, value) in [
-            ("cell", self.cell),
-            ("rise", self.rise),
-            ("max_range", self.max_range),
-        ] {
-            require(value > 0.0 && value.is_finite(), &name(key), "> 0", value)?;
-        }
-        require_usable_side(&name("cell"), self.cell)?;
-        for (key, value) in [
-            ("match_gate", self.match_gate),
-            ("footprint", self.footprint),
-        ] {
-            require(value >= 0.0 && value.is_finite(), &name(key), ">= 0", value)?;
-        }
-        require(
-            (4..=2000).contains(&self.cells),
-            &name("cells"),
-            "4 to 2000",
-            self.cells,
-        )?;
-        require(
-            self.min_pairs > 0,
-            &name("min_pairs"),
-            "> 0",
-            self.min_pairs,
-        )
+settings! {
+    /// Numbers behind the averaged height map.
+    pub struct AveragingTuning("navigation.averaging.tuning") {
+        /// The robot may wander this many cells from the middle of the window before the window follows: a robot that sways over a
+        /// border would move it to and fro.
+        wander: f64 = 0.75, "1", within(0.5, 100.0);
+        /// How a frame's height is fitted to the heights that are known.
+        matching: MatchingTuning;
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::FogConfig;
+    use settings::Table;
 
     #[test]
     fn the_defaults_are_allowed() {
@@ -118,13 +83,20 @@ mod tests {
 
     #[test]
     fn what_both_maps_have_is_the_same_by_default() {
-        let ours = serde_json::to_value(FogConfig::default()).unwrap();
-        let theirs = serde_json::to_value(AveragingConfig::default()).unwrap();
-        let theirs = theirs.as_object().unwrap();
-        let shared = theirs.iter().filter(|(key, _)| ours.get(key).is_some());
-        assert_eq!(shared.clone().count(), theirs.len() - 1);
-        for (key, value) in shared {
-            assert_eq!(ours.get(key), Some(value), "{key}");
+        let ours = FogConfig::parameters();
+        let theirs = AveragingConfig::parameters();
+        let mut shared = 0;
+        for one in &theirs {
+            let key = one.key.replacen("averaging", "fog", 1);
+            if let Some(other) = ours.iter().find(|other| other.key == key) {
+                assert_eq!(
+                    (&one.default, &one.bounds),
+                    (&other.default, &other.bounds),
+                    "{key}"
+                );
+                shared += 1;
+            }
         }
+        assert_eq!(shared, theirs.len() - 1);
     }
 }

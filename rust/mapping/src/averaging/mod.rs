@@ -13,13 +13,13 @@ mod means;
 
 use geometry::{Cell, CellArea, Map, Pose, Robot};
 use segmentation::Planes;
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 
 use crate::surface::{
-    LabelledFrame, LabelledPoint, Pair, Reading, Stood, Window, check_poses, height_shift,
+    LabelledFrame, LabelledPoint, Pair, Reading, Underfoot, Window, check_poses, height_shift,
 };
 use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
-pub use config::AveragingConfig;
+pub use config::{AveragingConfig, AveragingTuning};
 use means::MeanHeights;
 
 /// Keeps the mean height of each cell and the view made of them.
@@ -28,7 +28,7 @@ pub struct Averaging {
     config: AveragingConfig,
     window: Window,
     means: MeanHeights,
-    stood: Stood,
+    underfoot: Underfoot,
     view: FloorView,
     frame: LabelledFrame,
 }
@@ -40,10 +40,10 @@ impl Averaging {
     /// A map of which nothing is known, around the map's origin.
     pub fn new(config: AveragingConfig) -> Result<Self, ConfigError> {
         config.check()?;
-        let window = Window::new(config.cell, config.cells);
+        let window = Window::new(config.cell, config.cells, config.tuning.wander);
         Ok(Self {
             means: MeanHeights::new(config.cells),
-            stood: Stood::new(config.cells, config.footprint),
+            underfoot: Underfoot::new(config.cells, config.footprint),
             view: FloorView::unknown(window.lattice(), config.cells),
             frame: LabelledFrame::default(),
             window,
@@ -60,7 +60,7 @@ impl Averaging {
     fn surface(&self, cell: Cell) -> Surface {
         let Some(height_m) = self.means.height(cell) else {
             return self
-                .stood
+                .underfoot
                 .height(cell)
                 .map_or(Surface::Unknown, Surface::Floor);
         };
@@ -92,7 +92,7 @@ impl Averaging {
             return CellArea::EMPTY;
         }
         self.means.shift(cols, rows);
-        self.stood.shift(cols, rows);
+        self.underfoot.shift(cols, rows);
         self.view.shift(cols, rows, self.window.lattice());
         self.view.cells.area()
     }
@@ -140,11 +140,11 @@ impl WorldModel for Averaging {
         let at = map_from_robot.inner.translation.vector;
         let robot_m = [at.x, at.y, at.z];
         let mut changed = self.follow(robot_m);
-        changed.join(self.stood.stand(robot_m, &self.view.lattice));
+        changed.join(self.underfoot.stand(robot_m, &self.view.lattice));
 
         let config = &self.config;
         let reading = Reading {
-            snap: false,
+            snap_stretch: None,
             max_range_m: config.max_range,
             sure_range_m: f64::INFINITY,
             delta_m: 0.0,
@@ -160,7 +160,12 @@ impl WorldModel for Averaging {
                 weight: 1,
             })
         };
-        let shift = height_shift(&self.frame, pair, config.match_gate, config.min_pairs);
+        let shift = height_shift(
+            &self.frame,
+            pair,
+            (config.match_gate, config.min_pairs),
+            &config.tuning.matching,
+        );
         let used = planes.reliable || shift.is_some();
         if used {
             self.frame.raise(shift.unwrap_or(0.0));

@@ -4,26 +4,21 @@ use geometry::{Cell, CellArea, Grid, Lattice};
 
 use super::merging::{INVALID, merge_height};
 use super::tilts::{LEVEL, Tilts};
-use super::{FogConfig, LabelledFrame};
+use super::{FloorTuning, FogConfig, LabelledFrame};
 use geometry::runs;
 use volume::OccupancyGrid;
 use volume::Update;
 
-/// What is this much nearer than what it is compared with was seen better: a body sways by less.
-const NEARER: f32 = 0.9;
-
-/// A slope passes from one layer of voxels to the next: so far above or below its height it may be found occupied, m.
-const SLOPE_WITHIN_M: f64 = 0.015;
-
-/// Whether the occupancy grid, which does not hold a height in the cell that is stored at an index, holds one close to it, and the floor
-/// there has a gradient.
+/// Whether the occupancy grid, which does not hold a height in the cell that is stored at an index, holds one within a distance of it, and the
+/// floor there has a gradient.
 fn holds_slope(
     occupancy: &OccupancyGrid,
     (index, height_m): (usize, f64),
     gradient: [f32; 2],
+    within_m: f64,
 ) -> bool {
     gradient != LEVEL
-        && [-SLOPE_WITHIN_M, SLOPE_WITHIN_M].iter().any(|off_m| {
+        && [-within_m, within_m].iter().any(|off_m| {
             let layer = occupancy.layer_at(height_m + off_m);
             layer.is_some_and(|layer| occupancy.holds(index, layer))
         })
@@ -43,7 +38,8 @@ pub struct FloorGrid {
     nu: f32,
     layer_m: f32,
     sure_range_m: f32,
-    /// Of the frame that is being inserted, per cell: highest supported height, sum and number of those within epsilon.
+    tuning: FloorTuning,
+    /// What the frame shows that is being inserted, per cell: highest supported height, sum and number of those within epsilon.
     frame_top: Grid<f32>,
     frame_sum: Grid<(f64, u32)>,
     /// Cells with a supported height in this frame, and the cell, the height and the label of every point with one.
@@ -59,12 +55,13 @@ impl FloorGrid {
             lattice,
             heights: Grid::filled(n, n, INVALID),
             sightings: Grid::filled(n, n, 0),
-            tilts: Tilts::new(n),
+            tilts: Tilts::new(n, config.tuning.slopes.clone()),
             distances_m: Grid::filled(n, n, f32::INFINITY),
             epsilon: config.epsilon as f32,
             nu: config.nu as f32,
             layer_m: config.layer as f32,
             sure_range_m: config.sure_range as f32,
+            tuning: config.tuning.floors.clone(),
             frame_top: Grid::filled(n, n, INVALID),
             frame_sum: Grid::filled(n, n, (0.0, 0)),
             frame_cells: Vec::with_capacity(n * n),
@@ -80,7 +77,7 @@ impl FloorGrid {
             .filter(|&height| height != INVALID)
     }
 
-    /// The same of the cell that is stored at an index, row by row.
+    /// Height of the floor of the cell that is stored at an index, row by row, m; `None` is *invalid*.
     #[inline]
     pub(crate) fn height_at(&self, index: usize) -> Option<f32> {
         let height = self.heights.values()[index];
@@ -132,6 +129,7 @@ impl FloorGrid {
 
     /// Equation (8): forgets heights of the area that the occupancy grid, with the same cells, no longer supports, by (3) and (7).
     pub fn verify(&mut self, occupancy: &OccupancyGrid, area: CellArea) {
+        let within_m = self.tuning.slope_within;
         for index in runs(area, self.size()).flatten() {
             let Some(height) = self.height_at(index) else {
                 continue;
@@ -139,7 +137,14 @@ impl FloorGrid {
             let height_m = f64::from(height);
             let layer = occupancy.layer_at(height_m);
             let held = layer.is_some_and(|layer| occupancy.holds(index, layer));
-            if !held && !holds_slope(occupancy, (index, height_m), self.gradient_at(index)) {
+            if !held
+                && !holds_slope(
+                    occupancy,
+                    (index, height_m),
+                    self.gradient_at(index),
+                    within_m,
+                )
+            {
                 self.heights.values_mut()[index] = INVALID;
                 self.sightings.values_mut()[index] = 0;
                 self.distances_m.values_mut()[index] = f32::INFINITY;
@@ -177,6 +182,7 @@ impl FloorGrid {
     /// Finds the points whose height the occupancy grid, with the same cells, supports, and the highest of each cell.
     fn gather(&mut self, frame: &LabelledFrame, occupancy: &OccupancyGrid) {
         self.supported.clear();
+        let within_m = self.tuning.slope_within;
         let tops = self.frame_top.values_mut();
         // Points of one surface come one after the other and have one height.
         let mut last = (f64::NAN, None);
@@ -193,7 +199,7 @@ impl FloorGrid {
             };
             let held = last.1.is_some_and(|layer| occupancy.holds(index, layer));
             let at = (index, height_m);
-            if !held && !holds_slope(occupancy, at, frame.gradient(point.label)) {
+            if !held && !holds_slope(occupancy, at, frame.gradient(point.label), within_m) {
                 continue;
             }
             self.supported.push((index, height_m, point.label));
@@ -274,7 +280,7 @@ impl FloorGrid {
     /// afar treads run into each other, and the occupancy grid, which puts other wrong heights right, tells no heights apart
     /// that are less than a layer from each other.
     fn sees_better(&self, below_m: f32, distance_m: f32, stored_from_m: f32) -> bool {
-        below_m <= self.layer_m && distance_m < NEARER * stored_from_m
+        below_m <= self.layer_m && distance_m < self.tuning.nearer * stored_from_m
     }
 
     fn set(&mut self, cell: Cell, height: f32, seen: u16, distance_m: f32) {

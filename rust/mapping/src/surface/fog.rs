@@ -3,11 +3,11 @@
 
 use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use segmentation::Planes;
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 
 use super::rough::Rough;
 use super::shadow::{Shadow, Surroundings};
-use super::stood::Stood;
+use super::underfoot::Underfoot;
 use super::window::{Layers, Window};
 use super::{
     FloorGrid, FogConfig, LabelledFrame, LabelledPoint, Pair, Reading, check_poses, height_shift,
@@ -25,7 +25,7 @@ pub struct Fog {
     occupancy: OccupancyGrid,
     floor: FloorGrid,
     rough: Rough,
-    stood: Stood,
+    underfoot: Underfoot,
     surroundings: Surroundings,
     view: FloorView,
     frame: LabelledFrame,
@@ -38,17 +38,18 @@ impl Fog {
     /// A map of which nothing is known, around the map's origin.
     pub fn new(config: FogConfig) -> Result<Self, ConfigError> {
         config.check()?;
-        let window = Window::new(config.cell, config.cells);
+        let window = Window::new(config.cell, config.cells, config.tuning.wander);
         Ok(Self::with_window(config, window))
     }
 
-    /// The same around another place of the map frame, where the cells stay while the robot is no more than so many of them away.
+    /// A map of which nothing is known, around a place of the map frame, where the cells stay while the robot is no more than so many of them away.
     pub(crate) fn around(
         config: FogConfig,
         place_m: [f64; 2],
         slack: f64,
     ) -> Result<Self, ConfigError> {
         config.check()?;
+        let slack = slack.max(config.tuning.wander);
         let window = Window::around(config.cell, config.cells, place_m, slack);
         Ok(Self::with_window(config, window))
     }
@@ -69,10 +70,10 @@ impl Fog {
             layers: config.layers,
         };
         Self {
-            occupancy: OccupancyGrid::new(size, placement, table),
+            occupancy: OccupancyGrid::new(size, placement, table).with_looks(config.tuning.looks),
             floor: FloorGrid::new(lattice, &config),
-            rough: Rough::new(n),
-            stood: Stood::new(n, config.footprint),
+            rough: Rough::new(n, config.tuning.rough_lead),
+            underfoot: Underfoot::new(n, config.footprint),
             surroundings: Surroundings::default(),
             view: FloorView::unknown(lattice, n),
             frame: LabelledFrame::default(),
@@ -96,7 +97,7 @@ impl Fog {
     #[inline]
     pub(crate) fn floor_at(&self, index: usize) -> Option<f32> {
         let seen = self.floor.height_at(index);
-        seen.or_else(|| self.stood.height_at(index))
+        seen.or_else(|| self.underfoot.height_at(index))
     }
 
     /// The occupancy grid.
@@ -136,7 +137,7 @@ impl Fog {
         index.map_or(Surface::Unknown, |index| self.surface_at(index))
     }
 
-    /// The same of the cell that is stored at an index, row by row.
+    /// What is in the cell that is stored at an index, row by row: [`Self::surface`].
     #[inline]
     fn surface_at(&self, index: usize) -> Surface {
         let floor = self.floor.height_at(index);
@@ -144,7 +145,7 @@ impl Fog {
             (Some(top_m), _) if self.stands_out(index, top_m, floor) => {
                 return Surface::Obstacle(top_m as f32);
             }
-            (_, None) => self.stood.height_at(index),
+            (_, None) => self.underfoot.height_at(index),
             _ => floor,
         };
         below.map_or(Surface::Unknown, Surface::Floor)
@@ -181,7 +182,7 @@ impl Fog {
         self.occupancy.place(lattice, self.layers.bottom_m());
         self.floor.shift(cols, rows, lattice);
         self.rough.shift(cols, rows);
-        self.stood.shift(cols, rows);
+        self.underfoot.shift(cols, rows);
         self.view.shift(cols, rows, lattice);
         let all = self.view.cells.area();
         if layers != 0 {
@@ -271,11 +272,11 @@ impl WorldModel for Fog {
         let at = map_from_robot.inner.translation.vector;
         let robot_m = [at.x, at.y, at.z];
         let moved = self.follow(robot_m);
-        let mut changed = self.stood.stand(robot_m, &self.view.lattice);
+        let mut changed = self.underfoot.stand(robot_m, &self.view.lattice);
 
         let config = &self.config;
         let reading = Reading {
-            snap: config.snap,
+            snap_stretch: config.snap.then_some(config.tuning.snap_stretch),
             max_range_m: config.max_range,
             sure_range_m: config.sure_range,
             delta_m: config.delta,
@@ -292,7 +293,12 @@ impl WorldModel for Fog {
         let shift = if planes.ground.is_some() {
             None
         } else {
-            height_shift(&self.frame, pair, config.match_gate, config.min_pairs)
+            height_shift(
+                &self.frame,
+                pair,
+                (config.match_gate, config.min_pairs),
+                &config.tuning.matching,
+            )
         };
         let used = planes.reliable || shift.is_some();
         if used {

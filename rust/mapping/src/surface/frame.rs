@@ -42,8 +42,9 @@ pub struct LabelledPoint {
 /// How a frame's points are taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reading {
-    /// Whether points on a horizontal plane are moved along their ray to its height.
-    pub snap: bool,
+    /// Points on a horizontal plane are moved along their ray to its height where that stretches the ray by less than this factor,
+    /// and shortens it by less; none are where there is no factor.
+    pub snap_stretch: Option<f64>,
     /// Points further away only tell that the way is free so far, m.
     pub max_range_m: f64,
     /// Points on no plane that are further away over the ground, m, and stand out by less than `delta_m` of what the robot stands on
@@ -112,8 +113,8 @@ impl LabelledFrame {
             }
             let mut at = rotation * Point3::new(x, y, z) + translation;
             let floor_height_m = f64::from(height) + translation.z;
-            if reading.snap
-                && let Some(factor) = snap_factor(eye.z, at.z, floor_height_m)
+            if let Some(most) = reading.snap_stretch
+                && let Some(factor) = snap_factor(eye.z, at.z, floor_height_m, most)
             {
                 at = eye + (at - eye) * factor;
             }
@@ -209,9 +210,9 @@ fn picture(planes: &Planes, map_from_robot: &Pose<Map, Robot>) -> Option<Picture
 }
 
 /// By how much a ray is stretched to end at its plane's height; `None` where that is no small correction.
-fn snap_factor(eye_z_m: f64, z_m: f64, floor_height_m: f64) -> Option<f64> {
+fn snap_factor(eye_z_m: f64, z_m: f64, floor_height_m: f64, most: f64) -> Option<f64> {
     let factor = (floor_height_m - eye_z_m) / (z_m - eye_z_m);
-    (factor > 0.5 && factor < 2.0).then_some(factor)
+    (factor > 1.0 / most && factor < most).then_some(factor)
 }
 
 #[cfg(test)]

@@ -1,9 +1,6 @@
 //! Fitting a frame to the floor that is known: 000, section IV.
 
-use super::{LabelledFrame, LabelledPoint};
-
-/// Bins of the search, over twice the gate.
-const BINS: usize = 40;
+use super::{LabelledFrame, LabelledPoint, MatchingTuning};
 
 /// A point of a frame and the known surface at its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,12 +16,12 @@ pub struct Pair {
 /// nothing is known.
 ///
 /// Points and floors further apart than `gate_m` are different surfaces. Where several shifts fit, the one that pairs of the
-/// most weight agree on wins; pairs agree within a quarter of the gate.
+/// most weight agree on wins.
 pub fn height_shift(
     frame: &LabelledFrame,
     pair: impl Fn(&LabelledPoint) -> Option<Pair>,
-    gate_m: f64,
-    min_pairs: usize,
+    (gate_m, min_pairs): (f64, usize),
+    tuning: &MatchingTuning,
 ) -> Option<f64> {
     let all = frame.points.iter().filter_map(pair);
     let found: Vec<Pair> = all.filter(|pair| pair.residual_m.abs() <= gate_m).collect();
@@ -32,20 +29,21 @@ pub fn height_shift(
     if gate_m == 0.0 {
         return (pairs().count() >= min_pairs).then_some(0.0);
     }
-    let mut histogram = [0_u64; BINS];
+    // Over twice the gate.
+    let &MatchingTuning { bins, window, .. } = tuning;
+    let mut histogram = [0_u64; MatchingTuning::MOST_BINS];
     for Pair { residual_m, weight } in pairs() {
-        let bin = ((residual_m / gate_m + 1.0) * 0.5 * BINS as f64) as usize;
-        histogram[bin.min(BINS - 1)] += weight;
+        let bin = ((residual_m / gate_m + 1.0) * 0.5 * bins as f64) as usize;
+        histogram[bin.min(bins - 1)] += weight;
     }
-    let width = BINS / 8;
-    let in_window = |first: usize| histogram[first..first + width].iter().sum::<u64>();
+    let in_window = |first: usize| histogram[first..first + window].iter().sum::<u64>();
     // The middle one of equals, so that a perfect fit is not pulled to one side.
-    let best = (0..=BINS - width).map(in_window).max()?;
-    let firsts = || (0..=BINS - width).filter(|&first| in_window(first) == best);
+    let best = (0..=bins - window).map(in_window).max()?;
+    let firsts = || (0..=bins - window).filter(|&first| in_window(first) == best);
     let first = firsts().nth(firsts().count() / 2)?;
-    let center = gate_m * ((2 * first + width) as f64 / BINS as f64 - 1.0);
+    let center = gate_m * ((2 * first + window) as f64 / bins as f64 - 1.0);
     let (sum, count) = pairs()
-        .filter(|pair| (pair.residual_m - center).abs() <= gate_m / 4.0)
+        .filter(|pair| (pair.residual_m - center).abs() <= gate_m * tuning.agreement)
         .fold((0.0, 0_usize), |(sum, count), pair| {
             (sum + pair.residual_m, count + 1)
         });

@@ -4,23 +4,23 @@ use geometry::{Cell, CellArea, Grid};
 
 use super::LabelledFrame;
 
-/// Points that a cell is ahead by at most: what is there may be moved.
-const LEAD: i8 = 60;
-
 /// For each cell, how many more points of rough surfaces than of smooth ones fell into it.
 #[derive(Debug, Clone)]
 pub(crate) struct Rough {
     lead: Grid<i8>,
     /// Whether any rough point ever came: most robots walk for hours without.
     any: bool,
+    /// Points that a cell is ahead by at most.
+    most: i8,
 }
 
 impl Rough {
-    /// Nothing is rough.
-    pub(crate) fn new(cells: usize) -> Self {
+    /// Nothing is rough. A cell is ahead by at most `lead` points.
+    pub(crate) fn new(cells: usize, lead: u8) -> Self {
         Self {
             lead: Grid::filled(cells, cells, 0),
             any: false,
+            most: lead as i8,
         }
     }
 
@@ -42,12 +42,13 @@ impl Rough {
             return area;
         }
         let cols = self.lead.cols();
+        let most = self.most;
         let leads = self.lead.values_mut();
         let mut last = None;
         for (point, index) in frame.located() {
             if let (Some(rough), Some(index)) = (point.rough, index) {
                 let lead = &mut leads[index];
-                *lead = (*lead + if rough { 1 } else { -1 }).clamp(-LEAD, LEAD);
+                *lead = (*lead + if rough { 1 } else { -1 }).clamp(-most, most);
                 if last.replace(index) != Some(index) {
                     area.include(Cell::new((index % cols) as i32, (index / cols) as i32));
                 }

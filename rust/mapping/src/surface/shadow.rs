@@ -84,7 +84,7 @@ impl<'a> Shadow<'a> {
         index.is_none_or(|index| self.surroundings.near[index]) && self.is_behind(at_m)
     }
 
-    /// The same by going back along the line of sight, cell by cell.
+    /// Whether an obstacle is found shortly before a point by going back along its line of sight, cell by cell.
     fn is_behind(&self, [x_m, y_m, z_m]: [f64; 3]) -> bool {
         let back = [
             self.eye_m[0] - x_m,

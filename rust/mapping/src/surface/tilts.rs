@@ -5,9 +5,7 @@
 
 use geometry::Grid;
 
-/// How sure a frame makes that a cell is part of a slope, in frames that show it level, and how sure it gets at most.
-const SEEN: u8 = 4;
-const MOST_SURE: u8 = 40;
+use super::SlopeTuning;
 
 /// Rise per metre along the map's axes.
 type Gradient = [f32; 2];
@@ -18,18 +16,20 @@ pub(super) const LEVEL: Gradient = [0.0; 2];
 /// The gradients of the floors.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tilts {
-    /// That of a slope, and how sure it is that there is one.
+    /// The gradient of a slope, and how sure it is that there is one.
     known: Grid<(Gradient, u8)>,
-    /// Of the frame that is being inserted.
+    /// The gradients that the frame shows which is being inserted.
     frame: Grid<Gradient>,
+    tuning: SlopeTuning,
 }
 
 impl Tilts {
     /// So many cells along each side, all level.
-    pub(super) fn new(cells: usize) -> Self {
+    pub(super) fn new(cells: usize, tuning: SlopeTuning) -> Self {
         Self {
             known: Grid::filled(cells, cells, (LEVEL, 0)),
             frame: Grid::filled(cells, cells, LEVEL),
+            tuning,
         }
     }
 
@@ -78,7 +78,7 @@ impl Tilts {
         for (stored, measured) in stored.iter_mut().zip(measured) {
             *stored = share * *stored + (1.0 - share) * measured;
         }
-        *sure = (*sure + SEEN).min(MOST_SURE);
+        *sure = (*sure + self.tuning.seen).min(self.tuning.most_sure);
     }
 }
 
@@ -91,7 +91,7 @@ mod tests {
     const SLOPE: Gradient = [0.1, -0.05];
 
     fn seen(frames: &[Gradient]) -> Tilts {
-        let mut tilts = Tilts::new(4);
+        let mut tilts = Tilts::new(4, SlopeTuning::default());
         for &gradient in frames {
             tilts.see(HERE, gradient);
             tilts.merge(HERE, true, NU);

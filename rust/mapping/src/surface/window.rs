@@ -4,10 +4,6 @@ use geometry::Lattice;
 
 use super::FogConfig;
 
-/// The robot may wander this far from the middle, in cells or layers, before the window follows: a robot that sways over
-/// a border would move it to and fro.
-const SLACK: f64 = 0.75;
-
 /// Where a window lies along one axis, in whole units from the map's origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Axis {
@@ -20,12 +16,12 @@ struct Axis {
 }
 
 impl Axis {
-    const fn new(unit_m: f64, units: usize) -> Self {
+    const fn new(unit_m: f64, units: usize, slack: f64) -> Self {
         Self {
             unit_m,
             units,
             center: 0,
-            slack: SLACK,
+            slack,
         }
     }
 
@@ -50,19 +46,18 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// So many cells along each side, around the map's origin.
-    pub(crate) const fn new(cell_m: f64, cells: usize) -> Self {
+    /// So many cells along each side, around the map's origin. The robot may wander `slack` cells from the middle.
+    pub(crate) const fn new(cell_m: f64, cells: usize, slack: f64) -> Self {
         Self {
-            axes: [Axis::new(cell_m, cells); 2],
+            axes: [Axis::new(cell_m, cells, slack); 2],
         }
     }
 
-    /// The same around another place, to the next border of cells, where it stays while the robot is no more than so many cells away.
+    /// A window around a place, to the next border of cells, where it stays while the robot is no more than `slack` cells away.
     pub(crate) fn around(cell_m: f64, cells: usize, place_m: [f64; 2], slack: f64) -> Self {
         let axis = |at_m: f64| Axis {
             center: (at_m / cell_m).round() as i64,
-            slack: slack.max(SLACK),
-            ..Axis::new(cell_m, cells)
+            ..Axis::new(cell_m, cells, slack)
         };
         Self {
             axes: place_m.map(axis),
@@ -97,7 +92,7 @@ pub(super) struct Layers {
 impl Layers {
     pub(super) fn new(config: &FogConfig) -> Self {
         Self {
-            axis: Axis::new(config.layer, config.layers),
+            axis: Axis::new(config.layer, config.layers, config.tuning.wander),
             origin_m: config.layer_origin,
             below: config.follow_height.then_some(config.layers_below),
         }
@@ -125,7 +120,7 @@ mod tests {
     proptest! {
         #[test]
         fn the_robot_stays_near_the_middle(steps in prop::collection::vec(prop::array::uniform3(-0.2..0.2f64), 1..30)) {
-            let mut window = Window::new(0.04, 100);
+            let mut window = Window::new(0.04, 100, 0.75);
             let mut layers = Layers::new(&FogConfig::default());
             let mut robot = [0.0; 3];
             let mut total = [0_i32; 2];
@@ -156,7 +151,7 @@ mod tests {
 
     #[test]
     fn swaying_over_a_border_moves_nothing() {
-        let mut window = Window::new(0.04, 100);
+        let mut window = Window::new(0.04, 100, 0.75);
         let mut layers = Layers::new(&FogConfig::default());
         let _ = window.follow([0.1, 0.1, 0.0]);
         for sway in [0.005, -0.005, 0.01, -0.01] {

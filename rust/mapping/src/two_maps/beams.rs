@@ -3,14 +3,9 @@
 use nalgebra::Vector3;
 use segmentation::Planes;
 
+use super::BeamsTuning;
 use crate::surface::LabelledFrame;
 use volume::Ray;
-
-/// Points beside each other on one surface are nearer than this part of how far away they are: 8 pixels of 320 on one that is seen at
-/// 20 degrees.
-const SAME_SURFACE: f32 = 0.1;
-/// Pixels beside one, of four, that have to be on its surface for it to be one.
-const SUPPORT: usize = 2;
 
 /// What stands for the ground.
 pub(super) struct Ground<F> {
@@ -34,23 +29,24 @@ impl<F: Fn(usize) -> Option<f32>> Ground<F> {
     }
 }
 
-/// Adds a frame's beams. Points that nothing beside them belongs to are errors of the camera's and left out, and so are beams that
-/// only pass what those beside them pass, too.
+/// Adds a frame's beams. Points that nothing beside them belongs to are errors of the camera and left out, and so are beams
+/// that only pass what those beside them pass.
 pub(super) fn read<F>(
     rays: &mut Vec<Ray>,
     (frame, planes): (&LabelledFrame, &Planes),
     ground: &Ground<F>,
-    voxel_m: f64,
+    (voxel_m, tuning): (f64, &BeamsTuning),
 ) where
     F: Fn(usize) -> Option<f32>,
 {
     let eye_m = Vector3::from(frame.eye_m);
     let size = planes.camera.map(|camera| (camera.width, camera.focal_px));
-    // Two beams a voxel along rows and columns of the picture, where they end, are enough to pass it; nearer there are more.
+    // So many beams a voxel, where they end, are enough to pass it; nearer there are more.
+    let per_voxel = tuning.per_voxel;
     let is_spare = |end_m: [f64; 3], pixel: usize| {
         size.is_some_and(|(width, focal_px)| {
             let range_m = (Vector3::from(end_m) - eye_m).norm();
-            let every = ((0.5 * voxel_m * focal_px / range_m) as usize).max(1);
+            let every = ((voxel_m / per_voxel * focal_px / range_m) as usize).max(1);
             !((pixel % width).is_multiple_of(every) && (pixel / width).is_multiple_of(every))
         })
     };
@@ -58,7 +54,7 @@ pub(super) fn read<F>(
         let (end_m, pixel) = (point.position_m, point.pixel as usize);
         let hit = point.hit && ground.is_left(end_m[2], point.floor_height_m, index);
         let told = if hit {
-            is_supported(planes, pixel)
+            is_supported(planes, pixel, tuning)
         } else {
             !is_spare(end_m, pixel)
         };
@@ -69,14 +65,14 @@ pub(super) fn read<F>(
 }
 
 /// Whether enough pixels beside one see the same surface; of what is no picture nobody can tell.
-fn is_supported(planes: &Planes, pixel: usize) -> bool {
+fn is_supported(planes: &Planes, pixel: usize, tuning: &BeamsTuning) -> bool {
     let Some(camera) = planes.camera else {
         return true;
     };
     let points = &planes.points_in_robot_m;
     let here = Vector3::from(points[pixel]);
     let eye = planes.robot_from_camera.inner.translation.vector;
-    let reach_m = SAME_SURFACE * (here - eye.map(|m| m as f32)).norm();
+    let reach_m = tuning.same_surface * (here - eye.map(|m| m as f32)).norm();
     let col = pixel % camera.width;
     let beside = [
         (col > 0, pixel.wrapping_sub(1)),
@@ -89,5 +85,5 @@ fn is_supported(planes: &Planes, pixel: usize) -> bool {
         let there = points.get(next).map(|&there| Vector3::from(there));
         inside && there.is_some_and(|there| (there - here).norm() <= reach_m)
     };
-    beside.iter().filter(near).count() >= SUPPORT
+    beside.iter().filter(near).count() >= tuning.support
 }

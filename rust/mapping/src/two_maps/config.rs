@@ -1,104 +1,71 @@
 //! Parameters of the two maps, checked once.
 
-use serde::{Deserialize, Serialize};
-use settings::{ConfigError, require, require_positive};
-
-use crate::FogConfig;
+use settings::{
+    ConfigError, NOT_NEGATIVE, POSITIVE, Table, between, from_below, require, settings,
+};
 use volume::octree::{LAYERS, OctreeConfig};
 
-/// How far above and below what the robot stands on floors of other levels are looked for at least, m.
-const LEVELS_M: f64 = 0.3;
+use super::TwoMapsTuning;
+use crate::FogConfig;
 
-/// Parameters of the two maps: `[navigation.octree]`. Floors, cells, ranges and `delta` are those of `[navigation.fog]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct TwoMapsConfig {
-    /// Side of a voxel, m; a cell is a whole number of them wide.
-    pub resolution: f64,
-    /// P(n|z) of equation (1) of 002 for the voxel in which a beam ends.
-    pub p_hit: f64,
-    /// P(n|z) of a voxel that a beam passes: what fewer than half of the frames hit is not occupied.
-    pub p_miss: f64,
-    /// From where on a voxel counts as occupied: with the others, one frame is not enough, where nothing was known or it was free,
-    /// and two are.
-    pub p_occ: f64,
-    /// So many voxels in a cell and around it, as likely occupied as not, are believed by one frame.
-    pub large: u32,
-    /// No voxel is less likely occupied than this: how soon what appears is believed.
-    pub p_min: f64,
-    /// Nor more likely than this: how soon what went away is forgotten; three frames, half a second at 6 Hz.
-    pub p_max: f64,
-    /// Vertical extent of the robot, m: what begins this high above the floor is passed under.
-    pub height: f64,
-    /// Surfaces of the static map are joined by steps of at most this, m.
-    pub rise: f64,
-    /// A line of sight on which nothing was seen, though nothing hides what is there, is free so far, m; 0: it tells nothing.
-    pub unseen_range: f64,
-    /// What is nearer than this the camera may be blind to, m.
-    pub blind_range: f64,
-}
-
-impl Default for TwoMapsConfig {
-    fn default() -> Self {
-        Self {
-            resolution: 0.04,
-            p_hit: 0.7,
-            p_miss: 0.28,
-            p_occ: 0.71,
-            large: 16,
-            p_min: 0.32,
-            p_max: 0.97,
-            height: 0.61,
-            rise: 0.07,
-            unseen_range: 3.0,
-            blind_range: 0.6,
-        }
+settings! {
+    /// The static and the local map of Maier, Hornung and Bennewitz 2012 (002). Floors, cells, ranges and `delta` are those of
+    /// `[navigation.fog]`.
+    pub struct TwoMapsConfig("navigation.octree") {
+        /// Side of a voxel; a cell is a whole number of them wide.
+        resolution: f64 = 0.04, "m", POSITIVE;
+        /// Probability by the sensor that the voxel in which a beam ends is occupied.
+        p_hit: f64 = 0.7, "1", between(0.5, 1.0), "002, equation (1): P(n|z)";
+        /// Probability by the sensor that a voxel which a beam passes is occupied: what fewer than half of the frames hit is not.
+        p_miss: f64 = 0.28, "1", between(0.0, 0.5), "002, equation (1): P(n|z)";
+        /// A voxel that is as likely occupied as this counts as occupied: with the other probabilities, one frame is not enough where
+        /// nothing was known or the voxel was free, and two are.
+        p_occ: f64 = 0.71, "1", from_below(0.5, 1.0);
+        /// So many voxels in a cell and around it, as likely occupied as not, are believed by one frame.
+        large: u32 = 16, "1", NOT_NEGATIVE;
+        /// No voxel is less likely occupied than this: how soon what appears is believed.
+        p_min: f64 = 0.32, "1", between(0.0, 0.5);
+        /// No voxel is more likely occupied than this: how soon what went away is forgotten; three frames, half a second at 6 Hz.
+        p_max: f64 = 0.97, "1", between(0.5, 1.0);
+        /// Vertical extent of the robot: what begins this high above the floor is passed under.
+        height: f64 = 0.61, "m", POSITIVE, "002, section III.D";
+        /// Surfaces of the static map are joined by steps of at most this.
+        rise: f64 = 0.07, "m", POSITIVE;
+        /// A line of sight on which nothing was seen, though nothing hides what is there, is free so far. 0: it tells nothing.
+        unseen_range: f64 = 3.0, "m", NOT_NEGATIVE;
+        /// The camera may be blind to what is nearer than this.
+        blind_range: f64 = 0.6, "m", POSITIVE;
+        /// Numbers that few will want to turn.
+        tuning: TwoMapsTuning;
     }
+    check TwoMapsConfig::is_ordered;
 }
 
 impl TwoMapsConfig {
-    /// Refuses what cannot be used, also together with the parameters of the floors.
-    pub fn check(&self, floors: &FogConfig) -> Result<(), ConfigError> {
-        let positive = |key: &str, value: f64| require_positive(&name(key), value);
-        let probability = |key: &str, value: f64, low: f64, high: f64| {
-            let allowed = format!("> {low} and < {high}");
-            require(value > low && value < high, &name(key), &allowed, value)
-        };
-        positive("resolution", self.resolution)?;
-        probability("p_hit", self.p_hit, 0.5, 1.0)?;
-        probability("p_miss", self.p_miss, 0.0, 0.5)?;
-        probability("p_min", self.p_min, 0.0, 0.5)?;
-        probability("p_max", self.p_max, 0.5, 1.0)?;
-        require(
-            self.p_occ >= 0.5 && self.p_occ < self.p_max,
-            &name("p_occ"),
-            &format!(">= 0.5 and < {}", self.p_max),
-            self.p_occ,
-        )?;
-        positive("height", self.height)?;
-        positive("rise", self.rise)?;
-        positive("blind_range", self.blind_range)?;
-        let range = self.unseen_range;
-        let usable = range.is_finite() && range >= 0.0;
-        require(usable, &name("unseen_range"), "finite and >= 0", range)?;
-        let finest = (self.height + 2.0 * LEVELS_M) / f64::from(LAYERS);
+    fn is_ordered(&self, key: &str) -> Result<(), ConfigError> {
+        let allowed = format!(">= 0.5 and < p_max ({})", self.p_max);
+        let holds = self.p_occ < self.p_max;
+        require(holds, &format!("{key}.p_occ"), &allowed, self.p_occ)?;
+        let finest = (self.height + 2.0 * self.tuning.levels) / f64::from(LAYERS);
         let allowed = format!(">= {finest:.4} for the robot's height");
-        require(
-            self.resolution >= finest,
-            &name("resolution"),
-            &allowed,
-            self.resolution,
-        )?;
+        let name = format!("{key}.resolution");
+        require(self.resolution >= finest, &name, &allowed, self.resolution)
+    }
+
+    /// Refuses what cannot be used, also together with the settings of the floors.
+    pub fn check_with(&self, floors: &FogConfig) -> Result<(), ConfigError> {
+        self.check()?;
         let voxels = floors.cell / self.resolution;
         let allowed = format!(
             "navigation.fog.cell ({}) divided by 1, 2, 3...",
             floors.cell
         );
         let whole = voxels > 0.5 && (voxels - voxels.round()).abs() < 1e-6;
-        require(whole, &name("resolution"), &allowed, self.resolution)
+        let name = format!("{}.resolution", Self::KEY);
+        require(whole, &name, &allowed, self.resolution)
     }
 
-    /// Those of the local map.
+    /// Settings of the local map.
     pub(super) fn octree(&self) -> OctreeConfig {
         OctreeConfig {
             resolution: self.resolution,
@@ -112,12 +79,8 @@ impl TwoMapsConfig {
     /// Room below what the robot stands on that is looked at, m; as much as its height leaves, but no more than it can see of.
     pub(super) fn below_m(&self) -> f64 {
         let all_m = f64::from(LAYERS) * self.resolution;
-        (all_m - self.height - LEVELS_M).min(1.0)
+        (all_m - self.height - self.tuning.levels).min(self.tuning.deepest)
     }
-}
-
-fn name(key: &str) -> String {
-    format!("navigation.octree.{key}")
 }
 
 #[cfg(test)]
@@ -127,7 +90,7 @@ mod tests {
     fn refused(change: impl Fn(&mut TwoMapsConfig)) -> String {
         let mut config = TwoMapsConfig::default();
         change(&mut config);
-        let refused = config.check(&FogConfig::default());
+        let refused = config.check_with(&FogConfig::default());
         refused.map_or_else(|error| error.to_string(), |()| "accepted".to_owned())
     }
 
@@ -150,11 +113,11 @@ mod tests {
             ),
             (
                 refused(|config| config.height = f64::NAN),
-                "navigation.octree.height must be finite and > 0, got NaN",
+                "navigation.octree.height must be > 0, got NaN",
             ),
             (
                 refused(|config| config.unseen_range = -1.0),
-                "navigation.octree.unseen_range must be finite and >= 0, got -1",
+                "navigation.octree.unseen_range must be >= 0, got -1",
             ),
         ] {
             assert_eq!(found, said);

@@ -6,33 +6,27 @@
 //! static map tells.
 
 mod beams;
-mod believed;
 mod config;
-mod layers;
-mod prior;
-mod told;
-mod unseen;
-
-use std::sync::Arc;
+mod empty_sight;
+mod known_surfaces;
+mod local_columns;
+mod tuning;
 
 use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
+use known_map::{KnownMap, Limits, MapAround};
 use segmentation::Planes;
 use settings::ConfigError;
 
 use crate::{FloorView, Fog, FogConfig, Insertion, MapError, Surface, Voxel, WorldModel};
 use beams::Ground;
-use believed::Believed;
 pub use config::TwoMapsConfig;
+use empty_sight::EmptySight;
 use geometry::runs;
-use layers::Layers;
-use prior::Prior;
-use unseen::Unseen;
+use local_columns::LocalColumns;
+pub use tuning::{BeamsTuning, EmptySightTuning, KnownSurfacesTuning, TwoMapsTuning};
 use volume::Ray;
-use volume::octree::{Cast, Octree, Sighting, probability};
+use volume::octree::{Cast, Octree, Sighting, ViewLayers, probability};
 use volume::{Clearing, Update};
-
-/// Cells along a side of a static map that the window holds as a whole; a larger one is looked at around the robot.
-const MOST_CELLS: f64 = 1000.0;
 
 /// Keeps the static and the local map, the floors, and the view made of them.
 #[derive(Debug, Clone)]
@@ -42,11 +36,11 @@ pub struct TwoMaps {
     fresh: Fog,
     floors: Fog,
     local: Octree,
-    prior: Option<Prior>,
+    known: Option<MapAround>,
     /// Height of the level on which the robot stands, m: where it stood when the maps were last projected anew.
     level_m: f64,
-    layers: Layers,
-    believed: Believed,
+    layers: ViewLayers,
+    seen: LocalColumns,
     view: FloorView,
     rays: Vec<Ray>,
 }
@@ -60,14 +54,15 @@ impl TwoMaps {
     pub fn new(
         config: TwoMapsConfig,
         floors: &FogConfig,
-        static_map: Option<Arc<Octree>>,
+        static_map: Option<&KnownMap>,
     ) -> Result<Self, ConfigError> {
-        config.check(floors)?;
-        let extent = static_map.as_deref().and_then(Prior::extent_m);
+        config.check_with(floors)?;
+        let extent = static_map.and_then(KnownMap::extent_m);
         let window = extent.and_then(|(middle_m, reach_m)| {
             let reach = (reach_m / floors.cell).ceil();
             let cells = floors.cells as f64 + 2.0 * reach;
-            let fits = 2.0 * reach <= MOST_CELLS && cells <= FogConfig::MOST_CELLS as f64;
+            let fits =
+                2.0 * reach <= config.tuning.whole_map && cells <= FogConfig::MOST_CELLS as f64;
             fits.then_some((middle_m, reach))
         });
         let floors = FogConfig {
@@ -83,14 +78,14 @@ impl TwoMaps {
         };
         let lattice = floors.view().lattice;
         let cells = floors.config().cells;
-        let told = |tree| Prior::new(tree, &config.octree());
+        let known = |map: &KnownMap| map.around(&config.octree(), "navigation.octree.resolution");
         let size = [cells; 2];
-        let layers = Layers::above(-config.below_m(), (lattice, size), config.resolution);
+        let layers = ViewLayers::above(-config.below_m(), (lattice, size), config.resolution);
         Ok(Self {
             local: Octree::new(config.octree())?,
-            prior: static_map.map(told).transpose()?,
+            known: static_map.map(known).transpose()?,
             level_m: f64::NAN,
-            believed: Believed::default(),
+            seen: LocalColumns::default(),
             view: FloorView::unknown(lattice, cells),
             rays: Vec::new(),
             fresh: floors.clone(),
@@ -108,11 +103,11 @@ impl TwoMaps {
     /// The view made of both maps at once: what [`WorldModel::view`] is frame by frame.
     pub fn projected(&self) -> FloorView {
         let mut whole = self.clone();
-        whole.believed = Believed::default();
+        whole.seen = LocalColumns::default();
         whole.view = FloorView::unknown(*self.layers.lattice(), self.layers.size()[0]);
         let all = whole.layers.all();
         let local = (&whole.local, whole.config.p_occ);
-        whole.believed.read(local, &whole.layers, all);
+        whole.seen.read(local, &whole.layers, all);
         whole.project(all);
         whole.view
     }
@@ -120,18 +115,23 @@ impl TwoMaps {
     /// Follows the robot: where its level or the window is another one, all is looked at anew; whether that is so.
     fn follow(&mut self, robot_m: [f64; 3]) -> bool {
         let lattice = self.floors.view().lattice;
-        let same_level = (robot_m[2] - self.level_m).abs() <= 0.5 * self.config.resolution;
+        let same_level = (robot_m[2] - self.level_m).abs()
+            <= self.config.tuning.same_level * self.config.resolution;
         if same_level && lattice == *self.layers.lattice() {
             return false;
         }
         self.level_m = robot_m[2];
         let bottom_m = self.level_m - self.config.below_m();
         let place = (lattice, self.layers.size());
-        self.layers = Layers::above(bottom_m, place, self.config.resolution);
+        self.layers = ViewLayers::above(bottom_m, place, self.config.resolution);
         self.view = FloorView::unknown(lattice, self.layers.size()[0]);
-        if let Some(prior) = &mut self.prior {
-            let floors = (&self.config, self.floors.config().delta);
-            prior.look(&self.layers, robot_m, floors);
+        if let Some(known) = &mut self.known {
+            let limits = Limits {
+                height_m: self.config.height,
+                rise_m: self.config.rise,
+                delta_m: self.floors.config().delta,
+            };
+            known.look(&self.layers, robot_m, limits);
         }
         true
     }
@@ -150,19 +150,23 @@ impl TwoMaps {
             delta_m: self.floors.config().delta,
             floor_at: |index| self.floor_at(index),
         };
-        beams::read(&mut rays, (frame, planes), &ground, self.config.resolution);
+        let tuning = &self.config.tuning;
+        let beams = (self.config.resolution, &tuning.beams);
+        beams::read(&mut rays, (frame, planes), &ground, beams);
         let eye_m = frame.eye_m;
-        if let Some(prior) = &self.prior {
-            told::leave_out(&mut rays, eye_m, prior, &self.layers);
+        if let Some(known) = &self.known {
+            let known = (known, &self.layers);
+            known_surfaces::leave_out(&mut rays, eye_m, known, &tuning.known_surfaces);
         }
         let seen = rays.len();
-        let unseen = Unseen {
+        let empty = EmptySight {
             range_m: self.config.unseen_range,
             blind_m: self.config.blind_range,
             floor_m: self.level_m,
             voxel_m: self.config.resolution,
+            beside_px: tuning.empty_sight.beside,
         };
-        unseen::read(&mut rays, planes, map_from_robot, &unseen);
+        empty_sight::read(&mut rays, planes, map_from_robot, &empty);
         let mut at = 0;
         rays.retain(|ray| {
             at += 1;
@@ -191,14 +195,14 @@ impl TwoMaps {
 
     /// Height of the floor of the cell that is stored at an index, m: what was seen, or else what was told.
     fn floor_at(&self, index: usize) -> Option<f32> {
-        let told = || self.prior.as_ref()?.floor_at(index);
+        let told = || self.known.as_ref()?.floor_at(index);
         self.floors.floor_at(index).or_else(told)
     }
 
     /// Layers of a cell in which either map has something.
     fn solid(&self, index: usize) -> u64 {
-        let told = self.prior.as_ref().map_or(0, |prior| prior.solid(index));
-        self.believed.at(index, self.config.large) | told
+        let told = self.known.as_ref().map_or(0, |known| known.solid(index));
+        self.seen.at(index, self.config.large) | told
     }
 
     /// Section III.D for the cell that is stored at an index: what stands out of its floor within the robot's vertical extent is an
@@ -269,8 +273,8 @@ impl WorldModel for TwoMaps {
             changed = self.layers.all();
         }
         let local = (&self.local, self.config.p_occ);
-        self.believed.read(local, &self.layers, changed);
-        changed = changed.grown(Believed::REACH);
+        self.seen.read(local, &self.layers, changed);
+        changed = changed.grown(LocalColumns::REACH);
         changed.join(insertion.changed);
         let changed = changed.within(self.layers.all());
         self.project(changed);
@@ -284,7 +288,7 @@ impl WorldModel for TwoMaps {
         &self.view
     }
 
-    /// Of the local map.
+    /// The voxels of the local map.
     fn occupied(&self) -> Vec<Voxel> {
         (self.local.leaves())
             .filter(|leaf| probability(leaf.log_odds) >= self.config.p_occ)

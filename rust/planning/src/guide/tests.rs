@@ -49,8 +49,8 @@ fn house(things: &[Block]) -> Vec<Block> {
 /// Knows a floor and what stands on it.
 fn guided(things: &[Block]) -> Guided {
     let boxes = [&[FLOOR], things].concat();
-    let solid = SolidVoxels::of_boxes(&boxes, CELL_M).unwrap();
-    Guided::new(planner(RADIUS_M), &solid, HEIGHT_M).unwrap()
+    let map = KnownMap::of_boxes(&boxes, CELL_M).unwrap();
+    Guided::new(planner(RADIUS_M), &map, HEIGHT_M, GuideConfig::default()).unwrap()
 }
 
 /// What is seen from a place of things on the floor: obstacles and floor within sight, nothing beyond.

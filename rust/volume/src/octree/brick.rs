@@ -35,7 +35,7 @@ pub(super) fn cube([x, y, z]: [usize; 3], edge: usize) -> u64 {
 }
 
 impl Brick {
-    /// Of which nothing is known.
+    /// A brick of which nothing is known.
     pub(super) const fn unknown() -> Self {
         Self {
             values: [0.0; VOXELS],
@@ -96,12 +96,12 @@ impl Brick {
         self.known
     }
 
-    /// Those that are rather occupied than not.
+    /// The voxels that are rather occupied than not.
     pub(super) const fn occupied(&self) -> u64 {
         self.occupied
     }
 
-    /// Those of which the log-odds are so high; not less than 0, as of the occupied ones.
+    /// The voxels of which the log-odds are so high; not less than 0, as of the occupied ones.
     pub(super) fn at_least(&self, log_odds: f32) -> u64 {
         if self.occupied == 0 {
             return 0;
@@ -111,7 +111,7 @@ impl Brick {
         self.occupied & marks.fold(0, |all, mark| all | mark)
     }
 
-    /// Those that a miss does not change.
+    /// The voxels that a miss does not change.
     pub(super) const fn settled(&self) -> u64 {
         self.settled
     }

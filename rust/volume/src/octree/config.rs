@@ -1,64 +1,31 @@
 //! Parameters of the octree, and the log-odds that they mean.
 
-use serde::{Deserialize, Serialize};
-use settings::{ConfigError, require, require_positive};
+use settings::{ConfigError, POSITIVE, between, require, settings};
 
-/// Parameters of the octree. The defaults are OctoMap's (Hornung et al. 2013).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct OctreeConfig {
-    /// Side of the smallest voxels, m.
-    pub resolution: f64,
-    /// P(n|z) of equation (1) of 002 for the voxel in which a beam ends.
-    pub p_hit: f64,
-    /// P(n|z) of a voxel that a beam passes.
-    pub p_miss: f64,
-    /// No beam makes a voxel less likely occupied than this,
-    pub p_min: f64,
-    /// nor more likely than this: what has been seen long can still change.
-    pub p_max: f64,
-}
-
-impl Default for OctreeConfig {
-    fn default() -> Self {
-        Self {
-            resolution: 0.04,
-            p_hit: 0.7,
-            p_miss: 0.4,
-            p_min: 0.1192,
-            p_max: 0.971,
-        }
+settings! {
+    /// An octree of occupancy. The defaults are those of OctoMap (Hornung et al. 2013).
+    pub struct OctreeConfig("octree") {
+        /// Side of the smallest voxels.
+        resolution: f64 = 0.04, "m", POSITIVE;
+        /// Probability by the sensor that the voxel in which a beam ends is occupied.
+        p_hit: f64 = 0.7, "1", between(0.5, 1.0), "002, equation (1): P(n|z)";
+        /// Probability by the sensor that a voxel which a beam passes is occupied.
+        p_miss: f64 = 0.4, "1", between(0.0, 0.5), "002, equation (1): P(n|z)";
+        /// No beam makes a voxel less likely occupied than this.
+        p_min: f64 = 0.1192, "1", between(0.0, 0.5), "Hornung et al. 2013, equation (4)";
+        /// No beam makes a voxel more likely occupied than this: what has been seen long can still change.
+        p_max: f64 = 0.971, "1", between(0.5, 1.0), "Hornung et al. 2013, equation (4)";
     }
+    check OctreeConfig::has_room;
 }
 
 impl OctreeConfig {
-    /// Refuses what cannot be used, naming the key.
-    pub fn check(&self) -> Result<(), ConfigError> {
-        require_positive("octree.resolution", self.resolution)?;
-        let scale = (1.0 / self.resolution).is_finite() && (self.resolution * 65536.0).is_finite();
-        require(
-            scale,
-            "octree.resolution",
-            "1e-300 to 1e300",
-            self.resolution,
-        )?;
-        for (key, value) in [("octree.p_hit", self.p_hit), ("octree.p_max", self.p_max)] {
-            require(
-                value > 0.5 && value < 1.0,
-                key,
-                "above 0.5 and below 1",
-                value,
-            )?;
-        }
-        for (key, value) in [("octree.p_miss", self.p_miss), ("octree.p_min", self.p_min)] {
-            require(
-                value > 0.0 && value < 0.5,
-                key,
-                "above 0 and below 0.5",
-                value,
-            )?;
-        }
-        Ok(())
+    /// Whether voxels of this size, and 2^16 of them, can be counted in metres.
+    fn has_room(&self, key: &str) -> Result<(), ConfigError> {
+        let side_m = self.resolution;
+        let scale = (1.0 / side_m).is_finite() && (side_m * 65536.0).is_finite();
+        let name = format!("{key}.resolution");
+        require(scale, &name, "1e-300 to 1e300", side_m)
     }
 }
 
@@ -97,6 +64,7 @@ impl Beam {
 /// Log-odds in steps of 2^-20: their sums are exact in 32 bits, so that the order of measurements does not matter until a bound is
 /// met, and voxels that saw the same are equal and prune.
 pub(super) fn log_odds(probability: f64) -> f32 {
+    // Exact in the 24 bits of a number with 32: sums stay below 16.
     const STEPS: f64 = 1_048_576.0;
     (((probability / (1.0 - probability)).ln() * STEPS).round() / STEPS) as f32
 }
@@ -111,6 +79,7 @@ mod tests {
     use super::super::super::bayes;
     use super::*;
     use proptest::prelude::*;
+    use settings::Table;
 
     proptest! {
         #[test]
@@ -163,7 +132,7 @@ mod tests {
                     resolution: f64::NAN,
                     ..base()
                 },
-                "octree.resolution must be finite and > 0, got NaN",
+                "octree.resolution must be > 0, got NaN",
             ),
             (
                 OctreeConfig {
@@ -177,14 +146,14 @@ mod tests {
                     p_hit: 0.5,
                     ..base()
                 },
-                "octree.p_hit must be above 0.5 and below 1, got 0.5",
+                "octree.p_hit must be > 0.5 and < 1, got 0.5",
             ),
             (
                 OctreeConfig {
                     p_min: 0.0,
                     ..base()
                 },
-                "octree.p_min must be above 0 and below 0.5, got 0",
+                "octree.p_min must be > 0 and < 0.5, got 0",
             ),
         ] {
             let found = config.check().unwrap_err().to_string();

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::super::marks::Marks;
-use super::super::occupancy::{Ray, Size};
+use super::super::placement::{Ray, Size};
 use super::super::{VoxelWalk, voxels::bits};
 use super::brick::{EDGE, index};
 use super::key::{Key, SPAN, in_voxels};

@@ -7,7 +7,7 @@ use super::nodes::{BRICK_DEPTH, Link, Nodes};
 /// A node of which something is known. Parts of bricks are nodes, too.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Node<'a> {
-    /// The same log-odds everywhere.
+    /// A leaf: its log-odds hold everywhere in it.
     Leaf(f32),
     Branch(&'a [Link; 8]),
     /// A cube of voxels of a brick, not all the same.
@@ -70,7 +70,7 @@ fn part(brick: &Brick, place: [usize; 3], edge: usize) -> Option<Node<'_>> {
 /// The largest cube of the tree around a place in which the same is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leaf {
-    /// Its lowest voxel.
+    /// Lowest voxel of the leaf.
     pub corner: Key,
     /// Levels below the root: 16 for a single voxel.
     pub depth: u32,

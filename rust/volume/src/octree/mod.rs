@@ -9,13 +9,14 @@ mod error;
 mod header;
 mod insertion;
 mod key;
+mod layers;
 mod leaves;
 mod nodes;
 mod reading;
 mod window;
 mod writing;
 
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 
 pub use cast::{Cast, Sighting};
 pub use columns::{Footprint, LAYERS};
@@ -23,6 +24,7 @@ pub use config::{OctreeConfig, probability};
 pub use error::OctreeError;
 pub use header::Format;
 pub use key::Key;
+pub use layers::{LayerColumns, ViewLayers};
 pub use leaves::{Leaf, Leaves};
 
 use config::Beam;
@@ -47,7 +49,7 @@ impl PartialEq for Octree {
 }
 
 impl Octree {
-    /// Of which nothing is known.
+    /// A tree of which nothing is known.
     pub fn new(config: OctreeConfig) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self {

@@ -13,7 +13,7 @@ pub(super) enum Link {
     /// Nothing is known.
     #[default]
     Unknown,
-    /// The same log-odds everywhere.
+    /// A leaf: its log-odds hold everywhere in it.
     Leaf(f32),
     /// Eight children.
     Branch(u32),

@@ -28,7 +28,7 @@ impl Octree {
         Self::from_bytes(&name, &bytes)
     }
 
-    /// The same from a file's content; `name` is for errors.
+    /// Reads a tree from a file's content; `name` is for errors.
     pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, OctreeError> {
         let header = header::parse(name, bytes)?;
         let config = OctreeConfig {

@@ -1,6 +1,6 @@
 //! What is known in a part of space, side by side: the bricks, and what is as free as can be.
 
-use super::super::occupancy::Size;
+use super::super::placement::Size;
 use super::brick::{EDGE, index};
 use super::config::Beam;
 use super::key::{Key, child_corner, edge};

@@ -95,9 +95,9 @@ fn squared_distances(solid: &[bool], [cols, rows, layers]: [usize; 3], kind: boo
 /// The lower envelope of parabolas along one line of voxels.
 struct Envelope {
     line: Vec<f64>,
-    /// Places of the parabolas,
+    /// Places of the parabolas.
     at: Vec<usize>,
-    /// and from where on each of them is the lowest.
+    /// Place from which on each of the parabolas is the lowest.
     from: Vec<f64>,
 }
 

@@ -15,7 +15,7 @@ const DOUBLINGS: std::ops::RangeInclusive<u32> = 0..=2;
 pub(super) struct FreeBoxes(Vec<u8>);
 
 impl FreeBoxes {
-    /// Of a grid that is mirrored along the axes of which the octant has the bit set; x runs fastest, then y, then z.
+    /// The boxes of a grid that is mirrored along the axes of which the octant has the bit set; x runs fastest, then y, then z.
     pub(super) fn towards(voxels: &SolidVoxels, octant: usize) -> Self {
         let size = voxels.size;
         let solid = mirrored(voxels, octant);

@@ -4,11 +4,9 @@ mod distance_field;
 mod free_boxes;
 mod range_field;
 mod side_by_side;
-mod standing;
 mod voxels;
 
 pub use distance_field::DistanceField;
 pub use range_field::RangeField;
 pub use side_by_side::{LANES, Lanes};
-pub use standing::{Standing, standing};
 pub use voxels::{SolidError, SolidVoxels};

@@ -2,9 +2,6 @@
 
 use super::super::octree::{Leaf, Octree};
 
-/// Voxels that a dense grid may have at most: a range field keeps eight bytes of each.
-const MOST_VOXELS: f64 = (1_u64 << 26) as f64;
-
 /// Why boxes make no grid.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SolidError {
@@ -18,7 +15,7 @@ pub enum SolidError {
     #[error("a map must have solid voxels at finite places")]
     Empty,
     /// Too much room for a dense grid.
-    #[error("a map may span {MOST_VOXELS} voxels, got {found}")]
+    #[error("a map may span {most} voxels, got {found}", most = SolidVoxels::MOST)]
     TooLarge {
         /// Voxels that the boxes span.
         found: f64,
@@ -38,7 +35,10 @@ pub struct SolidVoxels {
 }
 
 impl SolidVoxels {
-    /// Of boxes, each from its lowest to its highest corner, m: leaves of an octree of any size, or blocks of a course. A voxel
+    /// Voxels that a dense grid may have at most: a range field keeps eight bytes of each, and a stranger's map is not to take all memory.
+    pub const MOST: f64 = (1_u64 << 26) as f64;
+
+    /// The voxels of boxes, each from its lowest to its highest corner, m: leaves of an octree of any size, or blocks of a course. A voxel
     /// is solid where its centre lies in a box.
     pub fn of_boxes(boxes: &[[[f64; 3]; 2]], resolution_m: f64) -> Result<Self, SolidError> {
         if !(resolution_m.is_finite() && resolution_m > 0.0) {
@@ -66,7 +66,7 @@ impl SolidVoxels {
             return Err(SolidError::Empty);
         }
         let found = (0..3).map(|a| high[a] - low[a]).product();
-        if found > MOST_VOXELS {
+        if found > Self::MOST {
             return Err(SolidError::TooLarge { found });
         }
         let size = std::array::from_fn(|a| (high[a] - low[a]) as usize);

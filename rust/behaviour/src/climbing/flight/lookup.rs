@@ -4,13 +4,13 @@ use geometry::{Map, PlanarPose, angle_between};
 use planning::Step;
 use stairs::{ClimbingConfig, Stair, Staircase};
 
-/// Two sights of one stair differ by less than this in height, m,
+/// Two sights of one stair differ by less than this in height, m.
 pub(crate) const SAME_HEIGHT_M: f64 = 0.012;
-/// in the place of the front edge, m,
+/// Two sights of a front edge that was measured differ by less than this in its place, m.
 const SAME_PLACE_M: f64 = 0.05;
-/// where it was measured before; else than this, m,
+/// Two sights of a front edge that was not measured differ by less than this in its place, m.
 const VAGUE_PLACE_M: f64 = 0.09;
-/// and in its heading, rad.
+/// Two sights of a front edge differ by less than this in its heading, rad.
 const SAME_HEADING_RAD: f64 = 0.4;
 /// Steps whose edges are nearer than this do not follow each other: a way turns back, or they are one, m.
 pub(crate) const LEAST_TREAD_M: f64 = 0.06;

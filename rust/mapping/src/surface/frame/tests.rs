@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 fn reading(snap: bool, max_range_m: f64) -> Reading {
     Reading {
-        snap,
+        snap_stretch: snap.then_some(2.0),
         max_range_m,
         sure_range_m: 1.2,
         delta_m: 0.028,

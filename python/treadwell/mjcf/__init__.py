@@ -1,0 +1,1 @@
+"""MJCF files: read with care, built, checked; what robots and courses have in common."""

@@ -1,0 +1,1 @@
+"""What there is to choose and to set, as lists, JSON schemas and pages: made from the code."""

@@ -1,0 +1,122 @@
+"""The core's parameters, each with default, unit, bounds, meaning and source."""
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, Final
+
+from treadwell import _core
+from treadwell.errors import InputError
+from treadwell.scenario.messages import nearest
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One setting of the core.
+
+    Attributes:
+        key: dotted, as in `navigation.fog.cell`.
+        default: what it has where nobody says.
+        unit: SI; `1` for a pure number, `-` for what is no number.
+        bounds: what is allowed, in words.
+        meaning: a sentence.
+        source: paper and equation, where it comes from one.
+        tuning: whether it stands under `tuning`, where few will want to turn it.
+    """
+
+    key: str
+    default: Any
+    unit: str
+    bounds: str
+    meaning: str
+    source: str | None
+    tuning: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterTable:
+    """A table of settings, as in `[navigation.fog]`.
+
+    Attributes:
+        key: `navigation.fog`, or `gait` of robot.toml.
+        about: what it is for.
+        parameters: in the order of the code.
+        schema: JSON schema of the table.
+    """
+
+    key: str
+    about: str
+    parameters: tuple[Parameter, ...]
+    schema: dict[str, Any]
+
+    @property
+    def name(self) -> str:
+        """The last word of the key."""
+        return self.key.rpartition(".")[2]
+
+
+STATIC_MAP: Final = ParameterTable(
+    key="navigation.static_map",
+    about="The map that a robot is told, made of the course; no part of the core.",
+    parameters=(
+        Parameter(
+            key="navigation.static_map.resolution",
+            default=0.04,
+            unit="m",
+            bounds="> 0",
+            meaning="Side of a voxel.",
+            source="002, section III.A",
+            tuning=False,
+        ),
+    ),
+    schema={
+        "type": "object",
+        "description": "The map that a robot is told, made of the course.",
+        "properties": {
+            "resolution": {
+                "type": "number",
+                "exclusiveMinimum": 0,
+                "default": 0.04,
+                "x-unit": "m",
+                "description": "Side of a voxel.",
+            }
+        },
+        "additionalProperties": False,
+    },
+)
+
+
+@cache
+def parameter_tables() -> tuple[ParameterTable, ...]:
+    """Return all tables, the components' and those of the stages that are not chosen by name."""
+    tables = [STATIC_MAP]
+    for told in json.loads(_core.parameters()):
+        rows = []
+        for row in told["parameters"]:
+            row.pop("schema")
+            rows.append(Parameter(**row))
+        tables.append(ParameterTable(told["key"], told["about"], tuple(rows), told["schema"]))
+    return tuple(sorted(tables, key=lambda table: table.key))
+
+
+def find_parameters(name: str | None = None) -> list[Parameter]:
+    """Return the parameters of a table, of what stands within it, or of all.
+
+    Args:
+        name: a component's or stage's (`fog`), or the beginning of a dotted key.
+
+    Raises:
+        InputError: there is nothing of that name; the message says which tables there are.
+    """
+    every = [row for table in parameter_tables() for row in table.parameters]
+    if name is None:
+        return every
+    dotted = name if name.startswith(("navigation.", "gait")) else f"navigation.{name}"
+    found = [row for row in every if row.key == dotted or row.key.startswith(f"{dotted}.")]
+    if not found:
+        names = [table.name for table in parameter_tables()]
+        raise InputError(
+            f"NAME: there are no parameters of {name!r}: allowed are {', '.join(names)}, "
+            f"and the beginning of a key{nearest(name, names)}"
+        )
+    return found

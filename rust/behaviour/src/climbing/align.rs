@@ -1,0 +1,60 @@
+//! The state `align`: to the place before the first edge from which it is measured, and square to it (003, section V.B).
+
+use geometry::angle_between;
+
+use super::drop_off::DropOff;
+use super::leg::align_pose;
+use super::state::Approach;
+use super::{StairClimbing, State};
+use crate::machine::Tick;
+use crate::{Motion, Velocity};
+
+/// Aligning ends after this, however well, s.
+const LONGEST_ALIGN_S: f64 = 10.0;
+
+impl StairClimbing {
+    /// One tick of the way there.
+    pub(super) fn align(&mut self, tick: &Tick<'_>) -> Motion {
+        let Some(first) = self.flight.first().copied() else {
+            self.begin_search(tick);
+            return Motion::Stand;
+        };
+        self.head
+            .turn_to(tick.in_robot(first.crossing_m), tick.passed_s);
+        if self.flight.is_lost() {
+            self.begin_search(tick);
+            return Motion::Stand;
+        }
+        let goal = align_pose(&first, &self.config, &self.climbing, &self.feet);
+        let way = tick.pose.relative(&goal);
+        let turned_rad = angle_between(tick.pose.yaw_rad, goal.yaw_rad);
+        let there = way.x_m.abs() < 0.05 && way.y_m.abs() < 0.03 && turned_rad.abs() < 0.08;
+        let velocity = Velocity {
+            x_mps: (1.2 * way.x_m).clamp(-0.05, 0.1),
+            y_mps: (1.2 * way.y_m).clamp(-0.04, 0.04),
+            yaw_radps: (1.5 * turned_rad).clamp(-0.4, 0.4),
+        };
+        // From before the edge the plan may know better where to cross it than when the robot set off.
+        if there && self.memory.tries.lanes == 0 && self.flight.change_lane() {
+            self.memory.tries.lanes += 1;
+            self.machine.begin_again(State::Align);
+        } else if there
+            || self.machine.lasted_s() > LONGEST_ALIGN_S
+            || self.drop_off(tick).is_neared(&tick.pose, &velocity)
+        {
+            self.enter(State::Approach(Approach::Measure));
+            self.head.look_at(self.crossed_at_m(tick, &first));
+            return Motion::Stand;
+        }
+        Motion::Walk(velocity)
+    }
+
+    /// The floor that the robot stands on, as the map has it end.
+    pub(super) fn drop_off<'a>(&'a self, tick: &Tick<'a>) -> DropOff<'a> {
+        DropOff {
+            view: tick.situation.view,
+            feet: &self.feet,
+            level_m: tick.ground_m,
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Where the map has the floor under the robot end: an edge that was not measured yet may be thought to lie elsewhere, and beside
+//! one a platform ends, too.
+
+use geometry::PlanarPose;
+use mapping::{FloorView, Surface};
+use stairs::Feet;
+
+use crate::Velocity;
+
+/// How far ahead a walk is looked at, s: a step, and a little more.
+const AHEAD_S: f64 = 0.6;
+/// Room that a walk keeps around the soles, m.
+const MARGIN_M: f64 = 0.03;
+/// Floor that is lower by more than this is another level, m.
+const LOWER_M: f64 = 0.02;
+/// Places under the soles to each side of their middle, along and across, at which the map is asked.
+const RASTER: i32 = 5;
+/// Fewer places than this are a corner of a cell that may be of either level.
+const FEW: usize = 2;
+
+/// The floor around a robot that stands at this height.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct DropOff<'a> {
+    pub(super) view: &'a FloorView,
+    pub(super) feet: &'a Feet,
+    /// Height of the floor that the robot stands on, m.
+    pub(super) level_m: f64,
+}
+
+impl DropOff<'_> {
+    /// Whether a walk brings the feet nearer to lower floor than they are, within their next step.
+    pub(super) fn is_neared(&self, pose: &PlanarPose, velocity: &Velocity) -> bool {
+        let way = [velocity.x_mps, velocity.y_mps, velocity.yaw_radps].map(|rate| rate * AHEAD_S);
+        let next = pose.compose(&PlanarPose::new(way[0], way[1], way[2]));
+        let [now, then] = [pose, &next].map(|pose| self.lower_places(pose, 1.0, MARGIN_M));
+        then >= FEW && then > now
+    }
+
+    /// Whether the rear half of a sole has lower floor under it at a place before an edge: toes may reach over that.
+    pub(super) fn is_under(&self, pose: &PlanarPose) -> bool {
+        self.lower_places(pose, 0.0, 0.0) >= FEW
+    }
+
+    /// At how many places under both soles there is lower floor: from the heels to this share of half their length, and so far
+    /// around them, m.
+    fn lower_places(&self, pose: &PlanarPose, front: f64, margin_m: f64) -> usize {
+        let half_m = [self.feet.length_m, self.feet.pair_width_m].map(|size| 0.5 * size + margin_m);
+        let shares = || (-RASTER..=RASTER).map(|k| f64::from(k) / f64::from(RASTER));
+        let along = shares().filter(|along| *along <= front);
+        let places = along.flat_map(|along| shares().map(move |across| [along, across]));
+        let is_lower = |[along, across]: &[f64; 2]| {
+            let (x_m, y_m) = pose.apply(along * half_m[0], across * half_m[1]);
+            self.is_lower([x_m, y_m])
+        };
+        places.filter(is_lower).count()
+    }
+
+    /// Whether the map has lower floor at a place, or beside it where it has nothing: below an edge is a shadow.
+    fn is_lower(&self, [x_m, y_m]: [f64; 2]) -> bool {
+        let beside_m = self.view.lattice.cell_m;
+        let lower = |dx_m: f64, dy_m: f64| match self.view.at(x_m + dx_m, y_m + dy_m) {
+            Surface::Floor(height_m) => f64::from(height_m) < self.level_m - LOWER_M,
+            _ => false,
+        };
+        let beside = [
+            (beside_m, 0.0),
+            (-beside_m, 0.0),
+            (0.0, beside_m),
+            (0.0, -beside_m),
+        ];
+        let unknown = self.view.at(x_m, y_m) == Surface::Unknown;
+        lower(0.0, 0.0) || unknown && beside.iter().any(|&(dx_m, dy_m)| lower(dx_m, dy_m))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use geometry::{Grid, Lattice};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::climbing::simulation::FEET;
+
+    /// A platform, 5 cm high, that ends at y = 0.28 m, with a shadow a cell wide below its edge.
+    fn platform() -> FloorView {
+        let lattice = Lattice {
+            origin_m: [-1.0, -1.0],
+            cell_m: 0.04,
+        };
+        let mut cells = Grid::filled(50, 50, Surface::Floor(0.05));
+        for cell in cells.area().cells() {
+            let [_, y_m] = lattice.center_of(cell);
+            if let Some(surface) = cells.get_mut(cell).filter(|_| y_m > 0.28) {
+                *surface = if y_m < 0.32 {
+                    Surface::Unknown
+                } else {
+                    Surface::Floor(0.0)
+                };
+            }
+        }
+        FloorView {
+            lattice,
+            cells,
+            sightings: Grid::filled(50, 50, 9),
+            gradients: Grid::filled(50, 50, [0.0; 2]),
+        }
+    }
+
+    fn drop_off(view: &FloorView) -> DropOff<'_> {
+        DropOff {
+            view,
+            feet: &FEET,
+            level_m: 0.05,
+        }
+    }
+
+    fn sideways(y_mps: f64) -> Velocity {
+        Velocity {
+            y_mps,
+            ..Velocity::default()
+        }
+    }
+
+    #[test]
+    fn a_walk_towards_the_side_of_a_platform_is_noticed_before_a_sole_is_beyond_it() {
+        let view = platform();
+        let drop_off = drop_off(&view);
+        // The outer side of the left sole is 8 cm from the middle.
+        assert!(!drop_off.is_neared(&PlanarPose::new(0.0, 0.1, 0.0), &sideways(0.04)));
+        assert!(drop_off.is_neared(&PlanarPose::new(0.0, 0.17, 0.0), &sideways(0.04)));
+        assert!(!drop_off.is_neared(&PlanarPose::new(0.0, 0.17, 0.0), &sideways(-0.04)));
+    }
+
+    #[test]
+    fn toes_may_reach_over_an_edge_and_heels_may_not() {
+        let view = platform();
+        let drop_off = drop_off(&view);
+        let ahead_rad = std::f64::consts::FRAC_PI_2;
+        assert!(!drop_off.is_under(&PlanarPose::new(0.0, 0.26, ahead_rad)));
+        assert!(drop_off.is_under(&PlanarPose::new(0.0, 0.26, -ahead_rad)));
+    }
+
+    proptest! {
+        #[test]
+        fn on_floor_without_any_edge_no_walk_nears_one(
+            x_m in -0.5..0.5f64, y_m in -0.5..0.5f64, yaw_rad in -3.0..3.0f64, y_mps in -0.1..0.1f64,
+        ) {
+            let mut view = platform();
+            view.cells = Grid::filled(50, 50, Surface::Floor(0.045));
+            prop_assert!(!drop_off(&view).is_neared(&PlanarPose::new(x_m, y_m, yaw_rad), &sideways(y_mps)));
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! How well the edge of a step must be known for what.
+
+use planning::Step;
+
+use super::StairClimbing;
+
+impl StairClimbing {
+    /// Whether the front edge of a step is known well enough to step by it.
+    pub(super) fn is_measured(&self, step: &Step) -> bool {
+        step.stair.front_fit.is_some_and(|fit| {
+            fit.frames >= self.config.edge_frames
+                && fit.place_sigma_m <= self.config.edge_sigma
+                && fit.heading_sigma_rad <= self.config.heading_sigma
+        })
+    }
+
+    /// Whether it will do when no look tells more: sure enough, if only by few frames.
+    pub(super) fn is_usable(&self, step: &Step) -> bool {
+        const SIGMA: f64 = 1.2;
+        step.stair.front_fit.is_some_and(|fit| {
+            fit.place_sigma_m <= SIGMA * self.config.edge_sigma
+                && fit.heading_sigma_rad <= SIGMA * self.config.heading_sigma
+        })
+    }
+
+    /// Whether it is known so well that another look would tell little.
+    pub(super) fn is_well_measured(&self, step: &Step) -> bool {
+        const FRAMES: u32 = 2;
+        const SIGMA: f64 = 0.5;
+        step.stair.front_fit.is_some_and(|fit| {
+            fit.frames >= FRAMES * self.config.edge_frames
+                && fit.place_sigma_m <= SIGMA * self.config.edge_sigma
+                && fit.heading_sigma_rad <= SIGMA * self.config.heading_sigma
+        })
+    }
+}

@@ -1,0 +1,50 @@
+//! Blindness: nothing is seen for a while, comes back into sight, or does not.
+
+use super::{Machine, State, Tick};
+
+/// How a robot fares that stands because it sees nothing, or does not know where it is.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Sight {
+    /// It sees again, and knows where it is.
+    Back,
+    /// It waits.
+    Away,
+    /// It has waited too long: the reason to give up.
+    Hopeless(String),
+}
+
+impl<S: State> Machine<S> {
+    /// Time without sight, s.
+    fn unseen_s(&self, tick: &Tick<'_>) -> f64 {
+        let never_s = if self.limits.blind_from_the_start {
+            tick.elapsed_s
+        } else {
+            0.0
+        };
+        tick.unseen_s().unwrap_or(never_s)
+    }
+
+    /// Whether the robot sees nothing, by the patience of its state.
+    pub(super) fn is_blind(&self, tick: &Tick<'_>) -> bool {
+        self.unseen_s(tick) > self.state.patience() * self.limits.blind_after_s
+    }
+
+    /// Whether a robot sees again that stands for want of sight, since it entered its state.
+    pub(crate) fn sight(&self, tick: &Tick<'_>) -> Sight {
+        let lost = tick.situation.estimate.lost;
+        if !lost && !self.is_blind(tick) {
+            return Sight::Back;
+        }
+        if self.lasted_s() <= self.limits.blind_limit_s {
+            return Sight::Away;
+        }
+        let place = self.limits.place_words;
+        Sight::Hopeless(if lost {
+            let lasted_s = self.lasted_s();
+            format!("lost: the robot has not known where it is for {lasted_s:.0} s{place}")
+        } else {
+            let unseen_s = self.unseen_s(tick);
+            format!("lost: nothing has been seen for {unseen_s:.0} s{place}")
+        })
+    }
+}

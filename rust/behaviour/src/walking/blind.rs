@@ -1,0 +1,19 @@
+//! The state `blind`: stands until something is seen again.
+
+use super::WalkingBehaviour;
+use crate::Motion;
+use crate::machine::{Sight, Tick};
+use crate::walking::gaze::Sweep;
+
+impl WalkingBehaviour {
+    /// One tick without sight.
+    pub(super) fn wait_for_sight(&mut self, tick: &Tick<'_>) -> Motion {
+        self.gaze_at(tick, 0.0, self.config.gaze_near);
+        match self.machine.sight(tick) {
+            Sight::Back => self.look(Sweep::around(&self.config)),
+            Sight::Away => {}
+            Sight::Hopeless(reason) => self.refuse(reason),
+        }
+        Motion::Stand
+    }
+}

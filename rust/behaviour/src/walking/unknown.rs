@@ -1,0 +1,165 @@
+//! Unknown ground ahead on the path: it is looked at before it is walked on.
+
+use geometry::PlanarPose;
+use mapping::{FloorView, Surface};
+use planning::Path;
+
+use crate::walking::WalkingConfig;
+use crate::walking::track::{Track, length};
+
+/// A place that is still unknown after it was looked at counts as looked at within this distance, m.
+const LOOKED_RADIUS_M: f64 = 0.12;
+/// Places looked at that are remembered.
+const LOOKED_PLACES: usize = 32;
+/// Half the distance between the outer edges of the feet, m, as far as the ground matters.
+const FOOT_SIDE_M: f64 = 0.06;
+
+/// The places looked at lately, in a ring.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Looked {
+    places_m: Vec<[f64; 2]>,
+    next: usize,
+}
+
+impl Looked {
+    /// Whether this place was looked at.
+    pub(crate) fn holds(&self, place_m: [f64; 2]) -> bool {
+        self.places_m
+            .iter()
+            .any(|p| (p[0] - place_m[0]).hypot(p[1] - place_m[1]) < LOOKED_RADIUS_M)
+    }
+
+    fn add(&mut self, place_m: [f64; 2]) {
+        if self.holds(place_m) {
+            return;
+        }
+        if self.places_m.len() < LOOKED_PLACES {
+            self.places_m.push(place_m);
+        } else {
+            self.places_m[self.next] = place_m;
+            self.next = (self.next + 1) % LOOKED_PLACES;
+        }
+    }
+
+    /// Marks everything unknown ahead: it has been looked at now.
+    pub(crate) fn mark(
+        &mut self,
+        path: &Path,
+        track: &Track,
+        view: &FloorView,
+        config: &WalkingConfig,
+    ) {
+        for place_m in unknown_places(path, track, view, config) {
+            self.add(place_m);
+        }
+    }
+}
+
+/// Unknown places of the path from where the camera can see the ground to the distance in which it has to be known.
+fn unknown_places<'a>(
+    path: &'a Path,
+    track: &Track,
+    view: &'a FloorView,
+    config: &'a WalkingConfig,
+) -> impl Iterator<Item = [f64; 2]> + 'a {
+    let [x, y] = track.offset_m;
+    let mut along_m = x.hypot(y);
+    let nearest = track.nearest;
+    (nearest + 1..path.points_m.len())
+        .map(move |index| {
+            along_m += length(path, index);
+            (index, along_m)
+        })
+        .skip_while(|&(_, along_m)| along_m < config.unseen_radius)
+        .take_while(|&(_, along_m)| along_m <= config.look_distance)
+        .filter(|&(index, _)| is_unknown(path, index, view))
+        .map(|(index, _)| path.points_m[index])
+}
+
+/// Whether most of the ground across the path is unknown here.
+fn is_unknown(path: &Path, index: usize, view: &FloorView) -> bool {
+    let ([x0, y0], [x, y]) = (path.points_m[index - 1], path.points_m[index]);
+    let heading = PlanarPose::new(x, y, (y - y0).atan2(x - x0));
+    let unknown = [-FOOT_SIDE_M, 0.0, FOOT_SIDE_M]
+        .into_iter()
+        .filter(|&side_m| {
+            let (x, y) = heading.apply(0.0, side_m);
+            view.at(x, y) == Surface::Unknown
+        });
+    unknown.count() >= 2
+}
+
+/// The first unknown place ahead that has not been looked at, and whether there is one that has.
+pub(crate) fn unknown_ahead(
+    path: &Path,
+    track: &Track,
+    view: &FloorView,
+    looked: &Looked,
+    config: &WalkingConfig,
+) -> (Option<[f64; 2]>, bool) {
+    let mut stays_unknown = false;
+    for place_m in unknown_places(path, track, view, config) {
+        if !looked.holds(place_m) {
+            return (Some(place_m), stays_unknown);
+        }
+        stays_unknown = true;
+    }
+    (None, stays_unknown)
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::walking::track::tests::straight;
+    use geometry::{Grid, Lattice};
+
+    pub(crate) fn view(surface: Surface) -> FloorView {
+        FloorView {
+            lattice: Lattice {
+                origin_m: [-2.0, -2.0],
+                cell_m: 0.04,
+            },
+            cells: Grid::filled(100, 100, surface),
+            sightings: Grid::filled(100, 100, 1),
+            gradients: Grid::filled(100, 100, [0.0; 2]),
+        }
+    }
+
+    pub(crate) fn paint(view: &mut FloorView, from_x_m: f64, to_x_m: f64, surface: Surface) {
+        for cell in view.cells.area().cells() {
+            let [x, _] = view.lattice.center_of(cell);
+            if x > from_x_m && x < to_x_m {
+                *view.cells.get_mut(cell).unwrap() = surface;
+            }
+        }
+    }
+
+    #[test]
+    fn unknown_ground_is_found_until_it_was_looked_at() {
+        let config = WalkingConfig::default();
+        let mut view = view(Surface::Floor(0.0));
+        paint(&mut view, 0.3, 0.4, Surface::Unknown);
+        let path = straight([0.0, 0.0], [1.0, 0.0]);
+        let track = Track::new(&path, &PlanarPose::default(), 0.25).unwrap();
+        let mut looked = Looked::default();
+        let (place, stays) = unknown_ahead(&path, &track, &view, &looked, &config);
+        assert!(place.is_some_and(|p| p[0] > 0.27 && p[0] < 0.42) && !stays);
+        looked.mark(&path, &track, &view, &config);
+        assert_eq!(
+            unknown_ahead(&path, &track, &view, &looked, &config),
+            (None, true)
+        );
+    }
+
+    #[test]
+    fn far_unknown_ground_and_the_ground_below_the_view_are_left_alone() {
+        let config = WalkingConfig::default();
+        let mut view = view(Surface::Floor(0.0));
+        paint(&mut view, -1.0, 0.14, Surface::Unknown);
+        paint(&mut view, 0.6, 1.5, Surface::Unknown);
+        let path = straight([0.0, 0.0], [1.0, 0.0]);
+        let track = Track::new(&path, &PlanarPose::default(), 0.25).unwrap();
+        let found = unknown_ahead(&path, &track, &view, &Looked::default(), &config);
+        assert_eq!(found, (None, false));
+    }
+}

@@ -1,0 +1,107 @@
+//! The state `walk`: follows the path, and what every state that moves along it looks out for.
+
+use super::WalkingBehaviour;
+use crate::Motion;
+use crate::machine::Tick;
+use crate::walking::gaze::{Sweep, glance};
+use crate::walking::progress::Headway;
+use crate::walking::state::State;
+use crate::walking::track::Track;
+use crate::walking::unknown::unknown_ahead;
+
+/// Without a plan for less than this the last command holds, s.
+const HOLD_S: f64 = 0.3;
+
+impl WalkingBehaviour {
+    /// Walks, or first turns to where the way leads.
+    pub(super) fn set_off(&mut self, track: &Track) {
+        let turn = self.must_turn(track);
+        self.enter(if turn {
+            State::Turn { to_rad: None }
+        } else {
+            State::Walk
+        });
+    }
+
+    fn must_turn(&self, track: &Track) -> bool {
+        track.remaining_m >= self.config.approach
+            && track.bearing_rad().abs() > self.config.turn_above
+    }
+
+    /// One tick of the walk.
+    pub(super) fn walk(&mut self, tick: &Tick<'_>) -> Motion {
+        let Some((path, track)) = &tick.track else {
+            return self.without_way(tick);
+        };
+        if let Some(motion) = self.check_way(tick) {
+            return motion;
+        }
+        let view = tick.situation.view;
+        let (unknown, stays_unknown) = unknown_ahead(path, track, view, &self.looked, &self.config);
+        if let Some(place_m) = unknown {
+            self.look(Sweep::at(tick.bearing_rad(place_m), &self.config));
+            return Motion::Stand;
+        }
+        if tick.is_at_sidle() {
+            self.enter(State::Sidle);
+            return Motion::Stand;
+        }
+        if self.must_turn(track) {
+            self.enter(State::Turn { to_rad: None });
+        }
+        self.machine.gets_on();
+        let gaze = glance(tick.elapsed_s, track.bearing_rad(), &self.config);
+        self.gazer.turn(gaze, tick.passed_s, self.config.gaze_speed);
+        let limit_mps = if stays_unknown {
+            self.config.creep_speed
+        } else {
+            f64::INFINITY
+        };
+        Motion::Walk(track.velocity(limit_mps, &self.config))
+    }
+
+    /// Looks at what is new on the way, and at the watchdog; a motion when that ends the state.
+    pub(super) fn check_way(&mut self, tick: &Tick<'_>) -> Option<Motion> {
+        let (path, track) = tick.track.as_ref()?;
+        if tick.new_frame {
+            let (view, stairs) = (tick.situation.view, tick.situation.stairs);
+            let ground_m = tick.ground_m;
+            let robot = (&tick.pose, ground_m);
+            let obstacle_m = self.followed.obstacle_m(view, stairs, robot, &self.config);
+            self.followed.keep(path, track.nearest);
+            if obstacle_m.is_some() {
+                self.watched_m = obstacle_m;
+                self.enter(State::Stop);
+                return Some(Motion::Stand);
+            }
+        }
+        let detour = tick.situation.plan.is_some_and(|plan| plan.replanned);
+        let remaining_m = track.goal_ahead_m(path, tick.situation.goal);
+        let passed_s = tick.passed_s;
+        match self
+            .progress
+            .watch(remaining_m, detour, passed_s, &self.config)
+        {
+            Headway::Fine => return None,
+            Headway::Stuck => self.look(Sweep::around(&self.config)),
+            Headway::Hopeless => {
+                let waited_s = self.progress.without_headway_s();
+                self.refuse(format!(
+                    "blocked: no headway for {waited_s:.0} s, {remaining_m:.2} m before the goal"
+                ));
+            }
+        }
+        Some(Motion::Stand)
+    }
+
+    /// Waits or stops without a way: just after a goal was passed the plan is not there yet; else the way is gone.
+    pub(super) fn without_way(&mut self, tick: &Tick<'_>) -> Motion {
+        let waiting = tick.situation.plan.is_none() && self.no_plan.s() < HOLD_S;
+        if waiting {
+            return self.motion.clone();
+        }
+        self.watched_m = None;
+        self.enter(State::Stop);
+        Motion::Stand
+    }
+}
