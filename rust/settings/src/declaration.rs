@@ -191,7 +191,7 @@ mod tests {
             nu: f64 = 0.9, "1", SHARE, "000, equation (9)";
             /// Offsets along
             /// both axes.
-            offsets: [f32; 2] = [0.0, 0.5], "m", SHARE;
+            offsets: [f32; 2] = [0.0, 0.1], "m", SHARE;
         }
     }
 
@@ -283,6 +283,8 @@ mod tests {
         assert_eq!(all[4].source, Some("000, equation (9)"));
         assert!(all[4].tuning);
         assert_eq!(all[5].meaning, "Offsets along both axes.");
+        // Not what 32 bits make of it.
+        assert_eq!(all[5].default, json!([0.0, 0.1]));
     }
 
     #[test]
@@ -300,7 +302,7 @@ mod tests {
     fn what_a_table_within_a_table_does_not_say_has_its_default() {
         let tables = Tables::from([("grid".to_owned(), json!({"tuning": {"nu": 0.5}}))]);
         let grid: Grid = read(&tables, "grid").unwrap();
-        assert_eq!((grid.tuning.nu, grid.tuning.offsets[1]), (0.5, 0.5));
+        assert_eq!((grid.tuning.nu, grid.tuning.offsets[1]), (0.5, 0.1));
         let tables = Tables::from([("grid".to_owned(), json!({"tuning": {"mu": 0.5}}))]);
         let error = read::<Grid>(&tables, "grid").unwrap_err().to_string();
         assert!(error.starts_with("navigation.grid.tuning"), "{error}");
