@@ -169,7 +169,7 @@ pub fn describe<T: Setting + Serialize>(all: &mut Vec<Parameter>, default: &T, a
         return;
     }
     let meaning = meaning.split_whitespace().collect::<Vec<_>>().join(" ");
-    let default = json!(default);
+    let default = as_written(json!(default));
     let mut schema = T::schema(&bounds);
     schema["description"] = json!(meaning);
     schema["default"] = default.clone();
@@ -186,4 +186,17 @@ pub fn describe<T: Setting + Serialize>(all: &mut Vec<Parameter>, default: &T, a
         source,
         schema,
     });
+}
+
+/// Numbers as they were written: those of 32 bits would show digits of 64 that nobody wrote.
+fn as_written(value: Value) -> Value {
+    match value {
+        Value::Array(values) => values.into_iter().map(as_written).collect(),
+        Value::Number(number) if number.is_f64() => number
+            .as_f64()
+            .filter(|&wide| f64::from(wide as f32) == wide)
+            .and_then(|wide| (wide as f32).to_string().parse::<f64>().ok())
+            .map_or(Value::Number(number), |short| json!(short)),
+        other => other,
+    }
 }
