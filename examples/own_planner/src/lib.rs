@@ -5,7 +5,7 @@ use mapping::{FloorView, Surface};
 use pilot::Component;
 use planning::{Goal, NoWay, Path, Plan, PlanError, Planner, PlannerPart, Refusal};
 use pyo3::prelude::*;
-use settings::{ConfigError, Description, POSITIVE, Part, Table, read, settings};
+use settings::{ConfigError, TableDescription, POSITIVE, Part, Table, read, settings};
 use stairs::Staircase;
 
 settings! {
@@ -21,7 +21,7 @@ pub const BEELINE: PlannerPart = Part {
     name: "beeline",
     about: "straight to the goal, or not at all",
     source: None,
-    tables: &[Description::of::<BeelineConfig>()],
+    tables: &[TableDescription::of::<BeelineConfig>()],
     make: |needs| Ok(Box::new(Beeline::new(&read(needs.tables, "beeline")?)?)),
 };
 

@@ -11,7 +11,7 @@ mod tick;
 mod timing;
 
 pub use error::PilotError;
-pub use parts::{Component, Listed, add, components};
+pub use parts::{Component, ListedPart, add, components};
 pub use perception::{Perception, PerceptionConfig, PerceptionTuning};
 pub use registry::Components;
 pub use settings::{GoalSettings, Navigation, Settings, StartSettings};

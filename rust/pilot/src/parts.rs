@@ -7,7 +7,7 @@ use localization::{Localizer, LocalizerNeeds, LocalizerPart};
 use mapping::{WorldModel, WorldModelNeeds, WorldModelPart};
 use planning::{Planner, PlannerNeeds, PlannerPart};
 use segmentation::{Segmenter, SegmenterNeeds, SegmenterPart};
-use settings::{ConfigError, Description, Part};
+use settings::{ConfigError, Part, TableDescription};
 
 use crate::PilotError;
 
@@ -28,7 +28,7 @@ pub enum Component {
 
 /// What lists show of a part.
 #[derive(Debug, Clone, Copy)]
-pub struct Listed {
+pub struct ListedPart {
     /// The slot's name in `[navigation]`.
     pub slot: &'static str,
     /// What `[navigation]` calls the part.
@@ -38,12 +38,12 @@ pub struct Listed {
     /// The paper that it is of, where there is one.
     pub source: Option<&'static str>,
     /// Its tables of settings.
-    pub tables: &'static [Description],
+    pub tables: &'static [TableDescription],
 }
 
 impl Component {
     /// What lists show of it.
-    pub const fn listed(&self) -> Listed {
+    pub const fn listed(&self) -> ListedPart {
         match self {
             Self::WorldModel(part) => listed("world_model", part),
             Self::Segmenter(part) => listed("segmenter", part),
@@ -54,8 +54,8 @@ impl Component {
     }
 }
 
-const fn listed<M>(slot: &'static str, part: &Part<M>) -> Listed {
-    Listed {
+const fn listed<M>(slot: &'static str, part: &Part<M>) -> ListedPart {
+    ListedPart {
         slot,
         name: part.name,
         about: part.about,

@@ -1,25 +1,25 @@
 //! All tables of settings: the parts', and those of the stages that are not chosen by name.
 
-use settings::Description;
+use settings::TableDescription;
 
 use crate::parts::components;
 
 /// The tables of the stages that every pilot has.
-const STAGES: &[Description] = &[
-    Description::of::<proprioception::ProprioceptionConfig>(),
-    Description::of::<sensing::ScanConfig>(),
-    Description::of::<sensing::SelfFilterConfig>(),
-    Description::of::<crate::PerceptionConfig>(),
-    Description::of::<segmentation::GroundConfig>(),
-    Description::of::<stairs::StairsConfig>(),
-    Description::of::<stairs::ClimbingConfig>(),
-    Description::of::<planning::TerrainConfig>(),
-    Description::of::<known_map::KnownMapConfig>(),
-    Description::of::<walking::GaitConfig>(),
+const STAGES: &[TableDescription] = &[
+    TableDescription::of::<proprioception::ProprioceptionConfig>(),
+    TableDescription::of::<sensing::ScanConfig>(),
+    TableDescription::of::<sensing::SelfFilterConfig>(),
+    TableDescription::of::<crate::PerceptionConfig>(),
+    TableDescription::of::<segmentation::GroundConfig>(),
+    TableDescription::of::<stairs::StairsConfig>(),
+    TableDescription::of::<stairs::ClimbingConfig>(),
+    TableDescription::of::<planning::TerrainConfig>(),
+    TableDescription::of::<known_map::KnownMapConfig>(),
+    TableDescription::of::<walking::GaitConfig>(),
 ];
 
 /// Every table once, those of the stages first.
-pub fn tables() -> Vec<Description> {
+pub fn tables() -> Vec<TableDescription> {
     let mut all = STAGES.to_vec();
     for component in components() {
         for table in component.listed().tables {

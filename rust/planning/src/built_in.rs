@@ -1,6 +1,6 @@
 //! The planners that come with the crate: A*, plain or along the lines with most room, guided by the known map where there is one.
 
-use settings::{Description, MakeError, Part, read};
+use settings::{MakeError, Part, TableDescription, read};
 
 use crate::part::{PlannerNeeds, PlannerPart};
 use crate::{AStar, AStarConfig, GuideConfig, Guided, Planner, VoronoiConfig};
@@ -11,8 +11,8 @@ pub(crate) const A_STAR: PlannerPart = Part {
     about: "A* on the grid by clearance; levels join by climbs, unknown cells have a price",
     source: Some("000, section V; 002, section III.D; climbs after 003"),
     tables: &[
-        Description::of::<AStarConfig>(),
-        Description::of::<GuideConfig>(),
+        TableDescription::of::<AStarConfig>(),
+        TableDescription::of::<GuideConfig>(),
     ],
     make: |needs| guided(near(needs)?, needs),
 };
@@ -22,7 +22,7 @@ pub(crate) const VORONOI: PlannerPart = Part {
     name: "voronoi",
     about: "A* along the lines with most room to either side",
     source: Some("Dolgov et al. 2008"),
-    tables: &[Description::of::<VoronoiConfig>()],
+    tables: &[TableDescription::of::<VoronoiConfig>()],
     make: |needs| {
         let along = near(needs)?.along_voronoi(read(needs.tables, "voronoi")?)?;
         guided(along, needs)

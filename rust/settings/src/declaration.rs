@@ -105,7 +105,7 @@ macro_rules! settings {
             }
 
             fn schema(_: &$crate::Bounds) -> $crate::serde_json::Value {
-                $crate::Description::of::<Self>().schema()
+                $crate::TableDescription::of::<Self>().schema()
             }
 
             fn parameters(&self, key: &str) -> Option<Vec<$crate::Parameter>> {
@@ -305,7 +305,7 @@ mod tests {
 
     #[test]
     fn the_schema_holds_tables_within_tables() {
-        let schema = crate::Description::of::<Grid>().schema();
+        let schema = crate::TableDescription::of::<Grid>().schema();
         let cell = &schema["properties"]["cell"];
         assert_eq!(cell["exclusiveMinimum"], json!(0.0));
         assert_eq!(cell["default"], json!(0.04));

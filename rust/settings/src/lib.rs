@@ -22,7 +22,7 @@ pub use setting::words_of;
 pub use setting::{Parameter, Setting};
 #[doc(hidden)]
 pub use table::{Declared, describe, key_of};
-pub use table::{Description, Table, Tables, read};
+pub use table::{Table, TableDescription, Tables, read};
 
 #[doc(hidden)]
 pub use {schemars, serde, serde_json};

@@ -1,6 +1,6 @@
 //! A part that a name in `[navigation]` stands for: how it is listed, its settings, how it is made.
 
-use crate::Description;
+use crate::TableDescription;
 
 /// A component: one of the core's own, or of a crate of the user's. `M` is the type of the function that makes it.
 #[derive(Debug, Clone, Copy)]
@@ -12,7 +12,7 @@ pub struct Part<M> {
     /// The paper that it is of, where there is one.
     pub source: Option<&'static str>,
     /// Its tables of settings.
-    pub tables: &'static [Description],
+    pub tables: &'static [TableDescription],
     /// Makes it.
     pub make: M,
 }

@@ -34,7 +34,7 @@ pub trait Table: Serialize + DeserializeOwned + Default {
 
 /// What a table is, for lists and schemas.
 #[derive(Debug, Clone, Copy)]
-pub struct Description {
+pub struct TableDescription {
     /// Where it stands, as in `navigation.fog`.
     pub key: &'static str,
     /// What it is for.
@@ -42,7 +42,7 @@ pub struct Description {
     list: fn(&str) -> Vec<Parameter>,
 }
 
-impl Description {
+impl TableDescription {
     /// That of a table.
     pub const fn of<T: Table>() -> Self {
         Self::at::<T>(T::KEY)

@@ -15,7 +15,7 @@ use geometry::{Map, PlanarPose, Pose, Robot};
 use mapping::FloorView;
 use segmentation::Planes;
 use settings::{ConfigError, Table};
-use settings::{Description, Part, read};
+use settings::{Part, TableDescription, read};
 
 pub use config::MatchingConfig;
 use heading_filter::HeadingFilter;
@@ -31,7 +31,7 @@ pub(crate) const PART: LocalizerPart = Part {
     name: "matching",
     about: "legs' odometry, its heading kept by upright surfaces that are seen again",
     source: None,
-    tables: &[Description::of::<MatchingConfig>()],
+    tables: &[TableDescription::of::<MatchingConfig>()],
     make: |needs| {
         let (odometry, config) = (
             read(needs.tables, "odometry")?,

@@ -27,7 +27,7 @@ mod weights;
 mod world;
 
 use crate::part::LocalizerPart;
-use settings::{Description, MakeError, Part, read};
+use settings::{MakeError, Part, TableDescription, read};
 use std::sync::Arc;
 
 use geometry::{Map, Odometry, Pose, Robot};
@@ -54,7 +54,7 @@ pub(crate) const PART: LocalizerPart = Part {
     name: "monte_carlo",
     about: "particles in six dimensions against a static map",
     source: Some("Maier, Hornung and Bennewitz 2012 (002, section III.C)"),
-    tables: &[Description::of::<MonteCarloConfig>()],
+    tables: &[TableDescription::of::<MonteCarloConfig>()],
     make: |needs| {
         let config = read(needs.tables, "monte_carlo")?;
         let told = needs.known_map.ok_or_else(|| {

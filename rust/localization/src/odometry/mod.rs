@@ -8,7 +8,7 @@ use mapping::{FloorView, Surface};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use segmentation::Planes;
 use settings::{ConfigError, Table};
-use settings::{Description, Part, read};
+use settings::{Part, TableDescription, read};
 
 use crate::localizer::{Estimate, Localizer, LocalizerError};
 use proprioception::BodyState;
@@ -20,7 +20,7 @@ pub(crate) const PART: LocalizerPart = Part {
     name: "odometry",
     about: "legs' odometry from encoders, gyro and foot contact",
     source: Some("000, section IV"),
-    tables: &[Description::of::<OdometryLocalizerConfig>()],
+    tables: &[TableDescription::of::<OdometryLocalizerConfig>()],
     make: |needs| {
         let config = read(needs.tables, "odometry")?;
         Ok(Box::new(OdometryLocalizer::new(

@@ -15,7 +15,7 @@ use crate::part::WorldModelPart;
 use geometry::{Cell, CellArea, Map, Pose, Robot};
 use segmentation::Planes;
 use settings::{ConfigError, Table};
-use settings::{Description, Part, read};
+use settings::{Part, TableDescription, read};
 
 use crate::surface::{
     LabelledFrame, LabelledPoint, Pair, Reading, Underfoot, Window, check_poses, height_shift,
@@ -29,7 +29,7 @@ pub(crate) const PART: WorldModelPart = Part {
     name: "averaging",
     about: "mean height of each cell's points; what fog is compared with",
     source: Some("Kagami et al. 2003 (000, sections II and V)"),
-    tables: &[Description::of::<AveragingConfig>()],
+    tables: &[TableDescription::of::<AveragingConfig>()],
     make: |needs| Ok(Box::new(Averaging::new(read(needs.tables, "averaging")?)?)),
 };
 

@@ -17,7 +17,7 @@ use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use known_map::{KnownMap, Limits, MapAround};
 use segmentation::Planes;
 use settings::ConfigError;
-use settings::{Description, Part, read};
+use settings::{Part, TableDescription, read};
 
 use crate::{FloorView, Fog, FogConfig, Insertion, MapError, Surface, Voxel, WorldModel};
 use beams::Ground;
@@ -35,7 +35,7 @@ pub(crate) const PART: WorldModelPart = Part {
     name: "octree",
     about: "a static map that is told and a local one of what is seen, octrees",
     source: Some("Maier, Hornung and Bennewitz 2012 (002)"),
-    tables: &[Description::of::<TwoMapsConfig>()],
+    tables: &[TableDescription::of::<TwoMapsConfig>()],
     make: |needs| {
         let (config, fog) = (read(needs.tables, "octree")?, read(needs.tables, "fog")?);
         Ok(Box::new(TwoMaps::new(config, &fog, needs.known_map)?))

@@ -9,7 +9,7 @@ mod config;
 use crate::part::SegmenterPart;
 use sensing::Intrinsics;
 use settings::{ConfigError, Table};
-use settings::{Description, Part, read};
+use settings::{Part, TableDescription, read};
 
 use crate::ground_plane::config::GroundConfig;
 use crate::ground_plane::grounded::Grounded;
@@ -26,7 +26,7 @@ pub const PART: SegmenterPart = Part {
     name: "histogram",
     about: "level surfaces by the peaks of a histogram of heights",
     source: None,
-    tables: &[Description::of::<HistogramConfig>()],
+    tables: &[TableDescription::of::<HistogramConfig>()],
     make: |needs| {
         let (config, ground) = (
             read(needs.tables, "histogram")?,

@@ -11,7 +11,7 @@ use crate::part::SegmenterPart;
 use nalgebra::{Matrix3, Vector3};
 use sensing::Intrinsics;
 use settings::{ConfigError, Table};
-use settings::{Description, Part, read};
+use settings::{Part, TableDescription, read};
 
 use crate::finders::free_planes::draws::Draws;
 use crate::finders::free_planes::peeling::Peeling;
@@ -30,7 +30,7 @@ pub const PART: SegmenterPart = Part {
     name: "hough",
     about: "planes in any direction by a randomised Hough transform",
     source: Some("Xu, Oja and Kultanen 1990; Okada et al. 2001 (003, section I)"),
-    tables: &[Description::of::<HoughConfig>()],
+    tables: &[TableDescription::of::<HoughConfig>()],
     make: |needs| {
         let (config, ground) = (read(needs.tables, "hough")?, read(needs.tables, "ground")?);
         Ok(Box::new(Hough::new(&config, ground, needs.camera)?))

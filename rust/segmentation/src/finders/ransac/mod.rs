@@ -9,7 +9,7 @@ mod config;
 use crate::part::SegmenterPart;
 use sensing::Intrinsics;
 use settings::{ConfigError, Table};
-use settings::{Description, Part, read};
+use settings::{Part, TableDescription, read};
 
 use crate::finders::free_planes::draws::Draws;
 use crate::finders::free_planes::peeling::Peeling;
@@ -27,7 +27,7 @@ pub const PART: SegmenterPart = Part {
     name: "ransac",
     about: "planes in any direction by repeated random samples",
     source: Some("Fischler and Bolles 1981"),
-    tables: &[Description::of::<RansacConfig>()],
+    tables: &[TableDescription::of::<RansacConfig>()],
     make: |needs| {
         let (config, ground) = (read(needs.tables, "ransac")?, read(needs.tables, "ground")?);
         Ok(Box::new(Ransac::new(&config, ground, needs.camera)?))

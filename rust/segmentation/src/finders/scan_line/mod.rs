@@ -15,7 +15,7 @@ mod strips;
 use crate::part::SegmenterPart;
 use sensing::Intrinsics;
 use settings::{ConfigError, Table};
-use settings::{Description, Part, read};
+use settings::{Part, TableDescription, read};
 
 use crate::ground_plane::config::GroundConfig;
 use crate::ground_plane::grounded::Grounded;
@@ -33,7 +33,7 @@ pub const PART: SegmenterPart = Part {
     name: "scan_line",
     about: "planes by scan-line grouping, thresholds follow the local noise",
     source: Some("003, section III, after Jiang and Bunke 1994"),
-    tables: &[Description::of::<ScanLineConfig>()],
+    tables: &[TableDescription::of::<ScanLineConfig>()],
     make: |needs| {
         let (config, ground) = (
             read(needs.tables, "scan_line")?,

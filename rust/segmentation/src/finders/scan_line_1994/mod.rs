@@ -12,7 +12,7 @@ mod lines;
 use crate::part::SegmenterPart;
 use sensing::Intrinsics;
 use settings::{ConfigError, Table};
-use settings::{Description, Part, read};
+use settings::{Part, TableDescription, read};
 
 use crate::finders::free_planes::planes::FreePlanes;
 use crate::ground_plane::config::GroundConfig;
@@ -30,7 +30,7 @@ pub const PART: SegmenterPart = Part {
     name: "scan_line_1994",
     about: "scan-line grouping as published: straight lines, fixed thresholds",
     source: Some("Jiang and Bunke 1994 (000, reference 10)"),
-    tables: &[Description::of::<ScanLine1994Config>()],
+    tables: &[TableDescription::of::<ScanLine1994Config>()],
     make: |needs| {
         let (config, ground) = (
             read(needs.tables, "scan_line_1994")?,

@@ -15,7 +15,7 @@ mod pieces;
 use crate::part::SegmenterPart;
 use sensing::Intrinsics;
 use settings::{ConfigError, Table};
-use settings::{Description, Part, read};
+use settings::{Part, TableDescription, read};
 
 use crate::finders::free_planes::planes::FreePlanes;
 use crate::ground_plane::config::GroundConfig;
@@ -35,7 +35,7 @@ pub const PART: SegmenterPart = Part {
     name: "scan_line_adaptive",
     about: "scan-line grouping of planes in any direction, each with a noise of its own",
     source: Some("000, section III, after Jiang and Bunke 1994"),
-    tables: &[Description::of::<ScanLineAdaptiveConfig>()],
+    tables: &[TableDescription::of::<ScanLineAdaptiveConfig>()],
     make: |needs| {
         let (config, ground) = (
             read(needs.tables, "scan_line_adaptive")?,
