@@ -8,7 +8,7 @@ from treadwell.reference.parameters import ParameterTable, all_tables
 from treadwell.reference.schemas import SCHEMAS
 from treadwell.reference.words import allowed, kind, shown
 
-MADE: Final = "<!-- Made from the code by `python tools/reference.py write`. -->\n"
+MADE: Final = "<!-- Made from the code by `python tools/docs/reference.py write`. -->\n"
 _FILES: Final = {
     "scenario": (
         "A scenario file",

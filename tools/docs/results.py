@@ -1,8 +1,8 @@
 """The measured figures: one JSON file a subject in `docs/results`, and the pages made from them.
 
-    python tools/results.py render                     # write every page and the index
-    python tools/results.py check                      # 1 when a page is not what its JSON says
-    python tools/results.py take SUBJECT TITLE --from FILE   # a table from what `--json` wrote
+    python tools/docs/results.py render          # write every page and the index
+    python tools/docs/results.py check           # 1 when a page is not what its JSON says
+    python tools/docs/results.py take SUBJECT TITLE --from FILE   # a table from what `--json` wrote
 
 `take` reads what `treadwell experiment`, `sweep`, `compare` and `bench` write with `--json`;
 without `--from` it reads standard input. TITLE is the table's title; of an experiment and of a
@@ -26,7 +26,7 @@ from typing import Any
 from documents import rows_of
 from pages import FOLDER, Row, Table, index, load, markdown, save, subjects
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 LONGEST_PAGE = 100
 INDEX = "README.md"
 
@@ -44,7 +44,9 @@ def wrong_pages(folder: Path = FOLDER) -> list[str]:
     found = []
     for path, text in made.items():
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
-            found.append(f"{path.name} is not what its JSON says: python tools/results.py render")
+            found.append(
+                f"{path.name} is not what its JSON says: python tools/docs/results.py render"
+            )
         if len(text.splitlines()) > LONGEST_PAGE:
             found.append(f"{path.name} has more than {LONGEST_PAGE} lines: split the subject")
     found += [f"{path.name} has no JSON" for path in folder.glob("*.md") if path not in made]

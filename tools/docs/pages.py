@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-FOLDER = Path(__file__).resolve().parents[1] / "docs" / "results"
+FOLDER = Path(__file__).resolve().parents[2] / "docs" / "results"
 INTRODUCTION = """# Results
 
 What was measured last, one page a subject: figure, what was wanted, seeds, command, commit, date.
@@ -23,8 +23,8 @@ wrong, is told in [docs/history](../history/README.md).
   build; MuJoCo 4.0.1. Others used it at the same time: ratios that were taken in one run say more
   than absolute times.
 
-These pages are generated: `python tools/results.py render` makes them from the JSON files beside
-them, and measuring commands write those ([how](../../CONTRIBUTING.md#measuring)).
+These pages are generated: `python tools/docs/results.py render` makes them from the JSON files
+beside them, and measuring commands write those ([how](../../CONTRIBUTING.md#measuring)).
 """
 
 Text = Annotated[str, Field(min_length=1)]
@@ -124,7 +124,7 @@ def markdown(page: Subject) -> str:
     lines = [
         f"# {page.title}",
         "",
-        f"<!-- Made from {page.subject}.json by tools/results.py: change that, not this. -->",
+        f"<!-- Made from {page.subject}.json by tools/docs/results.py: change that, not this. -->",
         "",
         page.about,
     ]

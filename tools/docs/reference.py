@@ -1,7 +1,7 @@
 """Writes docs/reference from the code, or says which of its pages are not what the code says.
 
-python tools/reference.py write
-python tools/reference.py check
+python tools/docs/reference.py write
+python tools/docs/reference.py check
 """
 
 import argparse
@@ -10,7 +10,7 @@ from pathlib import Path
 
 from treadwell.reference.pages import pages
 
-FOLDER = Path(__file__).resolve().parent.parent / "docs" / "reference"
+FOLDER = Path(__file__).resolve().parents[2] / "docs" / "reference"
 
 
 def stale() -> list[str]:
@@ -47,7 +47,7 @@ def main() -> int:
         return 0
     wrong = stale()
     for name in wrong:
-        print(f"{FOLDER / name}: is not what the code says; python tools/reference.py write")
+        print(f"{FOLDER / name}: is not what the code says; python tools/docs/reference.py write")
     return 1 if wrong else 0
 
 
