@@ -1,6 +1,6 @@
 //! What lies under soles and around a place, asked of the map itself between two plans. Who asks says how much is tolerated.
 
-use geometry::{CellArea, Map, PlanarPose, same_level};
+use geometry::{CellArea, Map, PlanarPose};
 use mapping::{FloorView, Surface};
 use stairs::{Stair, Staircase};
 
@@ -150,14 +150,14 @@ pub fn is_riser(
     })
 }
 
-/// The stairs on a level between whose edges a place lies.
+/// The stairs between whose edges a place lies, and whose height differs from a level by less than this, m.
 pub fn stairs_under(
     stairs: &Staircase,
     at_m: [f64; 2],
-    (level_m, tolerance_m): (f64, f64),
+    (level_m, below_m): (f64, f64),
 ) -> impl Iterator<Item = &Stair<Map>> {
     stairs.stairs.iter().filter(move |stair| {
-        same_level(stair.height_m(), level_m, tolerance_m)
+        (stair.height_m() - level_m).abs() < below_m
             && stair.front.beyond_m(at_m) > 0.0
             && stair.back.beyond_m(at_m) < 0.0
     })

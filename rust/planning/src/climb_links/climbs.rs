@@ -86,15 +86,14 @@ impl ClimbLinks {
             self.end(scene, entry, way, &landing, cost_m);
             before = Some((way, landing, cost_m));
             level_m = stair.height_m();
-            let depth_m;
-            (stair, index, depth_m) = match self.behind(scene, &stair, after) {
-                Some(next) => next,
-                None => break,
+            let Some((next, next_index, depth_m)) = self.behind(scene, &stair, after) else {
+                break;
             };
+            (stair, index) = (next, next_index);
             fixed = depth_m <= scene.config.stride;
-            let next = EdgeLine::of(&stair.front);
-            let range_m = range_m(scene, &next);
-            offset_m = next.offset_m(at_m).clamp(-range_m, range_m);
+            let edge = EdgeLine::of(&stair.front);
+            let range_m = range_m(scene, &edge);
+            offset_m = edge.offset_m(at_m).clamp(-range_m, range_m);
         }
         // Steps that no way ends with are none.
         let used = self.ways.last().map_or(0, |way| way.end);
