@@ -8,7 +8,9 @@ use mapping::FloorView;
 use settings::{ConfigError, Table, require};
 use stairs::{ClimbingConfig, Feet, Staircase};
 use terrain::rules::escape;
-use terrain::{GoalLevel, Limits, LongerLandings, Needs, Rectangle, Rules, Sight, Stand, Terrain};
+use terrain::{
+    GoalLevel, HeightLimits, LongerLandings, Needs, Rectangle, Rules, Sight, StandingAt, Terrain,
+};
 
 use crate::climb_links::{ClimbLinks, Scene};
 use crate::outside_window::OutsideWindow;
@@ -52,7 +54,7 @@ impl AStar {
         let holds = radius_m > 0.0 && radius_m.is_finite();
         require(holds, "navigation.a_star.radius", "> 0", radius_m)?;
         let step_m = climbing.ascend.step_max_z.max(-climbing.descend.step_min_z);
-        let limits = Limits {
+        let limits = HeightLimits {
             floor_m: config.max_step,
             step_m: step_m + climbing.tolerance,
         };
@@ -126,7 +128,7 @@ impl Planner for AStar {
         goal: &Goal,
     ) -> Result<Plan, PlanError> {
         let (start, height_m) = place_of(start, goal)?;
-        let stand = Stand {
+        let stand = StandingAt {
             at_m: [start.x_m, start.y_m],
             height_m,
             heading_rad: start.yaw_rad,
@@ -167,7 +169,7 @@ impl Planner for AStar {
 
 impl AStar {
     /// Reads the view and the stairs.
-    fn look(&mut self, view: &FloorView, stairs: &Staircase, stand: Stand, goal: &Goal) {
+    fn look(&mut self, view: &FloorView, stairs: &Staircase, stand: StandingAt, goal: &Goal) {
         let sightings = self.config.step_sightings;
         let seen = (&stand, goal);
         let landings = &self.rules.config.longer_landings;

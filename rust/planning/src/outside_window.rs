@@ -11,7 +11,7 @@ use terrain::Terrain;
 
 use crate::Goal;
 use crate::tuning::OutsideWindowTuning;
-use ground::{Ground, SIDE, cell_at};
+use ground::{GroundOutside, SIDE, cell_at};
 
 /// The way is looked for over nodes of so many of them each way. Of four all lie beside each other, so that a node says exactly which
 /// of its cells lead to which of the next one's: a gap between two round things may be too narrow at a single row of cells.
@@ -33,7 +33,7 @@ const STEPS: [(isize, isize, f32); 8] = [
 #[derive(Debug, Clone, Default)]
 pub(crate) struct OutsideWindow {
     tuning: OutsideWindowTuning,
-    ground: Ground,
+    ground: GroundOutside,
     distance: CellDistances,
     /// Which of a node's cells the robot may be in, a bit each: 1 for the first, 2 for the one a column on, 4 and 8 for the row after.
     open: Vec<u8>,

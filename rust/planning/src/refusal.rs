@@ -8,7 +8,7 @@ use stairs::{ClimbingConfig, Unfit};
 use terrain::Terrain;
 
 use crate::climb_links::{ClimbLinks, Fit};
-use crate::path::ends::Ends;
+use crate::path::ends::PathEnds;
 use crate::search::neighbours::Cells;
 use crate::search::steps::ANYWHERE;
 use crate::search::{Route, Search};
@@ -96,7 +96,7 @@ fn unfit((climbing, tuning): Words<'_>, limit: Unfit) -> NoWay {
 pub(crate) fn explain(
     terrain: &Terrain,
     words: Words<'_>,
-    ends: &Ends<'_>,
+    ends: &PathEnds<'_>,
     start: usize,
     goal: &Goal,
 ) -> NoWay {
@@ -144,7 +144,7 @@ pub(crate) fn explain(
 }
 
 /// The way that would lead to the goal if levels were one.
-fn way_over_levels(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Option<Route> {
+fn way_over_levels(terrain: &Terrain, ends: &PathEnds<'_>, start: usize) -> Option<Route> {
     if !terrain.any_edge {
         return None;
     }
@@ -222,7 +222,7 @@ struct Widest {
 }
 
 /// The way whose narrowest place is the widest, for a point that only obstacles stop.
-fn widest_way(terrain: &Terrain, ends: &Ends<'_>, start: usize, crack_m: f64) -> Widest {
+fn widest_way(terrain: &Terrain, ends: &PathEnds<'_>, start: usize, crack_m: f64) -> Widest {
     let stops = terrain.blocked.iter().zip(&terrain.edge);
     let open: Vec<f32> = stops
         .map(|(&blocked, &edge)| if blocked || edge { f32::INFINITY } else { 1.0 })

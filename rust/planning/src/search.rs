@@ -9,7 +9,7 @@ use std::f64::consts::SQRT_2;
 
 use links::Links;
 use neighbours::Cells;
-use queue::{Entry, Queue};
+use queue::{Queue, QueueEntry};
 use steps::ANYWHERE;
 
 /// No cell before this one.
@@ -95,14 +95,14 @@ impl Search {
         } = self;
         known.begin(nodes, start);
         *expanded = 0;
-        let first = Entry {
+        let first = QueueEntry {
             cost: 0.0,
             cell: start as u32,
             trail: ANYWHERE,
         };
         queue.begin(heuristic(start), first);
         let (mut best, mut last) = (f64::INFINITY, None);
-        while let Some(Entry { cost, cell, trail }) = queue.pop() {
+        while let Some(QueueEntry { cost, cell, trail }) = queue.pop() {
             let here = cell as usize;
             if cost > known.cost(here) || last.is_some() && cost + heuristic(here) >= best {
                 continue; // reached more cheaply since, or no use
@@ -121,7 +121,7 @@ impl Search {
                 if cost < known.cost(next) {
                     known.reach(next, cost, cell);
                     let cell = next as u32;
-                    queue.push(cost + heuristic(next), Entry { cost, cell, trail });
+                    queue.push(cost + heuristic(next), QueueEntry { cost, cell, trail });
                 }
             };
             let weight = cells.weight_to_leave(here);

@@ -9,7 +9,8 @@ mod synthetic;
 use std::time::Instant;
 
 use geometry::Pose;
-use segmentation::{GroundConfig, Planes, ScanLine, ScanLineConfig, Segmenter};
+use segmentation::finders::{ScanLine, ScanLineConfig};
+use segmentation::{GroundConfig, Planes, Segmenter};
 use stairs::{EdgeModel, EdgeModelTuning, Recognizer, StairsConfig};
 use synthetic::{CAMERA, Noise, Scene, camera_pose};
 

@@ -4,7 +4,7 @@ use geometry::{Goal, same_level};
 use mapping::{FloorView, Surface};
 use settings::{settings, within};
 
-use crate::Stand;
+use crate::StandingAt;
 
 /// The goal's middle is looked at in so many places each way: one at its middle, and one to each side.
 const PLACES: usize = 3;
@@ -35,7 +35,7 @@ impl GoalLevel {
         &mut self,
         goal: &Goal,
         view: &FloorView,
-        stand: &Stand,
+        stand: &StandingAt,
         config: &GoalLevelConfig,
     ) -> Goal {
         if self.told != Some(*goal) {

@@ -25,7 +25,7 @@ pub use goal_level::{GoalLevel, GoalLevelConfig};
 pub use longer_landings::{LongerLandings, LongerLandingsConfig};
 pub use rules::voronoi::VoronoiConfig;
 pub use rules::{RULES, Rule, Rules};
-pub use sight::{CellSettings, Limits, Needs, Rectangle, Sight, Stand};
+pub use sight::{CellSettings, HeightLimits, Needs, Rectangle, Sight, StandingAt};
 pub use slope_cells::SlopeCells;
 pub use stair_cells::StairCells;
 pub use stair_outline::StairOutline;

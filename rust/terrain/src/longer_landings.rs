@@ -8,7 +8,7 @@ use mapping::{FloorView, Surface};
 use settings::{settings, within};
 use stairs::{Edge, EdgeLine, Stair, Staircase};
 
-use crate::Stand;
+use crate::StandingAt;
 
 settings! {
     /// Which landings are taken to go on to the goal.
@@ -34,7 +34,7 @@ impl LongerLandings {
         &mut self,
         stairs: &Staircase,
         view: &FloorView,
-        (stand, goal): (&Stand, &Goal),
+        (stand, goal): (&StandingAt, &Goal),
         sightings: u16,
         config: &LongerLandingsConfig,
     ) -> &Staircase {

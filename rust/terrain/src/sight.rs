@@ -5,7 +5,7 @@ use stairs::Staircase;
 
 /// Where the robot stands, in the map.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stand {
+pub struct StandingAt {
     /// Its place, m.
     pub at_m: [f64; 2],
     /// Height of the ground under it, m.
@@ -16,7 +16,7 @@ pub struct Stand {
     pub gradient: [f64; 2],
 }
 
-impl Stand {
+impl StandingAt {
     /// Height of the ground this far off along the map's axes if it goes on as where the robot stands, m.
     pub fn ground_m(&self, [dx_m, dy_m]: [f64; 2]) -> f64 {
         self.height_m + self.gradient[0] * dx_m + self.gradient[1] * dy_m
@@ -25,7 +25,7 @@ impl Stand {
 
 /// Differences in height that matter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
+pub struct HeightLimits {
     /// What is still floor, m.
     pub floor_m: f64,
     /// What may still be climbed, m.
@@ -49,7 +49,7 @@ pub struct Needs {
     /// Around the middle between its feet, to edges of the level, m.
     pub feet_m: f64,
     /// Of the ground that it walks on.
-    pub limits: Limits,
+    pub limits: HeightLimits,
     /// To obstacles while it walks sideways, where it may.
     pub turned: Option<Rectangle>,
 }
@@ -102,7 +102,7 @@ pub struct Sight<'a> {
     /// The stairs that were recognised.
     pub stairs: &'a Staircase,
     /// Where the robot stands.
-    pub stand: Stand,
+    pub stand: StandingAt,
     /// Height of the goal, m, where it is known.
     pub goal_m: Option<f64>,
 }

@@ -9,14 +9,14 @@ pub type ObstacleCell = ([f64; 2], f32);
 
 /// Soles side by side, as a rectangle around the middle between them in which the map is asked at places of a raster.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Soles {
+pub struct SolesOnGround {
     /// Half the length and half the width over both, with what is kept around them, m.
     pub half_m: [f64; 2],
     /// Places to each side of the middle, along and across.
     pub raster: i32,
 }
 
-impl Soles {
+impl SolesOnGround {
     /// The places under the soles of a robot, m, row by row from the heels up to this share of half their length, 1 for the toes.
     pub fn places(self, pose: &PlanarPose, front: f64) -> impl Iterator<Item = [f64; 2]> + '_ {
         let Self { half_m, raster } = self;
@@ -52,7 +52,7 @@ pub fn is_lower(view: &FloorView, [x_m, y_m]: [f64; 2], level_m: f64, lower_m: f
 /// At how many places under the soles there is lower floor, from the heels up to this share of half their length.
 pub fn lower_places(
     view: &FloorView,
-    soles: Soles,
+    soles: SolesOnGround,
     (pose, front): (&PlanarPose, f64),
     (level_m, lower_m): (f64, f64),
 ) -> usize {
@@ -65,7 +65,7 @@ pub fn lower_places(
 /// How many cells under the soles hold something that is higher than this, m, and that `counts`.
 pub fn cells_under(
     view: &FloorView,
-    soles: Soles,
+    soles: SolesOnGround,
     pose: &PlanarPose,
     top_m: f32,
     counts: impl Fn(&ObstacleCell) -> bool,
@@ -168,7 +168,7 @@ mod tests {
     use super::*;
     use crate::testing::{Floor, stair};
 
-    const SOLES: Soles = Soles {
+    const SOLES: SolesOnGround = SolesOnGround {
         half_m: [0.05, 0.08],
         raster: 5,
     };

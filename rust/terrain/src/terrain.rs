@@ -5,7 +5,7 @@ use geometry::{Cell, CellArea, Lattice};
 use mapping::FloorView;
 use settings::{above_to, settings, within};
 
-use crate::{CellSettings, Needs, SlopeCells, StairCells, Stand};
+use crate::{CellSettings, Needs, SlopeCells, StairCells, StandingAt};
 
 settings! {
     /// How room along a way is measured.
@@ -267,7 +267,7 @@ impl Terrain {
     }
 
     /// Whether the robot stands where there is no room for the circle, but for itself as it is turned.
-    pub fn is_in_passage(&self, stand: &Stand) -> bool {
+    pub fn is_in_passage(&self, stand: &StandingAt) -> bool {
         let closed = |start: &usize| !self.is_roomy(*start);
         let slack_m = self.room.slack.min(0.5 * self.lattice.cell_m);
         let start = self.index_at(stand.at_m).filter(closed);

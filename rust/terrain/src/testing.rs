@@ -4,14 +4,14 @@ use geometry::{Grid, Lattice, Map, Point};
 use mapping::{FloorView, Surface};
 use stairs::{Edge, Sides, Stair, Staircase};
 
-use crate::{CellSettings, Limits, Needs, Rectangle, Rules, Sight, Stand, Terrain};
+use crate::{CellSettings, HeightLimits, Needs, Rectangle, Rules, Sight, StandingAt, Terrain};
 
 /// Side of a cell, m.
 const CELL_M: f64 = 0.05;
 
 /// A robot in the middle of the floor, on it.
-pub(crate) fn stand() -> Stand {
-    Stand {
+pub(crate) fn stand() -> StandingAt {
+    StandingAt {
         at_m: [0.0; 2],
         height_m: 0.0,
         heading_rad: 0.0,
@@ -64,7 +64,7 @@ pub(crate) fn terrain() -> Terrain {
     let needs = Needs {
         body_m: 0.17,
         feet_m: 0.1,
-        limits: Limits {
+        limits: HeightLimits {
             floor_m: 0.01,
             step_m: 0.0525,
         },
@@ -80,7 +80,7 @@ pub(crate) fn terrain() -> Terrain {
 pub(crate) struct Floor {
     pub(crate) view: FloorView,
     pub(crate) stairs: Staircase,
-    pub(crate) stand: Stand,
+    pub(crate) stand: StandingAt,
     pub(crate) goal_m: Option<f64>,
 }
 

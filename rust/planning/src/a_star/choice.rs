@@ -1,17 +1,17 @@
 //! The path before, or a new one.
 
 use geometry::{PlanarPose, angle_between};
-use terrain::Stand;
+use terrain::StandingAt;
 
-use crate::path::ends::End;
+use crate::path::ends::PathEnd;
 use crate::path::followed_path::FollowedPath;
 use crate::{AStar, Goal, NoWay, Path, Plan};
 
 impl AStar {
     /// What is left of the path before where it holds.
-    pub(crate) fn rest(&mut self, stand: &Stand, goal: &Goal) -> Option<FollowedPath> {
+    pub(crate) fn rest(&mut self, stand: &StandingAt, goal: &Goal) -> Option<FollowedPath> {
         let followed = (self.followed.as_ref()).filter(|followed| followed.goal == *goal)?;
-        if followed.end == End::Look
+        if followed.end == PathEnd::Look
             && let Some(&end_m) = followed.path.points_m.last()
             && self.viewpoints.arrive(stand.at_m, end_m)
         {
@@ -73,7 +73,7 @@ impl AStar {
     /// other.
     fn left_m(&self, followed: &FollowedPath, goal: &Goal) -> f64 {
         match (followed.end, followed.path.points_m.last()) {
-            (End::Border, Some(&end_m)) => self.outside.left_m(end_m, goal),
+            (PathEnd::Border, Some(&end_m)) => self.outside.left_m(end_m, goal),
             _ => 0.0,
         }
     }

@@ -1,9 +1,9 @@
 //! A new path: to the goal, to stairs of which a limit is in doubt, or to a place to look from.
 
-use terrain::{Stand, Terrain};
+use terrain::{StandingAt, Terrain};
 
 use crate::climb_links::Fit;
-use crate::path::ends::{End, Ends, end_of, run};
+use crate::path::ends::{PathEnd, PathEnds, end_of, run};
 use crate::path::followed_path::FollowedPath;
 use crate::refusal::{explain, first_limit};
 use crate::search::Route;
@@ -11,7 +11,7 @@ use crate::{AStar, Goal, NoWay, Refusal};
 
 impl AStar {
     /// A new path over the terrain.
-    pub(crate) fn find(&mut self, stand: &Stand, goal: &Goal) -> Result<FollowedPath, NoWay> {
+    pub(crate) fn find(&mut self, stand: &StandingAt, goal: &Goal) -> Result<FollowedPath, NoWay> {
         let outside = || NoWay {
             refusal: Refusal::NoPath,
             sentence: "the robot stands outside of its map".into(),
@@ -35,16 +35,16 @@ impl AStar {
     }
 
     /// The cheapest route over what is known to fit; and whether it may lead out of the window and back to a goal in it.
-    fn known(&mut self, stand: &Stand, start: usize, goal: &Goal) -> (Option<Route>, bool) {
+    fn known(&mut self, stand: &StandingAt, start: usize, goal: &Goal) -> (Option<Route>, bool) {
         let (terrain, links) = (&self.terrain, &self.links);
         let (height_m, config) = (stand.height_m, &self.config);
         let tuning = &config.tuning.path_search;
         let search = &mut self.search;
-        let ends = Ends::new(terrain, &self.outside, goal, height_m, config);
+        let ends = PathEnds::new(terrain, &self.outside, goal, height_m, config);
         let known = run(search, terrain, links, &ends, start, Fit::Holds);
         let straight = ends.away(start) + tuning.far_more / terrain.lattice.cell_m;
         let is_around =
-            (self.followed.as_ref()).is_some_and(|followed| followed.end == End::Border);
+            (self.followed.as_ref()).is_some_and(|followed| followed.end == PathEnd::Border);
         let is_far = |route: &Route| route.cost > tuning.far * straight;
         // What was seen of the ground outside of the window tells no levels apart.
         let looks_around = ends.inside && !ends.on_another_level();
@@ -52,7 +52,7 @@ impl AStar {
             return (known, false);
         }
         self.outside.look_around(terrain, goal);
-        let mut ends = Ends::new(terrain, &self.outside, goal, height_m, config);
+        let mut ends = PathEnds::new(terrain, &self.outside, goal, height_m, config);
         ends.around = true;
         (run(search, terrain, links, &ends, start, Fit::Holds), true)
     }
@@ -61,15 +61,15 @@ impl AStar {
     /// there if they were other than they look from afar; else to where more is to be seen.
     fn route(
         &mut self,
-        stand: &Stand,
+        stand: &StandingAt,
         start: usize,
         goal: &Goal,
-    ) -> Result<(Route, Fit, End), NoWay> {
+    ) -> Result<(Route, Fit, PathEnd), NoWay> {
         let (known, around) = self.known(stand, start, goal);
         let (terrain, links) = (&self.terrain, &self.links);
         let config = &self.config;
         let (guess_m, refusal) = (config.tuning.path_search.guess, &config.tuning.refusal);
-        let mut ends = Ends::new(terrain, &self.outside, goal, stand.height_m, config);
+        let mut ends = PathEnds::new(terrain, &self.outside, goal, stand.height_m, config);
         ends.around = around;
         let search = &mut self.search;
         let hoped = |route: &Route| {
@@ -88,7 +88,7 @@ impl AStar {
                 found.flatten().filter(cheaper)
             };
             if let Some(route) = search_with(Fit::Doubtful) {
-                return Ok((route, Fit::Doubtful, End::Look));
+                return Ok((route, Fit::Doubtful, PathEnd::Look));
             }
             let lifted = search_with(Fit::Broken);
             limit = lifted
@@ -110,7 +110,7 @@ impl AStar {
                 Some((no_way, _)) => no_way,
                 None => explain(terrain, (&self.climbing, refusal), &ends, start, goal),
             };
-            (route.flatten().ok_or_else(no_way)?, End::Look)
+            (route.flatten().ok_or_else(no_way)?, PathEnd::Look)
         };
         Ok((route, Fit::Holds, end))
     }

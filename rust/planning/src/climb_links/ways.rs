@@ -1,7 +1,7 @@
 //! The ways that are no steps from a cell to its neighbour: over stairs, and sideways through what is narrow.
 
 use stairs::{ClimbingConfig, Feet, Unfit};
-use terrain::{Stand, Terrain};
+use terrain::{StandingAt, Terrain};
 
 use super::directed_stairs::DirectedStairs;
 use crate::search::links::Links;
@@ -15,7 +15,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) climbing: &'a ClimbingConfig,
     pub(crate) feet: &'a Feet,
     pub(crate) config: &'a AStarConfig,
-    pub(crate) stand: Stand,
+    pub(crate) stand: StandingAt,
     pub(crate) goal: Goal,
     /// Places from which the robot has looked on purpose, m.
     pub(crate) looked_m: &'a [[f64; 2]],

@@ -10,14 +10,14 @@ pub(super) const SIDE: usize = 512;
 
 /// The ground around as it was when it was seen last.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Ground {
+pub(super) struct GroundOutside {
     /// Where the cells lie.
     pub(super) lattice: Option<Lattice>,
     /// Row by row, `SIDE` in each.
     pub(super) blocked: Vec<bool>,
 }
 
-impl Ground {
+impl GroundOutside {
     /// Takes in what the window shows to a robot that stands at a place, m, who believes nearer than `near_m` that something has gone; says
     /// whether the cells have moved.
     pub(super) fn take_in(&mut self, terrain: &Terrain, robot_m: [f64; 2], near_m: f64) -> bool {

@@ -114,12 +114,12 @@ fn what_stands_near_is_remembered_however_far_the_robot_has_come() {
         mut rules,
         ..
     } = planner();
-    let mut ground = super::ground::Ground::default();
+    let mut ground = super::ground::GroundOutside::default();
     let far = Goal { x_m: 100.0, ..GOAL };
     let mut moves = 0;
     for step in 0..20 {
         let x_m = 3.0 * f64::from(step);
-        let stand = terrain::Stand {
+        let stand = terrain::StandingAt {
             at_m: [x_m, 0.0],
             height_m: 0.0,
             heading_rad: 0.0,

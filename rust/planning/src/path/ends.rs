@@ -10,7 +10,7 @@ use crate::{AStarConfig, Goal};
 
 /// Where a path ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum End {
+pub(crate) enum PathEnd {
     /// In the goal's disc.
     Goal,
     /// At the border of the window: the goal lies outside.
@@ -21,7 +21,7 @@ pub(crate) enum End {
     Look,
 }
 
-impl End {
+impl PathEnd {
     /// Whether everything up to there is as it should be.
     pub(crate) const fn is_certain(self) -> bool {
         matches!(self, Self::Goal | Self::Border)
@@ -30,7 +30,7 @@ impl End {
 
 /// The ends of a search.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Ends<'a> {
+pub(crate) struct PathEnds<'a> {
     terrain: &'a Terrain,
     outside: &'a OutsideWindow,
     goal: Goal,
@@ -48,7 +48,7 @@ pub(crate) struct Ends<'a> {
     pub(crate) around: bool,
 }
 
-impl<'a> Ends<'a> {
+impl<'a> PathEnds<'a> {
     /// Ends for a robot that stands `height_m` high, m.
     pub(crate) fn new(
         terrain: &'a Terrain,
@@ -155,7 +155,7 @@ pub(crate) fn run(
     search: &mut Search,
     terrain: &Terrain,
     links: &ClimbLinks,
-    ends: &Ends<'_>,
+    ends: &PathEnds<'_>,
     start: usize,
     worst: Fit,
 ) -> Option<Route> {
@@ -174,7 +174,12 @@ pub(crate) fn run(
 }
 
 /// Where a route ends.
-pub(crate) fn end_of(route: &Route, terrain: &Terrain, links: &ClimbLinks, ends: &Ends<'_>) -> End {
+pub(crate) fn end_of(
+    route: &Route,
+    terrain: &Terrain,
+    links: &ClimbLinks,
+    ends: &PathEnds<'_>,
+) -> PathEnd {
     let last_way = match route.cells[..] {
         [.., from, to] => links.between(terrain, from, to, Fit::Holds),
         _ => None,
@@ -186,10 +191,10 @@ pub(crate) fn end_of(route: &Route, terrain: &Terrain, links: &ClimbLinks, ends:
         .is_some_and(|&cell| ends.is_blind(cell as usize));
     let in_disc = (route.cells.last()).is_some_and(|&cell| ends.holds(cell as usize));
     match climbed {
-        Some(way) if way.at_goal => End::Goal,
-        Some(_) => End::Hope,
-        None if blind => End::Hope,
-        None if ends.inside && in_disc => End::Goal,
-        None => End::Border,
+        Some(way) if way.at_goal => PathEnd::Goal,
+        Some(_) => PathEnd::Hope,
+        None if blind => PathEnd::Hope,
+        None if ends.inside && in_disc => PathEnd::Goal,
+        None => PathEnd::Border,
     }
 }

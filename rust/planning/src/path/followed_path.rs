@@ -2,7 +2,7 @@
 
 use terrain::Terrain;
 
-use super::ends::End;
+use super::ends::PathEnd;
 use crate::climb_links::room_at_edges::distance_m;
 use crate::sideways_passages::TURNS_RAD;
 use crate::{AStarConfig, Goal, Path, Sidle};
@@ -16,7 +16,7 @@ pub(crate) struct FollowedPath {
     pub(crate) spans: Vec<[usize; 2]>,
     pub(crate) goal: Goal,
     /// Whether it leads to the goal, or only to the border of the window, or towards what was not seen yet.
-    pub(crate) end: End,
+    pub(crate) end: PathEnd,
     /// Whether the goal lay in the window when it was found.
     pub(crate) inside: bool,
     /// How many of its points were unknown when it was planned or held last.
@@ -25,7 +25,7 @@ pub(crate) struct FollowedPath {
 
 impl FollowedPath {
     /// A path that has not left its start yet.
-    pub(crate) fn from(start_m: [f64; 2], goal: Goal, end: End) -> Self {
+    pub(crate) fn from(start_m: [f64; 2], goal: Goal, end: PathEnd) -> Self {
         Self {
             path: Path {
                 points_m: vec![start_m],

@@ -2,9 +2,9 @@
 
 use geometry::same_level;
 use stairs::EdgeLine;
-use terrain::{Stand, Terrain};
+use terrain::{StandingAt, Terrain};
 
-use super::ends::End;
+use super::ends::PathEnd;
 use super::followed_path::FollowedPath;
 use crate::climb_links::room_at_edges::distance_m;
 use crate::climb_links::{ClimbLinks, Fit, Stride};
@@ -17,12 +17,12 @@ impl FollowedPath {
         &self,
         terrain: &Terrain,
         links: &ClimbLinks,
-        stand: &Stand,
+        stand: &StandingAt,
         config: &AStarConfig,
     ) -> Option<Self> {
         let tuning = &config.tuning.followed_path;
         let mut rest = rest_of(self, stand.at_m, (config.stray, tuning))?;
-        if self.end == End::Border {
+        if self.end == PathEnd::Border {
             let is_inside = terrain.index_at([self.goal.x_m, self.goal.y_m]).is_some();
             let left = rest.path.points_m.len() as f64 * terrain.lattice.cell_m;
             if is_inside && !self.inside || left < tuning.horizon {

@@ -2,7 +2,7 @@
 
 use terrain::Terrain;
 
-use super::ends::Ends;
+use super::ends::PathEnds;
 use crate::Goal;
 use crate::climb_links::{ClimbLinks, Fit};
 use crate::search::{Graph, Route, Search};
@@ -68,7 +68,7 @@ impl Viewpoints {
         search: &mut Search,
         terrain: &Terrain,
         links: &ClimbLinks,
-        ends: &Ends<'_>,
+        ends: &PathEnds<'_>,
         start: usize,
     ) -> Option<Route> {
         self.read(terrain);
@@ -118,7 +118,7 @@ impl Viewpoints {
     }
 
     /// What ending in a cell costs, in cells; `None` where there is nothing to see.
-    fn cost(&self, ends: &Ends<'_>, index: usize) -> Option<f64> {
+    fn cost(&self, ends: &PathEnds<'_>, index: usize) -> Option<f64> {
         let worth = self.worth.get(index).is_some_and(|&worth| worth);
         worth.then(|| self.tuning.detour * ends.away(index))
     }

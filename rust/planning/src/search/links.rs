@@ -8,13 +8,13 @@ const NONE: u32 = u32::MAX;
 pub struct Links {
     /// First link of a cell.
     first: Vec<u32>,
-    all: Vec<Link>,
+    all: Vec<SearchLink>,
     nodes: usize,
 }
 
 /// A way from one node to another.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Link {
+pub struct SearchLink {
     /// Where it begins: a cell.
     pub from: u32,
     /// Where it ends.
@@ -38,7 +38,7 @@ impl Links {
     pub fn add(&mut self, from: usize, to: usize, cost: f64) -> usize {
         self.nodes = self.nodes.max(to + 1);
         let next = std::mem::replace(&mut self.first[from], self.all.len() as u32);
-        self.all.push(Link {
+        self.all.push(SearchLink {
             from: from as u32,
             to: to as u32,
             cost,
@@ -53,7 +53,7 @@ impl Links {
     }
 
     /// The links from a node with their indices.
-    pub fn from(&self, node: usize) -> impl Iterator<Item = (usize, &Link)> {
+    pub fn from(&self, node: usize) -> impl Iterator<Item = (usize, &SearchLink)> {
         let mut at = self.first.get(node).copied().unwrap_or(NONE);
         std::iter::from_fn(move || {
             let index = at as usize;

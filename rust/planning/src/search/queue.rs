@@ -11,7 +11,7 @@ const LAST: usize = 1 << 20;
 
 /// A cell to expand if it was not reached more cheaply since.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Entry {
+pub(crate) struct QueueEntry {
     pub(crate) cost: f64,
     pub(crate) cell: u32,
     /// How it was come upon.
@@ -22,9 +22,9 @@ pub(crate) struct Entry {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Queue {
     /// Bucket `now`, from which entries are taken: kept apart, as most of what is taken came in just before.
-    current: Vec<Entry>,
+    current: Vec<QueueEntry>,
     /// The others; `now` and all before are empty.
-    buckets: Vec<Vec<Entry>>,
+    buckets: Vec<Vec<QueueEntry>>,
     now: usize,
     /// The first bucket that holds nothing of use.
     end: usize,
@@ -32,7 +32,7 @@ pub(crate) struct Queue {
 
 impl Queue {
     /// Forgets all but a first entry, of which no estimate is lower.
-    pub(crate) fn begin(&mut self, estimate: f64, entry: Entry) {
+    pub(crate) fn begin(&mut self, estimate: f64, entry: QueueEntry) {
         for left in self.buckets.iter_mut().skip(self.now) {
             left.clear();
         }
@@ -48,7 +48,7 @@ impl Queue {
     }
 
     #[inline]
-    pub(crate) fn push(&mut self, estimate: f64, entry: Entry) {
+    pub(crate) fn push(&mut self, estimate: f64, entry: QueueEntry) {
         let bucket = bucket_of(estimate);
         // Rounding must not put it where the search has passed.
         if bucket <= self.now {
@@ -63,7 +63,7 @@ impl Queue {
 
     /// Takes the next entry, unless what is left is estimated too high.
     #[inline]
-    pub(crate) fn pop(&mut self) -> Option<Entry> {
+    pub(crate) fn pop(&mut self) -> Option<QueueEntry> {
         while self.now < self.end {
             if let Some(entry) = self.current.pop() {
                 return Some(entry);
@@ -92,7 +92,7 @@ mod tests {
     #[test]
     fn what_costs_more_than_there_are_buckets_for_is_taken_too() {
         let mut queue = Queue::default();
-        let entry = |cell| Entry {
+        let entry = |cell| QueueEntry {
             cost: 0.0,
             cell,
             trail: Trail::default(),

@@ -11,9 +11,9 @@ pub(crate) const ANYWHERE: Trail = 24;
 const TRAILS: usize = 25;
 
 /// Columns and rows that a step goes.
-type Step = [i32; 2];
+type CellStep = [i32; 2];
 /// The first four go straight.
-const STEPS: [Step; 8] = [
+const STEPS: [CellStep; 8] = [
     [-1, 0],
     [1, 0],
     [0, -1],
@@ -32,10 +32,10 @@ pub(crate) const WESTERN: Block = bit([-1, -1]) | bit([-1, 0]) | bit([-1, 1]);
 pub(crate) const EASTERN: Block = bit([1, -1]) | bit([1, 0]) | bit([1, 1]);
 
 /// One bit for each step that leads on, and eight bits higher another one where it rules out a turn after it.
-type Onward = u16;
+type AllowedSteps = u16;
 
 /// By trail and which cells of the block are free; the middle's bit says whether all of them cost the same.
-static ONWARD: [[Onward; BLOCKS]; TRAILS] = table();
+static ONWARD: [[AllowedSteps; BLOCKS]; TRAILS] = table();
 /// By trail and step, the trail of a step; eight places further of one that rules out a turn.
 static NEXT: [[Trail; 16]; TRAILS] = next();
 
@@ -78,27 +78,27 @@ impl Iterator for Steps {
 }
 
 /// The bit of the cell so many columns and rows from the middle; 0 outside of the block.
-const fn bit([right, up]: Step) -> Block {
+const fn bit([right, up]: CellStep) -> Block {
     if right.abs() > 1 || up.abs() > 1 {
         return 0;
     }
     1 << (3 * (up + 1) + right + 1)
 }
 
-const fn less(a: Step, b: Step) -> Step {
+const fn less(a: CellStep, b: CellStep) -> CellStep {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-const fn dot(a: Step, b: Step) -> i32 {
+const fn dot(a: CellStep, b: CellStep) -> i32 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-const fn is_straight(step: Step) -> bool {
+const fn is_straight(step: CellStep) -> bool {
     step[0] * step[1] == 0
 }
 
 /// The step that a trail rules out, if it does: half a turn to the side less than 90 degrees.
-const fn ruled_out(trail: usize) -> Option<Step> {
+const fn ruled_out(trail: usize) -> Option<CellStep> {
     let [right, up] = STEPS[trail % 8];
     let side = match trail / 8 {
         1 => 1,
@@ -114,7 +114,7 @@ const fn ruled_out(trail: usize) -> Option<Step> {
 }
 
 /// The trail of a step that rules out another one.
-const fn trail_that_rules_out(at: usize, step: Step) -> usize {
+const fn trail_that_rules_out(at: usize, step: CellStep) -> usize {
     let left = at + 8;
     if let Some([right, up]) = ruled_out(left)
         && right == step[0]
@@ -126,7 +126,7 @@ const fn trail_that_rules_out(at: usize, step: Step) -> usize {
 }
 
 #[expect(clippy::large_stack_arrays, reason = "it is made by the compiler")]
-const fn table() -> [[Onward; BLOCKS]; TRAILS] {
+const fn table() -> [[AllowedSteps; BLOCKS]; TRAILS] {
     let mut table = [[0; BLOCKS]; TRAILS];
     let mut free = 0;
     while free < BLOCKS {
@@ -165,7 +165,7 @@ const fn next() -> [[Trail; 16]; TRAILS] {
 }
 
 /// The steps to free cells; a diagonal one needs both of its corners.
-const fn open(free: Block) -> Onward {
+const fn open(free: Block) -> AllowedSteps {
     let (mut steps, mut at) = (0, 0);
     while at < STEPS.len() {
         let [right, up] = STEPS[at];
@@ -180,7 +180,7 @@ const fn open(free: Block) -> Onward {
 
 /// The steps to the cell that was left and to those of its neighbours that are neighbours here, too, and that it comes upon by a
 /// straight step: that costs less than to go by the middle, whatever the weights.
-const fn behind(trail: usize) -> Onward {
+const fn behind(trail: usize) -> AllowedSteps {
     if trail == ANYWHERE as usize {
         return 0;
     }
@@ -198,7 +198,7 @@ const fn behind(trail: usize) -> Onward {
 }
 
 /// Of some steps those that lead on where all cells cost the same, with what they rule out.
-const fn alike(steps: Onward, trail: usize, free: Block) -> Onward {
+const fn alike(steps: AllowedSteps, trail: usize, free: Block) -> AllowedSteps {
     if trail == ANYWHERE as usize {
         return steps;
     }
@@ -225,13 +225,13 @@ const fn alike(steps: Onward, trail: usize, free: Block) -> Onward {
 
 /// Whether a step at right angles to the one that led here ends where the cell that was left leads without the middle: at once, with
 /// the diagonal step's corner free, or by two straight steps around the corner, which is free.
-const fn leads_aside(came: Step, step: Step, free: Block) -> bool {
+const fn leads_aside(came: CellStep, step: CellStep, free: Block) -> bool {
     let turns = dot(came, step) == 0;
     turns && (!is_straight(came) || free & bit(less(step, came)) != 0)
 }
 
 /// Whether a trail rules out a step: straight and diagonal steps on both sides of it come to two that go between them.
-const fn is_ruled_out(trail: usize, step: Step, free: Block) -> bool {
+const fn is_ruled_out(trail: usize, step: CellStep, free: Block) -> bool {
     let came = STEPS[trail % 8];
     let Some([right, up]) = ruled_out(trail) else {
         return false;
@@ -241,7 +241,7 @@ const fn is_ruled_out(trail: usize, step: Step, free: Block) -> bool {
 }
 
 /// The turn that a step rules out after a trail, given that some cells are free.
-const fn turn_after(trail: usize, step: Step) -> Option<(Step, Block)> {
+const fn turn_after(trail: usize, step: CellStep) -> Option<(CellStep, Block)> {
     let came = STEPS[trail % 8];
     let straight = is_straight(came);
     if dot(came, step) == 2 || straight && is_straight(step) && dot(came, step) == 1 {

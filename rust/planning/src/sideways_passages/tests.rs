@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use stairs::{ClimbingConfig, Feet, Staircase};
 
 use super::*;
-use crate::path::ends::{End, Ends, run};
+use crate::path::ends::{PathEnd, PathEnds, run};
 use crate::{AStar, AStarConfig, Footprint, Goal, Path, Plan, Planner, Refusal, Sidle};
 
 /// Of the robot: the circle, and what it needs sideways, from front to back and across, m.
@@ -197,7 +197,7 @@ fn house() -> impl Strategy<Value = FloorView> {
 /// Cost of the cheapest route over what a planner has just read.
 fn cost(planner: &mut AStar, start: [f64; 2]) -> f64 {
     let (terrain, links) = (&planner.terrain, &planner.links);
-    let ends = Ends::new(terrain, &planner.outside, &GOAL, 0.0, &planner.config);
+    let ends = PathEnds::new(terrain, &planner.outside, &GOAL, 0.0, &planner.config);
     let start = terrain.index_at(start).unwrap();
     let route = run(
         &mut planner.search,
@@ -225,7 +225,7 @@ proptest! {
         if let Ok(path) = turned {
             prop_assert_eq!(touches(&view, &path), None, "{:?}", path);
             // What leads out of the window and back is compared with both, and by its length in the window alone.
-            let inside = oriented.followed.as_ref().is_some_and(|followed| followed.end == End::Goal);
+            let inside = oriented.followed.as_ref().is_some_and(|followed| followed.end == PathEnd::Goal);
             if inside {
                 prop_assert_eq!(path.sidles.is_empty(), turned_cost >= round_cost);
             }

@@ -5,7 +5,7 @@ use mapping::Surface;
 use settings::{NOT_NEGATIVE, settings, within};
 
 use crate::cells::around;
-use crate::{Sight, Stand, Terrain};
+use crate::{Sight, StandingAt, Terrain};
 
 settings! {
     /// Where the level that the robot stands on ends.
@@ -95,7 +95,7 @@ impl PlatformEdges {
         }
     }
 
-    fn close_gaps(&mut self, terrain: &mut Terrain, stand: &Stand, widest: usize) {
+    fn close_gaps(&mut self, terrain: &mut Terrain, stand: &StandingAt, widest: usize) {
         let cols = terrain.cols;
         let rows = self.ground.len() / cols.max(1);
         self.gaps.clear();

@@ -6,7 +6,7 @@ use stairs::{Edge, Sides, Stair};
 use super::*;
 use crate::Goal;
 use crate::climb_links::Way;
-use terrain::{Limits, Needs};
+use terrain::{HeightLimits, Needs};
 
 /// A step down to this height over an edge across the way at x, from this level.
 fn stride(x_m: f64, height_m: f64, level_m: f64) -> Stride {
@@ -60,7 +60,7 @@ fn a_step_is_taken_from_the_level_before_it_whatever_other_way_leads_over_its_ed
 
 /// Floor that is higher from x = 0.6 m on.
 fn terrain(higher_m: f32) -> Terrain {
-    let limits = Limits {
+    let limits = HeightLimits {
         floor_m: 0.01,
         step_m: 0.05,
     };
@@ -89,7 +89,7 @@ fn path(points_m: Vec<[f64; 2]>, climb: Climb) -> FollowedPath {
         radius_m: 0.1,
         height_m: None,
     };
-    let mut path = FollowedPath::from(points_m[0], goal, End::Goal);
+    let mut path = FollowedPath::from(points_m[0], goal, PathEnd::Goal);
     path.path.points_m = points_m;
     path.path.climbs = vec![climb];
     path
