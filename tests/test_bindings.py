@@ -77,12 +77,12 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
             r"navigation\.world_model must be one of fog, averaging, octree, got haze",
         ),
         ({"segmenter": "x"}, r"segmenter must be one of scan_line, .*, ransac, histogram, got x"),
-        ({"segmenter": "hough", "hough": {"angle": 0}}, r"navigation\.hough\.angle must be 0\.03"),
+        ({"segmenter": "hough", "hough": {"angle": 0}}, r"navigation\.hough\.angle must be from 0\.03"),
         ({"segmenter": "ransac", "ransac": {"samples": 0}}, r"navigation\.ransac\.samples must"),
         ({"segmenter": "histogram", "histogram": {"bin": 0}}, r"navigation\.histogram\.bin must"),
         (
             {"segmenter": "scan_line_1994", "scan_line_1994": {"strip": 0}},
-            r"navigation\.scan_line_1994\.strip must be 1 to 32 pixels, got 0",
+            r"navigation\.scan_line_1994\.strip must be from 1 to 32, got 0",
         ),
         ({"localizer": "truth"}, r"navigation\.localizer must be one of odometry, .*, got truth"),
         (

@@ -94,7 +94,7 @@ def test_settings_reach_it() -> None:
         ("scan_lines", {}, "navigation.segmenter must be one of scan_line, .*, got scan_lines"),
         ("scan_line", {"ground": {"no": 1}}, r"navigation\.ground\.no: unknown field `no`"),
         ("ransac", {"ransac": {"samples": 0}}, r"navigation\.ransac\.samples must be"),
-        ("scan_line_adaptive", {"scan_line_adaptive": {"strip": 1}}, r"strip must be 2 to 32"),
+        ("scan_line_adaptive", {"scan_line_adaptive": {"strip": 1}}, r"strip must be from 2 to 32"),
     ],
 )
 def test_what_cannot_be_used_is_refused_by_its_key(

@@ -56,7 +56,7 @@ pub(crate) struct PyTick {
     /// (x m, y m, z m, yaw rad) of the robot in the map, as believed.
     #[pyo3(get)]
     estimate: FlatPose,
-    /// The same by leg odometry alone, from the same start.
+    /// Pose of the robot in the map by leg odometry alone, from the same start.
     #[pyo3(get)]
     odometry: FlatPose,
 }

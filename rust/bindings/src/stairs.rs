@@ -137,7 +137,7 @@ impl PyStair {
         self.0.front_fit.as_ref().map(flat_fit)
     }
 
-    /// The same for the back edge; None also where the view ended there.
+    /// Fit of the back edge, as of the front one; None also where the view ended there.
     #[getter]
     fn back_fit(&self) -> Option<FlatFit> {
         self.0.back_fit.as_ref().map(flat_fit)

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-/// The same angle in (-pi, pi].
+/// Brings an angle into (-pi, pi].
 pub fn wrap_angle(angle_rad: f64) -> f64 {
     let wrapped = angle_rad.rem_euclid(TAU);
     if wrapped > PI { wrapped - TAU } else { wrapped }

@@ -41,7 +41,7 @@ impl PlanarPose {
         )
     }
 
-    /// The same pose the other way round.
+    /// Turns the pose round: source in target.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let (sin, cos) = self.yaw_rad.sin_cos();

@@ -49,7 +49,7 @@ impl<T, S> Pose<T, S> {
         ))
     }
 
-    /// The same pose the other way round.
+    /// Turns the pose round: `source_from_target`.
     #[must_use]
     pub fn inverse(&self) -> Pose<S, T> {
         Pose::wrap(self.inner.inverse())

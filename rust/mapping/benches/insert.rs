@@ -69,7 +69,7 @@ fn insert(criterion: &mut Criterion) {
     }
 }
 
-/// The same as 002 sees it.
+/// The scene as the sensor of 002 sees it.
 fn insert_into_two_maps(criterion: &mut Criterion) {
     let blocks = course();
     let frames: Vec<_> = (0..50)

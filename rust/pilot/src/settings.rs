@@ -26,7 +26,7 @@ pub struct Settings {
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StartSettings {
-    /// x and y, m.
+    /// Place x and y, m.
     pub position: [f64; 2],
     /// Height of the ground there, m.
     pub height: f64,
@@ -38,7 +38,7 @@ pub struct StartSettings {
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GoalSettings {
-    /// x and y, m.
+    /// Place x and y, m.
     pub position: [f64; 2],
     /// Height of the level, m, where given.
     #[serde(default)]

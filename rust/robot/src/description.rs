@@ -35,7 +35,7 @@ impl Side {
         }
     }
 
-    /// +1 for left, -1 for right: the sign of y.
+    /// Sign of y: +1 for left, -1 for right.
     pub const fn sign(self) -> f64 {
         match self {
             Self::Left => 1.0,

@@ -2,15 +2,11 @@
 #![expect(clippy::print_stdout, reason = "a bench says what it measured")]
 #![expect(clippy::expect_used, reason = "a bench may stop at a bug")]
 
-#[path = "../src/synthetic.rs"]
-#[expect(dead_code, reason = "shared with the tests, which use more of it")]
-mod synthetic;
-
 use std::time::Instant;
 
 use segmentation::finders::{ScanLine, ScanLineConfig};
 use segmentation::{GroundConfig, Planes, Segmenter};
-use synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
+use testkit::synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
 
 const FRAMES: usize = 400;
 /// Frames of open floor after which the ground is tracked.

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use crate::synthetic::Block;
+use testkit::synthetic::Block;
 
 /// Up to three boxes in front of the robot, on the ground or above it, into each other as they come.
 pub(crate) fn blocks() -> impl Strategy<Value = Vec<Block>> {

@@ -12,8 +12,8 @@ use crate::finders::{
     Histogram, HistogramConfig, Hough, HoughConfig, Ransac, RansacConfig, ScanLine, ScanLine1994,
     ScanLine1994Config, ScanLineAdaptive, ScanLineAdaptiveConfig, ScanLineConfig,
 };
-use crate::synthetic::{Block, CAMERA, GROUND, Noise, Scene, camera_pose};
 use crate::{GroundConfig, Planes, Segmenter};
+use testkit::synthetic::{Block, CAMERA, GROUND, Noise, Scene, camera_pose};
 
 /// The sensor's noise, px.
 const SIGMA: f64 = 0.125;

@@ -12,8 +12,6 @@ mod picture;
 mod planes;
 mod regions;
 #[cfg(test)]
-mod synthetic;
-#[cfg(test)]
 mod tiny_pictures;
 
 pub use finders::PARTS;

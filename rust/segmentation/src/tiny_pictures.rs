@@ -6,8 +6,8 @@ use crate::finders::{
     Histogram, HistogramConfig, Hough, HoughConfig, Ransac, RansacConfig, ScanLine, ScanLine1994,
     ScanLine1994Config, ScanLineAdaptive, ScanLineAdaptiveConfig, ScanLineConfig,
 };
-use crate::synthetic::camera_pose;
 use crate::{GroundConfig, Planes, Segmenter};
+use testkit::synthetic::camera_pose;
 
 /// Largest side, pixels: up to it some blocks of the picture are narrower than what is compared in them.
 const LARGEST: usize = 24;

@@ -1,15 +1,11 @@
 //! Time to fit one edge to an 88x72 frame with the sensor's noise: steps up and down, near and far.
 #![expect(clippy::expect_used, reason = "a bench may stop at a bug")]
 
-#[path = "../../segmentation/src/synthetic.rs"]
-#[expect(dead_code, reason = "shared with the tests, which use more of it")]
-mod synthetic;
-
 use criterion::{Criterion, criterion_group, criterion_main};
 use geometry::{Point, Robot};
 use segmentation::Planes;
 use stairs::{Edge, EdgeModel, EdgeModelTuning};
-use synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
+use testkit::synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
 
 /// A drop at `front_m`, wide enough to fill the picture.
 fn drop_at(front_m: f64, drop_m: f64) -> Scene {

@@ -2,17 +2,13 @@
 #![expect(clippy::print_stdout, reason = "a bench says what it measured")]
 #![expect(clippy::expect_used, reason = "a bench may stop at a bug")]
 
-#[path = "../../segmentation/src/synthetic.rs"]
-#[expect(dead_code, reason = "shared with the tests, which use more of it")]
-mod synthetic;
-
 use std::time::Instant;
 
 use geometry::Pose;
 use segmentation::finders::{ScanLine, ScanLineConfig};
 use segmentation::{GroundConfig, Planes, Segmenter};
 use stairs::{EdgeModel, EdgeModelTuning, Recognizer, StairsConfig};
-use synthetic::{CAMERA, Noise, Scene, camera_pose};
+use testkit::synthetic::{CAMERA, Noise, Scene, camera_pose};
 
 const FRAMES: usize = 400;
 

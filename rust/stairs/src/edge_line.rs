@@ -2,8 +2,6 @@
 
 use geometry::angle_between;
 
-use crate::Edge;
-
 /// The line of an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EdgeLine {
@@ -15,15 +13,13 @@ pub struct EdgeLine {
 }
 
 impl EdgeLine {
-    /// The line through an edge.
+    /// The line of an edge of this length about its middle, for one who goes over it in this direction.
     #[inline]
-    pub fn of<F>(edge: &Edge<F>) -> Self {
-        let middle = edge.middle().inner;
-        let heading_rad = edge.heading_rad();
+    pub(crate) fn new(middle_m: [f64; 2], heading_rad: f64, length_m: f64) -> Self {
         Self {
-            middle_m: [middle.x, middle.y],
+            middle_m,
             ahead: [heading_rad.cos(), heading_rad.sin()],
-            half_m: 0.5 * edge.length_m(),
+            half_m: 0.5 * length_m,
             heading_rad,
         }
     }

@@ -94,14 +94,21 @@ impl<F> Edge<F> {
         (-along.x).atan2(along.y)
     }
 
+    /// Its line seen from above, for one who goes over it.
+    #[inline]
+    pub fn as_line(&self) -> EdgeLine {
+        let middle = self.middle().inner;
+        EdgeLine::new([middle.x, middle.y], self.heading_rad(), self.length_m())
+    }
+
     /// How far a place lies beyond the edge, m; negative in front of it.
     pub fn beyond_m(&self, at_m: [f64; 2]) -> f64 {
-        EdgeLine::of(self).beyond_m(at_m)
+        self.as_line().beyond_m(at_m)
     }
 
     /// How far to the left of the edge's middle a place lies, m.
     pub fn aside_m(&self, at_m: [f64; 2]) -> f64 {
-        EdgeLine::of(self).offset_m(at_m)
+        self.as_line().offset_m(at_m)
     }
 
     /// Where one crosses its line who goes straight on from a place, square to it, m.

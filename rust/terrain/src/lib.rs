@@ -7,7 +7,6 @@
 //! ([`LongerLandings`]).
 
 mod cells;
-mod config;
 mod goal_level;
 mod longer_landings;
 pub mod rules;
@@ -20,9 +19,9 @@ mod terrain;
 #[cfg(test)]
 mod testing;
 
-pub use config::TerrainConfig;
 pub use goal_level::{GoalLevel, GoalLevelConfig};
 pub use longer_landings::{LongerLandings, LongerLandingsConfig};
+pub use rules::config::TerrainConfig;
 pub use rules::voronoi::VoronoiConfig;
 pub use rules::{RULES, Rule, Rules};
 pub use sight::{CellSettings, HeightLimits, Needs, Rectangle, Sight, StandingAt};

@@ -6,7 +6,7 @@
 use geometry::{Goal, Map, Point, same_level};
 use mapping::{FloorView, Surface};
 use settings::{settings, within};
-use stairs::{Edge, EdgeLine, Stair, Staircase};
+use stairs::{Edge, Stair, Staircase};
 
 use crate::StandingAt;
 
@@ -60,16 +60,16 @@ impl LongerLandings {
 
 /// Whether a place lies between a stair's edges.
 fn is_on(stair: &Stair<Map>, at_m: [f64; 2]) -> bool {
-    let (front, back) = (EdgeLine::of(&stair.front), EdgeLine::of(&stair.back));
+    let (front, back) = (stair.front.as_line(), stair.back.as_line());
     let beside = front.offset_m(at_m).abs() <= front.half_m();
     beside && front.beyond_m(at_m) >= 0.0 && back.beyond_m(at_m) <= 0.0
 }
 
 /// How much deeper a stair would be if the goal's disc were on it, m, where it lies straight behind and no further than this, m.
 fn missing_m(stair: &Stair<Map>, goal: &Goal, farthest_m: f64) -> Option<f64> {
-    let (front, at_m) = (EdgeLine::of(&stair.front), [goal.x_m, goal.y_m]);
+    let (front, at_m) = (stair.front.as_line(), [goal.x_m, goal.y_m]);
     let straight = front.offset_m(at_m).abs() <= front.half_m();
-    let missing_m = EdgeLine::of(&stair.back).beyond_m(at_m) + goal.radius_m;
+    let missing_m = stair.back.as_line().beyond_m(at_m) + goal.radius_m;
     let wanted = straight && front.beyond_m(at_m) > 0.0 && stair.back_fit.is_none();
     (wanted && (0.0..=farthest_m).contains(&missing_m)).then_some(missing_m)
 }
@@ -82,7 +82,7 @@ fn goes_on(
     sightings: u16,
     tolerance_m: f64,
 ) -> bool {
-    let (back, cell_m) = (EdgeLine::of(&stair.back), view.lattice.cell_m);
+    let (back, cell_m) = (stair.back.as_line(), view.lattice.cell_m);
     // Beside its edges a tread's cells may have either height.
     let half_m = (back.half_m() - cell_m).max(0.0);
     let (rows, cols) = (missing_m / cell_m, 2.0 * half_m / cell_m);

@@ -5,6 +5,7 @@
 
 mod by_distance;
 mod clearance;
+pub(crate) mod config;
 pub mod edge_costs;
 pub mod escape;
 pub mod far_levels;

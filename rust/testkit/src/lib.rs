@@ -1,4 +1,4 @@
-//! What the tests of several crates need: a small biped, and the observations that it would make on a walk.
+//! What the tests of several crates need: a small biped, the observations that it would make on a walk, and pictures of blocks on the ground.
 //!
 //! For tests only: no crate has it among its dependencies, some among their dependencies for tests.
 
@@ -9,6 +9,7 @@
 
 mod biped;
 mod standing;
+pub mod synthetic;
 mod walk;
 
 pub use biped::biped;

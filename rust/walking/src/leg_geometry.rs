@@ -20,7 +20,7 @@ const AXES: [(&str, [f64; 3]); 5] = [
 /// A leg at joint angles zero, in the torso's frame.
 #[derive(Debug, Clone)]
 pub(crate) struct LegGeometry {
-    /// +1 where a joint turns about the positive axis, else -1.
+    /// Sign of a joint: +1 where it turns about the positive axis, else -1.
     pub(crate) signs: [f64; 6],
     /// By how much the yaw axis is turned about x from upright, rad: its upper end slants to the right where positive.
     pub(crate) slant_rad: f64,

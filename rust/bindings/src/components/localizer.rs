@@ -19,7 +19,7 @@ pub(crate) fn localizer(object: Py<PyAny>) -> Box<dyn Localizer> {
 }
 
 impl PythonLocalizer {
-    /// x, y and z, m, and yaw, rad.
+    /// Place x, y and z, m, and yaw, rad.
     fn pose(&self, py: Python<'_>, body: &BodyState) -> PyResult<[f64; 4]> {
         let argument = (PyBodyState(body.clone()),);
         let pose: [f64; 4] = self

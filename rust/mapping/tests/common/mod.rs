@@ -76,7 +76,7 @@ pub fn look(
     look_through(CAMERA, blocks, map_from_robot, robot_from_camera)
 }
 
-/// The same through another camera.
+/// Planes of a scene through another camera.
 pub fn look_through(
     camera: Intrinsics,
     blocks: &[Block],

@@ -1,7 +1,7 @@
 //! From stair to stair: the steps of a climb, and where it ends.
 
 use geometry::{Map, same_level};
-use stairs::{EdgeLine, Footing, Onward, Stair, Unfit};
+use stairs::{Footing, Onward, Stair, Unfit};
 
 use super::directed_stairs::{After, ground_behind};
 use super::room_at_edges::{
@@ -43,7 +43,7 @@ impl ClimbLinks {
         let (mut fixed, mut fit, mut cost_m) = (entry.fixed, Fit::Holds, 0.0);
         let mut before: Option<(Way, Landing, f64)> = None;
         for _ in 0..tuning.climbs.most_steps {
-            let line = EdgeLine::of(&stair.front);
+            let line = stair.front.as_line();
             let crossing_m = line.at(offset_m, 0.0);
             let limits = (scene.climbing, &tuning.directed_stairs);
             let after = self
@@ -91,7 +91,7 @@ impl ClimbLinks {
             };
             (stair, index) = (next, next_index);
             fixed = depth_m <= scene.config.stride;
-            let edge = EdgeLine::of(&stair.front);
+            let edge = stair.front.as_line();
             let range_m = range_m(scene, &edge);
             offset_m = edge.offset_m(at_m).clamp(-range_m, range_m);
         }
@@ -129,7 +129,7 @@ impl ClimbLinks {
         crossing_m: [f64; 2],
         after: After,
     ) -> Stride {
-        let line = EdgeLine::of(&stair.front);
+        let line = stair.front.as_line();
         let rise_m = stair.height_m() - level_m;
         let next = match after {
             After::Stair(next, depth_m) => {
@@ -167,7 +167,7 @@ impl ClimbLinks {
         let (goal, stair) = (&scene.goal, &on.stair);
         let tuning = &scene.config.tuning;
         let tolerance_m = tuning.room_at_edges.tolerance;
-        let line = EdgeLine::of(&stair.front);
+        let line = stair.front.as_line();
         let Some(at_m) = self.strides.last().map(|stride| stride.to_m) else {
             return;
         };

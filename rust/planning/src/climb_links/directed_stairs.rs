@@ -52,8 +52,8 @@ impl DirectedStairs {
             for stair in [*stair, flipped(stair)] {
                 self.all.push(DirectedStair {
                     stair,
-                    front: EdgeLine::of(&stair.front),
-                    back: EdgeLine::of(&stair.back),
+                    front: stair.front.as_line(),
+                    back: stair.back.as_line(),
                 });
             }
         }
@@ -89,7 +89,7 @@ impl DirectedStairs {
         own: Option<usize>,
         crossing_m: [f64; 2],
     ) -> After {
-        let back = EdgeLine::of(&stair.back);
+        let back = stair.back.as_line();
         let own_depth_m = -back.beyond_m(crossing_m);
         if let Some(next) = self.following((climbing, tuning), stair, own, crossing_m) {
             return next;
@@ -115,7 +115,7 @@ impl DirectedStairs {
         own: Option<usize>,
         crossing_m: [f64; 2],
     ) -> Option<After> {
-        let back = EdgeLine::of(&stair.back);
+        let back = stair.back.as_line();
         let own_depth_m = -back.beyond_m(crossing_m);
         let (askew_rad, joint_m) = (tuning.askew, tuning.joint);
         let ends_there = stair.back_fit.is_some() || stair.seen_ends.back > 0;

@@ -1,7 +1,7 @@
 //! How a climb begins: where the robot lines up before the edge of a stair, or stands before it already.
 
 use geometry::{Map, angle_between, same_level, two_levels};
-use stairs::{EdgeLine, Stair, Staircase};
+use stairs::{Stair, Staircase};
 use terrain::StairOutline;
 
 use super::climbs::Entry;
@@ -85,7 +85,7 @@ impl ClimbLinks {
         if !differs(scene.climbing, rise_m) {
             return;
         }
-        let line = EdgeLine::of(&stair.front);
+        let line = stair.front.as_line();
         let toes_m = scene.climbing.set_for(rise_m).approach_x;
         let before_m = toes_m - 0.5 * scene.feet.length_m;
         let tolerance_m = scene.config.tuning.room_at_edges.tolerance;
@@ -113,7 +113,7 @@ impl ClimbLinks {
     fn enter_from_start(&mut self, scene: &Scene<'_>, stair: Stair<Map>, index: Option<usize>) {
         let (terrain, stand, tuning) = (scene.terrain, &scene.stand, &scene.config.tuning);
         let entering = &tuning.entries;
-        let line = EdgeLine::of(&stair.front);
+        let line = stair.front.as_line();
         let rise_m = stair.height_m() - stand.height_m;
         let (before_m, offset_m) = (-line.beyond_m(stand.at_m), line.offset_m(stand.at_m));
         let range_m = range_m(scene, &line);

@@ -1,7 +1,6 @@
 //! What is left of the path that is being followed, where it holds: its passed part cut off, its steps as the stairs are seen now.
 
 use geometry::same_level;
-use stairs::EdgeLine;
 use terrain::{StandingAt, Terrain};
 
 use super::ends::PathEnd;
@@ -108,7 +107,7 @@ fn refresh(
     for (i, step) in climb.steps.iter_mut().enumerate() {
         let now = seen_now(step, level_m, (links, tuning))?;
         level_m = Some(now.step.stair.height_m());
-        let line = EdgeLine::of(&now.step.stair.front);
+        let line = now.step.stair.front.as_line();
         let tread = if i == 0 { tread } else { Some(first + i) };
         let offset_m = tread.map_or(line.offset_m(step.crossing_m), |from| {
             let straight_m = line.offset_m(points_m[from]);
@@ -139,11 +138,11 @@ fn seen_now<'a>(
     level_m: Option<f64>,
     (links, tuning): (&'a ClimbLinks, &FollowedPathTuning),
 ) -> Option<&'a Stride> {
-    let before = EdgeLine::of(&step.stair.front);
+    let before = step.stair.front.as_line();
     let rises_m = |stride: &Stride| (stride.step.rise_m - step.rise_m).abs();
     let same = |stride: &&Stride| {
         let now = &stride.step;
-        let line = EdgeLine::of(&now.stair.front);
+        let line = now.stair.front.as_line();
         let from_m = now.stair.height_m() - now.rise_m;
         stride.limit.is_none()
             && level_m.is_none_or(|level_m| same_level(from_m, level_m, tuning.tolerance))

@@ -39,7 +39,7 @@ impl Course {
         }
     }
 
-    /// The same with walls on both sides, a metre apart.
+    /// Stairs between walls a metre apart.
     pub(crate) fn stage() -> Self {
         let mut course = Self::floor();
         course.wall_in(0.5);
@@ -57,7 +57,7 @@ impl Course {
         course
     }
 
-    /// The same without the landing, across a stage.
+    /// Stairs without a landing, across a stage.
     pub(crate) fn in_the_air(steps: usize, rise_m: f64) -> Self {
         let mut course = Self::floor();
         for i in 0..steps {

@@ -47,8 +47,8 @@ impl<'a> NearFeet<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::{CAMERA, camera_pose};
     use proptest::prelude::*;
+    use testkit::synthetic::{CAMERA, camera_pose};
 
     proptest! {
         #[test]

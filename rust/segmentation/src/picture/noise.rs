@@ -174,7 +174,7 @@ fn rounded_down(value: f32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::Noise;
+    use testkit::synthetic::Noise;
 
     fn measured(sigma_px: f64) -> f32 {
         let (width, height) = (88, 72);

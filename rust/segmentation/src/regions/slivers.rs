@@ -123,7 +123,7 @@ impl Slivers {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::{CAMERA, camera_pose};
+    use testkit::synthetic::{CAMERA, camera_pose};
 
     /// Whether a strip of `rows` rows between two treads is a sliver, at this place between their heights (0 to 1).
     fn sliver(rows: usize, share: f32) -> bool {

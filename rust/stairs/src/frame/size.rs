@@ -44,7 +44,7 @@ mod tests {
     use super::*;
     use crate::ViewTuning;
     use crate::stair::level_edge;
-    use crate::synthetic::{CAMERA, camera_pose};
+    use testkit::synthetic::{CAMERA, camera_pose};
 
     /// A level quadrangle between two edges square to the way, each around y = 0.
     fn stair(front_m: f64, back_m: f64, depth_m: f64) -> Stair<Robot> {

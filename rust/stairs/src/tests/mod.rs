@@ -11,8 +11,8 @@ use segmentation::finders::{ScanLine, ScanLineConfig};
 use segmentation::{GroundConfig, Planes, Segmenter};
 use sensing::Scan;
 
-use crate::synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
 use crate::{Recognizer, Staircase, StairsConfig};
+use testkit::synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
 
 /// The sensor's noise, px.
 const SIGMA: f64 = 0.125;

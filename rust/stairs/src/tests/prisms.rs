@@ -5,7 +5,7 @@ use nalgebra::{Point2, Point3, Vector3};
 use segmentation::{PlaneRegion, Planes};
 use sensing::Scan;
 
-use crate::synthetic::CAMERA;
+use testkit::synthetic::CAMERA;
 
 /// A solid from below to a level top.
 #[derive(Debug, Clone)]

@@ -195,7 +195,7 @@ mod tests {
     use super::super::lines::{LineRules, Lines};
     use super::*;
     use crate::picture::view::View;
-    use crate::synthetic::{CAMERA, camera_pose};
+    use testkit::synthetic::{CAMERA, camera_pose};
 
     fn grown(d: impl Fn(usize, usize) -> f32) -> (Vec<u16>, FreePlanes) {
         let (width, height) = (CAMERA.width, CAMERA.height);

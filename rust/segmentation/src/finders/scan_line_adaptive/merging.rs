@@ -196,7 +196,7 @@ mod tests {
     use super::super::pieces::{CutRules, Cutter};
     use super::*;
     use crate::picture::pixels::Picture;
-    use crate::synthetic::Noise;
+    use testkit::synthetic::Noise;
 
     const NOISE: NoiseRange = NoiseRange {
         least_px: 0.02,

@@ -129,8 +129,8 @@ impl PlanePatch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::Noise;
     use proptest::prelude::*;
+    use testkit::synthetic::Noise;
 
     const ANY: NoiseRange = NoiseRange {
         least_px: 1e-3,

@@ -102,7 +102,7 @@ impl Cutter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::Noise;
+    use testkit::synthetic::Noise;
 
     const RULES: CutRules = CutRules {
         strip: 4,

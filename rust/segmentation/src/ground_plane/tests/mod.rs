@@ -16,7 +16,7 @@ use super::config::GroundConfig;
 use crate::arbitrary::blocks;
 use crate::finders::scan_line::{ScanLine, ScanLineConfig};
 use crate::planes::{KnownFloor, NothingKnown, Planes, SegmentError, Segmenter};
-use crate::synthetic::{Block, CAMERA, GROUND, NOTHING, Noise, Scene, camera_pose};
+use testkit::synthetic::{Block, CAMERA, GROUND, NOTHING, Noise, Scene, camera_pose};
 
 /// The sensor's noise, px.
 const SIGMA: f64 = 0.125;

@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::*;
 use crate::regions::region::Region;
-use crate::synthetic::{CAMERA, GROUND, NOTHING, Noise, Scene, camera_pose};
+use testkit::synthetic::{CAMERA, GROUND, NOTHING, Noise, Scene, camera_pose};
 
 const SIGMA_PX: f32 = 0.125;
 

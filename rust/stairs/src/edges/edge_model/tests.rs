@@ -1,10 +1,10 @@
 //! Laws of the step model, on exact rays and with the errors of block matching.
 
-use crate::synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
 use geometry::{Camera, Map, Point, Pose, Robot};
 use proptest::prelude::*;
 use segmentation::Planes;
 use sensing::Scan;
+use testkit::synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
 
 use super::*;
 

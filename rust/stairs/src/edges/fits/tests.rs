@@ -4,8 +4,8 @@ use geometry::{Camera, Point};
 use proptest::prelude::*;
 
 use super::*;
-use crate::synthetic::{CAMERA, camera_pose};
 use crate::{FittedEdge, Sides};
+use testkit::synthetic::{CAMERA, camera_pose};
 
 /// A step of 30 mm whose front was labelled 1 cm too far, and whose edge was fitted between levels that are off.
 fn front_fit(off_m: f64) -> Option<EdgeFit> {

@@ -4,7 +4,7 @@ use geometry::{Point, Robot};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
 use super::*;
-use crate::synthetic::Noise;
+use testkit::synthetic::Noise;
 
 fn camera(pan_rad: f64) -> Pose<Map, Camera> {
     let turn = UnitQuaternion::from_euler_angles(0.0, pan_rad, 0.0);

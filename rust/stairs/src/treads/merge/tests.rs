@@ -207,7 +207,7 @@ proptest! {
 /// Sightings of treads that lie well apart, each shifted a little, in any order.
 #[test]
 fn the_order_of_sightings_does_not_matter() {
-    let mut noise = crate::synthetic::Noise::new(5);
+    let mut noise = testkit::synthetic::Noise::new(5);
     let sightings: Vec<_> = (0..24)
         .map(|i| {
             let level = f64::from(i % 4);

@@ -1,11 +1,11 @@
-//! Test support: exact disparities of a ground plane and boxes, and the errors of block matching on top.
+//! Exact disparities of a ground plane and boxes, and the errors of block matching on top.
 
 use geometry::{Camera, GOLDEN, Pose, Robot, SplitMix64};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use sensing::{Intrinsics, Scan};
 
 /// The small humanoid's camera.
-pub(crate) const CAMERA: Intrinsics = Intrinsics {
+pub const CAMERA: Intrinsics = Intrinsics {
     width: 88,
     height: 72,
     focal_px: 101.2,
@@ -13,32 +13,33 @@ pub(crate) const CAMERA: Intrinsics = Intrinsics {
 };
 
 /// Seeded random numbers of several kinds.
-pub(crate) struct Noise(SplitMix64);
+pub struct Noise(SplitMix64);
 
 impl Noise {
-    pub(crate) fn new(seed: u64) -> Self {
+    /// A stream of its own for each seed.
+    pub fn new(seed: u64) -> Self {
         Self(SplitMix64::new(
             seed.wrapping_mul(GOLDEN) ^ 0x5851_F42D_4C95_7F2D,
         ))
     }
 
     /// Uniform in [0, 1).
-    pub(crate) fn uniform(&mut self) -> f64 {
+    pub fn uniform(&mut self) -> f64 {
         self.0.uniform()
     }
 
     /// Uniform between -limit and limit.
-    pub(crate) fn within(&mut self, limit: f64) -> f64 {
+    pub fn within(&mut self, limit: f64) -> f64 {
         limit * (2.0 * self.uniform() - 1.0)
     }
 
     /// Normal with sigma 1: twelve uniforms.
-    pub(crate) fn normal(&mut self) -> f64 {
+    pub fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.uniform()).sum::<f64>() - 6.0
     }
 
     /// Adds noise of this sigma that is the mean over 5x5 windows, as block matching has it.
-    pub(crate) fn correlated(&mut self, width: usize, sigma_px: f64, image: &mut [f32]) {
+    pub fn correlated(&mut self, width: usize, sigma_px: f64, image: &mut [f32]) {
         let height = image.len() / width;
         let (wide, high) = (width + 4, height + 4);
         let white: Vec<f64> = (0..wide * high).map(|_| self.normal()).collect();
@@ -55,25 +56,29 @@ impl Noise {
 
 /// An upright box: its lowest and its highest corner, m, world = robot frame.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Block {
-    pub(crate) low_m: [f64; 3],
-    pub(crate) high_m: [f64; 3],
+pub struct Block {
+    /// Its lowest corner in the robot frame, m.
+    pub low_m: [f64; 3],
+    /// Its highest corner, m.
+    pub high_m: [f64; 3],
 }
 
 /// The ground z = 0 where `ground`, and blocks.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Scene {
-    pub(crate) ground: bool,
-    pub(crate) blocks: Vec<Block>,
+pub struct Scene {
+    /// Whether there is ground at height 0.
+    pub ground: bool,
+    /// What stands on it.
+    pub blocks: Vec<Block>,
 }
 
 /// Label of a pixel that saw nothing.
-pub(crate) const NOTHING: u16 = 0;
+pub const NOTHING: u16 = 0;
 /// Label of the ground; a block's top has twice its number from 1 on plus this, its sides one less than its top.
-pub(crate) const GROUND: u16 = 1;
+pub const GROUND: u16 = 1;
 
 /// A camera 0.5 m above the ground that looks down by `tilt_rad` and left by `pan_rad`.
-pub(crate) fn camera_pose(pan_rad: f64, tilt_rad: f64) -> Pose<Robot, Camera> {
+pub fn camera_pose(pan_rad: f64, tilt_rad: f64) -> Pose<Robot, Camera> {
     let optical =
         Rotation3::from_matrix_unchecked(Matrix3::new(0., 0., 1., -1., 0., 0., 0., -1., 0.));
     let rotation = Rotation3::from_axis_angle(&Vector3::z_axis(), pan_rad)
@@ -87,7 +92,7 @@ pub(crate) fn camera_pose(pan_rad: f64, tilt_rad: f64) -> Pose<Robot, Camera> {
 
 impl Scene {
     /// Open floor.
-    pub(crate) fn floor() -> Self {
+    pub fn floor() -> Self {
         Self {
             ground: true,
             blocks: Vec::new(),
@@ -95,7 +100,7 @@ impl Scene {
     }
 
     /// Open floor and blocks.
-    pub(crate) fn with(blocks: &[Block]) -> Self {
+    pub fn with(blocks: &[Block]) -> Self {
         Self {
             ground: true,
             blocks: blocks.to_vec(),
@@ -103,7 +108,7 @@ impl Scene {
     }
 
     /// Steps across the way, the first edge at `front_m`.
-    pub(crate) fn stairs(front_m: f64, rise_m: f64, tread_m: f64, steps: usize) -> Self {
+    pub fn stairs(front_m: f64, rise_m: f64, tread_m: f64, steps: usize) -> Self {
         let block = |i: usize| {
             let end = if i + 1 == steps { 1.5 } else { tread_m };
             let front = front_m + i as f64 * tread_m;
@@ -143,7 +148,7 @@ impl Scene {
     }
 
     /// Exact disparities and labels from this camera pose; farther than 4 m counts as nothing.
-    pub(crate) fn exact(&self, truth: &Pose<Robot, Camera>) -> (Vec<f32>, Vec<u16>) {
+    pub fn exact(&self, truth: &Pose<Robot, Camera>) -> (Vec<f32>, Vec<u16>) {
         let (mut disparity, mut labels) = (Vec::new(), Vec::new());
         for row in 0..CAMERA.height {
             for col in 0..CAMERA.width {
@@ -164,7 +169,7 @@ impl Scene {
     }
 
     /// A scan as the sensor would give it: correlated noise, 5 % drop-outs in clumps, 0.7 % mismatches, no border.
-    pub(crate) fn scan(
+    pub fn scan(
         &self,
         truth: &Pose<Robot, Camera>,
         believed: Pose<Robot, Camera>,
