@@ -26,6 +26,7 @@ mod search;
 mod setback;
 mod state;
 mod stepper;
+mod tuning;
 mod walk;
 
 #[cfg(test)]
@@ -35,7 +36,7 @@ pub(crate) mod simulation;
 #[cfg(test)]
 mod tests;
 
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 use stairs::{ClimbingConfig, Feet};
 
 use crate::machine::{Interruption, Limits, Machine, State as _, Tick};
@@ -44,7 +45,7 @@ use crate::{
     WalkingBehaviour,
 };
 pub use config::StairClimbingConfig;
-use flight::Flight;
+use flight::{Flight, Rules};
 use head::Head;
 use leg::Leg;
 use memory::Memory;
@@ -54,16 +55,6 @@ pub(crate) use state::State;
 use stepper::Stepper;
 use walk::Ahead;
 
-/// How long a climb waits for what, and in what words it gives up.
-const LIMITS: Limits = Limits {
-    blind_after_s: 2.0,
-    blind_limit_s: 12.0,
-    blind_from_the_start: false,
-    idle_limit_s: 60.0,
-    idle_words: "no step could be taken",
-    place_words: ", before or on stairs",
-};
-
 /// How stairs are climbed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pace {
@@ -71,6 +62,16 @@ pub enum Pace {
     StepByStep,
     /// One foot a step without stopping, where the treads allow it.
     Continuous,
+}
+
+impl Pace {
+    /// The table in which the settings of the behaviour stand that climbs so.
+    const fn key(self) -> &'static str {
+        match self {
+            Self::StepByStep => StairClimbingConfig::KEY,
+            Self::Continuous => "navigation.continuous",
+        }
+    }
 }
 
 /// Walks to the goal, and over stairs.
@@ -98,20 +99,31 @@ impl StairClimbing {
         walking: WalkingBehaviour,
         climbing: ClimbingConfig,
         feet: Feet,
+        eyes: &robot::Head,
         pace: Pace,
     ) -> Result<Self, ConfigError> {
-        config.check()?;
+        config.check_as(pace.key())?;
         climbing.check()?;
+        let tuning = &config.tuning;
+        let limits = Limits {
+            blind_after_s: tuning.blind_after,
+            patience: 1.0,
+            blind_limit_s: tuning.blind_limit,
+            blind_from_the_start: false,
+            idle_limit_s: tuning.idle_limit,
+            idle_words: "no step could be taken",
+            place_words: ", before or on stairs",
+        };
         Ok(Self {
-            head: Head::new(config.gaze_speed, config.gaze_steep),
+            head: Head::new(&config, eyes),
+            machine: Machine::new(State::Walk, limits),
+            flight: Flight::new(tuning),
+            stepper: Stepper::new(tuning.stepper.clone()),
             config,
             climbing,
             feet,
             pace,
             walking,
-            machine: Machine::new(State::Walk, LIMITS),
-            flight: Flight::default(),
-            stepper: Stepper::default(),
             memory: Memory::default(),
             ahead: Ahead::default(),
             had_stumbled: false,
@@ -165,6 +177,14 @@ impl StairClimbing {
             State::StepBack { .. } => self.step_back(tick),
             State::Finish { part, lasted_s } => self.finish(tick, *part, *lasted_s),
             State::Blind { looks } => self.wait_for_sight(tick, *looks),
+        }
+    }
+
+    /// By what steps are found among the stairs.
+    const fn rules(&self) -> Rules<'_> {
+        Rules {
+            climbing: &self.climbing,
+            lookup: &self.config.tuning.lookup,
         }
     }
 

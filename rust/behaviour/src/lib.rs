@@ -4,6 +4,7 @@ mod climbing;
 mod command;
 mod decision;
 mod machine;
+mod place;
 mod walking;
 
 pub use climbing::{Pace, StairClimbing, StairClimbingConfig};

@@ -11,23 +11,27 @@ mod locate;
 mod look_around;
 mod obstacles;
 mod progress;
+mod side_leg;
 mod sidle;
 mod state;
 mod stop;
+mod tick;
 mod track;
+mod tuning;
 mod turn;
 mod unknown;
 mod walk;
 
 #[cfg(test)]
-mod simulation;
+pub(crate) mod simulation;
 #[cfg(test)]
 mod tests;
 
 use planning::Goal;
-use settings::ConfigError;
+use robot::Extent;
+use settings::{ConfigError, Table};
 
-use crate::machine::{Interruption, Limits, Machine, State as _, Stopwatch, Tick};
+use crate::machine::{Interruption, Limits, Machine, State as _, Stopwatch};
 use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Situation};
 pub use config::WalkingConfig;
 use gaze::{Gazer, Sweep};
@@ -35,16 +39,17 @@ use obstacles::Followed;
 pub(crate) use obstacles::{is_edge, is_roomy};
 use progress::Progress;
 pub(crate) use state::State;
-pub(crate) use track::Track;
+use tick::WayTick;
+use track::Track;
+pub(crate) use tuning::WayObstaclesTuning;
 use unknown::Looked;
-
-/// Standing, looking and waiting without a step towards the goal ends after this, s.
-const LONGEST_IDLE_S: f64 = 75.0;
 
 /// Walks to the goal by what the robot sees.
 #[derive(Debug, Clone)]
 pub struct WalkingBehaviour {
     config: WalkingConfig,
+    /// Half the distance between the outer edges of the feet, as far as the ground matters to them, m.
+    foot_side_m: f64,
     machine: Machine<State>,
     /// How long the robot stands.
     standing: Stopwatch,
@@ -71,19 +76,21 @@ pub struct WalkingBehaviour {
 
 impl WalkingBehaviour {
     /// Refuses settings that cannot be used.
-    pub fn new(config: WalkingConfig) -> Result<Self, ConfigError> {
+    pub fn new(config: WalkingConfig, size: &Extent) -> Result<Self, ConfigError> {
         config.check()?;
         let limits = Limits {
             blind_after_s: config.blind_after,
+            patience: config.tuning.look_around.patience,
             blind_limit_s: config.blind_limit,
             blind_from_the_start: true,
-            idle_limit_s: LONGEST_IDLE_S,
+            idle_limit_s: config.tuning.idle_limit,
             idle_words: "no step towards the goal could be taken",
             place_words: "",
         };
         Ok(Self {
             machine: Machine::new(State::LookAround(Sweep::around(&config)), limits),
             config,
+            foot_side_m: size.foot_side,
             standing: Stopwatch::default(),
             no_way: Stopwatch::default(),
             way: Stopwatch::default(),
@@ -101,19 +108,19 @@ impl WalkingBehaviour {
         })
     }
 
-    fn tick<'a>(&self, situation: &'a Situation<'a>) -> Tick<'a> {
+    fn tick<'a>(&self, situation: &'a Situation<'a>) -> WayTick<'a> {
         let tick = self.machine.read(situation);
         let path = situation.plan.and_then(|plan| plan.way.as_ref().ok());
         let track = path.and_then(|path| {
-            let track = Track::new(path, &tick.pose, self.config.lookahead)?;
+            let track = Track::new(path, &tick.pose, &self.config)?;
             let straight = path.sidles.is_empty();
             let lengthened = |track| self.lengthened(track, &tick);
             Some((path, if straight { lengthened(track) } else { track }))
         });
-        Tick { track, ..tick }
+        WayTick { tick, track }
     }
 
-    fn keep_time(&mut self, tick: &Tick<'_>) {
+    fn keep_time(&mut self, tick: &WayTick<'_>) {
         let situation = tick.situation;
         if !self.machine.has_begun() {
             self.gazer.start(situation.gaze);
@@ -143,7 +150,7 @@ impl WalkingBehaviour {
     }
 
     /// Ends the present state if something happened that must.
-    fn interrupt(&mut self, tick: &Tick<'_>) {
+    fn interrupt(&mut self, tick: &WayTick<'_>) {
         let locates = matches!(self.machine.state(), State::Locate(_));
         let has_arrived = || !locates && self.has_arrived(tick);
         match self.machine.interruption(tick, has_arrived) {
@@ -159,7 +166,7 @@ impl WalkingBehaviour {
     }
 
     /// One tick of the present state.
-    fn act(&mut self, tick: &Tick<'_>) -> Motion {
+    fn act(&mut self, tick: &WayTick<'_>) -> Motion {
         match self.machine.state() {
             State::LookAround(_) => self.look_around(tick),
             State::Walk => self.walk(tick),
@@ -174,7 +181,7 @@ impl WalkingBehaviour {
     }
 
     /// Stands and looks ahead.
-    fn stand(&mut self, tick: &Tick<'_>) -> Motion {
+    fn stand(&mut self, tick: &WayTick<'_>) -> Motion {
         self.gaze_at(tick, 0.0, self.config.gaze_far);
         Motion::Stand
     }

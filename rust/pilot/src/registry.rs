@@ -11,7 +11,7 @@ use localization::{
 };
 use mapping::{Averaging, Fog, TwoMaps, WorldModel};
 use planning::{AStar, Guided, Planner};
-use robot::{Body, Side};
+use robot::{Body, Description, Side};
 use segmentation::{Histogram, Hough, Ransac, ScanLine, ScanLine1994, ScanLineAdaptive, Segmenter};
 use sensing::Intrinsics;
 use serde::Serialize;
@@ -211,14 +211,25 @@ pub(crate) fn feet(body: &Body, walker: &Walker) -> Feet {
     }
 }
 
-pub(crate) fn behaviour(settings: &Settings, feet: Feet) -> Result<Box<dyn Behaviour>, PilotError> {
+pub(crate) fn behaviour(
+    settings: &Settings,
+    body: &Description,
+    feet: Feet,
+) -> Result<Box<dyn Behaviour>, PilotError> {
     let tables = &settings.navigation.tables;
+    let walking = || -> Result<_, PilotError> {
+        Ok(WalkingBehaviour::new(
+            table(tables, "walking")?,
+            &body.body,
+        )?)
+    };
     let climbing = |name, pace| {
         StairClimbing::new(
             table(tables, name)?,
-            WalkingBehaviour::new(table(tables, "walking")?)?,
+            walking()?,
             table(tables, "climbing")?,
             feet,
+            &body.head,
             pace,
         )
         .map_err(PilotError::from)
@@ -226,7 +237,7 @@ pub(crate) fn behaviour(settings: &Settings, feet: Feet) -> Result<Box<dyn Behav
     match settings.navigation.behaviour.as_str() {
         name @ "stair_climbing" => Ok(Box::new(climbing(name, Pace::StepByStep)?)),
         name @ "continuous" => Ok(Box::new(climbing(name, Pace::Continuous)?)),
-        "walking" => Ok(Box::new(WalkingBehaviour::new(table(tables, "walking")?)?)),
+        "walking" => Ok(Box::new(walking()?)),
         other => Err(unknown(
             "behaviour",
             other,

@@ -104,9 +104,10 @@ impl Pilot {
             planner: given
                 .planner
                 .map_or_else(|| registry::planner(settings, told, &body, feet), Ok)?,
-            behaviour: given
-                .behaviour
-                .map_or_else(|| registry::behaviour(settings, feet), Ok)?,
+            behaviour: given.behaviour.map_or_else(
+                || registry::behaviour(settings, body.description(), feet),
+                Ok,
+            )?,
             walker,
             goals: Goals::new(&settings.goals)?,
             plan: None,

@@ -26,7 +26,12 @@ impl<S: State> Machine<S> {
 
     /// Whether the robot sees nothing, by the patience of its state.
     pub(super) fn is_blind(&self, tick: &Tick<'_>) -> bool {
-        self.unseen_s(tick) > self.state.patience() * self.limits.blind_after_s
+        let patience = if self.state.is_patient() {
+            self.limits.patience
+        } else {
+            1.0
+        };
+        self.unseen_s(tick) > patience * self.limits.blind_after_s
     }
 
     /// Whether a robot sees again that stands for want of sight, since it entered its state.

@@ -12,6 +12,7 @@ use crate::{Gaze, Stepping, climbing, walking};
 
 const LIMITS: Limits = Limits {
     blind_after_s: 1.0,
+    patience: 4.0,
     blind_limit_s: 4.05,
     blind_from_the_start: true,
     idle_limit_s: 9.0,
@@ -129,8 +130,10 @@ fn assert_waits_in_bounded_time<S: State>(all: &[S]) {
             });
             let bound_s = if sees {
                 LIMITS.idle_limit_s
+            } else if state.is_patient() {
+                LIMITS.patience * LIMITS.blind_after_s
             } else {
-                state.patience() * LIMITS.blind_after_s
+                LIMITS.blind_after_s
             };
             let counts = state.idling() == Idling::Counts || !sees;
             assert_eq!(waited.is_some(), counts, "{state:?}");

@@ -5,14 +5,9 @@ use mapping::{FloorView, Surface};
 use planning::Path;
 use stairs::Staircase;
 
+use crate::place::distance_m;
 use crate::walking::WalkingConfig;
-
-/// An obstacle may be the edge of a stair when it is no higher above it than this, m.
-const RISER_M: f64 = 0.06;
-/// It is that edge when it is no further from it than this, m.
-const BESIDE_M: f64 = 0.06;
-/// What ends further than this below the ground that the robot walks on does not stand in its way, m.
-const BELOW_M: f64 = 0.015;
+use crate::walking::tuning::WayObstaclesTuning;
 
 /// The way that was followed at the last frame: planned with room to all that was known then.
 #[derive(Debug, Clone, Default)]
@@ -40,19 +35,20 @@ impl Followed {
         (robot, ground_m): (&PlanarPose, f64),
         config: &WalkingConfig,
     ) -> Option<[f64; 2]> {
+        let tuning = &config.tuning.obstacles;
         let near = |place: &&[f64; 2]| {
-            (place[0] - robot.x_m).hypot(place[1] - robot.y_m) < config.stopping_distance
+            distance_m(**place, [robot.x_m, robot.y_m]) < config.stopping_distance
         };
         self.points_m
             .iter()
             .filter(near)
             .find(|place| {
                 let cells = obstacles(view, **place, config.corridor);
-                let above = |cell: &Obstacle| f64::from(cell.1) > ground_m - BELOW_M;
+                let above = |cell: &Obstacle| f64::from(cell.1) > ground_m - tuning.below;
                 cells
-                    .filter(|cell| above(cell) && !is_edge(stairs, cell))
+                    .filter(|cell| above(cell) && !is_edge(stairs, cell, tuning))
                     .count()
-                    >= 2
+                    >= tuning.cells
             })
             .copied()
     }
@@ -68,9 +64,10 @@ pub(crate) type Obstacle = ([f64; 2], f32);
 
 fn obstacles(
     view: &FloorView,
-    [x, y]: [f64; 2],
+    place_m: [f64; 2],
     radius_m: f64,
 ) -> impl Iterator<Item = Obstacle> + '_ {
+    let [x, y] = place_m;
     let (low, high) = (
         view.lattice.cell_at(x - radius_m, y - radius_m),
         view.lattice.cell_at(x + radius_m, y + radius_m),
@@ -86,17 +83,22 @@ fn obstacles(
             Surface::Obstacle(top_m) => Some((view.lattice.center_of(cell), top_m)),
             _ => None,
         })
-        .filter(move |([cx, cy], _)| (cx - x).hypot(cy - y) < radius_m)
+        .filter(move |&(middle_m, _)| distance_m(middle_m, place_m) < radius_m)
 }
 
 /// Whether an obstacle is only the riser of a stair, or what the depth image makes of its edge.
-pub(crate) fn is_edge(stairs: &Staircase, (place_m, top_m): &Obstacle) -> bool {
+pub(crate) fn is_edge(
+    stairs: &Staircase,
+    (place_m, top_m): &Obstacle,
+    tuning: &WayObstaclesTuning,
+) -> bool {
+    let (riser_m, beside_m) = (tuning.riser, tuning.beside);
     stairs.stairs.iter().any(|stair| {
-        let low = f64::from(*top_m) < stair.height_m() + RISER_M;
+        let low = f64::from(*top_m) < stair.height_m() + riser_m;
         low && [&stair.front, &stair.back].into_iter().any(|edge| {
             let middle = edge.middle().inner;
-            let along_m = (place_m[0] - middle.x).hypot(place_m[1] - middle.y);
-            edge.beyond_m(*place_m).abs() < BESIDE_M && along_m < 0.5 * edge.length_m() + BESIDE_M
+            let along_m = distance_m(*place_m, [middle.x, middle.y]);
+            edge.beyond_m(*place_m).abs() < beside_m && along_m < 0.5 * edge.length_m() + beside_m
         })
     })
 }
@@ -170,7 +172,8 @@ mod tests {
             ([0.8, 0.0], 0.15, false),
             ([0.62, 0.4], 0.11, false),
         ] {
-            assert_eq!(is_edge(&stairs, &(place_m, top_m)), edge, "{place_m:?}");
+            let found = is_edge(&stairs, &(place_m, top_m), &WayObstaclesTuning::default());
+            assert_eq!(found, edge, "{place_m:?}");
         }
     }
 }
