@@ -1,4 +1,4 @@
-"""`--results SUBJECT`: what a script measured, written into docs/results by `tools/results.py`."""
+"""`--results SUBJECT`: what a script measured, into docs/results by `tools/docs/results.py`."""
 
 import argparse
 import shlex
@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.append(str(ROOT / "tools"))
+sys.path.append(str(ROOT / "tools" / "docs"))
 NOT_REPEATED = ("--results", "--table", "--json", "--keep")
 """Options with a value that say where results go, and nothing of what is measured."""
 

@@ -5,7 +5,11 @@ import tomllib
 from functools import cache
 from pathlib import Path
 
+import doc_comments
+import module_circles
+import numbers_outside_settings as numbers
 import pytest
+import rust_source
 from import_graph import ROOT as DOOR
 from import_graph import between_floors, circle, floor_of, imports, modules
 
@@ -170,7 +174,7 @@ def test_every_python_module_has_a_test() -> None:
 
 def test_every_rust_crate_has_tests_beside_its_code() -> None:
     for crate in members():
-        if crate == "bindings":  # tested from Python: test_bindings.py
+        if crate in ("bindings", "testkit"):  # tested from Python; by the tests that it is for
             continue
         text = "\n".join(path.read_text() for path in (ROOT / "rust" / crate).rglob("*.rs"))
         assert "#[test]" in text, crate
@@ -186,3 +190,53 @@ def test_the_senses_and_the_core_cannot_read_the_truth() -> None:
         assert not re.search(truth, path.read_text()), path.name
     core = "\n".join(path.read_text() for path in (ROOT / "rust").rglob("*.rs"))
     assert "mujoco" not in core.lower().replace("mujoco's quaternions", "")
+
+
+# Float literals that are true by nature (`python tools/numbers.py --list`). The count only falls.
+MOST_NUMBERS = 110
+MOST_NAMES_WITH_TWO_MEANINGS = 10
+# A circle between modules of a crate, and why it is one.
+CIRCLES = {
+    "geometry: area, lattice": "an area is of cells, and a lattice tells which cells an area holds",
+}
+
+
+def test_few_numbers_of_the_core_are_no_settings() -> None:
+    found = [one for source in rust_source.sources() for one in numbers.literals(source)]
+    assert len(found) <= MOST_NUMBERS, [one.place for one in found]
+
+
+def test_few_type_names_stand_for_two_things() -> None:
+    assert len(numbers.type_names()) <= MOST_NAMES_WITH_TWO_MEANINGS, numbers.type_names()
+
+
+def test_no_two_modules_of_a_crate_use_each_other_but_for_a_reason() -> None:
+    found = module_circles.all_circles()
+    assert found.keys() <= CIRCLES.keys(), found
+    assert len(CIRCLES) <= 3
+
+
+def test_every_doc_comment_of_the_core_is_a_sentence_of_its_own() -> None:
+    assert not doc_comments.faults()
+
+
+def test_no_crate_but_for_its_tests_uses_the_testkit() -> None:
+    for crate in members():
+        manifest = tomllib.loads((ROOT / "rust" / crate / "Cargo.toml").read_text())
+        assert "testkit" not in manifest.get("dependencies", {}), crate
+
+
+def test_the_tools_count_what_they_say() -> None:
+    text = rust_source.blank(
+        'const A: f64 = 0.3; // 0.4\nlet b = 1.5 * x + 0.5 + 1e-6 + 10.0;\nlet t = "0.7";\n'
+        "settings! { x: f64 = 0.9; }\nimpl Default for X { fn d() { 0.8 } }\nlet c = 3_f64;"
+    )
+    source = rust_source.Source(ROOT / "x.rs", "x", (), text)
+    found = [(one.text, one.constant) for one in numbers.literals(source)]
+    assert found == [("0.3", True), ("1.5", False), ("3_f64", False)]
+    tested = "fn a() {}\n#[cfg(test)]\nmod tests { fn b() { 0.3 } }\nfn c() {}"
+    left = rust_source.without_tests(tested)
+    assert "fn a" in left
+    assert "fn c" in left
+    assert "0.3" not in left
+    assert module_circles.split_use("a::{b, c::{d, e}}") == ["a::b", "a::c::d", "a::c::e"]

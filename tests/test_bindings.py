@@ -46,6 +46,8 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
         ({"fog": {"cell": "wide"}}, r"navigation\.fog\.cell: .*wide"),
         ({"scan_line": {"no": 1}}, r"navigation\.scan_line\.no: unknown field `no`"),
         ({"a_star": {"no": 1}}, r"navigation\.a_star\.no: unknown field `no`"),
+        ({"terrain": {"no": 1}}, r"navigation\.terrain\.no: unknown field `no`"),
+        ({"terrain": {"room": {"slack": 2}}}, r"navigation\.terrain\.room\.slack must be from 0"),
         ({"walking": {"no": 1}}, r"navigation\.walking\.no: unknown field `no`"),
         ({"odometry": {"no": 1}}, r"navigation\.odometry\.no: unknown field `no`"),
         ({"proprioception": {"no": 1}}, r"navigation\.proprioception\.no: unknown field `no`"),
@@ -85,7 +87,7 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
         ({"localizer": "truth"}, r"navigation\.localizer must be one of odometry, .*, got truth"),
         (
             {"localizer": "matching", "matching": {"offset": 0}},
-            r"navigation\.matching\.offset must be finite and > 0, got 0",
+            r"navigation\.matching\.offset must be > 0, got 0",
         ),
         (
             {"behaviour": "x"},

@@ -29,9 +29,11 @@ __all__ = [
     "Tick",
     "Walker",
     "WorldModel",
-    "added_components",
+    "components",
+    "parameters",
     "squared_distances",
     "swept_clearance",
+    "tables",
     "version",
 ]
 
@@ -41,11 +43,13 @@ _Edge = tuple[_Point, _Point]
 _Fit = tuple[int, float, float]
 _Footstep = tuple[str, float, float, float, float, float, float]
 
-def added_components() -> list[tuple[str, str, str]]: ...
+def components() -> list[tuple[str, str, str, str | None]]: ...
+def parameters() -> str: ...
 def squared_distances(blocked: NDArray[np.bool_], /) -> NDArray[np.uint32]: ...
 def swept_clearance(
     path: NDArray[np.float64], outline: NDArray[np.float64], radius: float
 ) -> float: ...
+def tables() -> list[str]: ...
 def version() -> str: ...
 
 @final

@@ -1,4 +1,4 @@
-"""Components that others add by name, in packages or a core of the user's own; what there is."""
+"""Components that installed packages add by name; all that a name can stand for."""
 
 import sys
 from functools import cache
@@ -22,17 +22,9 @@ def installed(slot: str) -> dict[str, tuple[EntryPoint, ...]]:
     return found
 
 
-def compiled(slot: str) -> dict[str, str]:
-    """Return name -> one line, of the components that a core of the user's own adds."""
-    from treadwell._core import added_components
-
-    return {name: about for of, name, about in added_components() if of == slot}
-
-
 def additions(slot: str) -> dict[str, str]:
     """Return name -> one line, of all that is there beside `COMPONENTS`."""
-    packages = {name: _origin(points[0]) for name, points in installed(slot).items()}
-    return {**packages, **compiled(slot)}
+    return {name: _origin(points[0]) for name, points in installed(slot).items()}
 
 
 def is_component(slot: str, name: str) -> bool:

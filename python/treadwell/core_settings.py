@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from treadwell._core import Octree, Pilot
-from treadwell.additions import compiled
 from treadwell.components import COMPONENTS
 from treadwell.errors import InputError
 from treadwell.guard import Guard
@@ -137,7 +136,7 @@ def user_components(scenario: Scenario, given: dict[str, object]) -> dict[str, A
             slot, name, scenario.navigation.parameters().get(name.rpartition(":")[2], {})
         )
         for slot, name in scenario.navigation.slots().items()
-        if slot not in given and name not in COMPONENTS[slot] and name not in compiled(slot)
+        if slot not in given and name not in COMPONENTS[slot]
     }
     return {**loaded, **given}
 

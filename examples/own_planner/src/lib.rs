@@ -2,25 +2,28 @@
 
 use geometry::{Map, Pose, Robot};
 use mapping::{FloorView, Surface};
-use pilot::{Added, Maker, Making, PilotError};
-use planning::{Goal, NoWay, Path, Plan, PlanError, Planner, Refusal};
+use pilot::Component;
+use planning::{Goal, NoWay, Path, Plan, PlanError, Planner, PlannerPart, Refusal};
 use pyo3::prelude::*;
-use serde::{Deserialize, Serialize};
+use settings::{ConfigError, TableDescription, POSITIVE, Part, Table, read, settings};
 use stairs::Staircase;
 
-/// `[navigation.beeline]` of a scenario.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct BeelineConfig {
-    /// Distance between two points of the path, m.
-    pub spacing: f64,
-}
-
-impl Default for BeelineConfig {
-    fn default() -> Self {
-        Self { spacing: 0.04 }
+settings! {
+    /// A planner that goes straight to the goal.
+    pub struct BeelineConfig("navigation.beeline") {
+        /// Distance between two points of the path.
+        spacing: f64 = 0.04, "m", POSITIVE;
     }
 }
+
+/// How it is listed and made.
+pub const BEELINE: PlannerPart = Part {
+    name: "beeline",
+    about: "straight to the goal, or not at all",
+    source: None,
+    tables: &[TableDescription::of::<BeelineConfig>()],
+    make: |needs| Ok(Box::new(Beeline::new(&read(needs.tables, "beeline")?)?)),
+};
 
 /// The planner.
 pub struct Beeline {
@@ -30,13 +33,8 @@ pub struct Beeline {
 
 impl Beeline {
     /// Takes its parameters.
-    pub fn new(config: &BeelineConfig) -> Result<Self, PilotError> {
-        if !(config.spacing > 0.0 && config.spacing.is_finite()) {
-            return Err(PilotError::Settings(format!(
-                "navigation.beeline.spacing must be > 0, got {}",
-                config.spacing
-            )));
-        }
+    pub fn new(config: &BeelineConfig) -> Result<Self, ConfigError> {
+        config.check()?;
         Ok(Self {
             spacing_m: config.spacing,
             planned: false,
@@ -83,19 +81,10 @@ impl Planner for Beeline {
     }
 }
 
-fn make(making: &Making<'_>) -> Result<Box<dyn Planner>, PilotError> {
-    let config: BeelineConfig = making.parameters("beeline")?;
-    Ok(Box::new(Beeline::new(&config)?))
-}
-
 /// The core with the planner in it: what `TREADWELL_CORE` names is imported in the place of `treadwell._core`.
 #[pymodule(name = "_core")]
 fn own_core(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    pilot::add(Added {
-        name: "beeline",
-        about: "straight to the goal, or not at all",
-        maker: Maker::Planner(make),
-    });
+    pilot::add(Component::Planner(BEELINE));
     _core::fill(module)
 }
 

@@ -3,14 +3,13 @@
 import signal
 import sys
 from collections.abc import Sequence
-from enum import StrEnum
 from pathlib import Path
 from types import FrameType
 from typing import Annotated
 
 import typer
 
-from treadwell.cli import run_verbs, sweep_verbs
+from treadwell.cli import list_verbs, run_verbs, sweep_verbs
 from treadwell.cli.options import (
     JsonOption,
     RobotOption,
@@ -33,14 +32,6 @@ app = typer.Typer(
 
 robot_app = typer.Typer(help="What a robot's folder holds.", no_args_is_help=True)
 app.add_typer(robot_app, name="robot")
-
-
-class What(StrEnum):
-    """What `list` can show."""
-
-    SCENARIOS = "scenarios"
-    ROBOTS = "robots"
-    COMPONENTS = "components"
 
 
 @app.callback(invoke_without_command=True)
@@ -109,27 +100,14 @@ def check(
     return PASSED
 
 
-@app.command(
+app.command(
     "list",
-    short_help="Show the scenarios, robots and components there are.",
-    epilog="Example: treadwell list components",
-)
-def list_(
-    what: Annotated[What | None, typer.Argument(help="One of the three; all without it.")] = None,
-    *,
-    as_json: JsonOption = False,
-) -> int:
-    """Show the scenarios, robots and components there are to choose from."""
-    from treadwell.cli import list as cli_list
-
-    document = cli_list.listed([what.value] if what else [kind.value for kind in What])
-    if as_json:
-        write_json(document)
-    else:
-        cli_list.show(document)
-    return PASSED
-
-
+    short_help="Show the scenarios, robots, components, ... there are.",
+    epilog=list_verbs.LIST_EXAMPLE,
+)(list_verbs.list_)
+app.command(
+    short_help="Write a JSON schema of a file, for editors.", epilog=list_verbs.SCHEMA_EXAMPLE
+)(list_verbs.schema)
 app.command(epilog=run_verbs.INSPECT_EXAMPLE)(run_verbs.inspect)
 app.command(
     short_help="Check a run's files, and step its physics again.", epilog=run_verbs.VERIFY_EXAMPLE

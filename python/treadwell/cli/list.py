@@ -1,4 +1,4 @@
-"""The verb `list`: scenarios, robots and components."""
+"""The verb `list`: scenarios, robots, components, experiments and parameters."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -7,13 +7,23 @@ from treadwell.cli.output import write_table
 from treadwell.errors import InputError, TreadwellError
 
 
-def listed(kinds: Sequence[str]) -> dict[str, Any]:
+def listed(kinds: Sequence[str], name: str | None = None) -> dict[str, Any]:
     """Return what there is of each kind, as plain data.
 
     Args:
-        kinds: of `scenarios`, `robots`, `components`.
+        kinds: of `scenarios`, `robots`, `components`, `experiments`, `parameters`.
+        name: whose parameters; None: all.
+
+    Raises:
+        InputError: nothing has parameters by that name.
     """
-    makers = {"scenarios": _scenarios, "robots": _robots, "components": _components}
+    makers = {
+        "scenarios": _scenarios,
+        "robots": _robots,
+        "components": _components,
+        "experiments": _experiments,
+        "parameters": lambda: _parameters(name),
+    }
     return {kind: makers[kind]() for kind in kinds}
 
 
@@ -27,6 +37,16 @@ def show(document: Mapping[str, Any]) -> None:
                 for name, text in names.items()
             ]
             write_table(kind, ("slot", "name", "what it is"), triples)
+        elif kind == "experiments":
+            triples = [
+                (each["name"], each["description"], ", ".join(each["cases"])) for each in entries
+            ]
+            write_table(kind, ("name", "what it is", "cases"), triples)
+        elif kind == "parameters":
+            header = ("key", "default", "unit", "allowed", "what it means", "source")
+            fields = ("key", "default", "unit", "bounds", "meaning", "source")
+            rows = [[_shown(entry[field]) for field in fields] for entry in entries]
+            write_table(kind, header, rows)
         else:
             rows = [(entry["name"], entry["description"]) for entry in entries]
             write_table(kind, ("name", "what it is"), rows)
@@ -66,3 +86,30 @@ def _components() -> dict[str, dict[str, str]]:
     from treadwell.components import COMPONENTS
 
     return {slot: known(slot) for slot in COMPONENTS}
+
+
+def _experiments() -> list[dict[str, Any]]:
+    from treadwell.experiments.catalogue import EXPERIMENTS
+
+    return [
+        {
+            "name": made.name,
+            "description": made.description,
+            "cases": [case.name for case in made.cases],
+        }
+        for made in EXPERIMENTS.values()
+    ]
+
+
+def _parameters(name: str | None) -> list[dict[str, Any]]:
+    from dataclasses import asdict
+
+    from treadwell.reference.parameters import find_parameters
+
+    return [asdict(parameter) for parameter in find_parameters(name)]
+
+
+def _shown(value: object) -> str:
+    if value is None:
+        return ""
+    return str(value).lower() if isinstance(value, bool) else str(value)

@@ -39,42 +39,59 @@ Share = Annotated[FiniteFloat, Field(ge=0.0, le=1.0)]
 class Table(BaseModel):
     """A part of the result: no further keys, no NaN, no infinity."""
 
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False, populate_by_name=True)
+    model_config = ConfigDict(
+        extra="forbid", allow_inf_nan=False, populate_by_name=True, use_attribute_docstrings=True
+    )
 
 
 class CollisionEntry(Table):
-    """A collision: s, the robot's link, the element's name, N·s."""
+    """A contact between the robot and an element that is no sole on a walkable top."""
 
     time: Instant
+    """When it began, simulated seconds."""
     robot_part: str
+    """The robot's link."""
     element: str
+    """The element's name, or its kind and number."""
     impulse: float
+    """Force times time, N·s."""
 
 
 class Spread(Table):
     """Mean, standard deviation and maximum over the episode."""
 
     mean: float
+    """Mean."""
     std: float
+    """Standard deviation."""
     max: float
+    """Largest."""
 
 
 class LocalizationErrors(Table):
-    """The estimate against the truth: m, rad, m."""
+    """The estimate against the truth, over the camera frames."""
 
     translation_error: Spread
+    """Distance between the believed and the true place, m."""
     heading_error: Spread
+    """Difference in heading, rad."""
     odometry_translation_error: Spread
+    """Distance between the place by leg odometry alone and the true one, m."""
 
 
 class SurfaceEntry(Table):
-    """A walkable top: true and mapped height, m, and the cells that the map has for it."""
+    """A walkable top, and what the map has for it."""
 
     element: str
+    """The element's name, or its kind and number."""
     part: str
+    """Which of its tops, as in `step 1`."""
     truth: float
+    """True height, m."""
     estimate: float | None
+    """Mapped height, m; none where the robot passed over it and the map has no cell for it."""
     cells: Count
+    """Cells that the map has for it: interior ones, seen three times or more."""
 
 
 class MapCounts(Table):
@@ -85,61 +102,102 @@ class MapCounts(Table):
     """
 
     floor_cells: Count = 0
+    """Cells that are floor in truth, of those that the map knows."""
     floor_cells_right: Share = 0.0
+    """Share of them that the map calls floor."""
     obstacle_cells: Count = 0
+    """Cells that are an obstacle in truth, of those that the map knows."""
     obstacle_cells_right: Share = 0.0
+    """Share of them that the map calls an obstacle."""
     floor_called_obstacle: Share = 0.0
+    """Share of the floor cells that the map calls an obstacle."""
     obstacle_called_floor: Share = 0.0
+    """Share of the obstacle cells that the map calls floor."""
     whole_obstacle_cells: Count = 0
+    """Cells that an obstacle fills whole."""
     whole_obstacle_called_floor: Share = 0.0
+    """Share of them that the map calls floor."""
 
 
 class StateEntry(Table):
-    """When the behaviour entered a state, s, and the state's name."""
+    """A state of the behaviour."""
 
     time: Instant
+    """When it was entered, simulated seconds."""
     state: str
+    """Its name."""
 
 
 class Timing(Table):
-    """How long a stage took, ms."""
+    """How long a stage took."""
 
     median: float = 0.0
+    """Median, ms."""
     p99: float = 0.0
+    """99th percentile, ms."""
     max: float = 0.0
+    """Longest, ms."""
     count: Count = 0
+    """How often it ran."""
 
 
 class Result(Table):
     """Schema `treadwell.result/1`; the keys of `result.json`."""
 
     schema_: Annotated[Literal["treadwell.result/1"], Field(alias="schema")] = SCHEMA
+    """The version of this form."""
     scenario: str
+    """The scenario's name."""
     robot: str
+    """The robot's name."""
     seed: int
+    """The seed."""
     version: str
+    """The version of treadwell."""
     configuration: dict[str, Any]
+    """The whole scenario as it was run: overrides and draws applied."""
     ablation: bool = False
+    """Whether anything in the core was given the truth."""
     outcome: Outcome
+    """How it ended."""
     reason: str | None = None
+    """Why, as `word: sentence`, where it was refused or ended by an error."""
     passed: bool = False
+    """Whether it met the scenario's expectations."""
     failures: list[str] = []
+    """A sentence for each expectation that was not met."""
     simulated_seconds: Instant
+    """How long it took, simulated seconds."""
     wall_seconds: float
+    """How long that took by the clock, s."""
     real_time_factor: float
+    """Simulated over wall-clock time."""
     physics_real_time_factor: float
+    """Simulated time over what the physics took."""
     falls: Count = 0
+    """How often it fell."""
     collisions: list[CollisionEntry] = []
+    """What it ran into."""
     steps_taken: Count = 0
+    """Steps of the feet."""
     stairs_climbed: Count = 0
+    """Changes of height of 15 mm or more upwards, by truth."""
     stairs_descended: Count = 0
+    """Changes of height of 15 mm or more downwards, by truth."""
     path_length: float = 0.0
+    """Way of the robot's middle, m, by truth."""
     replans: Count = 0
+    """How often a way was planned anew after the first."""
     localization: LocalizationErrors | None = None
+    """How far it was from where it believed to be."""
     surfaces: list[SurfaceEntry] = []
+    """Every walkable top of the course."""
     map: MapCounts = MapCounts()
+    """The map's cells against the truth."""
     behaviour: list[StateEntry] = []
+    """The states of the behaviour, in order."""
     timing_ms: dict[str, Timing] = {}
+    """Stage -> how long it took, ms."""
 
     def judged_by(self, expect: Expect) -> "Result":
         """Return the result with `failures` and `passed` by a scenario's expectations."""

@@ -4,11 +4,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Final
 
 from treadwell.components import COMPONENTS, SOURCES
-from treadwell.reference.parameters import ParameterTable, parameter_tables
+from treadwell.reference.parameters import ParameterTable, all_tables
 from treadwell.reference.schemas import SCHEMAS
 from treadwell.reference.words import allowed, kind, shown
 
-MADE: Final = "<!-- Made from the code by `python tools/reference.py write`. -->\n"
+MADE: Final = "<!-- Made from the code by `python tools/docs/reference.py write`. -->\n"
 _FILES: Final = {
     "scenario": (
         "A scenario file",
@@ -23,7 +23,7 @@ def pages() -> dict[str, str]:
     """Return file name -> text, of the folder docs/reference."""
     made = {"README.md": _index(), "components.md": _components()}
     made |= {f"{name}.md": _file(name) for name in SCHEMAS}
-    made |= {f"parameters/{table.name}.md": _parameters(table) for table in parameter_tables()}
+    made |= {f"parameters/{table.name}.md": _parameters(table) for table in all_tables()}
     return made
 
 
@@ -32,14 +32,14 @@ def _index() -> str:
     lines += ["- [components](components.md): what each name in `[navigation]` stands for"]
     lines += [f"- [{title}]({name}.md)" for name, (title, _) in _FILES.items()]
     lines += ["", "Parameters, also by `treadwell list parameters [NAME]`:", ""]
-    for table in parameter_tables():
+    for table in all_tables():
         lines.append(f"- [`[{table.key}]`](parameters/{table.name}.md): {_about(table)}")
     return "\n".join(lines) + "\n"
 
 
 def _components() -> str:
     lines = [MADE, "# Components", "", "Chosen by name in `[navigation]` of a scenario.", ""]
-    tables = {table.name for table in parameter_tables()}
+    tables = {table.name for table in all_tables()}
     for slot, names in COMPONENTS.items():
         lines += [f"## `{slot}`", "", *_head("name", "what it is", "paper", "parameters")]
         for name, about in names.items():

@@ -3,7 +3,7 @@
 import json
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, Final
+from typing import Any
 
 from treadwell import _core
 from treadwell.errors import InputError
@@ -55,41 +55,10 @@ class ParameterTable:
         return self.key.rpartition(".")[2]
 
 
-STATIC_MAP: Final = ParameterTable(
-    key="navigation.static_map",
-    about="The map that a robot is told, made of the course; no part of the core.",
-    parameters=(
-        Parameter(
-            key="navigation.static_map.resolution",
-            default=0.04,
-            unit="m",
-            bounds="> 0",
-            meaning="Side of a voxel.",
-            source="002, section III.A",
-            tuning=False,
-        ),
-    ),
-    schema={
-        "type": "object",
-        "description": "The map that a robot is told, made of the course.",
-        "properties": {
-            "resolution": {
-                "type": "number",
-                "exclusiveMinimum": 0,
-                "default": 0.04,
-                "x-unit": "m",
-                "description": "Side of a voxel.",
-            }
-        },
-        "additionalProperties": False,
-    },
-)
-
-
 @cache
-def parameter_tables() -> tuple[ParameterTable, ...]:
+def all_tables() -> tuple[ParameterTable, ...]:
     """Return all tables, the components' and those of the stages that are not chosen by name."""
-    tables = [STATIC_MAP]
+    tables = []
     for told in json.loads(_core.parameters()):
         rows = []
         for row in told["parameters"]:
@@ -108,13 +77,13 @@ def find_parameters(name: str | None = None) -> list[Parameter]:
     Raises:
         InputError: there is nothing of that name; the message says which tables there are.
     """
-    every = [row for table in parameter_tables() for row in table.parameters]
+    every = [row for table in all_tables() for row in table.parameters]
     if name is None:
         return every
     dotted = name if name.startswith(("navigation.", "gait")) else f"navigation.{name}"
     found = [row for row in every if row.key == dotted or row.key.startswith(f"{dotted}.")]
     if not found:
-        names = [table.name for table in parameter_tables()]
+        names = [table.name for table in all_tables()]
         raise InputError(
             f"NAME: there are no parameters of {name!r}: allowed are {', '.join(names)}, "
             f"and the beginning of a key{nearest(name, names)}"

@@ -3,9 +3,10 @@
 from collections.abc import Callable
 from typing import Any, Final
 
-from treadwell.components import CLASS_NAME, COMPONENTS, known
+from treadwell.additions import known
+from treadwell.components import CLASS_NAME, COMPONENTS
 from treadwell.judging.result import Result
-from treadwell.reference.parameters import parameter_tables
+from treadwell.reference.parameters import all_tables
 from treadwell.robot.file import RobotFile
 from treadwell.scenario.model import Scenario
 from treadwell.scenario.overrides import Draw
@@ -45,7 +46,7 @@ def robot_schema() -> dict[str, Any]:
     described = schema["properties"]
     for name in ("gait", "navigation"):
         described[name] = {"description": described[name]["description"], "type": "object"}
-    described["gait"] |= next(table.schema for table in parameter_tables() if table.key == "gait")
+    described["gait"] |= next(table.schema for table in all_tables() if table.key == "gait")
     described["navigation"]["properties"] = _tables()
     return _titled(schema, "A robot.toml of treadwell")
 
@@ -64,7 +65,7 @@ SCHEMAS: Final[dict[str, Callable[[], dict[str, Any]]]] = {
 
 
 def _tables() -> dict[str, Any]:
-    tables = [table for table in parameter_tables() if table.key.startswith("navigation.")]
+    tables = [table for table in all_tables() if table.key.startswith("navigation.")]
     return {table.name: table.schema for table in tables}
 
 

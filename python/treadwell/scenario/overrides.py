@@ -28,6 +28,7 @@ class Draw(Table):
     normal: Pair | None = None
     """Mean and standard deviation."""
     choice: Annotated[list[Any], Field(min_length=1, max_length=1000)] | None = None
+    """Values, one of which is taken."""
 
     @model_validator(mode="after")
     def _is_one(self) -> Self:

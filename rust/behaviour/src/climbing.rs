@@ -36,24 +36,58 @@ pub(crate) mod simulation;
 #[cfg(test)]
 mod tests;
 
-use settings::{ConfigError, Table};
+use settings::{ConfigError, MakeError, Part, Table, TableDescription, read};
 use stairs::{ClimbingConfig, Feet};
 
 use crate::machine::{Interruption, Limits, Machine, State as _, Tick};
+use crate::part::{BehaviourNeeds, BehaviourPart};
 use crate::{
     Arms, Behaviour, BehaviourError, Command, Decision, Motion, Outcome, Situation,
     WalkingBehaviour,
 };
 pub use config::StairClimbingConfig;
-use flight::{Flight, Rules};
-use head::Head;
-use leg::Leg;
+use flight::{Flight, StepRules};
+use head::ClimbingHead;
+use leg::ApproachLeg;
 use memory::Memory;
 use placement::Before;
 use state::Finish;
 pub(crate) use state::State;
 use stepper::Stepper;
-use walk::Ahead;
+use walk::ClimbAhead;
+
+/// How `stair_climbing` is listed and made.
+pub(crate) const STEP_BY_STEP: BehaviourPart = Part {
+    name: "stair_climbing",
+    about: "walks where it can, climbs where stairs lead on, both feet on each step",
+    source: Some("003, section V"),
+    tables: &[TableDescription::of::<StairClimbingConfig>()],
+    make: |needs| {
+        Ok(Box::new(StairClimbing::of(
+            needs,
+            "stair_climbing",
+            Pace::StepByStep,
+        )?))
+    },
+};
+
+/// The table of the behaviour `continuous`.
+const CONTINUOUS_KEY: &str = "navigation.continuous";
+
+/// How `continuous` is listed and made.
+pub(crate) const CONTINUOUS: BehaviourPart = Part {
+    name: "continuous",
+    about: "climbs one foot a step without stopping where the treads allow it",
+    source: Some("003, section VI, future work"),
+    tables: &[TableDescription::at::<StairClimbingConfig>(CONTINUOUS_KEY)],
+    make: |needs| {
+        Ok(Box::new(StairClimbing::of(
+            needs,
+            "continuous",
+            Pace::Continuous,
+        )?))
+    },
+};
 
 /// How stairs are climbed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,7 +103,7 @@ impl Pace {
     const fn key(self) -> &'static str {
         match self {
             Self::StepByStep => StairClimbingConfig::KEY,
-            Self::Continuous => "navigation.continuous",
+            Self::Continuous => CONTINUOUS_KEY,
         }
     }
 }
@@ -83,16 +117,30 @@ pub struct StairClimbing {
     pace: Pace,
     walking: WalkingBehaviour,
     machine: Machine<State>,
-    head: Head,
+    head: ClimbingHead,
     flight: Flight,
     stepper: Stepper,
     memory: Memory,
-    ahead: Ahead,
+    ahead: ClimbAhead,
     /// Whether the walker had stumbled at the last tick.
     had_stumbled: bool,
 }
 
 impl StairClimbing {
+    /// The behaviour that the table `[navigation.<name>]`, and those of walking and climbing, describe.
+    pub(crate) fn of(
+        needs: &BehaviourNeeds<'_>,
+        name: &str,
+        pace: Pace,
+    ) -> Result<Self, MakeError> {
+        let walking = WalkingBehaviour::of(needs)?;
+        let (config, climbing) = (read(needs.tables, name)?, read(needs.tables, "climbing")?);
+        let eyes = &needs.body.description().head;
+        Ok(Self::new(
+            config, walking, climbing, needs.feet, eyes, pace,
+        )?)
+    }
+
     /// Refuses settings that cannot be used.
     pub fn new(
         config: StairClimbingConfig,
@@ -115,7 +163,7 @@ impl StairClimbing {
             place_words: ", before or on stairs",
         };
         Ok(Self {
-            head: Head::new(&config, eyes),
+            head: ClimbingHead::new(&config, eyes),
             machine: Machine::new(State::Walk, limits),
             flight: Flight::new(tuning),
             stepper: Stepper::new(tuning.stepper.clone()),
@@ -125,7 +173,7 @@ impl StairClimbing {
             pace,
             walking,
             memory: Memory::default(),
-            ahead: Ahead::default(),
+            ahead: ClimbAhead::default(),
             had_stumbled: false,
         })
     }
@@ -181,8 +229,8 @@ impl StairClimbing {
     }
 
     /// By what steps are found among the stairs.
-    const fn rules(&self) -> Rules<'_> {
-        Rules {
+    const fn rules(&self) -> StepRules<'_> {
+        StepRules {
             climbing: &self.climbing,
             lookup: &self.config.tuning.lookup,
         }

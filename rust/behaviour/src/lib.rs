@@ -4,10 +4,15 @@ mod climbing;
 mod command;
 mod decision;
 mod machine;
+mod part;
 mod place;
 mod walking;
 
 pub use climbing::{Pace, StairClimbing, StairClimbingConfig};
 pub use command::{Arms, Command, Footstep, Gaze, Misstep, Motion, Stepping, Velocity};
 pub use decision::{Behaviour, BehaviourError, Decision, Outcome, Situation};
+pub use part::{BehaviourNeeds, BehaviourPart};
 pub use walking::{WalkingBehaviour, WalkingConfig};
+
+/// The behaviours that come with the crate: a new one is a file or folder beside these, and its lines here.
+pub const PARTS: &[BehaviourPart] = &[climbing::STEP_BY_STEP, climbing::CONTINUOUS, walking::PART];

@@ -29,20 +29,29 @@ mod tests;
 
 use planning::Goal;
 use robot::Extent;
-use settings::{ConfigError, Table};
+use settings::{ConfigError, MakeError, Part, Table, TableDescription, read};
 
 use crate::machine::{Interruption, Limits, Machine, State as _, Stopwatch};
+use crate::part::{BehaviourNeeds, BehaviourPart};
 use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Situation};
 pub use config::WalkingConfig;
 use gaze::{Gazer, Sweep};
 use obstacles::Followed;
-pub(crate) use obstacles::{is_edge, is_roomy};
 use progress::Progress;
 pub(crate) use state::State;
 use tick::WayTick;
 use track::Track;
 pub(crate) use tuning::WayObstaclesTuning;
 use unknown::Looked;
+
+/// How it is listed and made.
+pub(crate) const PART: BehaviourPart = Part {
+    name: "walking",
+    about: "walks the path, looks around, stops for what appears, refuses where no way is",
+    source: Some("000, section V"),
+    tables: &[TableDescription::of::<WalkingConfig>()],
+    make: |needs| Ok(Box::new(WalkingBehaviour::of(needs)?)),
+};
 
 /// Walks to the goal by what the robot sees.
 #[derive(Debug, Clone)]
@@ -75,6 +84,12 @@ pub struct WalkingBehaviour {
 }
 
 impl WalkingBehaviour {
+    /// The behaviour that `[navigation.walking]` describes.
+    pub(crate) fn of(needs: &BehaviourNeeds<'_>) -> Result<Self, MakeError> {
+        let size = &needs.body.description().body;
+        Ok(Self::new(read(needs.tables, "walking")?, size)?)
+    }
+
     /// Refuses settings that cannot be used.
     pub fn new(config: WalkingConfig, size: &Extent) -> Result<Self, ConfigError> {
         config.check()?;

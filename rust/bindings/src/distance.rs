@@ -1,7 +1,7 @@
 //! The planner's distance transform, alone.
 
+use geometry::distance::CellDistances;
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
-use planning::distance::DistanceField;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -18,7 +18,7 @@ pub(crate) fn squared_distances<'py>(
         .as_slice()
         .map_err(|_| PyValueError::new_err("blocked must lie row by row in memory"))?;
     let field = py.detach(|| {
-        let mut field = DistanceField::default();
+        let mut field = CellDistances::default();
         field.compute(cells, cols);
         field
     });

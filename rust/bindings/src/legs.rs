@@ -5,15 +5,14 @@ use numpy::{PyArray1, ToPyArray};
 use pyo3::prelude::*;
 use robot::{Body, Description, Side};
 use walking::GaitConfig;
-use walking::leg::Leg;
-use walking::stance::Stance;
+use walking::leg::LegSolver;
 
 use crate::error::bad_setting;
 
 /// Two legs and their gait.
 #[pyclass(frozen, name = "Legs", module = "treadwell._core")]
 pub(crate) struct PyLegs {
-    legs: [Leg; 2],
+    legs: [LegSolver; 2],
     gait: GaitConfig,
 }
 
@@ -35,11 +34,10 @@ impl PyLegs {
         let description: Description =
             serde_json::from_str(description_json).map_err(|error| bad_setting(py, &error))?;
         let body = Body::new(description).map_err(|error| bad_setting(py, &error))?;
-        let stance = Stance::upright(&body).map_err(|error| bad_setting(py, &error))?;
-        let gait = GaitConfig::read(&body.description().gait, &stance)
-            .map_err(|error| bad_setting(py, &error))?;
+        let (gait, _) = GaitConfig::read(&body).map_err(|error| bad_setting(py, &error))?;
         let leg = |side| {
-            Leg::new(&body, side, gait.max_extension).map_err(|error| bad_setting(py, &error))
+            LegSolver::new(&body, side, gait.max_extension, &gait.tuning.leg)
+                .map_err(|error| bad_setting(py, &error))
         };
         Ok(Self {
             legs: [leg(Side::Left)?, leg(Side::Right)?],

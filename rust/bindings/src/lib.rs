@@ -5,6 +5,7 @@ mod components;
 mod distance;
 mod error;
 mod legs;
+mod lists;
 mod observation;
 mod octree;
 mod pilot;
@@ -24,7 +25,9 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(clearance::swept_clearance, module)?)?;
     module.add_function(wrap_pyfunction!(distance::squared_distances, module)?)?;
     module.add_function(wrap_pyfunction!(version, module)?)?;
-    module.add_function(wrap_pyfunction!(added_components, module)?)?;
+    module.add_function(wrap_pyfunction!(lists::components, module)?)?;
+    module.add_function(wrap_pyfunction!(lists::tables, module)?)?;
+    module.add_function(wrap_pyfunction!(lists::parameters, module)?)?;
     module.add_class::<legs::PyLegs>()?;
     module.add_class::<octree::PyOctree>()?;
     module.add_class::<pilot::PyPilot>()?;
@@ -51,15 +54,6 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
 #[pyfunction]
 const fn version() -> &'static str {
     env!("CARGO_PKG_VERSION")
-}
-
-/// Slot, name and one line of each component that was added to those of the registry.
-#[pyfunction]
-fn added_components() -> Vec<(&'static str, &'static str, &'static str)> {
-    let all = ::pilot::added();
-    all.iter()
-        .map(|one| (one.maker.slot(), one.name, one.about))
-        .collect()
 }
 
 /// The module itself.

@@ -1,13 +1,13 @@
 //! A segmenter alone: for depth images that come from elsewhere than from an episode.
 
-use std::collections::BTreeMap;
 use std::time::Instant;
 
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use segmentation::{Planes, Segmenter};
+use segmentation::{Planes, Segmenter, SegmenterNeeds};
 use sensing::{Intrinsics, Scan};
+use settings::Tables;
 
 use crate::error::{bad_setting, failed, unpanicked};
 use crate::pose::rigid;
@@ -56,10 +56,14 @@ impl PySegmenter {
             focal_px: focal,
             baseline_m: baseline,
         };
-        let tables: BTreeMap<String, serde_json::Value> =
+        let tables: Tables =
             serde_json::from_str(settings).map_err(|error| bad_setting(py, &error))?;
+        let needs = SegmenterNeeds {
+            tables: &tables,
+            camera,
+        };
         let segmenter =
-            pilot::segmenter(name, &tables, camera).map_err(|error| bad_setting(py, &error))?;
+            pilot::parts::segmenter(name, &needs).map_err(|error| bad_setting(py, &error))?;
         Ok(Self {
             segmenter,
             scan: Scan::new(camera),

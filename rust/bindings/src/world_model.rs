@@ -1,17 +1,16 @@
 //! World models alone: for frames that come from elsewhere than from an episode.
 
-use std::collections::BTreeMap;
 use std::time::Instant;
 
 use geometry::{Camera, Lattice, Map, Pose, Robot};
-use mapping::{FogConfig, WorldModel};
+use mapping::{FogConfig, WorldModel, WorldModelNeeds};
 use numpy::ndarray::Dimension;
 use numpy::{
     IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use settings::Table as _;
+use settings::{Table as _, Tables};
 use volume::{OccupancyGrid, Picture, Placement, ProbabilityTable, Ray, Size};
 
 use crate::error::{bad_setting, failed, unpanicked};
@@ -33,10 +32,14 @@ impl PyWorldModel {
     #[new]
     #[pyo3(signature = (name, *, settings="{}"))]
     fn new(py: Python<'_>, name: &str, settings: &str) -> PyResult<Self> {
-        let tables: BTreeMap<String, serde_json::Value> =
+        let tables: Tables =
             serde_json::from_str(settings).map_err(|error| bad_setting(py, &error))?;
+        let needs = WorldModelNeeds {
+            tables: &tables,
+            known_map: None,
+        };
         let model =
-            pilot::world_model(name, &tables, None).map_err(|error| bad_setting(py, &error))?;
+            pilot::parts::world_model(name, &needs).map_err(|error| bad_setting(py, &error))?;
         Ok(Self {
             model,
             seconds: 0.0,

@@ -1,4 +1,5 @@
-//! Frames and typed poses, angles, planes, outlines, lattices, grids and repeatable random numbers: the words all other crates speak in.
+//! Frames and typed poses, angles, planes, outlines, lattices, grids, levels and repeatable random numbers: the words all other crates
+//! speak in.
 //!
 //! Poses are named `target_from_source`, and the types say the same in the same order, so that adjacent words cancel:
 //!
@@ -20,8 +21,13 @@
 
 mod angle;
 mod area;
+mod dijkstra;
+pub mod distance;
 mod frames;
+mod goal;
+mod gravity;
 mod lattice;
+mod level;
 mod outline;
 mod planar;
 mod plane;
@@ -31,8 +37,12 @@ mod storage;
 
 pub use angle::{angle_between, wrap_angle};
 pub use area::CellArea;
+pub use dijkstra::Dijkstra;
 pub use frames::{Camera, LeftSole, Map, Odometry, RightSole, Robot, Torso, World};
+pub use goal::Goal;
+pub use gravity::GRAVITY_MPS2;
 pub use lattice::{Cell, Grid, Lattice};
+pub use level::{Apart, Height, same_level, two_levels};
 pub use outline::{Cut, Outline, OutlineError};
 pub use planar::PlanarPose;
 pub use plane::Plane;

@@ -12,7 +12,7 @@ use crate::{AroundTuning, KnownMapTuning};
 
 /// What the robot passes and climbs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
+pub struct AroundLimits {
     /// Room that it needs above a floor, m.
     pub height_m: f64,
     /// Surfaces of the map are joined by steps of at most this, m.
@@ -61,7 +61,7 @@ impl MapAround {
     }
 
     /// Looks at the map from where the robot stands. The layers have the size of the voxels.
-    pub fn look(&mut self, layers: &ViewLayers, robot_m: [f64; 3], limits: Limits) {
+    pub fn look(&mut self, layers: &ViewLayers, robot_m: [f64; 3], limits: AroundLimits) {
         self.columns.read((&self.tree, 0.5), layers, layers.all());
         let [cols, rows] = layers.size();
         let headroom = (limits.height_m / layers.side_m()).ceil() as u32;

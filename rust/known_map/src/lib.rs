@@ -8,7 +8,7 @@ mod prior;
 mod recut;
 mod standing;
 
-pub use around::{Limits, MapAround};
+pub use around::{AroundLimits, MapAround};
 pub use config::{
     AroundTuning, FloorsTuning, KnownMapConfig, KnownMapTuning, PriorTuning, StandingTuning,
 };

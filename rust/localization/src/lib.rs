@@ -3,11 +3,16 @@
 mod localizer;
 mod matching;
 mod monte_carlo;
-mod odometry_localizer;
+mod odometry;
+mod part;
 
 pub use localizer::{Estimate, Guess, Localizer, LocalizerError};
 pub use matching::{MatchingConfig, MatchingLocalizer};
 pub use monte_carlo::{
     Belief, MonteCarloConfig, MonteCarloLocalizer, RangeModel, StaticMap, TorsoPose,
 };
-pub use odometry_localizer::{OdometryLocalizer, OdometryLocalizerConfig};
+pub use odometry::{OdometryLocalizer, OdometryLocalizerConfig};
+pub use part::{LocalizerNeeds, LocalizerPart};
+
+/// The localizers that come with the crate: a new one is a file or folder beside these, and its lines here.
+pub const PARTS: &[LocalizerPart] = &[odometry::PART, matching::PART, monte_carlo::PART];

@@ -2,13 +2,18 @@
 
 mod averaging;
 mod model;
+mod part;
 pub mod surface;
 mod two_maps;
 
 pub use averaging::{Averaging, AveragingConfig, AveragingTuning};
 pub use model::{FloorView, Insertion, MapError, Surface, Voxel, WorldModel};
+pub use part::{WorldModelNeeds, WorldModelPart};
 pub use surface::{Fog, FogConfig, FogTuning};
 pub use two_maps::{
     BeamsTuning, EmptySightTuning, KnownSurfacesTuning, TwoMaps, TwoMapsConfig, TwoMapsTuning,
 };
 pub use volume::{Clearing, Update};
+
+/// The world models that come with the crate: a new one is a file or folder beside these, and its lines here.
+pub const PARTS: &[WorldModelPart] = &[surface::PART, averaging::PART, two_maps::PART];

@@ -7,10 +7,33 @@ use proprioception::BodyState;
 use robot::Body;
 use segmentation::{KnownFloor, Planes, Segmenter};
 use sensing::{Frame, Scan, SelfFilter};
+use settings::{POSITIVE, at_least, settings};
 use stairs::{Recognizer, Staircase};
 
 use crate::PilotError;
 use crate::timing::{Stage, Timing};
+
+settings! {
+    /// What a depth frame sets off.
+    pub struct PerceptionConfig("navigation.perception") {
+        /// Numbers of perception that few will want to turn.
+        tuning: PerceptionTuning;
+    }
+}
+
+settings! {
+    /// When the floor in the map is known, and when the robot was somewhere else all along.
+    pub struct PerceptionTuning("navigation.perception.tuning") {
+        /// Frames that must have seen a cell's floor before the segmenter is told its height as known.
+        seen_often: u16 = 4, "1", at_least(1.0);
+        /// A frame that moves the robot further in the map tells that it was somewhere else all along, and that the map lies in
+        /// the wrong place.
+        elsewhere_distance: f64 = 0.3, "m", POSITIVE;
+        /// A frame that turns the robot by more in the map tells that it was somewhere else all along, and that the map lies in
+        /// the wrong place.
+        elsewhere_turn: f64 = 0.35, "rad", POSITIVE;
+    }
+}
 
 /// The stages from the depth image to map and stairs, with their products.
 pub struct Perception {
@@ -23,10 +46,8 @@ pub struct Perception {
     insertion: Option<Insertion>,
     frames_used: u64,
     last_frame_ns: Option<u64>,
+    tuning: PerceptionTuning,
 }
-
-/// Frames that must have seen a cell's floor before its height counts as known.
-const SEEN_OFTEN: u16 = 4;
 
 /// The floor in the map as the robot remembers it from where it stands.
 struct Remembered<'a> {
@@ -34,15 +55,18 @@ struct Remembered<'a> {
     /// The robot's frame in the map: origin, m, and sine and cosine of its heading.
     origin_m: [f64; 3],
     heading: (f64, f64),
+    /// Frames that must have seen a cell's floor before its height counts as known.
+    seen_often: u16,
 }
 
 impl<'a> Remembered<'a> {
-    fn new(view: &'a FloorView, map_from_robot: &Pose<Map, Robot>) -> Self {
+    fn new(view: &'a FloorView, map_from_robot: &Pose<Map, Robot>, seen_often: u16) -> Self {
         let origin = map_from_robot.origin().inner;
         Self {
             view,
             origin_m: [origin.x, origin.y, origin.z],
             heading: map_from_robot.yaw_rad().sin_cos(),
+            seen_often,
         }
     }
 }
@@ -56,7 +80,7 @@ impl KnownFloor for Remembered<'_> {
             origin_y_m + sin * x_m + cos * y_m,
         );
         match self.view.cell(cell) {
-            Surface::Floor(height_m) if *self.view.sightings.get(cell)? >= SEEN_OFTEN => {
+            Surface::Floor(height_m) if *self.view.sightings.get(cell)? >= self.seen_often => {
                 Some(f64::from(height_m) - origin_z_m)
             }
             _ => None,
@@ -75,15 +99,11 @@ pub(crate) struct TakenBy<'a> {
     pub(crate) steps_taken: u64,
 }
 
-/// A frame that moves the robot further in the map than this, m, or turns it by more, rad, tells that it was somewhere else all along.
-const ELSEWHERE: [f64; 2] = [0.3, 0.35];
-
 /// Whether what was mapped lies in the wrong place.
-fn is_elsewhere(before: &Estimate, after: &Estimate) -> bool {
+fn is_elsewhere(before: &Estimate, after: &Estimate, tuning: &PerceptionTuning) -> bool {
     let moved = before.map_from_odometry.inverse() * after.map_from_odometry;
-    let [far_m, turned_rad] = ELSEWHERE;
     let robot_m = after.map_from_robot.origin().inner - before.map_from_robot.origin().inner;
-    robot_m.norm() > far_m || moved.yaw_rad().abs() > turned_rad
+    robot_m.norm() > tuning.elsewhere_distance || moved.yaw_rad().abs() > tuning.elsewhere_turn
 }
 
 impl Perception {
@@ -93,6 +113,7 @@ impl Perception {
         recognizer: Recognizer,
         self_filter: SelfFilter,
         scan: Scan,
+        config: PerceptionConfig,
     ) -> Self {
         Self {
             segmenter,
@@ -104,10 +125,12 @@ impl Perception {
             insertion: None,
             frames_used: 0,
             last_frame_ns: None,
+            tuning: config.tuning,
         }
     }
 
-    /// Takes in a frame that a body took. Whether the robot found itself elsewhere than it believed, so that what was mapped is forgotten.
+    /// Takes in a frame that a body took. Whether the robot found itself elsewhere than it believed, so that what was mapped is
+    /// forgotten.
     pub(crate) fn see(
         &mut self,
         frame: &Frame,
@@ -128,7 +151,11 @@ impl Perception {
                 .mask(&mut self.scan, &body_then.links, &torso_from_camera);
         let predicted = timing.measure(Stage::Localize, || localizer.estimate(body_then))?;
         timing.measure(Stage::Segment, || {
-            let remembered = Remembered::new(self.world_model.view(), &predicted.map_from_robot);
+            let remembered = Remembered::new(
+                self.world_model.view(),
+                &predicted.map_from_robot,
+                self.tuning.seen_often,
+            );
             self.segmenter
                 .segment_known(&self.scan, &remembered, &mut self.planes)
         })?;
@@ -136,7 +163,7 @@ impl Perception {
             localizer.correct(body_then, &self.planes, self.world_model.view())?;
             localizer.estimate(body_then)
         })?;
-        let elsewhere = is_elsewhere(&predicted, &estimate);
+        let elsewhere = is_elsewhere(&predicted, &estimate, &self.tuning);
         if elsewhere {
             self.world_model.forget();
             self.recognizer.forget();

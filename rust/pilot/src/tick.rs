@@ -6,18 +6,17 @@ use behaviour::{Behaviour, Decision, Gaze, Situation, Stepping};
 use geometry::{Map, Odometry, Pose, Robot};
 use localization::{Estimate, Guess, Localizer};
 use planning::{Plan, Planner};
-use proprioception::{BodyStateHistory, Proprioception};
+use proprioception::{BodyStateHistory, Proprioception, ProprioceptionConfig};
 use robot::Body;
-use sensing::{Frame, Intrinsics, Observation, Scan, SelfFilter};
+use sensing::{Frame, Intrinsics, Observation, Scan, ScanConfig, SelfFilter};
+use settings::{Table as _, read};
 use volume::octree::Octree;
 use walking::relief::{Mapped, Slopes};
 use walking::{JointTargets, Walker};
 
-use crate::added::{self, Making};
 use crate::goals::Goals;
-use crate::perception::{Perception, TakenBy};
-use crate::registry::table;
-use crate::registry::{self, Components};
+use crate::perception::{Perception, PerceptionConfig, TakenBy};
+use crate::registry::{self, Components, Making};
 use crate::timing::{Stage, Timing};
 use crate::{PilotError, Settings};
 
@@ -59,55 +58,45 @@ impl Pilot {
     pub fn new(
         settings: &Settings,
         static_map: Option<&Arc<Octree>>,
-        mut given: Components,
+        given: Components,
     ) -> Result<Self, PilotError> {
-        let tables = &settings.navigation.tables;
-        let known_map = registry::known_map(tables, static_map)?;
-        let told = known_map.as_deref();
+        let known_map = registry::known_map(settings, static_map)?;
         let body = Body::new(settings.robot.clone())?;
         let walker = Walker::new(&body)?;
-        let feet = registry::feet(&body, &walker);
         let mount = &body.description().camera;
         let camera = Intrinsics::from(mount);
-        let scan = Scan::pooled(camera, mount.pool);
+        let tables = &settings.navigation.tables;
+        let scan_config: ScanConfig = read(tables, "scan")?;
+        scan_config.check()?;
+        let scan = Scan::pooled(camera, mount.pool, scan_config);
         let making = Making {
             settings,
             body: &body,
-            feet,
+            feet: registry::feet(&body, &walker),
             camera: scan.camera,
-            static_map: known_map.as_ref(),
+            known_map: known_map.as_ref(),
         };
-        added::fill(&mut given, &making)?;
-        let segmenter = given.segmenter.map_or_else(
-            || registry::segmenter(&settings.navigation.segmenter, tables, scan.camera),
-            Ok,
-        )?;
-        let self_filter = SelfFilter::new(&body, &table(tables, "self_filter")?)?;
-        let world_model = given.world_model.map_or_else(
-            || registry::world_model(&settings.navigation.world_model, tables, told),
-            Ok,
-        )?;
+        let senses: ProprioceptionConfig = read(tables, "proprioception")?;
+        let segmenter = given.segmenter.map_or_else(|| making.segmenter(), Ok)?;
+        let self_filter = SelfFilter::new(&body, &read(tables, "self_filter")?)?;
+        let perception: PerceptionConfig = read(tables, "perception")?;
+        perception.check()?;
+        let world_model = (given.world_model).map_or_else(|| making.world_model(), Ok)?;
         Ok(Self {
             map_from_odometry_at_start: Pose::wrap(settings.start_or_origin().inner),
-            proprioception: Proprioception::new(&body, table(tables, "proprioception")?)?,
-            history: BodyStateHistory::default(),
+            proprioception: Proprioception::new(&body, senses.clone())?,
+            history: BodyStateHistory::for_pictures(&senses.tuning.history),
             perception: Perception::new(
                 segmenter,
                 world_model,
-                registry::recognizer(settings, scan.camera)?,
+                making.recognizer()?,
                 self_filter,
                 scan,
+                perception,
             ),
-            localizer: given
-                .localizer
-                .map_or_else(|| registry::localizer(settings, told), Ok)?,
-            planner: given
-                .planner
-                .map_or_else(|| registry::planner(settings, told, &body, feet), Ok)?,
-            behaviour: given.behaviour.map_or_else(
-                || registry::behaviour(settings, body.description(), feet),
-                Ok,
-            )?,
+            localizer: (given.localizer).map_or_else(|| making.localizer(), Ok)?,
+            planner: given.planner.map_or_else(|| making.planner(), Ok)?,
+            behaviour: (given.behaviour).map_or_else(|| making.behaviour(), Ok)?,
             walker,
             goals: Goals::new(&settings.goals)?,
             plan: None,
@@ -158,7 +147,8 @@ impl Pilot {
             self.plan = None;
         }
         let targets = self.timing.measure(Stage::Walk, || {
-            let slopes = Mapped::around(self.perception.view(), &estimate.map_from_robot);
+            let (view, tuning) = (self.perception.view(), self.walker.relief_tuning());
+            let slopes = Mapped::around(view, &estimate.map_from_robot, tuning);
             let slopes = slopes.as_ref().map(|slopes| slopes as &dyn Slopes);
             self.walker
                 .step(&decision.command, observation, state, slopes)

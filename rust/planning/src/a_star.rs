@@ -1,23 +1,24 @@
 //! The planner: a path by A*, kept as long as it holds.
 
+mod choice;
+mod path_search;
+
 use geometry::{Map, Pose, Robot};
 use mapping::FloorView;
-use settings::{ConfigError, require};
+use settings::{ConfigError, Table, require};
 use stairs::{ClimbingConfig, Feet, Staircase};
+use terrain::rules::escape;
+use terrain::{
+    GoalLevel, HeightLimits, LongerLandings, Needs, Rectangle, Rules, Sight, StandingAt, Terrain,
+};
 
-use crate::beyond::Beyond;
-use crate::goal_level::GoalLevel;
-use crate::keep::Kept;
-use crate::landing::Landing;
-use crate::levels::{Limits, Stand};
+use crate::climb_links::{ClimbLinks, Scene};
+use crate::outside_window::OutsideWindow;
+use crate::path::followed_path::FollowedPath;
+use crate::path::viewpoints::Viewpoints;
 use crate::plan::place_of;
-use crate::portals::{Portals, Scene};
 use crate::search::Search;
-use crate::seek::Seek;
-use crate::slits::Rectangle;
-use crate::terrain::{Needs, Terrain};
-use crate::voronoi::VoronoiField;
-use crate::{AStarConfig, Footprint, Goal, Plan, PlanError, Planner, VoronoiConfig};
+use crate::{AStarConfig, Footprint, Goal, Plan, PlanError, Planner, TerrainConfig, VoronoiConfig};
 
 /// Plans by A* on the floor and obstacle grid, and over the stairs that join its levels.
 #[derive(Debug, Clone)]
@@ -25,14 +26,15 @@ pub struct AStar {
     pub(crate) config: AStarConfig,
     pub(crate) climbing: ClimbingConfig,
     pub(crate) feet: Feet,
+    pub(crate) rules: Rules,
     pub(crate) terrain: Terrain,
-    pub(crate) portals: Portals,
+    pub(crate) links: ClimbLinks,
     pub(crate) search: Search,
-    pub(crate) seek: Seek,
-    pub(crate) goal_level: GoalLevel,
-    landing: Landing,
-    pub(crate) beyond: Beyond,
-    pub(crate) kept: Option<Kept>,
+    pub(crate) viewpoints: Viewpoints,
+    goal_level: GoalLevel,
+    landings: LongerLandings,
+    pub(crate) outside: OutsideWindow,
+    pub(crate) followed: Option<FollowedPath>,
 }
 
 impl AStar {
@@ -47,12 +49,12 @@ impl AStar {
         robot_radius_m: f64,
     ) -> Result<Self, ConfigError> {
         config.check()?;
-        climbing.check()?;
+        settings::Table::check(&climbing)?;
         let radius_m = config.radius.unwrap_or(robot_radius_m);
         let holds = radius_m > 0.0 && radius_m.is_finite();
         require(holds, "navigation.a_star.radius", "> 0", radius_m)?;
         let step_m = climbing.ascend.step_max_z.max(-climbing.descend.step_min_z);
-        let limits = Limits {
+        let limits = HeightLimits {
             floor_m: config.max_step,
             step_m: step_m + climbing.tolerance,
         };
@@ -63,21 +65,30 @@ impl AStar {
             turned: None,
         };
         Ok(Self {
+            terrain: Terrain::new(needs, config.cells()),
+            viewpoints: Viewpoints::new(config.tuning.viewpoints.clone()),
+            outside: OutsideWindow::new(config.tuning.outside_window.clone()),
             config,
             climbing,
             feet,
-            terrain: Terrain::new(needs),
-            portals: Portals::default(),
+            rules: Rules::default(),
+            links: ClimbLinks::default(),
             search: Search::default(),
-            seek: Seek::default(),
             goal_level: GoalLevel::default(),
-            landing: Landing::default(),
-            beyond: Beyond::default(),
-            kept: None,
+            landings: LongerLandings::default(),
+            followed: None,
         })
     }
 
-    /// The same planner for a robot that is as deep from front to back and as wide while it walks sideways, m: used with the footprint
+    /// The planner with rules of its own for what a cell is.
+    pub fn with_rules(mut self, config: TerrainConfig) -> Result<Self, ConfigError> {
+        config.check()?;
+        self.terrain.room = config.room.clone();
+        self.rules.config = config;
+        Ok(self)
+    }
+
+    /// The planner for a robot that is as deep from front to back and as wide while it walks sideways, m: used with the footprint
     /// `oriented`.
     #[must_use]
     pub fn with_rectangle(mut self, [depth_m, width_m]: [f64; 2]) -> Self {
@@ -89,10 +100,10 @@ impl AStar {
         self
     }
 
-    /// The same planner on the lines of the generalized Voronoi diagram: with as much room to either side as there is.
+    /// The planner on the lines of the generalized Voronoi diagram: with as much room to either side as there is.
     pub fn along_voronoi(mut self, config: VoronoiConfig) -> Result<Self, ConfigError> {
         config.check()?;
-        self.terrain.voronoi = Some(VoronoiField::new(config));
+        self.rules.follow_lines(config);
         Ok(self)
     }
 
@@ -117,21 +128,22 @@ impl Planner for AStar {
         goal: &Goal,
     ) -> Result<Plan, PlanError> {
         let (start, height_m) = place_of(start, goal)?;
-        let stand = Stand {
+        let stand = StandingAt {
             at_m: [start.x_m, start.y_m],
             height_m,
             heading_rad: start.yaw_rad,
             gradient: view.gradient_at(start.x_m, start.y_m),
         };
-        let levelled = self.goal_level.of(goal, view, &stand);
-        self.seek.begin(&levelled);
+        let levelled = (self.goal_level).of(goal, view, &stand, &self.rules.config.goal_level);
+        self.viewpoints.begin(&levelled);
         self.look(view, stairs, stand, &levelled);
-        self.beyond.look(&self.terrain, stand.at_m, &levelled);
+        self.outside.look(&self.terrain, stand.at_m, &levelled);
         let settled = stairs.stairs.is_empty();
-        let kept = self.rest(&stand, &levelled);
-        let kept = match kept {
-            Some(rest) if rest.in_slit() => return Ok(self.hold(rest)),
-            Some(rest) if rest.certain && settled && !rest.revealed => return Ok(self.hold(rest)),
+        let rest = match self.rest(&stand, &levelled) {
+            Some(rest) if rest.in_passage() => return Ok(self.hold(rest)),
+            Some(rest) if rest.end.is_certain() && settled && !rest.is_revealed() => {
+                return Ok(self.hold(rest));
+            }
             other => other,
         };
         let mut found = self.find(&stand, &levelled);
@@ -139,14 +151,14 @@ impl Planner for AStar {
             let anywhere = self.goal_level.give_up(goal);
             found = self.find(&stand, &anywhere);
         }
-        Ok(self.choose(kept, found, &start))
+        Ok(self.choose(rest, found, &start))
     }
 
     fn forget(&mut self) {
-        self.kept = None;
-        self.seek = Seek::default();
+        self.followed = None;
+        self.viewpoints.forget();
         self.goal_level = GoalLevel::default();
-        self.beyond = Beyond::default();
+        self.outside.forget();
     }
 
     fn distance_field_m(&self) -> Option<Vec<f32>> {
@@ -157,11 +169,18 @@ impl Planner for AStar {
 
 impl AStar {
     /// Reads the view and the stairs.
-    fn look(&mut self, view: &FloorView, stairs: &Staircase, stand: Stand, goal: &Goal) {
+    fn look(&mut self, view: &FloorView, stairs: &Staircase, stand: StandingAt, goal: &Goal) {
         let sightings = self.config.step_sightings;
-        let stairs = (self.landing).read(stairs, view, (&stand, goal), sightings);
-        self.terrain
-            .read(view, stairs, &stand, goal.height_m, &self.config);
+        let seen = (&stand, goal);
+        let landings = &self.rules.config.longer_landings;
+        let stairs = (self.landings).read(stairs, view, seen, sightings, landings);
+        let sight = Sight {
+            view,
+            stairs,
+            stand,
+            goal_m: goal.height_m,
+        };
+        self.rules.read(&mut self.terrain, &sight);
         let scene = Scene {
             terrain: &self.terrain,
             view,
@@ -170,13 +189,14 @@ impl AStar {
             config: &self.config,
             stand,
             goal: *goal,
-            looked_m: self.seek.looked_m(),
+            looked_m: self.viewpoints.looked_m(),
         };
-        self.portals.read(&scene, stairs);
+        self.links.read(&scene, stairs);
+        self.links.add_passages(&scene);
         let stuck = (self.terrain.index_at(stand.at_m))
-            .is_some_and(|start| self.portals.links.from(start).next().is_none());
-        if stuck && self.terrain.is_in_slit(&stand, &self.config) {
-            self.terrain.open_escape(stand.at_m, &self.config);
+            .is_some_and(|start| self.links.links.from(start).next().is_none());
+        if stuck && self.terrain.is_in_passage(&stand) {
+            escape::open(&mut self.terrain, stand.at_m);
         }
     }
 }

@@ -9,9 +9,8 @@ use mapping::FloorView;
 use settings::{ConfigError, Table};
 use stairs::Staircase;
 
-use crate::keep::SLACK_M;
+use crate::path::shortcut::lay;
 use crate::plan::place_of;
-use crate::shortcut::lay;
 use crate::{AStar, Goal, Path, Plan, PlanError, Planner};
 pub use config::{GuideConfig, GuideTuning};
 use laid::laid_under;
@@ -130,7 +129,7 @@ impl Guided {
         let beyond = way.iter().skip_while(|place| **place != sent);
         beyond
             .filter_map(|place| self.spare_m(*place, robot_m))
-            .any(|spare_m| spare_m < -SLACK_M)
+            .any(|spare_m| spare_m < -self.near.terrain.room.slack)
     }
 
     /// The place where the planner is sent by now.

@@ -1,44 +1,27 @@
-//! The way: distance transform, clearance by the robot's radius, levels and the climbs that join them, A*.
+//! The way: A* over cells and over the climbs that join levels, the path that is followed, and reasons to refuse.
 
 mod a_star;
-mod beyond;
-mod chains;
-mod choice;
+mod built_in;
+mod climb_links;
 mod config;
-pub mod distance;
-mod faces;
-mod find;
-mod goal_level;
 mod guide;
-mod judged;
-mod keep;
-mod landing;
-mod legs;
-mod levels;
-mod line;
-pub mod links;
-mod neighbours;
+mod outside_window;
+mod part;
+mod path;
 mod plan;
-mod portals;
-mod queue;
 mod refusal;
-mod rims;
-mod room;
-mod route;
 pub mod search;
-mod seek;
-mod shortcut;
-mod slits;
-mod slopes;
-mod specks;
-mod steps;
-mod terrain;
-mod treads;
-mod verge;
-mod voronoi;
+mod sideways_passages;
+mod tuning;
 
 pub use a_star::AStar;
 pub use config::{AStarConfig, Footprint};
+pub use geometry::Goal;
 pub use guide::{GuideConfig, GuideTuning, Guided};
-pub use plan::{Climb, Goal, NoWay, Path, Plan, PlanError, Planner, Refusal, Sidle, Step};
-pub use voronoi::VoronoiConfig;
+pub use part::{PlannerNeeds, PlannerPart};
+pub use plan::{Climb, NoWay, Path, Plan, PlanError, Planner, Refusal, Sidle, Step};
+pub use terrain::{TerrainConfig, VoronoiConfig};
+pub use tuning::PlanningTuning;
+
+/// The planners that come with the crate: a new one is a file beside these, and its lines here.
+pub const PARTS: &[PlannerPart] = &[built_in::A_STAR, built_in::VORONOI];

@@ -1,6 +1,6 @@
 //! What every planner produces: a path, or the reason why there is none.
 
-use geometry::{Map, PlanarPose, Pose, Robot};
+use geometry::{Goal, Map, PlanarPose, Pose, Robot};
 use mapping::FloorView;
 use stairs::{Stair, Staircase};
 
@@ -13,19 +13,6 @@ pub enum PlanError {
     /// A planner of the user's failed.
     #[error("{0}")]
     Failed(String),
-}
-
-/// Where to go: any place inside the disc on which the robot can stand.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Goal {
-    /// Centre of the disc in the map frame, m.
-    pub x_m: f64,
-    /// Centre of the disc in the map frame, m.
-    pub y_m: f64,
-    /// Radius of the disc, m.
-    pub radius_m: f64,
-    /// Height of the level, m, where several lie above each other.
-    pub height_m: Option<f64>,
 }
 
 /// Where the robot stands, and how high, m, when this and the goal are numbers.

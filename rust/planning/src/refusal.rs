@@ -3,44 +3,41 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use geometry::two_levels;
 use stairs::{ClimbingConfig, Unfit};
+use terrain::Terrain;
 
-use crate::legs::link_between;
-use crate::neighbours::Cells;
-use crate::portals::{Fit, Portals};
-use crate::route::Ends;
+use crate::climb_links::{ClimbLinks, Fit};
+use crate::path::ends::PathEnds;
+use crate::search::neighbours::Cells;
+use crate::search::steps::ANYWHERE;
 use crate::search::{Route, Search};
-use crate::steps::ANYWHERE;
-use crate::terrain::Terrain;
+use crate::tuning::RefusalTuning;
 use crate::{Goal, NoWay, Refusal};
 
-/// Gaps narrower than this are cracks between obstacles as the map has them, no ways, m.
-const CRACK_M: f64 = 0.1;
-
-/// A way down of more than this is a drop, no step, m.
-const DROP_M: f64 = 0.1;
+/// What decides on a word.
+type Words<'a> = (&'a ClimbingConfig, &'a RefusalTuning);
 
 /// The first limit that a route breaks which was found as if there were none, and how many steps come before.
 pub(crate) fn first_limit(
     terrain: &Terrain,
-    portals: &Portals,
-    climbing: &ClimbingConfig,
+    links: &ClimbLinks,
+    words: Words<'_>,
     route: &Route,
 ) -> Option<(NoWay, usize)> {
     let pairs = route.cells.windows(2);
-    let ways =
-        pairs.filter_map(|pair| link_between(terrain, portals, pair[0], pair[1], Fit::Broken));
-    let strides = ways.flat_map(|way| portals.strides(way)).enumerate();
+    let ways = pairs.filter_map(|pair| links.between(terrain, pair[0], pair[1], Fit::Broken));
+    let strides = ways.flat_map(|way| links.strides(way)).enumerate();
     let mut limits = strides.filter_map(|(before, stride)| Some((stride.limit?, before)));
     let (limit, before) = limits.next()?;
-    Some((unfit(climbing, limit), before))
+    Some((unfit(words, limit), before))
 }
 
 /// The word and sentence for a step that is not taken.
-fn unfit(climbing: &ClimbingConfig, limit: Unfit) -> NoWay {
+fn unfit((climbing, tuning): Words<'_>, limit: Unfit) -> NoWay {
     let mm = |length_m: f64| (1e3 * length_m.abs()).round();
     let (refusal, sentence) = match limit {
-        Unfit::TooHigh(rise_m) if rise_m < -DROP_M => (
+        Unfit::TooHigh(rise_m) if rise_m < -tuning.drop => (
             Refusal::Drop,
             format!(
                 "it goes down {} mm, {} mm is the limit",
@@ -98,17 +95,18 @@ fn unfit(climbing: &ClimbingConfig, limit: Unfit) -> NoWay {
 /// Explains why the robot finds no way from `start`.
 pub(crate) fn explain(
     terrain: &Terrain,
-    climbing: &ClimbingConfig,
-    ends: &Ends<'_>,
+    words: Words<'_>,
+    ends: &PathEnds<'_>,
     start: usize,
     goal: &Goal,
 ) -> NoWay {
     let turned_m = terrain.needs.turned.map(|turned| turned.half_depth_m);
     let needed_m = turned_m.map_or(terrain.needs.body_m, |m| m.min(terrain.needs.body_m));
-    let widest = widest_way(terrain, ends, start);
+    let crack_m = words.1.crack;
+    let widest = widest_way(terrain, ends, start, crack_m);
     let gap_m = 2.0 * widest.clearance_m;
     let needed = 2.0 * needed_m;
-    if gap_m >= CRACK_M && gap_m < needed {
+    if gap_m >= crack_m && gap_m < needed {
         return NoWay {
             refusal: Refusal::TooNarrow,
             sentence: format!("the widest gap is {gap_m:.2} m, {needed:.2} m are needed"),
@@ -116,10 +114,10 @@ pub(crate) fn explain(
     }
     if let Some(route) = way_over_levels(terrain, ends, start) {
         if let Some(rise_per_m) = first_too_steep(terrain, &route) {
-            return too_steep(rise_per_m, terrain.levels.slopes.steepest_walked());
+            return too_steep(rise_per_m, terrain.slopes.steepest_walked());
         }
         if let Some(rise_m) = first_rise(terrain, &route) {
-            return unjoined(climbing, rise_m);
+            return unjoined(words, rise_m);
         }
     }
     let nearest = widest.nearest_cells * terrain.lattice.cell_m;
@@ -146,8 +144,8 @@ pub(crate) fn explain(
 }
 
 /// The way that would lead to the goal if levels were one.
-fn way_over_levels(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Option<Route> {
-    if !terrain.levels.any {
+fn way_over_levels(terrain: &Terrain, ends: &PathEnds<'_>, start: usize) -> Option<Route> {
+    if !terrain.any_edge {
         return None;
     }
     let cells = terrain.blocked.iter().enumerate();
@@ -162,7 +160,7 @@ fn way_over_levels(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Option<R
 
 /// How steep the first slope on a way is that is too steep, rise per metre.
 fn first_too_steep(terrain: &Terrain, route: &Route) -> Option<f64> {
-    let slopes = &terrain.levels.slopes;
+    let slopes = &terrain.slopes;
     let mut cells = route.cells.iter();
     cells.find_map(|&cell| slopes.too_steep_at(cell as usize))
 }
@@ -189,7 +187,7 @@ fn first_rise(terrain: &Terrain, route: &Route) -> Option<f64> {
     let mut last: Option<f64> = None;
     for level_m in levels {
         if let Some(before_m) = last.replace(level_m)
-            && (level_m - before_m).abs() > terrain.needs.limits.floor_m
+            && two_levels(level_m, before_m, terrain.needs.limits.floor_m)
         {
             return Some(level_m - before_m);
         }
@@ -198,7 +196,8 @@ fn first_rise(terrain: &Terrain, route: &Route) -> Option<f64> {
 }
 
 /// The word and sentence for a change of level at which no stair is known.
-fn unjoined(climbing: &ClimbingConfig, rise_m: f64) -> NoWay {
+fn unjoined(words: Words<'_>, rise_m: f64) -> NoWay {
+    let climbing = words.0;
     let set = climbing.set_for(rise_m);
     let limit_m = if rise_m > 0.0 {
         set.step_max_z
@@ -206,7 +205,7 @@ fn unjoined(climbing: &ClimbingConfig, rise_m: f64) -> NoWay {
         -set.step_min_z
     };
     if rise_m.abs() > limit_m + climbing.tolerance {
-        return unfit(climbing, Unfit::TooHigh(rise_m));
+        return unfit(words, Unfit::TooHigh(rise_m));
     }
     let mm = (1e3 * rise_m.abs()).round();
     NoWay {
@@ -223,8 +222,8 @@ struct Widest {
 }
 
 /// The way whose narrowest place is the widest, for a point that only obstacles stop.
-fn widest_way(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Widest {
-    let stops = terrain.blocked.iter().zip(&terrain.levels.edge);
+fn widest_way(terrain: &Terrain, ends: &PathEnds<'_>, start: usize, crack_m: f64) -> Widest {
+    let stops = terrain.blocked.iter().zip(&terrain.edge);
     let open: Vec<f32> = stops
         .map(|(&blocked, &edge)| if blocked || edge { f32::INFINITY } else { 1.0 })
         .collect();
@@ -237,7 +236,7 @@ fn widest_way(terrain: &Terrain, ends: &Ends<'_>, start: usize) -> Widest {
             continue;
         }
         let clearance_m = f64::from(narrowest).sqrt() * terrain.lattice.cell_m;
-        if 2.0 * clearance_m >= CRACK_M {
+        if 2.0 * clearance_m >= crack_m {
             nearest_cells = nearest_cells.min(ends.remaining(cell));
         }
         if ends.cost(cell).is_some() {

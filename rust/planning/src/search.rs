@@ -1,11 +1,16 @@
 //! A* on a grid with eight neighbours, links between cells, and flat arrays; a diagonal step needs both of its corners free.
 
+pub mod links;
+pub(crate) mod neighbours;
+mod queue;
+pub(crate) mod steps;
+
 use std::f64::consts::SQRT_2;
 
-use crate::links::Links;
-use crate::neighbours::Cells;
-use crate::queue::{Entry, Queue};
-use crate::steps::ANYWHERE;
+use links::Links;
+use neighbours::Cells;
+use queue::{Queue, QueueEntry};
+use steps::ANYWHERE;
 
 /// No cell before this one.
 const NONE: u32 = u32::MAX;
@@ -90,14 +95,14 @@ impl Search {
         } = self;
         known.begin(nodes, start);
         *expanded = 0;
-        let first = Entry {
+        let first = QueueEntry {
             cost: 0.0,
             cell: start as u32,
             trail: ANYWHERE,
         };
         queue.begin(heuristic(start), first);
         let (mut best, mut last) = (f64::INFINITY, None);
-        while let Some(Entry { cost, cell, trail }) = queue.pop() {
+        while let Some(QueueEntry { cost, cell, trail }) = queue.pop() {
             let here = cell as usize;
             if cost > known.cost(here) || last.is_some() && cost + heuristic(here) >= best {
                 continue; // reached more cheaply since, or no use
@@ -116,7 +121,7 @@ impl Search {
                 if cost < known.cost(next) {
                     known.reach(next, cost, cell);
                     let cell = next as u32;
-                    queue.push(cost + heuristic(next), Entry { cost, cell, trail });
+                    queue.push(cost + heuristic(next), QueueEntry { cost, cell, trail });
                 }
             };
             let weight = cells.weight_to_leave(here);

@@ -7,13 +7,10 @@
 //! The explicit complementary filter of Mahony, Hamel and Pflimlin (2008, IEEE Trans. Automatic Control 53), with a scalar
 //! Kalman gain for the bias at rest. The correction never turns about the vertical: yaw is the gyroscope's alone.
 
+use geometry::GRAVITY_MPS2;
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::ProprioceptionConfig;
-
-const GRAVITY_MPS2: f64 = 9.81;
-/// A single reading this many deviations off ends the rest.
-const OUTLIER: f64 = 4.0;
+use crate::config::ProprioceptionConfig;
 
 /// One tick's readings of the inertial measurement unit, in its own frame.
 #[derive(Debug, Clone, Copy)]
@@ -160,7 +157,7 @@ impl AttitudeFilter {
         self.slow_rate_radps += (rate - self.slow_rate_radps) * config.still_share(passed_s);
         let quiet = both_feet
             && self.slow_rate_radps.amax() < config.still_rate
-            && rate.amax() < OUTLIER * config.still_noise;
+            && rate.amax() < config.tuning.stillness.outlier * config.still_noise;
         self.quiet_s = if quiet { self.quiet_s + passed_s } else { 0.0 };
     }
 

@@ -1,117 +1,63 @@
 //! Settings of proprioception.
 
-use serde::{Deserialize, Serialize};
-use settings::{ConfigError, require};
+use settings::{ConfigError, NOT_NEGATIVE, POSITIVE, above_to, between, require, settings};
 
-/// Settings of [`crate::Proprioception`]: `[navigation.proprioception]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct ProprioceptionConfig {
-    /// Time in which roll and pitch are drawn to the accelerometer while walking, s.
-    pub tilt_time: f64,
-    /// The same while the robot stands still, s.
-    pub tilt_time_still: f64,
-    /// A specific force whose strength is further from gravity's than this is left out, m/s^2.
-    pub gravity_gate: f64,
-    /// How fast a lasting tilt error becomes a bias of the stride in roll and pitch, 1/s^2.
-    pub stride_bias_gain: f64,
-    /// Standard deviation of the gyroscope's bias at the start, rad/s.
-    pub gyro_bias: f64,
-    /// Its random walk, rad/s per square root of a second.
-    pub gyro_bias_drift: f64,
-    /// Standard deviation of the angular velocity of a robot that stands still, sensor noise and sway, rad/s.
-    pub still_noise: f64,
-    /// The robot stands still when its smoothed angular velocity is below this in every axis, rad/s,
-    pub still_rate: f64,
-    /// smoothed over this time, s (0: as it is),
-    pub still_filter_time: f64,
-    /// and has been for this time on both feet, s.
-    pub still_time: f64,
-    /// Time of standing still at the start in which the soles are taken to lie level, s; 0: they never are. It finds
-    /// what the encoders between soles and inertial measurement unit are wrong by.
-    pub level_time: f64,
-    /// A tilt of the soles larger than this is no encoder error but the ground's, rad.
-    pub level_limit: f64,
-    /// A foot begins to hold when it carries more than this share of the load,
-    pub hold_share: f64,
-    /// and lets go below this share.
-    pub release_share: f64,
-    /// The support foot changes when the other carries more than this share.
-    pub support_share: f64,
-    /// Below this share of the robot's weight on both feet together nothing is decided.
-    pub least_load: f64,
-    /// Share of a new load in the smoothed one, for each tick.
-    pub load_filter: f64,
-    /// A foot that lands nearer than this to the height of the other one stands on the same level, m.
-    pub level_band: f64,
-}
+use crate::tuning::ProprioceptionTuning;
 
-impl Default for ProprioceptionConfig {
-    fn default() -> Self {
-        Self {
-            tilt_time: 2.0,
-            tilt_time_still: 1.5,
-            gravity_gate: 8.0,
-            stride_bias_gain: 0.02,
-            gyro_bias: 0.0015,
-            gyro_bias_drift: 1e-5,
-            still_noise: 0.005,
-            still_rate: 0.01,
-            still_filter_time: 0.1,
-            still_time: 0.2,
-            level_time: 1.0,
-            level_limit: 0.06,
-            hold_share: 0.3,
-            release_share: 0.15,
-            support_share: 0.55,
-            least_load: 0.2,
-            load_filter: 0.5,
-            level_band: 0.008,
-        }
+settings! {
+    /// The body's own senses: attitude, contacts and leg odometry.
+    pub struct ProprioceptionConfig("navigation.proprioception") {
+        /// Time in which roll and pitch are drawn to the accelerometer while walking.
+        tilt_time: f64 = 2.0, "s", POSITIVE;
+        /// Time in which roll and pitch are drawn to the accelerometer while the robot stands still.
+        tilt_time_still: f64 = 1.5, "s", POSITIVE;
+        /// A specific force whose strength is further from gravity's than this is left out.
+        gravity_gate: f64 = 8.0, "m/s^2", POSITIVE;
+        /// How fast a lasting tilt error becomes a bias of the stride in roll and pitch.
+        stride_bias_gain: f64 = 0.02, "1/s^2", NOT_NEGATIVE;
+        /// Standard deviation of the gyroscope's bias at the start.
+        gyro_bias: f64 = 0.0015, "rad/s", POSITIVE;
+        /// Random walk of the gyroscope's bias, per square root of a second.
+        gyro_bias_drift: f64 = 1e-5, "rad/s/sqrt(s)", NOT_NEGATIVE;
+        /// Standard deviation of the angular velocity of a robot that stands still: sensor noise and sway.
+        still_noise: f64 = 0.005, "rad/s", POSITIVE;
+        /// The robot stands still while its smoothed angular velocity is below this in every axis.
+        still_rate: f64 = 0.01, "rad/s", POSITIVE;
+        /// Time over which the angular velocity is smoothed to tell whether the robot stands still; 0 leaves it as it is.
+        still_filter_time: f64 = 0.1, "s", NOT_NEGATIVE;
+        /// Time for which the robot must have been still on both feet until it counts as standing still.
+        still_time: f64 = 0.2, "s", NOT_NEGATIVE;
+        /// Time of standing still at the start in which the soles are taken to lie level; 0: they never are. It finds what the encoders
+        /// between soles and inertial measurement unit are wrong by.
+        level_time: f64 = 1.0, "s", NOT_NEGATIVE;
+        /// A tilt of the soles larger than this is no encoder error but the ground's.
+        level_limit: f64 = 0.06, "rad", POSITIVE;
+        /// A foot begins to hold when it carries more than this share of the load.
+        hold_share: f64 = 0.3, "1", between(0.0, 0.5);
+        /// A foot lets go when it carries less than this share of the load.
+        release_share: f64 = 0.15, "1", between(0.0, 0.5);
+        /// The support foot changes when the other carries more than this share of the load.
+        support_share: f64 = 0.55, "1", between(0.5, 1.0);
+        /// Below this share of the robot's weight on both feet together nothing is decided.
+        least_load: f64 = 0.2, "1", NOT_NEGATIVE;
+        /// Share of a new load in the smoothed one, for each tick.
+        load_filter: f64 = 0.5, "1", above_to(0.0, 1.0);
+        /// A foot that lands nearer than this to the height of the other one stands on the same level.
+        level_band: f64 = 0.008, "m", NOT_NEGATIVE;
+        /// Numbers that few will want to turn.
+        tuning: ProprioceptionTuning;
     }
+    check ProprioceptionConfig::fit_together;
 }
 
 impl ProprioceptionConfig {
-    /// Refuses what cannot be used.
-    pub fn check(&self) -> Result<(), ConfigError> {
-        let positive = [
-            ("tilt_time", self.tilt_time),
-            ("tilt_time_still", self.tilt_time_still),
-            ("gravity_gate", self.gravity_gate),
-            ("gyro_bias", self.gyro_bias),
-            ("still_noise", self.still_noise),
-            ("still_rate", self.still_rate),
-            ("level_limit", self.level_limit),
-        ];
-        for (name, value) in positive {
-            let key = format!("navigation.proprioception.{name}");
-            require(value.is_finite() && value > 0.0, &key, "> 0", value)?;
-        }
-        let not_negative = [
-            ("stride_bias_gain", self.stride_bias_gain),
-            ("gyro_bias_drift", self.gyro_bias_drift),
-            ("still_filter_time", self.still_filter_time),
-            ("still_time", self.still_time),
-            ("level_time", self.level_time),
-            ("least_load", self.least_load),
-            ("level_band", self.level_band),
-        ];
-        for (name, value) in not_negative {
-            let key = format!("navigation.proprioception.{name}");
-            require(value.is_finite() && value >= 0.0, &key, ">= 0", value)?;
-        }
-        let shares = [
-            ("hold_share", self.hold_share, self.release_share, 0.5),
-            ("release_share", self.release_share, 0.0, self.hold_share),
-            ("support_share", self.support_share, 0.5, 1.0),
-            ("load_filter", self.load_filter, 0.0, 1.0 + f64::EPSILON),
-        ];
-        for (name, value, low, high) in shares {
-            let key = format!("navigation.proprioception.{name}");
-            let allowed = format!("between {low} and {high:.3}");
-            require(value > low && value < high, &key, &allowed, value)?;
-        }
-        Ok(())
+    fn fit_together(&self, key: &str) -> Result<(), ConfigError> {
+        require(
+            self.release_share < self.hold_share,
+            &format!("{key}.release_share"),
+            "below hold_share",
+            self.release_share,
+        )
     }
 
     /// Share of an angular velocity in the smoothed one, `passed_s` after the one before. At the first tick no time has passed.
@@ -127,6 +73,7 @@ impl ProprioceptionConfig {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use settings::Table;
 
     #[test]
     fn the_shipped_settings_are_allowed() {
@@ -149,6 +96,11 @@ mod tests {
             ..ProprioceptionConfig::default()
         };
         assert!(config.check().unwrap_err().key.ends_with("hold_share"));
+        let config = ProprioceptionConfig {
+            release_share: 0.4,
+            ..ProprioceptionConfig::default()
+        };
+        assert!(config.check().unwrap_err().key.ends_with("release_share"));
         let config = ProprioceptionConfig {
             level_band: f64::NAN,
             ..ProprioceptionConfig::default()

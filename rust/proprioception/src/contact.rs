@@ -2,11 +2,11 @@
 
 use robot::Side;
 
-use crate::ProprioceptionConfig;
+use crate::config::ProprioceptionConfig;
 
 /// Loads and holds of both feet.
 #[derive(Debug, Clone)]
-pub(crate) struct Contacts {
+pub(crate) struct FootContacts {
     loads_n: [f64; 2],
     slow_loads_n: [f64; 2],
     holds: [bool; 2],
@@ -15,7 +15,7 @@ pub(crate) struct Contacts {
     started: bool,
 }
 
-impl Contacts {
+impl FootContacts {
     /// `weight_n`: weight of the whole robot.
     pub(crate) fn new(weight_n: f64, config: &ProprioceptionConfig) -> Self {
         Self {
@@ -108,9 +108,9 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn after(loads: &[(f64, f64)]) -> (Contacts, ProprioceptionConfig) {
+    fn after(loads: &[(f64, f64)]) -> (FootContacts, ProprioceptionConfig) {
         let config = ProprioceptionConfig::default();
-        let mut contacts = Contacts::new(65.0, &config);
+        let mut contacts = FootContacts::new(65.0, &config);
         for &(left, right) in loads {
             for _ in 0..20 {
                 contacts.update(&[[left / 4.0; 4], [right / 4.0; 4]], &config);
@@ -137,7 +137,7 @@ mod tests {
         #[test]
         fn a_foot_takes_hold_without_a_jump_in_weight(share in 0.0..1.0f64) {
             let config = ProprioceptionConfig::default();
-            let mut contacts = Contacts::new(65.0, &config);
+            let mut contacts = FootContacts::new(65.0, &config);
             contacts.update(&[[15.0; 4], [0.0; 4]], &config);
             contacts.slow_loads_n = [60.0 * (1.0 - share), 60.0 * share];
             let before = contacts.weights(&config)[1];

@@ -1,11 +1,9 @@
 //! Body states of the last moments, so that a depth frame is posed by the joints at its exposure.
 
-use crate::BodyState;
+use sensing::TICK_NS;
 
-/// The control loop's, ns.
-const TICK_NS: u64 = 10_000_000;
-/// The most that a scenario allows as `sensors.latency`, ns.
-const LONGEST_LATENCY_NS: u64 = 2_000_000_000;
+use crate::body_state::BodyState;
+use crate::tuning::HistoryTuning;
 
 /// The last body states, in a ring. Allocates until it is full, then never.
 #[derive(Debug, Clone)]
@@ -16,15 +14,14 @@ pub struct BodyStateHistory {
     tolerance_ns: u64,
 }
 
-impl Default for BodyStateHistory {
-    /// Back to the exposure of the latest picture that may arrive, to within a tick.
-    fn default() -> Self {
-        // The states at both ends count, and a picture may arrive between two ticks.
-        Self::new((LONGEST_LATENCY_NS / TICK_NS) as usize + 2, TICK_NS)
-    }
-}
-
 impl BodyStateHistory {
+    /// Keeps states back to the exposure of the latest picture that may arrive, to within a tick.
+    pub fn for_pictures(tuning: &HistoryTuning) -> Self {
+        let latency_ns = (tuning.longest_latency * 1e9) as u64;
+        // The states at both ends count, and a picture may arrive between two ticks.
+        Self::new((latency_ns / TICK_NS) as usize + 2, TICK_NS)
+    }
+
     /// Keeps the last `capacity` states (at least one). A state is given for times up to `tolerance_ns` beside it.
     pub fn new(capacity: usize, tolerance_ns: u64) -> Self {
         let capacity = capacity.max(1);
@@ -132,11 +129,11 @@ mod tests {
 
     #[test]
     fn a_picture_with_the_longest_latency_finds_the_state_at_its_exposure() {
-        let mut history = BodyStateHistory::default();
+        let mut history = BodyStateHistory::for_pictures(&HistoryTuning::default());
         for tick in 0..500 {
             history.push(&state_at(tick * TICK_NS));
         }
-        for late_ns in [0, 1_290_000_000, LONGEST_LATENCY_NS] {
+        for late_ns in [0, 1_290_000_000, 2_000_000_000] {
             let exposure_ns = 499 * TICK_NS - late_ns;
             let found = history.at(exposure_ns).map(|state| state.time_ns);
             assert_eq!(found, Some(exposure_ns));

@@ -7,22 +7,19 @@ use geometry::{Odometry, Pose, Robot, angle_between};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use robot::Side;
 
-use crate::ProprioceptionConfig;
-use crate::contact::Contacts;
-
-/// Time over which the torso's speed is smoothed, s.
-const SPEED_FILTER_S: f64 = 0.05;
+use crate::config::ProprioceptionConfig;
+use crate::contact::FootContacts;
 
 /// The legs as they are now.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Legs {
+pub(crate) struct LegPosture {
     /// Orientation of the torso.
     pub(crate) odometry_from_torso_rotation: UnitQuaternion<f64>,
     /// Pose of each sole in the torso, left and right.
     pub(crate) torso_from_sole: [Isometry3<f64>; 2],
 }
 
-impl Legs {
+impl LegPosture {
     /// From the torso's origin to the centre of the sole, in the odometry frame's axes, m.
     fn reach_m(&self, side: Side) -> Vector3<f64> {
         self.odometry_from_torso_rotation * self.torso_from_sole[side.index()].translation.vector
@@ -78,7 +75,7 @@ impl LegOdometry {
     }
 
     /// Puts the point midway between the soles at the origin, both on one level.
-    pub(crate) fn start(&mut self, legs: &Legs) {
+    pub(crate) fn start(&mut self, legs: &LegPosture) {
         let reaches = Side::BOTH.map(|side| legs.reach_m(side));
         self.torso_m = -(reaches[0] + reaches[1]) / 2.0;
         self.anchors_m = reaches.map(|reach| {
@@ -90,8 +87,8 @@ impl LegOdometry {
     /// Takes in the legs and what they carry; returns the robot's frame.
     pub(crate) fn update(
         &mut self,
-        legs: &Legs,
-        contacts: &Contacts,
+        legs: &LegPosture,
+        contacts: &FootContacts,
         config: &ProprioceptionConfig,
     ) -> Pose<Odometry, Robot> {
         let level_m = self.place_torso(legs, contacts.weights(config));
@@ -102,7 +99,7 @@ impl LegOdometry {
 
     /// Puts the torso where the anchored feet say, and returns the height of the surface that carries them. A foot that
     /// takes hold at this tick has no anchor yet: it is anchored beside a torso that has moved on with the others.
-    fn place_torso(&mut self, legs: &Legs, weights: [f64; 2]) -> f64 {
+    fn place_torso(&mut self, legs: &LegPosture, weights: [f64; 2]) -> f64 {
         let (mut torso, mut level_m, mut sum) = (Vector3::zeros(), 0.0, 0.0);
         let anchored = |side: Side| self.anchors_m[side.index()].is_some();
         let counted: f64 = Side::BOTH
@@ -131,7 +128,12 @@ impl LegOdometry {
         level_m
     }
 
-    fn renew_anchors(&mut self, legs: &Legs, contacts: &Contacts, config: &ProprioceptionConfig) {
+    fn renew_anchors(
+        &mut self,
+        legs: &LegPosture,
+        contacts: &FootContacts,
+        config: &ProprioceptionConfig,
+    ) {
         // What two anchors differ by on level ground is the error of a tilt.
         let level = self.on_slope == [false; 2];
         let same_level =
@@ -158,7 +160,7 @@ impl LegOdometry {
 
     /// As the foot `side` lets go of its level, that of the other foot is measured once more. When it landed, the load was on the
     /// first one, and a leg that carries is a little shorter than its encoders say: the mean of both is right.
-    fn measure_level_again(&mut self, legs: &Legs, side: Side, own_m: f64, other_m: f64) {
+    fn measure_level_again(&mut self, legs: &LegPosture, side: Side, own_m: f64, other_m: f64) {
         let again_m = own_m + legs.reach_m(side.other()).z - legs.reach_m(side).z;
         if let Some(anchor) = &mut self.anchors_m[side.other().index()] {
             anchor.z = f64::midpoint(other_m, again_m);
@@ -176,15 +178,21 @@ pub(crate) struct TrunkMotion {
 }
 
 impl TrunkMotion {
-    /// Takes in where the torso is. While the robot is being put where it starts, it does not move.
-    pub(crate) fn follow(&mut self, torso_m: &Vector3<f64>, passed_s: f64, starting: bool) {
+    /// Takes in where the torso is, its speed smoothed over a time. While the robot is being put where it starts, it does not move.
+    pub(crate) fn follow(
+        &mut self,
+        torso_m: &Vector3<f64>,
+        passed_s: f64,
+        filter_s: f64,
+        starting: bool,
+    ) {
         let before_m = self.torso_m.replace(*torso_m);
         let (Some(before_m), true) = (before_m, passed_s > 0.0 && !starting) else {
             (self.velocity_mps, self.acceleration_mps2) = (Vector3::zeros(), Vector3::zeros());
             return;
         };
         let measured = (torso_m - before_m) / passed_s;
-        let share = passed_s / (passed_s + SPEED_FILTER_S);
+        let share = passed_s / (passed_s + filter_s);
         let change = (measured - self.velocity_mps) * share;
         self.velocity_mps += change;
         self.acceleration_mps2 = change / passed_s;
@@ -208,9 +216,9 @@ mod tests {
         const SAG_M: f64 = 0.001;
         const RISE_M: f64 = 0.03;
         let config = ProprioceptionConfig::default();
-        let mut contacts = Contacts::new(65.0, &config);
+        let mut contacts = FootContacts::new(65.0, &config);
         let mut odometry = LegOdometry::new();
-        let legs = |soles_m: [f64; 2], left: f64| Legs {
+        let legs = |soles_m: [f64; 2], left: f64| LegPosture {
             odometry_from_torso_rotation: UnitQuaternion::identity(),
             torso_from_sole: [(0.04, left), (-0.04, 1.0 - left)].map(|(y_m, share)| {
                 let sole_m = if y_m > 0.0 { soles_m[0] } else { soles_m[1] };
@@ -240,9 +248,9 @@ mod tests {
     fn climbed_m(on_slope: bool) -> f64 {
         const STEP_M: f64 = 0.005;
         let config = ProprioceptionConfig::default();
-        let mut contacts = Contacts::new(65.0, &config);
+        let mut contacts = FootContacts::new(65.0, &config);
         let mut odometry = LegOdometry::new();
-        let legs = |soles_m: [f64; 2]| Legs {
+        let legs = |soles_m: [f64; 2]| LegPosture {
             odometry_from_torso_rotation: UnitQuaternion::identity(),
             torso_from_sole: [(0.04, soles_m[0]), (-0.04, soles_m[1])]
                 .map(|(y_m, sole_m)| Isometry3::translation(0.0, y_m, sole_m - 0.2)),

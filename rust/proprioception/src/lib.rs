@@ -9,8 +9,11 @@ mod leg_odometry;
 mod levelling;
 mod play;
 mod proprioception;
+mod trunk;
+mod tuning;
 
 pub use body_state::{BodyState, ProprioceptionError};
 pub use config::ProprioceptionConfig;
 pub use history::BodyStateHistory;
 pub use proprioception::Proprioception;
+pub use tuning::HistoryTuning;

@@ -4,15 +4,12 @@
 //! torques change sign between landing and lift-off; left in, that shortens every step by a few per cent. The torque is the
 //! servo's, by what it was commanded and what its encoder reads; before the first command, what holds the load at rest.
 
+use geometry::GRAVITY_MPS2;
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use robot::{Body, LinkPoses, Side};
 use sensing::Observation;
 
-const GRAVITY_MPS2: f64 = 9.81;
-/// Share of a motor's peak torque that takes up the play.
-const TAKES_UP: f64 = 0.06;
-/// Share of a tick's new lead in the smoothed one.
-const FOLLOW: f64 = 0.5;
+use crate::tuning::PlayTuning;
 
 /// A motor of a leg, by the joint that it turns.
 #[derive(Debug, Clone, Copy)]
@@ -31,13 +28,14 @@ struct Gear {
 #[derive(Debug, Clone)]
 pub(crate) struct Play {
     half_rad: f64,
+    follow: f64,
     gears: Vec<Gear>,
     torques_nm: Vec<f64>,
     joint_positions_rad: Vec<f64>,
 }
 
 impl Play {
-    pub(crate) fn new(body: &Body) -> Self {
+    pub(crate) fn new(body: &Body, tuning: &PlayTuning) -> Self {
         let description = body.description();
         let gears = Side::BOTH
             .iter()
@@ -52,7 +50,7 @@ impl Play {
                 let hinge = hinges.find(|hinge| hinge.name == *name)?;
                 Some(Gear {
                     joint,
-                    takes_up_nm: TAKES_UP * hinge.peak_torque,
+                    takes_up_nm: tuning.takes_up * hinge.peak_torque,
                     peak_nm: hinge.peak_torque,
                     kp: hinge.kp,
                     kv: hinge.kv,
@@ -63,6 +61,7 @@ impl Play {
             .collect();
         Self {
             half_rad: 0.5 * description.play,
+            follow: tuning.follow,
             gears,
             torques_nm: vec![0.0; body.joint_count()],
             joint_positions_rad: vec![0.0; body.joint_count()],
@@ -120,6 +119,7 @@ impl Play {
         for &(follower, leader) in body.followers() {
             self.torques_nm[leader] += self.torques_nm[follower];
         }
+        let follow = self.follow;
         for gear in &mut self.gears {
             let joint = gear.joint;
             let torque_nm = gear.asked_nm.map_or(-self.torques_nm[joint], |asked_nm| {
@@ -129,7 +129,7 @@ impl Play {
             });
             let lead_rad =
                 self.half_rad * (torque_nm / gear.takes_up_nm.max(1e-9)).clamp(-1.0, 1.0);
-            gear.lead_rad += (lead_rad - gear.lead_rad) * FOLLOW;
+            gear.lead_rad += (lead_rad - gear.lead_rad) * follow;
             self.joint_positions_rad[gear.joint] -= gear.lead_rad;
         }
         for &(follower, leader) in body.followers() {
@@ -174,7 +174,7 @@ mod tests {
         let measured = observation.joint_positions_rad.clone();
         let mut links = LinkPoses::default();
         body.pose_links(&measured, &mut links).unwrap();
-        let mut play = Play::new(&body);
+        let mut play = Play::new(&body, &PlayTuning::default());
         for _ in 0..20 {
             let level = UnitQuaternion::identity();
             let _ = play.joint_positions_rad(&body, &links, &observation, &level);
@@ -232,7 +232,7 @@ mod tests {
         body.pose_links(measured, &mut links).unwrap();
         let still = vec![0.0; measured.len()];
         for push_nm in [2.0, -2.0] {
-            let mut play = Play::new(&body);
+            let mut play = Play::new(&body, &PlayTuning::default());
             play.note_command(measured, &still, &vec![push_nm; measured.len()]);
             let level = UnitQuaternion::identity();
             for _ in 0..20 {

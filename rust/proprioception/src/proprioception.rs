@@ -1,34 +1,19 @@
 //! The body's own senses at every control tick: observation in, body state out.
 
-use geometry::Pose;
+use geometry::{GRAVITY_MPS2, Pose};
 use nalgebra::{UnitQuaternion, Vector3};
 use robot::{Body, LinkPoses, Side};
 use sensing::{Observation, ObservationError};
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 
 use crate::attitude::{AttitudeFilter, ImuSample};
-use crate::contact::Contacts;
-use crate::leg_odometry::{LegOdometry, Legs, TrunkMotion, odometry_from_torso};
+use crate::body_state::{BodyState, ProprioceptionError};
+use crate::config::ProprioceptionConfig;
+use crate::contact::FootContacts;
+use crate::leg_odometry::{LegOdometry, LegPosture, TrunkMotion, odometry_from_torso};
 use crate::levelling::Levelling;
 use crate::play::Play;
-use crate::{BodyState, ProprioceptionConfig, ProprioceptionError};
-
-const GRAVITY_MPS2: f64 = 9.81;
-/// Speeds of trunk joints below this are the encoders' noise, rad/s.
-const JOINT_SPEED_FLOOR_RADPS: f64 = 0.1;
-
-/// The start is over after this, settled or not, ns.
-const LONGEST_START_NS: u64 = 4_000_000_000;
-/// A sole that the legs hold this much above the other one was lifted, m; play in their gears moves it by a millimetre.
-const LIFTED_M: f64 = 0.004;
-
-/// A joint between the root and the inertial measurement unit.
-#[derive(Debug, Clone, Copy)]
-struct ChainJoint {
-    link: usize,
-    joint: usize,
-    axis_in_link: Vector3<f64>,
-}
+use crate::trunk::TrunkChain;
 
 /// Attitude, contacts and leg odometry.
 #[derive(Debug, Clone)]
@@ -36,10 +21,10 @@ pub struct Proprioception {
     body: Body,
     config: ProprioceptionConfig,
     play: Play,
-    imu_chain: Vec<ChainJoint>,
+    trunk: TrunkChain,
     attitude: AttitudeFilter,
     levelling: Levelling,
-    contacts: Contacts,
+    contacts: FootContacts,
     odometry: LegOdometry,
     motion: TrunkMotion,
     state: BodyState,
@@ -54,11 +39,11 @@ impl Proprioception {
     pub fn new(body: &Body, config: ProprioceptionConfig) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self {
-            play: Play::new(body),
-            imu_chain: chain_to_imu(body),
+            play: Play::new(body, &config.tuning.play),
+            trunk: TrunkChain::new(body, &config.tuning.motion),
             attitude: AttitudeFilter::new(&config),
             levelling: Levelling::new(),
-            contacts: Contacts::new(body.mass_kg() * GRAVITY_MPS2, &config),
+            contacts: FootContacts::new(body.mass_kg() * GRAVITY_MPS2, &config),
             odometry: LegOdometry::new(),
             motion: TrunkMotion::default(),
             state: BodyState {
@@ -118,7 +103,7 @@ impl Proprioception {
                 .learn(&up_by_imu, &up_by_soles, passed_s, limit_rad);
         }
         let torso_from_imu = self.levelling.correction() * torso_from_imu_measured;
-        let mut legs = Legs {
+        let mut legs = LegPosture {
             odometry_from_torso_rotation: self.attitude.odometry_from_imu()
                 * torso_from_imu.inverse(),
             torso_from_sole,
@@ -132,12 +117,14 @@ impl Proprioception {
             self.odometry.start(&legs);
         }
         let rate_in_imu = sample.angular_velocity_radps - self.attitude.bias_radps();
-        let trunk_rate = self.trunk_rate_radps(&observation.joint_velocities_radps);
+        let speeds_radps = &observation.joint_velocities_radps;
+        let trunk_rate = self.trunk.rate_radps(&self.state.links, speeds_radps);
         self.state.angular_velocity_radps = torso_from_imu * rate_in_imu - trunk_rate;
         self.fill(observation.time_ns, &legs);
         let starting = self.starting_since_ns.is_some();
+        let filter_s = self.config.tuning.motion.speed_filter_time;
         self.motion
-            .follow(&self.odometry.torso_m(), passed_s, starting);
+            .follow(&self.odometry.torso_m(), passed_s, filter_s, starting);
         Ok(&self.state)
     }
 
@@ -193,13 +180,15 @@ impl Proprioception {
 
     /// Until the robot stands still for the first time, or lifts a foot, it is where it was put: what moves is the joints'
     /// play, the ground under the soles settling, a torso that rocks until it finds its balance, maybe from foot to foot.
-    fn watch_start(&mut self, time_ns: u64, legs: &Legs) {
+    fn watch_start(&mut self, time_ns: u64, legs: &LegPosture) {
+        let tuning = &self.config.tuning.start;
+        let longest_ns = (tuning.longest * 1e9) as u64;
         let both_feet = self.contacts.both_hold();
-        let lifted = self.stood && !both_feet && legs.sole_above_other_m() > LIFTED_M;
+        let lifted = self.stood && !both_feet && legs.sole_above_other_m() > tuning.lifted;
         self.stood |= both_feet;
         let over = self
             .starting_since_ns
-            .is_some_and(|since_ns| time_ns > since_ns && time_ns - since_ns > LONGEST_START_NS);
+            .is_some_and(|since_ns| time_ns > since_ns && time_ns - since_ns > longest_ns);
         let levelled = self.attitude.is_still(&self.config)
             && !self.levelling.is_learning(self.config.level_time);
         if lifted || over || levelled {
@@ -207,7 +196,7 @@ impl Proprioception {
         }
     }
 
-    fn fill(&mut self, time_ns: u64, legs: &Legs) {
+    fn fill(&mut self, time_ns: u64, legs: &LegPosture) {
         let odometry_from_robot = self.odometry.update(legs, &self.contacts, &self.config);
         let rotation = legs.odometry_from_torso_rotation;
         let odometry_from_torso = odometry_from_torso(rotation, self.odometry.torso_m());
@@ -219,20 +208,6 @@ impl Proprioception {
         self.state.odometry_from_robot = odometry_from_robot;
         self.state.robot_from_torso =
             Pose::wrap(odometry_from_robot.inner.inverse() * odometry_from_torso);
-    }
-
-    /// Angular velocity that the trunk's joints give the inertial measurement unit against the root, rad/s.
-    fn trunk_rate_radps(&self, joint_velocities_radps: &[f64]) -> Vector3<f64> {
-        self.imu_chain
-            .iter()
-            .map(|part| {
-                let speed = joint_velocities_radps[part.joint];
-                let sure = (speed.abs() - JOINT_SPEED_FLOOR_RADPS)
-                    .max(0.0)
-                    .copysign(speed);
-                self.state.links.torso_from_link[part.link].rotation * part.axis_in_link * sure
-            })
-            .sum()
     }
 
     fn check(&self, observation: &Observation) -> Result<(), ObservationError> {
@@ -280,29 +255,6 @@ impl Proprioception {
             _ => Ok(()),
         }
     }
-}
-
-fn chain_to_imu(body: &Body) -> Vec<ChainJoint> {
-    let description = body.description();
-    let mut chain = Vec::new();
-    let mut at = description
-        .links
-        .iter()
-        .position(|link| link.name == description.imu.link);
-    while let Some(index) = at {
-        let link = &description.links[index];
-        if let Some(joint) = &link.joint
-            && let Ok(joint_index) = body.joint("imu", &joint.name)
-        {
-            chain.push(ChainJoint {
-                link: index,
-                joint: joint_index,
-                axis_in_link: Vector3::from(joint.axis).normalize(),
-            });
-        }
-        at = link.parent;
-    }
-    chain
 }
 
 #[cfg(test)]

@@ -3,60 +3,10 @@
 use std::collections::BTreeMap;
 
 use geometry::{Camera, Pose, Torso};
-use nalgebra::{Isometry3, Point3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 
-use crate::{Description, Side};
-
-/// Why a description is no robot.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum BodyError {
-    /// A name that is not there.
-    #[error("{role}: there is no {kind} `{name}`; there are {available}")]
-    UnknownName {
-        /// Who asks for it.
-        role: String,
-        /// Link or joint.
-        kind: &'static str,
-        /// The name asked for.
-        name: String,
-        /// The names that exist.
-        available: String,
-    },
-    /// A number that cannot be.
-    #[error("{what} must be {allowed}, got {found}")]
-    BadValue {
-        /// Which.
-        what: String,
-        /// What is allowed.
-        allowed: &'static str,
-        /// What was found.
-        found: String,
-    },
-    /// Joint angles of the wrong number.
-    #[error("{expected} joint angles are needed, got {found}")]
-    WrongJointCount {
-        /// Number of joints.
-        expected: usize,
-        /// Number given.
-        found: usize,
-    },
-}
-
-#[derive(Debug, Clone)]
-pub(crate) struct Hinge {
-    pub(crate) index: usize,
-    pub(crate) axis: Unit<Vector3<f64>>,
-    pub(crate) anchor: Vector3<f64>,
-}
-
-#[derive(Debug, Clone)]
-pub(crate) struct Link {
-    pub(crate) parent: Option<usize>,
-    pub(crate) parent_from_link_at_zero: Isometry3<f64>,
-    pub(crate) hinge: Option<Hinge>,
-    pub(crate) mass_kg: f64,
-    pub(crate) center_of_mass: Point3<f64>,
-}
+use crate::links::{Link, build_links, find, find_followers, isometry};
+use crate::{BodyError, Description, Side};
 
 /// A robot's body, ready to compute with. The frame of all results is [`Torso`]: the root link.
 #[derive(Debug, Clone)]
@@ -80,31 +30,6 @@ pub struct Body {
 pub struct LinkPoses {
     /// `torso_from_link`, one a link.
     pub torso_from_link: Vec<Isometry3<f64>>,
-}
-
-fn isometry(position: [f64; 3], wxyz: [f64; 4]) -> Isometry3<f64> {
-    let [w, x, y, z] = wxyz;
-    Isometry3::from_parts(
-        Translation3::from(position),
-        UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)),
-    )
-}
-
-fn find(
-    names: &BTreeMap<String, usize>,
-    kind: &'static str,
-    role: &str,
-    name: &str,
-) -> Result<usize, BodyError> {
-    names
-        .get(name)
-        .copied()
-        .ok_or_else(|| BodyError::UnknownName {
-            role: role.to_owned(),
-            kind,
-            name: name.to_owned(),
-            available: names.keys().cloned().collect::<Vec<_>>().join(", "),
-        })
 }
 
 impl Body {
@@ -263,78 +188,4 @@ impl Body {
         }
         Point3::from(sum / self.mass_kg())
     }
-}
-
-/// Pairs of joints that one motor turns.
-fn find_followers(
-    description: &Description,
-    joint_index: &BTreeMap<String, usize>,
-) -> Result<Vec<(usize, usize)>, BodyError> {
-    let joints = description
-        .links
-        .iter()
-        .filter_map(|link| link.joint.as_ref());
-    let mut followers = Vec::new();
-    for joint in joints {
-        if let Some(leader) = &joint.follows {
-            let role = format!("joint `{}` follows", joint.name);
-            let pair = [&joint.name, leader].map(|name| find(joint_index, "joint", &role, name));
-            let [follower, leader] = pair;
-            followers.push((follower?, leader?));
-        }
-    }
-    Ok(followers)
-}
-
-fn build_links(
-    description: &Description,
-    joint_index: &BTreeMap<String, usize>,
-) -> Result<Vec<Link>, BodyError> {
-    let mut links = Vec::with_capacity(description.links.len());
-    for (i, link) in description.links.iter().enumerate() {
-        let bad = |what: &str, allowed: &'static str, found: String| BodyError::BadValue {
-            what: format!("link `{}`: {what}", link.name),
-            allowed,
-            found,
-        };
-        if link.parent.is_none() != (i == 0) || link.parent.is_some_and(|parent| parent >= i) {
-            return Err(bad(
-                "parent",
-                "a link before it",
-                format!("{:?}", link.parent),
-            ));
-        }
-        if !(link.mass.is_finite() && link.mass >= 0.0) {
-            return Err(bad("mass", ">= 0", link.mass.to_string()));
-        }
-        let hinge = match &link.joint {
-            None => None,
-            Some(joint) => {
-                let axis = Unit::try_new(Vector3::from(joint.axis), 1e-9).ok_or_else(|| {
-                    bad("joint axis", "longer than 0", format!("{:?}", joint.axis))
-                })?;
-                let index = find(joint_index, "joint", "links", &joint.name)?;
-                Some(Hinge {
-                    index,
-                    axis,
-                    anchor: Vector3::from(joint.anchor),
-                })
-            }
-        };
-        links.push(Link {
-            parent: link.parent,
-            parent_from_link_at_zero: isometry(link.position, link.orientation),
-            hinge,
-            mass_kg: link.mass,
-            center_of_mass: Point3::from(link.center_of_mass),
-        });
-    }
-    if links.is_empty() {
-        return Err(BodyError::BadValue {
-            what: "links".to_owned(),
-            allowed: "one or more",
-            found: "none".to_owned(),
-        });
-    }
-    Ok(links)
 }

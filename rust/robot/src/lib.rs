@@ -3,11 +3,14 @@
 //! All of it is data from the robot's folder. The harness reads the folder and hands over a [`Description`].
 
 mod description;
+mod error;
 mod kinematics;
+mod links;
 mod statics;
 
 pub use description::{
     CameraMount, Description, Extent, ForceSensors, Head, ImuMount, JointDescription, Leg, Legs,
     LinkDescription, Side, Sole, StereoDescription,
 };
-pub use kinematics::{Body, BodyError, LinkPoses};
+pub use error::BodyError;
+pub use kinematics::{Body, LinkPoses};

@@ -8,7 +8,8 @@ mod synthetic;
 
 use std::time::Instant;
 
-use segmentation::{GroundConfig, Planes, ScanLine, ScanLineConfig, Segmenter};
+use segmentation::finders::{ScanLine, ScanLineConfig};
+use segmentation::{GroundConfig, Planes, Segmenter};
 use synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
 
 const FRAMES: usize = 400;

@@ -8,12 +8,12 @@ use proptest::prelude::*;
 use sensing::Scan;
 
 use crate::arbitrary::blocks;
-use crate::synthetic::{Block, CAMERA, GROUND, Noise, Scene, camera_pose};
-use crate::{
-    GroundConfig, Histogram, HistogramConfig, Hough, HoughConfig, Planes, Ransac, RansacConfig,
-    ScanLine, ScanLine1994, ScanLine1994Config, ScanLineAdaptive, ScanLineAdaptiveConfig,
-    ScanLineConfig, Segmenter,
+use crate::finders::{
+    Histogram, HistogramConfig, Hough, HoughConfig, Ransac, RansacConfig, ScanLine, ScanLine1994,
+    ScanLine1994Config, ScanLineAdaptive, ScanLineAdaptiveConfig, ScanLineConfig,
 };
+use crate::synthetic::{Block, CAMERA, GROUND, Noise, Scene, camera_pose};
+use crate::{GroundConfig, Planes, Segmenter};
 
 /// The sensor's noise, px.
 const SIGMA: f64 = 0.125;

@@ -2,12 +2,12 @@
 
 use sensing::{Intrinsics, Scan};
 
-use crate::synthetic::camera_pose;
-use crate::{
-    GroundConfig, Histogram, HistogramConfig, Hough, HoughConfig, Planes, Ransac, RansacConfig,
-    ScanLine, ScanLine1994, ScanLine1994Config, ScanLineAdaptive, ScanLineAdaptiveConfig,
-    ScanLineConfig, Segmenter,
+use crate::finders::{
+    Histogram, HistogramConfig, Hough, HoughConfig, Ransac, RansacConfig, ScanLine, ScanLine1994,
+    ScanLine1994Config, ScanLineAdaptive, ScanLineAdaptiveConfig, ScanLineConfig,
 };
+use crate::synthetic::camera_pose;
+use crate::{GroundConfig, Planes, Segmenter};
 
 /// Largest side, pixels: up to it some blocks of the picture are narrower than what is compared in them.
 const LARGEST: usize = 24;

@@ -6,6 +6,6 @@ mod scan;
 mod self_filter;
 
 pub use camera::Intrinsics;
-pub use observation::{Frame, Observation, ObservationError};
-pub use scan::{Scan, ScanError};
-pub use self_filter::{SelfFilter, SelfFilterConfig};
+pub use observation::{Frame, Observation, ObservationError, TICK_NS, TICK_S};
+pub use scan::{Scan, ScanConfig, ScanError, ScanTuning};
+pub use self_filter::{SelfFilter, SelfFilterConfig, SelfFilterTuning};

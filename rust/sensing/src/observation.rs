@@ -2,6 +2,11 @@
 
 use crate::Intrinsics;
 
+/// The control tick, ns: robot and simulation hand over an observation at each.
+pub const TICK_NS: u64 = 10_000_000;
+/// The control tick, s.
+pub const TICK_S: f64 = 0.01;
+
 /// A depth image as the camera delivered it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {

@@ -1,8 +1,27 @@
 //! A depth image with the camera's pose: what the segmenter reads.
 
 use geometry::{Camera, Pose, Robot};
+use settings::{NOT_NEGATIVE, above_to, settings};
 
 use crate::{Frame, Intrinsics};
+
+settings! {
+    /// How a depth image becomes a scan.
+    pub struct ScanConfig("navigation.scan") {
+        /// Numbers of the scan that few will want to turn.
+        tuning: ScanTuning;
+    }
+}
+
+settings! {
+    /// How the pixels of a depth image are joined that a robot's camera is told to look at as one.
+    pub struct ScanTuning("navigation.scan.tuning") {
+        /// How much farther than the nearest depth of a block a depth may be, as a share of it, to be of the same surface.
+        one_surface: f32 = 0.04, "1", NOT_NEGATIVE;
+        /// Share of a block's pixels that must be seen for the block to be.
+        seen: f64 = 0.5, "1", above_to(0.0, 1.0);
+    }
+}
 
 /// Why a depth image gives no scan.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -32,16 +51,17 @@ pub struct Scan {
     pub valid: usize,
     /// Pixels a side of the depth image that are one of the scan.
     pool: usize,
+    tuning: ScanTuning,
 }
 
 impl Scan {
     /// An empty scan for this camera.
     pub fn new(camera: Intrinsics) -> Self {
-        Self::pooled(camera, 1)
+        Self::pooled(camera, 1, ScanConfig::default())
     }
 
     /// An empty scan for this camera that takes `pool` x `pool` of its pixels for one.
-    pub fn pooled(camera: Intrinsics, pool: usize) -> Self {
+    pub fn pooled(camera: Intrinsics, pool: usize, config: ScanConfig) -> Self {
         let camera = camera.pooled(pool);
         Self {
             exposure_ns: 0,
@@ -50,6 +70,7 @@ impl Scan {
             robot_from_camera: Pose::identity(),
             disparity_px: vec![f32::NAN; camera.width * camera.height],
             valid: 0,
+            tuning: config.tuning,
         }
     }
 
@@ -68,7 +89,7 @@ impl Scan {
         Ok(())
     }
 
-    /// Each pixel is the mean of a block's nearest surface, where half of the block or more was seen.
+    /// Each pixel is the mean of a block's nearest surface, where enough of the block was seen.
     fn read_pooled(
         &mut self,
         frame: &Frame,
@@ -89,14 +110,14 @@ impl Scan {
         let lines = self.disparity_px.chunks_exact_mut(camera.width);
         for (rows, line) in rows.zip(lines) {
             for (col, disparity) in line.iter_mut().enumerate() {
-                *disparity = pooled_px(rows, frame.width, col * pool, pool, scale);
+                *disparity = pooled_px(rows, frame.width, (col * pool, pool), scale, &self.tuning);
                 self.valid += usize::from(!disparity.is_nan());
             }
         }
         Ok(())
     }
 
-    /// The same from the depths alone, metres, row by row.
+    /// Reads depths alone, metres, row by row, each for a pixel of the scan.
     pub fn read_depths(
         &mut self,
         depths_m: impl ExactSizeIterator<Item = f32>,
@@ -120,13 +141,16 @@ impl Scan {
     }
 }
 
-/// Depths that differ by more, as a share, are not of one surface's few pixels.
-const ONE_SURFACE: f32 = 0.04;
-
-/// Disparity of a block of `pool` x `pool` depths that begins at column `left` of `rows`; NaN where less than half of it was seen.
-fn pooled_px(rows: &[f32], width: usize, left: usize, pool: usize, scale: f32) -> f32 {
+/// Disparity of a block of `pool` x `pool` depths that begins at column `left` of `rows`; NaN where too little of it was seen.
+fn pooled_px(
+    rows: &[f32],
+    width: usize,
+    (left, pool): (usize, usize),
+    scale: f32,
+    tuning: &ScanTuning,
+) -> f32 {
     let mut nearest_m = f32::INFINITY;
-    let mut seen = 0;
+    let mut seen = 0_u32;
     let block = || {
         rows.chunks_exact(width)
             .flat_map(|row| &row[left..left + pool])
@@ -137,12 +161,13 @@ fn pooled_px(rows: &[f32], width: usize, left: usize, pool: usize, scale: f32) -
             nearest_m = nearest_m.min(depth_m);
         }
     }
-    if 2 * seen < pool * pool {
+    if f64::from(seen) < tuning.seen * (pool * pool) as f64 {
         return f32::NAN;
     }
+    let farthest_m = nearest_m * (1.0 + tuning.one_surface);
     let (mut sum_px, mut count) = (0.0, 0.0);
     for &depth_m in block() {
-        if depth_m > 0.0 && depth_m <= nearest_m * (1.0 + ONE_SURFACE) {
+        if depth_m > 0.0 && depth_m <= farthest_m {
             sum_px += scale / depth_m;
             count += 1.0;
         }
@@ -163,7 +188,7 @@ mod tests {
     };
 
     fn pooled(depth_m: Vec<f32>) -> Result<Scan, ScanError> {
-        let mut scan = Scan::pooled(CAMERA, 2);
+        let mut scan = Scan::pooled(CAMERA, 2, ScanConfig::default());
         let frame = Frame {
             exposure_ns: 7,
             arrival_ns: 7,

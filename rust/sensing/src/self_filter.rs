@@ -3,27 +3,31 @@
 use geometry::{Camera, Pose, Torso};
 use nalgebra::{Point3, Vector3};
 use robot::{Body, LinkPoses, Side};
-use serde::{Deserialize, Serialize};
-use settings::{ConfigError, require};
+use settings::{ConfigError, NOT_NEGATIVE, POSITIVE, Table, settings};
 
 use crate::Scan;
 
-/// Settings of [`SelfFilter`]: `[navigation.self_filter]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct SelfFilterConfig {
-    /// Radius of limbs around the line from joint to joint, m.
-    pub limb_radius: f64,
-    /// What else counts as the robot around its surface, m: the camera's pose is wrong by degrees.
-    pub margin: f64,
+settings! {
+    /// What of a depth image counts as the robot itself.
+    pub struct SelfFilterConfig("navigation.self_filter") {
+        /// Radius of limbs around the line from joint to joint.
+        limb_radius: f64 = 0.03, "m", NOT_NEGATIVE;
+        /// What else counts as the robot around its surface: the camera's pose is wrong by degrees.
+        margin: f64 = 0.05, "m", NOT_NEGATIVE;
+        /// Numbers of the filter that few will want to turn.
+        tuning: SelfFilterTuning;
+    }
 }
 
-impl Default for SelfFilterConfig {
-    fn default() -> Self {
-        Self {
-            limb_radius: 0.03,
-            margin: 0.05,
-        }
+settings! {
+    /// Of which capsules the robot's body is made, and how they are seen.
+    pub struct SelfFilterTuning("navigation.self_filter.tuning") {
+        /// Limbs that are no longer are points inside another link's capsule, and have none.
+        shortest: f64 = 0.002, "m", NOT_NEGATIVE;
+        /// How far a limb's last link reaches, in the distance of its centre of mass.
+        last_link: f64 = 2.0, "1", POSITIVE;
+        /// Capsules that come nearer to the camera than this may be anywhere in the picture.
+        nearest_depth: f64 = 0.02, "m", POSITIVE;
     }
 }
 
@@ -44,29 +48,18 @@ struct Capsule {
 #[derive(Debug, Clone)]
 pub struct SelfFilter {
     capsules: Vec<Capsule>,
+    nearest_m: f64,
 }
-
-/// Lines shorter than this are points inside another link's capsule, m.
-const SHORTEST_M: f64 = 0.002;
 
 impl SelfFilter {
     /// The capsules of this body.
     pub fn new(body: &Body, config: &SelfFilterConfig) -> Result<Self, ConfigError> {
-        for (name, value) in [
-            ("limb_radius", config.limb_radius),
-            ("margin", config.margin),
-        ] {
-            require(
-                value.is_finite() && value >= 0.0,
-                &format!("navigation.self_filter.{name}"),
-                "finite and >= 0",
-                value,
-            )?;
-        }
+        config.check()?;
+        let tuning = &config.tuning;
         let description = body.description();
         let mut capsules = Vec::new();
         let mut add = |link: usize, from: Point3<f64>, to: Point3<f64>, radius_m: f64| {
-            if (to - from).norm() > SHORTEST_M {
+            if (to - from).norm() > tuning.shortest {
                 capsules.push(Capsule {
                     link,
                     ends: [from, to],
@@ -94,11 +87,14 @@ impl SelfFilter {
                 .iter()
                 .all(|other| other.parent != Some(i));
             if is_last && Side::BOTH.iter().all(|&side| body.sole_link(side) != i) {
-                let end = Point3::from(Vector3::from(link.center_of_mass) * 2.0);
+                let end = Point3::from(Vector3::from(link.center_of_mass) * tuning.last_link);
                 add(i, Point3::origin(), end, config.limb_radius);
             }
         }
-        Ok(Self { capsules })
+        Ok(Self {
+            capsules,
+            nearest_m: tuning.nearest_depth,
+        })
     }
 
     /// Sets to *not seen* what belongs to the robot and returns the number of pixels. `links` are the poses at the
@@ -117,15 +113,15 @@ impl SelfFilter {
             };
             let camera_from_link = camera_from_torso * pose;
             let ends = capsule.ends.map(|end| camera_from_link * end);
-            masked += mask_capsule(scan, &ends, capsule.radius_m);
+            masked += mask_capsule(scan, &ends, capsule.radius_m, self.nearest_m);
         }
         scan.valid -= masked;
         masked
     }
 }
 
-fn mask_capsule(scan: &mut Scan, ends: &[Point3<f64>; 2], radius_m: f64) -> usize {
-    let Some([left, right, top, bottom]) = pixels_of(scan, ends, radius_m) else {
+fn mask_capsule(scan: &mut Scan, ends: &[Point3<f64>; 2], radius_m: f64, nearest_m: f64) -> usize {
+    let Some([left, right, top, bottom]) = pixels_of(scan, ends, radius_m, nearest_m) else {
         return 0;
     };
     let camera = scan.camera;
@@ -153,14 +149,20 @@ fn mask_capsule(scan: &mut Scan, ends: &[Point3<f64>; 2], radius_m: f64) -> usiz
     masked
 }
 
-/// Columns and rows, from and up to, that a capsule in the camera's frame may cover; `None` when it is out of view.
-fn pixels_of(scan: &Scan, ends: &[Point3<f64>; 2], radius_m: f64) -> Option<[usize; 4]> {
+/// Columns and rows, from and up to, that a capsule in the camera's frame may cover: all of them where it comes nearer than
+/// `nearest_m`; `None` when it is out of view.
+fn pixels_of(
+    scan: &Scan,
+    ends: &[Point3<f64>; 2],
+    radius_m: f64,
+    nearest_m: f64,
+) -> Option<[usize; 4]> {
     let (width, height) = (scan.camera.width, scan.camera.height);
     let nearest = ends[0].z.min(ends[1].z) - radius_m;
     if ends[0].z.max(ends[1].z) + radius_m <= 0.0 {
         return None;
     }
-    if nearest < 0.02 {
+    if nearest < nearest_m {
         return Some([0, width, 0, height]);
     }
     let (cx, cy) = scan.camera.principal_point_px();
@@ -203,6 +205,7 @@ mod tests {
                 ends,
                 radius_m: 0.08,
             }],
+            nearest_m: SelfFilterTuning::default().nearest_depth,
         }
     }
 

@@ -4,8 +4,8 @@
 ///
 /// The doc comment is the meaning that users read. The unit is SI (`"m"`, `"rad"`, `"s"`), `"1"` for a number without one, `"-"` for
 /// what is no number. Bounds are constants and functions of this crate ([`crate::POSITIVE`], [`crate::within`]). The source is paper
-/// and equation and may be left out. A line `name: type;` holds a table within the table. What more than one setting must fulfil
-/// together is checked by the function behind `check`.
+/// and equation and may be left out. A line `name: type;` holds a table within the table; `name: type = value, "-", ANY;` holds one
+/// whose defaults are those of the value. What more than one setting must fulfil together is checked by the function behind `check`.
 ///
 /// ```
 /// use settings::{ConfigError, POSITIVE, Table, require, settings, within};
@@ -80,13 +80,12 @@ macro_rules! settings {
                 Ok(())
             }
 
-            fn parameters_as(key: &str) -> Vec<$crate::Parameter> {
-                let defaults = Self::default();
+            fn parameters_as(&self, key: &str) -> Vec<$crate::Parameter> {
                 let mut all = Vec::new();
                 $(
                     $crate::describe(
                         &mut all,
-                        &defaults.$field,
+                        &self.$field,
                         $crate::Declared {
                             key: $crate::key_of(key, stringify!($field)),
                             unit: $crate::unit_of!($($unit)?),
@@ -106,11 +105,11 @@ macro_rules! settings {
             }
 
             fn schema(_: &$crate::Bounds) -> $crate::serde_json::Value {
-                $crate::Description::of::<Self>().schema()
+                $crate::TableDescription::of::<Self>().schema()
             }
 
-            fn parameters(key: &str) -> Option<Vec<$crate::Parameter>> {
-                Some(<Self as $crate::Table>::parameters_as(key))
+            fn parameters(&self, key: &str) -> Option<Vec<$crate::Parameter>> {
+                Some($crate::Table::parameters_as(self, key))
             }
         }
     };
@@ -191,7 +190,7 @@ mod tests {
             nu: f64 = 0.9, "1", SHARE, "000, equation (9)";
             /// Offsets along
             /// both axes.
-            offsets: [f32; 2] = [0.0, 0.5], "m", SHARE;
+            offsets: [f32; 2] = [0.0, 0.1], "m", SHARE;
         }
     }
 
@@ -208,8 +207,19 @@ mod tests {
             update: Update = Update::PerFrame, "-", ANY;
             /// Numbers that few turn.
             tuning: Inner;
+            /// Numbers that few turn, of another kind of cell.
+            other: Inner = Inner::of_another_kind(), "-", ANY;
         }
         check Grid::fits;
+    }
+
+    impl Inner {
+        fn of_another_kind() -> Self {
+            Self {
+                nu: 0.7,
+                ..Self::default()
+            }
+        }
     }
 
     impl Grid {
@@ -274,6 +284,8 @@ mod tests {
                 "navigation.grid.update",
                 "navigation.grid.tuning.nu",
                 "navigation.grid.tuning.offsets",
+                "navigation.grid.other.nu",
+                "navigation.grid.other.offsets",
             ]
         );
         assert_eq!(all[0].default, json!(0.04));
@@ -283,11 +295,17 @@ mod tests {
         assert_eq!(all[4].source, Some("000, equation (9)"));
         assert!(all[4].tuning);
         assert_eq!(all[5].meaning, "Offsets along both axes.");
+        assert_eq!(
+            (&all[4].default, &all[6].default),
+            (&json!(0.9), &json!(0.7))
+        );
+        // Not what 32 bits make of it.
+        assert_eq!(all[5].default, json!([0.0, 0.1]));
     }
 
     #[test]
     fn the_schema_holds_tables_within_tables() {
-        let schema = crate::Description::of::<Grid>().schema();
+        let schema = crate::TableDescription::of::<Grid>().schema();
         let cell = &schema["properties"]["cell"];
         assert_eq!(cell["exclusiveMinimum"], json!(0.0));
         assert_eq!(cell["default"], json!(0.04));
@@ -300,7 +318,10 @@ mod tests {
     fn what_a_table_within_a_table_does_not_say_has_its_default() {
         let tables = Tables::from([("grid".to_owned(), json!({"tuning": {"nu": 0.5}}))]);
         let grid: Grid = read(&tables, "grid").unwrap();
-        assert_eq!((grid.tuning.nu, grid.tuning.offsets[1]), (0.5, 0.5));
+        assert_eq!((grid.tuning.nu, grid.tuning.offsets[1]), (0.5, 0.1));
+        let tables = Tables::from([("grid".to_owned(), json!({"other": {"offsets": [0.1, 0.2]}}))]);
+        let grid: Grid = read(&tables, "grid").unwrap();
+        assert_eq!((grid.other.nu, grid.other.offsets[1]), (0.7, 0.2));
         let tables = Tables::from([("grid".to_owned(), json!({"tuning": {"mu": 0.5}}))]);
         let error = read::<Grid>(&tables, "grid").unwrap_err().to_string();
         assert!(error.starts_with("navigation.grid.tuning"), "{error}");

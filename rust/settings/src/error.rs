@@ -12,6 +12,17 @@ pub struct ConfigError {
     pub found: String,
 }
 
+/// Why a part could not be made of what the user wrote.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum MakeError {
+    /// A setting that cannot be used.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// A table that cannot be read, or something that is missing; says where.
+    #[error("{0}")]
+    Text(String),
+}
+
 /// `Ok` where `holds`, else the error `key must be allowed, got found`.
 pub fn require(
     holds: bool,

@@ -15,14 +15,14 @@ pub use bounds::{
     ANY, Bounds, End, NOT_NEGATIVE, POSITIVE, SHARE, above, above_to, at_least, between,
     from_below, within,
 };
-pub use error::{ConfigError, require, require_positive};
-pub use part::{MakeError, Part};
+pub use error::{ConfigError, MakeError, require, require_positive};
+pub use part::Part;
 #[doc(hidden)]
 pub use setting::words_of;
 pub use setting::{Parameter, Setting};
 #[doc(hidden)]
 pub use table::{Declared, describe, key_of};
-pub use table::{Description, Table, Tables, read};
+pub use table::{Table, TableDescription, Tables, read};
 
 #[doc(hidden)]
 pub use {schemars, serde, serde_json};

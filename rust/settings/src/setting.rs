@@ -34,8 +34,8 @@ pub trait Setting {
     /// JSON schema of its values.
     fn schema(bounds: &Bounds) -> Value;
 
-    /// The settings in it, where it is a table.
-    fn parameters(_key: &str) -> Option<Vec<Parameter>> {
+    /// The settings in it with its values for defaults, where it is a table.
+    fn parameters(&self, _key: &str) -> Option<Vec<Parameter>> {
         None
     }
 
@@ -51,7 +51,11 @@ macro_rules! numbers {
             fn check(&self, key: &str, bounds: &Bounds) -> Result<(), ConfigError> {
                 // As wide as every number here that a bound can name.
                 #[expect(clippy::allow_attributes, reason = "only some conversions are lossless")]
-                #[allow(clippy::cast_lossless, trivial_numeric_casts)]
+                #[allow(
+                    clippy::cast_lossless,
+                    trivial_numeric_casts,
+                    reason = "only some conversions are lossless"
+                )]
                 let value = *self as f64;
                 crate::require(bounds.hold(value), key, &bounds.to_string(), self)
             }
@@ -101,10 +105,8 @@ impl<T: Setting> Setting for Option<T> {
 
 impl<T: Setting, const N: usize> Setting for [T; N] {
     fn check(&self, key: &str, bounds: &Bounds) -> Result<(), ConfigError> {
-        let numbered = self.iter().enumerate();
-        numbered
-            .map(|(index, value)| value.check(&format!("{key}.{index}"), bounds))
-            .collect()
+        let mut numbered = self.iter().enumerate();
+        numbered.try_for_each(|(index, value)| value.check(&format!("{key}.{index}"), bounds))
     }
 
     fn schema(bounds: &Bounds) -> Value {

@@ -18,8 +18,8 @@ pub trait Table: Serialize + DeserializeOwned + Default {
     /// Refuses what cannot be used, as settings of the table `key`.
     fn check_as(&self, key: &str) -> Result<(), ConfigError>;
 
-    /// The settings of the table `key`, tables within it included.
-    fn parameters_as(key: &str) -> Vec<Parameter>;
+    /// The settings of the table `key` with its values for defaults, tables within it included.
+    fn parameters_as(&self, key: &str) -> Vec<Parameter>;
 
     /// Refuses what cannot be used.
     fn check(&self) -> Result<(), ConfigError> {
@@ -28,35 +28,44 @@ pub trait Table: Serialize + DeserializeOwned + Default {
 
     /// Every setting, tables within included.
     fn parameters() -> Vec<Parameter> {
-        Self::parameters_as(Self::KEY)
+        Self::default().parameters_as(Self::KEY)
     }
 }
 
 /// What a table is, for lists and schemas.
 #[derive(Debug, Clone, Copy)]
-pub struct Description {
+pub struct TableDescription {
     /// Where it stands, as in `navigation.fog`.
     pub key: &'static str,
     /// What it is for.
     pub about: &'static str,
-    /// Its settings.
-    pub parameters: fn() -> Vec<Parameter>,
+    list: fn(&str) -> Vec<Parameter>,
 }
 
-impl Description {
+impl TableDescription {
     /// That of a table.
     pub const fn of<T: Table>() -> Self {
+        Self::at::<T>(T::KEY)
+    }
+
+    /// That of a table which stands at another key than its own.
+    pub const fn at<T: Table>(key: &'static str) -> Self {
         Self {
-            key: T::KEY,
+            key,
             about: T::ABOUT,
-            parameters: T::parameters,
+            list: defaults_of::<T>,
         }
+    }
+
+    /// Its settings.
+    pub fn parameters(&self) -> Vec<Parameter> {
+        (self.list)(self.key)
     }
 
     /// JSON schema of the table.
     pub fn schema(&self) -> Value {
         let mut schema = object(self.about);
-        for parameter in (self.parameters)() {
+        for parameter in self.parameters() {
             let below = &parameter.key[self.key.len() + 1..];
             let mut table = &mut schema;
             let mut names: Vec<_> = below.split('.').collect();
@@ -71,6 +80,10 @@ impl Description {
         }
         schema
     }
+}
+
+fn defaults_of<T: Table>(key: &str) -> Vec<Parameter> {
+    T::default().parameters_as(key)
 }
 
 fn object(about: &str) -> Value {
@@ -151,12 +164,12 @@ pub fn describe<T: Setting + Serialize>(all: &mut Vec<Parameter>, default: &T, a
         meaning,
         source,
     } = as_is;
-    if let Some(inner) = T::parameters(&key) {
+    if let Some(inner) = default.parameters(&key) {
         all.extend(inner);
         return;
     }
     let meaning = meaning.split_whitespace().collect::<Vec<_>>().join(" ");
-    let default = json!(default);
+    let default = as_written(json!(default));
     let mut schema = T::schema(&bounds);
     schema["description"] = json!(meaning);
     schema["default"] = default.clone();
@@ -173,4 +186,17 @@ pub fn describe<T: Setting + Serialize>(all: &mut Vec<Parameter>, default: &T, a
         source,
         schema,
     });
+}
+
+/// Numbers as they were written: those of 32 bits would show digits of 64 that nobody wrote.
+fn as_written(value: Value) -> Value {
+    match value {
+        Value::Array(values) => values.into_iter().map(as_written).collect(),
+        Value::Number(number) if number.is_f64() => number
+            .as_f64()
+            .filter(|&wide| f64::from(wide as f32) == wide)
+            .and_then(|wide| (wide as f32).to_string().parse::<f64>().ok())
+            .map_or(Value::Number(number), |short| json!(short)),
+        other => other,
+    }
 }

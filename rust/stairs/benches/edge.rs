@@ -8,7 +8,7 @@ mod synthetic;
 use criterion::{Criterion, criterion_group, criterion_main};
 use geometry::{Point, Robot};
 use segmentation::Planes;
-use stairs::{Edge, EdgeModel};
+use stairs::{Edge, EdgeModel, EdgeModelTuning};
 use synthetic::{Block, CAMERA, Noise, Scene, camera_pose};
 
 /// A drop at `front_m`, wide enough to fill the picture.
@@ -52,7 +52,7 @@ fn fit(criterion: &mut Criterion) {
             left: Point::<Robot>::new(front_m + 0.01, 0.2, rise_m.max(0.0)),
             right: Point::<Robot>::new(front_m + 0.02, -0.2, rise_m.max(0.0)),
         };
-        let mut model = EdgeModel::new(CAMERA);
+        let mut model = EdgeModel::new(CAMERA, EdgeModelTuning::default());
         let _ = model
             .fit(&scans[0], &planes, &guess, 0.0, rise_m)
             .expect("the edge is in view");

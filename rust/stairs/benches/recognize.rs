@@ -9,8 +9,9 @@ mod synthetic;
 use std::time::Instant;
 
 use geometry::Pose;
-use segmentation::{GroundConfig, Planes, ScanLine, ScanLineConfig, Segmenter};
-use stairs::{EdgeModel, Recognizer, StairsConfig};
+use segmentation::finders::{ScanLine, ScanLineConfig};
+use segmentation::{GroundConfig, Planes, Segmenter};
+use stairs::{EdgeModel, EdgeModelTuning, Recognizer, StairsConfig};
 use synthetic::{CAMERA, Noise, Scene, camera_pose};
 
 const FRAMES: usize = 400;
@@ -27,7 +28,7 @@ fn main() {
     }
     let scene = Scene::stairs(0.35, 0.03, 0.12, 4);
     let mut recognizer = Recognizer::new(StairsConfig::default(), CAMERA).expect("allowed");
-    let mut model = EdgeModel::new(CAMERA);
+    let mut model = EdgeModel::new(CAMERA, EdgeModelTuning::default());
     let (mut whole_ms, mut fit_ms) = (Vec::new(), Vec::new());
     for i in 0..FRAMES {
         let pose = camera_pose(0.3 * (i as f64 / 10.0).sin(), 0.75);

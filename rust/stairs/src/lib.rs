@@ -1,29 +1,15 @@
 //! Stairs (003): extracted from horizontal planes, their edges fitted to the disparities, merged while the robot stands,
 //! remembered while it steps, and where feet fit on them.
 
-mod aspect;
-mod border;
-mod boundary;
-mod conditions;
+mod climbing;
 mod config;
-mod edge_model;
-mod extract;
-mod fits;
-mod footing;
-mod fusion;
-mod joints;
-mod line;
-mod memory;
-mod merge;
-mod outer_points;
+mod edge_line;
+mod edges;
+mod frame;
+mod lines;
 mod recognizer;
-mod robust_line;
-mod shared_edges;
-mod size;
 mod stair;
-mod tread;
-mod view;
-mod visible;
+mod treads;
 
 #[cfg(test)]
 #[path = "../../segmentation/src/synthetic.rs"]
@@ -31,9 +17,16 @@ mod synthetic;
 #[cfg(test)]
 mod tests;
 
-pub use conditions::{Ahead, Stand, Tolerance, Unready, conditions};
-pub use config::{ClimbingConfig, ParameterSet, StairsConfig};
-pub use edge_model::{EdgeModel, FittedEdge, Untrusted};
-pub use footing::{Feet, Footing, Onward, Unfit};
+pub use climbing::conditions::{Ahead, Stand, Tolerance, Unready, conditions};
+pub use climbing::config::{ClimbingConfig, ClimbingTuning, ParameterSet};
+pub use climbing::footing::{Feet, Footing, Onward, Unfit};
+pub use config::{
+    BorderTuning, CoarseTuning, EdgeModelTuning, EdgesTuning, ExcerptTuning, FitsTuning,
+    FrameTuning, FusionTuning, JointsTuning, LinesTuning, MemoryTuning, MergingTuning,
+    PlacesTuning, RefineTuning, SharedEdgesTuning, SidesTuning, StairsConfig, StairsTuning,
+    TreadsTuning, ViewTuning, VisibilityTuning, WindowTuning,
+};
+pub use edge_line::EdgeLine;
+pub use edges::edge_model::{EdgeModel, FittedEdge, Untrusted};
 pub use recognizer::{Recognizer, StairsError};
 pub use stair::{Edge, EdgeFit, Sides, Stair, Staircase};

@@ -4,13 +4,13 @@ use geometry::{Map, Pose, Robot};
 use mapping::FloorView;
 use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 
-use crate::extract::Extraction;
-use crate::fits::Fits;
-use crate::joints::{cut_off, join};
-use crate::memory::Memory;
-use crate::view::View;
+use crate::edges::fits::Fits;
+use crate::edges::joints::{cut_off, join};
+use crate::frame::extract::Extraction;
+use crate::frame::view::PlanesView;
+use crate::treads::memory::TreadMemory;
 use crate::{Stair, Staircase, StairsConfig};
 
 /// Why a frame was not searched for stairs. The stairs are unchanged.
@@ -35,7 +35,7 @@ pub struct Recognizer {
     config: StairsConfig,
     camera: Intrinsics,
     extraction: Extraction,
-    memory: Memory,
+    memory: TreadMemory,
     fits: Fits,
     steps_taken: u64,
     staircase: Staircase,
@@ -46,19 +46,19 @@ impl Recognizer {
     pub fn new(config: StairsConfig, camera: Intrinsics) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self {
-            config,
             camera,
             extraction: Extraction::default(),
-            memory: Memory::default(),
-            fits: Fits::new(camera),
+            memory: TreadMemory::default(),
+            fits: Fits::new(camera, &config.tuning),
             steps_taken: 0,
             staircase: Staircase::default(),
+            config,
         })
     }
 
     /// Drops what was seen: the robot found itself at another place than it had believed.
     pub fn forget(&mut self) {
-        self.memory = Memory::default();
+        self.memory = TreadMemory::default();
         self.fits.forget();
         self.staircase = Staircase::default();
     }
@@ -91,7 +91,7 @@ impl Recognizer {
             self.fits.step(stepped, &self.config);
             self.steps_taken = steps_taken;
         }
-        let view = View::new(planes, self.camera);
+        let view = PlanesView::new(planes, self.camera, &self.config.tuning.view);
         if planes.reliable {
             self.extraction.read(planes, self.camera, &self.config);
             self.memory
@@ -99,15 +99,15 @@ impl Recognizer {
         }
         let stairs = &mut self.staircase.stairs;
         self.memory.stairs(&self.config, stairs);
-        cut_off(stairs, self.config.own_height);
-        join(stairs, self.config.own_height);
-        self.fits.apply(stairs);
+        cut_off(stairs, &self.config);
+        join(stairs, &self.config);
+        self.fits.apply(stairs, &self.config.tuning.edges);
         if planes.reliable {
             let seen = (scan, planes);
             self.fits
                 .see(seen, &view, stairs, map_from_robot, &self.config);
         }
-        self.fits.apply(stairs);
+        self.fits.apply(stairs, &self.config.tuning.edges);
         sort_by_nearness(stairs, map_from_robot);
         self.staircase.frames = self.memory.frames;
         Ok(&self.staircase)
@@ -115,7 +115,7 @@ impl Recognizer {
 
     /// Takes in where the map has slopes: what lies on them is no stair.
     pub fn leave_slopes(&mut self, floor: &FloorView) {
-        self.memory.leave_slopes(floor);
+        self.memory.leave_slopes(floor, &self.config.tuning);
     }
 
     /// The stairs as of the last frame.
@@ -124,7 +124,7 @@ impl Recognizer {
     }
 }
 
-/// Those ahead before those behind, each the nearest first along the walking direction.
+/// Puts the stairs ahead before those behind, the nearest first along the walking direction.
 fn sort_by_nearness(stairs: &mut [Stair<Map>], map_from_robot: &Pose<Map, Robot>) {
     let robot_from_map = map_from_robot.inverse();
     let ahead_m = |stair: &Stair<Map>| (robot_from_map * stair.reference).inner.x;

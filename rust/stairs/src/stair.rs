@@ -1,16 +1,18 @@
 //! What a stair is (003, section IV.A, Fig. 5), and the product of the recognizer.
 
 use geometry::{Map, Point, Pose, Robot};
-use nalgebra::Vector2;
+use nalgebra::{Point2, Vector2};
 
-use crate::line::Line;
+use crate::PlacesTuning;
+use crate::edge_line::EdgeLine;
+use crate::lines::line::StraightLine;
 
 /// A straight edge of a level surface. Its ends are left and right for one who goes over it from front to back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge<Frame> {
     /// Left end, at the height of the surface that the edge bounds.
     pub left: Point<Frame>,
-    /// Right end, at the same height.
+    /// Right end, at the height of the surface that the edge bounds.
     pub right: Point<Frame>,
 }
 
@@ -93,17 +95,13 @@ impl<F> Edge<F> {
     }
 
     /// How far a place lies beyond the edge, m; negative in front of it.
-    pub fn beyond_m(&self, [x_m, y_m]: [f64; 2]) -> f64 {
-        let (sin, cos) = self.heading_rad().sin_cos();
-        let middle = self.middle().inner;
-        (x_m - middle.x) * cos + (y_m - middle.y) * sin
+    pub fn beyond_m(&self, at_m: [f64; 2]) -> f64 {
+        EdgeLine::of(self).beyond_m(at_m)
     }
 
     /// How far to the left of the edge's middle a place lies, m.
-    pub fn aside_m(&self, [x_m, y_m]: [f64; 2]) -> f64 {
-        let (sin, cos) = self.heading_rad().sin_cos();
-        let middle = self.middle().inner;
-        (y_m - middle.y) * cos - (x_m - middle.x) * sin
+    pub fn aside_m(&self, at_m: [f64; 2]) -> f64 {
+        EdgeLine::of(self).offset_m(at_m)
     }
 
     /// Where one crosses its line who goes straight on from a place, square to it, m.
@@ -113,13 +111,22 @@ impl<F> Edge<F> {
         [x_m + cos * away_m, y_m + sin * away_m]
     }
 
+    /// The line through it, from right to left; `None` where it has no length.
+    pub(crate) fn line(&self) -> Option<StraightLine> {
+        let (right, left) = (self.right.inner.xy(), self.left.inner.xy());
+        Some(StraightLine {
+            at: right,
+            along: (left - right).try_normalize(1e-9)?,
+        })
+    }
+
     /// Direction square to it, from front to back, length 1.
     pub(crate) fn across(&self) -> Vector2<f64> {
         let (sin, cos) = self.heading_rad().sin_cos();
         Vector2::new(cos, sin)
     }
 
-    /// The same edge at another height, m.
+    /// This edge at another height, m.
     pub(crate) fn at_height(&self, height_m: f64) -> Self {
         let at = |end: &Point<F>| Point::new(end.inner.x, end.inner.y, height_m);
         Self {
@@ -128,8 +135,8 @@ impl<F> Edge<F> {
         }
     }
 
-    /// The same edge on a line.
-    pub(crate) fn onto(&self, line: &Line) -> Self {
+    /// This edge on a line.
+    pub(crate) fn onto(&self, line: &StraightLine) -> Self {
         let at = |end: &Point<F>| {
             let place = line.nearest(&end.inner.xy());
             Point::new(place.x, place.y, end.inner.z)
@@ -140,7 +147,7 @@ impl<F> Edge<F> {
         }
     }
 
-    /// The same edge for one who crosses it the other way.
+    /// This edge for one who crosses it the other way.
     pub(crate) const fn reversed(&self) -> Self {
         Self {
             left: self.right,
@@ -148,7 +155,7 @@ impl<F> Edge<F> {
         }
     }
 
-    /// The same edge, farther back, m.
+    /// This edge, farther back, m.
     pub(crate) fn shifted(&self, back_m: f64) -> Self {
         let shift = (self.across() * back_m).push(0.0);
         Self {
@@ -157,13 +164,22 @@ impl<F> Edge<F> {
         }
     }
 
-    /// The same edge in another frame.
+    /// This edge in another frame.
     #[must_use]
     pub fn transformed<T>(&self, target_from_frame: &Pose<T, F>) -> Edge<T> {
         Edge {
             left: *target_from_frame * self.left,
             right: *target_from_frame * self.right,
         }
+    }
+}
+
+/// A level edge from its right to its left end, at a height.
+pub(crate) fn level_edge([right, left]: [Point2<f64>; 2], z_m: f64) -> Edge<Robot> {
+    let at = |p: Point2<f64>| Point::new(p.x, p.y, z_m);
+    Edge {
+        left: at(left),
+        right: at(right),
     }
 }
 
@@ -214,17 +230,22 @@ impl<F> Stair<F> {
         .map(|(margin_m, seen)| if seen > 0 { 0.0 } else { margin_m })
     }
 
-    /// Five by five places inside, away from the edges.
-    pub(crate) fn places(&self) -> impl Iterator<Item = Point<F>> + '_ {
-        let share = |i: usize| 0.1 + 0.2 * i as f64;
-        (0..25).map(move |i| {
-            let (across, along) = (share(i / 5), share(i % 5));
+    /// A square pattern of places inside.
+    pub(crate) fn places(&self, tuning: &PlacesTuning) -> impl Iterator<Item = Point<F>> {
+        let PlacesTuning {
+            each_way,
+            first,
+            apart,
+        } = *tuning;
+        let share = move |i: usize| first + apart * i as f64;
+        (0..each_way * each_way).map(move |i| {
+            let (across, along) = (share(i / each_way), share(i % each_way));
             let on = |edge: &Edge<F>| edge.right.inner.lerp(&edge.left.inner, along);
             Point::wrap(on(&self.front).lerp(&on(&self.back), across))
         })
     }
 
-    /// The same stair in another frame.
+    /// This stair in another frame.
     #[must_use]
     pub fn transformed<T>(&self, target_from_frame: &Pose<T, F>) -> Stair<T> {
         Stair {

@@ -12,5 +12,6 @@ mod standing;
 mod walk;
 
 pub use biped::biped;
+pub use sensing::TICK_NS;
 pub use standing::state_at;
-pub use walk::{TICK_NS, Walk};
+pub use walk::Walk;

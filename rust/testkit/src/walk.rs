@@ -1,14 +1,12 @@
 //! The observations that the biped would make on a walk with known footholds.
 
-use geometry::PlanarPose;
+use geometry::{GRAVITY_MPS2, PlanarPose};
 use nalgebra::{Isometry3, Matrix6, Translation3, UnitQuaternion, Vector2, Vector3, Vector6};
 use robot::{Body, LinkPoses, Side};
-use sensing::Observation;
+use sensing::{Observation, TICK_NS};
 
 use crate::biped::{HIP_Y_M, biped};
 
-/// Time between two observations, ns.
-pub const TICK_NS: u64 = 10_000_000;
 const HIP_HEIGHT_M: f64 = 0.22;
 const JOINTS: usize = 13;
 
@@ -153,7 +151,7 @@ impl Walk {
             );
             self.solve_leg(side, &(self.torso.inverse() * odometry_from_sole));
         }
-        let weight_n = self.body.mass_kg() * 9.81;
+        let weight_n = self.body.mass_kg() * GRAVITY_MPS2;
         let turned = before.rotation.inverse() * self.torso.rotation;
         let first = self.observations.is_empty();
         let rate = if first {
@@ -168,7 +166,7 @@ impl Walk {
             (speed - self.speed_mps) / 0.01
         };
         self.speed_mps = speed;
-        let force = self.torso.rotation.inverse() * Vector3::new(pull.x, pull.y, 9.81);
+        let force = self.torso.rotation.inverse() * Vector3::new(pull.x, pull.y, GRAVITY_MPS2);
         self.observations.push(Observation {
             time_ns: self.observations.len() as u64 * TICK_NS,
             joint_positions_rad: self.joints.clone(),

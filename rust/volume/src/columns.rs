@@ -1,7 +1,7 @@
 //! The exact traversal of [`super::VoxelWalk`], many voxels at a time: for every cell that a segment passes, seen from
 //! above, the run of layers that it passes there.
 
-use super::ray::Part;
+use super::ray::RayPart;
 
 /// Fraction bits of the fixed-point coordinates: 2^-44 of a voxel, and room for half a million voxels.
 const BITS: u32 = 44;
@@ -34,8 +34,8 @@ pub(super) struct Slabs {
 impl Slabs {
     /// The segment of a part of a ray, in a grid of so many columns.
     #[inline]
-    pub(super) fn new(part: &Part, cols: usize) -> Self {
-        let Part {
+    pub(super) fn new(part: &RayPart, cols: usize) -> Self {
+        let RayPart {
             from,
             to,
             first,
@@ -176,7 +176,7 @@ mod tests {
     }
 
     fn marks(from: [f64; 3], to: [f64; 3]) -> Vec<u64> {
-        let part = Part::inside(from, to, SIZE).unwrap();
+        let part = RayPart::inside(from, to, SIZE).unwrap();
         let mut marks = vec![0; 100 * 100];
         Slabs::new(&part, 100).visit(0, i32::MAX, |index, layers| marks[index] |= layers);
         marks

@@ -17,7 +17,7 @@ const NONE: u32 = u32::MAX;
 
 /// A ray by its slopes: how far it goes sideways and up while it goes one voxel ahead.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Beam {
+struct FanBeam {
     slopes: [f32; 2],
     /// Slab in which it ends, counted from the eye's.
     reach: u32,
@@ -45,7 +45,7 @@ pub(super) struct Grain {
 /// Rays along one axis of the grid, one way. Reused from frame to frame.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Fan {
-    beams: Vec<Beam>,
+    beams: Vec<FanBeam>,
     grain: Grain,
     /// By reach, and where the rays of each reach begin.
     places: Vec<Place>,
@@ -64,7 +64,7 @@ impl Fan {
         let taken = slopes[1].abs() < STEEPEST;
         if taken {
             let slopes = [slopes[0] as f32, slopes[1] as f32];
-            self.beams.push(Beam { slopes, reach, ray });
+            self.beams.push(FanBeam { slopes, reach, ray });
         }
         taken
     }
@@ -87,7 +87,7 @@ impl Fan {
             lowest, per_slope, ..
         } = self.grain;
         let (lowest, per_slope) = (lowest.map(|slope| slope as f32), per_slope as f32);
-        let slab = |beam: &Beam| beam.reach.min(farthest) as usize;
+        let slab = |beam: &FanBeam| beam.reach.min(farthest) as usize;
         self.starts.clear();
         self.starts.resize(farthest as usize + 2, 0);
         for beam in &self.beams {
@@ -183,10 +183,10 @@ impl Fan {
 }
 
 impl Grain {
-    fn of(beams: &[Beam]) -> Self {
+    fn of(beams: &[FanBeam]) -> Self {
         let mut low = [f32::INFINITY; 2];
         let mut high = [f32::NEG_INFINITY; 2];
-        for Beam { slopes, .. } in beams {
+        for FanBeam { slopes, .. } in beams {
             for way in 0..2 {
                 low[way] = if slopes[way] < low[way] {
                     slopes[way]

@@ -1,6 +1,6 @@
 //! What of a grid shows in a picture: a space between planes.
 
-use super::picture::{Linear, Sight};
+use super::picture::{PictureLinear, PictureSight};
 use super::placement::Size;
 
 /// Planes around what shows in the picture and is not too deep.
@@ -9,12 +9,12 @@ const PLANES: usize = 6;
 const NEAREST_M: f32 = 0.01;
 
 /// Layers of a cell, first and last.
-pub(super) type Layers = [usize; 2];
+pub(super) type LayerSpan = [usize; 2];
 
 /// A bound of the space: positive in it.
 #[derive(Debug, Clone, Copy)]
-struct Plane {
-    inside: Linear,
+struct FrustumPlane {
+    inside: PictureLinear,
     /// From layer to layer it falls or rises by as much; one over that.
     per_layer: f32,
     /// How much it changes from the middle of a voxel to its furthest corner.
@@ -24,7 +24,7 @@ struct Plane {
 /// The voxels that show in the picture.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Frustum {
-    planes: [Plane; PLANES],
+    planes: [FrustumPlane; PLANES],
     size: Size,
 }
 
@@ -84,11 +84,11 @@ fn per(slope: f32) -> f32 {
 
 impl Frustum {
     /// What shows in a picture in which nothing is deeper than `farthest_m`.
-    pub(super) fn new(sight: &Sight, farthest_m: f32, size: Size) -> Self {
+    pub(super) fn new(sight: &PictureSight, farthest_m: f32, size: Size) -> Self {
         let [width, height] = sight.size_px.map(|n| n as f32);
         let (depth, across, down) = (&sight.depth, &sight.across, &sight.down);
-        let plane = |inside: Linear, by: f32| Plane {
-            inside: Linear {
+        let plane = |inside: PictureLinear, by: f32| FrustumPlane {
+            inside: PictureLinear {
                 origin: inside.origin + by,
                 ..inside
             },
@@ -122,7 +122,7 @@ impl Frustum {
 
     /// The layers of a cell of which a part shows, and those whose middle does.
     #[inline]
-    pub(super) fn layers(&self, col: usize, row: usize) -> Option<(Layers, Option<Layers>)> {
+    pub(super) fn layers(&self, col: usize, row: usize) -> Option<(LayerSpan, Option<LayerSpan>)> {
         let mut part = Interval::to(self.size.layers);
         let mut middle = part;
         for plane in &self.planes {

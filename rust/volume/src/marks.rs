@@ -5,12 +5,12 @@ use geometry::{Cell, CellArea};
 use super::columns::Slabs;
 use super::fan::Fan;
 use super::locator::Locator;
-use super::picture::Sight;
+use super::picture::PictureSight;
 use super::placement::{Placement, Ray, Size};
 use super::projected::{LOOKS, Projector};
-use super::ray::{Last, Part, Reach};
+use super::ray::{Last, RayPart, Reach};
 use super::reaches::Reaches;
-use super::sweep::{Marked, Sweep, Way};
+use super::sweep::{Marked, RaySweep, SweepWay};
 use super::voxels::{Column, Voxels};
 use crate::Clearing;
 
@@ -89,7 +89,7 @@ impl Marks {
     /// settled, and voxels of which no ray goes by the places that are looked at.
     pub(super) fn look(
         &mut self,
-        sight: &Sight,
+        sight: &PictureSight,
         placement: &Placement,
         rays: impl Iterator<Item = (usize, Ray)>,
         voxels: &Voxels,
@@ -151,7 +151,7 @@ impl Marks {
     /// Marks what the rays in the fans pass, and forgets them.
     fn sweep(&mut self, eye: [f64; 3], settled: &[u64]) {
         for (number, fan) in self.fans.iter_mut().enumerate() {
-            let way = Way {
+            let way = SweepWay {
                 along_x: number < 2,
                 forward: number % 2 == 0,
             };
@@ -160,7 +160,7 @@ impl Marks {
                 passed: &mut self.passed,
                 settled,
             };
-            let sweep = Sweep::new(way, eye, &self.ends, self.size);
+            let sweep = RaySweep::new(way, eye, &self.ends, self.size);
             if fan.len() < FEW {
                 (fan.reaching(0)).for_each(|ray| sweep.walk(ray, 0..i32::MAX, &mut marked));
             } else {
@@ -173,7 +173,7 @@ impl Marks {
 
     /// Marks the voxels that a ray passes.
     fn walk(&mut self, eye: [f64; 3], end: [f64; 3]) {
-        if let Some(part) = Part::inside(eye, end, self.size.voxels()) {
+        if let Some(part) = RayPart::inside(eye, end, self.size.voxels()) {
             Slabs::new(&part, self.size.cols).visit(0, i32::MAX, |cell, layers| {
                 self.passed[cell] |= layers;
             });
@@ -253,7 +253,7 @@ mod tests {
     fn walked(eye: [f64; 3], rays: &[([f64; 3], bool)]) -> Vec<[u64; 2]> {
         let mut marks = Marks::new(SIZE);
         for &(end, hit) in rays {
-            let Some(part) = Part::inside(eye, end, SIZE.voxels()) else {
+            let Some(part) = RayPart::inside(eye, end, SIZE.voxels()) else {
                 continue;
             };
             Slabs::new(&part, SIZE.cols).visit(0, i32::MAX, |cell, layers| {

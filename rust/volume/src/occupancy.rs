@@ -3,10 +3,10 @@
 use geometry::{Cell, CellArea, Lattice, runs};
 
 use super::marks::Marks;
-use super::picture::{Picture, Sight};
+use super::picture::{Picture, PictureSight};
 use super::placement::{Placement, Ray, Size};
 use super::projected::LOOKS;
-use super::ray::Part;
+use super::ray::RayPart;
 use super::voxels::{Voxels, bits};
 use super::{ProbabilityTable, VoxelWalk};
 use crate::{Clearing, Update};
@@ -129,7 +129,7 @@ impl OccupancyGrid {
             return self.insert(eye_m, rays.map(|(_, ray)| ray), update, clearing);
         }
         let placement = self.placement;
-        let sight = Sight::new(picture, eye_m, &placement);
+        let sight = PictureSight::new(picture, eye_m, &placement);
         let area = self.marks.look(&sight, &placement, rays, &self.voxels);
         self.apply_marks(area);
         area
@@ -177,7 +177,7 @@ impl OccupancyGrid {
         let size = self.size.voxels();
         let mut area = CellArea::EMPTY;
         for (end, hit) in rays {
-            let Some(part) = Part::inside(eye, end, size) else {
+            let Some(part) = RayPart::inside(eye, end, size) else {
                 continue;
             };
             part.add_to(&mut area);

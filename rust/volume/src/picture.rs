@@ -27,14 +27,14 @@ impl Picture {
 
 /// A function of the place that is linear in column, row and layer.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Linear {
+pub(super) struct PictureLinear {
     /// Value in the middle of voxel (0, 0, 0).
     pub(super) origin: f32,
     /// Change per column, row and layer.
     pub(super) step: [f32; 3],
 }
 
-impl Linear {
+impl PictureLinear {
     /// Value in the middle of the lowest voxel of a cell.
     #[inline]
     pub(super) fn at(&self, col: usize, row: usize) -> f32 {
@@ -53,11 +53,11 @@ impl Linear {
 /// A picture seen from the voxels of a grid: `depth` along the axis, m, and where a place shows, times its depth, counted from the
 /// picture's corner: a place shows in the pixel of column `across / depth` and row `down / depth`, both rounded down.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sight {
+pub(super) struct PictureSight {
     pub(super) size_px: [usize; 2],
-    pub(super) depth: Linear,
-    pub(super) across: Linear,
-    pub(super) down: Linear,
+    pub(super) depth: PictureLinear,
+    pub(super) across: PictureLinear,
+    pub(super) down: PictureLinear,
     /// Up to this depth, m, a line of sight that lies a pixel beside a voxel's middle, both ways, still goes through the voxel.
     pub(super) one_pixel_m: f32,
     /// How far the next line of sight is at a depth of 1 m, along the grid's axes, in half voxels: along columns, and along rows.
@@ -76,7 +76,7 @@ pub(super) struct Sight {
 /// Share of half a voxel that counts as within it: the rest is more than what 32 bits may lose, a rounding guard.
 const WITHIN: f32 = 0.98;
 
-impl Sight {
+impl PictureSight {
     pub(super) fn new(picture: &Picture, eye_m: [f64; 3], placement: &Placement) -> Self {
         let Placement {
             lattice,
@@ -89,7 +89,7 @@ impl Sight {
             let corner = (0..3).map(|a| axis[a] * (corner_m[a] - eye_m[a])).sum();
             (corner, std::array::from_fn(|a| axis[a] * voxel_m[a]))
         };
-        let middle = |(corner, step): (f64, [f64; 3])| Linear {
+        let middle = |(corner, step): (f64, [f64; 3])| PictureLinear {
             origin: (corner + 0.5 * step.iter().sum::<f64>()) as f32,
             step: step.map(|part| part as f32),
         };
@@ -132,7 +132,7 @@ impl Sight {
 
     /// Depth, and place in the picture times depth.
     #[inline]
-    pub(super) const fn shown(&self) -> [&Linear; 3] {
+    pub(super) const fn shown(&self) -> [&PictureLinear; 3] {
         [&self.depth, &self.across, &self.down]
     }
 

@@ -4,7 +4,7 @@ use geometry::{Cell, CellArea};
 
 use super::columns::run;
 use super::frustum::Frustum;
-use super::picture::Sight;
+use super::picture::PictureSight;
 use super::placement::Size;
 use super::reaches::{LEVELS, Level, Reaches};
 use super::voxels::{Column, bits};
@@ -23,7 +23,7 @@ struct Lens<'a> {
 }
 
 impl<'a> Lens<'a> {
-    fn new(level: &'a Level, sight: &Sight) -> Self {
+    fn new(level: &'a Level, sight: &PictureSight) -> Self {
         Self {
             level,
             per_tile: 1.0 / level.tile_px,
@@ -53,7 +53,7 @@ type Shown = [f32; 3];
 
 /// Finds voxels that lines of sight pass.
 pub(super) struct Projector<'a> {
-    sight: &'a Sight,
+    sight: &'a PictureSight,
     lenses: [Lens<'a>; LEVELS],
     frustum: Frustum,
     size: Size,
@@ -64,7 +64,7 @@ impl<'a> Projector<'a> {
     /// A projector of lines of sight that reach `farthest_m` deep at most. Of what is likely to be occupied, at most `looks` of them
     /// along columns, and as many along rows, are looked at.
     pub(super) fn new(
-        sight: &'a Sight,
+        sight: &'a PictureSight,
         reaches: &'a Reaches,
         (farthest_m, looks): (f32, usize),
         size: Size,

@@ -5,7 +5,7 @@ use geometry::{Cell, CellArea};
 /// The part of a segment that lies inside the grid. Coordinates are in voxels: voxel (i, j, k) fills `i..i+1`, `j..j+1`,
 /// `k..k+1`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Part {
+pub(super) struct RayPart {
     pub(super) from: [f64; 3],
     pub(super) to: [f64; 3],
     /// Voxels of the two ends.
@@ -15,7 +15,7 @@ pub(super) struct Part {
     pub(super) ends_inside: bool,
 }
 
-impl Part {
+impl RayPart {
     /// `None` where segment and grid do not meet.
     #[inline]
     pub(super) fn inside(from: [f64; 3], to: [f64; 3], size: [i32; 3]) -> Option<Self> {
@@ -94,7 +94,7 @@ impl Reach {
 
     #[cold]
     fn add_part(&mut self, end: [f64; 3]) -> Option<Last> {
-        let part = Part::inside(self.eye, end, self.size)?;
+        let part = RayPart::inside(self.eye, end, self.size)?;
         part.add_to(&mut self.area);
         Some(Last(part.ends_inside.then_some(part.last)))
     }
@@ -137,7 +137,7 @@ pub struct VoxelWalk {
 impl VoxelWalk {
     /// The walk from `from` to `to` (both in voxels) through a grid of `size` voxels; `None` where they do not meet.
     pub fn new(from: [f64; 3], to: [f64; 3], size: [i32; 3]) -> Option<Self> {
-        let part = Part::inside(from, to, size)?;
+        let part = RayPart::inside(from, to, size)?;
         let mut walk = Self {
             voxel: part.first,
             step: [0; 3],

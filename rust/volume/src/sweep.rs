@@ -7,7 +7,7 @@ use super::columns::{Slabs, run};
 use super::fan::{Fan, Grain};
 use super::placement::Size;
 use super::raster::Band;
-use super::ray::Part;
+use super::ray::RayPart;
 use super::voxels::bits;
 
 /// Part of a bin that is more than what 32 bits may lose: a rounding guard.
@@ -23,7 +23,7 @@ const LAYERS: usize = 64;
 
 /// Where rays go: an axis of the grid, and the one across.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Way {
+pub(super) struct SweepWay {
     pub(super) along_x: bool,
     pub(super) forward: bool,
 }
@@ -44,7 +44,7 @@ impl Marked<'_> {
 }
 
 /// Rays from one eye through a grid.
-pub(super) struct Sweep<'a> {
+pub(super) struct RaySweep<'a> {
     eye: [f64; 3],
     ends: &'a [[f64; 3]],
     size: Size,
@@ -65,8 +65,8 @@ struct Depth {
     leave: f64,
 }
 
-impl<'a> Sweep<'a> {
-    pub(super) fn new(way: Way, eye: [f64; 3], ends: &'a [[f64; 3]], size: Size) -> Self {
+impl<'a> RaySweep<'a> {
+    pub(super) fn new(way: SweepWay, eye: [f64; 3], ends: &'a [[f64; 3]], size: Size) -> Self {
         let axes = if way.along_x { [0, 1] } else { [1, 0] };
         let behind = eye[axes[0]].floor();
         Self {
@@ -191,7 +191,7 @@ impl<'a> Sweep<'a> {
 
     /// Marks what a ray passes in some slabs, counted from the eye's.
     pub(super) fn walk(&self, ray: usize, slabs: Range<i32>, marked: &mut Marked<'_>) {
-        if let Some(part) = Part::inside(self.eye, self.ends[ray], self.size.voxels()) {
+        if let Some(part) = RayPart::inside(self.eye, self.ends[ray], self.size.voxels()) {
             let before = (part.first[self.axes[0]] - self.first).abs();
             let from_first = |slab: i32| (slab - before).max(0);
             let (from, end) = (from_first(slabs.start), from_first(slabs.end));

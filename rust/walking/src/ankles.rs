@@ -7,27 +7,22 @@
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use robot::{Body, Side};
 
-use crate::GaitConfig;
-use crate::gait::{FootPose, Phase};
+use crate::config::GaitConfig;
+use crate::phase::{FootPose, GaitPhase};
 use crate::support::{Pressure, sole_corners};
-
-/// Smoothing of the measured forces, s.
-const SMOOTH_S: f64 = 0.02;
-/// How fast a foot in the air gets level again, 1/s.
-const LEVEL_RATE: f64 = 10.0;
 
 /// How the soles are turned against the level.
 #[derive(Debug, Clone)]
 pub(crate) struct Ankles {
     config: GaitConfig,
     corners: [[Vector2<f64>; 4]; 2],
-    soles: [Sole; 2],
+    soles: [TiltedSole; 2],
 }
 
 #[derive(Debug, Clone, Copy, Default)]
-struct Sole {
+struct TiltedSole {
     load_n: f64,
-    /// What of its load's moment is not wanted.
+    /// What of the moment of its load is not wanted.
     excess_nm: Vector2<f64>,
     /// How far its toes, and how far its left side is turned up, rad.
     tilt_rad: Vector2<f64>,
@@ -39,14 +34,14 @@ impl Ankles {
         Self {
             config: config.clone(),
             corners: sole_corners(body),
-            soles: [Sole::default(); 2],
+            soles: [TiltedSole::default(); 2],
         }
     }
 
     /// Takes in the forces at the soles' corners, N, where the `feet` were told to push as in `pressure`.
     pub(crate) fn update(
         &mut self,
-        phase: &Phase,
+        phase: &GaitPhase,
         feet: &[FootPose; 2],
         pressure: &Pressure,
         forces_n: &[[f64; 4]; 2],
@@ -58,14 +53,15 @@ impl Ankles {
             let point = &pressure.point[index];
             let (x, y) = feet[index].planar.inverse().apply(point.x, point.y);
             let arms = self.corners[index].map(|corner| corner - Vector2::new(x, y));
-            sole.feel(&arms, &forces_n[index], passed_s);
+            let smooth_s = self.config.tuning.ankles.smooth_time;
+            sole.feel(&arms, &forces_n[index], passed_s / smooth_s);
             if sole.load_n > self.config.landing_load {
                 sole.forget(self.config.ankle_leak, passed_s);
                 if !on_listed_steps(phase) {
                     sole.give_way(&self.config, passed_s);
                 }
-            } else if matches!(phase, Phase::Single { swing, .. } if swing.side == side) {
-                sole.forget(LEVEL_RATE, passed_s);
+            } else if matches!(phase, GaitPhase::Single { swing, .. } if swing.side == side) {
+                sole.forget(self.config.tuning.ankles.level_rate, passed_s);
             }
         }
     }
@@ -78,21 +74,22 @@ impl Ankles {
 }
 
 /// Whether a step of a list comes or is under way: the list says what bears, and there the ankles only hold.
-fn on_listed_steps(phase: &Phase) -> bool {
-    let (Phase::Double {
+fn on_listed_steps(phase: &GaitPhase) -> bool {
+    let (GaitPhase::Double {
         next: Some(swing), ..
     }
-    | Phase::Single { swing, .. }) = phase
+    | GaitPhase::Single { swing, .. }) = phase
     else {
         return false;
     };
     swing.manner.is_listed()
 }
 
-impl Sole {
-    /// `arms`: from the wanted centre of pressure to each corner, m.
-    fn feel(&mut self, arms: &[Vector2<f64>; 4], forces_n: &[f64; 4], passed_s: f64) {
-        let share = (passed_s / SMOOTH_S).min(1.0);
+impl TiltedSole {
+    /// Takes in forces, smoothed: `passed` since the last ones, in time constants. `arms`: from the wanted centre of pressure to each
+    /// corner, m.
+    fn feel(&mut self, arms: &[Vector2<f64>; 4], forces_n: &[f64; 4], passed: f64) {
+        let share = passed.min(1.0);
         let load_n: f64 = forces_n.iter().sum();
         let parts = arms.iter().zip(forces_n);
         let excess_nm: Vector2<f64> = parts.map(|(arm, force)| arm * *force).sum();
@@ -123,7 +120,7 @@ impl Sole {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gait::{Manner, Swing};
+    use crate::phase::{Manner, Swing};
     use crate::test_biped::{biped, config};
     use proptest::prelude::*;
 
@@ -144,7 +141,7 @@ mod tests {
         };
         let feet = [FootPose::default(); 2];
         for _ in 0..ticks {
-            ankles.update(&Phase::Standing, &feet, &pressure, forces_n, 0.01);
+            ankles.update(&GaitPhase::Standing, &feet, &pressure, forces_n, 0.01);
         }
         ankles
     }
@@ -182,7 +179,7 @@ mod tests {
     fn a_foot_in_the_air_gets_level() {
         let mut ankles = standing_on(&at(0.05, 0.03), 50);
         let place = FootPose::default();
-        let phase = Phase::Single {
+        let phase = GaitPhase::Single {
             elapsed_s: 0.1,
             duration_s: 0.35,
             swing: Swing::new(Side::Left, Manner::Walk, place, place),

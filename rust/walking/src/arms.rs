@@ -3,8 +3,9 @@
 use behaviour::Arms;
 use robot::Body;
 
+use crate::error::WalkError;
 use crate::swing::minimum_jerk;
-use crate::{JointTargets, WalkError};
+use crate::targets::JointTargets;
 
 /// Moves the arms slowly between two postures.
 #[derive(Debug, Clone)]

@@ -4,17 +4,17 @@ use geometry::PlanarPose;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 use robot::{Body, Side};
 
-use crate::gait::FootPose;
+use crate::config::GaitConfig;
+use crate::phase::FootPose;
 use crate::support::sole_corners;
-
-/// Standard gravity, m/s^2.
-pub const GRAVITY_MPS2: f64 = 9.81;
 
 /// What is known of the balance at a tick, in the plan frame.
 #[derive(Debug, Clone)]
 pub struct Balance {
     omega: f64,
     blend: f64,
+    /// Share of the weight that the feet must carry for their centre of pressure to count.
+    least_share: f64,
     corners: [[Vector2<f64>; 4]; 2],
     arms: [Vector2<f64>; 2],
     started: bool,
@@ -22,7 +22,7 @@ pub struct Balance {
     pub plan_from_torso: Isometry3<f64>,
     /// Centre of mass over the ground, m.
     pub com: Vector2<f64>,
-    /// Its speed, m/s.
+    /// Speed of the centre of mass, m/s.
     pub velocity_mps: Vector2<f64>,
     /// Measured centre of pressure, m; `None` while the feet carry next to nothing.
     pub pressure: Option<Vector2<f64>>,
@@ -50,11 +50,12 @@ pub struct Sensed<'a> {
 }
 
 impl Balance {
-    /// At rest over `com`. `blend`: share of the measured speed that a tick takes over.
-    pub fn new(body: &Body, omega: f64, blend: f64, com: Vector2<f64>) -> Self {
+    /// A balance at rest over `com`, by this gait.
+    pub fn new(body: &Body, config: &GaitConfig, omega: f64, com: Vector2<f64>) -> Self {
         Self {
             omega,
-            blend,
+            blend: config.velocity_blend,
+            least_share: config.tuning.ticks.pressure_load,
             corners: sole_corners(body),
             arms: [Vector2::zeros(); 2],
             started: false,
@@ -126,7 +127,7 @@ impl Balance {
                 load_n += force;
             }
         }
-        (load_n > 0.3 * sensed.weight_n).then(|| moment / load_n)
+        (load_n > self.least_share * sensed.weight_n).then(|| moment / load_n)
     }
 }
 

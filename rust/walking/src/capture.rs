@@ -4,15 +4,11 @@ use geometry::PlanarPose;
 use nalgebra::Vector2;
 use robot::Side;
 
-use crate::GaitConfig;
+use crate::config::GaitConfig;
 use crate::footsteps::FootstepPlanner;
-use crate::gait::{Gait, Manner, Phase, Swing};
+use crate::gait::Gait;
+use crate::phase::{GaitPhase, Manner, Swing};
 use crate::support::Soles;
-
-/// Share of the swing after which the landing stays where it is.
-const COMMITTED: f64 = 0.85;
-/// Fastest that a landing is moved, m/s.
-const SPEED_MPS: f64 = 1.0;
 
 /// Moves landings and holds or hurries the steps' clock.
 #[derive(Debug, Clone)]
@@ -45,11 +41,12 @@ impl Capture {
         omega: f64,
         passed_s: f64,
     ) -> f64 {
+        let tuning = &self.config.tuning.capture;
         let stance_point = gait.zmp();
         let feet = gait.feet;
         let (rate, phase) = match &mut gait.phase {
-            Phase::Standing | Phase::Double { next: None, .. } => (1.0, None),
-            Phase::Double {
+            GaitPhase::Standing | GaitPhase::Double { next: None, .. } => (1.0, None),
+            GaitPhase::Double {
                 next: Some(swing), ..
             } => {
                 let stance = &feet[swing.side.other().index()].planar;
@@ -62,8 +59,8 @@ impl Capture {
                 )
             }
             // A listed step is put where it was told: beside that there may be an edge.
-            Phase::Single { swing, .. } if swing.manner != Manner::Walk => (1.0, None),
-            Phase::Single {
+            GaitPhase::Single { swing, .. } if swing.manner != Manner::Walk => (1.0, None),
+            GaitPhase::Single {
                 elapsed_s,
                 duration_s,
                 swing,
@@ -72,12 +69,12 @@ impl Capture {
                 let growth = (omega * left_s).exp();
                 let stance = swing.side.other();
                 let foot = &feet[stance.index()];
-                let best = error * (growth / (growth - 1.0).max(0.01));
+                let best = error * (growth / (growth - 1.0).max(tuning.least_growth));
                 let given = soles.nearest(foot, stance, &(stance_point + best)) - stance_point;
                 let rest = error * growth - given * (growth - 1.0);
                 let (x, y) = turned(&foot.planar, &rest);
                 let shift = Vector2::new(self.beyond(x), self.beyond(y));
-                if *elapsed_s < COMMITTED * *duration_s {
+                if *elapsed_s < tuning.committed * *duration_s {
                     self.move_landing(swing, &foot.planar, &shift, passed_s);
                 }
                 (
@@ -117,7 +114,7 @@ impl Capture {
         let goal = self
             .planner
             .keep_apart(stance, &stance.compose(&local), swing.side);
-        let most = SPEED_MPS * passed_s;
+        let most = self.config.tuning.capture.speed * passed_s;
         let to = &mut swing.to.planar;
         to.x_m += (goal.x_m - to.x_m).clamp(-most, most);
         to.y_m += (goal.y_m - to.y_m).clamp(-most, most);
@@ -159,7 +156,7 @@ mod tests {
 
     fn landing(gait: &Gait) -> PlanarPose {
         match &gait.phase {
-            Phase::Single { swing, .. } => swing.to.planar,
+            GaitPhase::Single { swing, .. } => swing.to.planar,
             _ => panic!("the foot swings"),
         }
     }

@@ -5,7 +5,7 @@ use geometry::PlanarPose;
 use proptest::prelude::*;
 
 use super::*;
-use crate::gait::Bearing;
+use crate::phase::Bearing;
 use crate::test_biped::{Ideal, config};
 
 pub(super) const TREAD_M: f64 = 0.12;

@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 
 /// A part of the plan in which the ZMP moves evenly from one point to another.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Segment {
+pub struct ZmpSegment {
     /// ZMP at its beginning, m.
     pub from: Vector2<f64>,
     /// ZMP at its end, m.
@@ -17,7 +17,7 @@ pub struct Segment {
     pub duration_s: f64,
 }
 
-impl Segment {
+impl ZmpSegment {
     /// The DCM at its beginning if the one at its end is `end_dcm`: xi(0) = p(0) + p'/w + e^(-wT) (xi(T) - p(T) - p'/w).
     pub fn start_dcm(&self, end_dcm: &Vector2<f64>, omega: f64) -> Vector2<f64> {
         if self.duration_s <= 0.0 {
@@ -43,7 +43,7 @@ impl Segment {
 }
 
 /// The DCM at the beginning of a plan that ends at rest on its last ZMP; `None` for an empty plan.
-pub fn start_dcm(plan: &[Segment], omega: f64) -> Option<Vector2<f64>> {
+pub fn start_dcm(plan: &[ZmpSegment], omega: f64) -> Option<Vector2<f64>> {
     let last = plan.last()?;
     Some(
         plan.iter()
@@ -59,7 +59,7 @@ mod tests {
 
     const OMEGA: f64 = 6.0;
 
-    fn plan() -> impl Strategy<Value = Vec<Segment>> {
+    fn plan() -> impl Strategy<Value = Vec<ZmpSegment>> {
         let part = ((-1.0..1.0f64, -1.0..1.0f64), 0.05..0.8f64);
         prop::collection::vec(part, 1..7).prop_map(|parts| {
             let mut from = Vector2::zeros();
@@ -67,7 +67,7 @@ mod tests {
                 .into_iter()
                 .map(|((x, y), duration_s)| {
                     let to = Vector2::new(x, y);
-                    let segment = Segment {
+                    let segment = ZmpSegment {
                         from,
                         to,
                         duration_s,
@@ -109,11 +109,11 @@ mod tests {
 
         #[test]
         fn what_is_far_ahead_does_not_count(plan in plan(), shift in -1.0..1.0f64) {
-            let pause = Segment { from: Vector2::zeros(), to: Vector2::zeros(), duration_s: 3.0 };
-            let before = |plan: &[Segment]| start_dcm(&[&[pause], plan].concat(), OMEGA).unwrap();
-            let moved: Vec<Segment> = plan
+            let pause = ZmpSegment { from: Vector2::zeros(), to: Vector2::zeros(), duration_s: 3.0 };
+            let before = |plan: &[ZmpSegment]| start_dcm(&[&[pause], plan].concat(), OMEGA).unwrap();
+            let moved: Vec<ZmpSegment> = plan
                 .iter()
-                .map(|segment| Segment { to: segment.to.add_scalar(shift), ..*segment })
+                .map(|segment| ZmpSegment { to: segment.to.add_scalar(shift), ..*segment })
                 .collect();
             prop_assert!((before(&plan) - before(&moved)).norm() < 1e-6);
         }

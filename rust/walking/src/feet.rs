@@ -2,11 +2,8 @@
 
 use robot::Side;
 
-use crate::GaitConfig;
-use crate::gait::{FootPose, Landing, Phase};
-
-/// Share of the swing after which a load on the foot is a landing.
-const LANDING_SHARE: f64 = 0.6;
+use crate::config::GaitConfig;
+use crate::phase::{CarefulLanding, FootPose, GaitPhase};
 
 /// Heights that are added to the planned ones.
 #[derive(Debug, Clone)]
@@ -44,7 +41,7 @@ impl FeetControl {
     /// a foot that finds the ground before its time stays at that height.
     pub fn update(
         &mut self,
-        phase: &Phase,
+        phase: &GaitPhase,
         share: &[f64; 2],
         loads_n: &[f64; 2],
         weight_n: f64,
@@ -56,7 +53,7 @@ impl FeetControl {
         for height in &mut self.landed {
             *height *= forget;
         }
-        if let Phase::Single {
+        if let GaitPhase::Single {
             elapsed_s,
             duration_s,
             swing,
@@ -64,7 +61,7 @@ impl FeetControl {
         {
             let landed = !swing.manner.is_listed()
                 && loads_n[swing.side.index()] > config.landing_load
-                && elapsed_s / duration_s > LANDING_SHARE;
+                && elapsed_s / duration_s > config.tuning.stumble.landing_share;
             if landed && self.held.is_none() {
                 self.held = Some(Held {
                     side: swing.side,
@@ -97,13 +94,13 @@ impl FeetControl {
 
     /// The foot's place with the corrections. A careful landing takes over where the foot was found; what it was told until then
     /// is left slowly.
-    pub fn place(&mut self, phase: &Phase, mut foot: FootPose, side: Side) -> FootPose {
+    pub fn place(&mut self, phase: &GaitPhase, mut foot: FootPose, side: Side) -> FootPose {
         let index = side.index();
         match phase {
-            Phase::Single { swing, .. } if swing.side == side => {
+            GaitPhase::Single { swing, .. } if swing.side == side => {
                 let careful = swing.manner.is_listed();
                 self.flying = careful.then_some((side, foot.z_m));
-                if careful && swing.landing == Landing::Seeking(0.0) {
+                if careful && swing.landing == CarefulLanding::Seeking(0.0) {
                     self.landed[index] = 0.0;
                 }
             }
@@ -125,18 +122,18 @@ impl FeetControl {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gait::{Manner, Swing};
+    use crate::phase::{Manner, Swing};
     use crate::test_biped::config;
 
     #[test]
     fn the_foot_with_too_much_load_yields_upwards() {
         let mut control = FeetControl::new(&config());
         for _ in 0..10 {
-            control.update(&Phase::Standing, &[0.5, 0.5], &[50.0, 20.0], 70.0, 0.01);
+            control.update(&GaitPhase::Standing, &[0.5, 0.5], &[50.0, 20.0], 70.0, 0.01);
         }
         let [left, right] = Side::BOTH.map(|side| {
             control
-                .place(&Phase::Standing, FootPose::default(), side)
+                .place(&GaitPhase::Standing, FootPose::default(), side)
                 .z_m
         });
         assert!(left > 0.0 && right < 0.0);
@@ -148,13 +145,13 @@ mod tests {
         let mut control = FeetControl::new(&config());
         let place = FootPose::default();
         let swing = Swing::new(Side::Left, Manner::Walk, place, place);
-        let comes_down = Phase::Single {
+        let comes_down = GaitPhase::Single {
             elapsed_s: 0.44,
             duration_s: 0.45,
             swing,
         };
         control.update(&comes_down, &[0.0, 1.0], &[0.0, 70.0], 70.0, 0.01);
-        let both = Phase::Double {
+        let both = GaitPhase::Double {
             elapsed_s: 0.0,
             duration_s: 0.15,
             from: nalgebra::Vector2::zeros(),
@@ -177,7 +174,7 @@ mod tests {
         let place = FootPose::default();
         let swing = Swing::new(Side::Left, Manner::Walk, place, place);
         let mut at = |elapsed_s: f64, height_m: f64, load_n: f64| {
-            let phase = Phase::Single {
+            let phase = GaitPhase::Single {
                 elapsed_s,
                 duration_s: 0.45,
                 swing,

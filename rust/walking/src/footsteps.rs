@@ -5,7 +5,7 @@ use geometry::{PlanarPose, wrap_angle};
 use nalgebra::Vector2;
 use robot::{Body, Side};
 
-use crate::GaitConfig;
+use crate::config::GaitConfig;
 
 /// Places a foot relative to the one that stands.
 #[derive(Debug, Clone)]
@@ -48,7 +48,9 @@ impl FootstepPlanner {
     /// Whether the feet stand side by side.
     pub fn is_beside(&self, stance: &PlanarPose, other: &PlanarPose, side: Side) -> bool {
         let wanted = self.beside(stance, side);
-        wanted.distance_m(other) < 0.01 && wrap_angle(wanted.yaw_rad - other.yaw_rad).abs() < 0.03
+        let tuning = &self.config.tuning.stance;
+        wanted.distance_m(other) < tuning.beside
+            && wrap_angle(wanted.yaw_rad - other.yaw_rad).abs() < tuning.beside_turn
     }
 
     /// The next landing of `swing` at this velocity. Sideways and turning, the foot on that side goes the whole way of a pair of

@@ -1,14 +1,14 @@
 //! The sequence of steps: which foot stands, which moves, and what comes next.
 
+use behaviour::{Footstep, Stepping};
 use geometry::PlanarPose;
 use nalgebra::Vector2;
 use robot::Side;
 
-use crate::GaitConfig;
+use crate::config::GaitConfig;
 use crate::footsteps::FootstepPlanner;
-use crate::landing::Ground;
 use crate::listed::Listed;
-pub use crate::phase::{Bearing, FootPose, Landing, Manner, Phase, Reference, Swing};
+use crate::phase::{Bearing, FootPose, GaitPhase, Manner, Swing};
 use crate::relief::Relief;
 use crate::task::Task;
 
@@ -20,7 +20,7 @@ pub struct Gait {
     /// Where each foot stands, or left.
     pub feet: [FootPose; 2],
     /// What they do.
-    pub phase: Phase,
+    pub phase: GaitPhase,
     /// Steps landed so far.
     pub steps_taken: u64,
     pub(crate) listed: Listed,
@@ -34,7 +34,7 @@ impl Gait {
             config: config.clone(),
             planner,
             feet,
-            phase: Phase::Standing,
+            phase: GaitPhase::Standing,
             steps_taken: 0,
             listed: Listed::default(),
             last: (Side::Right, Manner::Walk),
@@ -43,11 +43,12 @@ impl Gait {
 
     /// Whether both feet stand and no step is due.
     pub fn is_standing(&self) -> bool {
-        self.phase == Phase::Standing
+        self.phase == GaitPhase::Standing
     }
 
-    /// Point under one of `feet` where it is to carry: the middle of what bears or, near it, `support_ahead`; towards the other foot by `support_inward`, and
-    /// forward by `support_forward` where it stands higher than the other one: the knee that lifts the body bears less so.
+    /// Point under one of `feet` where it is to carry: the middle of what bears or, near it, `support_ahead`; towards the other foot by
+    /// `support_inward`, and forward by `support_forward` where it stands higher than the other one: the knee that lifts the body bears
+    /// less so.
     pub fn support_point(&self, feet: &[FootPose; 2], side: Side) -> Vector2<f64> {
         let (foot, other) = (&feet[side.index()], &feet[side.other().index()]);
         let [rear, front] = foot
@@ -56,7 +57,7 @@ impl Gait {
         let middle = 0.5 * (rear + front);
         let forward = self.config.support_forward * (foot.z_m - other.z_m).max(0.0);
         let inward = -side.sign() * self.config.support_inward;
-        let reach = 0.5 * (front - middle);
+        let reach = self.config.tuning.stance.support_room * (front - middle);
         let along = self
             .config
             .support_ahead
@@ -75,8 +76,10 @@ impl Gait {
     /// Height of the ground that carries, m.
     pub fn ground_m(&self) -> f64 {
         match &self.phase {
-            Phase::Single { swing, .. } => self.feet[swing.side.other().index()].z_m,
-            Phase::Standing | Phase::Double { .. } => self.feet[0].z_m.min(self.feet[1].z_m),
+            GaitPhase::Single { swing, .. } => self.feet[swing.side.other().index()].z_m,
+            GaitPhase::Standing | GaitPhase::Double { .. } => {
+                self.feet[0].z_m.min(self.feet[1].z_m)
+            }
         }
     }
 
@@ -89,58 +92,6 @@ impl Gait {
             0.5 * (left.y_m + right.y_m),
             right.yaw_rad + 0.5 * turn,
         )
-    }
-
-    /// Advances the sequence by `passed_s` of its own clock. A command takes effect when the next step is chosen.
-    pub fn advance(&mut self, passed_s: f64, task: Task<'_>, ground: &Ground) {
-        match &mut self.phase {
-            Phase::Standing => {
-                if let Some(next) = self.first_swing(task) {
-                    self.phase = Self::shift(self.middle(), Some(next), self.config.shift_time);
-                }
-            }
-            Phase::Double {
-                elapsed_s,
-                duration_s,
-                next,
-                ..
-            } => {
-                *elapsed_s += passed_s;
-                if *elapsed_s >= *duration_s {
-                    let over_s = *elapsed_s - *duration_s;
-                    self.phase = match *next {
-                        None => Phase::Standing,
-                        Some(swing) => Phase::Single {
-                            elapsed_s: over_s,
-                            duration_s: swing.single_support_s(&self.config),
-                            swing,
-                        },
-                    };
-                } else if next.is_none()
-                    && let Some(swing) = self.first_swing(task)
-                {
-                    let zmp = self.zmp();
-                    self.phase = Self::shift(zmp, Some(swing), self.config.shift_time);
-                }
-            }
-            Phase::Single {
-                elapsed_s,
-                duration_s,
-                swing,
-            } => {
-                let before_s = *elapsed_s;
-                *elapsed_s += passed_s;
-                let over = *elapsed_s >= *duration_s;
-                if swing.manner.is_listed() {
-                    self.go_carefully(before_s, passed_s, task, ground);
-                } else if over {
-                    let swing = *swing;
-                    self.land(&swing, swing.to, task);
-                } else if let Ground::Felt(felt) = ground {
-                    self.feel_the_way(before_s, felt);
-                }
-            }
-        }
     }
 
     /// Puts the foot down at `at` and goes on to the next step.
@@ -156,8 +107,12 @@ impl Gait {
         self.phase = Self::shift(zmp, next, duration_s);
     }
 
-    const fn shift(from: Vector2<f64>, next: Option<Swing>, duration_s: f64) -> Phase {
-        Phase::Double {
+    pub(crate) const fn shift(
+        from: Vector2<f64>,
+        next: Option<Swing>,
+        duration_s: f64,
+    ) -> GaitPhase {
+        GaitPhase::Double {
             elapsed_s: 0.0,
             duration_s,
             from,
@@ -166,14 +121,14 @@ impl Gait {
     }
 
     /// The first step out of a stand.
-    fn first_swing(&self, task: Task<'_>) -> Option<Swing> {
+    pub(crate) fn first_swing(&self, task: Task<'_>) -> Option<Swing> {
         let Task::Walk(velocity, _) = task else {
             return match task {
                 Task::Steps(_) => self.next_swing(&self.feet, self.last.0, task, 0),
                 _ => None,
             };
         };
-        let turning = velocity.y_mps + 0.1 * velocity.yaw_radps;
+        let turning = velocity.y_mps + self.config.tuning.stance.turn_counts * velocity.yaw_radps;
         let last = if turning > 0.0 {
             Side::Right
         } else if turning < 0.0 {
@@ -226,9 +181,9 @@ impl Gait {
     /// The ZMP reference at the moment.
     pub fn zmp(&self) -> Vector2<f64> {
         match &self.phase {
-            Phase::Standing => self.middle(),
-            Phase::Single { swing, .. } => self.stance_point(swing.side.other()),
-            Phase::Double {
+            GaitPhase::Standing => self.middle(),
+            GaitPhase::Single { swing, .. } => self.stance_point(swing.side.other()),
+            GaitPhase::Double {
                 elapsed_s,
                 duration_s,
                 from,
@@ -254,10 +209,64 @@ impl Gait {
     /// Where a foot is to be now, without what the stabiliser adds.
     pub fn foot(&self, side: Side) -> FootPose {
         match &self.phase {
-            Phase::Single {
+            GaitPhase::Single {
                 elapsed_s, swing, ..
             } if swing.side == side => swing.foot(*elapsed_s, &self.config),
             _ => self.feet[side.index()],
         }
+    }
+}
+
+impl Gait {
+    /// Begins a list that is relative to this frame.
+    pub(crate) fn begin_list(&mut self, origin: PlanarPose, ground_m: f64) {
+        self.listed = Listed {
+            origin,
+            ground_m,
+            ..Listed::default()
+        };
+    }
+
+    /// Whether the list of `count` steps is behind the robot.
+    pub(crate) fn list_is_done(&self, count: usize) -> bool {
+        self.listed.landed >= count || self.gave_up()
+    }
+
+    /// Whether the list was given up.
+    pub(crate) const fn gave_up(&self) -> bool {
+        self.listed.misstep.is_some()
+    }
+
+    /// How the list goes.
+    pub fn stepping(&self) -> Stepping {
+        Stepping {
+            landed: self.listed.landed,
+            height_error_m: self.listed.height_error_m,
+            misstep: self.listed.misstep,
+            stumbled: self.listed.stumbled,
+        }
+    }
+
+    /// The next step of the list, `ahead` others left out; within reach of the foot that stands.
+    pub(crate) fn listed_swing(
+        &self,
+        feet: &[FootPose; 2],
+        steps: &[Footstep],
+        ahead: usize,
+    ) -> Option<Swing> {
+        let step = steps.get(self.listed.landed + ahead)?;
+        let side: Side = step.side;
+        let (stance, from) = (&feet[side.other().index()], feet[side.index()]);
+        let wanted = self.listed.origin.compose(&step.pose);
+        let most = self.config.climb_rise;
+        let height_m = self.listed.ground_m + step.height_m;
+        let [from_m, to_m] = step.bearing_m;
+        let to = FootPose {
+            planar: self.planner.within_climb(&stance.planar, &wanted, side),
+            z_m: height_m.clamp(stance.z_m - most, stance.z_m + most),
+            bearing: Bearing { from_m, to_m },
+            ..FootPose::default()
+        };
+        Some(Swing::new(side, Manner::Careful, from, to))
     }
 }

@@ -4,11 +4,15 @@ use behaviour::Gaze;
 use nalgebra::Vector3;
 use robot::{Body, LinkPoses};
 
-use crate::{JointTargets, WalkError};
+use crate::error::WalkError;
+use crate::targets::JointTargets;
+
+/// A small turn of a joint, rad: only to which side it turns the camera is asked.
+const SMALL_RAD: f64 = 0.01;
 
 /// Moves pan and tilt with limited speed.
 #[derive(Debug, Clone)]
-pub(crate) struct Head {
+pub(crate) struct HeadControl {
     joints: [usize; 2],
     ranges_rad: [[f64; 2]; 2],
     signs: [f64; 2],
@@ -17,7 +21,7 @@ pub(crate) struct Head {
     angles_rad: [f64; 2],
 }
 
-impl Head {
+impl HeadControl {
     /// Learns from the kinematics how the head's joints turn the camera when all other joints are as in the upright stance.
     pub(crate) fn new(body: &Body, speed_radps: f64) -> Result<Self, WalkError> {
         let description = body.description();
@@ -39,8 +43,11 @@ impl Head {
             Ok(body.torso_from_camera(&poses).inner.rotation * Vector3::z())
         };
         let down = |axis: Vector3<f64>| -axis.z.atan2(axis.x.hypot(axis.y));
-        let small = 0.01;
-        let (straight, panned, tilted) = (look(0.0, 0.0)?, look(small, 0.0)?, look(0.0, small)?);
+        let (straight, panned, tilted) = (
+            look(0.0, 0.0)?,
+            look(SMALL_RAD, 0.0)?,
+            look(0.0, SMALL_RAD)?,
+        );
         let left = panned.y.atan2(panned.x) - straight.y.atan2(straight.x);
         let angles_rad = [description.stand[joints[0]], description.stand[joints[1]]];
         Ok(Self {

@@ -3,14 +3,11 @@
 use nalgebra::{Point3, Vector3};
 use robot::{Body, LinkPoses, Side};
 
-use crate::WalkError;
+use crate::error::WalkError;
+use crate::tuning::LegTuning;
 
-/// A deviation from the assumed geometry that does not matter, m or sine of an angle.
+/// A deviation from the assumed geometry that is that of rounding in a description, sine of an angle.
 const TOLERANCE: f64 = 1e-6;
-/// By how much axes may miss the point in which the closed form lets them meet, m: the sole then is that far from where it should be.
-const MISS_M: f64 = 1e-3;
-/// The steepest slant of a hip's yaw axis, rad.
-const STEEPEST_RAD: f64 = 1.2;
 /// Axes at zero from the hip down, behind the first: roll, pitch, knee, ankle pitch, ankle roll.
 const AXES: [(&str, [f64; 3]); 5] = [
     ("x", [1.0, 0.0, 0.0]),
@@ -40,8 +37,8 @@ pub(crate) struct LegGeometry {
 }
 
 impl LegGeometry {
-    /// Reads it; fails where the closed form does not hold.
-    pub(crate) fn read(body: &Body, side: Side) -> Result<Self, WalkError> {
+    /// Reads a leg; fails where the closed form does not hold.
+    pub(crate) fn read(body: &Body, side: Side, tuning: &LegTuning) -> Result<Self, WalkError> {
         let mut poses = LinkPoses::default();
         body.pose_links(&vec![0.0; body.joint_count()], &mut poses)?;
         let refuse = |what: String| WalkError::Leg { side, what };
@@ -56,7 +53,7 @@ impl LegGeometry {
             let pose = &poses.torso_from_link[link];
             let axis = pose.rotation * Vector3::from(hinge.axis).normalize();
             if slot == 0 {
-                (signs[0], slant_rad) = yaw_axis(&axis).ok_or_else(|| {
+                (signs[0], slant_rad) = yaw_axis(&axis, tuning.steepest).ok_or_else(|| {
                     refuse(misses(&hinge.name, "be upright or slant sideways", &axis))
                 })?;
             } else {
@@ -71,7 +68,8 @@ impl LegGeometry {
             ranges_rad[slot] = hinge.range;
             anchors[slot] = (pose * Point3::from(hinge.anchor)).coords;
         }
-        let [hip, knee, ankle] = meeting_points(&anchors, slant_rad).map_err(refuse)?;
+        let [hip, knee, ankle] =
+            meeting_points(&anchors, slant_rad, tuning.miss).map_err(refuse)?;
         let torso_from_sole = body.torso_from_sole(&poses, side);
         if torso_from_sole.rotation.angle() > TOLERANCE {
             return Err(refuse("the sole must be level at zero".to_owned()));
@@ -89,10 +87,10 @@ impl LegGeometry {
 }
 
 /// The sign and the slant of a hip's yaw axis: it may lie in the plane of y and z, as a NAO's does.
-fn yaw_axis(axis: &Vector3<f64>) -> Option<(f64, f64)> {
+fn yaw_axis(axis: &Vector3<f64>, steepest_rad: f64) -> Option<(f64, f64)> {
     let sign = axis.z.signum();
     let slant_rad = (-sign * axis.y).atan2(sign * axis.z);
-    let holds = axis.x.abs() < TOLERANCE && slant_rad.abs() < STEEPEST_RAD;
+    let holds = axis.x.abs() < TOLERANCE && slant_rad.abs() < steepest_rad;
     let upright = axis.z.abs() >= 1.0 - TOLERANCE;
     holds.then_some((sign, if upright { 0.0 } else { slant_rad }))
 }
@@ -108,13 +106,14 @@ fn misses(joint: &str, wanted: &str, axis: &Vector3<f64>) -> String {
 fn meeting_points(
     anchors: &[Vector3<f64>; 6],
     slant_rad: f64,
+    miss_m: f64,
 ) -> Result<[Vector3<f64>; 3], String> {
     let [yaw, roll, pitch, knee, ankle_pitch, ankle_roll] = anchors;
     let hip = Vector3::new(yaw.x, roll.y, roll.z);
     let knee = Vector3::new(knee.x, hip.y, knee.z);
     let ankle = Vector3::new(ankle_pitch.x, ankle_roll.y, ankle_pitch.z);
     let yaw_y = yaw.y - slant_rad.tan() * (hip.z - yaw.z);
-    let near = |a: f64, b: f64| (a - b).abs() < MISS_M;
+    let near = |a: f64, b: f64| (a - b).abs() < miss_m;
     let claims = [
         (
             near(yaw_y, hip.y) && near(pitch.x, hip.x) && near(pitch.z, hip.z),

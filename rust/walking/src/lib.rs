@@ -4,6 +4,7 @@
 //! [`balance`] measures how far the robot is from it, [`support`] says where the feet have to push, [`capture`] moves a step when
 //! pushing is not enough, and [`leg`] turns all of it into joint angles.
 
+mod advance;
 mod ankles;
 mod arms;
 pub mod balance;
@@ -12,20 +13,22 @@ mod config;
 pub mod dcm;
 mod error;
 pub mod feet;
+mod felt;
 pub mod footsteps;
 pub mod gait;
 mod gaze;
-pub mod landing;
+mod landing;
 pub mod leg;
 mod leg_geometry;
 mod listed;
 mod pelvis;
-mod phase;
+pub mod phase;
 mod posture;
 mod preview;
 pub mod relief;
 mod shared_hip;
 pub mod stance;
+pub mod step_list;
 mod stumble;
 pub mod support;
 pub mod swing;
@@ -34,6 +37,7 @@ pub mod task;
 #[cfg(test)]
 mod test_biped;
 mod tipping;
+mod tuning;
 mod walker;
 
 pub use config::GaitConfig;

@@ -1,10 +1,7 @@
 //! Footsteps of a list: where they are in the plan, and how they went.
 
-use behaviour::{Footstep, Misstep, Stepping};
+use behaviour::Misstep;
 use geometry::PlanarPose;
-use robot::Side;
-
-use crate::gait::{Bearing, FootPose, Gait, Manner, Swing};
 
 /// How the present or the last list goes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -23,58 +20,4 @@ pub(crate) struct Listed {
     pub(crate) put_down: usize,
     /// Whether a walk has come upon a level that it was not told of.
     pub(crate) stumbled: bool,
-}
-
-impl Gait {
-    /// Begins a list that is relative to this frame.
-    pub(crate) fn begin_list(&mut self, origin: PlanarPose, ground_m: f64) {
-        self.listed = Listed {
-            origin,
-            ground_m,
-            ..Listed::default()
-        };
-    }
-
-    /// Whether the list of `count` steps is behind the robot.
-    pub(crate) fn list_is_done(&self, count: usize) -> bool {
-        self.listed.landed >= count || self.gave_up()
-    }
-
-    /// Whether the list was given up.
-    pub(crate) const fn gave_up(&self) -> bool {
-        self.listed.misstep.is_some()
-    }
-
-    /// How the list goes.
-    pub fn stepping(&self) -> Stepping {
-        Stepping {
-            landed: self.listed.landed,
-            height_error_m: self.listed.height_error_m,
-            misstep: self.listed.misstep,
-            stumbled: self.listed.stumbled,
-        }
-    }
-
-    /// The next step of the list, `ahead` others left out; within reach of the foot that stands.
-    pub(crate) fn listed_swing(
-        &self,
-        feet: &[FootPose; 2],
-        steps: &[Footstep],
-        ahead: usize,
-    ) -> Option<Swing> {
-        let step = steps.get(self.listed.landed + ahead)?;
-        let side: Side = step.side;
-        let (stance, from) = (&feet[side.other().index()], feet[side.index()]);
-        let wanted = self.listed.origin.compose(&step.pose);
-        let most = self.config.climb_rise;
-        let height_m = self.listed.ground_m + step.height_m;
-        let [from_m, to_m] = step.bearing_m;
-        let to = FootPose {
-            planar: self.planner.within_climb(&stance.planar, &wanted, side),
-            z_m: height_m.clamp(stance.z_m - most, stance.z_m + most),
-            bearing: Bearing { from_m, to_m },
-            ..FootPose::default()
-        };
-        Some(Swing::new(side, Manner::Careful, from, to))
-    }
 }

@@ -5,17 +5,13 @@
 use nalgebra::Vector2;
 use robot::Side;
 
-use crate::GaitConfig;
-use crate::gait::{FootPose, Gait, Reference};
-use crate::landing::Ground;
-use crate::leg::Leg;
+use crate::config::GaitConfig;
+use crate::felt::KnownGround;
+use crate::gait::Gait;
+use crate::leg::LegSolver;
+use crate::phase::{FootPose, GaitReference};
 use crate::task::Task;
-
-/// How far is looked ahead, ticks of [`TICK_S`].
-const TICKS: usize = 24;
-const TICK_S: f64 = 0.04;
-/// Time constant of the smoothing, s.
-const SMOOTH_S: f64 = 0.06;
+use crate::tuning::PelvisTuning;
 
 /// What the hips' height is for.
 #[derive(Debug, Clone, Copy)]
@@ -32,7 +28,7 @@ pub(crate) struct Course<'a> {
 
 /// Where the torso is over the centre of mass.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Trunk {
+pub(crate) struct TrunkPlace {
     /// From the centre of mass to the torso's origin over the ground, m.
     pub(crate) from_com: Vector2<f64>,
     /// Where the torso looks, a unit vector.
@@ -47,6 +43,7 @@ pub(crate) struct Pelvis {
     hip_height_m: f64,
     hip_stretch_rad: Option<f64>,
     speed_mps: f64,
+    tuning: PelvisTuning,
     goal_m: f64,
     height_m: f64,
     rate_mps: f64,
@@ -54,11 +51,12 @@ pub(crate) struct Pelvis {
 }
 
 impl Pelvis {
-    pub(crate) const fn new(config: &GaitConfig) -> Self {
+    pub(crate) fn new(config: &GaitConfig) -> Self {
         Self {
             hip_height_m: config.hip_height,
             hip_stretch_rad: config.hip_stretch,
             speed_mps: config.hip_speed,
+            tuning: config.tuning.pelvis.clone(),
             goal_m: 0.0,
             height_m: 0.0,
             rate_mps: 0.0,
@@ -70,24 +68,25 @@ impl Pelvis {
     pub(crate) fn height_m(
         &mut self,
         course: &Course<'_>,
-        legs: &[Leg; 2],
-        trunk: &Trunk,
+        legs: &[LegSolver; 2],
+        trunk: &TrunkPlace,
         feet: &[FootPose; 2],
         passed_s: f64,
     ) -> f64 {
+        let (apart_s, smooth_s) = (self.tuning.apart, self.tuning.smooth_time);
         let over = course.com + trunk.from_com;
         let now_m = self.limit_m(legs, trunk, feet, course.gait.ground_m(), &over);
         let mut goal_m = now_m;
         let mut gait = course.gait.clone();
         let mut com = course.com;
-        for tick in 1..=TICKS {
-            gait.advance(TICK_S, course.task, &Ground::AsTold);
-            let Reference { dcm, .. } = gait.reference(course.omega, course.task);
-            com += (dcm - com) * (1.0 - (-course.omega * TICK_S).exp());
+        for moment in 1..=self.tuning.moments {
+            gait.advance(apart_s, course.task, &KnownGround::AsTold);
+            let GaitReference { dcm, .. } = gait.reference(course.omega, course.task);
+            com += (dcm - com) * (1.0 - (-course.omega * apart_s).exp());
             let feet = Side::BOTH.map(|side| gait.foot(side));
             let over = com + trunk.from_com;
             let limit_m = self.limit_m(legs, trunk, &feet, gait.ground_m(), &over);
-            let left_s = (tick as f64 * TICK_S - 2.5 * SMOOTH_S).max(0.0);
+            let left_s = (moment as f64 * apart_s - self.tuning.late * smooth_s).max(0.0);
             goal_m = goal_m.min(limit_m + self.speed_mps * left_s);
         }
         if !self.started {
@@ -95,10 +94,10 @@ impl Pelvis {
             (self.goal_m, self.height_m) = (goal_m, goal_m);
         }
         let most_m = self.speed_mps * passed_s;
-        self.goal_m += (goal_m - self.goal_m).clamp(-2.0 * most_m, most_m);
+        self.goal_m += (goal_m - self.goal_m).clamp(-self.tuning.fall * most_m, most_m);
         // Critically damped, implicit in the rate.
-        let stiff = passed_s / SMOOTH_S;
-        let pull = (self.goal_m - self.height_m) / SMOOTH_S;
+        let stiff = passed_s / smooth_s;
+        let pull = (self.goal_m - self.height_m) / smooth_s;
         self.rate_mps = (self.rate_mps + stiff * pull) / ((1.0 + stiff) * (1.0 + stiff));
         self.height_m += self.rate_mps * passed_s;
         self.height_m
@@ -107,8 +106,8 @@ impl Pelvis {
     /// The greatest height at which both soles are reached, the hips no higher over the ground than the gait says.
     fn limit_m(
         &self,
-        legs: &[Leg; 2],
-        trunk: &Trunk,
+        legs: &[LegSolver; 2],
+        trunk: &TrunkPlace,
         feet: &[FootPose; 2],
         ground_m: f64,
         over: &Vector2<f64>,

@@ -4,14 +4,15 @@ use geometry::PlanarPose;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 use robot::Side;
 
-use crate::{GaitConfig, swing};
+use crate::config::GaitConfig;
+use crate::swing;
 
 /// The part of a sole that bears load, from and to, m from its middle forward. Nothing said: all of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bearing {
-    /// Its rear end, m.
+    /// Rear end, m.
     pub from_m: f64,
-    /// Its front end, m.
+    /// Front end, m.
     pub to_m: f64,
 }
 
@@ -56,7 +57,7 @@ pub struct FootPose {
 }
 
 impl FootPose {
-    /// From the sole to the plan: turned by its heading, and then by as much as it is tilted.
+    /// The pose of the sole in the plan: turned by its heading, and then by as much as it is tilted.
     pub fn plan_from_sole(&self) -> Isometry3<f64> {
         let PlanarPose { x_m, y_m, yaw_rad } = self.planar;
         let level = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw_rad);
@@ -102,7 +103,7 @@ impl Manner {
 
 /// What a careful foot has found.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Landing {
+pub enum CarefulLanding {
     /// No ground yet, this far below where it was told to be, m.
     Seeking(f64),
     /// Ground: the foot stays at this height, m.
@@ -123,7 +124,7 @@ pub struct Swing {
     /// Where it was to land before any push.
     pub planned: FootPose,
     /// What a careful foot has found.
-    pub landing: Landing,
+    pub landing: CarefulLanding,
 }
 
 impl Swing {
@@ -135,7 +136,7 @@ impl Swing {
             from,
             to,
             planned: to,
-            landing: Landing::Seeking(0.0),
+            landing: CarefulLanding::Seeking(0.0),
         }
     }
 
@@ -150,7 +151,7 @@ impl Swing {
                 let way_m = from.planar.distance_m(&to.planar);
                 let lift_m = (from.z_m - to.z_m).abs() + config.climb_clearance;
                 (way_m / config.climb_speed)
-                    .max(lift_m / (swing::LIFTING * config.climb_lift_speed))
+                    .max(lift_m / (swing::lifting(&config.tuning.swing) * config.climb_lift_speed))
                     .max(config.climb_swing_time)
             }
         }
@@ -169,22 +170,24 @@ impl Swing {
         let (from, to) = (&self.from, &self.to);
         let higher_m = from.z_m.max(to.z_m);
         let share = elapsed_s / self.in_air_s(config);
+        let times = &config.tuning.swing;
         let (along, mut z_m) = match self.manner {
             Manner::Walk => {
                 let top_m = higher_m + config.step_height;
                 let height_m = swing::height_m(share, from.z_m, top_m, to.z_m);
-                (swing::travel(share), height_m)
+                (swing::travel(share, times), height_m)
             }
-            Manner::Retreat => swing::retreat(share, from.z_m, to.z_m),
+            Manner::Retreat => swing::retreat(share, from.z_m, to.z_m, times),
             Manner::Careful | Manner::Back => {
                 let top_m = higher_m + config.climb_clearance;
-                let height_m = swing::careful_height_m(share, from.z_m, top_m, to.z_m);
-                (swing::careful_travel(share), height_m)
+                let ends_m = [from.z_m, to.z_m];
+                let height_m = swing::careful_height_m(share, ends_m, top_m, times);
+                (swing::careful_travel(share, times), height_m)
             }
         };
         match self.landing {
-            Landing::Seeking(below_m) => z_m -= below_m,
-            Landing::Found(height_m) => z_m = height_m,
+            CarefulLanding::Seeking(below_m) => z_m -= below_m,
+            CarefulLanding::Found(height_m) => z_m = height_m,
         }
         let turn = geometry::angle_between(from.planar.yaw_rad, to.planar.yaw_rad);
         FootPose {
@@ -202,7 +205,7 @@ impl Swing {
 
 /// What the feet do at the moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Phase {
+pub enum GaitPhase {
     /// Both stand, no step is due.
     Standing,
     /// Both carry while the weight moves; then comes the step, if any.
@@ -229,7 +232,7 @@ pub enum Phase {
 
 /// The reference at a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reference {
+pub struct GaitReference {
     /// Zero moment point, m.
     pub zmp: Vector2<f64>,
     /// Divergent component of motion, m.

@@ -1,27 +1,25 @@
 //! From centre of mass and feet to joint angles, and the torques that hold them.
 
+use geometry::GRAVITY_MPS2;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use robot::{Body, LinkPoses, Side};
 
 use crate::ankles::Ankles;
-use crate::balance::{Balance, GRAVITY_MPS2};
-use crate::gait::{FootPose, Gait, Phase};
-use crate::leg::{Leg, LegAngles};
-use crate::pelvis::{Course, Pelvis, Trunk};
+use crate::balance::Balance;
+use crate::config::GaitConfig;
+use crate::error::WalkError;
+use crate::gait::Gait;
+use crate::leg::{LegAngles, LegSolver};
+use crate::pelvis::{Course, Pelvis, TrunkPlace};
+use crate::phase::{FootPose, GaitPhase};
 use crate::shared_hip::SharedHip;
 use crate::support::Pressure;
-use crate::{GaitConfig, JointTargets, WalkError};
-
-/// How fast the torso turns to the mean heading of the feet, 1/s.
-const TURN_RATE: f64 = 8.0;
-/// How fast the correction of the swing foot for the tilt comes and goes, 1/s.
-const TILT_FADE: f64 = 6.0;
-/// Tilt that is not worth a correction, rad.
-const TILT_DEADBAND_RAD: f64 = 0.02;
+use crate::targets::JointTargets;
+use crate::tuning::PostureTuning;
 
 /// What a posture is for.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Moment<'a> {
+pub(crate) struct PostureMoment<'a> {
     /// The body.
     pub(crate) body: &'a Body,
     /// The steps, and where they lead the centre of mass.
@@ -37,11 +35,12 @@ pub(crate) struct Moment<'a> {
 /// The legs and what they carry.
 #[derive(Debug, Clone)]
 pub(crate) struct Posture {
-    legs: [Leg; 2],
+    legs: [LegSolver; 2],
     shared_hip: Option<SharedHip>,
     mass_kg: f64,
     pelvis: Pelvis,
     swing_tilt: f64,
+    tuning: PostureTuning,
     yaw_rad: f64,
     tilt_weight: [f64; 2],
     short_m: [f64; 2],
@@ -51,16 +50,16 @@ pub(crate) struct Posture {
 impl Posture {
     /// For this body and gait; fails where a leg does not fit the inverse kinematics.
     pub(crate) fn new(body: &Body, config: &GaitConfig) -> Result<Self, WalkError> {
-        let legs = [
-            Leg::new(body, Side::Left, config.max_extension)?,
-            Leg::new(body, Side::Right, config.max_extension)?,
-        ];
+        let tuning = &config.tuning;
+        let leg = |side| LegSolver::new(body, side, config.max_extension, &tuning.leg);
+        let legs = [leg(Side::Left)?, leg(Side::Right)?];
         Ok(Self {
-            shared_hip: SharedHip::read(body, &legs)?,
+            shared_hip: SharedHip::read(body, &legs, &tuning.shared_hip)?,
             legs,
             mass_kg: body.mass_kg(),
             pelvis: Pelvis::new(config),
             swing_tilt: config.swing_tilt,
+            tuning: tuning.posture.clone(),
             yaw_rad: 0.0,
             tilt_weight: [0.0; 2],
             short_m: [0.0; 2],
@@ -72,21 +71,22 @@ impl Posture {
     /// feet's mean heading. The torso follows from the centre of mass of the last tick's targets.
     pub(crate) fn pose(
         &mut self,
-        moment: &Moment<'_>,
+        moment: &PostureMoment<'_>,
         feet: &[FootPose; 2],
         targets: &mut JointTargets,
     ) -> Result<(), WalkError> {
-        let Moment { body, passed_s, .. } = *moment;
+        let PostureMoment { body, passed_s, .. } = *moment;
         let goal = Gait::center_of(feet).yaw_rad;
         let turn = geometry::angle_between(self.yaw_rad, goal);
-        self.yaw_rad = geometry::wrap_angle(self.yaw_rad + turn * (TURN_RATE * passed_s).min(1.0));
+        let share = (self.tuning.turn_rate * passed_s).min(1.0);
+        self.yaw_rad = geometry::wrap_angle(self.yaw_rad + turn * share);
         let rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw_rad);
         body.pose_links(&targets.positions_rad, &mut self.poses)?;
         let about = body.center_of_mass_in_torso(&self.poses);
         let offset = rotation * about.coords;
         let course = &moment.course;
         let over = course.com - offset.xy();
-        let trunk = Trunk {
+        let trunk = TrunkPlace {
             from_com: -offset.xy(),
             forward: (rotation * Vector3::x()).xy(),
             hips: [0, 1].map(|index| rotation * self.legs[index].hip()),
@@ -137,16 +137,16 @@ impl Posture {
     /// so that the foot meets the ground at its time. Fades in after lifting and out after landing.
     fn lean(
         &mut self,
-        moment: &Moment<'_>,
+        moment: &PostureMoment<'_>,
         plan_from_torso: &Isometry3<f64>,
         side: Side,
     ) -> Isometry3<f64> {
         let gait = moment.course.gait;
         let goal = match &gait.phase {
-            Phase::Single { swing, .. } if swing.side == side => self.swing_tilt,
+            GaitPhase::Single { swing, .. } if swing.side == side => self.swing_tilt,
             _ => 0.0,
         };
-        let most = TILT_FADE * moment.passed_s;
+        let most = self.tuning.tilt_fade * moment.passed_s;
         let weight = &mut self.tilt_weight[side.index()];
         *weight += (goal - *weight).clamp(-most, most);
         if *weight <= 0.0 {
@@ -155,7 +155,7 @@ impl Posture {
         let measured = moment.balance.plan_from_torso.rotation;
         let error = (measured * plan_from_torso.rotation.inverse()).scaled_axis();
         let size = error.norm();
-        let used = (size - TILT_DEADBAND_RAD).max(0.0) / size.max(1e-9) * *weight;
+        let used = (size - self.tuning.tilt_deadband).max(0.0) / size.max(1e-9) * *weight;
         let turn = UnitQuaternion::from_scaled_axis(-error * used);
         let pivot = gait.feet[side.other().index()]
             .plan_from_sole()
@@ -169,12 +169,12 @@ impl Posture {
     /// m w^2 (c - p).
     pub(crate) fn feed_forward(
         &self,
-        moment: &Moment<'_>,
+        moment: &PostureMoment<'_>,
         links: &LinkPoses,
         pressure: &Pressure,
         torques_nm: &mut [f64],
     ) {
-        let Moment {
+        let PostureMoment {
             body,
             course: Course { gait, .. },
             balance,

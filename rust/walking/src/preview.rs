@@ -3,24 +3,24 @@
 use nalgebra::Vector2;
 use robot::Side;
 
-use crate::dcm::{self, Segment};
-use crate::gait::{Gait, Phase, Reference, Swing};
+use crate::dcm::{self, ZmpSegment};
+use crate::gait::Gait;
+use crate::phase::{GaitPhase, GaitReference, Swing};
 use crate::task::Task;
+use crate::tuning::MOST_STEPS;
 
-/// Steps that are looked ahead, the running one included: what lies beyond hardly counts.
-const STEPS: usize = 3;
 /// Most segments of a plan: two a step, and the last shift to the middle.
-const SEGMENTS: usize = 2 * STEPS + 1;
+const SEGMENTS: usize = 2 * MOST_STEPS + 1;
 
 /// Segments of the ZMP from now on.
-struct Plan {
-    segments: [Segment; SEGMENTS],
+struct ZmpPlan {
+    segments: [ZmpSegment; SEGMENTS],
     count: usize,
 }
 
-impl Plan {
+impl ZmpPlan {
     fn empty() -> Self {
-        let nothing = Segment {
+        let nothing = ZmpSegment {
             from: Vector2::zeros(),
             to: Vector2::zeros(),
             duration_s: 0.0,
@@ -33,7 +33,7 @@ impl Plan {
 
     fn add(&mut self, from: Vector2<f64>, to: Vector2<f64>, duration_s: f64) {
         if let Some(slot) = self.segments.get_mut(self.count) {
-            *slot = Segment {
+            *slot = ZmpSegment {
                 from,
                 to,
                 duration_s,
@@ -45,21 +45,21 @@ impl Plan {
 
 impl Gait {
     /// ZMP and DCM of the plan at the moment. The plan ends in a stand behind the last step that is looked ahead.
-    pub fn reference(&self, omega: f64, task: Task<'_>) -> Reference {
+    pub fn reference(&self, omega: f64, task: Task<'_>) -> GaitReference {
         let zmp = self.zmp();
-        let mut plan = Plan::empty();
+        let mut plan = ZmpPlan::empty();
         if let Some(swing) = self.running(&mut plan) {
             self.coming(swing, task, &mut plan);
         }
         let dcm = dcm::start_dcm(&plan.segments[..plan.count], omega).unwrap_or(zmp);
-        Reference { zmp, dcm }
+        GaitReference { zmp, dcm }
     }
 
     /// Adds what is left of the running step; returns it, or `None` where the robot comes to stand.
-    fn running(&self, plan: &mut Plan) -> Option<Swing> {
+    fn running(&self, plan: &mut ZmpPlan) -> Option<Swing> {
         match &self.phase {
-            Phase::Standing => None,
-            Phase::Double {
+            GaitPhase::Standing => None,
+            GaitPhase::Double {
                 elapsed_s,
                 duration_s,
                 next,
@@ -71,7 +71,7 @@ impl Gait {
                 plan.add(goal, goal, swing.single_support_s(&self.config));
                 Some(swing)
             }
-            Phase::Single {
+            GaitPhase::Single {
                 elapsed_s,
                 duration_s,
                 swing,
@@ -84,10 +84,10 @@ impl Gait {
     }
 
     /// Adds the steps behind `swing`, and the shift to the middle behind the last.
-    fn coming(&self, mut swing: Swing, task: Task<'_>, plan: &mut Plan) {
+    fn coming(&self, mut swing: Swing, task: Task<'_>, plan: &mut ZmpPlan) {
         let mut feet = self.feet;
         let mut stands = self.stance_point(swing.side.other());
-        for ahead in 1..STEPS {
+        for ahead in 1..self.config.tuning.preview.steps {
             feet[swing.side.index()] = swing.to;
             let Some(next) = self.next_swing(&feet, swing.side, task, ahead) else {
                 break;

@@ -4,8 +4,7 @@ use geometry::{CellArea, Map, PlanarPose, Pose, Robot};
 use mapping::FloorView;
 use nalgebra::Vector2;
 
-/// Places along a sole, and along the way from one foot to the other, at which the slope is asked for.
-const PLACES: usize = 6;
+use crate::tuning::ReliefTuning;
 
 /// What is known of how the ground slopes around the robot.
 pub trait Slopes: std::fmt::Debug {
@@ -18,6 +17,8 @@ pub trait Slopes: std::fmt::Debug {
 pub struct Relief<'a> {
     slopes: Option<&'a dyn Slopes>,
     plan_from_robot: PlanarPose,
+    /// Places along a sole, and along a way, at which the slope is asked for.
+    places: usize,
 }
 
 impl<'a> Relief<'a> {
@@ -29,13 +30,19 @@ impl<'a> Relief<'a> {
             y_m: 0.0,
             yaw_rad: 0.0,
         },
+        places: 1,
     };
 
-    /// These slopes around a robot that is at this place of the plan.
-    pub const fn new(slopes: Option<&'a dyn Slopes>, plan_from_robot: PlanarPose) -> Self {
+    /// Slopes around a robot that is at this place of the plan.
+    pub const fn new(
+        slopes: Option<&'a dyn Slopes>,
+        plan_from_robot: PlanarPose,
+        tuning: &ReliefTuning,
+    ) -> Self {
         Self {
             slopes,
             plan_from_robot,
+            places: tuning.places,
         }
     }
 
@@ -58,22 +65,20 @@ impl<'a> Relief<'a> {
         };
         let robot = self.plan_from_robot.inverse();
         let mut sum = Vector2::zeros();
-        for place in 0..PLACES {
-            let share = (place as f64 + 0.5) / PLACES as f64;
+        let places = self.places;
+        for place in 0..places {
+            let share = (place as f64 + 0.5) / places as f64;
             let (x_m, y_m) = robot.apply(
                 from.0 + (to.0 - from.0) * share,
                 from.1 + (to.1 - from.1) * share,
             );
             sum += slopes.gradient(x_m, y_m);
         }
-        let mean = sum / PLACES as f64;
+        let mean = sum / places as f64;
         let (x, y) = PlanarPose::new(0.0, 0.0, self.plan_from_robot.yaw_rad).apply(mean.x, mean.y);
         Vector2::new(x, y)
     }
 }
-
-/// The map is looked at so far around the robot, m: farther than it steps.
-const AROUND_M: f64 = 0.3;
 
 /// The slopes of the map around a robot.
 #[derive(Debug, Clone, Copy)]
@@ -84,11 +89,16 @@ pub struct Mapped<'a> {
 
 impl<'a> Mapped<'a> {
     /// The map around a robot that is here; none where there is no slope near it.
-    pub fn around(view: &'a FloorView, map_from_robot: &Pose<Map, Robot>) -> Option<Self> {
+    pub fn around(
+        view: &'a FloorView,
+        map_from_robot: &Pose<Map, Robot>,
+        tuning: &ReliefTuning,
+    ) -> Option<Self> {
+        let around_m = tuning.around;
         let at = map_from_robot.origin().inner;
         let area = CellArea {
-            min: view.lattice.cell_at(at.x - AROUND_M, at.y - AROUND_M),
-            max: view.lattice.cell_at(at.x + AROUND_M, at.y + AROUND_M),
+            min: view.lattice.cell_at(at.x - around_m, at.y - around_m),
+            max: view.lattice.cell_at(at.x + around_m, at.y + around_m),
         };
         let sloped = area
             .cells()
@@ -129,7 +139,7 @@ mod tests {
     #[test]
     fn a_rise_is_that_of_the_part_of_the_way_that_slopes() {
         let bend = Bend(0.03, 0.1);
-        let relief = Relief::new(Some(&bend), PlanarPose::default());
+        let relief = Relief::new(Some(&bend), PlanarPose::default(), &ReliefTuning::default());
         let at = |x_m: f64| PlanarPose::new(x_m, 0.0, 0.0);
         assert!((relief.rise_m(&at(0.0), &at(0.06)) - 0.003).abs() < 1e-12);
         assert!((relief.rise_m(&at(0.06), &at(0.0)) + 0.003).abs() < 1e-12);
@@ -140,7 +150,7 @@ mod tests {
     #[test]
     fn a_sole_across_a_bend_is_half_as_steep() {
         let bend = Bend(0.2, 0.1);
-        let relief = Relief::new(Some(&bend), PlanarPose::default());
+        let relief = Relief::new(Some(&bend), PlanarPose::default(), &ReliefTuning::default());
         let under = |x_m: f64| relief.under(&PlanarPose::new(x_m, 0.0, 0.0), 0.1);
         assert_eq!(under(0.1), Vector2::zeros());
         assert!((under(0.2) - Vector2::new(0.05, 0.0)).norm() < 1e-12);
@@ -152,7 +162,7 @@ mod tests {
         let bend = Bend(0.0, 0.1);
         // The robot faces along the plan's y: what rises ahead of it rises along y.
         let place = PlanarPose::new(1.0, 2.0, std::f64::consts::FRAC_PI_2);
-        let relief = Relief::new(Some(&bend), place);
+        let relief = Relief::new(Some(&bend), place, &ReliefTuning::default());
         let under = relief.under(&PlanarPose::new(1.0, 2.2, 0.0), 0.1);
         assert!((under - Vector2::new(0.0, 0.1)).norm() < 1e-12, "{under}");
     }

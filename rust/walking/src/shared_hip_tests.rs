@@ -6,13 +6,14 @@ use robot::LinkPoses;
 
 use super::*;
 use crate::test_biped::{Ideal, biped, shared_hip_description};
+use crate::tuning::LegTuning;
 
 fn body() -> Body {
     Body::new(shared_hip_description()).unwrap()
 }
 
-fn legs(body: &Body) -> [Leg; 2] {
-    Side::BOTH.map(|side| Leg::new(body, side, 0.9999).unwrap())
+fn legs(body: &Body) -> [LegSolver; 2] {
+    Side::BOTH.map(|side| LegSolver::new(body, side, 0.9999, &LegTuning::default()).unwrap())
 }
 
 fn soles_at(body: &Body, angles: &[[f64; 6]; 2]) -> [Isometry3<f64>; 2] {
@@ -87,7 +88,7 @@ proptest! {
     fn the_torso_turns_until_one_angle_serves_both_soles(soles in [sole(), sole()]) {
         let (body, wanted) = (body(), placed(soles));
         let legs = legs(&body);
-        let shared = SharedHip::read(&body, &legs).unwrap().unwrap();
+        let shared = SharedHip::read(&body, &legs, &SharedHipTuning::default()).unwrap().unwrap();
         let about = Point3::new(0.01, 0.02, 0.1);
         let agreed = shared.agree(&legs, &wanted, &about);
         let [left, right] = agreed.legs;
@@ -105,7 +106,9 @@ proptest! {
 fn soles_turned_out_by_the_same_angle_leave_the_torso_as_it_is() {
     let body = body();
     let legs = legs(&body);
-    let shared = SharedHip::read(&body, &legs).unwrap().unwrap();
+    let shared = SharedHip::read(&body, &legs, &SharedHipTuning::default())
+        .unwrap()
+        .unwrap();
     let soles = placed([
         (0.0, 0.0, -0.2, [0.0, 0.0, 0.2]),
         (0.0, 0.0, -0.2, [0.0, 0.0, -0.2]),
@@ -118,7 +121,11 @@ fn soles_turned_out_by_the_same_angle_leave_the_torso_as_it_is() {
 #[test]
 fn legs_with_motors_of_their_own_share_nothing() {
     let body = biped();
-    assert!(SharedHip::read(&body, &legs(&body)).unwrap().is_none());
+    assert!(
+        SharedHip::read(&body, &legs(&body), &SharedHipTuning::default())
+            .unwrap()
+            .is_none()
+    );
 }
 
 #[test]
@@ -126,7 +133,7 @@ fn one_motor_that_turns_both_legs_to_the_same_side_is_refused() {
     let mut same = shared_hip_description();
     same.links[7].joint.as_mut().unwrap().axis = [0.0, -1.0, -1.0];
     let body = Body::new(same).unwrap();
-    let error = SharedHip::read(&body, &legs(&body))
+    let error = SharedHip::read(&body, &legs(&body), &SharedHipTuning::default())
         .unwrap_err()
         .to_string();
     assert!(error.contains("opposite sides"), "{error}");

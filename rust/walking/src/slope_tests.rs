@@ -3,6 +3,7 @@
 use behaviour::{Motion, Velocity};
 
 use super::*;
+use crate::phase::FootPose;
 use crate::test_biped::Ideal;
 
 const BEGINS_M: f64 = 0.2;

@@ -5,16 +5,10 @@
 
 use nalgebra::Vector2;
 
-use crate::gait::{Gait, Manner, Phase, Swing};
-use crate::landing::Felt;
+use crate::felt::Felt;
+use crate::gait::Gait;
+use crate::phase::{GaitPhase, Manner, Swing};
 use crate::swing;
-
-/// Share of its time after which a walking foot has left the ground for sure.
-const LEFT: f64 = 0.25;
-/// How far off the edge that it met a foot goes back, m.
-const CLEAR_M: f64 = 0.025;
-/// A foot of which more than this share lies beyond the edge that it met stands well there.
-const STANDS: f64 = 0.6;
 
 impl Gait {
     /// Whether a walk has ended because of what it met.
@@ -29,7 +23,7 @@ impl Gait {
 
     /// What a foot of a walk feels on its way.
     pub(crate) fn feel_the_way(&mut self, before_s: f64, felt: &Felt) {
-        let Phase::Single {
+        let GaitPhase::Single {
             elapsed_s, swing, ..
         } = self.phase
         else {
@@ -47,7 +41,7 @@ impl Gait {
         let share = elapsed_s / swing.in_air_s(&self.config);
         let above_m = felt.soles_m[index].z - swing.to.z_m;
         swing.manner == Manner::Walk
-            && share > LEFT
+            && share > self.config.tuning.stumble.left_share
             && felt.loads_n[index] > self.config.landing_load
             && above_m > self.config.stumble_height
     }
@@ -55,6 +49,7 @@ impl Gait {
     /// Takes the foot back along its way until nothing of it is over the edge that it met; where most of it is, it stays.
     fn go_off(&mut self, swing: &Swing, elapsed_s: f64, felt: &Felt) {
         let index = swing.side.index();
+        let tuning = &self.config.tuning.stumble;
         let here = swing.foot(elapsed_s, &self.config);
         let back = swing.from.planar;
         let way_m = here.planar.distance_m(&back);
@@ -64,15 +59,15 @@ impl Gait {
         let reach_m = half.dot(&ahead.abs());
         let over_m = 2.0 * (reach_m - felt.pressed_m[index].dot(&ahead)).max(0.0);
         let mut to = here;
-        if over_m > STANDS * 2.0 * reach_m {
+        if over_m > tuning.stands_share * 2.0 * reach_m {
             to.z_m = felt.soles_m[index].z;
         } else {
-            let share = ((over_m + CLEAR_M) / way_m.max(1e-6)).min(1.0);
+            let share = ((over_m + tuning.clear) / way_m.max(1e-6)).min(1.0);
             to.planar = swing::part_way(&here.planar, &back, share);
             to.z_m = self.feet[swing.side.other().index()].z_m;
         }
         let swing = Swing::new(swing.side, Manner::Retreat, here, to);
-        self.phase = Phase::Single {
+        self.phase = GaitPhase::Single {
             elapsed_s: 0.0,
             duration_s: swing.single_support_s(&self.config),
             swing,
@@ -83,7 +78,7 @@ impl Gait {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::landing::Ground;
+    use crate::felt::KnownGround;
     use crate::relief::Relief;
     use crate::task::Task;
     use crate::test_biped::{foot_at, on_its_way};
@@ -105,8 +100,8 @@ mod tests {
     }
 
     /// The left sole lies on something of this height, its middle of pressure so far ahead of its own.
-    fn upon(height_m: f64, pressed_m: f64) -> Ground {
-        Ground::Felt(Felt {
+    fn upon(height_m: f64, pressed_m: f64) -> KnownGround {
+        KnownGround::Felt(Felt {
             loads_n: [20.0, 50.0],
             soles_m: [Vector3::new(0.02, 0.0425, height_m), Vector3::zeros()],
             short_m: [0.0; 2],
@@ -114,10 +109,10 @@ mod tests {
         })
     }
 
-    fn landed(mut gait: Gait, ground: &Ground) -> Gait {
+    fn landed(mut gait: Gait, ground: &KnownGround) -> Gait {
         for _ in 0..100 {
             gait.advance(0.01, Task::Walk(AHEAD, Relief::LEVEL), ground);
-            if !matches!(gait.phase, Phase::Single { .. }) {
+            if !matches!(gait.phase, GaitPhase::Single { .. }) {
                 return gait;
             }
         }

@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use robot::{Body, Side};
 
-use crate::gait::FootPose;
+use crate::phase::FootPose;
 
 /// How the feet carry: what the torques are fed forward for.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,9 @@
 
 use geometry::PlanarPose;
 
-/// A foot at `here` after a share of the straight way to `place`, its heading kept.
+use crate::tuning::SwingTuning;
+
+/// Where a foot at `here` is after a share of the straight way to `place`, its heading kept.
 pub fn part_way(here: &PlanarPose, place: &PlanarPose, share: f64) -> PlanarPose {
     PlanarPose {
         x_m: here.x_m + (place.x_m - here.x_m) * share,
@@ -17,12 +19,9 @@ pub fn minimum_jerk(share: f64) -> f64 {
     s * s * s * (10.0 + s * (6.0 * s - 15.0))
 }
 
-/// When the foot moves over the ground, as shares of the swing time.
-const TRAVEL: [f64; 2] = [0.1, 0.9];
-
 /// Share of the way over the ground after a share of the time.
-pub fn travel(share: f64) -> f64 {
-    minimum_jerk((share - TRAVEL[0]) / (TRAVEL[1] - TRAVEL[0]))
+pub fn travel(share: f64, tuning: &SwingTuning) -> f64 {
+    minimum_jerk(within(share, tuning.travel))
 }
 
 /// Height of the sole after a share of the time: from `from_m` up to `top_m` in the middle and down to `to_m`.
@@ -34,39 +33,40 @@ pub fn height_m(share: f64, from_m: f64, top_m: f64, to_m: f64) -> f64 {
     }
 }
 
-/// When a foot that goes back off something it met moves over the ground, and when it sinks, as shares of its time.
-const OFF: [f64; 2] = [0.0, 0.7];
-const DOWN: [f64; 2] = [0.4, 1.0];
-
 /// Share of the way over the ground of a foot that goes back off something, and its height.
-pub fn retreat(share: f64, from_m: f64, to_m: f64) -> (f64, f64) {
-    let down = minimum_jerk(within(share, DOWN));
+pub fn retreat(share: f64, from_m: f64, to_m: f64, tuning: &SwingTuning) -> (f64, f64) {
+    let down = minimum_jerk(within(share, tuning.down));
     (
-        minimum_jerk(within(share, OFF)),
+        minimum_jerk(within(share, tuning.off)),
         from_m + (to_m - from_m) * down,
     )
 }
 
-/// When a careful foot rises, moves over the ground, and sinks, as shares of its time.
-const RISE: [f64; 2] = [0.0, 0.38];
-const OVER: [f64; 2] = [0.25, 0.75];
-const SINK: [f64; 2] = [0.62, 1.0];
-
 /// Share of the time in which a careful foot rises, and in which it sinks.
-pub const LIFTING: f64 = RISE[1] - RISE[0];
-
-/// Share of the time after which a careful foot comes down on what it is told to land on.
-pub const SINKING: f64 = OVER[1];
-
-/// Share of the way over the ground of a careful foot after a share of the time: only while it is high.
-pub fn careful_travel(share: f64) -> f64 {
-    minimum_jerk(within(share, OVER))
+pub fn lifting(tuning: &SwingTuning) -> f64 {
+    tuning.rise[1] - tuning.rise[0]
 }
 
-/// Height of a careful foot after a share of the time: straight up from `from_m` to `top_m`, and straight down to `to_m`.
-pub fn careful_height_m(share: f64, from_m: f64, top_m: f64, to_m: f64) -> f64 {
-    let up = minimum_jerk(within(share, RISE));
-    let down = minimum_jerk(within(share, SINK));
+/// Share of the time after which a careful foot comes down on what it is told to land on.
+pub const fn sinking(tuning: &SwingTuning) -> f64 {
+    tuning.over[1]
+}
+
+/// Share of the way over the ground of a careful foot after a share of the time: only while it is high.
+pub fn careful_travel(share: f64, tuning: &SwingTuning) -> f64 {
+    minimum_jerk(within(share, tuning.over))
+}
+
+/// Height of a careful foot after a share of the time: straight up from the first of its ends to `top_m`, and straight down to the
+/// other one.
+pub fn careful_height_m(
+    share: f64,
+    [from_m, to_m]: [f64; 2],
+    top_m: f64,
+    tuning: &SwingTuning,
+) -> f64 {
+    let up = minimum_jerk(within(share, tuning.rise));
+    let down = minimum_jerk(within(share, tuning.sink));
     from_m + (top_m - from_m) * up + (to_m - top_m) * down
 }
 
@@ -78,6 +78,18 @@ fn within(share: f64, [from, to]: [f64; 2]) -> f64 {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    fn travel(share: f64) -> f64 {
+        super::travel(share, &SwingTuning::default())
+    }
+
+    fn careful_travel(share: f64) -> f64 {
+        super::careful_travel(share, &SwingTuning::default())
+    }
+
+    fn careful_height_m(share: f64, from_m: f64, top_m: f64, to_m: f64) -> f64 {
+        super::careful_height_m(share, [from_m, to_m], top_m, &SwingTuning::default())
+    }
 
     proptest! {
         #[test]

@@ -12,11 +12,13 @@ use robot::{
 };
 use sensing::Observation;
 
+use crate::config::GaitConfig;
 use crate::footsteps::FootstepPlanner;
-use crate::gait::{FootPose, Gait, Phase, Swing};
+use crate::gait::Gait;
+use crate::phase::{FootPose, GaitPhase, Swing};
 use crate::relief::Slopes;
-use crate::stance::Stance;
-use crate::{GaitConfig, JointTargets, Walker};
+use crate::targets::JointTargets;
+use crate::walker::Walker;
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
@@ -168,18 +170,14 @@ fn stereo() -> StereoDescription {
 
 /// The default gait for the biped.
 pub(crate) fn config() -> GaitConfig {
-    GaitConfig::read(
-        &serde_json::Value::Null,
-        &Stance::upright(&biped()).unwrap(),
-    )
-    .unwrap()
+    GaitConfig::read(&biped()).unwrap().0
 }
 
 pub(crate) fn biped() -> Body {
     Body::new(description()).unwrap()
 }
 
-/// The same with hips like a NAO's: yaw axes that slant by 45 degrees, one motor for both.
+/// The biped with hips like a NAO's: yaw axes that slant by 45 degrees, one motor for both.
 pub(crate) fn shared_hip_description() -> Description {
     let mut shared = description();
     let half = std::f64::consts::FRAC_1_SQRT_2;
@@ -198,7 +196,7 @@ pub(crate) fn on_its_way(swing: Swing, other: FootPose, share: f64) -> Gait {
         feet.swap(0, 1);
     }
     let mut gait = Gait::new(&config, FootstepPlanner::new(&config, &body), feet);
-    gait.phase = Phase::Single {
+    gait.phase = GaitPhase::Single {
         elapsed_s: share * swing.in_air_s(&config),
         duration_s: swing.single_support_s(&config),
         swing,

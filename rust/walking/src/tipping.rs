@@ -7,41 +7,36 @@
 use geometry::PlanarPose;
 use nalgebra::Vector2;
 
-use crate::gait::{Gait, Manner, Phase, Swing};
+use crate::gait::Gait;
+use crate::phase::{GaitPhase, Manner, Swing};
 use crate::swing;
-
-/// How often in a list a foot is put down again; a robot that still tips is better off with the step behind it.
-const TIMES: usize = 3;
-/// How far the robot may tip forward or back, as a share of how far it tips sideways: no foot beside the other one stops that.
-const SIDEWAYS: f64 = 0.5;
-/// Share of its way over the ground up to which a foot is still where it left.
-const HARDLY: f64 = 0.05;
 
 impl Gait {
     /// Puts a careful foot down again that has risen but not gone anywhere yet where the DCM's `error` says that the robot tips
     /// towards it. The step is taken anew after that.
     pub(crate) fn catch_tipping(&mut self, error: &Vector2<f64>) {
-        let Phase::Single {
+        let GaitPhase::Single {
             elapsed_s, swing, ..
         } = self.phase
         else {
             return;
         };
+        let tuning = &self.config.tuning.tipping;
         let share = elapsed_s / swing.in_air_s(&self.config);
         if swing.manner != Manner::Careful
-            || swing::careful_travel(share) > HARDLY
-            || self.listed.put_down >= TIMES
+            || swing::careful_travel(share, &self.config.tuning.swing) > tuning.gone_share
+            || self.listed.put_down >= tuning.times
         {
             return;
         }
         let stance_yaw_rad = self.feet[swing.side.other().index()].planar.yaw_rad;
         let (ahead_m, left_m) = PlanarPose::new(0.0, 0.0, -stance_yaw_rad).apply(error.x, error.y);
         let towards_m = left_m * swing.side.sign();
-        if towards_m > self.config.tip_error && ahead_m.abs() < SIDEWAYS * towards_m {
+        if towards_m > self.config.tip_error && ahead_m.abs() < tuning.ahead_share * towards_m {
             self.listed.put_down += 1;
             let here = swing.foot(elapsed_s, &self.config);
             let down = Swing::new(swing.side, Manner::Retreat, here, swing.from);
-            self.phase = Phase::Single {
+            self.phase = GaitPhase::Single {
                 elapsed_s: 0.0,
                 duration_s: down.single_support_s(&self.config),
                 swing: down,
@@ -56,8 +51,8 @@ mod tests {
     use robot::Side;
 
     use super::*;
-    use crate::gait::FootPose;
-    use crate::landing::Ground;
+    use crate::felt::KnownGround;
+    use crate::phase::FootPose;
     use crate::task::Task;
     use crate::test_biped::{foot_at, on_its_way};
 
@@ -85,7 +80,7 @@ mod tests {
 
     fn manner(gait: &Gait) -> Option<Manner> {
         match &gait.phase {
-            Phase::Single { swing, .. } => Some(swing.manner),
+            GaitPhase::Single { swing, .. } => Some(swing.manner),
             _ => None,
         }
     }
@@ -98,8 +93,8 @@ mod tests {
         assert!(height_m > 0.01 && gait.foot(Side::Left).z_m == height_m);
         let mut down = false;
         for _ in 0..100 {
-            gait.advance(0.01, Task::Steps(&STEP), &Ground::AsTold);
-            if let Phase::Double { next, .. } = &gait.phase {
+            gait.advance(0.01, Task::Steps(&STEP), &KnownGround::AsTold);
+            if let GaitPhase::Double { next, .. } = &gait.phase {
                 let next = next.unwrap();
                 assert_eq!((next.side, next.manner), (Side::Left, Manner::Careful));
                 assert_eq!((next.to.planar.x_m, next.to.z_m), (0.12, 0.04));
@@ -131,7 +126,7 @@ mod tests {
         let mut gait = climbing(0.0);
         for _ in 0..1000 {
             gait.catch_tipping(&Vector2::new(0.0, 0.02));
-            gait.advance(0.01, Task::Steps(&STEP), &Ground::AsTold);
+            gait.advance(0.01, Task::Steps(&STEP), &KnownGround::AsTold);
         }
         assert_eq!(gait.stepping().landed, 1);
     }

@@ -1,30 +1,33 @@
 //! The walker: a command in, targets for all joints out, at every control tick.
 
-use behaviour::{Command, Gaze, Stepping};
+use behaviour::Command;
+use geometry::GRAVITY_MPS2;
 use nalgebra::Vector2;
 use proprioception::BodyState;
 use robot::{Body, Side};
-use sensing::Observation;
+use sensing::{Observation, TICK_S};
 
 use crate::ankles::Ankles;
 use crate::arms::ArmsControl;
-use crate::balance::{Balance, GRAVITY_MPS2, Sensed};
+use crate::balance::{Balance, Sensed};
 use crate::capture::Capture;
+use crate::config::GaitConfig;
+use crate::error::WalkError;
 use crate::feet::FeetControl;
+use crate::felt::{Felt, KnownGround};
 use crate::footsteps::FootstepPlanner;
-use crate::gait::{FootPose, Gait, Phase, Reference};
-use crate::gaze::Head;
-use crate::landing::{Felt, Ground};
+use crate::gait::Gait;
+use crate::gaze::HeadControl;
 use crate::pelvis::Course;
-use crate::posture::{Moment, Posture};
+use crate::phase::GaitReference;
+use crate::posture::{Posture, PostureMoment};
 use crate::relief::{Relief, Slopes};
-use crate::stance::Stance;
+use crate::stance::UprightStance;
+use crate::step_list::{ListFrame, StepList};
 use crate::support::{Pressure, Soles};
-use crate::task::{Frame, StepList};
-use crate::{GaitConfig, JointTargets, WalkError};
+use crate::targets::JointTargets;
 
-/// The control tick, s; longer gaps count as two.
-const TICK_S: f64 = 0.01;
+mod telling;
 
 /// Walks. One a robot; see the crate's page for the parts.
 #[derive(Debug, Clone)]
@@ -32,7 +35,7 @@ pub struct Walker {
     body: Body,
     config: GaitConfig,
     weight_n: f64,
-    head: Head,
+    head: HeadControl,
     arms: ArmsControl,
     gait: Gait,
     list: StepList,
@@ -43,7 +46,7 @@ pub struct Walker {
     capture: Capture,
     posture: Posture,
     com: Vector2<f64>,
-    reference: Reference,
+    reference: GaitReference,
     pressure: Pressure,
     targets: JointTargets,
     last_ns: Option<u64>,
@@ -52,9 +55,8 @@ pub struct Walker {
 impl Walker {
     /// A walker for this body, standing as in the body's description; its gait is the description's `[gait]`.
     pub fn new(body: &Body) -> Result<Self, WalkError> {
-        let stance = Stance::upright(body)?;
-        let config = GaitConfig::read(&body.description().gait, &stance)?;
-        let Stance {
+        let (config, stance) = GaitConfig::read(body)?;
+        let UprightStance {
             rest, feet, com, ..
         } = stance;
         let omega = (GRAVITY_MPS2 / com.z).sqrt();
@@ -63,9 +65,9 @@ impl Walker {
         let (joints, middle) = (rest.len(), gait.middle());
         Ok(Self {
             weight_n: body.mass_kg() * GRAVITY_MPS2,
-            head: Head::new(body, config.gaze_speed)?,
+            head: HeadControl::new(body, config.gaze_speed)?,
             arms: ArmsControl::new(body, &rest, config.arms_time)?,
-            balance: Balance::new(body, omega, config.velocity_blend, com.xy()),
+            balance: Balance::new(body, &config, omega, com.xy()),
             soles: Soles::new(body, config.sole_margin),
             feet_control: FeetControl::new(&config),
             ankles: Ankles::new(&config, body),
@@ -82,7 +84,7 @@ impl Walker {
                 point: Side::BOTH.map(|side| gait.stance_point(side)),
                 zmp: middle,
             },
-            reference: Reference {
+            reference: GaitReference {
                 zmp: middle,
                 dcm: middle,
             },
@@ -113,10 +115,10 @@ impl Walker {
         let felt = self.feel(observation, state);
         let frame = self.frame(&felt);
         self.list.take(&command.motion, &mut self.gait, frame);
-        let relief = Relief::new(slopes, frame.planar);
+        let relief = Relief::new(slopes, frame.planar, &self.config.tuning.relief);
         let task = self.list.task(&command.motion, &self.gait, relief);
         self.gait
-            .advance(passed_s * rate, task, &Ground::Felt(felt));
+            .advance(passed_s * rate, task, &KnownGround::Felt(felt));
         let task = self.list.task(&command.motion, &self.gait, relief);
         self.reference = self.gait.reference(omega, task);
         self.com += (self.reference.dcm - self.com) * (omega * passed_s)
@@ -131,7 +133,7 @@ impl Walker {
         );
         let (gait, control) = (&self.gait, &mut self.feet_control);
         let feet = Side::BOTH.map(|side| control.place(&gait.phase, gait.foot(side), side));
-        let moment = Moment {
+        let moment = PostureMoment {
             body: &self.body,
             course: Course {
                 gait: &self.gait,
@@ -155,83 +157,23 @@ impl Walker {
         Ok(&self.targets)
     }
 
-    /// Whether it stands still on both soles.
-    pub fn standing(&self) -> bool {
-        self.gait.is_standing()
-    }
-
-    /// Distance between the soles' centres when it stands, m.
-    pub const fn stance_width_m(&self) -> f64 {
-        self.config.stance_width
-    }
-
-    /// Landings so far.
-    pub const fn steps_taken(&self) -> u64 {
-        self.gait.steps_taken
-    }
-
-    /// How the listed footsteps go.
-    pub fn stepping(&self) -> Stepping {
-        self.gait.stepping()
-    }
-
-    /// The foot that stands while the other moves; `None` while both carry.
-    pub const fn support(&self) -> Option<Side> {
-        match &self.gait.phase {
-            Phase::Single { swing, .. } => Some(swing.side.other()),
-            Phase::Standing | Phase::Double { .. } => None,
-        }
-    }
-
-    /// Whether the list that was given last is behind the robot: all its steps landed, or it was given up.
-    pub fn list_is_over(&self) -> bool {
-        self.list.is_over(&self.gait)
-    }
-
-    /// Whether each foot stands, or is to land, on a slope.
-    pub fn on_slope(&self) -> [bool; 2] {
-        let mut feet = self.gait.feet;
-        if let Phase::Single { swing, .. } = &self.gait.phase {
-            feet[swing.side.index()] = swing.to;
-        }
-        feet.map(|foot| foot.gradient != Vector2::zeros())
-    }
-
-    /// Where a foot stands, or left, in the walker's own frame, which drifts against the world's.
-    pub const fn foot_in_plan(&self, side: Side) -> &FootPose {
-        &self.gait.feet[side.index()]
-    }
-
-    /// What the feet do, for the recording.
-    pub const fn phase(&self) -> &Phase {
-        &self.gait.phase
-    }
-
-    /// Where the robot should be, where it is, and how it pushes, for the recording.
-    pub const fn balance(&self) -> (&Reference, &Balance, &Pressure) {
-        (&self.reference, &self.balance, &self.pressure)
-    }
-
-    /// Where the head was told to look at the last tick.
-    pub fn gaze(&self) -> Gaze {
-        self.head.gaze()
-    }
-
     fn pass(&mut self, now_ns: u64) -> f64 {
         let passed_s = match self.last_ns {
             Some(last_ns) if now_ns > last_ns => (now_ns - last_ns) as f64 * 1e-9,
             _ => TICK_S,
         };
         self.last_ns = Some(now_ns);
-        passed_s.clamp(0.1 * TICK_S, 2.0 * TICK_S)
+        let tuning = &self.config.tuning.ticks;
+        passed_s.clamp(tuning.shortest * TICK_S, tuning.longest * TICK_S)
     }
 
     fn sense(&mut self, observation: &Observation, state: &BodyState, passed_s: f64) {
         let [left, right] = state.foot_loads_n.map(|load| load.max(0.0));
+        let least_n = self.config.tuning.ticks.least_load;
         let trust = match self.support() {
             Some(Side::Left) => [1.0, 0.0],
             Some(Side::Right) => [0.0, 1.0],
-            None if left + right > 1.0 => [left / (left + right), right / (left + right)],
+            None if left + right > least_n => [left / (left + right), right / (left + right)],
             None => [0.5, 0.5],
         };
         let sensed = Sensed {
@@ -269,11 +211,11 @@ impl Walker {
     }
 
     /// The robot's frame in the plan: midway between the soles as they are.
-    fn frame(&self, felt: &Felt) -> Frame {
+    fn frame(&self, felt: &Felt) -> ListFrame {
         let mut planar = Gait::center_of(&self.gait.feet);
         let middle = 0.5 * (felt.soles_m[0] + felt.soles_m[1]);
         (planar.x_m, planar.y_m) = (middle.x, middle.y);
-        Frame {
+        ListFrame {
             planar,
             ground_m: self.gait.ground_m(),
         }

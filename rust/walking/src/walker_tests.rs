@@ -1,6 +1,6 @@
 //! What the walker promises, in a world where joints follow their targets at once.
 
-use behaviour::{Footstep, Motion, Velocity};
+use behaviour::{Footstep, Gaze, Motion, Velocity};
 use geometry::PlanarPose;
 use nalgebra::Vector3;
 use proptest::prelude::*;

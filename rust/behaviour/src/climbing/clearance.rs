@@ -1,14 +1,14 @@
 //! Whether there is room: for a move before a step, for the feet on it, to walk and to turn behind it.
 
 use geometry::PlanarPose;
-use mapping::Surface;
 use planning::Step;
+use terrain::support::{ObstacleCell, SolesOnGround, cells_under, is_riser, stairs_under};
 
 use super::StairClimbing;
+use crate::Situation;
 use crate::climbing::flight::crosses_another;
 use crate::climbing::footsteps::Stance;
 use crate::machine::Tick;
-use crate::walking::is_edge;
 
 impl StairClimbing {
     /// Whether a move to where `first` is taken from needs no large turn, crosses no other edge, and leaves the soles on the stair
@@ -60,25 +60,15 @@ impl StairClimbing {
     /// Whether something stands where the feet shall go: not the riser behind the heels or before the toes.
     pub(super) fn is_occupied(&self, tick: &Tick<'_>, stance: &Stance) -> bool {
         let tuning = &self.config.tuning.clearance;
-        let raster = tuning.raster;
-        let view = tick.situation.view;
-        let half = [0.5 * self.feet.length_m, 0.5 * self.feet.pair_width_m];
+        let Situation { view, stairs, .. } = *tick.situation;
+        let soles = SolesOnGround {
+            half_m: [0.5 * self.feet.length_m, 0.5 * self.feet.pair_width_m],
+            raster: tuning.raster,
+        };
         let top_m = stance.height_m as f32 + tuning.stands_on;
-        let mut cells = Vec::new();
-        for (i, j) in (-raster..=raster).flat_map(|i| (-raster..=raster).map(move |j| (i, j))) {
-            let share = |k: i32| f64::from(k) / f64::from(raster);
-            let (x_m, y_m) = stance.pose.apply(share(i) * half[0], share(j) * half[1]);
-            let Surface::Obstacle(height_m) = view.at(x_m, y_m) else {
-                continue;
-            };
-            let cell = view.lattice.cell_at(x_m, y_m);
-            let obstacle = (view.lattice.center_of(cell), height_m);
-            let riser = is_edge(tick.situation.stairs, &obstacle, self.walking.obstacles());
-            if height_m > top_m && !riser && !cells.contains(&cell) {
-                cells.push(cell);
-            }
-        }
-        cells.len() >= tuning.cells
+        let edges = self.walking.obstacles().edges();
+        let counts = |cell: &ObstacleCell| !is_riser(stairs, cell, edges);
+        cells_under(view, soles, &stance.pose, top_m, counts) >= tuning.cells
     }
 
     /// Whether what the robot stands on, as it is known by now, has room to turn and to walk.
@@ -86,12 +76,8 @@ impl StairClimbing {
         let at = [tick.pose.x_m, tick.pose.y_m];
         let tuning = &self.config.tuning;
         let roomy = |stair: &stairs::Stair<geometry::Map>| stair.depth_m() >= tuning.flight.roomy;
-        let stands_on = |stair: &&stairs::Stair<geometry::Map>| {
-            (stair.height_m() - tick.ground_m).abs() < tuning.lookup.same_height
-                && stair.front.beyond_m(at) > 0.0
-                && stair.back.beyond_m(at) < 0.0
-        };
-        let mut known_now = tick.situation.stairs.stairs.iter().filter(stands_on);
+        let level_m = (tick.ground_m, tuning.lookup.same_height);
+        let mut known_now = stairs_under(tick.situation.stairs, at, level_m);
         self.memory.on.is_none_or(|step| roomy(&step.stair)) || known_now.any(roomy)
     }
 }

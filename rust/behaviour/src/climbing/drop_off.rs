@@ -2,8 +2,9 @@
 //! one a platform ends, too.
 
 use geometry::PlanarPose;
-use mapping::{FloorView, Surface};
+use mapping::FloorView;
 use stairs::Feet;
+use terrain::support::{SolesOnGround, lower_places};
 
 use super::tuning::DropOffTuning;
 use crate::Velocity;
@@ -39,38 +40,16 @@ impl DropOff<'_> {
     fn lower_places(&self, pose: &PlanarPose, front: f64, margin_m: f64) -> usize {
         let half_m = [self.feet.length_m, self.feet.pair_width_m].map(|size| 0.5 * size + margin_m);
         let raster = self.tuning.raster;
-        let shares = || (-raster..=raster).map(move |k| f64::from(k) / f64::from(raster));
-        let along = shares().filter(|along| *along <= front);
-        let places = along.flat_map(|along| shares().map(move |across| [along, across]));
-        let is_lower = |[along, across]: &[f64; 2]| {
-            let (x_m, y_m) = pose.apply(along * half_m[0], across * half_m[1]);
-            self.is_lower([x_m, y_m])
-        };
-        places.filter(is_lower).count()
-    }
-
-    /// Whether the map has lower floor at a place, or beside it where it has nothing: below an edge is a shadow.
-    fn is_lower(&self, [x_m, y_m]: [f64; 2]) -> bool {
-        let beside_m = self.view.lattice.cell_m;
-        let lower_m = self.tuning.lower;
-        let lower = |dx_m: f64, dy_m: f64| match self.view.at(x_m + dx_m, y_m + dy_m) {
-            Surface::Floor(height_m) => f64::from(height_m) < self.level_m - lower_m,
-            _ => false,
-        };
-        let beside = [
-            (beside_m, 0.0),
-            (-beside_m, 0.0),
-            (0.0, beside_m),
-            (0.0, -beside_m),
-        ];
-        let unknown = self.view.at(x_m, y_m) == Surface::Unknown;
-        lower(0.0, 0.0) || unknown && beside.iter().any(|&(dx_m, dy_m)| lower(dx_m, dy_m))
+        let soles = SolesOnGround { half_m, raster };
+        let levels_m = (self.level_m, self.tuning.lower);
+        lower_places(self.view, soles, (pose, front), levels_m)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use geometry::{Grid, Lattice};
+    use mapping::Surface;
     use proptest::prelude::*;
 
     use super::*;

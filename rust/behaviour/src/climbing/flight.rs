@@ -10,7 +10,7 @@ use stairs::{ClimbingConfig, Staircase};
 
 use crate::climbing::tuning::{FlightTuning, StairClimbingTuning, StepLookupTuning};
 pub(crate) use lookup::{
-    Rules, covers, crosses_another, depth_m, is_step, nearest, settled_rise_m,
+    StepRules, covers, crosses_another, depth_m, is_step, nearest, settled_rise_m,
 };
 use lookup::{following, is_same};
 
@@ -165,7 +165,7 @@ impl Flight {
             self.lost_s = 0.0;
         }
         look_up(&mut self.steps, stairs, pose, (&self.tuning, &self.lookup));
-        let rules = Rules {
+        let rules = StepRules {
             climbing: config,
             lookup: &self.lookup,
         };

@@ -7,7 +7,7 @@ use crate::walking::gaze::{Gazer, Sweep};
 
 /// The head, and what it is to look at.
 #[derive(Debug, Clone)]
-pub(crate) struct Head {
+pub(crate) struct ClimbingHead {
     pub(crate) gazer: Gazer,
     sweep: Sweep,
     speed_radps: f64,
@@ -21,7 +21,7 @@ pub(crate) struct Head {
     frames_before: Option<u64>,
 }
 
-impl Head {
+impl ClimbingHead {
     pub(crate) fn new(config: &StairClimbingConfig, eyes: &robot::Head) -> Self {
         let tuning = config.tuning.head.clone();
         Self {

@@ -1,9 +1,10 @@
 //! Stairs that a plan needs and does not use yet: too little of them is known from afar, so they are looked at from near by.
 
 use geometry::{Map, PlanarPose};
-use mapping::{FloorView, Surface};
+use mapping::FloorView;
 use planning::{Path, Plan, Step};
 use stairs::Stair;
+use terrain::support::{is_roomy, may_be_level_floor};
 
 use crate::climbing::flight::is_step;
 use crate::climbing::leg::align_pose;
@@ -89,15 +90,9 @@ impl Inspection {
         ground_m: f64,
         tuning: &InspectionTuning,
     ) -> bool {
-        places(from, [self.pose.x_m, self.pose.y_m], tuning.spacing).all(|[x_m, y_m]| {
-            crate::walking::is_roomy(view, [x_m, y_m], tuning.room)
-                && match view.at(x_m, y_m) {
-                    Surface::Floor(height_m) => {
-                        (f64::from(height_m) - ground_m).abs() < tuning.level
-                    }
-                    Surface::Unknown => true,
-                    Surface::Obstacle(_) => false,
-                }
+        places(from, [self.pose.x_m, self.pose.y_m], tuning.spacing).all(|place_m| {
+            is_roomy(view, place_m, tuning.room)
+                && may_be_level_floor(view, place_m, ground_m, tuning.level)
         })
     }
 

@@ -10,7 +10,7 @@ use crate::place::distance_m;
 
 /// The plan's first climb as seen from the walk before it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Leg<'a> {
+pub(crate) struct ApproachLeg<'a> {
     /// Its steps.
     pub(crate) steps: &'a [Step],
     /// Its first step.
@@ -20,7 +20,7 @@ pub(crate) struct Leg<'a> {
     from_point: usize,
 }
 
-impl<'a> Leg<'a> {
+impl<'a> ApproachLeg<'a> {
     /// The first climb of a plan, if it has one.
     pub(crate) fn next(
         plan: Option<&'a Plan>,
@@ -121,10 +121,10 @@ mod tests {
     use super::*;
     use crate::climbing::simulation::{FEET, stair};
 
-    fn leg(first: &Step) -> Leg<'_> {
+    fn leg(first: &Step) -> ApproachLeg<'_> {
         let (config, climbing) = (StairClimbingConfig::default(), ClimbingConfig::default());
         let align = align_pose(first, &config, &climbing, &FEET);
-        Leg {
+        ApproachLeg {
             steps: &[],
             first,
             align,

@@ -2,7 +2,7 @@
 
 use planning::Plan;
 
-use super::{Leg, Pace, StairClimbing, State};
+use super::{ApproachLeg, Pace, StairClimbing, State};
 use crate::climbing::inspection::{self, Inspection};
 use crate::climbing::tuning::ClimbAheadTuning;
 use crate::machine::{State as _, Stopwatch, Tick};
@@ -10,7 +10,7 @@ use crate::{Behaviour, BehaviourError, Decision, Motion, Outcome, Situation};
 
 /// What a walk finds ahead of it. It stays in mind while the robot climbs.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Ahead {
+pub(super) struct ClimbAhead {
     /// The plan for `walking`: cut off before the next climb.
     plan: Option<Plan>,
     /// How long the plan has led to a climb, or to stairs that need a closer look.
@@ -22,7 +22,7 @@ pub(super) struct Ahead {
     pub(super) inspected: Vec<[f64; 2]>,
 }
 
-impl Ahead {
+impl ClimbAhead {
     /// Whether a climb can be counted on.
     pub(super) fn is_sure(&self, tuning: &ClimbAheadTuning) -> bool {
         self.climb.s() > tuning.sure_after
@@ -38,8 +38,8 @@ impl StairClimbing {
     }
 
     /// The next climb of the plan.
-    pub(super) fn leg<'a>(&self, tick: &Tick<'a>) -> Option<Leg<'a>> {
-        Leg::next(
+    pub(super) fn leg<'a>(&self, tick: &Tick<'a>) -> Option<ApproachLeg<'a>> {
+        ApproachLeg::next(
             tick.situation.plan,
             &self.config,
             &self.climbing,
@@ -93,14 +93,7 @@ impl StairClimbing {
                 self.ahead.plan = Some(inspection.plan(&tick.pose, &self.config.tuning.inspection));
             }
         } else if self.is_at_the_goal(tick) && !tick.has_level_way() {
-            // It stands there already, whatever the planner makes of the surface under its feet.
-            let tuning = &self.config.tuning.inspection;
-            let plan = inspection::straight_plan(&tick.pose, tick.goal_m(), tuning);
-            let decision = self.walking.next(&Situation {
-                plan: Some(&plan),
-                ..*situation
-            })?;
-            return Ok(decision);
+            return self.walk_at_the_goal(tick);
         } else {
             self.ahead.plan = None;
             let decision = self.walking.next(situation)?;
@@ -119,6 +112,16 @@ impl StairClimbing {
             decision.state = State::Search.name();
         }
         Ok(decision)
+    }
+
+    /// A tick of `walking` at the goal: the robot stands there already, whatever the planner makes of the surface under its feet.
+    fn walk_at_the_goal(&mut self, tick: &Tick<'_>) -> Result<Decision, BehaviourError> {
+        let tuning = &self.config.tuning.inspection;
+        let plan = inspection::straight_plan(&tick.pose, tick.goal_m(), tuning);
+        self.walking.next(&Situation {
+            plan: Some(&plan),
+            ..*tick.situation
+        })
     }
 
     /// Looks at stairs from near by.

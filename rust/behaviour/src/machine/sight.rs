@@ -4,7 +4,7 @@ use super::{Machine, State, Tick};
 
 /// How a robot fares that stands because it sees nothing, or does not know where it is.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Sight {
+pub(crate) enum SightAgain {
     /// It sees again, and knows where it is.
     Back,
     /// It waits.
@@ -35,16 +35,16 @@ impl<S: State> Machine<S> {
     }
 
     /// Whether a robot sees again that stands for want of sight, since it entered its state.
-    pub(crate) fn sight(&self, tick: &Tick<'_>) -> Sight {
+    pub(crate) fn sight(&self, tick: &Tick<'_>) -> SightAgain {
         let lost = tick.situation.estimate.lost;
         if !lost && !self.is_blind(tick) {
-            return Sight::Back;
+            return SightAgain::Back;
         }
         if self.lasted_s() <= self.limits.blind_limit_s {
-            return Sight::Away;
+            return SightAgain::Away;
         }
         let place = self.limits.place_words;
-        Sight::Hopeless(if lost {
+        SightAgain::Hopeless(if lost {
             let lasted_s = self.lasted_s();
             format!("lost: the robot has not known where it is for {lasted_s:.0} s{place}")
         } else {

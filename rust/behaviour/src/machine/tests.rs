@@ -172,15 +172,16 @@ fn blindness_is_hopeless_after_its_limit_and_over_when_something_is_seen() {
             let sight = machine.sight(&machine.read(&situation));
             let waits = tick as f64 * TICK_S <= LIMITS.blind_limit_s;
             if tick > 10 || lost {
-                assert_eq!(sight == Sight::Away, waits, "{lost} {tick}");
+                assert_eq!(sight == SightAgain::Away, waits, "{lost} {tick}");
                 assert!(
-                    waits || matches!(sight, Sight::Hopeless(reason) if reason.ends_with(", here"))
+                    waits
+                        || matches!(sight, SightAgain::Hopeless(reason) if reason.ends_with(", here"))
                 );
             }
         }
         let situation = world.at(100, true);
         let sight = machine.sight(&machine.read(&situation));
-        assert_eq!(sight == Sight::Back, !lost);
+        assert_eq!(sight == SightAgain::Back, !lost);
     }
 }
 

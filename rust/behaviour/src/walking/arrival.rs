@@ -1,11 +1,12 @@
 //! Whether the robot has arrived: in the goal's disc, and on its level where one is told.
 
+use terrain::support::is_roomy;
+
 use super::WalkingBehaviour;
 use super::state::State;
 use super::tick::WayTick;
 use super::track::Track;
 use crate::machine::Tick;
-use crate::walking::is_roomy;
 use crate::{Motion, Outcome};
 
 impl WalkingBehaviour {

@@ -1,7 +1,7 @@
 //! The state `locate`: the robot does not know where it is, and looks round until the localizer does.
 
 use geometry::PlanarPose;
-use mapping::{FloorView, Surface};
+use terrain::support::is_level_floor;
 
 use super::WalkingBehaviour;
 use crate::walking::gaze::Sweep;
@@ -98,12 +98,11 @@ fn odometry_in_map(tick: &WayTick<'_>) -> PlanarPose {
 
 /// Whether the floor before the feet is known, level and free.
 fn is_free_ahead(tick: &WayTick<'_>, tuning: &LocateTuning) -> bool {
-    let view: &FloorView = tick.situation.view;
-    let ground_m = tick.ground_m;
+    let (view, ground_m) = (tick.situation.view, tick.ground_m);
     tuning.ahead.iter().all(|&ahead_m| {
         tuning.aside.iter().all(|&aside_m| {
-            let (x, y) = tick.pose.apply(ahead_m, aside_m);
-            matches!(view.at(x, y), Surface::Floor(height_m) if (f64::from(height_m) - ground_m).abs() < tuning.level)
+            let (x_m, y_m) = tick.pose.apply(ahead_m, aside_m);
+            is_level_floor(view, [x_m, y_m], ground_m, tuning.level)
         })
     })
 }

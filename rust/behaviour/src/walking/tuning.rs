@@ -173,6 +173,13 @@ settings! {
     }
 }
 
+impl WayObstaclesTuning {
+    /// By how much at most an obstacle that is the edge of a stair is higher than the stair, and how far from its edge, m.
+    pub(crate) const fn edges(&self) -> (f64, f64) {
+        (self.riser, self.beside)
+    }
+}
+
 settings! {
     /// The watch over headway on the way to the goal.
     pub struct ProgressTuning("navigation.walking.tuning.progress") {

@@ -1,8 +1,9 @@
 //! Unknown ground ahead on the path: it is looked at before it is walked on.
 
 use geometry::PlanarPose;
-use mapping::{FloorView, Surface};
+use mapping::FloorView;
 use planning::Path;
+use terrain::support::unknown_across;
 
 use crate::place::distance_m;
 use crate::walking::WalkingConfig;
@@ -84,13 +85,7 @@ fn is_unknown(
 ) -> bool {
     let ([x0, y0], [x, y]) = (path.points_m[index - 1], path.points_m[index]);
     let heading = PlanarPose::new(x, y, (y - y0).atan2(x - x0));
-    let unknown = [-foot_side_m, 0.0, foot_side_m]
-        .into_iter()
-        .filter(|&side_m| {
-            let (x, y) = heading.apply(0.0, side_m);
-            view.at(x, y) == Surface::Unknown
-        });
-    unknown.count() >= across
+    unknown_across(view, &heading, &[-foot_side_m, 0.0, foot_side_m]) >= across
 }
 
 /// The first unknown place ahead that has not been looked at, and whether there is one that has.
@@ -117,6 +112,7 @@ pub(crate) mod tests {
     use super::*;
     use crate::walking::track::tests::{config_of_tests, straight};
     use geometry::{Grid, Lattice};
+    use mapping::Surface;
 
     const FOOT_SIDE_M: f64 = 0.06;
 

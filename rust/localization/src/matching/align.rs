@@ -6,26 +6,13 @@
 use geometry::PlanarPose;
 use nalgebra::{Matrix3, Rotation2, Vector2, Vector3};
 
-use super::profile::Beam;
-use super::surfaces::Surfaces;
-
-const ITERATIONS: usize = 6;
-/// Steps smaller than this end the search, m and rad.
-const SMALL_STEP: f64 = 1e-5;
-/// Distances of so many standard deviations begin to count less.
-const ROBUST_SIGMAS: f64 = 3.0;
-/// Share of the beams that err independently: a matching window sees three of them.
-const INDEPENDENT: f64 = 1.0 / 3.0;
-/// Surfaces are no smoother than this, m^2.
-const ROUGHNESS_M2: f64 = 4e-6;
-/// A beam with less weight than this lies on no surface.
-const LEAST_WEIGHT: f64 = 0.3;
-/// A shift beyond so many of its standard deviations is none of odometry's: what was seen has moved.
-const FAR_SIGMAS: f64 = 3.0;
+use super::profile::UprightBeam;
+use super::surfaces::UprightSurfaces;
+use super::tuning::AlignmentTuning;
 
 /// What is believed before.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Guess {
+pub(super) struct TurnGuess {
     /// The robot as seen from the keyframe.
     pub(super) keyframe_from_robot: PlanarPose,
     /// Standard deviation of its heading, rad.
@@ -41,7 +28,7 @@ pub(super) struct Guess {
 pub(super) struct Turn {
     /// By how much the robot is turned further than guessed, rad: of the frame alone, whatever was guessed.
     pub(super) beyond_rad: f64,
-    /// Its variance, rad^2.
+    /// Variance of that angle, rad^2.
     pub(super) variance_rad2: f64,
     /// Whether the surfaces seem to be where they were.
     pub(super) in_place: bool,
@@ -49,22 +36,29 @@ pub(super) struct Turn {
 
 /// The sums of least squares over shift and heading.
 #[derive(Debug, Clone, Copy)]
-struct Sums {
+struct LeastSquares {
     information: Matrix3<f64>,
     gradient: Vector3<f64>,
     beams: usize,
 }
 
 /// Compares beams with surfaces; nothing where too few of them meet, or where they say nothing about the heading.
-pub(super) fn align(beams: &[Beam], surfaces: &Surfaces, guess: &Guess) -> Option<Turn> {
+pub(super) fn align(
+    beams: &[UprightBeam],
+    surfaces: &UprightSurfaces,
+    guess: &TurnGuess,
+    tuning: &AlignmentTuning,
+) -> Option<Turn> {
     let prior = Matrix3::from_diagonal(&Vector3::new(
         guess.offset_sd_m.powi(-2),
         guess.offset_sd_m.powi(-2),
         guess.heading_sd_rad.powi(-2),
     ));
     let mut found = Vector3::zeros();
-    let mut sums = sums(beams, surfaces, &guess.keyframe_from_robot, &found);
-    for _ in 0..ITERATIONS {
+    let sums_at =
+        |found: &Vector3<f64>| sums(beams, surfaces, &guess.keyframe_from_robot, found, tuning);
+    let mut sums = sums_at(&found);
+    for _ in 0..tuning.iterations {
         if sums.beams < guess.least_beams {
             return None;
         }
@@ -72,8 +66,8 @@ pub(super) fn align(beams: &[Beam], surfaces: &Surfaces, guess: &Guess) -> Optio
             .cholesky()?
             .solve(&(sums.gradient + prior * found));
         found -= step;
-        sums = self::sums(beams, surfaces, &guess.keyframe_from_robot, &found);
-        if step.amax() < SMALL_STEP {
+        sums = sums_at(&found);
+        if step.amax() < tuning.small_step {
             break;
         }
     }
@@ -86,7 +80,7 @@ pub(super) fn align(beams: &[Beam], surfaces: &Surfaces, guess: &Guess) -> Optio
     Some(Turn {
         beyond_rad: found.z * pull,
         variance_rad2,
-        in_place: found.xy().norm() < FAR_SIGMAS * guess.offset_sd_m,
+        in_place: found.xy().norm() < tuning.far_sigmas * guess.offset_sd_m,
     })
 }
 
@@ -100,14 +94,15 @@ fn heading_variance(information: &Matrix3<f64>, offset_sd_m: f64) -> Option<f64>
 }
 
 fn sums(
-    beams: &[Beam],
-    surfaces: &Surfaces,
+    beams: &[UprightBeam],
+    surfaces: &UprightSurfaces,
     keyframe_from_robot: &PlanarPose,
     found: &Vector3<f64>,
-) -> Sums {
+    tuning: &AlignmentTuning,
+) -> LeastSquares {
     let turn = Rotation2::new(keyframe_from_robot.yaw_rad + found.z);
     let origin_m = Vector2::new(keyframe_from_robot.x_m, keyframe_from_robot.y_m) + found.xy();
-    let mut sums = Sums {
+    let mut sums = LeastSquares {
         information: Matrix3::zeros(),
         gradient: Vector3::zeros(),
         beams: 0,
@@ -120,14 +115,15 @@ fn sums(
         };
         let normal_in_robot = turn.inverse() * wall.normal;
         let noise_m2 = normal_in_robot.dot(&(beam.covariance_m2 * normal_in_robot));
-        let variance_m2 = wall.variance_m2 + noise_m2 + ROUGHNESS_M2;
+        let variance_m2 = wall.variance_m2 + noise_m2 + tuning.roughness;
         let distance_m = wall.normal.dot(&(place_m - wall.middle_m));
-        let trust = (1.0 + distance_m * distance_m / variance_m2 / ROBUST_SIGMAS.powi(2)).powi(-2);
+        let trust =
+            (1.0 + distance_m * distance_m / variance_m2 / tuning.robust_sigmas.powi(2)).powi(-2);
         let row = Vector3::new(wall.normal.x, wall.normal.y, arm_m.perp(&wall.normal));
-        let weight = INDEPENDENT * trust / variance_m2;
+        let weight = tuning.independent * trust / variance_m2;
         sums.information += row * row.transpose() * weight;
         sums.gradient += row * (distance_m * weight);
-        sums.beams += usize::from(trust > LEAST_WEIGHT);
+        sums.beams += usize::from(trust > tuning.least_trust);
     }
     sums
 }

@@ -1,143 +1,71 @@
 //! Settings of the localizer `matching`.
 
-use serde::{Deserialize, Serialize};
-use settings::{ConfigError, require, require_positive};
+use settings::{POSITIVE, settings, within};
 
-/// A keyframe takes 230 kB.
-const MOST_KEYFRAMES: usize = 1000;
+use super::tuning::MatchingLocalizerTuning;
 
-/// Settings of [`super::MatchingLocalizer`]: `[navigation.matching]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct MatchingConfig {
-    /// Width of a beam: points seen in directions that differ by less are one, rad.
-    pub beam: f64,
-    /// What is further away than this is too blurred to match, m.
-    pub reach: f64,
-    /// A beam counts when what it hits rises at least so high above its lowest point, m,
-    pub rise: f64,
-    /// and has at least so many points.
-    pub beam_points: usize,
-    /// Standard deviation of a disparity, px.
-    pub disparity_noise: f64,
-    /// Side of the cells in which a keyframe keeps what was seen, m.
-    pub cell: f64,
-    /// Frames of which a keyframe is made.
-    pub frames: usize,
-    /// Keyframes that are kept at most; the furthest one goes first.
-    pub keyframes: usize,
-    /// A keyframe from further away than this is not compared with, m.
-    pub distance: f64,
-    /// Beams that must lie on a keyframe's surfaces.
-    pub least_beams: usize,
-    /// Standard deviation of how far odometry and the camera's place may be off between a keyframe and now, m.
-    pub offset: f64,
-    /// Standard deviation of a heading by one frame, rad: no match is believed to be better.
-    pub heading_noise: f64,
-    /// So many frames in a row are wrong in the same way: camera and surfaces err alike.
-    pub alike: f64,
-    /// Standard deviation of the heading that a keyframe keeps, rad.
-    pub keyframe_noise: f64,
-    /// A new keyframe is begun where those that are known tell the heading worse than this, rad.
-    pub enough: f64,
-    /// A match that is further off than so many standard deviations is not believed.
-    pub gate: f64,
-    /// A keyframe that was not believed so often in a row is forgotten: what it shows has moved.
-    pub refusals: u32,
-    /// Standard deviation of the gyroscope's bias about the vertical before the robot stood still, rad/s.
-    pub bias: f64,
-    /// The robot stands still while it turns by less than this about every axis, rad/s,
-    pub rest_rate: f64,
-    /// from this time on, s.
-    pub rest_time: f64,
-    /// Standard deviation of a bias that was learned in a second of that, rad/s; it falls with the root of the time,
-    pub rest_noise: f64,
-    /// but for this, rad/s: soles creep.
-    pub bias_creep: f64,
-    /// Its random walk, rad/s per square root of a second.
-    pub bias_drift: f64,
-    /// Random walk of the odometry's heading, rad per square root of a second.
-    pub heading_drift: f64,
-    /// Until this time nothing is matched, s: the robot is put down and settles.
-    pub settling: f64,
-}
-
-impl Default for MatchingConfig {
-    fn default() -> Self {
-        Self {
-            beam: 0.026,
-            reach: 1.2,
-            rise: 0.03,
-            beam_points: 4,
-            disparity_noise: 0.12,
-            cell: 0.05,
-            frames: 8,
-            keyframes: 24,
-            distance: 1.0,
-            least_beams: 8,
-            offset: 0.02,
-            heading_noise: 0.0175,
-            alike: 20.0,
-            keyframe_noise: 0.009,
-            enough: 0.05,
-            gate: 3.5,
-            refusals: 12,
-            bias: 0.0015,
-            rest_rate: 0.01,
-            rest_time: 0.2,
-            rest_noise: 5e-4,
-            bias_creep: 2e-4,
-            bias_drift: 1e-5,
-            heading_drift: 1e-4,
-            settling: 1.2,
-        }
-    }
-}
-
-impl MatchingConfig {
-    /// Refuses what cannot be used.
-    pub(super) fn check(&self) -> Result<(), ConfigError> {
-        for (name, value) in [
-            ("beam", self.beam),
-            ("reach", self.reach),
-            ("rise", self.rise),
-            ("beam_points", self.beam_points as f64),
-            ("disparity_noise", self.disparity_noise),
-            ("cell", self.cell),
-            ("frames", self.frames as f64),
-            ("keyframes", self.keyframes as f64),
-            ("distance", self.distance),
-            ("least_beams", self.least_beams as f64),
-            ("offset", self.offset),
-            ("heading_noise", self.heading_noise),
-            ("alike", self.alike),
-            ("keyframe_noise", self.keyframe_noise),
-            ("enough", self.enough),
-            ("gate", self.gate),
-            ("refusals", f64::from(self.refusals)),
-            ("bias", self.bias),
-            ("rest_rate", self.rest_rate),
-            ("rest_time", self.rest_time),
-            ("rest_noise", self.rest_noise),
-            ("bias_creep", self.bias_creep),
-            ("bias_drift", self.bias_drift),
-            ("heading_drift", self.heading_drift),
-            ("settling", self.settling),
-        ] {
-            require_positive(&format!("navigation.matching.{name}"), value)?;
-        }
-        require(
-            self.keyframes <= MOST_KEYFRAMES,
-            "navigation.matching.keyframes",
-            &format!("at most {MOST_KEYFRAMES}"),
-            self.keyframes,
-        )
+settings! {
+    /// The localizer `matching`: leg odometry whose heading is kept by what stands out of the floor.
+    pub struct MatchingConfig("navigation.matching") {
+        /// Width of a beam: points seen in directions that differ by less are one.
+        beam: f64 = 0.026, "rad", POSITIVE;
+        /// What is further away than this is too blurred to match.
+        reach: f64 = 1.2, "m", POSITIVE;
+        /// A beam counts when what it hits rises at least so high above its lowest point.
+        rise: f64 = 0.03, "m", POSITIVE;
+        /// A beam counts when it has at least so many points.
+        beam_points: usize = 4, "1", POSITIVE;
+        /// Standard deviation of a disparity.
+        disparity_noise: f64 = 0.12, "px", POSITIVE;
+        /// Side of the cells in which a keyframe keeps what was seen.
+        cell: f64 = 0.05, "m", POSITIVE;
+        /// Frames of which a keyframe is made.
+        frames: usize = 8, "1", POSITIVE;
+        /// Keyframes that are kept at most; the furthest one goes first. Each takes 230 kB.
+        keyframes: usize = 24, "1", within(1.0, 1000.0);
+        /// A keyframe from further away than this is not compared with.
+        distance: f64 = 1.0, "m", POSITIVE;
+        /// Beams that must lie on a keyframe's surfaces.
+        least_beams: usize = 8, "1", POSITIVE;
+        /// Standard deviation of how far odometry and the camera's place may be off between a keyframe and now.
+        offset: f64 = 0.02, "m", POSITIVE;
+        /// Standard deviation of a heading by one frame: no match is believed to be better.
+        heading_noise: f64 = 0.0175, "rad", POSITIVE;
+        /// So many frames in a row are wrong in the same way: camera and surfaces err alike.
+        alike: f64 = 20.0, "1", POSITIVE;
+        /// Standard deviation of the heading that a keyframe keeps.
+        keyframe_noise: f64 = 0.009, "rad", POSITIVE;
+        /// A new keyframe is begun where those that are known tell the heading worse than this.
+        enough: f64 = 0.05, "rad", POSITIVE;
+        /// A match that is further off than so many standard deviations is not believed.
+        gate: f64 = 3.5, "1", POSITIVE;
+        /// A keyframe that was not believed so often in a row is forgotten: what it shows has moved.
+        refusals: u32 = 12, "1", POSITIVE;
+        /// Standard deviation of the gyroscope's bias about the vertical before the robot stood still.
+        bias: f64 = 0.0015, "rad/s", POSITIVE;
+        /// The robot stands still while it turns by less than this about every axis.
+        rest_rate: f64 = 0.01, "rad/s", POSITIVE;
+        /// Time for which the robot must have stood still until its bias is learned.
+        rest_time: f64 = 0.2, "s", POSITIVE;
+        /// Standard deviation of a bias that was learned in a second of standing still; it falls with the root of the time.
+        rest_noise: f64 = 5e-4, "rad/s", POSITIVE;
+        /// Standard deviation that is left of a bias, however long it was learned: soles creep.
+        bias_creep: f64 = 2e-4, "rad/s", POSITIVE;
+        /// Random walk of the gyroscope's bias, per square root of a second.
+        bias_drift: f64 = 1e-5, "rad/s/sqrt(s)", POSITIVE;
+        /// Random walk of the odometry's heading, per square root of a second.
+        heading_drift: f64 = 1e-4, "rad/sqrt(s)", POSITIVE;
+        /// Until this time nothing is matched: the robot is put down and settles.
+        settling: f64 = 1.2, "s", POSITIVE;
+        /// Numbers that few will want to turn.
+        tuning: MatchingLocalizerTuning;
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use settings::Table;
 
     #[test]
     fn as_many_keyframes_as_fill_the_memory_are_refused() {
@@ -148,7 +76,7 @@ mod tests {
         };
         assert_eq!(
             config.check().unwrap_err().to_string(),
-            "navigation.matching.keyframes must be at most 1000, got 1000000"
+            "navigation.matching.keyframes must be from 1 to 1000, got 1000000"
         );
     }
 }

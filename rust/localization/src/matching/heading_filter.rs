@@ -87,7 +87,7 @@ impl HeadingFilter {
         (self.state.dot(&of), of.dot(&(&self.covariance * &of)))
     }
 
-    /// It has grown by `beyond_rad` more than was believed.
+    /// Takes in that the error has grown by `beyond_rad` more than was believed since a keyframe.
     pub(super) fn correct(&mut self, keyframe: usize, beyond_rad: f64, variance_rad2: f64) {
         self.fuse(&self.difference(keyframe), beyond_rad, variance_rad2);
     }

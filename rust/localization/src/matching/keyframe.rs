@@ -2,17 +2,14 @@
 
 use geometry::{PlanarPose, angle_between};
 
-use super::MatchingConfig;
-use super::align::{Guess, Turn, align};
-use super::profile::Beam;
-use super::surfaces::Surfaces;
-
-/// Less than this is never believed to be known of a heading before it is looked at, rad.
-const LEAST_GUESS_RAD: f64 = 0.005;
+use super::align::{Turn, TurnGuess, align};
+use super::config::MatchingConfig;
+use super::profile::UprightBeam;
+use super::surfaces::UprightSurfaces;
 
 /// Where the robot is: by its legs, and as believed.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stand {
+pub(super) struct Viewpoint {
     /// Heading by odometry, rad.
     pub(super) odometry_yaw_rad: f64,
     /// Pose in the map.
@@ -22,18 +19,18 @@ pub(super) struct Stand {
 /// A frame to come back to, made of a few of the camera's.
 #[derive(Debug, Clone)]
 pub(super) struct Keyframe {
-    stand: Stand,
-    surfaces: Surfaces,
+    stand: Viewpoint,
+    surfaces: UprightSurfaces,
     frames: usize,
     refusals: u32,
 }
 
 impl Keyframe {
     /// An empty one, seen from where the robot is now.
-    pub(super) fn new(stand: Stand, cell_m: f64) -> Self {
+    pub(super) fn new(stand: Viewpoint, config: &MatchingConfig) -> Self {
         Self {
             stand,
-            surfaces: Surfaces::new(cell_m),
+            surfaces: UprightSurfaces::new(config.cell, &config.tuning.surfaces),
             frames: 0,
             refusals: 0,
         }
@@ -50,12 +47,12 @@ impl Keyframe {
     }
 
     /// How far away it was drawn, m.
-    pub(super) fn distance_m(&self, stand: &Stand) -> f64 {
+    pub(super) fn distance_m(&self, stand: &Viewpoint) -> f64 {
         self.stand.map_from_robot.distance_m(&stand.map_from_robot)
     }
 
     /// Takes in a frame; the heading since its first one is odometry's.
-    pub(super) fn add(&mut self, beams: &[Beam], stand: &Stand) {
+    pub(super) fn add(&mut self, beams: &[UprightBeam], stand: &Viewpoint) {
         let from_robot = self.place_of(stand, 0.0);
         for beam in beams {
             let (x_m, y_m) = from_robot.apply(beam.place_m.x, beam.place_m.y);
@@ -67,8 +64,8 @@ impl Keyframe {
     /// Compares a frame with it; `since` is the believed growth of the odometry's error since then, rad, and its variance.
     pub(super) fn compare(
         &self,
-        beams: &[Beam],
-        stand: &Stand,
+        beams: &[UprightBeam],
+        stand: &Viewpoint,
         since: (f64, f64),
         config: &MatchingConfig,
     ) -> Option<Turn> {
@@ -76,13 +73,15 @@ impl Keyframe {
             return None;
         }
         let (error_rad, variance_rad2) = since;
-        let guess = Guess {
+        let guess = TurnGuess {
             keyframe_from_robot: self.place_of(stand, error_rad),
-            heading_sd_rad: variance_rad2.sqrt().max(LEAST_GUESS_RAD),
+            heading_sd_rad: variance_rad2
+                .sqrt()
+                .max(config.tuning.alignment.least_guess),
             offset_sd_m: config.offset,
             least_beams: config.least_beams,
         };
-        align(beams, &self.surfaces, &guess)
+        align(beams, &self.surfaces, &guess, &config.tuning.alignment)
     }
 
     /// Takes note of whether a comparison was believed.
@@ -90,7 +89,7 @@ impl Keyframe {
         self.refusals = if believed { 0 } else { self.refusals + 1 };
     }
 
-    fn place_of(&self, stand: &Stand, error_rad: f64) -> PlanarPose {
+    fn place_of(&self, stand: &Viewpoint, error_rad: f64) -> PlanarPose {
         let seen = self.stand.map_from_robot.relative(&stand.map_from_robot);
         let turned_rad = angle_between(self.stand.odometry_yaw_rad, stand.odometry_yaw_rad);
         PlanarPose::new(seen.x_m, seen.y_m, turned_rad + error_rad)

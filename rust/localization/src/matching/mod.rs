@@ -8,41 +8,64 @@ mod profile;
 mod surfaces;
 #[cfg(test)]
 mod tests;
+mod tuning;
 
+use crate::part::LocalizerPart;
 use geometry::{Map, PlanarPose, Pose, Robot};
 use mapping::FloorView;
 use segmentation::Planes;
-use settings::ConfigError;
+use settings::{ConfigError, Table};
+use settings::{Part, TableDescription, read};
 
 pub use config::MatchingConfig;
 use heading_filter::HeadingFilter;
-use keyframe::{Keyframe, Stand};
-use profile::Beam;
+use keyframe::{Keyframe, Viewpoint};
+use profile::UprightBeam;
 
-use crate::{Estimate, Localizer, LocalizerError, OdometryLocalizer, OdometryLocalizerConfig};
+use crate::localizer::{Estimate, Localizer, LocalizerError};
+use crate::odometry::{OdometryLocalizer, OdometryLocalizerConfig};
 use proprioception::BodyState;
 
-/// As [`OdometryLocalizer`], but the heading: the upright surfaces of a frame are laid on those of earlier ones, and by how far
-/// they have to be turned, over the time between, the gyroscope's bias and the heading's error are known.
+/// How it is listed and made.
+pub(crate) const PART: LocalizerPart = Part {
+    name: "matching",
+    about: "legs' odometry, its heading kept by upright surfaces that are seen again",
+    source: None,
+    tables: &[TableDescription::of::<MatchingConfig>()],
+    make: |needs| {
+        let (odometry, config) = (
+            read(needs.tables, "odometry")?,
+            read(needs.tables, "matching")?,
+        );
+        Ok(Box::new(MatchingLocalizer::new(
+            needs.start_or_origin(),
+            odometry,
+            config,
+        )?))
+    },
+};
+
+/// Keeps places as [`OdometryLocalizer`] does, and corrects the heading: the upright surfaces of a frame are laid on those of earlier
+/// ones, and by how far they have to be turned, over the time between, the gyroscope's bias and the heading's error are known.
 ///
 /// Places stay odometry's: it is better at them than a camera whose own place on the head is known to a centimetre and a degree.
 #[derive(Debug, Clone)]
 pub struct MatchingLocalizer {
     config: MatchingConfig,
     odometry: OdometryLocalizer,
-    memory: Option<Memory>,
+    memory: Option<HeadingMemory>,
 }
 
 /// What is known since the first frame.
 #[derive(Debug, Clone)]
-struct Memory {
+struct HeadingMemory {
     filter: HeadingFilter,
     keyframes: Vec<Keyframe>,
     begin_ns: u64,
     last_ns: u64,
-    /// How long the robot has been standing still, s,
+    /// How long the robot has been standing still, s.
     still_s: f64,
-    /// and how long it has rested in all, s.
+    /// How long the robot has rested in all, s.
     rested_s: f64,
 }
 
@@ -61,17 +84,17 @@ impl MatchingLocalizer {
         })
     }
 
-    fn stand(&mut self, body: &BodyState) -> Result<Stand, LocalizerError> {
+    fn stand(&mut self, body: &BodyState) -> Result<Viewpoint, LocalizerError> {
         let estimate = self.odometry.estimate(body)?;
         let place = estimate.map_from_robot.origin().inner;
-        Ok(Stand {
+        Ok(Viewpoint {
             odometry_yaw_rad: body.odometry_from_robot.yaw_rad(),
             map_from_robot: PlanarPose::new(place.x, place.y, estimate.map_from_robot.yaw_rad()),
         })
     }
 }
 
-impl Memory {
+impl HeadingMemory {
     fn new(body: &BodyState, config: &MatchingConfig) -> Self {
         Self {
             filter: HeadingFilter::new(config.bias),
@@ -99,7 +122,12 @@ impl Memory {
     }
 
     /// Compares a frame with the keyframes; returns how much is known of its heading by them, 1/rad^2.
-    fn compare(&mut self, beams: &[Beam], stand: &Stand, config: &MatchingConfig) -> f64 {
+    fn compare(
+        &mut self,
+        beams: &[UprightBeam],
+        stand: &Viewpoint,
+        config: &MatchingConfig,
+    ) -> f64 {
         let one_frame = config.heading_noise * config.heading_noise;
         let mut information = 0.0;
         for (index, keyframe) in self.keyframes.iter_mut().enumerate() {
@@ -121,14 +149,20 @@ impl Memory {
     }
 
     /// Draws the keyframe that is being made, begins one where those that are known say too little, and forgets some.
-    fn draw(&mut self, beams: &[Beam], stand: &Stand, known: f64, config: &MatchingConfig) {
+    fn draw(
+        &mut self,
+        beams: &[UprightBeam],
+        stand: &Viewpoint,
+        known: f64,
+        config: &MatchingConfig,
+    ) {
         let mut drawing = self
             .keyframes
             .last()
             .is_some_and(|last| !last.is_whole(config));
         if !drawing && beams.len() >= config.least_beams && known < config.enough.powi(-2) {
             self.filter.remember(config.keyframe_noise);
-            self.keyframes.push(Keyframe::new(*stand, config.cell));
+            self.keyframes.push(Keyframe::new(*stand, config));
             drawing = true;
         }
         if drawing && let Some(last) = self.keyframes.last_mut() {
@@ -162,7 +196,9 @@ impl Localizer for MatchingLocalizer {
         self.odometry.correct(body, planes, view)?;
         let stand = self.stand(body)?;
         let config = &self.config;
-        let memory = self.memory.get_or_insert_with(|| Memory::new(body, config));
+        let memory = self
+            .memory
+            .get_or_insert_with(|| HeadingMemory::new(body, config));
         let before_rad = memory.filter.error_rad();
         memory.advance(body, config);
         if body.time_ns.saturating_sub(memory.begin_ns) as f64 * 1e-9 > config.settling {

@@ -3,28 +3,12 @@
 use nalgebra::{Matrix2, Vector2};
 use segmentation::Planes;
 
-use super::MatchingConfig;
-
-/// Points lower than this above the robot's ground are its own edge, m.
-const LOWEST_M: f64 = 0.02;
-/// What is nearer than this to the camera's foot is the robot itself, m.
-const NEAREST_M: f64 = 0.1;
-/// Points of one surface differ in distance by less than this, m,
-const DEPTH_M: f64 = 0.02;
-/// or by so many standard deviations of their distance.
-const DEPTH_SIGMAS: f64 = 4.0;
-/// Pixels of a column that share one error: the matching window's height.
-const WINDOW_PX: f64 = 5.0;
-/// What is left of the distance's error, however many points are averaged, m.
-const LEAST_NOISE_M: f64 = 0.004;
-/// Share of a beam's width that is the standard deviation of the place across it.
-const ACROSS: f64 = 0.3;
-/// What is at least left of it, m.
-const LEAST_ACROSS_M: f64 = 0.003;
+use super::config::MatchingConfig;
+use super::tuning::ProfileTuning;
 
 /// A direction in which something stands out of the floor.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Beam {
+pub(super) struct UprightBeam {
     /// Where, in the robot's frame, m.
     pub(super) place_m: Vector2<f64>,
     /// How sure that is, m^2.
@@ -33,7 +17,7 @@ pub(super) struct Beam {
 
 /// A point of the frame from above.
 #[derive(Debug, Clone, Copy)]
-struct Sighting {
+struct UprightPoint {
     beam: i32,
     distance_m: f64,
     bearing_rad: f64,
@@ -43,17 +27,18 @@ struct Sighting {
 /// The beams of a frame, from right to left. None where the frame cannot be trusted.
 ///
 /// The error of a distance `z` is that of its disparity, `z^2 / (f b) sigma_d`.
-pub(super) fn beams(planes: &Planes, config: &MatchingConfig) -> Vec<Beam> {
+pub(super) fn beams(planes: &Planes, config: &MatchingConfig) -> Vec<UprightBeam> {
     let Some(camera) = planes.camera.filter(|_| planes.reliable) else {
         return Vec::new();
     };
     let noise_per_m = config.disparity_noise / (camera.focal_px * camera.baseline_m);
     let eye = planes.robot_from_camera.origin().inner;
+    let tuning = &config.tuning.profile;
     let sightings = sightings(planes, config);
     sightings
         .chunk_by(|a, b| a.beam == b.beam)
         .filter_map(|column| {
-            let surface = fullest(column, noise_per_m);
+            let surface = fullest(column, noise_per_m, tuning);
             let (low_m, high_m) = surface.iter().fold((f64::MAX, f64::MIN), |(low, high), s| {
                 (low.min(s.height_m), high.max(s.height_m))
             });
@@ -61,16 +46,16 @@ pub(super) fn beams(planes: &Planes, config: &MatchingConfig) -> Vec<Beam> {
                 return None;
             }
             let count = surface.len() as f64;
-            let mean = |of: fn(&Sighting) -> f64| surface.iter().map(of).sum::<f64>() / count;
+            let mean = |of: fn(&UprightPoint) -> f64| surface.iter().map(of).sum::<f64>() / count;
             let (distance_m, bearing_rad) = (mean(|s| s.distance_m), mean(|s| s.bearing_rad));
             let slant_m = distance_m.hypot(eye.z - mean(|s| s.height_m));
             let along_m = (noise_per_m * slant_m * distance_m
-                / (count / WINDOW_PX).max(1.0).sqrt())
-            .hypot(LEAST_NOISE_M);
-            let across_m = (ACROSS * config.beam * distance_m).max(LEAST_ACROSS_M);
+                / (count / tuning.window).max(1.0).sqrt())
+            .hypot(tuning.least_noise);
+            let across_m = (tuning.across * config.beam * distance_m).max(tuning.least_across);
             let ahead = Vector2::new(bearing_rad.cos(), bearing_rad.sin());
             let aside = Vector2::new(-ahead.y, ahead.x);
-            Some(Beam {
+            Some(UprightBeam {
                 place_m: eye.coords.xy() + ahead * distance_m,
                 covariance_m2: ahead * ahead.transpose() * along_m.powi(2)
                     + aside * aside.transpose() * across_m.powi(2),
@@ -80,7 +65,8 @@ pub(super) fn beams(planes: &Planes, config: &MatchingConfig) -> Vec<Beam> {
 }
 
 /// The points that are on no level surface, by direction, then by distance.
-fn sightings(planes: &Planes, config: &MatchingConfig) -> Vec<Sighting> {
+fn sightings(planes: &Planes, config: &MatchingConfig) -> Vec<UprightPoint> {
+    let tuning = &config.tuning.profile;
     let eye = planes.robot_from_camera.origin().inner;
     let mut sightings: Vec<_> = planes
         .points_in_robot_m
@@ -93,8 +79,10 @@ fn sightings(planes: &Planes, config: &MatchingConfig) -> Vec<Sighting> {
             let distance_m = ahead_m.hypot(aside_m);
             let bearing_rad = aside_m.atan2(ahead_m);
             // False for what is no number, too.
-            let counts = height_m > LOWEST_M && distance_m > NEAREST_M && distance_m < config.reach;
-            counts.then_some(Sighting {
+            let counts = height_m > tuning.lowest
+                && distance_m > tuning.nearest
+                && distance_m < config.reach;
+            counts.then_some(UprightPoint {
                 beam: (bearing_rad / config.beam).floor() as i32,
                 distance_m,
                 bearing_rad,
@@ -108,11 +96,16 @@ fn sightings(planes: &Planes, config: &MatchingConfig) -> Vec<Sighting> {
 }
 
 /// The most points of a column, sorted by distance, that may be one upright surface.
-fn fullest(column: &[Sighting], noise_per_m: f64) -> &[Sighting] {
+fn fullest<'a>(
+    column: &'a [UprightPoint],
+    noise_per_m: f64,
+    tuning: &ProfileTuning,
+) -> &'a [UprightPoint] {
     let mut end = 0;
     let mut best = &column[..0];
     for (begin, first) in column.iter().enumerate() {
-        let depth_m = DEPTH_M.max(DEPTH_SIGMAS * noise_per_m * first.distance_m.powi(2));
+        let depth_m =
+            (tuning.depth).max(tuning.depth_sigmas * noise_per_m * first.distance_m.powi(2));
         while end < column.len() && column[end].distance_m <= first.distance_m + depth_m {
             end += 1;
         }

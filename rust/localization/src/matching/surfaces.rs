@@ -5,27 +5,18 @@
 use geometry::{Cell, Grid, Lattice};
 use nalgebra::{Matrix2, Vector2};
 
-/// Cells of a side.
-const CELLS: usize = 64;
-/// Places further away than so many cells say nothing about one.
-const NEAR_CELLS: f64 = 2.2;
-/// What must be known around a place.
-const LEAST_WEIGHT: f64 = 0.3;
-/// A surface is longer than thick: by this ratio of variances,
-const SLENDER: f64 = 4.0;
-/// and longer than this share of a cell.
-const LEAST_LENGTH: f64 = 0.3;
+use super::tuning::SurfacesTuning;
 
 /// What was seen in a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Patch {
+struct CellPatch {
     count: f64,
     mean_m: Vector2<f64>,
     /// Sum of the squared deviations from the mean, m^2.
     scatter_m2: Matrix2<f64>,
 }
 
-const EMPTY: Patch = Patch {
+const EMPTY: CellPatch = CellPatch {
     count: 0.0,
     mean_m: Vector2::new(0.0, 0.0),
     scatter_m2: Matrix2::new(0.0, 0.0, 0.0, 0.0),
@@ -44,21 +35,24 @@ pub(super) struct Wall {
 
 /// The surfaces around a keyframe.
 #[derive(Debug, Clone)]
-pub(super) struct Surfaces {
+pub(super) struct UprightSurfaces {
+    tuning: SurfacesTuning,
     lattice: Lattice,
-    patches: Grid<Patch>,
+    patches: Grid<CellPatch>,
 }
 
-impl Surfaces {
-    /// None yet; the window's middle is the frame's origin.
-    pub(super) fn new(cell_m: f64) -> Self {
-        let corner_m = -0.5 * CELLS as f64 * cell_m;
+impl UprightSurfaces {
+    /// A window without any surface yet; its middle is the frame's origin.
+    pub(super) fn new(cell_m: f64, tuning: &SurfacesTuning) -> Self {
+        let cells = tuning.cells;
+        let corner_m = -0.5 * cells as f64 * cell_m;
         Self {
+            tuning: tuning.clone(),
             lattice: Lattice {
                 origin_m: [corner_m, corner_m],
                 cell_m,
             },
-            patches: Grid::filled(CELLS, CELLS, EMPTY),
+            patches: Grid::filled(cells, cells, EMPTY),
         }
     }
 
@@ -75,7 +69,8 @@ impl Surfaces {
 
     /// The surface near a place: only where it is long and thin, so that its end or a corner is never taken for one.
     pub(super) fn wall_at(&self, place_m: Vector2<f64>) -> Option<Wall> {
-        let cell_m = self.lattice.cell_m;
+        let (cell_m, tuning) = (self.lattice.cell_m, &self.tuning);
+        let near = tuning.near;
         let at = self.lattice.cell_at(place_m.x, place_m.y);
         let (mut weight, mut first, mut second) = (0.0, Vector2::zeros(), Matrix2::zeros());
         let mut cells = 0;
@@ -86,7 +81,7 @@ impl Surfaces {
             };
             let off = patch.mean_m - place_m;
             let distance2 = off.norm_squared() / (cell_m * cell_m);
-            if distance2 > NEAR_CELLS * NEAR_CELLS {
+            if distance2 > near * near {
                 continue;
             }
             let share = patch.count * (-0.5 * distance2).exp();
@@ -95,13 +90,14 @@ impl Surfaces {
             second += (patch.scatter_m2 / patch.count + off * off.transpose()) * share;
             cells += 1;
         }
-        if weight < LEAST_WEIGHT || cells < 2 {
+        if weight < tuning.least_weight || cells < tuning.least_cells {
             return None;
         }
         let mean = first / weight;
         let spread = second / weight - mean * mean.transpose();
         let (across_m2, along_m2, normal) = principal(&spread);
-        let is_wall = along_m2 > SLENDER * across_m2 && along_m2 > (LEAST_LENGTH * cell_m).powi(2);
+        let is_wall = along_m2 > tuning.slender * across_m2
+            && along_m2 > (tuning.least_length * cell_m).powi(2);
         is_wall.then_some(Wall {
             middle_m: place_m + mean,
             normal,
@@ -134,7 +130,7 @@ mod tests {
         fn a_wall_has_its_normal_wherever_it_stands(angle in -3.0..3.0f64, shift in -0.4..0.4f64, at in -0.4..0.4f64) {
             let along = Vector2::new(angle.cos(), angle.sin());
             let normal = Vector2::new(-along.y, along.x);
-            let mut surfaces = Surfaces::new(0.05);
+            let mut surfaces = UprightSurfaces::new(0.05, &SurfacesTuning::default());
             for step in -100..=100 {
                 surfaces.add(normal * shift + along * (0.01 * f64::from(step)));
             }
@@ -146,7 +142,7 @@ mod tests {
 
     #[test]
     fn a_post_is_no_wall_and_nothing_is_none() {
-        let mut surfaces = Surfaces::new(0.05);
+        let mut surfaces = UprightSurfaces::new(0.05, &SurfacesTuning::default());
         assert_eq!(surfaces.wall_at(Vector2::zeros()), None);
         for step in 0..20 {
             let (sin, cos) = (0.3 * f64::from(step)).sin_cos();

@@ -269,11 +269,11 @@ proptest! {
     #[test]
     fn a_known_turn_is_measured_whatever_was_guessed(turn in -0.05..0.05f64, x in -0.008..0.008f64, y in -0.008..0.008f64) {
         let config = MatchingConfig::default();
-        let stand = |yaw_rad| Stand {
+        let stand = |yaw_rad| Viewpoint {
             odometry_yaw_rad: yaw_rad,
             map_from_robot: PlanarPose::default(),
         };
-        let mut keyframe = Keyframe::new(stand(0.0), config.cell);
+        let mut keyframe = Keyframe::new(stand(0.0), &config);
         for number in 0..config.frames as u64 {
             let planes = frame(&CORNER, &Pose::identity(), number);
             keyframe.add(&profile::beams(&planes, &config), &stand(0.0));

@@ -3,13 +3,13 @@
 use nalgebra::Isometry3;
 use segmentation::Planes;
 
-use super::MonteCarloConfig;
+use super::config::MonteCarloConfig;
 use super::ground::GroundFinder;
 use super::random::{Purpose, Stream};
 
 /// A measured range along a line of sight.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Beam {
+pub(super) struct RangeBeam {
     /// Unit vector in the torso's frame.
     pub(super) direction: [f64; 3],
     pub(super) range_m: f64,
@@ -23,7 +23,7 @@ pub(super) struct Beam {
 pub(super) struct Beams {
     /// Where all begin, in the torso's frame, m.
     pub(super) origin_m: [f64; 3],
-    pub(super) drawn: Vec<Beam>,
+    pub(super) drawn: Vec<RangeBeam>,
     finder: GroundFinder,
     on_ground: Vec<u32>,
     off_ground: Vec<u32>,
@@ -72,7 +72,7 @@ impl Beams {
             let range_m = sighting.range_m;
             let along = torso_from_robot.rotation * sighting.along;
             let growth_m = config.range_noise_growth * range_m * range_m;
-            self.drawn.push(Beam {
+            self.drawn.push(RangeBeam {
                 direction: along.into(),
                 range_m,
                 noise_m: config.range_noise.hypot(growth_m),

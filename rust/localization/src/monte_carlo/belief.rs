@@ -3,18 +3,10 @@
 use geometry::wrap_angle;
 use nalgebra::{Matrix4, Vector3, Vector4};
 
-use super::MonteCarloConfig;
-use super::motion::Motion;
-use super::particle::{Bins, Particle, TorsoPose};
-
-/// Steps of the mean's way to the middle of its cluster.
-const SHIFTS: usize = 4;
-/// Cells from which it begins: a cluster may lie across the borders of several.
-const SEEDS: usize = 4;
-
-/// A belief that is off by less than this, m and rad, from where the last one moved to goes on.
-const SAME_M: f64 = 0.3;
-const SAME_RAD: f64 = 0.35;
+use super::config::MonteCarloConfig;
+use super::motion::TorsoMotion;
+use super::particle::{Particle, PoseBins, TorsoPose};
+use super::tuning::BeliefTuning;
 
 /// Where the torso is believed to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,18 +20,20 @@ pub struct Belief {
 }
 
 impl Belief {
-    /// From weighted particles: from each of the heaviest cells the mean moves to the middle of what lies near; the one that ends
+    /// What weighted particles say: from each of the heaviest cells the mean moves to the middle of what lies near; the one that ends
     /// with the most about it counts.
     pub(super) fn of(
         particles: &[Particle],
-        bins: &mut Bins,
+        bins: &mut PoseBins,
         config: &MonteCarloConfig,
     ) -> Option<Self> {
         let [near_m, near_rad] = config.cluster;
-        let seeds: [_; SEEDS] = bins.heaviest(particles, 0.5 * near_m, 0.5 * near_rad);
+        let tuning = &config.tuning.belief;
+        let side = tuning.seed_cell;
+        let seeds = bins.heaviest(particles, side * near_m, side * near_rad, tuning.seeds);
         let mut best: Option<(TorsoPose, f64)> = None;
         for seed in seeds.into_iter().flatten() {
-            let (torso, share) = middle(particles, seed, config.cluster);
+            let (torso, share) = middle(particles, seed, config.cluster, tuning.shifts);
             if best.is_none_or(|(_, most)| share > most) {
                 best = Some((torso, share));
             }
@@ -59,12 +53,17 @@ impl Belief {
     }
 
     /// Whether this is where an earlier belief has moved to since.
-    pub(super) fn goes_on(&self, before: &Self, motion: Option<&Motion>) -> bool {
+    pub(super) fn goes_on(
+        &self,
+        before: &Self,
+        motion: Option<&TorsoMotion>,
+        tuning: &BeliefTuning,
+    ) -> bool {
         let mut expected = before.torso;
         if let Some(motion) = motion {
             motion.apply(&mut expected, &[0.0; 6]);
         }
-        self.holds(&expected, [SAME_M, SAME_RAD])
+        self.holds(&expected, tuning.same)
     }
 
     /// Whether a pose is within so many m and rad of this.
@@ -90,9 +89,10 @@ fn middle(
     particles: &[Particle],
     mut torso: TorsoPose,
     [near_m, near_rad]: [f64; 2],
+    shifts: usize,
 ) -> (TorsoPose, f64) {
     let mut share = 0.0;
-    for _ in 0..SHIFTS {
+    for _ in 0..shifts {
         let (mut sum, mut total) = ([0.0; 6], 0.0);
         for particle in particles {
             let pose = &particle.pose;
@@ -151,7 +151,7 @@ mod tests {
         ];
         let belief = Belief::of(
             &particles,
-            &mut Bins::default(),
+            &mut PoseBins::default(),
             &MonteCarloConfig::default(),
         )
         .unwrap();
@@ -161,7 +161,7 @@ mod tests {
         assert!(belief.spread_m() > 1.0);
         let alone = Belief::of(
             &[at(0.28, 3.1, 0.5), at(0.32, 3.1, 0.5)],
-            &mut Bins::default(),
+            &mut PoseBins::default(),
             &MonteCarloConfig::default(),
         );
         assert!((alone.unwrap().spread_m() - 0.02).abs() < 1e-9);

@@ -3,32 +3,30 @@
 //! How well a frame fits is there the mean likelihood of all particles; here the share of beams that the best estimate explains, since what
 //! is not in the map makes frames as unlikely as a wrong place does.
 
-use super::MonteCarloConfig;
-use super::fit::Fit;
-
-/// The slow mean forgets so much slower while frames do not fit: what is normal is not to be learned from what is not.
-const WHILE_LOST: f64 = 0.1;
+use super::config::MonteCarloConfig;
+use super::fit::FrameFit;
 
 /// Means of how well frames fit.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Doubt {
+pub(super) struct PlaceDoubt {
     /// Over a long and over a short time, what is not mapped being put up with.
     lenient: Option<[f64; 2]>,
-    /// Over a short time, the other way.
+    /// Over a short time, what is not mapped counting against the place.
     strict: Option<f64>,
 }
 
-impl Doubt {
+impl PlaceDoubt {
     /// Takes in how well a frame fits.
-    pub(super) fn update(&mut self, fit: Fit, config: &MonteCarloConfig) {
+    pub(super) fn update(&mut self, fit: FrameFit, config: &MonteCarloConfig) {
+        let before_counts = config.tuning.fit.before_counts;
         let [slow_rate, fast_rate] = config.recovery_rates;
         let strict = self.strict.get_or_insert(fit.strict());
         *strict += fast_rate * (fit.strict() - *strict);
-        let fit = fit.lenient();
+        let fit = fit.lenient(before_counts);
         let [slow, fast] = self.lenient.get_or_insert([fit; 2]);
         *fast += fast_rate * (fit - *fast);
         let rate = if *fast < config.recovery_below * *slow {
-            WHILE_LOST * slow_rate
+            config.tuning.doubt.while_lost * slow_rate
         } else if fit > *slow {
             // What is better is what is normal.
             fast_rate
@@ -56,9 +54,9 @@ mod tests {
     #[test]
     fn what_stays_as_it_is_is_right_what_falls_is_not() {
         let config = MonteCarloConfig::default();
-        let mut doubt = Doubt::default();
+        let mut doubt = PlaceDoubt::default();
         assert!(!doubt.is_lost(&config) && doubt.explained() > 0.9);
-        let fit = |on: f64, before: f64| Fit::of([on, before, 50.0 - on - before]);
+        let fit = |on: f64, before: f64| FrameFit::of([on, before, 50.0 - on - before]);
         for step in 0..200 {
             doubt.update(fit(40.0 + 5.0 * f64::from(step).sin(), 0.0), &config);
             assert!(!doubt.is_lost(&config));

@@ -4,20 +4,18 @@ use nalgebra::Isometry3;
 use rayon::prelude::*;
 use volume::LANES;
 
-use super::MonteCarloConfig;
 use super::belief::Belief;
-use super::motion::{Motion, Reading};
-use super::observation::{LogLikelihood, Observation};
-use super::particle::{Bins, Particle, TorsoPose};
+use super::config::MonteCarloConfig;
+use super::motion::{BodyReading, TorsoMotion};
+use super::observation::{LogLikelihood, SeenFrame};
+use super::particle::{Particle, PoseBins, TorsoPose};
 use super::random::{Purpose, Stream};
 use super::resampling::{low_variance, resample};
 use super::static_map::StaticMap;
 use super::weights::{effective_number, weigh};
 
-/// Groups of particles that a thread takes at least: the cost of a thousand rays.
+/// Groups of particles that a thread takes at least, the cost of a thousand rays: who moves a particle makes no difference to it.
 const GROUPS_PER_THREAD: usize = 4;
-/// One in so many of those that are drawn anywhere is drawn at the place that is believed.
-const BELIEVED_ANEW: usize = 10;
 
 /// Guesses, and the room to work on them.
 #[derive(Debug, Clone)]
@@ -27,7 +25,7 @@ pub(super) struct Filter {
     drawn: Vec<Particle>,
     likelihoods: Vec<LogLikelihood>,
     logs: Vec<f64>,
-    bins: Bins,
+    bins: PoseBins,
 }
 
 impl Filter {
@@ -39,7 +37,7 @@ impl Filter {
             drawn: Vec::with_capacity(most),
             likelihoods: Vec::with_capacity(most),
             logs: Vec::with_capacity(most),
-            bins: Bins::default(),
+            bins: PoseBins::default(),
         }
     }
 
@@ -62,7 +60,7 @@ impl Filter {
     }
 
     /// Guesses everywhere, other ones at another step.
-    pub(super) fn start_anywhere(&mut self, map: &StaticMap, reading: &Reading, step: u64) {
+    pub(super) fn start_anywhere(&mut self, map: &StaticMap, reading: &BodyReading, step: u64) {
         let count = self.config.most_particles;
         let seed = self.config.seed;
         self.particles.clear();
@@ -74,7 +72,7 @@ impl Filter {
         }));
     }
 
-    /// The same guesses with other settings.
+    /// A filter of these guesses with other settings.
     pub(super) fn with(self, config: &MonteCarloConfig) -> Self {
         Self {
             config: config.clone(),
@@ -99,8 +97,8 @@ impl Filter {
     /// Moves every guess and weighs it by a frame, of which the share `news` tells something new.
     pub(super) fn update(
         &mut self,
-        motion: Option<&Motion>,
-        (observation, news): (&Observation, f64),
+        motion: Option<&TorsoMotion>,
+        (observation, news): (&SeenFrame, f64),
         map: &StaticMap,
         step: u64,
     ) -> Option<Belief> {
@@ -129,13 +127,14 @@ impl Filter {
             &mut self.particles,
             &self.likelihoods,
             [self.config.independence * news, self.config.least_effective],
+            &self.config.tuning.weights,
             &mut self.logs,
         );
         Belief::of(&self.particles, &mut self.bins, &self.config)
     }
 
     /// Some of the guesses, moved without error.
-    pub(super) fn some_moved(&self, motion: Option<&Motion>) -> [TorsoPose; LANES] {
+    pub(super) fn some_moved(&self, motion: Option<&TorsoMotion>) -> [TorsoPose; LANES] {
         std::array::from_fn(|lane| {
             let mut pose = self.particles[lane * self.particles.len() / LANES].pose;
             if let Some(motion) = motion {
@@ -167,7 +166,7 @@ impl Filter {
     /// the place that is believed, if any is: it is to be compared with the others.
     pub(super) fn resample_widely(
         &mut self,
-        (map, reading): (&StaticMap, &Reading),
+        (map, reading): (&StaticMap, &BodyReading),
         believed: Option<&Belief>,
         step: u64,
     ) {
@@ -178,11 +177,12 @@ impl Filter {
         }
         let most = config.most_particles;
         let added = (config.search_anew * most as f64) as usize;
+        let one_in = config.tuning.search.believed;
         let mut stream = Stream::new(config.seed, step, Purpose::Resampling, 0);
         low_variance(&self.particles, most - added, &mut stream, &mut self.drawn);
         std::mem::swap(&mut self.particles, &mut self.drawn);
         self.jitter(step);
-        let here = believed.map_or(0, |_| added / BELIEVED_ANEW);
+        let here = believed.map_or(0, |_| added / one_in);
         if let Some(believed) = believed {
             let count = self.particles.len();
             self.particles.resize(
@@ -210,7 +210,7 @@ impl Filter {
     }
 
     /// Adds guesses anywhere; all weigh the same then.
-    fn add_anywhere(&mut self, count: usize, map: &StaticMap, reading: &Reading, step: u64) {
+    fn add_anywhere(&mut self, count: usize, map: &StaticMap, reading: &BodyReading, step: u64) {
         let seed = self.config.seed;
         self.particles.extend((0..count).filter_map(|index| {
             let mut stream = Stream::new(seed, step, Purpose::Injection, index);
@@ -225,7 +225,7 @@ impl Filter {
 }
 
 /// A torso above a place to stand, in any heading, as high and tilted as the body says.
-fn anywhere(map: &StaticMap, reading: &Reading, stream: &mut Stream) -> Option<TorsoPose> {
+fn anywhere(map: &StaticMap, reading: &BodyReading, stream: &mut Stream) -> Option<TorsoPose> {
     if map.places.is_empty() {
         return None;
     }

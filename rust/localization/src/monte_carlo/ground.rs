@@ -3,40 +3,26 @@
 use nalgebra::{Matrix3, Vector3};
 use segmentation::Planes;
 
-use super::MonteCarloConfig;
+use super::config::MonteCarloConfig;
 use super::random::Stream;
 
-/// The picture is read on a grid of so many columns at most: a hundred beams need no more.
-const COLUMNS: usize = 80;
-/// Normals are taken over this share of the picture's width to each side.
-const NORMAL_SHARE: f64 = 0.025;
-/// Neighbours that differ more in depth than this, per metre of it, lie on two surfaces.
-const JUMP: f64 = 0.2;
-/// A normal counts for the ground within this angle of it: cosine of 30 degrees.
-const UPRIGHT: f64 = 0.866;
-/// Fewer candidates than this are no ground.
-const LEAST_CANDIDATES: usize = 30;
-/// A plane holds at least this share of the candidates that are left.
-const DOMINANT: f64 = 0.2;
-/// Share of the tolerance within which a point lies on a plane though its neighbourhood is not level.
-const NEAR: f64 = 0.5;
-/// Every so many candidates one is asked whether it lies on a plane that is tried.
-const STRIDE: usize = 4;
-/// Planes that are looked for: the ground before a stair, and its treads.
-const MOST_PLANES: usize = 3;
+/// A cross product of neighbours' distances that is shorter than this has no direction, m^2: a guard against division by nothing.
+const NO_NORMAL_M2: f64 = 1e-12;
+/// Three points of which the cross product is shorter than this lie on a line, m^2: no plane is known by them.
+const ON_A_LINE_M2: f64 = 1e-6;
 
 /// A point of the picture.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sighting {
+pub(super) struct FramePoint {
     /// Robot frame, m.
     pub(super) point_m: Vector3<f64>,
-    /// Distance from the camera, m,
+    /// Distance from the camera, m.
     pub(super) range_m: f64,
-    /// and the unit vector from there.
+    /// Unit vector from the camera.
     pub(super) along: Vector3<f64>,
     /// By how much the range's noise moves the point, m: along the line of sight, which is flat far away.
     spread_m: Vector3<f64>,
-    /// The surface's, towards the camera; none where it is not smooth.
+    /// Normal of the surface, towards the camera; none where it is not smooth.
     normal: Option<Vector3<f64>>,
     pub(super) is_ground: bool,
 }
@@ -44,7 +30,7 @@ pub(super) struct Sighting {
 /// Reads frames and finds the ground in them. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct GroundFinder {
-    pub(super) sightings: Vec<Sighting>,
+    pub(super) sightings: Vec<FramePoint>,
     candidates: Vec<u32>,
     kept: Vec<u32>,
     /// Points and spreads of the candidates that are asked whether they lie on a plane, side by side.
@@ -55,19 +41,20 @@ impl GroundFinder {
     /// Reads a frame's points within reach and labels them: those at about the height of the soles of which the neighbourhood is
     /// level are candidates, and those of them are ground that lie on planes that many lie on (002, III.C).
     pub(super) fn find(&mut self, planes: &Planes, config: &MonteCarloConfig, draws: &mut Stream) {
+        let tuning = &config.tuning.ground;
         self.read(planes, config);
         self.candidates.clear();
         for (index, sighting) in self.sightings.iter().enumerate() {
             let point = &sighting.point_m;
             let band_m = config.ground_band + config.ground_tilt * point.xy().norm();
-            let level = (sighting.normal).is_some_and(|normal| normal.z > UPRIGHT);
+            let level = (sighting.normal).is_some_and(|normal| normal.z > tuning.upright);
             if point.z.abs() < band_m && level {
                 self.candidates.push(index as u32);
             }
         }
-        let enough = (DOMINANT * self.candidates.len() as f64) as usize;
-        for _ in 0..MOST_PLANES {
-            if self.candidates.len() < enough.max(LEAST_CANDIDATES) {
+        let enough = (tuning.dominant * self.candidates.len() as f64) as usize;
+        for _ in 0..tuning.planes {
+            if self.candidates.len() < enough.max(tuning.least_candidates) {
                 break;
             }
             let Some(plane) = self.dominant(config, draws) else {
@@ -85,8 +72,10 @@ impl GroundFinder {
             return;
         };
         let eye = planes.robot_from_camera.origin().inner.coords;
-        let stride = camera.width.div_ceil(COLUMNS);
-        let window = ((camera.width as f64 * NORMAL_SHARE) as usize).max(2);
+        let tuning = &config.tuning.ground;
+        let stride = camera.width.div_ceil(tuning.columns);
+        let window =
+            ((camera.width as f64 * tuning.normal_share) as usize).max(tuning.least_window);
         let at = |col: usize, row: usize| {
             let point = planes.points_in_robot_m.get(row * camera.width + col)?;
             let point = Vector3::from(point.map(f64::from));
@@ -112,11 +101,11 @@ impl GroundFinder {
                 let about = [at(left, row), at(right, row), at(col, top), at(col, bottom)];
                 let normal = match about {
                     [Some(left), Some(right), Some(top), Some(bottom)] => {
-                        normal(&point_m, [left, right], [top, bottom], &eye)
+                        normal(&point_m, [left, right], [top, bottom], &eye, tuning.jump)
                     }
                     _ => None,
                 };
-                self.sightings.push(Sighting {
+                self.sightings.push(FramePoint {
                     point_m,
                     range_m,
                     along: (point_m - eye) / range_m,
@@ -129,20 +118,21 @@ impl GroundFinder {
     }
 
     /// Of the planes through three candidates the one that most candidates lie on; of equals the first.
-    fn dominant(&mut self, config: &MonteCarloConfig, draws: &mut Stream) -> Option<Level> {
+    fn dominant(&mut self, config: &MonteCarloConfig, draws: &mut Stream) -> Option<LevelPlane> {
+        let tuning = &config.tuning.ground;
         self.asked.clear();
-        for &index in self.candidates.iter().step_by(STRIDE) {
+        for &index in self.candidates.iter().step_by(tuning.stride) {
             let sighting = &self.sightings[index as usize];
             self.asked.push([sighting.point_m, sighting.spread_m]);
         }
         let tolerance_m = config.ground_tolerance;
-        let mut best: Option<(usize, Level)> = None;
+        let mut best: Option<(usize, LevelPlane)> = None;
         for _ in 0..config.ground_samples {
             let points: [Vector3<f64>; 3] = std::array::from_fn(|_| {
                 let index = self.candidates[draws.below(self.candidates.len())];
                 self.sightings[index as usize].point_m
             });
-            let Some(plane) = Level::through(&points) else {
+            let Some(plane) = LevelPlane::through(&points, tuning.upright) else {
                 continue;
             };
             let on =
@@ -154,11 +144,13 @@ impl GroundFinder {
         }
         let (_, plane) = best?;
         let on = (self.candidates.iter()).map(|&index| &self.sightings[index as usize]);
-        Level::fitted(on.filter(|sighting| plane.has(sighting, config, 1.0))).or(Some(plane))
+        let held = on.filter(|sighting| plane.has(sighting, config, 1.0));
+        LevelPlane::fitted(held, tuning.upright).or(Some(plane))
     }
 
     /// Labels what lies on a plane and leaves the other candidates; returns how many were taken.
-    fn take(&mut self, plane: &Level, config: &MonteCarloConfig) -> usize {
+    fn take(&mut self, plane: &LevelPlane, config: &MonteCarloConfig) -> usize {
+        let tuning = &config.tuning.ground;
         self.kept.clear();
         for &index in &self.candidates {
             if !plane.has(&self.sightings[index as usize], config, 1.0) {
@@ -169,8 +161,8 @@ impl GroundFinder {
         std::mem::swap(&mut self.candidates, &mut self.kept);
         for sighting in &mut self.sightings {
             // Beside a wall's foot the neighbourhood is not level, nor is its foot high.
-            let level = (sighting.normal).is_some_and(|normal| normal.z > UPRIGHT);
-            let share = if level { 1.0 } else { NEAR };
+            let level = (sighting.normal).is_some_and(|normal| normal.z > tuning.upright);
+            let share = if level { 1.0 } else { tuning.near };
             sighting.is_ground |= plane.has(sighting, config, share);
         }
         taken
@@ -183,13 +175,14 @@ fn normal(
     across: [Vector3<f64>; 2],
     down: [Vector3<f64>; 2],
     eye: &Vector3<f64>,
+    jump: f64,
 ) -> Option<Vector3<f64>> {
     let range_m = (point - eye).norm();
     let torn = [across[0], across[1], down[0], down[1]]
         .iter()
-        .any(|other| ((other - eye).norm() - range_m).abs() > JUMP * range_m);
+        .any(|other| ((other - eye).norm() - range_m).abs() > jump * range_m);
     let normal = (across[1] - across[0]).cross(&(down[1] - down[0]));
-    let normal = normal.try_normalize(1e-12).filter(|_| !torn)?;
+    let normal = normal.try_normalize(NO_NORMAL_M2).filter(|_| !torn)?;
     Some(if normal.dot(&(eye - point)) < 0.0 {
         -normal
     } else {
@@ -199,23 +192,24 @@ fn normal(
 
 /// A plane that is about level: `normal . p = offset_m`.
 #[derive(Debug, Clone, Copy)]
-struct Level {
+struct LevelPlane {
     normal: Vector3<f64>,
     offset_m: f64,
 }
 
-impl Level {
-    fn through([a, b, c]: &[Vector3<f64>; 3]) -> Option<Self> {
-        let normal = (b - a).cross(&(c - a)).try_normalize(1e-6)?;
+impl LevelPlane {
+    /// The plane through three points, where it is about level.
+    fn through([a, b, c]: &[Vector3<f64>; 3], upright: f64) -> Option<Self> {
+        let normal = (b - a).cross(&(c - a)).try_normalize(ON_A_LINE_M2)?;
         let normal = normal * normal.z.signum();
-        (normal.z > UPRIGHT).then(|| Self {
+        (normal.z > upright).then(|| Self {
             normal,
             offset_m: normal.dot(a),
         })
     }
 
     /// The plane with the least squares of vertical distances from points: `z = a x + b y + c`.
-    fn fitted<'a>(sightings: impl Iterator<Item = &'a Sighting>) -> Option<Self> {
+    fn fitted<'a>(sightings: impl Iterator<Item = &'a FramePoint>, upright: f64) -> Option<Self> {
         let (mut squares, mut sums) = (Matrix3::zeros(), Vector3::zeros());
         for sighting in sightings {
             let row = Vector3::new(sighting.point_m.x, sighting.point_m.y, 1.0);
@@ -225,14 +219,14 @@ impl Level {
         let [a, b, c] = squares.cholesky()?.solve(&sums).into();
         let scale = 1.0 / (a * a + b * b + 1.0).sqrt();
         let normal = Vector3::new(-a, -b, 1.0) * scale;
-        (normal.z > UPRIGHT).then_some(Self {
+        (normal.z > upright).then_some(Self {
             normal,
             offset_m: c * scale,
         })
     }
 
     /// Whether a point lies on the plane, within a share of the tolerance.
-    fn has(&self, sighting: &Sighting, config: &MonteCarloConfig, share: f64) -> bool {
+    fn has(&self, sighting: &FramePoint, config: &MonteCarloConfig, share: f64) -> bool {
         let (spread_m, tolerance_m) = (sighting.spread_m * share, config.ground_tolerance * share);
         self.holds(&sighting.point_m, &spread_m, tolerance_m)
     }

@@ -6,9 +6,9 @@ use super::particle::TorsoPose;
 
 /// Where eight torsos would be, and how turned.
 pub(super) struct Guesses {
-    /// Rows of the rotations,
+    /// Rows of the rotations.
     rows: [[[f64; 3]; 3]; LANES],
-    /// and the same in single precision, guess beside guess.
+    /// Rows of the rotations in single precision, guess beside guess.
     rows_beside: [[Lanes; 3]; 3],
     places_m: [[f64; 3]; LANES],
 }

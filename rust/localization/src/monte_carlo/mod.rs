@@ -10,7 +10,6 @@ mod fit;
 mod gauss;
 mod ground;
 mod guesses;
-mod limits;
 mod motion;
 mod novelty;
 mod observation;
@@ -22,30 +21,55 @@ mod static_map;
 #[cfg(test)]
 mod tests;
 mod tracking;
+mod tuning;
 mod weights;
 #[cfg(test)]
 mod world;
 
+use crate::part::LocalizerPart;
+use settings::{MakeError, Part, TableDescription, read};
 use std::sync::Arc;
 
 use geometry::{Map, Odometry, Pose, Robot};
 use mapping::FloorView;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use segmentation::Planes;
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 
 pub use belief::Belief;
 pub use config::{MonteCarloConfig, RangeModel};
 pub use particle::TorsoPose;
 pub use static_map::StaticMap;
 
-use crate::{Estimate, Guess, Localizer, LocalizerError};
+use crate::localizer::{Estimate, Guess, Localizer, LocalizerError};
 use beams::Beams;
-use motion::{Motion, Reading};
-use observation::Observation;
+use motion::{BodyReading, TorsoMotion};
+use observation::SeenFrame;
 use proprioception::BodyState;
-use search::Search;
+use search::PlaceSearch;
 use tracking::Tracking;
+
+/// How it is listed and made.
+pub(crate) const PART: LocalizerPart = Part {
+    name: "monte_carlo",
+    about: "particles in six dimensions against a static map",
+    source: Some("Maier, Hornung and Bennewitz 2012 (002, section III.C)"),
+    tables: &[TableDescription::of::<MonteCarloConfig>()],
+    make: |needs| {
+        let config = read(needs.tables, "monte_carlo")?;
+        let told = needs.known_map.ok_or_else(|| {
+            MakeError::Text(
+                "navigation.localizer: monte_carlo has to be told a static map".to_owned(),
+            )
+        })?;
+        let map = Arc::new(StaticMap::new(told, &config)?);
+        Ok(Box::new(MonteCarloLocalizer::new(
+            map,
+            needs.start,
+            config,
+        )?))
+    },
+};
 
 /// Monte Carlo localization in a static map: tracks from a start that is told, finds the place where none is, and finds it again
 /// where frames stop to fit.
@@ -57,12 +81,12 @@ pub struct MonteCarloLocalizer {
     /// Around the place where the robot knows to be.
     tracking: Option<Tracking>,
     /// Everywhere, where it does not know, or doubts.
-    search: Option<Search>,
+    search: Option<PlaceSearch>,
     beams: Beams,
-    observation: Observation,
+    observation: SeenFrame,
     /// Frames that were used.
     step: u64,
-    last: Option<Reading>,
+    last: Option<BodyReading>,
     map_from_odometry: Option<Pose<Map, Odometry>>,
 }
 
@@ -81,7 +105,7 @@ impl MonteCarloLocalizer {
             tracking: None,
             search: None,
             beams: Beams::default(),
-            observation: Observation::default(),
+            observation: SeenFrame::default(),
             step: 0,
             last: None,
             map_from_odometry: None,
@@ -98,14 +122,14 @@ impl MonteCarloLocalizer {
     }
 
     /// Whether enough happened since the last frame that was used: frames of a robot that stands err alike.
-    fn is_due(&self, before: &Reading, now: &Reading) -> bool {
+    fn is_due(&self, before: &BodyReading, now: &BodyReading) -> bool {
         let (travelled_m, turned_rad) = now.seen_since(before);
         let waited_s = now.time_ns.saturating_sub(before.time_ns) as f64 * 1e-9;
         let [way_m, turn_rad, wait_s] = self.config.update_after;
         travelled_m > way_m || turned_rad > turn_rad || waited_s > wait_s
     }
 
-    fn start(&mut self, reading: &Reading) {
+    fn start(&mut self, reading: &BodyReading) {
         self.tracking = self.map_from_robot_at_start.map(|start| {
             let map_from_torso = start.inner * reading.torso_from_robot.inverse();
             Tracking::from(&map_from_torso, &self.config)
@@ -113,13 +137,18 @@ impl MonteCarloLocalizer {
     }
 
     /// Looks for the robot everywhere while it may be elsewhere than it believes, and takes the place that was found.
-    fn look_elsewhere(&mut self, since: Option<(&Reading, &Motion)>, reading: &Reading) {
+    fn look_elsewhere(
+        &mut self,
+        since: Option<(&BodyReading, &TorsoMotion)>,
+        reading: &BodyReading,
+    ) {
         let doubted = (self.tracking.as_ref()).is_none_or(Tracking::is_doubted);
         if !doubted && self.search.is_none() {
             return;
         }
-        let search = (self.search)
-            .get_or_insert_with(|| Search::anywhere(&self.config, &self.map, reading, self.step));
+        let search = (self.search).get_or_insert_with(|| {
+            PlaceSearch::anywhere(&self.config, &self.map, reading, self.step)
+        });
         let news = since.map_or(1.0, |(before, _)| {
             search::news(before, reading, &self.config)
         });
@@ -144,7 +173,7 @@ impl MonteCarloLocalizer {
         let Some(tracking) = &self.tracking else {
             return self.step > 0 || self.map_from_robot_at_start.is_none();
         };
-        let elsewhere = self.search.as_ref().is_some_and(Search::is_contest);
+        let elsewhere = self.search.as_ref().is_some_and(PlaceSearch::is_contest);
         elsewhere || tracking.is_lost()
     }
 }
@@ -156,11 +185,11 @@ impl Localizer for MonteCarloLocalizer {
         planes: &Planes,
         _view: &FloorView,
     ) -> Result<(), LocalizerError> {
-        let reading = Reading::of(body, &planes.robot_from_camera.inner);
+        let reading = BodyReading::of(body, &planes.robot_from_camera.inner);
         let before = self.last;
         let motion = match &before {
             Some(before) if !self.is_due(before, &reading) => return Ok(()),
-            Some(before) => Some(Motion::between(before, &reading, &self.config)),
+            Some(before) => Some(TorsoMotion::between(before, &reading, &self.config)),
             None => {
                 self.start(&reading);
                 None
@@ -202,7 +231,7 @@ impl Localizer for MonteCarloLocalizer {
 
     fn guesses(&self) -> Vec<Guess> {
         let tracking = self.tracking.iter().flat_map(Tracking::particles);
-        let search = self.search.iter().flat_map(Search::particles);
+        let search = self.search.iter().flat_map(PlaceSearch::particles);
         // Those of the search count where there are no others.
         let share = if self.tracking.is_some() { 0.0 } else { 1.0 };
         (tracking.map(|particle| (particle, 1.0)))

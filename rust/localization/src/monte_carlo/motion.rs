@@ -3,14 +3,14 @@
 use geometry::wrap_angle;
 use nalgebra::{Isometry3, Rotation2, Vector2, Vector3};
 
-use super::MonteCarloConfig;
+use super::config::MonteCarloConfig;
 use super::particle::TorsoPose;
 use super::random::Stream;
 use proprioception::BodyState;
 
 /// What the body says of itself at a frame.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Reading {
+pub(super) struct BodyReading {
     pub(super) time_ns: u64,
     pub(super) odometry_from_robot: Isometry3<f64>,
     pub(super) odometry_from_camera: Isometry3<f64>,
@@ -21,7 +21,7 @@ pub(super) struct Reading {
     pub(super) torso_height_m: f64,
 }
 
-impl Reading {
+impl BodyReading {
     pub(super) fn of(body: &BodyState, robot_from_camera: &Isometry3<f64>) -> Self {
         let robot_from_torso = body.robot_from_torso.inner;
         let mut torso = body.odometry_from_robot.inner * robot_from_torso;
@@ -57,7 +57,7 @@ impl Reading {
 
 /// The Gaussian motion model: mean and standard deviations of one increment, in the heading of the torso before it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Motion {
+pub(super) struct TorsoMotion {
     /// Forward, sideways, up, m.
     pub(super) shift_m: [f64; 3],
     /// Roll, pitch, yaw, rad.
@@ -66,10 +66,14 @@ pub(super) struct Motion {
     pub(super) sd: [f64; 6],
 }
 
-impl Motion {
+impl TorsoMotion {
     /// Variances grow with the way, the turn and the time, so that it does not matter in how many increments one goes:
     /// `sigma^2 = a d + b |turn| + c t`.
-    pub(super) fn between(before: &Reading, now: &Reading, config: &MonteCarloConfig) -> Self {
+    pub(super) fn between(
+        before: &BodyReading,
+        now: &BodyReading,
+        config: &MonteCarloConfig,
+    ) -> Self {
         let (travelled_m, turned_rad) = now.gone_since(before);
         let passed_s = now.time_ns.saturating_sub(before.time_ns) as f64 * 1e-9;
         let sd = |[per_m, per_rad, per_s]: [f64; 3]| {
@@ -125,13 +129,13 @@ mod tests {
     use proptest::prelude::*;
     use testkit::state_at;
 
-    fn reading(time_ns: u64, [x_m, y_m, z_m, yaw_rad]: [f64; 4]) -> Reading {
+    fn reading(time_ns: u64, [x_m, y_m, z_m, yaw_rad]: [f64; 4]) -> BodyReading {
         let mut body = state_at(time_ns);
         body.odometry_from_robot = Pose::from_yaw(x_m, y_m, z_m, yaw_rad);
         body.robot_from_torso = Pose::from_yaw(0.02, 0.0, 0.33, 0.0);
         let torso = body.odometry_from_robot * body.robot_from_torso;
         body.odometry_from_torso_rotation = torso.inner.rotation;
-        Reading::of(&body, &Isometry3::identity())
+        BodyReading::of(&body, &Isometry3::identity())
     }
 
     #[test]
@@ -141,7 +145,7 @@ mod tests {
             reading(0, [0.3, -0.2, 0.1, 0.4]),
             reading(160_000_000, [0.33, -0.18, 0.12, 0.5]),
         );
-        let motion = Motion::between(&before, &now, &config);
+        let motion = TorsoMotion::between(&before, &now, &config);
         let start = TorsoPose {
             place_m: [1.0, 2.0, 0.4],
             roll_rad: 0.02,
@@ -183,7 +187,7 @@ mod tests {
         fn without_noise_a_guess_moves_like_the_torso(at in prop::array::uniform4(-2.0..2.0f64), by in prop::array::uniform4(-0.3..0.3f64), yaw in -3.0..3.0f64) {
             let before = reading(0, at);
             let now = reading(1, std::array::from_fn(|a| at[a] + by[a]));
-            let mut motion = Motion::between(&before, &now, &MonteCarloConfig::default());
+            let mut motion = TorsoMotion::between(&before, &now, &MonteCarloConfig::default());
             motion.sd = [0.0; 6];
             let map_from_odometry = Pose::<geometry::Map, geometry::Odometry>::from_yaw(0.7, -0.3, 0.2, yaw).inner;
             let mut pose = TorsoPose::of(&(map_from_odometry * before.odometry_from_torso.isometry()));
@@ -195,11 +199,11 @@ mod tests {
         #[test]
         fn the_error_of_a_way_does_not_depend_on_its_pieces(pieces in 1..20_u32, way in 0.1..1.0f64) {
             let config = MonteCarloConfig::default();
-            let whole = Motion::between(&reading(0, [0.0; 4]), &reading(1_000_000_000, [way, 0.0, 0.0, 0.0]), &config);
+            let whole = TorsoMotion::between(&reading(0, [0.0; 4]), &reading(1_000_000_000, [way, 0.0, 0.0, 0.0]), &config);
             let mut squares = [0.0; 6];
             for piece in 0..pieces {
                 let at = |n: u32| reading(1_000_000_000 * u64::from(n) / u64::from(pieces), [way * f64::from(n) / f64::from(pieces), 0.0, 0.0, 0.0]);
-                let motion = Motion::between(&at(piece), &at(piece + 1), &config);
+                let motion = TorsoMotion::between(&at(piece), &at(piece + 1), &config);
                 for (square, sd) in squares.iter_mut().zip(motion.sd) { *square += sd * sd; }
             }
             for (square, sd) in squares.iter().zip(whole.sd) { prop_assert!((f64::sqrt(*square) / sd - 1.0).abs() < 1e-6); }

@@ -6,43 +6,63 @@
 
 use volume::LANES;
 
-use super::fit::MATCH_SIGMAS;
+use super::config::MonteCarloConfig;
 use super::gauss::splat;
 use super::guesses::Guesses;
-use super::observation::Observation;
+use super::observation::SeenFrame;
 use super::particle::TorsoPose;
 use super::static_map::StaticMap;
+use super::tuning::UnmappedTuning;
 
-/// Beams that end nearer to each other than this end on one thing, m.
-const THING_M: f64 = 0.15;
-/// A thing is not mapped where this share of the beams that end on it ends clearly before the map's surface.
-const UNMAPPED_SHARE: f64 = 0.25;
+/// Finds beams that end on what is not mapped. Keeps its buffer.
+#[derive(Debug, Clone)]
+pub(super) struct Unmapped {
+    tuning: UnmappedTuning,
+    /// A range fits within so many standard deviations.
+    sigmas: f64,
+    ends: Vec<BeamEnd>,
+}
 
-impl Observation {
+impl Unmapped {
+    pub(super) fn new(config: &MonteCarloConfig) -> Self {
+        Self {
+            tuning: config.tuning.unmapped.clone(),
+            sigmas: config.tuning.fit.sigmas,
+            ends: Vec::new(),
+        }
+    }
+
     /// Leaves those beams out of the likelihood that end on things that are not mapped, as it looks from all of these guesses.
-    /// They go on to count in [`Observation::fit`]. Allocates nothing once its buffers have grown.
-    pub(super) fn leave_out_unmapped(&mut self, believed: &[TorsoPose; LANES], map: &StaticMap) {
+    /// They go on to count in [`SeenFrame::fit`]. Allocates nothing once its buffer has grown.
+    pub(super) fn leave_out(
+        &mut self,
+        observation: &mut SeenFrame,
+        believed: &[TorsoPose; LANES],
+        map: &StaticMap,
+    ) {
         let guesses = Guesses::of(believed);
-        let eyes = map.ranges.in_voxels(&guesses.placed(&self.origin_m));
+        let eyes = map.ranges.in_voxels(&guesses.placed(&observation.origin_m));
+        let fits = splat(self.sigmas);
         self.ends.clear();
-        for ray in self.rays.iter().filter(|ray| !ray.is_ground) {
+        for ray in observation.rays.iter().filter(|ray| !ray.is_ground) {
             let along = guesses.turned(&ray.direction);
             let reach_m = splat(ray.far_m);
             let mapped_m = map.ranges.cast_side_by_side(&eyes, &along, reach_m);
             let sigmas = (mapped_m - splat(ray.range_m)) * splat(ray.per_noise);
-            let is_before = sigmas.simd_gt(splat(MATCH_SIGMAS)).all();
+            let is_before = sigmas.simd_gt(fits).all();
             let at_m = ray.direction.map(|along| along * ray.range_m);
-            self.ends.push(End { at_m, is_before });
+            self.ends.push(BeamEnd { at_m, is_before });
         }
-        self.left_out.clear();
-        let (ends, left_out) = (&self.ends, &mut self.left_out);
+        observation.left_out.clear();
+        let (ends, left_out) = (&self.ends, &mut observation.left_out);
+        let tuning = &self.tuning;
         let mut next = 0;
-        self.rays.retain(|ray| {
+        observation.rays.retain(|ray| {
             if ray.is_ground {
                 return true;
             }
             next += 1;
-            let unmapped = is_unmapped(&ends[next - 1], ends);
+            let unmapped = is_unmapped(&ends[next - 1], ends, tuning);
             if unmapped {
                 left_out.push(*ray);
             }
@@ -53,33 +73,33 @@ impl Observation {
 
 /// Where a beam ends, seen from the camera but in the torso's directions, m.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct End {
+struct BeamEnd {
     at_m: [f64; 3],
     /// Whether that is before the map's surface.
     is_before: bool,
 }
 
 /// Whether a beam ends on a thing that is not mapped.
-fn is_unmapped(end: &End, ends: &[End]) -> bool {
-    let away2 = |other: &End| -> f64 {
+fn is_unmapped(end: &BeamEnd, ends: &[BeamEnd], tuning: &UnmappedTuning) -> bool {
+    let thing_m = tuning.thing;
+    let away2 = |other: &BeamEnd| -> f64 {
         let off = |a: usize| end.at_m[a] - other.at_m[a];
         (0..3).map(|a| off(a) * off(a)).sum()
     };
-    let beside = ends.iter().filter(|other| away2(other) < THING_M * THING_M);
+    let beside = ends.iter().filter(|other| away2(other) < thing_m * thing_m);
     let (mut all, mut before) = (0.0, 0.0);
     for other in beside {
         all += 1.0;
         before += f64::from(u8::from(other.is_before));
     }
-    before > UNMAPPED_SHARE * all
+    before > tuning.share * all
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::MonteCarloConfig;
     use super::super::beams::Beams;
-    use super::super::motion::Reading;
-    use super::super::observation::Ray;
+    use super::super::motion::BodyReading;
+    use super::super::observation::BeamRay;
     use super::super::world::{Eye, World};
     use super::*;
     use geometry::Pose;
@@ -88,7 +108,7 @@ mod tests {
     use testkit::state_at;
 
     /// Ends on a patch of a wall that is 2 m ahead, or on a thing that stands before it.
-    fn ends(at_m: [f64; 3], count: usize, is_before: impl Fn(usize) -> bool) -> Vec<End> {
+    fn ends(at_m: [f64; 3], count: usize, is_before: impl Fn(usize) -> bool) -> Vec<BeamEnd> {
         let place = |i: usize| {
             [
                 at_m[0],
@@ -96,15 +116,17 @@ mod tests {
                 at_m[2] + 0.03 * (i / 6) as f64,
             ]
         };
-        let end = |i| End {
+        let end = |i| BeamEnd {
             at_m: place(i),
             is_before: is_before(i),
         };
         (0..count).map(end).collect()
     }
 
-    fn left_out(ends: &[End]) -> usize {
-        ends.iter().filter(|end| is_unmapped(end, ends)).count()
+    fn left_out(ends: &[BeamEnd]) -> usize {
+        let tuning = UnmappedTuning::default();
+        let unmapped = |end: &&BeamEnd| is_unmapped(end, ends, &tuning);
+        ends.iter().filter(unmapped).count()
     }
 
     #[test]
@@ -125,22 +147,23 @@ mod tests {
         let mut body = state_at(0);
         body.robot_from_torso = Pose::wrap(Isometry3::translation(0.0, 0.0, 0.33));
         body.odometry_from_torso_rotation = body.robot_from_torso.inner.rotation;
-        let reading = Reading::of(&body, &Isometry3::identity());
+        let reading = BodyReading::of(&body, &Isometry3::identity());
         let map_from_torso = robot * body.robot_from_torso.inner;
         let truth = TorsoPose::of(&map_from_torso);
-        let (mut beams, mut observation) = (Beams::default(), Observation::default());
+        let (mut beams, mut observation) = (Beams::default(), SeenFrame::default());
+        let mut unmapped = Unmapped::new(&config);
         for number in 0..10 {
             let planes = world.frame(&robot, &Eye::ahead(), number);
             beams.draw(&planes, &reading.torso_from_robot, &config, number);
             observation.set((&beams, 0.0), &reading, &map, &config);
-            observation.leave_out_unmapped(&[truth; LANES], &map);
-            let on_thing = |ray: &&Ray| {
+            unmapped.leave_out(&mut observation, &[truth; LANES], &map);
+            let on_thing = |ray: &&BeamRay| {
                 let end = Vector3::from(observation.origin_m)
                     + Vector3::from(ray.direction) * ray.range_m;
                 let at = map_from_torso * Point3::from(end);
                 at.x > 0.04 && (1.15..1.45).contains(&at.y) && !ray.is_ground
             };
-            let off_ground = |rays: &[Ray]| rays.iter().filter(|ray| !ray.is_ground).count();
+            let off_ground = |rays: &[BeamRay]| rays.iter().filter(|ray| !ray.is_ground).count();
             let thing = observation.left_out.iter().filter(on_thing).count();
             assert!(thing >= 3, "{thing}");
             assert_eq!(observation.rays.iter().filter(on_thing).count(), 0);

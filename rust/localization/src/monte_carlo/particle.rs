@@ -3,7 +3,9 @@
 use geometry::wrap_angle;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
-/// `x = (x, y, z, phi, theta, psi)` of 002, III.C: the torso in the map. Angles turn about z, then y, then x.
+use super::tuning::MOST_SEEDS;
+
+/// The torso in the map: `x = (x, y, z, phi, theta, psi)` of 002, III.C. Angles turn about z, then y, then x.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TorsoPose {
     /// Position in the map, m.
@@ -34,7 +36,7 @@ impl TorsoPose {
         )
     }
 
-    /// Heading against another pose's, rad.
+    /// Heading against that of another pose, rad.
     pub(super) fn turned_rad(&self, from: &Self) -> f64 {
         wrap_angle(self.yaw_rad - from.yaw_rad)
     }
@@ -49,9 +51,9 @@ pub(super) struct Particle {
 
 /// Which cells of a grid over position and heading are not empty, and what weighs on them. Keeps its buffer.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Bins(Vec<(u64, u32)>);
+pub(super) struct PoseBins(Vec<(u64, u32)>);
 
-impl Bins {
+impl PoseBins {
     /// Sorts particles into cells; those of one cell in the order of their indices.
     fn fill(&mut self, particles: &[Particle], side_m: f64, side_rad: f64) {
         self.0.clear();
@@ -71,16 +73,18 @@ impl Bins {
         self.0.chunk_by(|a, b| a.0 == b.0).count()
     }
 
-    /// The particles that weigh most in the `N` cells that weigh most, the heaviest first; of equals the first.
-    pub(super) fn heaviest<const N: usize>(
+    /// The particles that weigh most in the `count` cells that weigh most, the heaviest first; of equals the first.
+    pub(super) fn heaviest(
         &mut self,
         particles: &[Particle],
         side_m: f64,
         side_rad: f64,
-    ) -> [Option<TorsoPose>; N] {
+        count: usize,
+    ) -> [Option<TorsoPose>; MOST_SEEDS] {
         self.fill(particles, side_m, side_rad);
         let weight = |&(_, index): &(u64, u32)| particles[index as usize].weight;
-        let mut best = [(0.0, None); N];
+        let mut all = [(0.0, None); MOST_SEEDS];
+        let best = &mut all[..count];
         for cell in self.0.chunk_by(|a, b| a.0 == b.0) {
             let sum: f64 = cell.iter().map(weight).sum();
             let Some(place) = best.iter().position(|(most, _)| sum > *most) else {
@@ -95,7 +99,7 @@ impl Bins {
                 heaviest.map(|&(_, index)| particles[index as usize].pose),
             );
         }
-        best.map(|(_, pose)| pose)
+        all.map(|(_, pose)| pose)
     }
 }
 
@@ -132,11 +136,12 @@ mod tests {
             particle(0.31, 0.25),
             particle(-0.05, 0.25),
         ];
-        let mut bins = Bins::default();
+        let mut bins = PoseBins::default();
         assert_eq!(bins.count(&particles, 0.1, 0.1), 3);
-        let heaviest = bins.heaviest(&particles, 0.1, 0.1);
+        let heaviest = bins.heaviest(&particles, 0.1, 0.1, 3);
         let expected = [4, 2, 3].map(|index: usize| Some(particles[index].pose));
-        assert_eq!(heaviest, expected);
-        assert_eq!(bins.heaviest(&[], 0.1, 0.1), [None]);
+        assert_eq!(heaviest[..3], expected);
+        assert_eq!(heaviest[3..], [None; MOST_SEEDS - 3]);
+        assert_eq!(bins.heaviest(&[], 0.1, 0.1, 1), [None; MOST_SEEDS]);
     }
 }

@@ -1,6 +1,6 @@
 //! Drawing particles anew, with as little chance as possible, and only as many as it takes.
 
-use super::particle::{Bins, Particle};
+use super::particle::{Particle, PoseBins};
 use super::random::Stream;
 
 /// Low-variance resampling (Thrun, Burgard, Fox 2005, table 4.4): `count` particles of equal weight, by one random number.
@@ -47,7 +47,7 @@ pub(super) fn resample(
     ([side_m, side_rad], kld): ([f64; 2], [f64; 2]),
     [least, most]: [usize; 2],
     stream: &mut Stream,
-    (bins, drawn): (&mut Bins, &mut Vec<Particle>),
+    (bins, drawn): (&mut PoseBins, &mut Vec<Particle>),
 ) {
     // Those that survive tell how many cells matter.
     low_variance(particles, particles.len(), &mut stream.clone(), drawn);

@@ -3,40 +3,32 @@
 //! A place that looks alike (a level that is the same after half a turn) explains some frames as well as the true one. So a search
 //! never settles by one view: its best cluster has to stay the best while the camera looks all around.
 
-use super::MonteCarloConfig;
 use super::beams::Beams;
 use super::belief::Belief;
+use super::config::MonteCarloConfig;
 use super::directions::Directions;
 use super::filter::Filter;
-use super::motion::{Motion, Reading};
-use super::observation::Observation;
+use super::motion::{BodyReading, TorsoMotion};
+use super::observation::SeenFrame;
 use super::particle::Particle;
 use super::static_map::StaticMap;
 
-/// The search draws other numbers than the tracking beside it.
+/// What the seed of a search differs by from that of the tracking beside it: any bits would do.
 const OTHER_SEED: u64 = 0x5EA2_C4E5;
-/// What a search learns at least from a frame, since no two err quite alike.
-const LEAST_NEWS: f64 = 0.1;
-
-/// Directions in which another place has to be better before the robot stops to look.
-const CONTEST: usize = 4;
-/// Frames, half a minute of them, after which a search beside a place that fits ends.
-const MOST_FRAMES: u32 = 200;
-
 /// How much of a frame is new since another one: what is seen again from the same place errs alike, and proves nothing.
-pub(super) fn news(before: &Reading, now: &Reading, config: &MonteCarloConfig) -> f64 {
+pub(super) fn news(before: &BodyReading, now: &BodyReading, config: &MonteCarloConfig) -> f64 {
     let (travelled_m, turned_rad) = now.seen_since(before);
     let [way_m, turn_rad] = config.news_after;
-    (travelled_m / way_m + turned_rad / turn_rad).clamp(LEAST_NEWS, 1.0)
+    (travelled_m / way_m + turned_rad / turn_rad).clamp(config.tuning.search.least_news, 1.0)
 }
 
 /// A global localization under way.
 #[derive(Debug, Clone)]
-pub(super) struct Search {
+pub(super) struct PlaceSearch {
     pub(super) filter: Filter,
     config: MonteCarloConfig,
     /// The frame, blurred.
-    blurred: Observation,
+    blurred: SeenFrame,
     frames: u32,
     best: Option<Belief>,
     /// By how much more of what stands on the ground the best place explains than the one that is believed, if any is: since it
@@ -44,35 +36,36 @@ pub(super) struct Search {
     advantage: Directions,
 }
 
-impl Search {
+impl PlaceSearch {
     /// Begins at this step of the localizer.
     pub(super) fn anywhere(
         config: &MonteCarloConfig,
         map: &StaticMap,
-        reading: &Reading,
+        reading: &BodyReading,
         step: u64,
     ) -> Self {
         let config = MonteCarloConfig {
             seed: config.seed ^ OTHER_SEED,
             ..config.clone()
         };
+        let directions = config.tuning.search.directions;
         let mut filter = Filter::new(&config);
         filter.start_anywhere(map, reading, step);
         Self {
             filter,
             config,
-            blurred: Observation::default(),
+            blurred: SeenFrame::default(),
             frames: 0,
             best: None,
-            advantage: Directions::default(),
+            advantage: Directions::new(directions),
         }
     }
 
     /// Moves and weighs the guesses, draws some of them anywhere, and compares the best place with the one that is believed.
     pub(super) fn update(
         &mut self,
-        (motion, news): (Option<&Motion>, f64),
-        (observation, beams, reading): (&Observation, &Beams, &Reading),
+        (motion, news): (Option<&TorsoMotion>, f64),
+        (observation, beams, reading): (&SeenFrame, &Beams, &BodyReading),
         (map, believed): (&StaticMap, Option<&Belief>),
         step: u64,
     ) {
@@ -83,10 +76,11 @@ impl Search {
         let stays = |found: &Belief| {
             let before = self.best.as_ref();
             found.share >= self.config.least_share
-                && before.is_some_and(|before| found.goes_on(before, motion))
+                && before
+                    .is_some_and(|before| found.goes_on(before, motion, &self.config.tuning.belief))
         };
         if !found.as_ref().is_some_and(stays) {
-            self.advantage = Directions::default();
+            self.advantage = Directions::new(self.config.tuning.search.directions);
         }
         self.best = found;
         self.filter.resample_widely((map, reading), believed, step);
@@ -105,12 +99,12 @@ impl Search {
 
     /// Whether the best place is so much better in several directions that what is believed is not to be acted on.
     pub(super) fn is_contest(&self) -> bool {
-        self.is_better() && self.advantage.count() >= CONTEST
+        self.is_better() && self.advantage.count() >= self.config.tuning.search.contest
     }
 
     /// Whether it has gone on for so long that nothing is to be expected of it.
     pub(super) const fn is_spent(&self) -> bool {
-        self.frames > MOST_FRAMES
+        self.frames > self.config.tuning.search.frames
     }
 
     /// Whether the best place explains clearly more than the one that is believed.

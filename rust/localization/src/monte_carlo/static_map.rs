@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use known_map::{KnownMap, Standing, StandingRoom};
-use settings::ConfigError;
+use settings::{ConfigError, Table};
 use volume::{DistanceField, RangeField};
 
-use super::{MonteCarloConfig, RangeModel};
+use super::config::{MonteCarloConfig, RangeModel};
 
 /// What does not change: how far rays get, how near surfaces are, and where one can stand.
 #[derive(Debug, Clone)]
@@ -50,6 +50,6 @@ mod tests {
             ..MonteCarloConfig::default()
         };
         let error = StaticMap::new(&map, &config).unwrap_err();
-        assert_eq!(error.key, "navigation.monte_carlo.body");
+        assert_eq!(error.key, "navigation.monte_carlo.body.0");
     }
 }

@@ -86,7 +86,7 @@ fn a_search_that_is_begun_again_guesses_elsewhere() {
     let _ = walk.step(0.0, 0.0);
     let reading = walk.localizer.last.unwrap();
     let places = |step| -> Vec<_> {
-        let search = Search::anywhere(&config, &map, &reading, step);
+        let search = PlaceSearch::anywhere(&config, &map, &reading, step);
         search.particles().map(|one| one.pose.place_m).collect()
     };
     assert_eq!(places(3), places(3));

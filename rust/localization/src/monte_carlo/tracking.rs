@@ -2,14 +2,15 @@
 
 use nalgebra::Isometry3;
 
-use super::MonteCarloConfig;
 use super::belief::Belief;
-use super::doubt::Doubt;
+use super::config::MonteCarloConfig;
+use super::doubt::PlaceDoubt;
 use super::filter::Filter;
-use super::motion::Motion;
-use super::observation::Observation;
+use super::motion::TorsoMotion;
+use super::novelty::Unmapped;
+use super::observation::SeenFrame;
 use super::particle::Particle;
-use super::search::Search;
+use super::search::PlaceSearch;
 use super::static_map::StaticMap;
 
 /// Guesses around one place, and how well it goes on to fit.
@@ -18,11 +19,12 @@ pub(super) struct Tracking {
     config: MonteCarloConfig,
     filter: Filter,
     belief: Option<Belief>,
-    doubt: Doubt,
+    doubt: PlaceDoubt,
+    unmapped: Unmapped,
 }
 
 impl Tracking {
-    /// From a pose that is told.
+    /// Begins at a pose that is told.
     pub(super) fn from(map_from_torso: &Isometry3<f64>, config: &MonteCarloConfig) -> Self {
         let mut filter = Filter::new(config);
         filter.start_at(map_from_torso);
@@ -30,12 +32,13 @@ impl Tracking {
             config: config.clone(),
             filter,
             belief: None,
-            doubt: Doubt::default(),
+            doubt: PlaceDoubt::default(),
+            unmapped: Unmapped::new(config),
         }
     }
 
-    /// From where a search has found the robot.
-    pub(super) fn in_place_of(search: Search, config: &MonteCarloConfig) -> Self {
+    /// Begins where a search has found the robot.
+    pub(super) fn in_place_of(search: PlaceSearch, config: &MonteCarloConfig) -> Self {
         let belief = search.likely().copied();
         let mut filter = search.filter.with(config);
         if let Some(belief) = &belief {
@@ -45,21 +48,23 @@ impl Tracking {
             config: config.clone(),
             filter,
             belief,
-            doubt: Doubt::default(),
+            doubt: PlaceDoubt::default(),
+            unmapped: Unmapped::new(config),
         }
     }
 
     /// Moves the guesses, weighs them by what a frame says of what is mapped, and draws anew where few weigh much.
     pub(super) fn update(
         &mut self,
-        motion: Option<&Motion>,
-        observation: &mut Observation,
+        motion: Option<&TorsoMotion>,
+        observation: &mut SeenFrame,
         map: &StaticMap,
         step: u64,
     ) {
         // Who may be elsewhere is to hear everything.
         if !self.is_doubted() {
-            observation.leave_out_unmapped(&self.filter.some_moved(motion), map);
+            let believed = self.filter.some_moved(motion);
+            self.unmapped.leave_out(observation, &believed, map);
         }
         self.belief = (self.filter).update(motion, (observation, 1.0), map, step);
         self.filter.resample(step);
@@ -88,7 +93,7 @@ impl Tracking {
     }
 
     /// Whether a search that is no better has nothing more to tell: it came to the same place, or has looked all around.
-    pub(super) fn outlives(&self, search: &Search) -> bool {
+    pub(super) fn outlives(&self, search: &PlaceSearch) -> bool {
         let same = |best: &Belief| {
             let here = self.belief.as_ref();
             here.is_some_and(|here| best.holds(&here.torso, self.config.cluster))

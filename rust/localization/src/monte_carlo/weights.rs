@@ -2,11 +2,7 @@
 
 use super::observation::LogLikelihood;
 use super::particle::Particle;
-
-/// An exponent is halved so often at most until enough particles are left,
-const HALVINGS: usize = 40;
-/// and then refined between that and twice of it.
-const REFINEMENTS: usize = 3;
+use super::tuning::WeightsTuning;
 
 /// Number of particles that weigh as much as these, which sum to one: `1 / sum w^2`.
 pub(super) fn effective_number(particles: &[Particle]) -> f64 {
@@ -22,6 +18,7 @@ pub(super) fn weigh(
     particles: &mut [Particle],
     likelihoods: &[LogLikelihood],
     [independence, least_share]: [f64; 2],
+    tuning: &WeightsTuning,
     logs: &mut Vec<f64>,
 ) {
     logs.clear();
@@ -37,7 +34,8 @@ pub(super) fn weigh(
     for log in logs.iter_mut() {
         *log -= best;
     }
-    let exponent = flattening(particles, logs, least_share * particles.len() as f64);
+    let least = least_share * particles.len() as f64;
+    let exponent = flattening(particles, logs, least, tuning);
     let (weights, mut sum) = (logs, 0.0);
     for (particle, log) in particles.iter().zip(weights.iter_mut()) {
         *log = particle.weight * (exponent * *log).exp();
@@ -52,7 +50,7 @@ pub(super) fn weigh(
 }
 
 /// The exponent of the likelihoods, 1 at most, that leaves an effective number of at least `least`.
-fn flattening(particles: &[Particle], logs: &[f64], least: f64) -> f64 {
+fn flattening(particles: &[Particle], logs: &[f64], least: f64, tuning: &WeightsTuning) -> f64 {
     let is_enough = |exponent: f64| {
         let (mut sum, mut squares) = (0.0, 0.0);
         for (particle, log) in particles.iter().zip(logs) {
@@ -66,13 +64,13 @@ fn flattening(particles: &[Particle], logs: &[f64], least: f64) -> f64 {
         return 1.0;
     }
     let (mut low, mut high) = (0.5, 1.0);
-    for _ in 0..HALVINGS {
+    for _ in 0..tuning.halvings {
         if is_enough(low) {
             break;
         }
         (low, high) = (0.5 * low, low);
     }
-    for _ in 0..REFINEMENTS {
+    for _ in 0..tuning.refinements {
         let exponent = f64::midpoint(low, high);
         if is_enough(exponent) {
             low = exponent;
@@ -102,7 +100,14 @@ mod tests {
 
     fn weighed(mut particles: Vec<Particle>, logs: &[f64]) -> Vec<f64> {
         let likelihoods: Vec<_> = logs.iter().map(|&log| of(log)).collect();
-        weigh(&mut particles, &likelihoods, [1.0, 0.3], &mut Vec::new());
+        let tuning = WeightsTuning::default();
+        weigh(
+            &mut particles,
+            &likelihoods,
+            [1.0, 0.3],
+            &tuning,
+            &mut Vec::new(),
+        );
         particles.iter().map(|particle| particle.weight).collect()
     }
 
@@ -130,7 +135,7 @@ mod tests {
         fn weights_are_bayes_where_none_decides_alone(logs in prop::collection::vec(-2.0..0.0f64, 5..50)) {
             let mut particles = cloud(logs.len());
             let likelihoods: Vec<_> = logs.iter().map(|&log| of(log)).collect();
-            weigh(&mut particles, &likelihoods, [1.0, 0.1], &mut Vec::new());
+            weigh(&mut particles, &likelihoods, [1.0, 0.1], &WeightsTuning::default(), &mut Vec::new());
             let sum = logs.iter().map(|log| log.exp()).sum::<f64>();
             for (particle, log) in particles.iter().zip(&logs) {
                 prop_assert!((particle.weight - log.exp() / sum).abs() < 1e-12);
@@ -141,7 +146,7 @@ mod tests {
         fn however_unlikely_all_are_weights_sum_to_one_and_enough_are_left(logs in prop::collection::vec(-3000.0..-1000.0f64, 20..200)) {
             let mut particles = cloud(logs.len());
             let likelihoods: Vec<_> = logs.iter().map(|&log| of(log)).collect();
-            weigh(&mut particles, &likelihoods, [1.0, 0.2], &mut Vec::new());
+            weigh(&mut particles, &likelihoods, [1.0, 0.2], &WeightsTuning::default(), &mut Vec::new());
             let sum = particles.iter().map(|particle| particle.weight).sum::<f64>();
             prop_assert!((sum - 1.0).abs() < 1e-9);
             let number = effective_number(&particles);

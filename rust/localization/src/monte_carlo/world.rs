@@ -11,7 +11,7 @@ use sensing::Intrinsics;
 
 use super::random::{Purpose, Stream};
 use super::{MonteCarloConfig, MonteCarloLocalizer, StaticMap};
-use crate::Localizer;
+use crate::localizer::Localizer;
 use proprioception::BodyState;
 use testkit::state_at;
 

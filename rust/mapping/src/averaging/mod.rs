@@ -11,9 +11,11 @@
 mod config;
 mod means;
 
+use crate::part::WorldModelPart;
 use geometry::{Cell, CellArea, Map, Pose, Robot};
 use segmentation::Planes;
 use settings::{ConfigError, Table};
+use settings::{Part, TableDescription, read};
 
 use crate::surface::{
     LabelledFrame, LabelledPoint, Pair, Reading, Underfoot, Window, check_poses, height_shift,
@@ -21,6 +23,15 @@ use crate::surface::{
 use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
 pub use config::{AveragingConfig, AveragingTuning};
 use means::MeanHeights;
+
+/// How it is listed and made.
+pub(crate) const PART: WorldModelPart = Part {
+    name: "averaging",
+    about: "mean height of each cell's points; what fog is compared with",
+    source: Some("Kagami et al. 2003 (000, sections II and V)"),
+    tables: &[TableDescription::of::<AveragingConfig>()],
+    make: |needs| Ok(Box::new(Averaging::new(read(needs.tables, "averaging")?)?)),
+};
 
 /// Keeps the mean height of each cell and the view made of them.
 #[derive(Debug, Clone)]

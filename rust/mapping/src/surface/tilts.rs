@@ -5,7 +5,7 @@
 
 use geometry::Grid;
 
-use super::SlopeTuning;
+use super::FloorSlopeTuning;
 
 /// Rise per metre along the map's axes.
 type Gradient = [f32; 2];
@@ -20,12 +20,12 @@ pub(super) struct Tilts {
     known: Grid<(Gradient, u8)>,
     /// The gradients that the frame shows which is being inserted.
     frame: Grid<Gradient>,
-    tuning: SlopeTuning,
+    tuning: FloorSlopeTuning,
 }
 
 impl Tilts {
     /// So many cells along each side, all level.
-    pub(super) fn new(cells: usize, tuning: SlopeTuning) -> Self {
+    pub(super) fn new(cells: usize, tuning: FloorSlopeTuning) -> Self {
         Self {
             known: Grid::filled(cells, cells, (LEVEL, 0)),
             frame: Grid::filled(cells, cells, LEVEL),
@@ -91,7 +91,7 @@ mod tests {
     const SLOPE: Gradient = [0.1, -0.05];
 
     fn seen(frames: &[Gradient]) -> Tilts {
-        let mut tilts = Tilts::new(4, SlopeTuning::default());
+        let mut tilts = Tilts::new(4, FloorSlopeTuning::default());
         for &gradient in frames {
             tilts.see(HERE, gradient);
             tilts.merge(HERE, true, NU);

@@ -21,7 +21,7 @@ settings! {
         /// How the heights of floors are kept.
         floors: FloorTuning;
         /// How slopes are told from level floors.
-        slopes: SlopeTuning;
+        slopes: FloorSlopeTuning;
     }
 }
 
@@ -62,7 +62,7 @@ settings! {
 
 settings! {
     /// How slopes are told from level floors.
-    pub struct SlopeTuning("navigation.fog.tuning.slopes") {
+    pub struct FloorSlopeTuning("navigation.fog.tuning.slopes") {
         /// A frame that shows a cell as part of a slope counts for so many frames that show it level: the camera often makes level
         /// strips of a slope, and hardly ever a slope of a level floor.
         seen: u8 = 4, "1", within(1.0, 100.0);

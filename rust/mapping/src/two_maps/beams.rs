@@ -8,7 +8,7 @@ use crate::surface::LabelledFrame;
 use volume::Ray;
 
 /// What stands for the ground.
-pub(super) struct Ground<F> {
+pub(super) struct BeamGround<F> {
     /// Height at which the robot stands, m.
     pub(super) level_m: f64,
     /// What rises by less is floor, m.
@@ -17,7 +17,7 @@ pub(super) struct Ground<F> {
     pub(super) floor_at: F,
 }
 
-impl<F: Fn(usize) -> Option<f32>> Ground<F> {
+impl<F: Fn(usize) -> Option<f32>> BeamGround<F> {
     /// Whether a point, or the level surface that it lies on, stands out of the floor. Normals tell the points of floors; one that
     /// is higher than where the robot stands is the top of something, or another level, and solid.
     fn is_left(&self, z_m: f64, surface_m: f64, index: Option<usize>) -> bool {
@@ -34,7 +34,7 @@ impl<F: Fn(usize) -> Option<f32>> Ground<F> {
 pub(super) fn read<F>(
     rays: &mut Vec<Ray>,
     (frame, planes): (&LabelledFrame, &Planes),
-    ground: &Ground<F>,
+    ground: &BeamGround<F>,
     (voxel_m, tuning): (f64, &BeamsTuning),
 ) where
     F: Fn(usize) -> Option<f32>,

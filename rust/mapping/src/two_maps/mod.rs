@@ -12,13 +12,15 @@ mod known_surfaces;
 mod local_columns;
 mod tuning;
 
+use crate::part::WorldModelPart;
 use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
-use known_map::{KnownMap, Limits, MapAround};
+use known_map::{AroundLimits, KnownMap, MapAround};
 use segmentation::Planes;
 use settings::ConfigError;
+use settings::{Part, TableDescription, read};
 
 use crate::{FloorView, Fog, FogConfig, Insertion, MapError, Surface, Voxel, WorldModel};
-use beams::Ground;
+use beams::BeamGround;
 pub use config::TwoMapsConfig;
 use empty_sight::EmptySight;
 use geometry::runs;
@@ -27,6 +29,18 @@ pub use tuning::{BeamsTuning, EmptySightTuning, KnownSurfacesTuning, TwoMapsTuni
 use volume::Ray;
 use volume::octree::{Cast, Octree, Sighting, ViewLayers, probability};
 use volume::{Clearing, Update};
+
+/// How it is listed and made.
+pub(crate) const PART: WorldModelPart = Part {
+    name: "octree",
+    about: "a static map that is told and a local one of what is seen, octrees",
+    source: Some("Maier, Hornung and Bennewitz 2012 (002)"),
+    tables: &[TableDescription::of::<TwoMapsConfig>()],
+    make: |needs| {
+        let (config, fog) = (read(needs.tables, "octree")?, read(needs.tables, "fog")?);
+        Ok(Box::new(TwoMaps::new(config, &fog, needs.known_map)?))
+    },
+};
 
 /// Keeps the static and the local map, the floors, and the view made of them.
 #[derive(Debug, Clone)]
@@ -126,7 +140,7 @@ impl TwoMaps {
         self.layers = ViewLayers::above(bottom_m, place, self.config.resolution);
         self.view = FloorView::unknown(lattice, self.layers.size()[0]);
         if let Some(known) = &mut self.known {
-            let limits = Limits {
+            let limits = AroundLimits {
                 height_m: self.config.height,
                 rise_m: self.config.rise,
                 delta_m: self.floors.config().delta,
@@ -145,7 +159,7 @@ impl TwoMaps {
         let mut rays = std::mem::take(&mut self.rays);
         rays.clear();
         let frame = self.floors.frame();
-        let ground = Ground {
+        let ground = BeamGround {
             level_m: self.level_m,
             delta_m: self.floors.config().delta,
             floor_at: |index| self.floor_at(index),

@@ -3,7 +3,7 @@
 use crate::course::{self, Course, goal, goal_at, plan, planner, refused, way, way_from};
 use geometry::Cell;
 use mapping::Surface;
-use planning::links::Links;
+use planning::search::links::Links;
 use planning::search::{Graph, Search};
 use planning::{Path, Refusal};
 use proptest::prelude::*;

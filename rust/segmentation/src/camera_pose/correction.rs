@@ -29,13 +29,13 @@ const STATES: usize = 7;
 const HEIGHT: usize = 4;
 const AHEAD: usize = 5;
 const ABOVE: usize = 6;
-type State = SVector<f64, STATES>;
+type TrackState = SVector<f64, STATES>;
 
 /// The filtered correction.
 #[derive(Debug, Clone)]
 pub(crate) struct Correction {
     tuning: CorrectionTuning,
-    state: State,
+    state: TrackState,
     covariance: SMatrix<f64, STATES, STATES>,
     // The direction that was looked in last, and the frames since it is that.
     axis: Vector3<f64>,
@@ -53,7 +53,7 @@ pub(crate) struct Correction {
 impl Correction {
     /// A correction that nothing is known of yet.
     pub(crate) fn new(tuning: CorrectionTuning) -> Self {
-        let sigmas = State::from([
+        let sigmas = TrackState::from([
             tuning.body_roll,
             tuning.body_pitch,
             tuning.head,
@@ -64,7 +64,7 @@ impl Correction {
         ]);
         Self {
             tuning,
-            state: State::zeros(),
+            state: TrackState::zeros(),
             covariance: SMatrix::from_diagonal(&sigmas.component_mul(&sigmas)),
             axis: Vector3::zeros(),
             alike: 0,

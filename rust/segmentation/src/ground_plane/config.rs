@@ -19,7 +19,7 @@ settings! {
         noise_ceiling: f64 = 4.0, "1", at_least(1.0);
         /// Fewest pixels of a region.
         min_region: usize = 80, "1", POSITIVE;
-        /// Fewest pixels of the ground; a third of them must be left when its border is taken off.
+        /// Fewest pixels of the ground. One of `tuning.reference.core_part` of them must be left when its border is taken off.
         min_ground: usize = 150, "1", POSITIVE;
         /// Smallest ground when it is searched without a track, as a share of the image.
         open_floor: f64 = 0.12, "1", SHARE;

@@ -3,9 +3,9 @@
 use super::prisms::{Prism, frame};
 use super::*;
 use crate::Stair;
-use crate::extract::level_edge;
-use crate::view::View;
-use crate::visible::seen_ends;
+use crate::frame::view::PlanesView;
+use crate::frame::visible::seen_ends;
+use crate::stair::level_edge;
 
 pub(super) fn ground() -> Prism {
     Prism::new(&[[-3.0, -3.0], [5.0, -3.0], [5.0, 3.0], [-3.0, 3.0]], 0.0)
@@ -178,11 +178,12 @@ fn a_corner_that_the_picture_cuts_off_a_tread_is_not_where_it_ends() {
     ];
     let right_end = |front: [[f64; 2]; 2], back: [[f64; 2]; 2], pan_rad: f64| {
         let (_, planes) = frame(&prisms, &Pose::identity(), &camera_pose(pan_rad, 1.0));
-        let view = View::new(&planes, CAMERA);
+        let config = StairsConfig::default();
+        let view = PlanesView::new(&planes, CAMERA, &config.tuning.view);
         let edge = |[right, left]: [[f64; 2]; 2]| level_edge([right.into(), left.into()], -0.03);
         let (front, back) = (edge(front), edge(back));
         let stair = Stair::seen(front, back, front.middle(), 200);
-        seen_ends(&stair, [false, true], &view, &StairsConfig::default()).right
+        seen_ends(&stair, [false, true], &view, &config).right
     };
     let back = [[0.2, -0.165], [0.2, 0.165]];
     assert_eq!(right_end([[0.08, -0.165], [0.08, 0.165]], back, -0.3), 200);

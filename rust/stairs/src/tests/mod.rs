@@ -7,7 +7,8 @@ mod remembered;
 mod slopes;
 
 use geometry::{Camera, Map, Pose, Robot};
-use segmentation::{GroundConfig, Planes, ScanLine, ScanLineConfig, Segmenter};
+use segmentation::finders::{ScanLine, ScanLineConfig};
+use segmentation::{GroundConfig, Planes, Segmenter};
 use sensing::Scan;
 
 use crate::synthetic::{Block, CAMERA, Noise, Scene, camera_pose};

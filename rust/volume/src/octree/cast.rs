@@ -3,7 +3,7 @@
 use super::super::VoxelWalk;
 use super::Octree;
 use super::key::{DEPTH, Key, SPAN, centre_m, child_of, in_voxels, key_at, shared_levels};
-use super::nodes::{BRICK_DEPTH, Link, Nodes, voxel_in_brick};
+use super::nodes::{BRICK_DEPTH, NodeLink, Nodes, voxel_in_brick};
 
 /// What a ray comes upon.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +30,7 @@ struct Cursor<'a> {
     nodes: &'a Nodes,
     key: Key,
     /// The links on the way to the voxel, down to where it ends.
-    links: [Link; BRICK_DEPTH as usize + 1],
+    links: [NodeLink; BRICK_DEPTH as usize + 1],
     depth: u32,
 }
 
@@ -52,14 +52,14 @@ impl<'a> Cursor<'a> {
         self.key = key;
         loop {
             match self.links[self.depth as usize] {
-                Link::Unknown => return None,
-                Link::Leaf(value) => return Some(value >= 0.0),
-                Link::Brick(at) => {
+                NodeLink::Unknown => return None,
+                NodeLink::Leaf(value) => return Some(value >= 0.0),
+                NodeLink::Brick(at) => {
                     let (brick, voxel) = (self.nodes.brick(at), voxel_in_brick(key));
                     let known = brick.known() >> voxel & 1 == 1;
                     return known.then_some(brick.occupied() >> voxel & 1 == 1);
                 }
-                Link::Branch(at) => {
+                NodeLink::Branch(at) => {
                     let child = child_of(key, self.depth);
                     self.depth += 1;
                     self.links[self.depth as usize] = self.nodes.branch(at)[child];

@@ -4,14 +4,14 @@ use super::Octree;
 use super::brick::{EDGE, index};
 use super::config::log_odds;
 use super::key::{Key, child_corner, edge};
-use super::nodes::Link;
+use super::nodes::NodeLink;
 
 /// Layers that a column holds.
 pub const LAYERS: i32 = u64::BITS as i32;
 
 /// Where columns lie: cells of `per_cell` voxels along each side, of which the lowest voxel of the first is `low`.
 #[derive(Debug, Clone, Copy)]
-pub struct Footprint {
+pub struct ColumnFootprint {
     /// Counted from the lowest voxel that a tree can hold.
     pub low: [i32; 3],
     /// Cells along x and y.
@@ -20,7 +20,7 @@ pub struct Footprint {
     pub per_cell: usize,
 }
 
-impl Footprint {
+impl ColumnFootprint {
     /// Columns, rows and layers, in voxels.
     fn size(&self) -> [i32; 3] {
         let [cols, rows] = self.cells.map(|cells| (cells * self.per_cell) as i32);
@@ -43,7 +43,7 @@ impl Octree {
     /// which is 0.5 or more; a cell of several columns is marked by each.
     pub fn occupied_columns(
         &self,
-        footprint: &Footprint,
+        footprint: &ColumnFootprint,
         p_occ: f64,
         mut mark: impl FnMut(usize, usize, u64),
     ) {
@@ -62,26 +62,26 @@ impl Octree {
 }
 
 impl<F: FnMut(i32, i32, u64)> Visit<'_, F> {
-    fn link(&mut self, link: Link, corner: Key, depth: u32) {
+    fn link(&mut self, link: NodeLink, corner: Key, depth: u32) {
         let edge = edge(depth) as i32;
         let place: [i32; 3] = std::array::from_fn(|axis| i32::from(corner[axis]) - self.low[axis]);
         if (0..3).any(|axis| place[axis] >= self.size[axis] || place[axis] + edge <= 0) {
             return;
         }
         match link {
-            Link::Unknown => {}
-            Link::Leaf(value) => {
+            NodeLink::Unknown => {}
+            NodeLink::Leaf(value) => {
                 if value >= self.least {
                     self.cube(place, edge);
                 }
             }
-            Link::Branch(at) => {
+            NodeLink::Branch(at) => {
                 let tree = self.tree;
                 for (child, &link) in tree.nodes.branch(at).iter().enumerate() {
                     self.link(link, child_corner(corner, depth, child), depth + 1);
                 }
             }
-            Link::Brick(at) => {
+            NodeLink::Brick(at) => {
                 let occupied = self.tree.nodes.brick(at).at_least(self.least);
                 self.brick(occupied, place);
             }
@@ -144,7 +144,7 @@ mod tests {
             // Part of it is seen twice.
             tree.insert([0.0; 3], &rays[..rays.len() / 2], Update::PerFrame).unwrap();
             let low = low.map(|at| at + 32768);
-            let footprint = Footprint { low, cells: [9, 7], per_cell };
+            let footprint = ColumnFootprint { low, cells: [9, 7], per_cell };
             let mut found = BTreeSet::new();
             tree.occupied_columns(&footprint, p_occ, |col, row, layers| {
                 let layers = (0..64_usize).filter(|layer| layers >> layer & 1 == 1);
@@ -168,7 +168,7 @@ mod tests {
         let mut tree = Octree::new(config).unwrap();
         let beam = tree.beam;
         tree.nodes.set_leaf([32768; 3], 12, beam.highest, &beam);
-        let footprint = Footprint {
+        let footprint = ColumnFootprint {
             low: [32764, 32766, 32760],
             cells: [8, 8],
             per_cell: 2,

@@ -7,7 +7,7 @@ use super::super::placement::{Ray, Size};
 use super::super::{VoxelWalk, voxels::bits};
 use super::brick::{EDGE, index};
 use super::key::{Key, SPAN, in_voxels};
-use super::window::Window;
+use super::window::OctreeWindow;
 use super::{Octree, OctreeError};
 use crate::{Clearing, Update};
 
@@ -20,7 +20,7 @@ const FARTHEST: f64 = 1e12;
 #[derive(Debug, Clone)]
 pub(super) struct Workspace {
     marks: Marks,
-    window: Window,
+    window: OctreeWindow,
 }
 
 impl Default for Workspace {
@@ -32,19 +32,19 @@ impl Default for Workspace {
         };
         Self {
             marks: Marks::new(nothing),
-            window: Window::default(),
+            window: OctreeWindow::default(),
         }
     }
 }
 
 /// A box of voxels.
 #[derive(Debug, Clone, Copy)]
-struct Bounds {
+struct VoxelBounds {
     low: [i32; 3],
     high: [i32; 3],
 }
 
-impl Bounds {
+impl VoxelBounds {
     /// Around what lies between two points, made of whole bricks; none where all of it is beyond what a tree can hold.
     fn around([low, high]: [[f64; 3]; 2]) -> Option<Self> {
         let span = f64::from(SPAN);
@@ -84,12 +84,12 @@ fn seen_from(low: [i32; 3], at: [f64; 3]) -> [f64; 3] {
 
 /// Where beams end, in voxels, and whether something was seen there.
 #[derive(Debug, Clone, Copy)]
-struct Ends<'a> {
+struct RayEnds<'a> {
     rays: &'a [Ray],
     per_m: f64,
 }
 
-impl<'a> Ends<'a> {
+impl<'a> RayEnds<'a> {
     #[inline]
     fn of(self, ray: &Ray) -> ([f64; 3], bool) {
         (in_voxels(ray.end_m, self.per_m), ray.hit)
@@ -140,7 +140,7 @@ impl Octree {
         if !usable(&eye) {
             return Err(OctreeError::Eye);
         }
-        let ends = Ends { rays, per_m };
+        let ends = RayEnds { rays, per_m };
         let corners = ends.corners(eye)?;
         match update {
             Update::PerFrame => self.insert_frame(eye, ends, corners),
@@ -150,7 +150,7 @@ impl Octree {
     }
 
     /// Per point: every beam at once.
-    fn insert_each(&mut self, eye: [f64; 3], ends: Ends<'_>) {
+    fn insert_each(&mut self, eye: [f64; 3], ends: RayEnds<'_>) {
         for (end, hit) in ends.iter() {
             let Some(walk) = VoxelWalk::new(eye, end, [SPAN; 3]) else {
                 continue;
@@ -165,8 +165,8 @@ impl Octree {
     }
 
     /// Per frame: part of space by part of space.
-    fn insert_frame(&mut self, eye: [f64; 3], ends: Ends<'_>, corners: [[f64; 3]; 2]) {
-        let Some(bounds) = Bounds::around(corners) else {
+    fn insert_frame(&mut self, eye: [f64; 3], ends: RayEnds<'_>, corners: [[f64; 3]; 2]) {
+        let Some(bounds) = VoxelBounds::around(corners) else {
             return;
         };
         let size = bounds.size();
@@ -184,7 +184,7 @@ impl Octree {
 
     fn insert_tile(
         &mut self,
-        tile: Bounds,
+        tile: VoxelBounds,
         eye: [f64; 3],
         ends: impl Iterator<Item = ([f64; 3], bool)>,
     ) {
@@ -212,7 +212,7 @@ impl Octree {
     }
 
     /// Brings the marks of the bricks above each other at a place of a tile into the tree.
-    fn update_bricks(&mut self, tile: Bounds, [col, row]: [usize; 2]) {
+    fn update_bricks(&mut self, tile: VoxelBounds, [col, row]: [usize; 2]) {
         let Workspace { marks, window, .. } = &mut self.workspace;
         let cols = tile.size()[0] as usize;
         let mut columns = [[0_u64; 2]; EDGE * EDGE];
@@ -266,7 +266,11 @@ impl Octree {
 }
 
 /// Which rays pass which tiles, in a fixed order.
-fn through_tiles(bounds: Bounds, eye: [f64; 3], ends: Ends<'_>) -> BTreeMap<[i32; 3], Vec<u32>> {
+fn through_tiles(
+    bounds: VoxelBounds,
+    eye: [f64; 3],
+    ends: RayEnds<'_>,
+) -> BTreeMap<[i32; 3], Vec<u32>> {
     let size = bounds.size();
     let count = std::array::from_fn(|axis| (size[axis] + TILE[axis] - 1) / TILE[axis]);
     let in_tiles = |at: [f64; 3]| {

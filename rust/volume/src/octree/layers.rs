@@ -3,7 +3,7 @@
 use geometry::{Cell, CellArea, Lattice, runs};
 
 use super::key::SPAN;
-use super::{Footprint, Octree};
+use super::{ColumnFootprint, Octree};
 
 /// Voxel of the map's origin, counted from the lowest that a tree can hold.
 const ORIGIN: i32 = SPAN / 2;
@@ -66,7 +66,7 @@ impl ViewLayers {
     }
 
     /// The cells of an area as a tree finds them.
-    fn footprint(&self, area: CellArea) -> Footprint {
+    fn footprint(&self, area: CellArea) -> ColumnFootprint {
         let Lattice { origin_m, cell_m } = self.lattice;
         let per_cell = (cell_m / self.resolution_m).round();
         let voxel = |axis: usize, cell: i32| {
@@ -75,7 +75,7 @@ impl ViewLayers {
         };
         let Cell { col, row } = area.min;
         let low = [voxel(0, col), voxel(1, row), self.lowest];
-        Footprint {
+        ColumnFootprint {
             low: low.map(|at| at.saturating_add(ORIGIN)),
             cells: [area.max.col - col + 1, area.max.row - row + 1].map(|cells| cells as usize),
             per_cell: per_cell as usize,

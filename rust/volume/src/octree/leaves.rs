@@ -2,14 +2,14 @@
 
 use super::brick::{Brick, EDGE, cube};
 use super::key::{DEPTH, Key, SPAN, child_corner, edge};
-use super::nodes::{BRICK_DEPTH, Link, Nodes};
+use super::nodes::{BRICK_DEPTH, NodeLink, Nodes};
 
 /// A node of which something is known. Parts of bricks are nodes, too.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Node<'a> {
+pub(super) enum LeafNode<'a> {
     /// A leaf: its log-odds hold everywhere in it.
     Leaf(f32),
-    Branch(&'a [Link; 8]),
+    Branch(&'a [NodeLink; 8]),
     /// A cube of voxels of a brick, not all the same.
     Part {
         brick: &'a Brick,
@@ -21,22 +21,22 @@ pub(super) enum Node<'a> {
 impl Nodes {
     /// The node behind a link.
     #[inline]
-    pub(super) fn node(&self, link: Link) -> Option<Node<'_>> {
+    pub(super) fn node(&self, link: NodeLink) -> Option<LeafNode<'_>> {
         match link {
-            Link::Unknown => None,
-            Link::Leaf(value) => Some(Node::Leaf(value)),
-            Link::Branch(at) => Some(Node::Branch(self.branch(at))),
-            Link::Brick(at) => part(self.brick(at), [0; 3], EDGE),
+            NodeLink::Unknown => None,
+            NodeLink::Leaf(value) => Some(LeafNode::Leaf(value)),
+            NodeLink::Branch(at) => Some(LeafNode::Branch(self.branch(at))),
+            NodeLink::Brick(at) => part(self.brick(at), [0; 3], EDGE),
         }
     }
 
     /// A child of a node.
     #[inline]
-    pub(super) fn child<'a>(&'a self, node: Node<'a>, child: usize) -> Option<Node<'a>> {
+    pub(super) fn child<'a>(&'a self, node: LeafNode<'a>, child: usize) -> Option<LeafNode<'a>> {
         match node {
-            Node::Leaf(_) => None,
-            Node::Branch(children) => self.node(children[child]),
-            Node::Part { brick, place, edge } => {
+            LeafNode::Leaf(_) => None,
+            LeafNode::Branch(children) => self.node(children[child]),
+            LeafNode::Part { brick, place, edge } => {
                 let half = edge / 2;
                 let place = std::array::from_fn(|axis| place[axis] + (child >> axis & 1) * half);
                 part(brick, place, half)
@@ -50,7 +50,7 @@ impl Nodes {
             .map_or(0, |root| self.count_below(root))
     }
 
-    fn count_below(&self, node: Node<'_>) -> usize {
+    fn count_below(&self, node: LeafNode<'_>) -> usize {
         let children = (0..8).filter_map(|child| self.child(node, child));
         1 + children.map(|child| self.count_below(child)).sum::<usize>()
     }
@@ -58,13 +58,13 @@ impl Nodes {
 
 /// A cube of voxels of a brick.
 #[inline]
-fn part(brick: &Brick, place: [usize; 3], edge: usize) -> Option<Node<'_>> {
+fn part(brick: &Brick, place: [usize; 3], edge: usize) -> Option<LeafNode<'_>> {
     let voxels = cube(place, edge);
     if brick.known() & voxels == 0 {
         return None;
     }
-    let whole = Node::Part { brick, place, edge };
-    Some(brick.common(voxels).map_or(whole, Node::Leaf))
+    let whole = LeafNode::Part { brick, place, edge };
+    Some(brick.common(voxels).map_or(whole, LeafNode::Leaf))
 }
 
 /// The largest cube of the tree around a place in which the same is known.
@@ -97,7 +97,7 @@ pub struct Leaves<'a> {
     /// Lowest and highest voxel of the box.
     bounds: [Key; 2],
     /// What is still to be visited, the next one last.
-    stack: Vec<(Node<'a>, Key, u32)>,
+    stack: Vec<(LeafNode<'a>, Key, u32)>,
 }
 
 impl<'a> Leaves<'a> {
@@ -128,7 +128,7 @@ impl Iterator for Leaves<'_> {
             if !self.meets(corner, depth) {
                 continue;
             }
-            if let Node::Leaf(log_odds) = node {
+            if let LeafNode::Leaf(log_odds) = node {
                 return Some(Leaf {
                     corner,
                     depth,

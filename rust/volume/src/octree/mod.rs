@@ -19,7 +19,7 @@ mod writing;
 use settings::{ConfigError, Table};
 
 pub use cast::{Cast, Sighting};
-pub use columns::{Footprint, LAYERS};
+pub use columns::{ColumnFootprint, LAYERS};
 pub use config::{OctreeConfig, probability};
 pub use error::OctreeError;
 pub use header::Format;

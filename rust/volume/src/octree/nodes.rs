@@ -9,7 +9,7 @@ pub(super) const BRICK_DEPTH: u32 = 14;
 
 /// What is below a node.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) enum Link {
+pub(super) enum NodeLink {
     /// Nothing is known.
     #[default]
     Unknown,
@@ -31,20 +31,20 @@ struct Slot {
 /// Always pruned: no branch has eight equal leaves, no brick is uniform or unknown.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Nodes {
-    root: Link,
-    branches: Vec<[Link; 8]>,
+    root: NodeLink,
+    branches: Vec<[NodeLink; 8]>,
     bricks: Vec<Brick>,
     free_branches: Vec<u32>,
     free_bricks: Vec<u32>,
 }
 
 impl Nodes {
-    pub(super) const fn root(&self) -> Link {
+    pub(super) const fn root(&self) -> NodeLink {
         self.root
     }
 
     #[inline]
-    pub(super) fn branch(&self, at: u32) -> &[Link; 8] {
+    pub(super) fn branch(&self, at: u32) -> &[NodeLink; 8] {
         &self.branches[at as usize]
     }
 
@@ -63,10 +63,10 @@ impl Nodes {
         let mut link = self.root;
         for depth in 0..=BRICK_DEPTH {
             match link {
-                Link::Unknown => return None,
-                Link::Leaf(value) => return Some(value),
-                Link::Branch(at) => link = self.branch(at)[child_of(key, depth)],
-                Link::Brick(at) => return self.brick(at).value(voxel_in_brick(key)),
+                NodeLink::Unknown => return None,
+                NodeLink::Leaf(value) => return Some(value),
+                NodeLink::Branch(at) => link = self.branch(at)[child_of(key, depth)],
+                NodeLink::Brick(at) => return self.brick(at).value(voxel_in_brick(key)),
             }
         }
         None
@@ -76,23 +76,23 @@ impl Nodes {
     pub(super) fn bytes(&self) -> usize {
         let branches = self.branches.len() - self.free_branches.len();
         let bricks = self.bricks.len() - self.free_bricks.len();
-        branches * size_of::<[Link; 8]>() + bricks * size_of::<Brick>()
+        branches * size_of::<[NodeLink; 8]>() + bricks * size_of::<Brick>()
     }
 
     /// The brick of a voxel, made of what is known there. It has to be [`Self::prune`]d when its voxels have been changed.
     pub(super) fn expand(&mut self, key: Key, beam: &Beam) -> u32 {
         let slot = self.descend(key, BRICK_DEPTH);
         let known = match self.link(slot) {
-            Link::Brick(at) => return at,
-            Link::Leaf(value) => Some(value),
-            Link::Unknown | Link::Branch(_) => None,
+            NodeLink::Brick(at) => return at,
+            NodeLink::Leaf(value) => Some(value),
+            NodeLink::Unknown | NodeLink::Branch(_) => None,
         };
         let mut brick = Brick::unknown();
         if let Some(value) = known {
             brick.fill(u64::MAX, value, beam);
         }
         let at = store(&mut self.bricks, &mut self.free_bricks, brick);
-        self.set(slot, Link::Brick(at));
+        self.set(slot, NodeLink::Brick(at));
         at
     }
 
@@ -100,7 +100,7 @@ impl Nodes {
     pub(super) fn set_leaf(&mut self, corner: Key, depth: u32, value: f32, beam: &Beam) {
         if depth <= BRICK_DEPTH {
             let slot = self.descend(corner, depth);
-            self.set(slot, Link::Leaf(value));
+            self.set(slot, NodeLink::Leaf(value));
         } else {
             let at = self.expand(corner, beam);
             let place = corner.map(|at| usize::from(at) % EDGE);
@@ -116,7 +116,7 @@ impl Nodes {
             child: 0,
         }; BRICK_DEPTH as usize + 1];
         let mut depth = 0;
-        while let Link::Branch(branch) = self.link(path[depth]) {
+        while let NodeLink::Branch(branch) = self.link(path[depth]) {
             let child = child_of(key, depth as u32);
             depth += 1;
             path[depth] = Slot {
@@ -129,26 +129,26 @@ impl Nodes {
                 return;
             };
             match self.link(*slot) {
-                Link::Brick(at) => self.free_bricks.push(at),
-                Link::Branch(at) => self.free_branches.push(at),
-                Link::Leaf(_) | Link::Unknown => {}
+                NodeLink::Brick(at) => self.free_bricks.push(at),
+                NodeLink::Branch(at) => self.free_branches.push(at),
+                NodeLink::Leaf(_) | NodeLink::Unknown => {}
             }
-            self.set(*slot, Link::Leaf(value));
+            self.set(*slot, NodeLink::Leaf(value));
         }
     }
 
     /// The value of all voxels below a link whose children are pruned, if it is the same.
-    fn uniform(&self, link: Link) -> Option<f32> {
+    fn uniform(&self, link: NodeLink) -> Option<f32> {
         match link {
-            Link::Unknown => None,
-            Link::Leaf(value) => Some(value),
-            Link::Brick(at) => self.brick(at).common(u64::MAX),
-            Link::Branch(at) => {
+            NodeLink::Unknown => None,
+            NodeLink::Leaf(value) => Some(value),
+            NodeLink::Brick(at) => self.brick(at).common(u64::MAX),
+            NodeLink::Branch(at) => {
                 let children = self.branch(at);
-                let Link::Leaf(first) = children[0] else {
+                let NodeLink::Leaf(first) = children[0] else {
                     return None;
                 };
-                let same = |link: &Link| matches!(link, Link::Leaf(value) if value.to_bits() == first.to_bits());
+                let same = |link: &NodeLink| matches!(link, NodeLink::Leaf(value) if value.to_bits() == first.to_bits());
                 children.iter().all(same).then_some(first)
             }
         }
@@ -162,10 +162,10 @@ impl Nodes {
         };
         for level in 0..depth {
             let branch = match self.link(slot) {
-                Link::Branch(branch) => branch,
+                NodeLink::Branch(branch) => branch,
                 other => {
                     let branch = store(&mut self.branches, &mut self.free_branches, [other; 8]);
-                    self.set(slot, Link::Branch(branch));
+                    self.set(slot, NodeLink::Branch(branch));
                     branch
                 }
             };
@@ -178,12 +178,12 @@ impl Nodes {
     }
 
     #[inline]
-    fn link(&self, slot: Slot) -> Link {
+    fn link(&self, slot: Slot) -> NodeLink {
         slot.branch
             .map_or(self.root, |at| self.branch(at)[slot.child])
     }
 
-    fn set(&mut self, slot: Slot, link: Link) {
+    fn set(&mut self, slot: Slot, link: NodeLink) {
         match slot.branch {
             Some(at) => self.branches[at as usize][slot.child] = link,
             None => self.root = link,

@@ -4,14 +4,14 @@ use super::super::placement::Size;
 use super::brick::{EDGE, index};
 use super::config::Beam;
 use super::key::{Key, child_corner, edge};
-use super::nodes::{Link, Nodes};
+use super::nodes::{NodeLink, Nodes};
 
 /// No brick is there.
 const NONE: u32 = u32::MAX;
 
 /// A copy of what a frame needs of the tree. Reused from frame to frame.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Window {
+pub(super) struct OctreeWindow {
     low: [i32; 3],
     /// Voxels, and bricks, along each axis.
     size: [i32; 3],
@@ -21,7 +21,7 @@ pub(super) struct Window {
     settled: Vec<u64>,
 }
 
-impl Window {
+impl OctreeWindow {
     /// Looks at the voxels of a box of so many whole bricks.
     pub(super) fn look(&mut self, nodes: &Nodes, beam: &Beam, low: [i32; 3], size: Size) {
         let Size { cols, rows, layers } = size;
@@ -52,20 +52,20 @@ impl Window {
         (row * cols + col) * layers + layer
     }
 
-    fn visit(&mut self, nodes: &Nodes, beam: &Beam, link: Link, corner: Key, depth: u32) {
+    fn visit(&mut self, nodes: &Nodes, beam: &Beam, link: NodeLink, corner: Key, depth: u32) {
         let edge = edge(depth) as i32;
         let place: [i32; 3] = std::array::from_fn(|axis| i32::from(corner[axis]) - self.low[axis]);
         if (0..3).any(|axis| place[axis] >= self.size[axis] || place[axis] + edge <= 0) {
             return;
         }
         match link {
-            Link::Unknown => {}
-            Link::Leaf(value) => {
+            NodeLink::Unknown => {}
+            NodeLink::Leaf(value) => {
                 if value <= beam.lowest {
                     self.settle(place, edge);
                 }
             }
-            Link::Branch(at) => {
+            NodeLink::Branch(at) => {
                 for (child, &link) in nodes.branch(at).iter().enumerate() {
                     self.visit(
                         nodes,
@@ -76,7 +76,7 @@ impl Window {
                     );
                 }
             }
-            Link::Brick(at) => {
+            NodeLink::Brick(at) => {
                 self.note(at, nodes.brick(at).settled(), place.map(|at| at as usize));
             }
         }

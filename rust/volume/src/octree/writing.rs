@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::header::{self, Format};
-use super::leaves::Node;
+use super::leaves::LeafNode;
 use super::{Octree, OctreeError};
 
 /// What a node is in a `.bt` file.
@@ -56,8 +56,8 @@ impl Octree {
     }
 
     /// Appends a node and all below it; returns its log-odds, the highest of its children's.
-    fn put_full(&self, node: Node<'_>, data: &mut Vec<u8>) -> f32 {
-        if let Node::Leaf(value) = node {
+    fn put_full(&self, node: LeafNode<'_>, data: &mut Vec<u8>) -> f32 {
+        if let LeafNode::Leaf(value) = node {
             data.extend(value.to_le_bytes());
             data.push(0);
             return value;
@@ -77,8 +77,8 @@ impl Octree {
     }
 
     /// Appends an inner node and all inner ones below it; returns what it is in the file, and how many nodes are below it.
-    fn put_binary(&self, node: Node<'_>, data: &mut Vec<u8>) -> (Kind, usize) {
-        if let Node::Leaf(value) = node {
+    fn put_binary(&self, node: LeafNode<'_>, data: &mut Vec<u8>) -> (Kind, usize) {
+        if let LeafNode::Leaf(value) = node {
             return (
                 if value >= 0.0 {
                     Kind::Occupied

@@ -77,7 +77,7 @@ fn squared_distances(solid: &[bool], [cols, rows, layers]: [usize; 3], kind: boo
     let mut squares: Vec<f64> = (solid.iter())
         .map(|&is| if is == kind { 0.0 } else { NONE })
         .collect();
-    let mut envelope = Envelope::new(cols.max(rows).max(layers));
+    let mut envelope = LowerEnvelope::new(cols.max(rows).max(layers));
     for row in 0..rows * layers {
         envelope.transform(&mut squares, row * cols, 1, cols);
     }
@@ -93,7 +93,7 @@ fn squared_distances(solid: &[bool], [cols, rows, layers]: [usize; 3], kind: boo
 }
 
 /// The lower envelope of parabolas along one line of voxels.
-struct Envelope {
+struct LowerEnvelope {
     line: Vec<f64>,
     /// Places of the parabolas.
     at: Vec<usize>,
@@ -101,7 +101,7 @@ struct Envelope {
     from: Vec<f64>,
 }
 
-impl Envelope {
+impl LowerEnvelope {
     fn new(longest: usize) -> Self {
         Self {
             line: vec![0.0; longest],

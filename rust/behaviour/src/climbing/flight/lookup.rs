@@ -9,7 +9,7 @@ use crate::place::distance_m;
 
 /// By what steps are found.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Rules<'a> {
+pub(crate) struct StepRules<'a> {
     /// Which changes of height are steps.
     pub(crate) climbing: &'a ClimbingConfig,
     /// Which sights are of the same step.
@@ -46,7 +46,7 @@ pub(crate) fn is_same(step: &Step, stair: &Stair<Map>, lookup: &StepLookupTuning
 }
 
 /// The step behind another by the stairs alone: the nearest whose change of height a parameter set takes.
-pub(crate) fn following(last: &Step, stairs: &Staircase, rules: &Rules<'_>) -> Option<Step> {
+pub(crate) fn following(last: &Step, stairs: &Staircase, rules: &StepRules<'_>) -> Option<Step> {
     let (least_m, joint_m) = (rules.lookup.least_tread, rules.lookup.joint);
     let middle = last.stair.back.middle().inner;
     let end_m = last.stair.front.beyond_m([middle.x, middle.y]) + joint_m;
@@ -61,7 +61,7 @@ pub(crate) fn nearest(
     pose: &PlanarPose,
     ground_m: f64,
     reach_m: f64,
-    rules: &Rules<'_>,
+    rules: &StepRules<'_>,
 ) -> Option<Step> {
     let way = ([pose.x_m, pose.y_m], pose.yaw_rad);
     let near = |away_m| away_m > 0.0 && away_m < reach_m;
@@ -74,7 +74,7 @@ fn nearest_where(
     stairs: &Staircase,
     (from_m, heading_rad): ([f64; 2], f64),
     level_m: f64,
-    rules: &Rules<'_>,
+    rules: &StepRules<'_>,
 ) -> Option<Step> {
     let step = |stair: &Stair<Map>| {
         let (away_m, crossing_m) = ahead(stair, from_m, heading_rad, rules.lookup)?;
@@ -141,7 +141,7 @@ pub(crate) fn crosses_another(
     (pose, ground_m): (&PlanarPose, f64),
     to: &PlanarPose,
     step: &Step,
-    rules: &Rules<'_>,
+    rules: &StepRules<'_>,
 ) -> bool {
     nearest(stairs, pose, ground_m, pose.distance_m(to), rules)
         .is_some_and(|other| !is_same(step, &other.stair, rules.lookup))
@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn the_way_to_a_step_may_cross_its_own_edge_but_no_other_one() {
         let (climbing, lookup) = (ClimbingConfig::default(), StepLookupTuning::default());
-        let rules = Rules {
+        let rules = StepRules {
             climbing: &climbing,
             lookup: &lookup,
         };

@@ -6,8 +6,10 @@
 
 mod config;
 
+use crate::part::SegmenterPart;
 use sensing::Intrinsics;
 use settings::{ConfigError, Table};
+use settings::{Part, TableDescription, read};
 
 use crate::ground_plane::config::GroundConfig;
 use crate::ground_plane::grounded::Grounded;
@@ -18,6 +20,21 @@ use crate::regions::finder::{Finder, Look};
 use crate::regions::region::Region;
 pub use config::HistogramConfig;
 use config::HistogramTuning;
+
+/// How it is listed and made.
+pub const PART: SegmenterPart = Part {
+    name: "histogram",
+    about: "level surfaces by the peaks of a histogram of heights",
+    source: None,
+    tables: &[TableDescription::of::<HistogramConfig>()],
+    make: |needs| {
+        let (config, ground) = (
+            read(needs.tables, "histogram")?,
+            read(needs.tables, "ground")?,
+        );
+        Ok(Box::new(Histogram::new(&config, ground, needs.camera)?))
+    },
+};
 
 /// The segmenter of horizontal surfaces by heights.
 pub type Histogram = Grounded<Peaks>;

@@ -7,9 +7,11 @@
 mod accumulator;
 mod config;
 
+use crate::part::SegmenterPart;
 use nalgebra::{Matrix3, Vector3};
 use sensing::Intrinsics;
 use settings::{ConfigError, Table};
+use settings::{Part, TableDescription, read};
 
 use crate::finders::free_planes::draws::Draws;
 use crate::finders::free_planes::peeling::Peeling;
@@ -22,6 +24,18 @@ use crate::regions::finder::{Finder, Look};
 use crate::regions::region::Region;
 use accumulator::Accumulator;
 pub use config::HoughConfig;
+
+/// How it is listed and made.
+pub const PART: SegmenterPart = Part {
+    name: "hough",
+    about: "planes in any direction by a randomised Hough transform",
+    source: Some("Xu, Oja and Kultanen 1990; Okada et al. 2001 (003, section I)"),
+    tables: &[TableDescription::of::<HoughConfig>()],
+    make: |needs| {
+        let (config, ground) = (read(needs.tables, "hough")?, read(needs.tables, "ground")?);
+        Ok(Box::new(Hough::new(&config, ground, needs.camera)?))
+    },
+};
 
 /// The segmenter of free planes by votes.
 pub type Hough = Grounded<Votes>;

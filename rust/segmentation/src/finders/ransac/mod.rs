@@ -6,8 +6,10 @@
 
 mod config;
 
+use crate::part::SegmenterPart;
 use sensing::Intrinsics;
 use settings::{ConfigError, Table};
+use settings::{Part, TableDescription, read};
 
 use crate::finders::free_planes::draws::Draws;
 use crate::finders::free_planes::peeling::Peeling;
@@ -19,6 +21,18 @@ use crate::picture::view::{Linear, View};
 use crate::regions::finder::{Finder, Look};
 use crate::regions::region::Region;
 pub use config::RansacConfig;
+
+/// How it is listed and made.
+pub const PART: SegmenterPart = Part {
+    name: "ransac",
+    about: "planes in any direction by repeated random samples",
+    source: Some("Fischler and Bolles 1981"),
+    tables: &[TableDescription::of::<RansacConfig>()],
+    make: |needs| {
+        let (config, ground) = (read(needs.tables, "ransac")?, read(needs.tables, "ground")?);
+        Ok(Box::new(Ransac::new(&config, ground, needs.camera)?))
+    },
+};
 
 /// The segmenter of free planes by random samples.
 pub type Ransac = Grounded<Consensus>;

@@ -12,8 +12,10 @@ mod steep;
 mod strip_rows;
 mod strips;
 
+use crate::part::SegmenterPart;
 use sensing::Intrinsics;
 use settings::{ConfigError, Table};
+use settings::{Part, TableDescription, read};
 
 use crate::ground_plane::config::GroundConfig;
 use crate::ground_plane::grounded::Grounded;
@@ -25,6 +27,21 @@ pub use config::ScanLineConfig;
 use grouping::Grouping;
 use rules::{GrowthRules, StripRules};
 use strips::{LevelSegment, Strips};
+
+/// How it is listed and made.
+pub const PART: SegmenterPart = Part {
+    name: "scan_line",
+    about: "planes by scan-line grouping, thresholds follow the local noise",
+    source: Some("003, section III, after Jiang and Bunke 1994"),
+    tables: &[TableDescription::of::<ScanLineConfig>()],
+    make: |needs| {
+        let (config, ground) = (
+            read(needs.tables, "scan_line")?,
+            read(needs.tables, "ground")?,
+        );
+        Ok(Box::new(ScanLine::new(&config, ground, needs.camera)?))
+    },
+};
 
 /// The scan-line segmenter.
 pub type ScanLine = Grounded<ScanLines>;

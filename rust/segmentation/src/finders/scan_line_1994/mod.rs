@@ -9,8 +9,10 @@ mod config;
 mod growth;
 mod lines;
 
+use crate::part::SegmenterPart;
 use sensing::Intrinsics;
 use settings::{ConfigError, Table};
+use settings::{Part, TableDescription, read};
 
 use crate::finders::free_planes::planes::FreePlanes;
 use crate::ground_plane::config::GroundConfig;
@@ -22,6 +24,21 @@ use crate::regions::region::Region;
 pub use config::ScanLine1994Config;
 use growth::{PlaneGrowth, PlaneGrowthRules};
 use lines::{LineRules, Lines, StraightSegment};
+
+/// How it is listed and made.
+pub const PART: SegmenterPart = Part {
+    name: "scan_line_1994",
+    about: "scan-line grouping as published: straight lines, fixed thresholds",
+    source: Some("Jiang and Bunke 1994 (000, reference 10)"),
+    tables: &[TableDescription::of::<ScanLine1994Config>()],
+    make: |needs| {
+        let (config, ground) = (
+            read(needs.tables, "scan_line_1994")?,
+            read(needs.tables, "ground")?,
+        );
+        Ok(Box::new(ScanLine1994::new(&config, ground, needs.camera)?))
+    },
+};
 
 /// The scan-line segmenter of 1994.
 pub type ScanLine1994 = Grounded<StraightLines>;

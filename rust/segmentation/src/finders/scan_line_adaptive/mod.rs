@@ -12,8 +12,10 @@ mod merging;
 mod patch;
 mod pieces;
 
+use crate::part::SegmenterPart;
 use sensing::Intrinsics;
 use settings::{ConfigError, Table};
+use settings::{Part, TableDescription, read};
 
 use crate::finders::free_planes::planes::FreePlanes;
 use crate::ground_plane::config::GroundConfig;
@@ -27,6 +29,25 @@ pub use config::ScanLineAdaptiveConfig;
 use merging::{MergeRules, Merging};
 use patch::NoiseRange;
 use pieces::{CutRules, Cutter, Piece};
+
+/// How it is listed and made.
+pub const PART: SegmenterPart = Part {
+    name: "scan_line_adaptive",
+    about: "scan-line grouping of planes in any direction, each with a noise of its own",
+    source: Some("000, section III, after Jiang and Bunke 1994"),
+    tables: &[TableDescription::of::<ScanLineAdaptiveConfig>()],
+    make: |needs| {
+        let (config, ground) = (
+            read(needs.tables, "scan_line_adaptive")?,
+            read(needs.tables, "ground")?,
+        );
+        Ok(Box::new(ScanLineAdaptive::new(
+            &config,
+            ground,
+            needs.camera,
+        )?))
+    },
+};
 
 /// The scan-line segmenter of planes in any direction.
 pub type ScanLineAdaptive = Grounded<NoisyLines>;

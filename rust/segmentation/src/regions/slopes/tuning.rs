@@ -98,13 +98,13 @@ settings! {
     /// How a slope is told from stairs: by the flight of treads that explains the same pixels best.
     pub struct TreadTuning("navigation.ground.tuning.slopes.treads") {
         /// Step in which pixels are put together by how far up the slope they are.
-        bin: f64 = 0.01, "m", POSITIVE;
+        bin: f64 = 0.01, "m", within(0.001, 0.1);
         /// Lowest step of stairs: the treads of a flight that rises like the slope are as deep as the slope takes to rise by it.
         step: f64 = 0.012, "m", POSITIVE;
         /// Least depth of a tread.
         depth: f64 = 0.05, "m", POSITIVE;
         /// Most that lies between two treads in the picture: a riser, and what the matching window makes of its edges.
-        riser: f64 = 0.05, "m", NOT_NEGATIVE;
+        riser: f64 = 0.05, "m", within(0.0, 1.0);
         /// Price of one more tread, in squared noise: for the place of its edge, and its height.
         price: f64 = 2.0, "1", NOT_NEGATIVE;
         /// Directions to each side of the slope's own in which stairs are tried at first: a plane through stairs of which only a part
@@ -115,7 +115,7 @@ settings! {
         /// The best direction is searched to this: half a metre to the side an edge is then off by a bin.
         last_turn: f64 = 0.02, "rad", POSITIVE;
         /// Most bins along a slope; what is further up counts to the last one.
-        most_bins: usize = 250, "1", within(1.0, 10000.0);
+        most_bins: usize = 250, "1", within(1.0, 1000.0);
     }
 }
 

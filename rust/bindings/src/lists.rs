@@ -1,0 +1,46 @@
+//! What there is to choose from and to set: the components and the tables of settings.
+
+use pyo3::prelude::*;
+
+/// A row of `components`.
+type Row = (
+    &'static str,
+    &'static str,
+    &'static str,
+    Option<&'static str>,
+);
+
+/// Slot, name, one line and paper of each component that a name stands for.
+#[pyfunction]
+pub(crate) fn components() -> Vec<Row> {
+    let all = pilot::components();
+    all.iter()
+        .map(|one| one.listed())
+        .map(|one| (one.slot, one.name, one.about, one.source))
+        .collect()
+}
+
+/// The names of the tables of settings, as in `fog` of `[navigation.fog]`, and `gait`.
+#[pyfunction]
+pub(crate) fn tables() -> Vec<&'static str> {
+    let all = pilot::tables();
+    let last = |key: &'static str| key.rsplit_once('.').map_or(key, |(_, name)| name);
+    all.iter().map(|table| last(table.key)).collect()
+}
+
+/// All tables of settings as JSON: key, about, parameters, schema.
+#[pyfunction]
+pub(crate) fn parameters() -> String {
+    let all: Vec<_> = pilot::tables()
+        .iter()
+        .map(|table| {
+            serde_json::json!({
+                "key": table.key,
+                "about": table.about,
+                "parameters": table.parameters(),
+                "schema": table.schema(),
+            })
+        })
+        .collect();
+    serde_json::Value::from(all).to_string()
+}

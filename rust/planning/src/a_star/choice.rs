@@ -1,0 +1,104 @@
+//! The path before, or a new one.
+
+use geometry::{PlanarPose, angle_between};
+use terrain::StandingAt;
+
+use crate::path::ends::PathEnd;
+use crate::path::followed_path::FollowedPath;
+use crate::{AStar, Goal, NoWay, Path, Plan};
+
+impl AStar {
+    /// What is left of the path before where it holds.
+    pub(crate) fn rest(&mut self, stand: &StandingAt, goal: &Goal) -> Option<FollowedPath> {
+        let followed = (self.followed.as_ref()).filter(|followed| followed.goal == *goal)?;
+        if followed.end == PathEnd::Look
+            && let Some(&end_m) = followed.path.points_m.last()
+            && self.viewpoints.arrive(stand.at_m, end_m)
+        {
+            return None;
+        }
+        let mut rest = followed.rest(&self.terrain, &self.links, stand, &self.config)?;
+        rest.annotate(&self.terrain, &self.config);
+        Some(rest)
+    }
+
+    /// The path before, or the new one if it is much better or leads further.
+    pub(crate) fn choose(
+        &mut self,
+        rest: Option<FollowedPath>,
+        found: Result<FollowedPath, NoWay>,
+        start: &PlanarPose,
+    ) -> Plan {
+        let (mut new, rest) = match (found, rest) {
+            (Ok(new), rest) => (new, rest),
+            (Err(_), Some(rest)) if rest.end.is_certain() => return self.hold(rest),
+            (Err(no_way), _) => {
+                self.followed = None;
+                return Plan {
+                    way: Err(no_way),
+                    replanned: true,
+                };
+            }
+        };
+        new.annotate(&self.terrain, &self.config);
+        let Some(rest) = rest else {
+            return self.follow(new, true);
+        };
+        let setting_off_m = self.config.tuning.choice.setting_off;
+        let cost_m = |path: &Path| {
+            path.cost_m + self.config.turn_cost * turn_rad(path, start, setting_off_m)
+        };
+        let (new_m, rest_m) = (cost_m(&new.path), cost_m(&rest.path));
+        let further_m = self.left_m(&new, &new.goal) - self.left_m(&rest, &new.goal);
+        let worse = new_m + further_m >= self.config.better * rest_m;
+        let stays = match (rest.end.is_certain(), new.end.is_certain()) {
+            (true, true) => worse,
+            (true, false) => true,
+            (false, true) => false,
+            (false, false) => worse && rest.end == new.end && rest.steps() == new.steps(),
+        };
+        if stays {
+            self.hold(rest)
+        } else {
+            self.follow(new, true)
+        }
+    }
+
+    /// Goes on with the path before.
+    pub(crate) fn hold(&mut self, rest: FollowedPath) -> Plan {
+        self.follow(rest, false)
+    }
+
+    /// What is left behind the end of a path, m. Paths end where the window did when they were found, one further on than the
+    /// other.
+    fn left_m(&self, followed: &FollowedPath, goal: &Goal) -> f64 {
+        match (followed.end, followed.path.points_m.last()) {
+            (PathEnd::Border, Some(&end_m)) => self.outside.left_m(end_m, goal),
+            _ => 0.0,
+        }
+    }
+
+    /// Follows a path, the new one or what is left of the one before.
+    fn follow(&mut self, mut followed: FollowedPath, replanned: bool) -> Plan {
+        followed.unknown = followed.unknown_points();
+        let path = followed.path.clone();
+        self.followed = Some(followed);
+        Plan {
+            way: Ok(path),
+            replanned,
+        }
+    }
+}
+
+/// How far the robot has to turn to set off on a path, rad.
+fn turn_rad(path: &Path, start: &PlanarPose, setting_off_m: f64) -> f64 {
+    let away_m = |point: &&[f64; 2]| (point[0] - start.x_m).hypot(point[1] - start.y_m);
+    let ahead = path
+        .points_m
+        .iter()
+        .find(|point| away_m(point) > setting_off_m);
+    ahead.map_or(0.0, |[x, y]| {
+        let bearing_rad = (y - start.y_m).atan2(x - start.x_m);
+        angle_between(start.yaw_rad, bearing_rad).abs()
+    })
+}

@@ -1,0 +1,123 @@
+//! A new path: to the goal, to stairs of which a limit is in doubt, or to a place to look from.
+
+use terrain::{StandingAt, Terrain};
+
+use crate::climb_links::Fit;
+use crate::path::ends::{PathEnd, PathEnds, end_of, run};
+use crate::path::followed_path::FollowedPath;
+use crate::refusal::{explain, first_limit};
+use crate::search::Route;
+use crate::{AStar, Goal, NoWay, Refusal};
+
+impl AStar {
+    /// A new path over the terrain.
+    pub(crate) fn find(&mut self, stand: &StandingAt, goal: &Goal) -> Result<FollowedPath, NoWay> {
+        let outside = || NoWay {
+            refusal: Refusal::NoPath,
+            sentence: "the robot stands outside of its map".into(),
+        };
+        let start = self.terrain.index_at(stand.at_m).ok_or_else(outside)?;
+        let (route, worst, end) = self.route(stand, start, goal)?;
+        let (terrain, links) = (&self.terrain, &self.links);
+        let end_m = |last: usize| {
+            let middle = [goal.x_m, goal.y_m];
+            if terrain.index_at(middle) == Some(last) {
+                middle
+            } else {
+                terrain.center_m(last)
+            }
+        };
+        let mut followed = FollowedPath::from(stand.at_m, *goal, end);
+        followed.inside = terrain.index_at([goal.x_m, goal.y_m]).is_some();
+        let tuning = &self.config.tuning.legs;
+        followed.go_along(terrain, links, (&route, worst), end_m, tuning);
+        Ok(followed)
+    }
+
+    /// The cheapest route over what is known to fit; and whether it may lead out of the window and back to a goal in it.
+    fn known(&mut self, stand: &StandingAt, start: usize, goal: &Goal) -> (Option<Route>, bool) {
+        let (terrain, links) = (&self.terrain, &self.links);
+        let (height_m, config) = (stand.height_m, &self.config);
+        let tuning = &config.tuning.path_search;
+        let search = &mut self.search;
+        let ends = PathEnds::new(terrain, &self.outside, goal, height_m, config);
+        let known = run(search, terrain, links, &ends, start, Fit::Holds);
+        let straight = ends.away(start) + tuning.far_more / terrain.lattice.cell_m;
+        let is_around =
+            (self.followed.as_ref()).is_some_and(|followed| followed.end == PathEnd::Border);
+        let is_far = |route: &Route| route.cost > tuning.far * straight;
+        // What was seen of the ground outside of the window tells no levels apart.
+        let looks_around = ends.inside && !ends.on_another_level();
+        if !(looks_around && known.as_ref().map_or(is_around, is_far)) {
+            return (known, false);
+        }
+        self.outside.look_around(terrain, goal);
+        let mut ends = PathEnds::new(terrain, &self.outside, goal, height_m, config);
+        ends.around = true;
+        (run(search, terrain, links, &ends, start, Fit::Holds), true)
+    }
+
+    /// The cheapest route to the goal, the worst ways that are part of it, and its end. Where there is none, or none that is more than a hope: to the stairs that would lead
+    /// there if they were other than they look from afar; else to where more is to be seen.
+    fn route(
+        &mut self,
+        stand: &StandingAt,
+        start: usize,
+        goal: &Goal,
+    ) -> Result<(Route, Fit, PathEnd), NoWay> {
+        let (known, around) = self.known(stand, start, goal);
+        let (terrain, links) = (&self.terrain, &self.links);
+        let config = &self.config;
+        let (guess_m, refusal) = (config.tuning.path_search.guess, &config.tuning.refusal);
+        let mut ends = PathEnds::new(terrain, &self.outside, goal, stand.height_m, config);
+        ends.around = around;
+        let search = &mut self.search;
+        let hoped = |route: &Route| {
+            let last = route.cells.last();
+            let blind = last.is_some_and(|&cell| ends.is_blind(cell as usize));
+            blind || unseen_m(terrain, route) > guess_m
+        };
+        let mut limit = None;
+        if known.as_ref().is_none_or(hoped) {
+            let cheaper =
+                |route: &Route| known.as_ref().is_none_or(|known| route.cost < known.cost);
+            // Without a way that fits just so badly, a search would find what is known already.
+            let mut search_with = |worst| {
+                let any = links.has(worst);
+                let found = any.then(|| run(search, terrain, links, &ends, start, worst));
+                found.flatten().filter(cheaper)
+            };
+            if let Some(route) = search_with(Fit::Doubtful) {
+                return Ok((route, Fit::Doubtful, PathEnd::Look));
+            }
+            let lifted = search_with(Fit::Broken);
+            limit = lifted
+                .and_then(|route| first_limit(terrain, links, (&self.climbing, refusal), &route));
+        }
+        // From where the robot stands stairs may lead down elsewhere; what is too high or too short stays so.
+        let here =
+            |(no_way, before): &(NoWay, usize)| no_way.refusal == Refusal::Drop && *before == 0;
+        if let Some((no_way, _)) = limit.take_if(|limit| !here(limit)) {
+            return Err(no_way);
+        }
+        let (route, end) = if let Some(route) = known {
+            let end = end_of(&route, terrain, links, &ends);
+            (route, end)
+        } else {
+            let levels = terrain.any_edge || ends.on_another_level();
+            let route = levels.then(|| self.viewpoints.route(search, terrain, links, &ends, start));
+            let no_way = || match limit {
+                Some((no_way, _)) => no_way,
+                None => explain(terrain, (&self.climbing, refusal), &ends, start, goal),
+            };
+            (route.flatten().ok_or_else(no_way)?, PathEnd::Look)
+        };
+        Ok((route, Fit::Holds, end))
+    }
+}
+
+/// How far a route leads over ground that was not seen, m.
+fn unseen_m(terrain: &Terrain, route: &Route) -> f64 {
+    let unseen = |&&cell: &&u32| terrain.unknown.get(cell as usize) == Some(&true);
+    route.cells.iter().filter(unseen).count() as f64 * terrain.lattice.cell_m
+}

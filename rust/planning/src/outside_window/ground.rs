@@ -1,0 +1,105 @@
+//! Where something stood when it was seen last, in a square that moves along with the window.
+
+use geometry::Lattice;
+
+use terrain::Terrain;
+
+/// Cells of the ground around the window, as large as its own, on a side: what lies further off than half of them is forgotten. A size of
+/// arrays, known when it is compiled, so that columns and rows of a cell need no division.
+pub(super) const SIDE: usize = 512;
+
+/// The ground around as it was when it was seen last.
+#[derive(Debug, Clone, Default)]
+pub(super) struct GroundOutside {
+    /// Where the cells lie.
+    pub(super) lattice: Option<Lattice>,
+    /// Row by row, `SIDE` in each.
+    pub(super) blocked: Vec<bool>,
+}
+
+impl GroundOutside {
+    /// Takes in what the window shows to a robot that stands at a place, m, who believes nearer than `near_m` that something has gone; says
+    /// whether the cells have moved.
+    pub(super) fn take_in(&mut self, terrain: &Terrain, robot_m: [f64; 2], near_m: f64) -> bool {
+        let (lattice, has_moved) = self.follow(terrain);
+        for (index, &unknown) in terrain.unknown.iter().enumerate() {
+            let at_m = terrain.center_m(index);
+            let near = (at_m[0] - robot_m[0]).hypot(at_m[1] - robot_m[1]) < near_m;
+            if let Some([col, row]) = cell_at(&lattice, at_m).filter(|_| !unknown) {
+                let known = &mut self.blocked[row * SIDE + col];
+                *known = terrain.blocked[index] || *known && !near;
+            }
+        }
+        has_moved
+    }
+
+    /// The cells, and whether they moved along as the window left them: what lies farther from it than they reach is forgotten.
+    fn follow(&mut self, terrain: &Terrain) -> (Lattice, bool) {
+        let window = &terrain.lattice;
+        let sides = [terrain.cols, terrain.unknown.len() / terrain.cols.max(1)];
+        // A window that is larger has its middle in them.
+        let before = sides.map(|cells| (SIDE as f64 - cells as f64) / 2.0);
+        let around = Lattice {
+            origin_m: [0, 1].map(|axis| window.origin_m[axis] - before[axis] * window.cell_m),
+            cell_m: window.cell_m,
+        };
+        let Some(lattice) = &mut self.lattice else {
+            self.blocked = vec![false; SIDE * SIDE];
+            self.lattice = Some(around);
+            return (around, false);
+        };
+        let moved = [0, 1].map(|axis| {
+            let moved = (around.origin_m[axis] - lattice.origin_m[axis]) / lattice.cell_m;
+            let is_inside = moved.abs() <= before[axis].max(0.0);
+            if is_inside { 0 } else { moved.round() as isize }
+        });
+        if moved != [0, 0] {
+            for (origin_m, cells) in lattice.origin_m.iter_mut().zip(moved) {
+                *origin_m += cells as f64 * lattice.cell_m;
+            }
+            self.blocked = moved_by(&self.blocked, moved);
+        }
+        (*lattice, moved != [0, 0])
+    }
+
+    /// Whether something is known to stand outside of the window.
+    pub(super) fn is_blocked_outside(&self, terrain: &Terrain) -> bool {
+        let Some(lattice) = self.lattice else {
+            return false;
+        };
+        let outside = |cell: usize| {
+            let middle_m = |at: usize| (at as f64 + 0.5) * lattice.cell_m;
+            let [x, y] = lattice.origin_m;
+            let at_m = [x + middle_m(cell % SIDE), y + middle_m(cell / SIDE)];
+            terrain.index_at(at_m).is_none()
+        };
+        let mut blocked = self
+            .blocked
+            .iter()
+            .enumerate()
+            .filter(|(_, blocked)| **blocked);
+        blocked.any(|(cell, _)| outside(cell))
+    }
+}
+
+/// That ground on cells that begin so many columns and rows later.
+fn moved_by(blocked: &[bool], [cols, rows]: [isize; 2]) -> Vec<bool> {
+    let before = |cell: usize| {
+        let col = (cell % SIDE).checked_add_signed(cols)?;
+        let row = (cell / SIDE).checked_add_signed(rows)?;
+        (col < SIDE && row < SIDE).then(|| blocked[row * SIDE + col])
+    };
+    let cells = 0..SIDE * SIDE;
+    cells.map(|cell| before(cell).unwrap_or(false)).collect()
+}
+
+/// Column and row of a place among the cells.
+pub(super) fn cell_at(lattice: &Lattice, at_m: [f64; 2]) -> Option<[usize; 2]> {
+    let at = |axis: usize| ((at_m[axis] - lattice.origin_m[axis]) / lattice.cell_m).floor();
+    let inside = |at: &f64| (0.0..SIDE as f64).contains(at);
+    let place = [at(0), at(1)];
+    place
+        .iter()
+        .all(inside)
+        .then(|| place.map(|at| at as usize))
+}

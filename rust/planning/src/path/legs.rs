@@ -1,0 +1,93 @@
+//! From a route to a path: legs that are walked, and legs that are climbed or walked sideways.
+
+use terrain::Terrain;
+
+use super::followed_path::FollowedPath;
+use super::shortcut::{lay, walk};
+use crate::climb_links::{ClimbLinks, Fit, Stride, Way};
+use crate::search::Route;
+use crate::tuning::LegsTuning;
+use crate::{Climb, Sidle};
+
+/// Two places are one up to this, m: a rounding guard.
+const NO_WAY_M: f64 = 1e-9;
+
+impl FollowedPath {
+    /// Goes along a route over ways up to `worst`, and ends at `end_m` where that ends in a cell. It ends where a way begins that is in
+    /// doubt.
+    pub(crate) fn go_along(
+        &mut self,
+        terrain: &Terrain,
+        links: &ClimbLinks,
+        (route, worst): (&Route, Fit),
+        end_m: impl Fn(usize) -> [f64; 2],
+        tuning: &LegsTuning,
+    ) {
+        let mut first = 0;
+        for (i, pair) in route.cells.windows(2).enumerate() {
+            let Some(way) = links.between(terrain, pair[0], pair[1], worst) else {
+                continue;
+            };
+            self.walk(terrain, tuning, &route.cells[first..=i], way.enter_m);
+            if way.fit != Fit::Holds {
+                return;
+            }
+            self.climb(terrain, tuning, links.strides(way), way);
+            first = i + 1;
+        }
+        if let Some(&last) = route.cells.last()
+            && (last as usize) < terrain.weights.len()
+        {
+            let end_m = end_m(last as usize);
+            self.walk(terrain, tuning, &route.cells[first..], end_m);
+        }
+    }
+
+    fn walk(&mut self, terrain: &Terrain, tuning: &LegsTuning, cells: &[u32], end_m: [f64; 2]) {
+        let here = self.path.points_m.last() == Some(&end_m);
+        if !(here && cells.len() == 1) {
+            let points_m = &mut self.path.points_m;
+            walk(points_m, terrain, tuning.straighter, (cells, end_m));
+        }
+    }
+
+    fn climb(&mut self, terrain: &Terrain, tuning: &LegsTuning, strides: &[Stride], way: &Way) {
+        let cell_m = terrain.lattice.cell_m;
+        let begin = self.path.points_m.len() - 1;
+        for stride in strides {
+            let at_m = self.path.points_m[self.path.points_m.len() - 1];
+            let away_m = (at_m[0] - stride.from_m[0]).hypot(at_m[1] - stride.from_m[1]);
+            let from = self.path.points_m.len() - 1;
+            let joined = self.path.climbs.last_mut().filter(|climb| {
+                climb.to_point == from && from > begin && away_m <= tuning.same_place
+            });
+            if let Some(climb) = joined {
+                climb.to_point += 1;
+                climb.steps.push(stride.step);
+            } else {
+                if away_m > NO_WAY_M {
+                    lay(&mut self.path.points_m, stride.from_m, cell_m);
+                }
+                let from_point = self.path.points_m.len() - 1;
+                self.path.climbs.push(Climb {
+                    from_point,
+                    to_point: from_point + 1,
+                    steps: vec![stride.step],
+                });
+            }
+            self.path.points_m.push(stride.to_m);
+        }
+        if let Some(leave_m) = way.leave_m {
+            lay(&mut self.path.points_m, leave_m, cell_m);
+        }
+        let end = self.path.points_m.len() - 1;
+        self.spans.push([begin, end]);
+        self.path
+            .sidles
+            .extend(way.turned_rad.map(|heading_rad| Sidle {
+                from_point: begin,
+                to_point: end,
+                heading_rad,
+            }));
+    }
+}

@@ -1,0 +1,175 @@
+//! Rule: where the level that the robot stands on is raised over something, what was not seen beside it is no ground: there it ends.
+
+use geometry::{Cell, same_level};
+use mapping::Surface;
+use settings::{NOT_NEGATIVE, settings, within};
+
+use crate::cells::around;
+use crate::{Sight, StandingAt, Terrain};
+
+settings! {
+    /// Where the level that the robot stands on ends.
+    pub struct PlatformEdgesConfig("navigation.terrain.platform_edges") {
+        /// The robot stands on a raised level when something known, or the goal, lies lower than it by more than so many times `max_step`.
+        raised: f64 = 2.0, "1", NOT_NEGATIVE;
+        /// From so many cells on a lower level is believed.
+        lower_cells: usize = 12, "1", within(1.0, 1.0e6);
+        /// Ground whose height differs from the robot's by no more than so many times `max_step` is of its level.
+        level: f64 = 2.0, "1", NOT_NEGATIVE;
+        /// Unseen cells between ground on both sides are ground when they are no more than this: single pixels that the camera missed. A
+        /// gap into which a foot fits is seen into from where its edge matters.
+        gap: usize = 2, "1", within(0.0, 20.0);
+    }
+}
+
+/// The ground of the level that the robot stands on. Reused.
+#[derive(Debug, Clone, Default)]
+pub(super) struct PlatformEdges {
+    ground: Vec<bool>,
+    gaps: Vec<usize>,
+}
+
+impl PlatformEdges {
+    /// Marks what ends the level on which the robot stands. Around itself it sees no ground: there it has its own, unless it stands on a
+    /// stair.
+    pub(super) fn apply(
+        &mut self,
+        terrain: &mut Terrain,
+        sight: &Sight<'_>,
+        config: &PlatformEdgesConfig,
+    ) {
+        if !is_raised(terrain, sight, config) {
+            return;
+        }
+        let stand = &sight.stand;
+        let start = terrain.index_at(stand.at_m);
+        let on_tread = start.is_some_and(|start| terrain.stairs.covers(start));
+        let blind_m = if on_tread {
+            0.0
+        } else {
+            terrain.settings.blind
+        };
+        let tolerance_m = config.level * terrain.settings.max_step;
+        self.find_ground(terrain, sight, (tolerance_m, blind_m));
+        self.close_gaps(terrain, stand, config.gap);
+        let size = [terrain.cols, self.ground.len() / terrain.cols.max(1)];
+        for (index, &ground) in self.ground.iter().enumerate() {
+            if !ground {
+                continue;
+            }
+            for next in around(index, 1, size) {
+                let unseen = terrain.height_m[next].is_nan() && !terrain.blocked[next];
+                if unseen && !self.ground[next] {
+                    terrain.mark_edge(next);
+                    terrain.open[next] = true;
+                }
+            }
+        }
+    }
+
+    fn find_ground(
+        &mut self,
+        terrain: &mut Terrain,
+        sight: &Sight<'_>,
+        (tolerance_m, blind_m): (f64, f64),
+    ) {
+        let (view, stand) = (sight.view, &sight.stand);
+        let on_level = |height_m: f32| same_level(f64::from(height_m), stand.height_m, tolerance_m);
+        let (lattice, cols) = (&view.lattice, view.cells.cols());
+        self.ground.clear();
+        for (index, surface) in view.cells.values().iter().enumerate() {
+            let height = &mut terrain.height_m[index];
+            if height.is_nan() && terrain.unknown[index] && !terrain.edge[index] {
+                let cell = Cell::new((index % cols) as i32, (index / cols) as i32);
+                let [x, y] = lattice.center_of(cell);
+                let (dx, dy) = (x - stand.at_m[0], y - stand.at_m[1]);
+                if dx.abs() <= blind_m && dy.abs() <= blind_m && dx.hypot(dy) <= blind_m {
+                    *height = stand.ground_m([dx, dy]) as f32;
+                }
+            }
+            // Floor that was seen too rarely to be an edge is ground all the same.
+            let rarely = height.is_nan()
+                && !terrain.unknown[index]
+                && matches!(*surface, Surface::Floor(height_m) if on_level(height_m));
+            self.ground.push(rarely || on_level(*height));
+        }
+    }
+
+    fn close_gaps(&mut self, terrain: &mut Terrain, stand: &StandingAt, widest: usize) {
+        let cols = terrain.cols;
+        let rows = self.ground.len() / cols.max(1);
+        self.gaps.clear();
+        for index in 0..self.ground.len() {
+            let seen = !terrain.unknown[index] || !terrain.height_m[index].is_nan();
+            if self.ground[index] || seen {
+                continue;
+            }
+            let lines = [(1, index % cols, cols), (cols, index / cols, rows)];
+            let closed = lines.into_iter().any(|(stride, at, count)| {
+                let before = (1..=widest.min(at)).find(|n| self.ground[index - n * stride]);
+                let most = widest.min(count - 1 - at);
+                let after = (1..=most).find(|n| self.ground[index + n * stride]);
+                before.zip(after).is_some_and(|(a, b)| a + b <= widest + 1)
+            });
+            if closed {
+                self.gaps.push(index);
+            }
+        }
+        for &index in &self.gaps {
+            self.ground[index] = true;
+            terrain.height_m[index] = stand.height_m as f32;
+        }
+    }
+}
+
+/// Whether something known, or the goal, lies lower than the robot stands.
+fn is_raised(terrain: &Terrain, sight: &Sight<'_>, config: &PlatformEdgesConfig) -> bool {
+    let heights = sight.stairs.stairs.iter().map(stairs::Stair::height_m);
+    let lowest_known_m = heights.chain(sight.goal_m).fold(f64::INFINITY, f64::min);
+    let below_m = sight.stand.height_m - config.raised * terrain.settings.max_step;
+    let lower = |height: &&f32| f64::from(**height) < below_m;
+    lowest_known_m < below_m || terrain.height_m.iter().filter(lower).count() >= config.lower_cells
+}
+
+#[cfg(test)]
+mod tests {
+    use mapping::Surface;
+
+    use crate::testing::{Floor, cell};
+
+    /// The robot on a platform 0.2 m high of which the far side was not seen.
+    fn platform() -> Floor {
+        let mut floor = Floor::new();
+        floor.stand.height_m = 0.2;
+        floor.paint([-2.0, -2.0], [2.0, 2.0], Surface::Unknown);
+        floor.paint([-0.5, -0.5], [0.5, 0.5], Surface::Floor(0.2));
+        floor.paint([0.2, -0.2], [0.3, 0.2], Surface::Unknown);
+        floor
+    }
+
+    #[test]
+    fn a_raised_level_ends_where_nothing_was_seen_but_pixels_that_were_missed_are_ground() {
+        let mut floor = platform();
+        assert!(
+            !floor.after("platform_edges").any_edge,
+            "nothing lies lower"
+        );
+        floor.goal_m = Some(0.0);
+        let terrain = floor.after("platform_edges");
+        let at = |x_m: f64| cell(&terrain, x_m, 0.025);
+        assert!(terrain.edge[at(0.525)] && terrain.open[at(0.525)]);
+        assert!(!terrain.edge[at(0.475)] && !terrain.edge[at(0.225)]);
+        assert_eq!(terrain.level_m(at(0.225)), Some(f64::from(0.2_f32)));
+    }
+
+    #[test]
+    fn around_the_robot_unseen_ground_is_its_own() {
+        let mut floor = platform();
+        floor.goal_m = Some(0.0);
+        floor.paint([-0.15, -0.15], [0.15, 0.15], Surface::Unknown);
+        let terrain = floor.after("platform_edges");
+        let at = cell(&terrain, 0.075, 0.025);
+        assert_eq!(terrain.level_m(at), Some(f64::from(0.2_f32)));
+        assert!(!terrain.edge[at]);
+    }
+}

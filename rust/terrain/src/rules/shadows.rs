@@ -1,0 +1,68 @@
+//! Rule: what lies between two levels across a few cells of which nothing is known is the shadow below an edge, and an edge.
+
+use geometry::two_levels;
+use settings::{settings, within};
+
+use crate::Terrain;
+
+settings! {
+    /// What is the shadow below an edge.
+    pub struct ShadowsConfig("navigation.terrain.shadows") {
+        /// A shadow below an edge, as seen from above, is at most so many cells wide.
+        widest: usize = 4, "1", within(1.0, 100.0);
+    }
+}
+
+pub(super) fn apply(terrain: &mut Terrain, config: &ShadowsConfig) {
+    let (cols, widest) = (terrain.cols, config.widest);
+    let rows = terrain.height_m.len() / cols.max(1);
+    for row in 0..rows {
+        mark_line(terrain, row * cols, 1, cols, widest);
+    }
+    for col in 0..cols {
+        mark_line(terrain, col, cols, rows, widest);
+    }
+}
+
+fn mark_line(terrain: &mut Terrain, first: usize, stride: usize, count: usize, widest: usize) {
+    let floor_m = terrain.needs.limits.floor_m;
+    let mut last: Option<(usize, f32)> = None;
+    for i in 0..count {
+        let here = terrain.height_m[first + i * stride];
+        if here.is_nan() {
+            continue;
+        }
+        if let Some((known, height)) = last
+            && (2..=widest + 1).contains(&(i - known))
+        {
+            let (from, to) = (first + known * stride, first + i * stride);
+            let rise = terrain.slopes.step_m(from, to, here - height);
+            if two_levels(f64::from(rise), 0.0, floor_m) {
+                for between in known..=i {
+                    terrain.mark_step(first + between * stride, rise);
+                }
+            }
+        }
+        last = Some((i, here));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use mapping::Surface;
+
+    use crate::testing::{Floor, cell};
+
+    #[test]
+    fn a_few_unseen_cells_between_two_levels_are_an_edge_and_more_are_unseen_ground() {
+        let mut floor = Floor::new();
+        floor.paint([0.5, -2.0], [2.0, 2.0], Surface::Floor(0.04));
+        floor.paint([-2.0, -2.0], [-0.5, 2.0], Surface::Floor(0.04));
+        floor.paint([0.3, -2.0], [0.5, 2.0], Surface::Unknown);
+        floor.paint([-0.5, -2.0], [-0.2, 2.0], Surface::Unknown);
+        let terrain = floor.after("shadows");
+        let edge = |x_m: f64| terrain.edge[cell(&terrain, x_m, 0.025)];
+        assert!([0.275, 0.325, 0.475, 0.525].into_iter().all(edge));
+        assert!(![-0.175, -0.325, -0.525].into_iter().any(edge));
+    }
+}

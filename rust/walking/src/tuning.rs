@@ -1,0 +1,239 @@
+//! The finer settings of the gait: `[gait.tuning]` of robot.toml.
+
+use settings::{
+    ConfigError, NOT_NEGATIVE, POSITIVE, SHARE, above, above_to, at_least, between, require,
+    settings, within,
+};
+
+/// Most steps that may be looked ahead: room for them in an array.
+pub(crate) const MOST_STEPS: usize = 8;
+
+settings! {
+    /// The finer settings of the gait.
+    pub struct GaitTuning("gait.tuning") {
+        /// How the walker keeps time, and what it takes for a load.
+        ticks: TicksTuning;
+        /// The closed form of the legs' inverse kinematics.
+        leg: LegTuning;
+        /// How two hips agree that share one yaw motor.
+        shared_hip: SharedHipTuning;
+        /// How the torso turns, and the swing foot with its tilt.
+        posture: PostureTuning;
+        /// The height of the hips.
+        pelvis: PelvisTuning;
+        /// Where a sole carries, and when feet stand side by side.
+        stance: StanceTuning;
+        /// How far the steps are looked ahead.
+        preview: PreviewTuning;
+        /// How steps are moved to catch a push.
+        capture: CaptureTuning;
+        /// How an ankle yields.
+        ankles: AnklesTuning;
+        /// The path of the swing foot.
+        swing: SwingTuning;
+        /// How a foot of a walk lands, and what it takes for a level that it was not told of.
+        stumble: StumbleTuning;
+        /// How a foot of a listed step lands.
+        landing: LandingTuning;
+        /// When a listed step is begun anew because the robot tips.
+        tipping: TippingTuning;
+        /// How slopes are asked for.
+        relief: ReliefTuning;
+    }
+}
+
+settings! {
+    /// How the walker keeps time, and what it takes for a load.
+    pub struct TicksTuning("gait.tuning.ticks") {
+        /// A shorter time since the last tick than this share of the control tick counts as so long.
+        shortest: f64 = 0.1, "1", above_to(0.0, 1.0);
+        /// A longer time since the last tick than so many control ticks counts as so long.
+        longest: f64 = 2.0, "1", at_least(1.0);
+        /// Load on both feet together below which each is trusted alike.
+        least_load: f64 = 1.0, "N", POSITIVE;
+        /// Share of the robot's weight that the feet must carry for their centre of pressure to count.
+        pressure_load: f64 = 0.3, "1", SHARE;
+    }
+}
+
+settings! {
+    /// The closed form of the legs' inverse kinematics.
+    pub struct LegTuning("gait.tuning.leg") {
+        /// By how much axes may miss the point in which the closed form lets them meet: the sole then is that far from where it should be.
+        miss: f64 = 1e-3, "m", POSITIVE;
+        /// Steepest slant of a hip's yaw axis.
+        steepest: f64 = 1.2, "rad", between(0.0, 1.57);
+        /// Share of the thigh that is left between hip and ankle of the shortest leg, beyond the difference of thigh and shank.
+        shortest: f64 = 0.05, "1", above_to(0.0, 1.0);
+    }
+}
+
+settings! {
+    /// How two hips agree that share one yaw motor.
+    pub struct SharedHipTuning("gait.tuning.shared_hip") {
+        /// Turns of the torso after which both legs agree; the first is exact for legs side by side.
+        turns: usize = 6, "1", within(1.0, 1000.0);
+        /// The torso is never turned further from where it was to be than this.
+        most_turn: f64 = 0.5, "rad", between(0.0, 1.57);
+        /// Least slope of the secant method, as a share of that for legs side by side, which is taken where it is less.
+        least_slope: f64 = 0.3, "1", POSITIVE;
+    }
+}
+
+settings! {
+    /// How the torso turns, and the swing foot with its tilt.
+    pub struct PostureTuning("gait.tuning.posture") {
+        /// How fast the torso turns to the mean heading of the feet.
+        turn_rate: f64 = 8.0, "1/s", NOT_NEGATIVE;
+        /// How fast the correction of the swing foot for the tilt comes and goes.
+        tilt_fade: f64 = 6.0, "1/s", NOT_NEGATIVE;
+        /// Tilt of the torso that is not worth a correction of the swing foot.
+        tilt_deadband: f64 = 0.02, "rad", NOT_NEGATIVE;
+    }
+}
+
+settings! {
+    /// The height of the hips: the coming steps are played ahead, so that the hips are down when a foot has to reach down.
+    pub struct PelvisTuning("gait.tuning.pelvis") {
+        /// How many moments ahead are looked at.
+        moments: usize = 24, "1", within(1.0, 1000.0);
+        /// Time from one of those moments to the next.
+        apart: f64 = 0.04, "s", POSITIVE;
+        /// Time constant of the smoothing of the height.
+        smooth_time: f64 = 0.06, "s", POSITIVE;
+        /// Time constants by which the smoothed height is taken to be late.
+        late: f64 = 2.5, "1", NOT_NEGATIVE;
+        /// How much faster than up the height to come to goes down.
+        fall: f64 = 2.0, "1", POSITIVE;
+    }
+}
+
+settings! {
+    /// Where a sole carries, and when feet stand side by side.
+    pub struct StanceTuning("gait.tuning.stance") {
+        /// Share of what bears, from its middle to each end, in which the point where the foot carries lies.
+        support_room: f64 = 0.5, "1", SHARE;
+        /// Feet are side by side when they are nearer than this to where they are to stand.
+        beside: f64 = 0.01, "m", POSITIVE;
+        /// Feet are side by side when their headings differ by less than this.
+        beside_turn: f64 = 0.03, "rad", POSITIVE;
+        /// A walk that turns begins with the foot on that side, as one that goes aside does: a turn by 1 rad counts as so much.
+        turn_counts: f64 = 0.1, "m/rad", NOT_NEGATIVE;
+    }
+}
+
+settings! {
+    /// How far the steps are looked ahead.
+    pub struct PreviewTuning("gait.tuning.preview") {
+        /// Steps that are looked ahead, the running one included: what lies beyond hardly counts.
+        steps: usize = 3, "1", within(1.0, MOST_STEPS as f64);
+    }
+}
+
+settings! {
+    /// How steps are moved to catch a push.
+    pub struct CaptureTuning("gait.tuning.capture") {
+        /// Share of the swing after which the landing stays where it is.
+        committed: f64 = 0.85, "1", SHARE;
+        /// Fastest that a landing is moved.
+        speed: f64 = 1.0, "m/s", POSITIVE;
+        /// Growth of the error until the landing, less 1, that is reckoned with at least, at the end of a step.
+        least_growth: f64 = 0.01, "1", POSITIVE;
+    }
+}
+
+settings! {
+    /// How an ankle yields.
+    pub struct AnklesTuning("gait.tuning.ankles") {
+        /// Time over which the measured forces are smoothed.
+        smooth_time: f64 = 0.02, "s", POSITIVE;
+        /// How fast a foot in the air gets level again.
+        level_rate: f64 = 10.0, "1/s", NOT_NEGATIVE;
+    }
+}
+
+settings! {
+    /// The path of the swing foot: from when to when it moves, as shares of its time in the air.
+    pub struct SwingTuning("gait.tuning.swing") {
+        /// When a foot of a walk moves over the ground.
+        travel: [f64; 2] = [0.1, 0.9], "1", SHARE;
+        /// When a foot that goes back off something it met moves over the ground.
+        off: [f64; 2] = [0.0, 0.7], "1", SHARE;
+        /// When a foot that goes back off something it met sinks.
+        down: [f64; 2] = [0.4, 1.0], "1", SHARE;
+        /// When a careful foot rises.
+        rise: [f64; 2] = [0.0, 0.38], "1", SHARE;
+        /// When a careful foot moves over the ground; after that it comes down on what it is told to land on.
+        over: [f64; 2] = [0.25, 0.75], "1", SHARE;
+        /// When a careful foot sinks.
+        sink: [f64; 2] = [0.62, 1.0], "1", SHARE;
+    }
+    check SwingTuning::are_in_order;
+}
+
+impl SwingTuning {
+    fn are_in_order(&self, key: &str) -> Result<(), ConfigError> {
+        for (name, [from, to]) in [
+            ("travel", self.travel),
+            ("off", self.off),
+            ("down", self.down),
+            ("rise", self.rise),
+            ("over", self.over),
+            ("sink", self.sink),
+        ] {
+            let found = format!("{from}, {to}");
+            require(from < to, &format!("{key}.{name}"), "ascending", found)?;
+        }
+        Ok(())
+    }
+}
+
+settings! {
+    /// How a foot of a walk lands, and what it takes for a level that it was not told of.
+    pub struct StumbleTuning("gait.tuning.stumble") {
+        /// Share of the swing after which a load on the foot is a landing.
+        landing_share: f64 = 0.6, "1", SHARE;
+        /// Share of its time after which a walking foot has left the ground for sure.
+        left_share: f64 = 0.25, "1", SHARE;
+        /// How far off the edge that it met a foot goes back.
+        clear: f64 = 0.025, "m", NOT_NEGATIVE;
+        /// A foot of which more than this share lies beyond the edge that it met stands well there.
+        stands_share: f64 = 0.6, "1", SHARE;
+    }
+}
+
+settings! {
+    /// How a foot of a listed step lands.
+    pub struct LandingTuning("gait.tuning.landing") {
+        /// Share of the time after which a careful foot has left the ground for sure.
+        left_share: f64 = 0.25, "1", SHARE;
+        /// How far a foot may be behind its path.
+        lag: f64 = 0.02, "s", NOT_NEGATIVE;
+        /// How short a leg may be while its foot is still sent further down: the hips come down more slowly than a foot.
+        short: f64 = 0.001, "m", NOT_NEGATIVE;
+        /// How far before what it met a foot then comes down.
+        clear: f64 = 0.003, "m", POSITIVE;
+    }
+}
+
+settings! {
+    /// When a listed step is begun anew because the robot tips.
+    pub struct TippingTuning("gait.tuning.tipping") {
+        /// How often in a list a foot is put down again; a robot that still tips is better off with the step behind it.
+        times: usize = 3, "1", NOT_NEGATIVE;
+        /// How far the robot may tip forward or back, as a share of how far it tips sideways: no foot beside the other one stops that.
+        ahead_share: f64 = 0.5, "1", NOT_NEGATIVE;
+        /// Share of its way over the ground up to which a foot is still where it left.
+        gone_share: f64 = 0.05, "1", SHARE;
+    }
+}
+
+settings! {
+    /// How slopes are asked for.
+    pub struct ReliefTuning("gait.tuning.relief") {
+        /// Places along a sole, and along the way from one foot to the other, at which the slope is asked for.
+        places: usize = 6, "1", within(1.0, 1000.0);
+        /// The map is looked at so far around the robot: farther than it steps.
+        around: f64 = 0.3, "m", above(0.0);
+    }
+}

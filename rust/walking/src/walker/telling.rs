@@ -1,0 +1,80 @@
+//! What a walker tells of itself.
+
+use behaviour::{Gaze, Stepping};
+use nalgebra::Vector2;
+use robot::Side;
+
+use super::Walker;
+use crate::balance::Balance;
+use crate::phase::{FootPose, GaitPhase, GaitReference};
+use crate::support::Pressure;
+use crate::tuning::ReliefTuning;
+
+impl Walker {
+    /// Whether it stands still on both soles.
+    pub fn standing(&self) -> bool {
+        self.gait.is_standing()
+    }
+
+    /// Distance between the soles' centres when it stands, m.
+    pub const fn stance_width_m(&self) -> f64 {
+        self.config.stance_width
+    }
+
+    /// How slopes of the ground are asked for.
+    pub const fn relief_tuning(&self) -> &ReliefTuning {
+        &self.config.tuning.relief
+    }
+
+    /// Landings so far.
+    pub const fn steps_taken(&self) -> u64 {
+        self.gait.steps_taken
+    }
+
+    /// How the listed footsteps go.
+    pub fn stepping(&self) -> Stepping {
+        self.gait.stepping()
+    }
+
+    /// The foot that stands while the other moves; `None` while both carry.
+    pub const fn support(&self) -> Option<Side> {
+        match &self.gait.phase {
+            GaitPhase::Single { swing, .. } => Some(swing.side.other()),
+            GaitPhase::Standing | GaitPhase::Double { .. } => None,
+        }
+    }
+
+    /// Whether the list that was given last is behind the robot: all its steps landed, or it was given up.
+    pub fn list_is_over(&self) -> bool {
+        self.list.is_over(&self.gait)
+    }
+
+    /// Whether each foot stands, or is to land, on a slope.
+    pub fn on_slope(&self) -> [bool; 2] {
+        let mut feet = self.gait.feet;
+        if let GaitPhase::Single { swing, .. } = &self.gait.phase {
+            feet[swing.side.index()] = swing.to;
+        }
+        feet.map(|foot| foot.gradient != Vector2::zeros())
+    }
+
+    /// Where a foot stands, or left, in the walker's own frame, which drifts against the world's.
+    pub const fn foot_in_plan(&self, side: Side) -> &FootPose {
+        &self.gait.feet[side.index()]
+    }
+
+    /// What the feet do, for the recording.
+    pub const fn phase(&self) -> &GaitPhase {
+        &self.gait.phase
+    }
+
+    /// Where the robot should be, where it is, and how it pushes, for the recording.
+    pub const fn balance(&self) -> (&GaitReference, &Balance, &Pressure) {
+        (&self.reference, &self.balance, &self.pressure)
+    }
+
+    /// Where the head was told to look at the last tick.
+    pub fn gaze(&self) -> Gaze {
+        self.head.gaze()
+    }
+}
