@@ -53,7 +53,7 @@ def describe(
         "stand": stand.tolist(),
         "torso": file.body.torso,
         "legs": {"left": _leg(file.legs.left), "right": _leg(file.legs.right)},
-        "head": {"pan": file.head.pan, "tilt": file.head.tilt},
+        "head": file.head.model_dump(),
         "arms_rest": dict(file.arms.rest),
         "arms_raised": dict(file.arms.raised),
         "imu": {

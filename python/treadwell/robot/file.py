@@ -35,6 +35,10 @@ class BodyTable(Table):
     """
     width: Positive | None = None
     """Across, the same box, m; default: the cylinder's diameter."""
+    foot_side: Positive = 0.06
+    """How far to each side of the middle the ground matters to the feet, m: a little less than the
+    outer edges of the soles.
+    """
 
 
 class SoleTable(Table):
@@ -109,6 +113,14 @@ class HeadTable(Table):
     """The joint that turns it left and right."""
     tilt: Name
     """The joint that nods."""
+    eye_height: Positive = 0.45
+    """Height of the eyes above the ground while the robot stands, as far as turning the head to a
+    place needs it, m.
+    """
+    eye_ahead: FiniteFloat = 0.04
+    """How far the eyes are ahead of the robot's middle, as far as turning the head to a place needs
+    it, m.
+    """
 
 
 class ArmsTable(Table):

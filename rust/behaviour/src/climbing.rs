@@ -26,6 +26,7 @@ mod search;
 mod setback;
 mod state;
 mod stepper;
+mod tuning;
 mod walk;
 
 #[cfg(test)]
@@ -35,33 +36,32 @@ pub(crate) mod simulation;
 #[cfg(test)]
 mod tests;
 
-use crate::part::{BehaviourNeeds, BehaviourPart};
-use settings::ConfigError;
-use settings::{MakeError, Part, read};
+use settings::{ConfigError, MakeError, Part, Table, TableDescription, read};
 use stairs::{ClimbingConfig, Feet};
 
 use crate::machine::{Interruption, Limits, Machine, State as _, Tick};
+use crate::part::{BehaviourNeeds, BehaviourPart};
 use crate::{
     Arms, Behaviour, BehaviourError, Command, Decision, Motion, Outcome, Situation,
     WalkingBehaviour,
 };
 pub use config::StairClimbingConfig;
-use flight::Flight;
-use head::Head;
-use leg::Leg;
+use flight::{Flight, StepRules};
+use head::ClimbingHead;
+use leg::ApproachLeg;
 use memory::Memory;
 use placement::Before;
 use state::Finish;
 pub(crate) use state::State;
 use stepper::Stepper;
-use walk::Ahead;
+use walk::ClimbAhead;
 
 /// How `stair_climbing` is listed and made.
 pub(crate) const STEP_BY_STEP: BehaviourPart = Part {
     name: "stair_climbing",
     about: "walks where it can, climbs where stairs lead on, both feet on each step",
     source: Some("003, section V"),
-    tables: &[],
+    tables: &[TableDescription::of::<StairClimbingConfig>()],
     make: |needs| {
         Ok(Box::new(StairClimbing::of(
             needs,
@@ -71,12 +71,15 @@ pub(crate) const STEP_BY_STEP: BehaviourPart = Part {
     },
 };
 
+/// The table of the behaviour `continuous`.
+const CONTINUOUS_KEY: &str = "navigation.continuous";
+
 /// How `continuous` is listed and made.
 pub(crate) const CONTINUOUS: BehaviourPart = Part {
     name: "continuous",
     about: "climbs one foot a step without stopping where the treads allow it",
     source: Some("003, section VI, future work"),
-    tables: &[],
+    tables: &[TableDescription::at::<StairClimbingConfig>(CONTINUOUS_KEY)],
     make: |needs| {
         Ok(Box::new(StairClimbing::of(
             needs,
@@ -84,16 +87,6 @@ pub(crate) const CONTINUOUS: BehaviourPart = Part {
             Pace::Continuous,
         )?))
     },
-};
-
-/// How long a climb waits for what, and in what words it gives up.
-const LIMITS: Limits = Limits {
-    blind_after_s: 2.0,
-    blind_limit_s: 12.0,
-    blind_from_the_start: false,
-    idle_limit_s: 60.0,
-    idle_words: "no step could be taken",
-    place_words: ", before or on stairs",
 };
 
 /// How stairs are climbed.
@@ -105,6 +98,16 @@ pub enum Pace {
     Continuous,
 }
 
+impl Pace {
+    /// The table in which the settings of the behaviour stand that climbs so.
+    const fn key(self) -> &'static str {
+        match self {
+            Self::StepByStep => StairClimbingConfig::KEY,
+            Self::Continuous => CONTINUOUS_KEY,
+        }
+    }
+}
+
 /// Walks to the goal, and over stairs.
 #[derive(Debug, Clone)]
 pub struct StairClimbing {
@@ -114,11 +117,11 @@ pub struct StairClimbing {
     pace: Pace,
     walking: WalkingBehaviour,
     machine: Machine<State>,
-    head: Head,
+    head: ClimbingHead,
     flight: Flight,
     stepper: Stepper,
     memory: Memory,
-    ahead: Ahead,
+    ahead: ClimbAhead,
     /// Whether the walker had stumbled at the last tick.
     had_stumbled: bool,
 }
@@ -132,7 +135,10 @@ impl StairClimbing {
     ) -> Result<Self, MakeError> {
         let walking = WalkingBehaviour::of(needs)?;
         let (config, climbing) = (read(needs.tables, name)?, read(needs.tables, "climbing")?);
-        Ok(Self::new(config, walking, climbing, needs.feet, pace)?)
+        let eyes = &needs.body.description().head;
+        Ok(Self::new(
+            config, walking, climbing, needs.feet, eyes, pace,
+        )?)
     }
 
     /// Refuses settings that cannot be used.
@@ -141,22 +147,33 @@ impl StairClimbing {
         walking: WalkingBehaviour,
         climbing: ClimbingConfig,
         feet: Feet,
+        eyes: &robot::Head,
         pace: Pace,
     ) -> Result<Self, ConfigError> {
-        config.check()?;
-        settings::Table::check(&climbing)?;
+        config.check_as(pace.key())?;
+        climbing.check()?;
+        let tuning = &config.tuning;
+        let limits = Limits {
+            blind_after_s: tuning.blind_after,
+            patience: 1.0,
+            blind_limit_s: tuning.blind_limit,
+            blind_from_the_start: false,
+            idle_limit_s: tuning.idle_limit,
+            idle_words: "no step could be taken",
+            place_words: ", before or on stairs",
+        };
         Ok(Self {
-            head: Head::new(config.gaze_speed, config.gaze_steep),
+            head: ClimbingHead::new(&config, eyes),
+            machine: Machine::new(State::Walk, limits),
+            flight: Flight::new(tuning),
+            stepper: Stepper::new(tuning.stepper.clone()),
             config,
             climbing,
             feet,
             pace,
             walking,
-            machine: Machine::new(State::Walk, LIMITS),
-            flight: Flight::default(),
-            stepper: Stepper::default(),
             memory: Memory::default(),
-            ahead: Ahead::default(),
+            ahead: ClimbAhead::default(),
             had_stumbled: false,
         })
     }
@@ -208,6 +225,14 @@ impl StairClimbing {
             State::StepBack { .. } => self.step_back(tick),
             State::Finish { part, lasted_s } => self.finish(tick, *part, *lasted_s),
             State::Blind { looks } => self.wait_for_sight(tick, *looks),
+        }
+    }
+
+    /// By what steps are found among the stairs.
+    const fn rules(&self) -> StepRules<'_> {
+        StepRules {
+            climbing: &self.climbing,
+            lookup: &self.config.tuning.lookup,
         }
     }
 

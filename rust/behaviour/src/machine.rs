@@ -15,7 +15,7 @@ use clock::Clock;
 pub(crate) use clock::Stopwatch;
 pub(crate) use interruption::Interruption;
 pub(crate) use limits::Limits;
-pub(crate) use sight::Sight;
+pub(crate) use sight::SightAgain;
 pub(crate) use state::{Idling, State};
 pub(crate) use tick::Tick;
 

@@ -11,33 +11,37 @@ mod locate;
 mod look_around;
 mod obstacles;
 mod progress;
+mod side_leg;
 mod sidle;
 mod state;
 mod stop;
+mod tick;
 mod track;
+mod tuning;
 mod turn;
 mod unknown;
 mod walk;
 
 #[cfg(test)]
-mod simulation;
+pub(crate) mod simulation;
 #[cfg(test)]
 mod tests;
 
-use crate::part::{BehaviourNeeds, BehaviourPart};
 use planning::Goal;
-use settings::ConfigError;
-use settings::{MakeError, Part, read};
+use robot::Extent;
+use settings::{ConfigError, MakeError, Part, Table, TableDescription, read};
 
-use crate::machine::{Interruption, Limits, Machine, State as _, Stopwatch, Tick};
+use crate::machine::{Interruption, Limits, Machine, State as _, Stopwatch};
+use crate::part::{BehaviourNeeds, BehaviourPart};
 use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Situation};
 pub use config::WalkingConfig;
 use gaze::{Gazer, Sweep};
 use obstacles::Followed;
-pub(crate) use obstacles::{is_edge, is_roomy};
 use progress::Progress;
 pub(crate) use state::State;
-pub(crate) use track::Track;
+use tick::WayTick;
+use track::Track;
+pub(crate) use tuning::WayObstaclesTuning;
 use unknown::Looked;
 
 /// How it is listed and made.
@@ -45,17 +49,16 @@ pub(crate) const PART: BehaviourPart = Part {
     name: "walking",
     about: "walks the path, looks around, stops for what appears, refuses where no way is",
     source: Some("000, section V"),
-    tables: &[],
+    tables: &[TableDescription::of::<WalkingConfig>()],
     make: |needs| Ok(Box::new(WalkingBehaviour::of(needs)?)),
 };
-
-/// Standing, looking and waiting without a step towards the goal ends after this, s.
-const LONGEST_IDLE_S: f64 = 75.0;
 
 /// Walks to the goal by what the robot sees.
 #[derive(Debug, Clone)]
 pub struct WalkingBehaviour {
     config: WalkingConfig,
+    /// Half the distance between the outer edges of the feet, as far as the ground matters to them, m.
+    foot_side_m: f64,
     machine: Machine<State>,
     /// How long the robot stands.
     standing: Stopwatch,
@@ -83,23 +86,26 @@ pub struct WalkingBehaviour {
 impl WalkingBehaviour {
     /// The behaviour that `[navigation.walking]` describes.
     pub(crate) fn of(needs: &BehaviourNeeds<'_>) -> Result<Self, MakeError> {
-        Ok(Self::new(read(needs.tables, "walking")?)?)
+        let size = &needs.body.description().body;
+        Ok(Self::new(read(needs.tables, "walking")?, size)?)
     }
 
     /// Refuses settings that cannot be used.
-    pub fn new(config: WalkingConfig) -> Result<Self, ConfigError> {
+    pub fn new(config: WalkingConfig, size: &Extent) -> Result<Self, ConfigError> {
         config.check()?;
         let limits = Limits {
             blind_after_s: config.blind_after,
+            patience: config.tuning.look_around.patience,
             blind_limit_s: config.blind_limit,
             blind_from_the_start: true,
-            idle_limit_s: LONGEST_IDLE_S,
+            idle_limit_s: config.tuning.idle_limit,
             idle_words: "no step towards the goal could be taken",
             place_words: "",
         };
         Ok(Self {
             machine: Machine::new(State::LookAround(Sweep::around(&config)), limits),
             config,
+            foot_side_m: size.foot_side,
             standing: Stopwatch::default(),
             no_way: Stopwatch::default(),
             way: Stopwatch::default(),
@@ -117,19 +123,19 @@ impl WalkingBehaviour {
         })
     }
 
-    fn tick<'a>(&self, situation: &'a Situation<'a>) -> Tick<'a> {
+    fn tick<'a>(&self, situation: &'a Situation<'a>) -> WayTick<'a> {
         let tick = self.machine.read(situation);
         let path = situation.plan.and_then(|plan| plan.way.as_ref().ok());
         let track = path.and_then(|path| {
-            let track = Track::new(path, &tick.pose, self.config.lookahead)?;
+            let track = Track::new(path, &tick.pose, &self.config)?;
             let straight = path.sidles.is_empty();
             let lengthened = |track| self.lengthened(track, &tick);
             Some((path, if straight { lengthened(track) } else { track }))
         });
-        Tick { track, ..tick }
+        WayTick { tick, track }
     }
 
-    fn keep_time(&mut self, tick: &Tick<'_>) {
+    fn keep_time(&mut self, tick: &WayTick<'_>) {
         let situation = tick.situation;
         if !self.machine.has_begun() {
             self.gazer.start(situation.gaze);
@@ -159,7 +165,7 @@ impl WalkingBehaviour {
     }
 
     /// Ends the present state if something happened that must.
-    fn interrupt(&mut self, tick: &Tick<'_>) {
+    fn interrupt(&mut self, tick: &WayTick<'_>) {
         let locates = matches!(self.machine.state(), State::Locate(_));
         let has_arrived = || !locates && self.has_arrived(tick);
         match self.machine.interruption(tick, has_arrived) {
@@ -175,7 +181,7 @@ impl WalkingBehaviour {
     }
 
     /// One tick of the present state.
-    fn act(&mut self, tick: &Tick<'_>) -> Motion {
+    fn act(&mut self, tick: &WayTick<'_>) -> Motion {
         match self.machine.state() {
             State::LookAround(_) => self.look_around(tick),
             State::Walk => self.walk(tick),
@@ -190,7 +196,7 @@ impl WalkingBehaviour {
     }
 
     /// Stands and looks ahead.
-    fn stand(&mut self, tick: &Tick<'_>) -> Motion {
+    fn stand(&mut self, tick: &WayTick<'_>) -> Motion {
         self.gaze_at(tick, 0.0, self.config.gaze_far);
         Motion::Stand
     }

@@ -208,6 +208,22 @@ pub struct Head {
     pub pan: String,
     /// Nods.
     pub tilt: String,
+    /// Height of the eyes above the ground while the robot stands, as far as turning the head to a place needs it, m.
+    #[serde(default = "eye_height")]
+    pub eye_height: f64,
+    /// How far the eyes are ahead of the robot's middle, as far as turning the head to a place needs it, m.
+    #[serde(default = "eye_ahead")]
+    pub eye_ahead: f64,
+}
+
+/// What robots have that were described before a description said it.
+const fn eye_height() -> f64 {
+    0.45
+}
+
+/// What robots have that were described before a description said it.
+const fn eye_ahead() -> f64 {
+    0.04
 }
 
 /// Where the inertial measurement unit sits.
@@ -274,6 +290,14 @@ pub struct Extent {
     /// Extent across of the upright box that holds the robot while it walks sideways, m; default: the cylinder's.
     #[serde(default)]
     pub width: Option<f64>,
+    /// How far to each side of the middle the ground matters to the feet, m: a little less than the outer edges of the soles.
+    #[serde(default = "foot_side")]
+    pub foot_side: f64,
+}
+
+/// What robots have that were described before a description said it.
+const fn foot_side() -> f64 {
+    0.06
 }
 
 #[cfg(test)]

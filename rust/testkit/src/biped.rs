@@ -99,6 +99,8 @@ fn describe(links: Vec<LinkDescription>, left: Leg, right: Leg) -> Body {
         head: Head {
             pan: "waist".to_owned(),
             tilt: "waist".to_owned(),
+            eye_height: 0.45,
+            eye_ahead: 0.04,
         },
         arms_rest: BTreeMap::new(),
         arms_raised: BTreeMap::new(),
@@ -126,6 +128,7 @@ fn describe(links: Vec<LinkDescription>, left: Leg, right: Leg) -> Body {
             height: 0.58,
             depth: None,
             width: None,
+            foot_side: 0.06,
         },
         play: 0.0,
         gait: serde_json::Value::Null,

@@ -102,6 +102,8 @@ pub(crate) fn description() -> Description {
         head: Head {
             pan: "pan".to_owned(),
             tilt: "tilt".to_owned(),
+            eye_height: 0.45,
+            eye_ahead: 0.04,
         },
         arms_rest: BTreeMap::new(),
         arms_raised: BTreeMap::from([("left_arm".to_owned(), -2.0)]),
@@ -112,6 +114,7 @@ pub(crate) fn description() -> Description {
             height: 0.5,
             depth: None,
             width: None,
+            foot_side: 0.06,
         },
         play: 0.0,
         gait: serde_json::Value::Null,

@@ -9,9 +9,6 @@ use super::{StairClimbing, State};
 use crate::machine::Tick;
 use crate::{Motion, Velocity};
 
-/// Aligning ends after this, however well, s.
-const LONGEST_ALIGN_S: f64 = 10.0;
-
 impl StairClimbing {
     /// One tick of the way there.
     pub(super) fn align(&mut self, tick: &Tick<'_>) -> Motion {
@@ -28,18 +25,22 @@ impl StairClimbing {
         let goal = align_pose(&first, &self.config, &self.climbing, &self.feet);
         let way = tick.pose.relative(&goal);
         let turned_rad = angle_between(tick.pose.yaw_rad, goal.yaw_rad);
-        let there = way.x_m.abs() < 0.05 && way.y_m.abs() < 0.03 && turned_rad.abs() < 0.08;
+        let tuning = &self.config.tuning.align;
+        let there = way.x_m.abs() < tuning.along
+            && way.y_m.abs() < tuning.across
+            && turned_rad.abs() < tuning.turned;
         let velocity = Velocity {
-            x_mps: (1.2 * way.x_m).clamp(-0.05, 0.1),
-            y_mps: (1.2 * way.y_m).clamp(-0.04, 0.04),
-            yaw_radps: (1.5 * turned_rad).clamp(-0.4, 0.4),
+            x_mps: (tuning.gain * way.x_m).clamp(-tuning.backward_speed, tuning.forward_speed),
+            y_mps: (tuning.gain * way.y_m).clamp(-tuning.side_speed, tuning.side_speed),
+            yaw_radps: (tuning.turn_gain * turned_rad).clamp(-tuning.turn_speed, tuning.turn_speed),
         };
+        let longest_s = tuning.longest;
         // From before the edge the plan may know better where to cross it than when the robot set off.
         if there && self.memory.tries.lanes == 0 && self.flight.change_lane() {
             self.memory.tries.lanes += 1;
             self.machine.begin_again(State::Align);
         } else if there
-            || self.machine.lasted_s() > LONGEST_ALIGN_S
+            || self.machine.lasted_s() > longest_s
             || self.drop_off(tick).is_neared(&tick.pose, &velocity)
         {
             self.enter(State::Approach(Approach::Measure));
@@ -55,6 +56,7 @@ impl StairClimbing {
             view: tick.situation.view,
             feet: &self.feet,
             level_m: tick.ground_m,
+            tuning: &self.config.tuning.drop_off,
         }
     }
 }

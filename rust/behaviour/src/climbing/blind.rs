@@ -4,7 +4,7 @@
 use super::state::Climb;
 use super::{StairClimbing, State};
 use crate::Motion;
-use crate::machine::{Sight, Tick};
+use crate::machine::{SightAgain, Tick};
 
 impl StairClimbing {
     /// One tick of standing and looking down and around: from where the head points now perhaps nothing can be told.
@@ -22,13 +22,13 @@ impl StairClimbing {
         let looks = !self.head.advance(tick.situation.frames_used, tick.passed_s);
         self.machine.go_on(State::Blind { looks });
         match self.machine.sight(tick) {
-            Sight::Back if self.memory.on.is_some() => {
+            SightAgain::Back if self.memory.on.is_some() => {
                 self.enter(State::Climb(Climb::Look));
                 self.begin_look(tick);
             }
-            Sight::Back => self.begin_search(tick),
-            Sight::Away => {}
-            Sight::Hopeless(reason) => self.refuse(reason),
+            SightAgain::Back => self.begin_search(tick),
+            SightAgain::Away => {}
+            SightAgain::Hopeless(reason) => self.refuse(reason),
         }
         Motion::Stand
     }

@@ -1,26 +1,28 @@
 //! Whether there is room: for a move before a step, for the feet on it, to walk and to turn behind it.
 
 use geometry::PlanarPose;
-use mapping::Surface;
 use planning::Step;
+use terrain::support::{ObstacleCell, SolesOnGround, cells_under, is_riser, stairs_under};
 
 use super::StairClimbing;
-use crate::climbing::flight::{ROOMY_M, SAME_HEIGHT_M, crosses_another};
+use crate::Situation;
+use crate::climbing::flight::crosses_another;
 use crate::climbing::footsteps::Stance;
 use crate::machine::Tick;
-use crate::walking::is_edge;
-
-/// What is higher above a step than this stands on it, m.
-const STANDS_ON_M: f32 = 0.04;
 
 impl StairClimbing {
     /// Whether a move to where `first` is taken from needs no large turn, crosses no other edge, and leaves the soles on the stair
     /// that the robot stands on.
     pub(super) fn stays_on(&self, tick: &Tick<'_>, stance: &Stance, first: &Step) -> bool {
-        const LARGEST_TURN_RAD: f64 = 0.3;
-        const MARGIN_M: f64 = 0.01;
+        let tuning = &self.config.tuning.clearance;
         let (stairs, to) = (tick.situation.stairs, &stance.pose);
-        if crosses_another(stairs, &tick.pose, tick.ground_m, to, first, &self.climbing) {
+        if crosses_another(
+            stairs,
+            (&tick.pose, tick.ground_m),
+            to,
+            first,
+            &self.rules(),
+        ) {
             return false;
         }
         let Some(on) = self.memory.on else {
@@ -30,9 +32,9 @@ impl StairClimbing {
             return false;
         }
         let turn_rad = geometry::angle_between(tick.pose.yaw_rad, stance.pose.yaw_rad);
-        let least_m = self.climbing.set_for(on.rise_m).front_x_limit - MARGIN_M;
+        let least_m = self.climbing.set_for(on.rise_m).front_x_limit - tuning.heels;
         let half_pair_m = 0.5 * self.feet.pair_width_m;
-        turn_rad.abs() < LARGEST_TURN_RAD
+        turn_rad.abs() < tuning.largest_turn
             && [-half_pair_m, half_pair_m].into_iter().all(|aside_m| {
                 let (x_m, y_m) = stance.pose.apply(-0.5 * self.feet.length_m, aside_m);
                 on.stair.front.beyond_m([x_m, y_m]) >= least_m
@@ -41,7 +43,7 @@ impl StairClimbing {
 
     /// Whether a move would bring a sole beyond the side of the stair that the robot stands on, and further than it is.
     fn leaves_aside(&self, on: &Step, from: &PlanarPose, to: &PlanarPose) -> bool {
-        const SPARE_M: f64 = 0.005;
+        let spare_m = self.config.tuning.clearance.aside;
         let edge = &on.stair.front;
         let half_pair_m = 0.5 * self.feet.pair_width_m;
         let sides = [1.0, -1.0].into_iter().zip(on.stair.room_beside_m());
@@ -51,43 +53,31 @@ impl StairClimbing {
                 side * edge.aside_m([x_m, y_m])
             };
             let end_m = 0.5 * edge.length_m() + room_m;
-            outermost_m(to) > end_m.max(outermost_m(from) + SPARE_M)
+            outermost_m(to) > end_m.max(outermost_m(from) + spare_m)
         })
     }
 
     /// Whether something stands where the feet shall go: not the riser behind the heels or before the toes.
     pub(super) fn is_occupied(&self, tick: &Tick<'_>, stance: &Stance) -> bool {
-        const RASTER: i32 = 4;
-        let view = tick.situation.view;
-        let half = [0.5 * self.feet.length_m, 0.5 * self.feet.pair_width_m];
-        let top_m = stance.height_m as f32 + STANDS_ON_M;
-        let mut cells = Vec::new();
-        for (i, j) in (-RASTER..=RASTER).flat_map(|i| (-RASTER..=RASTER).map(move |j| (i, j))) {
-            let share = |k: i32| f64::from(k) / f64::from(RASTER);
-            let (x_m, y_m) = stance.pose.apply(share(i) * half[0], share(j) * half[1]);
-            let Surface::Obstacle(height_m) = view.at(x_m, y_m) else {
-                continue;
-            };
-            let cell = view.lattice.cell_at(x_m, y_m);
-            let obstacle = (view.lattice.center_of(cell), height_m);
-            let riser = is_edge(tick.situation.stairs, &obstacle);
-            if height_m > top_m && !riser && !cells.contains(&cell) {
-                cells.push(cell);
-            }
-        }
-        cells.len() >= 2
+        let tuning = &self.config.tuning.clearance;
+        let Situation { view, stairs, .. } = *tick.situation;
+        let soles = SolesOnGround {
+            half_m: [0.5 * self.feet.length_m, 0.5 * self.feet.pair_width_m],
+            raster: tuning.raster,
+        };
+        let top_m = stance.height_m as f32 + tuning.stands_on;
+        let edges = self.walking.obstacles().edges();
+        let counts = |cell: &ObstacleCell| !is_riser(stairs, cell, edges);
+        cells_under(view, soles, &stance.pose, top_m, counts) >= tuning.cells
     }
 
     /// Whether what the robot stands on, as it is known by now, has room to turn and to walk.
     pub(super) fn has_room(&self, tick: &Tick<'_>) -> bool {
         let at = [tick.pose.x_m, tick.pose.y_m];
-        let roomy = |stair: &stairs::Stair<geometry::Map>| stair.depth_m() >= ROOMY_M;
-        let stands_on = |stair: &&stairs::Stair<geometry::Map>| {
-            (stair.height_m() - tick.ground_m).abs() < SAME_HEIGHT_M
-                && stair.front.beyond_m(at) > 0.0
-                && stair.back.beyond_m(at) < 0.0
-        };
-        let mut known_now = tick.situation.stairs.stairs.iter().filter(stands_on);
+        let tuning = &self.config.tuning;
+        let roomy = |stair: &stairs::Stair<geometry::Map>| stair.depth_m() >= tuning.flight.roomy;
+        let level_m = (tick.ground_m, tuning.lookup.same_height);
+        let mut known_now = stairs_under(tick.situation.stairs, at, level_m);
         self.memory.on.is_none_or(|step| roomy(&step.stair)) || known_now.any(roomy)
     }
 }

@@ -21,10 +21,11 @@ impl StairClimbing {
 
     /// Looks at what comes after the next step.
     pub(super) fn begin_look(&mut self, tick: &Tick<'_>) {
-        const AHEAD_M: f64 = 0.2;
+        let tuning = &self.config.tuning.head;
+        let (ahead_m, nearest_m) = (tuning.look_ahead, tuning.look_nearest);
         let step = self.edge_to_watch().or(self.flight.first());
-        let place_m = step.map_or([AHEAD_M, 0.0], |step| self.crossed_at_m(tick, step));
-        self.head.look_at([place_m[0].max(0.15), place_m[1]]);
+        let place_m = step.map_or([ahead_m, 0.0], |step| self.crossed_at_m(tick, step));
+        self.head.look_at([place_m[0].max(nearest_m), place_m[1]]);
         self.machine.go_on(State::Climb(Climb::Look));
     }
 
@@ -69,7 +70,8 @@ impl StairClimbing {
     /// One tick while the feet move.
     fn take_steps(&mut self, tick: &Tick<'_>) {
         let watched = self.edge_to_watch();
-        let place_m = watched.map_or([0.3, 0.0], |step| self.crossed_at_m(tick, step));
+        let ahead_m = self.config.tuning.head.step_ahead;
+        let place_m = watched.map_or([ahead_m, 0.0], |step| self.crossed_at_m(tick, step));
         self.head.turn_to(place_m, tick.passed_s);
         if tick.new_frame {
             self.go_on_without_a_stop(tick);
@@ -102,7 +104,7 @@ impl StairClimbing {
         let verdict = self.before(tick).check(&first, &self.behind(tick, &first));
         match verdict {
             Verdict::Go(stance) => {
-                if self.memory.tries.missteps > 0 && !is_seen_now(tick, &first) {
+                if self.memory.tries.missteps > 0 && !self.is_seen_now(tick, &first) {
                     self.look_again(tick, || {
                         "blocked: the next step is not where it was seen".to_owned()
                     });
@@ -146,7 +148,7 @@ impl StairClimbing {
     pub(super) fn look_again(&mut self, tick: &Tick<'_>, reason: impl FnOnce() -> String) {
         self.memory.tries.looks += 1;
         if self.memory.tries.looks > self.config.tries {
-            if self.memory.on.is_some() && (self.has_room(tick) || tick.is_in_the_goal()) {
+            if self.memory.on.is_some() && (self.has_room(tick) || self.is_in_the_goal(tick)) {
                 self.enter(State::FINISH);
                 return;
             }
@@ -179,7 +181,7 @@ impl StairClimbing {
     }
 
     fn step(&mut self, tick: &Tick<'_>, stance: &Stance) {
-        let first = leading_side(&tick.pose, &stance.pose);
+        let first = leading_side(&tick.pose, &stance.pose, &self.config.tuning.footsteps);
         let mut run = vec![*stance];
         if self.pace == Pace::Continuous && !self.memory.pauses {
             let _ = self.lengthen_run(tick, &mut run);
@@ -223,13 +225,13 @@ impl StairClimbing {
             self.memory.tries = Tries::default();
         }
     }
-}
 
-/// Whether a step is in the present view.
-fn is_seen_now(tick: &Tick<'_>, step: &Step) -> bool {
-    tick.situation
-        .stairs
-        .stairs
-        .iter()
-        .any(|stair| covers(stair, step) && stair.steps_ago == 0)
+    /// Whether a step is in the present view.
+    fn is_seen_now(&self, tick: &Tick<'_>, step: &Step) -> bool {
+        let lookup = &self.config.tuning.lookup;
+        let stairs = &tick.situation.stairs.stairs;
+        stairs
+            .iter()
+            .any(|stair| covers(stair, step, lookup) && stair.steps_ago == 0)
+    }
 }

@@ -24,7 +24,7 @@ impl StairClimbing {
                 ground_m: last.height_m,
                 ..*tick
             };
-            if there.leaves_the_goal_by(&steps[next]) {
+            if self.leaves_the_goal_by(&there, &steps[next]) {
                 break;
             }
             let most_m = self.config.run_rise;

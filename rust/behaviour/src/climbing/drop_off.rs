@@ -2,21 +2,12 @@
 //! one a platform ends, too.
 
 use geometry::PlanarPose;
-use mapping::{FloorView, Surface};
+use mapping::FloorView;
 use stairs::Feet;
+use terrain::support::{SolesOnGround, lower_places};
 
+use super::tuning::DropOffTuning;
 use crate::Velocity;
-
-/// How far ahead a walk is looked at, s: a step, and a little more.
-const AHEAD_S: f64 = 0.6;
-/// Room that a walk keeps around the soles, m.
-const MARGIN_M: f64 = 0.03;
-/// Floor that is lower by more than this is another level, m.
-const LOWER_M: f64 = 0.02;
-/// Places under the soles to each side of their middle, along and across, at which the map is asked.
-const RASTER: i32 = 5;
-/// Fewer places than this are a corner of a cell that may be of either level.
-const FEW: usize = 2;
 
 /// The floor around a robot that stands at this height.
 #[derive(Debug, Clone, Copy)]
@@ -25,57 +16,40 @@ pub(super) struct DropOff<'a> {
     pub(super) feet: &'a Feet,
     /// Height of the floor that the robot stands on, m.
     pub(super) level_m: f64,
+    pub(super) tuning: &'a DropOffTuning,
 }
 
 impl DropOff<'_> {
     /// Whether a walk brings the feet nearer to lower floor than they are, within their next step.
     pub(super) fn is_neared(&self, pose: &PlanarPose, velocity: &Velocity) -> bool {
-        let way = [velocity.x_mps, velocity.y_mps, velocity.yaw_radps].map(|rate| rate * AHEAD_S);
+        let (ahead_s, few) = (self.tuning.ahead, self.tuning.few);
+        let way = [velocity.x_mps, velocity.y_mps, velocity.yaw_radps].map(|rate| rate * ahead_s);
         let next = pose.compose(&PlanarPose::new(way[0], way[1], way[2]));
-        let [now, then] = [pose, &next].map(|pose| self.lower_places(pose, 1.0, MARGIN_M));
-        then >= FEW && then > now
+        let [now, then] =
+            [pose, &next].map(|pose| self.lower_places(pose, 1.0, self.tuning.margin));
+        then >= few && then > now
     }
 
     /// Whether the rear half of a sole has lower floor under it at a place before an edge: toes may reach over that.
     pub(super) fn is_under(&self, pose: &PlanarPose) -> bool {
-        self.lower_places(pose, 0.0, 0.0) >= FEW
+        self.lower_places(pose, 0.0, 0.0) >= self.tuning.few
     }
 
     /// At how many places under both soles there is lower floor: from the heels to this share of half their length, and so far
     /// around them, m.
     fn lower_places(&self, pose: &PlanarPose, front: f64, margin_m: f64) -> usize {
         let half_m = [self.feet.length_m, self.feet.pair_width_m].map(|size| 0.5 * size + margin_m);
-        let shares = || (-RASTER..=RASTER).map(|k| f64::from(k) / f64::from(RASTER));
-        let along = shares().filter(|along| *along <= front);
-        let places = along.flat_map(|along| shares().map(move |across| [along, across]));
-        let is_lower = |[along, across]: &[f64; 2]| {
-            let (x_m, y_m) = pose.apply(along * half_m[0], across * half_m[1]);
-            self.is_lower([x_m, y_m])
-        };
-        places.filter(is_lower).count()
-    }
-
-    /// Whether the map has lower floor at a place, or beside it where it has nothing: below an edge is a shadow.
-    fn is_lower(&self, [x_m, y_m]: [f64; 2]) -> bool {
-        let beside_m = self.view.lattice.cell_m;
-        let lower = |dx_m: f64, dy_m: f64| match self.view.at(x_m + dx_m, y_m + dy_m) {
-            Surface::Floor(height_m) => f64::from(height_m) < self.level_m - LOWER_M,
-            _ => false,
-        };
-        let beside = [
-            (beside_m, 0.0),
-            (-beside_m, 0.0),
-            (0.0, beside_m),
-            (0.0, -beside_m),
-        ];
-        let unknown = self.view.at(x_m, y_m) == Surface::Unknown;
-        lower(0.0, 0.0) || unknown && beside.iter().any(|&(dx_m, dy_m)| lower(dx_m, dy_m))
+        let raster = self.tuning.raster;
+        let soles = SolesOnGround { half_m, raster };
+        let levels_m = (self.level_m, self.tuning.lower);
+        lower_places(self.view, soles, (pose, front), levels_m)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use geometry::{Grid, Lattice};
+    use mapping::Surface;
     use proptest::prelude::*;
 
     use super::*;
@@ -106,11 +80,12 @@ mod tests {
         }
     }
 
-    fn drop_off(view: &FloorView) -> DropOff<'_> {
+    fn drop_off<'a>(view: &'a FloorView, tuning: &'a DropOffTuning) -> DropOff<'a> {
         DropOff {
             view,
             feet: &FEET,
             level_m: 0.05,
+            tuning,
         }
     }
 
@@ -124,7 +99,8 @@ mod tests {
     #[test]
     fn a_walk_towards_the_side_of_a_platform_is_noticed_before_a_sole_is_beyond_it() {
         let view = platform();
-        let drop_off = drop_off(&view);
+        let tuning = DropOffTuning::default();
+        let drop_off = drop_off(&view, &tuning);
         // The outer side of the left sole is 8 cm from the middle.
         assert!(!drop_off.is_neared(&PlanarPose::new(0.0, 0.1, 0.0), &sideways(0.04)));
         assert!(drop_off.is_neared(&PlanarPose::new(0.0, 0.17, 0.0), &sideways(0.04)));
@@ -134,7 +110,8 @@ mod tests {
     #[test]
     fn toes_may_reach_over_an_edge_and_heels_may_not() {
         let view = platform();
-        let drop_off = drop_off(&view);
+        let tuning = DropOffTuning::default();
+        let drop_off = drop_off(&view, &tuning);
         let ahead_rad = std::f64::consts::FRAC_PI_2;
         assert!(!drop_off.is_under(&PlanarPose::new(0.0, 0.26, ahead_rad)));
         assert!(drop_off.is_under(&PlanarPose::new(0.0, 0.26, -ahead_rad)));
@@ -147,7 +124,8 @@ mod tests {
         ) {
             let mut view = platform();
             view.cells = Grid::filled(50, 50, Surface::Floor(0.045));
-            prop_assert!(!drop_off(&view).is_neared(&PlanarPose::new(x_m, y_m, yaw_rad), &sideways(y_mps)));
+            let tuning = DropOffTuning::default();
+            prop_assert!(!drop_off(&view, &tuning).is_neared(&PlanarPose::new(x_m, y_m, yaw_rad), &sideways(y_mps)));
         }
     }
 }

@@ -16,21 +16,21 @@ impl StairClimbing {
 
     /// Whether it will do when no look tells more: sure enough, if only by few frames.
     pub(super) fn is_usable(&self, step: &Step) -> bool {
-        const SIGMA: f64 = 1.2;
+        let sigmas = self.config.tuning.edges.usable;
         step.stair.front_fit.is_some_and(|fit| {
-            fit.place_sigma_m <= SIGMA * self.config.edge_sigma
-                && fit.heading_sigma_rad <= SIGMA * self.config.heading_sigma
+            fit.place_sigma_m <= sigmas * self.config.edge_sigma
+                && fit.heading_sigma_rad <= sigmas * self.config.heading_sigma
         })
     }
 
     /// Whether it is known so well that another look would tell little.
     pub(super) fn is_well_measured(&self, step: &Step) -> bool {
-        const FRAMES: u32 = 2;
-        const SIGMA: f64 = 0.5;
+        let tuning = &self.config.tuning.edges;
+        let (frames, sigmas) = (tuning.well_frames, tuning.well);
         step.stair.front_fit.is_some_and(|fit| {
-            fit.frames >= FRAMES * self.config.edge_frames
-                && fit.place_sigma_m <= SIGMA * self.config.edge_sigma
-                && fit.heading_sigma_rad <= SIGMA * self.config.heading_sigma
+            fit.frames >= frames * self.config.edge_frames
+                && fit.place_sigma_m <= sigmas * self.config.edge_sigma
+                && fit.heading_sigma_rad <= sigmas * self.config.heading_sigma
         })
     }
 }

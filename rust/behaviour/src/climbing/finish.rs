@@ -5,13 +5,6 @@ use super::{Memory, StairClimbing, State};
 use crate::machine::Tick;
 use crate::{Motion, Velocity};
 
-/// The farthest that the robot walks away from the last edge before it is glad, from the edge to its middle, m.
-const FARTHEST_M: f64 = 0.16;
-/// Walking there ends after this, s.
-const LONGEST_WALK_S: f64 = 5.0;
-/// Waiting for the robot to stand ends after this, s.
-const LONGEST_STOP_S: f64 = 3.0;
-
 impl StairClimbing {
     /// No step is left.
     pub(super) fn end_climb(&mut self, tick: &Tick<'_>) {
@@ -27,7 +20,7 @@ impl StairClimbing {
 
     /// Whether the climb has ended at the goal, on a tread from which there is no walking on: there the robot stays.
     fn stays_here(&self, tick: &Tick<'_>) -> bool {
-        tick.is_in_the_goal() && !self.has_room(tick)
+        self.is_in_the_goal(tick) && !self.has_room(tick)
     }
 
     /// Whether it declares from there that it has arrived: no walk will.
@@ -44,22 +37,28 @@ impl StairClimbing {
     /// One tick; `part` had lasted so long at the last one, s.
     pub(super) fn finish(&mut self, tick: &Tick<'_>, part: Finish, lasted_s: f64) -> Motion {
         let lasted_s = lasted_s + tick.passed_s;
-        self.head.turn_to([0.35, 0.0], tick.passed_s);
+        let ahead_m = self.config.tuning.head.finish_ahead;
+        self.head.turn_to([ahead_m, 0.0], tick.passed_s);
         let stays = self.stays_here(tick);
+        let tuning = &self.config.tuning.finish;
         let remaining_m = self.memory.on.filter(|_| !stays).map_or(0.0, |step| {
             let beyond_m = step.stair.front.beyond_m([tick.pose.x_m, tick.pose.y_m]);
-            (0.5 * step.stair.depth_m()).min(FARTHEST_M) - beyond_m
+            (0.5 * step.stair.depth_m()).min(tuning.farthest) - beyond_m
         });
         let next = match part {
-            Finish::Leave if remaining_m > 0.02 && lasted_s < LONGEST_WALK_S => {
+            Finish::Leave if remaining_m > tuning.there && lasted_s < tuning.longest_walk => {
+                let speed_mps = tuning.gain * remaining_m;
+                let x_mps = speed_mps.clamp(tuning.slowest, tuning.fastest);
                 self.machine.go_on(State::Finish { part, lasted_s });
                 return Motion::Walk(Velocity {
-                    x_mps: (1.5 * remaining_m).clamp(0.02, 0.08),
+                    x_mps,
                     ..Velocity::default()
                 });
             }
             Finish::Leave => Finish::Stop,
-            Finish::Stop if tick.situation.standing || lasted_s > LONGEST_STOP_S => Finish::Cheer,
+            Finish::Stop if tick.situation.standing || lasted_s > tuning.longest_stop => {
+                Finish::Cheer
+            }
             Finish::Cheer if self.has_cheered(part, lasted_s) && !stays => {
                 self.memory = Memory::default();
                 self.flight.clear();

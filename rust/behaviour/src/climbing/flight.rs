@@ -8,27 +8,11 @@ use geometry::{PlanarPose, angle_between};
 use planning::{Plan, Step};
 use stairs::{ClimbingConfig, Staircase};
 
-use crate::climbing::placement::depth_m;
-use lookup::{LEAST_TREAD_M, following, is_same};
-pub(crate) use lookup::{SAME_HEIGHT_M, covers, crosses_another, is_step, nearest, settled_rise_m};
-
-/// An edge nearer than this to the robot's middle is out of view: what was measured before is better than what is thought
-/// of it now, m.
-const OUT_OF_VIEW_M: f64 = 0.17;
-
-/// A robot on a tread deeper than this has room to turn and to walk, m.
-pub(crate) const ROOMY_M: f64 = 0.22;
-
-/// A lane further aside than this is another one, m.
-const LANE_M: f64 = 0.08;
-
-/// A robot whose middle is further than this before an edge has no foot over it yet, m.
-const NOT_YET_THERE_M: f64 = 0.06;
-
-/// Steps that neither the plan nor the view has shown for this long are lost, s.
-const LOST_S: f64 = 1.5;
-/// A plan may think of another way for this long, s.
-const UNPLANNED_S: f64 = 4.0;
+use crate::climbing::tuning::{FlightTuning, StairClimbingTuning, StepLookupTuning};
+pub(crate) use lookup::{
+    StepRules, covers, crosses_another, depth_m, is_step, nearest, settled_rise_m,
+};
+use lookup::{following, is_same};
 
 /// The steps ahead, in their order. In the map, so that the robot's own motion moves none of them.
 #[derive(Debug, Clone, Default)]
@@ -40,9 +24,20 @@ pub(crate) struct Flight {
     pub(crate) unplanned_s: f64,
     /// How far to the left of the lane the plan now crosses the first step, m.
     elsewhere_m: f64,
+    tuning: FlightTuning,
+    lookup: StepLookupTuning,
 }
 
 impl Flight {
+    /// No step is known yet.
+    pub(crate) fn new(tuning: &StairClimbingTuning) -> Self {
+        Self {
+            tuning: tuning.flight.clone(),
+            lookup: tuning.lookup.clone(),
+            ..Self::default()
+        }
+    }
+
     /// The memorised step, *step₁* of 003.
     pub(crate) fn first(&self) -> Option<&Step> {
         self.steps.first()
@@ -70,22 +65,34 @@ impl Flight {
         }
         let mut last = None;
         for step in &mut self.steps {
-            last = before.iter().position(|old| is_same(old, &step.stair));
+            last = before
+                .iter()
+                .position(|old| is_same(old, &step.stair, &self.lookup));
             if let Some(at) = last {
-                keep_better_edge(step, &before[at], pose);
+                keep_better_edge(step, &before[at], pose, (&self.tuning, &self.lookup));
             }
         }
         if let Some(last) = last {
             let planned = self.steps.len();
-            let there = |old: &Step| stairs.stairs.iter().any(|stair| covers(stair, old));
+            let there = |old: &Step| {
+                stairs
+                    .stairs
+                    .iter()
+                    .any(|stair| covers(stair, old, &self.lookup))
+            };
             for old in &before[last + 1..] {
-                let behind = |last: &Step| depth_m(last, old) > LEAST_TREAD_M;
+                let behind = |last: &Step| depth_m(last, old) > self.lookup.least_tread;
                 if !(there(old) && self.steps.last().is_some_and(behind)) {
                     break;
                 }
                 self.steps.push(*old);
             }
-            look_up(&mut self.steps[planned..], stairs, pose);
+            look_up(
+                &mut self.steps[planned..],
+                stairs,
+                pose,
+                (&self.tuning, &self.lookup),
+            );
         }
     }
 
@@ -100,7 +107,7 @@ impl Flight {
 
     /// Takes the lane that the plan takes now, and says whether that is another one.
     pub(crate) fn change_lane(&mut self) -> bool {
-        let changes = self.elsewhere_m.abs() > LANE_M;
+        let changes = self.elsewhere_m.abs() > self.tuning.lane;
         if changes {
             shift(&mut self.steps, std::mem::take(&mut self.elsewhere_m));
         }
@@ -127,12 +134,12 @@ impl Flight {
 
     /// Whether the first step is no longer where the way leads: it is not seen, or the plan has left it for long.
     pub(crate) fn is_lost(&self) -> bool {
-        self.is_out_of_sight() || self.unplanned_s > UNPLANNED_S
+        self.is_out_of_sight() || self.unplanned_s > self.tuning.unplanned_after
     }
 
     /// Whether neither the view nor the plan shows the first step.
     pub(crate) fn is_out_of_sight(&self) -> bool {
-        self.lost_s > LOST_S
+        self.lost_s > self.tuning.lost_after
     }
 
     /// Takes in what is known now: the plan's steps where it shows the memorised one, else the stairs themselves.
@@ -146,31 +153,74 @@ impl Flight {
         let Some(first) = self.steps.first().copied() else {
             return;
         };
-        if let Some(steps) = plan.and_then(|plan| steps_from(plan, &first, pose)) {
+        if let Some(steps) = plan.and_then(|plan| self.steps_from(plan, &first, pose)) {
             self.renew(&steps, stairs, pose);
             return;
         }
-        if stairs.stairs.iter().any(|stair| covers(stair, &first)) {
+        if stairs
+            .stairs
+            .iter()
+            .any(|stair| covers(stair, &first, &self.lookup))
+        {
             self.lost_s = 0.0;
         }
-        look_up(&mut self.steps, stairs, pose);
+        look_up(&mut self.steps, stairs, pose, (&self.tuning, &self.lookup));
+        let rules = StepRules {
+            climbing: config,
+            lookup: &self.lookup,
+        };
         while let Some(next) = self
             .steps
             .last()
-            .and_then(|last| following(last, stairs, config))
+            .and_then(|last| following(last, stairs, &rules))
         {
             self.steps.push(next);
         }
+    }
+
+    /// The plan's steps from this one on, as far as no tread between them is roomy, and those before it that came to be seen while
+    /// the robot was not yet at their edges: from far away two low steps are one. The plan may walk on a tread between two of them.
+    /// One that leads the other way is none of them: halfway over an edge a plan may begin with going back over it.
+    fn steps_from(&self, plan: &Plan, first: &Step, pose: &PlanarPose) -> Option<Vec<Step>> {
+        let not_yet_m = self.tuning.not_yet_there;
+        let heading_rad = first.stair.front.heading_rad();
+        let is_to_come = |step: &&Step| {
+            let aside_rad = angle_between(step.stair.front.heading_rad(), heading_rad).abs();
+            let beyond_m = step.stair.front.beyond_m([pose.x_m, pose.y_m]);
+            aside_rad < FRAC_PI_2 && beyond_m < -not_yet_m
+        };
+        let climbs = &plan.way.as_ref().ok()?.climbs;
+        let steps: Vec<_> = climbs.iter().flat_map(|climb| &climb.steps).collect();
+        let at = steps
+            .iter()
+            .position(|step| is_same(first, &step.stair, &self.lookup))?;
+        let to_come = steps[..at].iter().rev().copied().take_while(is_to_come);
+        let follows = |pair: &&[&Step]| {
+            let depth_m = depth_m(pair[0], pair[1]);
+            depth_m > self.lookup.least_tread && depth_m < self.tuning.roomy
+        };
+        let following = steps[at..].windows(2).take_while(follows);
+        let range = at - to_come.count()..=at + following.count();
+        Some(steps[range].iter().copied().copied().collect())
     }
 }
 
 /// Gives each step the stair that it is by now, and has it cross that one's edge. A stair that is seen to be higher by now may be none
 /// that the robot climbs.
-fn look_up(steps: &mut [Step], stairs: &Staircase, pose: &PlanarPose) {
+fn look_up(
+    steps: &mut [Step],
+    stairs: &Staircase,
+    pose: &PlanarPose,
+    tuning: (&FlightTuning, &StepLookupTuning),
+) {
     let mut before_higher_m = 0.0;
     for step in steps {
         let mut higher_m = 0.0;
-        if let Some(stair) = stairs.stairs.iter().find(|stair| is_same(step, stair)) {
+        if let Some(stair) = stairs
+            .stairs
+            .iter()
+            .find(|stair| is_same(step, stair, tuning.1))
+        {
             let old = *step;
             step.stair = *stair;
             higher_m = stair.height_m() - old.stair.height_m();
@@ -178,7 +228,7 @@ fn look_up(steps: &mut [Step], stairs: &Staircase, pose: &PlanarPose) {
             let off_m = stair.front.beyond_m(old.crossing_m);
             step.crossing_m[0] -= off_m * cos;
             step.crossing_m[1] -= off_m * sin;
-            keep_better_edge(step, &old, pose);
+            keep_better_edge(step, &old, pose, tuning);
         }
         step.rise_m += higher_m - before_higher_m;
         before_higher_m = higher_m;
@@ -206,51 +256,32 @@ fn shift(steps: &mut [Step], left_m: f64) {
 
 /// An edge stays where it was measured while it is out of view, and when what is said of it now is worth less. One that was
 /// not measured goes where it is measured, and one of which but a piece was known to where more of it is.
-fn keep_better_edge(step: &mut Step, old: &Step, pose: &PlanarPose) {
-    const WORSE: f64 = 2.0;
-    const PIECE: f64 = 0.5;
+fn keep_better_edge(
+    step: &mut Step,
+    old: &Step,
+    pose: &PlanarPose,
+    (tuning, lookup): (&FlightTuning, &StepLookupTuning),
+) {
+    let worse = tuning.worse;
     let away_m = -old.stair.front.beyond_m([pose.x_m, pose.y_m]);
-    let out_of_view = away_m < OUT_OF_VIEW_M;
+    let out_of_view = away_m < tuning.out_of_view;
     let stays = match (&old.stair.front_fit, &step.stair.front_fit) {
-        (Some(old), Some(new)) => out_of_view || new.place_sigma_m > WORSE * old.place_sigma_m,
+        (Some(old), Some(new)) => out_of_view || new.place_sigma_m > worse * old.place_sigma_m,
         (Some(_), None) => true,
         (None, Some(_)) => false,
         (None, None) => out_of_view,
     };
-    let was_a_piece = old.stair.front.length_m() < PIECE * step.stair.front.length_m();
+    let was_a_piece = old.stair.front.length_m() < tuning.piece * step.stair.front.length_m();
     if stays && !was_a_piece {
         step.stair.front = old.stair.front;
         step.stair.front_fit = old.stair.front_fit;
         step.stair.left_margin_m = old.stair.left_margin_m;
         step.stair.right_margin_m = old.stair.right_margin_m;
         step.crossing_m = old.crossing_m;
-        if (step.rise_m - old.rise_m).abs() < SAME_HEIGHT_M {
+        if (step.rise_m - old.rise_m).abs() < lookup.same_height {
             step.rise_m = old.rise_m;
         }
     }
-}
-
-/// The plan's steps from this one on, as far as no tread between them is roomy, and those before it that came to be seen while
-/// the robot was not yet at their edges: from far away two low steps are one. The plan may walk on a tread between two of them.
-/// One that leads the other way is none of them: halfway over an edge a plan may begin with going back over it.
-fn steps_from(plan: &Plan, first: &Step, pose: &PlanarPose) -> Option<Vec<Step>> {
-    let heading_rad = first.stair.front.heading_rad();
-    let is_to_come = |step: &&Step| {
-        let aside_rad = angle_between(step.stair.front.heading_rad(), heading_rad).abs();
-        let beyond_m = step.stair.front.beyond_m([pose.x_m, pose.y_m]);
-        aside_rad < FRAC_PI_2 && beyond_m < -NOT_YET_THERE_M
-    };
-    let climbs = &plan.way.as_ref().ok()?.climbs;
-    let steps: Vec<_> = climbs.iter().flat_map(|climb| &climb.steps).collect();
-    let at = steps.iter().position(|step| is_same(first, &step.stair))?;
-    let to_come = steps[..at].iter().rev().copied().take_while(is_to_come);
-    let follows = |pair: &&[&Step]| {
-        let depth_m = depth_m(pair[0], pair[1]);
-        depth_m > LEAST_TREAD_M && depth_m < ROOMY_M
-    };
-    let following = steps[at..].windows(2).take_while(follows);
-    let range = at - to_come.count()..=at + following.count();
-    Some(steps[range].iter().copied().copied().collect())
 }
 
 #[cfg(test)]

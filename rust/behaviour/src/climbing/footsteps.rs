@@ -4,6 +4,7 @@ use geometry::PlanarPose;
 use robot::Side;
 
 use crate::climbing::StairClimbingConfig;
+use crate::climbing::tuning::FootstepsTuning;
 
 /// A place for a foot in the map.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,9 +49,9 @@ impl Stance {
 }
 
 /// The foot that goes first: the one on the side that is moved or turned to, so that the feet stay apart.
-pub(crate) fn leading_side(from: &PlanarPose, to: &PlanarPose) -> Side {
+pub(crate) fn leading_side(from: &PlanarPose, to: &PlanarPose, tuning: &FootstepsTuning) -> Side {
     let way = from.relative(to);
-    if way.y_m + 0.1 * way.yaw_rad < 0.0 {
+    if way.y_m + tuning.turn_arm * way.yaw_rad < 0.0 {
         Side::Right
     } else {
         Side::Left
@@ -65,12 +66,11 @@ pub(crate) fn level(
     stance_m: f64,
     config: &StairClimbingConfig,
 ) -> Vec<Foothold> {
-    const ASIDE_M: f64 = 0.004;
-    const TURN_RAD: f64 = 0.04;
+    let tuning = &config.tuning.footsteps;
     let way = from.relative(&to.pose);
     let crosses = way.y_m * way.yaw_rad < 0.0;
-    let far = way.x_m.abs() > ASIDE_M || way.y_m.abs() > ASIDE_M;
-    let turns = way.yaw_rad.abs() > TURN_RAD;
+    let far = way.x_m.abs() > tuning.aside || way.y_m.abs() > tuning.aside;
+    let turns = way.yaw_rad.abs() > tuning.turn;
     if far && turns && (crosses || way.yaw_rad.abs() > config.step_turn) {
         let turned = PlanarPose::new(from.x_m, from.y_m, to.pose.yaw_rad);
         let on_the_spot = Stance {
@@ -91,7 +91,7 @@ fn straight(
     config: &StairClimbingConfig,
 ) -> Vec<Foothold> {
     let way = from.relative(&to.pose);
-    let lead = leading_side(from, &to.pose);
+    let lead = leading_side(from, &to.pose, &config.tuning.footsteps);
     let pairs = (way.y_m.abs() / config.step_side)
         .max(way.yaw_rad.abs() / config.step_turn)
         .ceil()

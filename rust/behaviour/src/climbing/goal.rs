@@ -2,10 +2,26 @@
 
 use planning::{Refusal, Step};
 
+use super::StairClimbing;
+
 use crate::machine::Tick;
 
-/// A goal is on the robot's level when its height is less than this from that of the ground, m.
-const SAME_LEVEL_M: f64 = 0.02;
+impl StairClimbing {
+    /// Whether the robot stands in the disc of the last goal, at its height where it has one.
+    pub(super) fn is_in_the_goal(&self, tick: &Tick<'_>) -> bool {
+        tick.is_in_the_goal(self.config.tuning.goal_level)
+    }
+
+    /// Whether the robot stands in the disc of the last goal, which has a height, at that height.
+    pub(super) fn is_at_the_goal(&self, tick: &Tick<'_>) -> bool {
+        tick.situation.goal.height_m.is_some() && self.is_in_the_goal(tick)
+    }
+
+    /// Whether the robot stands in the goal and has it on this side of the step: to take it would be to leave the goal.
+    pub(super) fn leaves_the_goal_by(&self, tick: &Tick<'_>, step: &Step) -> bool {
+        self.is_in_the_goal(tick) && step.stair.front.beyond_m(tick.goal_m()) < 0.0
+    }
+}
 
 impl Tick<'_> {
     /// Whether the planner finds no way because of what stairs are like.
@@ -26,23 +42,12 @@ impl Tick<'_> {
             .is_some_and(|off_m| off_m > floor_max_m)
     }
 
-    /// Whether the robot stands in the disc of the last goal, which has a height, at that height.
-    pub(super) fn is_at_the_goal(&self) -> bool {
-        self.situation.goal.height_m.is_some() && self.is_in_the_goal()
-    }
-
     /// Whether the robot stands in the disc of the last goal, at its height where it has one.
-    pub(super) fn is_in_the_goal(&self) -> bool {
-        let on_level = self
-            .goal_off_level_m()
-            .is_none_or(|off_m| off_m < SAME_LEVEL_M);
+    /// Heights that differ by less than `level_m` are the same.
+    fn is_in_the_goal(&self, level_m: f64) -> bool {
+        let on_level = self.goal_off_level_m().is_none_or(|off_m| off_m < level_m);
         let inside = self.goal_away_m() < self.situation.goal.radius_m;
         self.situation.last_goal && on_level && inside
-    }
-
-    /// Whether the robot stands in the goal and has it on this side of the step: to take it would be to leave the goal.
-    pub(super) fn leaves_the_goal_by(&self, step: &Step) -> bool {
-        self.is_in_the_goal() && step.stair.front.beyond_m(self.goal_m()) < 0.0
     }
 
     /// Whether the plan leads on without a climb.

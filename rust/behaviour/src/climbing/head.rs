@@ -1,33 +1,37 @@
 //! Where the head looks while the robot stands before a step or on one.
 
 use crate::Gaze;
+use crate::climbing::StairClimbingConfig;
+use crate::climbing::tuning::HeadTuning;
 use crate::walking::gaze::{Gazer, Sweep};
-
-/// Height of the eyes above the ground as far as looking at a place needs it, m.
-const EYE_HEIGHT_M: f64 = 0.45;
-/// How far the eyes are ahead of the robot's middle, m.
-const EYE_AHEAD_M: f64 = 0.04;
-/// The farthest that the head is panned, rad.
-const WIDEST_RAD: f64 = 1.1;
 
 /// The head, and what it is to look at.
 #[derive(Debug, Clone)]
-pub(crate) struct Head {
+pub(crate) struct ClimbingHead {
     pub(crate) gazer: Gazer,
     sweep: Sweep,
     speed_radps: f64,
     steep_rad: f64,
+    /// Height of the eyes above the ground, m.
+    eye_height_m: f64,
+    /// How far the eyes are ahead of the robot's middle, m.
+    eye_ahead_m: f64,
+    tuning: HeadTuning,
     looked_s: f64,
     frames_before: Option<u64>,
 }
 
-impl Head {
-    pub(crate) fn new(speed_radps: f64, steep_rad: f64) -> Self {
+impl ClimbingHead {
+    pub(crate) fn new(config: &StairClimbingConfig, eyes: &robot::Head) -> Self {
+        let tuning = config.tuning.head.clone();
         Self {
             gazer: Gazer::default(),
-            sweep: Sweep::through(&[]),
-            speed_radps,
-            steep_rad,
+            sweep: Sweep::through(&[], tuning.last_frames),
+            speed_radps: config.gaze_speed,
+            steep_rad: config.gaze_steep,
+            eye_height_m: eyes.eye_height,
+            eye_ahead_m: eyes.eye_ahead,
+            tuning,
             looked_s: 0.0,
             frames_before: None,
         }
@@ -36,68 +40,73 @@ impl Head {
     /// Begins to look at a place of the ground and around it: the noise of the depth image is mostly a fixed pattern, so
     /// that only moving the image averages it.
     pub(crate) fn look_at(&mut self, [x_m, y_m]: [f64; 2]) {
-        const APART_RAD: f64 = 0.12;
+        let apart_rad = self.tuning.apart;
         let gaze = self.towards([x_m, y_m]);
         let (pan, down) = (gaze.pan_rad, gaze.down_rad);
-        let upper = (down - 0.25).max(0.5);
+        let upper = (down - self.tuning.flatter).max(self.tuning.flattest);
         self.begin(&[
-            (pan + APART_RAD, down),
-            (pan - APART_RAD, down),
-            (pan - APART_RAD, upper),
-            (pan + APART_RAD, upper),
+            (pan + apart_rad, down),
+            (pan - apart_rad, down),
+            (pan - apart_rad, upper),
+            (pan + apart_rad, upper),
         ]);
     }
 
     /// Begins to look down and to swing the head from side to side (003, section V.A).
     pub(crate) fn search(&mut self, bearing_rad: f64) {
-        const SWING_RAD: f64 = 0.5;
-        let bearing_rad = bearing_rad.clamp(SWING_RAD - WIDEST_RAD, WIDEST_RAD - SWING_RAD);
-        let (left, right) = (bearing_rad + SWING_RAD, bearing_rad - SWING_RAD);
+        let (swing_rad, widest_rad) = (self.tuning.swing, self.tuning.widest);
+        let bearing_rad = bearing_rad.clamp(swing_rad - widest_rad, widest_rad - swing_rad);
+        let (left, right) = (bearing_rad + swing_rad, bearing_rad - swing_rad);
+        let (near, far) = (self.tuning.search_near, self.tuning.search_far);
         self.begin(&[
             (bearing_rad, self.steep_rad),
-            (left, 0.85),
-            (right, 0.85),
-            (right, 0.55),
-            (left, 0.55),
-            (bearing_rad, 0.7),
+            (left, near),
+            (right, near),
+            (right, far),
+            (left, far),
+            (bearing_rad, self.tuning.search_end),
         ]);
     }
 
     /// Begins to look at stairs from near by: at their first edge and up or down all of them.
     pub(crate) fn inspect(&mut self, place_m: [f64; 2]) {
         let Gaze { pan_rad, down_rad } = self.towards(place_m);
-        let (left, right) = (pan_rad + 0.15, pan_rad - 0.15);
+        let tuning = &self.tuning;
+        let (left, right) = (
+            pan_rad + tuning.inspect_aside,
+            pan_rad - tuning.inspect_aside,
+        );
+        let (near, middle) = (tuning.inspect_near, tuning.inspect_middle);
+        let far = tuning.inspect_far;
         self.begin(&[
             (left, down_rad),
             (right, down_rad),
-            (right, 0.8),
-            (left, 0.7),
-            (left, 0.55),
-            (right, 0.55),
+            (right, near),
+            (left, middle),
+            (left, far),
+            (right, far),
         ]);
     }
 
     fn begin(&mut self, places: &[(f64, f64)]) {
-        self.sweep = Sweep::through(places);
+        self.sweep = Sweep::through(places, self.tuning.last_frames);
         self.looked_s = 0.0;
         self.frames_before = None;
     }
 
     /// One tick of the look; true when it is done and its frames were used, or when it takes too long.
     pub(crate) fn advance(&mut self, frames_used: u64, passed_s: f64) -> bool {
-        const LONGEST_S: f64 = 8.0;
         self.looked_s += passed_s;
         let _ = self.frames_before.get_or_insert(frames_used);
         self.sweep
             .advance(&mut self.gazer, frames_used, passed_s, self.speed_radps)
-            || self.looked_s > LONGEST_S
+            || self.looked_s > self.tuning.longest_look
     }
 
     /// Whether some frames were used since the look began.
     pub(crate) fn has_glanced(&self, frames_used: u64) -> bool {
-        const FRAMES: u64 = 3;
         self.frames_before
-            .is_some_and(|before| frames_used >= before + FRAMES)
+            .is_some_and(|before| frames_used >= before + self.tuning.glance_frames)
     }
 
     /// One tick towards a place of the ground in the robot's frame, m.
@@ -107,12 +116,14 @@ impl Head {
     }
 
     fn towards(&self, [x_m, y_m]: [f64; 2]) -> Gaze {
-        let away_m = (x_m - EYE_AHEAD_M).hypot(y_m).max(0.05);
+        let (widest_rad, nearest_m) = (self.tuning.widest, self.tuning.nearest);
+        let from_eyes_m = x_m - self.eye_ahead_m;
+        let away_m = from_eyes_m.hypot(y_m).max(nearest_m);
+        let pan_rad = y_m.atan2(from_eyes_m.max(nearest_m));
+        let down_rad = self.eye_height_m.atan2(away_m);
         Gaze {
-            pan_rad: y_m
-                .atan2((x_m - EYE_AHEAD_M).max(0.05))
-                .clamp(-WIDEST_RAD, WIDEST_RAD),
-            down_rad: EYE_HEIGHT_M.atan2(away_m).clamp(0.5, self.steep_rad),
+            pan_rad: pan_rad.clamp(-widest_rad, widest_rad),
+            down_rad: down_rad.clamp(self.tuning.flattest, self.steep_rad),
         }
     }
 }

@@ -1,27 +1,17 @@
 //! Stairs that a plan needs and does not use yet: too little of them is known from afar, so they are looked at from near by.
 
 use geometry::{Map, PlanarPose};
-use mapping::{FloorView, Surface};
+use mapping::FloorView;
 use planning::{Path, Plan, Step};
 use stairs::Stair;
+use terrain::support::{is_roomy, may_be_level_floor};
 
 use crate::climbing::flight::is_step;
 use crate::climbing::leg::align_pose;
 use crate::climbing::placement::Before;
+use crate::climbing::tuning::InspectionTuning;
 use crate::machine::Tick;
-
-/// Stairs further away than this are left alone, m.
-const FARTHEST_M: f64 = 1.5;
-/// A change of height above this is no step to look at, not even to tell that it is too high, m.
-const HIGHEST_M: f64 = 0.075;
-/// Stairs nearer than this to some that were inspected have been looked at, m.
-const INSPECTED_M: f64 = 0.3;
-/// A place counts as reached within this, m.
-const NEAR_M: f64 = 0.1;
-/// Room that the robot needs on the way, from its middle, m.
-const ROOM_M: f64 = 0.14;
-/// Distance between the places of a path, m.
-const SPACING_M: f64 = 0.04;
+use crate::place::distance_m;
 
 /// Where to go and what to look at there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,6 +30,7 @@ impl Inspection {
         inspected: &[[f64; 2]],
     ) -> Option<Self> {
         let situation = tick.situation;
+        let tuning = &before.config.tuning.inspection;
         let no_way = situation.plan?.way.is_err();
         if !no_way && !tick.goal_is_elsewhere(before.climbing.floor_max) {
             return None;
@@ -52,20 +43,23 @@ impl Inspection {
             .filter_map(|stair| Self::of(stair, before))
             .filter(|found| {
                 let away_m = |place: &[f64; 2]| distance_m(*place, found.edge_m);
-                !inspected.iter().any(|place| away_m(place) < INSPECTED_M)
+                !inspected
+                    .iter()
+                    .any(|place| away_m(place) < tuning.inspected)
             })
-            .filter(|found| found.is_free(situation.view, &tick.pose, tick.ground_m))
+            .filter(|found| found.is_free(situation.view, &tick.pose, tick.ground_m, tuning))
             .min_by(|a, b| a.away_m(&tick.pose).total_cmp(&b.away_m(&tick.pose)))
     }
 
     fn of(stair: &Stair<Map>, before: &Before<'_>) -> Option<Self> {
+        let tuning = &before.config.tuning.inspection;
         let rise_m = stair.height_m() - before.ground_m;
         let middle = stair.front.middle().inner;
         let edge_m = [middle.x, middle.y];
         let here_m = [before.pose.x_m, before.pose.y_m];
-        let adjacent = rise_m.abs() > before.climbing.floor_max && rise_m.abs() < HIGHEST_M;
+        let adjacent = rise_m.abs() > before.climbing.floor_max && rise_m.abs() < tuning.highest;
         let ahead = stair.front.beyond_m(here_m) < 0.0;
-        if !(adjacent && ahead && distance_m(edge_m, here_m) < FARTHEST_M) {
+        if !(adjacent && ahead && distance_m(edge_m, here_m) < tuning.farthest) {
             return None;
         }
         let step = Step {
@@ -84,26 +78,27 @@ impl Inspection {
     }
 
     /// Whether a robot here has come near enough.
-    pub(crate) fn is_reached(&self, pose: &PlanarPose) -> bool {
-        self.away_m(pose) < NEAR_M
+    pub(crate) fn is_reached(&self, pose: &PlanarPose, tuning: &InspectionTuning) -> bool {
+        self.away_m(pose) < tuning.near
     }
 
     /// Whether nothing is known to stand on the straight way there, and no other level.
-    fn is_free(&self, view: &FloorView, from: &PlanarPose, ground_m: f64) -> bool {
-        const LEVEL_M: f64 = 0.012;
-        places(from, [self.pose.x_m, self.pose.y_m]).all(|[x_m, y_m]| {
-            crate::walking::is_roomy(view, [x_m, y_m], ROOM_M)
-                && match view.at(x_m, y_m) {
-                    Surface::Floor(height_m) => (f64::from(height_m) - ground_m).abs() < LEVEL_M,
-                    Surface::Unknown => true,
-                    Surface::Obstacle(_) => false,
-                }
+    fn is_free(
+        &self,
+        view: &FloorView,
+        from: &PlanarPose,
+        ground_m: f64,
+        tuning: &InspectionTuning,
+    ) -> bool {
+        places(from, [self.pose.x_m, self.pose.y_m], tuning.spacing).all(|place_m| {
+            is_roomy(view, place_m, tuning.room)
+                && may_be_level_floor(view, place_m, ground_m, tuning.level)
         })
     }
 
     /// A plan that leads there.
-    pub(crate) fn plan(&self, from: &PlanarPose) -> Plan {
-        straight_plan(from, [self.pose.x_m, self.pose.y_m])
+    pub(crate) fn plan(&self, from: &PlanarPose, tuning: &InspectionTuning) -> Plan {
+        straight_plan(from, [self.pose.x_m, self.pose.y_m], tuning)
     }
 }
 
@@ -117,12 +112,12 @@ fn is_inviting(stair: &Stair<Map>, before: &Before<'_>) -> bool {
 }
 
 /// A plan that leads straight to a place.
-pub(crate) fn straight_plan(from: &PlanarPose, to_m: [f64; 2]) -> Plan {
-    let points_m: Vec<_> = places(from, to_m).collect();
+pub(crate) fn straight_plan(from: &PlanarPose, to_m: [f64; 2], tuning: &InspectionTuning) -> Plan {
+    let points_m: Vec<_> = places(from, to_m, tuning.spacing).collect();
     Plan {
         way: Ok(Path {
             unknown: vec![false; points_m.len()],
-            clearance_m: vec![ROOM_M; points_m.len()],
+            clearance_m: vec![tuning.room; points_m.len()],
             climbs: Vec::new(),
             sidles: Vec::new(),
             cost_m: distance_m([from.x_m, from.y_m], to_m),
@@ -133,18 +128,18 @@ pub(crate) fn straight_plan(from: &PlanarPose, to_m: [f64; 2]) -> Plan {
 }
 
 /// Places on a straight way.
-fn places(from: &PlanarPose, to_m: [f64; 2]) -> impl Iterator<Item = [f64; 2]> + use<> {
+fn places(
+    from: &PlanarPose,
+    to_m: [f64; 2],
+    spacing_m: f64,
+) -> impl Iterator<Item = [f64; 2]> + use<> {
     let from_m = [from.x_m, from.y_m];
-    let count = (distance_m(from_m, to_m) / SPACING_M).ceil().max(1.0) as usize;
+    let count = (distance_m(from_m, to_m) / spacing_m).ceil().max(1.0) as usize;
     (0..=count).map(move |i| {
         let share = i as f64 / count as f64;
         let at = |axis: usize| from_m[axis] + (to_m[axis] - from_m[axis]) * share;
         [at(0), at(1)]
     })
-}
-
-fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
 #[cfg(test)]

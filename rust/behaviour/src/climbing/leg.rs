@@ -5,10 +5,12 @@ use planning::{Path, Plan, Step};
 use stairs::{ClimbingConfig, Feet};
 
 use crate::climbing::StairClimbingConfig;
+use crate::climbing::tuning::ApproachLegTuning;
+use crate::place::distance_m;
 
 /// The plan's first climb as seen from the walk before it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Leg<'a> {
+pub(crate) struct ApproachLeg<'a> {
     /// Its steps.
     pub(crate) steps: &'a [Step],
     /// Its first step.
@@ -18,16 +20,7 @@ pub(crate) struct Leg<'a> {
     from_point: usize,
 }
 
-/// A walk ends this near to the place where the robot aligns, m.
-const NEAR_M: f64 = 0.14;
-/// A robot that is no further to the side than this walks straight on to the edge, m.
-const ASIDE_M: f64 = 0.12;
-/// A robot that heads for the edge, from no further to the side than this, must stop before it, m.
-const STOPS_ASIDE_M: f64 = 0.25;
-/// A robot heads for the edge from this cosine of its angle to it on.
-const HEADS_FOR_IT: f64 = 0.7;
-
-impl<'a> Leg<'a> {
+impl<'a> ApproachLeg<'a> {
     /// The first climb of a plan, if it has one.
     pub(crate) fn next(
         plan: Option<&'a Plan>,
@@ -47,29 +40,28 @@ impl<'a> Leg<'a> {
     }
 
     /// Whether a robot here may go on by the climb's own states.
-    pub(crate) fn is_reached(&self, pose: &PlanarPose) -> bool {
+    pub(crate) fn is_reached(&self, pose: &PlanarPose, tuning: &ApproachLegTuning) -> bool {
         let way = self.align.relative(pose);
-        let aside_m = if way.yaw_rad.cos() > HEADS_FOR_IT {
-            STOPS_ASIDE_M
+        let aside_m = if way.yaw_rad.cos() > tuning.heads_for_it {
+            tuning.stops_aside
         } else {
-            ASIDE_M
+            tuning.aside
         };
         // Whoever is beyond the edge has it behind, not ahead: a plan may lead round the stairs to their far side.
         let before = self.first.stair.front.beyond_m([pose.x_m, pose.y_m]) < 0.0;
-        let on_the_way = before && way.x_m > -NEAR_M && way.y_m.abs() < aside_m;
-        self.align.distance_m(pose) < NEAR_M || on_the_way
+        let on_the_way = before && way.x_m > -tuning.near && way.y_m.abs() < aside_m;
+        self.align.distance_m(pose) < tuning.near || on_the_way
     }
 
     /// The part of the plan that is walked: its path ends where the robot aligns.
-    pub(crate) fn walk(&self, plan: &Plan) -> Option<Plan> {
+    pub(crate) fn walk(&self, plan: &Plan, tuning: &ApproachLegTuning) -> Option<Plan> {
         let path = plan.way.as_ref().ok()?;
         let end = self.from_point.min(path.points_m.len().checked_sub(1)?);
         let beyond = |place_m: &[f64; 2]| self.first.stair.front.beyond_m(*place_m);
-        let limit_m = beyond(&[self.align.x_m, self.align.y_m]);
+        let align_m = [self.align.x_m, self.align.y_m];
+        let limit_m = beyond(&align_m);
         let near = |place_m: &[f64; 2]| {
-            let [x_m, y_m] = *place_m;
-            beyond(place_m) > limit_m
-                && (x_m - self.align.x_m).hypot(y_m - self.align.y_m) < 2.0 * NEAR_M
+            beyond(place_m) > limit_m && distance_m(*place_m, align_m) < tuning.cut * tuning.near
         };
         let kept = path.points_m[..=end]
             .iter()
@@ -129,10 +121,10 @@ mod tests {
     use super::*;
     use crate::climbing::simulation::{FEET, stair};
 
-    fn leg(first: &Step) -> Leg<'_> {
+    fn leg(first: &Step) -> ApproachLeg<'_> {
         let (config, climbing) = (StairClimbingConfig::default(), ClimbingConfig::default());
         let align = align_pose(first, &config, &climbing, &FEET);
-        Leg {
+        ApproachLeg {
             steps: &[],
             first,
             align,
@@ -147,9 +139,9 @@ mod tests {
             rise_m: 0.033,
             crossing_m: [1.4, 0.0],
         };
-        let leg = leg(&first);
-        assert!(!leg.is_reached(&PlanarPose::new(0.5, 0.05, 0.0)));
-        assert!(leg.is_reached(&PlanarPose::new(1.6, 0.05, PI)));
+        let (leg, tuning) = (leg(&first), ApproachLegTuning::default());
+        assert!(!leg.is_reached(&PlanarPose::new(0.5, 0.05, 0.0), &tuning));
+        assert!(leg.is_reached(&PlanarPose::new(1.6, 0.05, PI), &tuning));
     }
 
     proptest! {
@@ -163,9 +155,10 @@ mod tests {
                 rise_m,
                 crossing_m: [0.6, 0.0],
             };
-            let leg = leg(&first);
+            let (leg, tuning) = (leg(&first), ApproachLegTuning::default());
             let toes_m = 0.5 * FEET.length_m + 0.14 + 0.01;
-            prop_assert!(leg.is_reached(&PlanarPose::new(x_m, aside_m, yaw_rad)) || x_m + toes_m < 0.6);
+            let reached = leg.is_reached(&PlanarPose::new(x_m, aside_m, yaw_rad), &tuning);
+            prop_assert!(reached || x_m + toes_m < 0.6);
         }
     }
 }

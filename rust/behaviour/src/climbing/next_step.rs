@@ -3,8 +3,8 @@
 use planning::Step;
 
 use super::StairClimbing;
-use super::flight::nearest;
-use super::placement::{Behind, depth_m};
+use super::flight::{depth_m, nearest};
+use super::placement::Behind;
 use crate::machine::Tick;
 
 impl StairClimbing {
@@ -21,12 +21,12 @@ impl StairClimbing {
             } else if tick.situation.plan.is_none() && self.flight.first().is_none() {
                 let reach_m = self.reach_m();
                 let (stairs, ground_m) = (tick.situation.stairs, tick.ground_m);
-                let step = nearest(stairs, &tick.pose, ground_m, reach_m, &self.climbing);
+                let step = nearest(stairs, &tick.pose, ground_m, reach_m, &self.rules());
                 self.flight.adopt(step.as_slice());
             }
         }
         let mut first = self.flight.first().copied()?;
-        if self.memory.on.is_some() && tick.leaves_the_goal_by(&first) {
+        if self.memory.on.is_some() && self.leaves_the_goal_by(tick, &first) {
             self.flight.clear();
             return None;
         }
@@ -59,12 +59,13 @@ impl StairClimbing {
             let ahead = climb.steps.iter().position(|step| beyond_m(step) <= 0.0)?;
             Some(&climb.steps[ahead..])
         })?;
-        (beyond_m(&steps[0]) > -2.0 * self.reach_m()).then_some(steps)
+        let farthest_m = self.config.tuning.next_step.planned * self.reach_m();
+        (beyond_m(&steps[0]) > -farthest_m).then_some(steps)
     }
 
     /// How far ahead of the robot's middle the edge of a step may be that is taken next, m.
     fn reach_m(&self) -> f64 {
-        0.5 * self.feet.length_m + 0.06
+        0.5 * self.feet.length_m + self.config.tuning.next_step.reach
     }
 
     /// What is behind the next step, as far as it was measured.

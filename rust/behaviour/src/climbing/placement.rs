@@ -7,8 +7,9 @@ use stairs::{
 };
 
 use crate::climbing::StairClimbingConfig;
-use crate::climbing::flight::settled_rise_m;
+use crate::climbing::flight::{depth_m, settled_rise_m};
 use crate::climbing::footsteps::Stance;
+use crate::climbing::tuning::PlacementTuning;
 
 /// What is behind the tread that is stepped on next.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,9 +52,6 @@ pub(crate) enum Verdict {
     Refuse(Unfit),
 }
 
-/// Ground that must be known behind where the toes will be, when no edge is, m.
-const KNOWN_AHEAD_M: f64 = 0.02;
-
 impl Before<'_> {
     /// Checks the conditions of the step `next` with what is behind it.
     pub(crate) fn check(&self, next: &Step, behind: &Behind<'_>) -> Verdict {
@@ -71,7 +69,7 @@ impl Before<'_> {
             Behind::Unseen(depth_m) => return Verdict::Look(depth_m),
         };
         let ahead = Ahead {
-            rise_m: settled_rise_m(next.rise_m, self.climbing),
+            rise_m: settled_rise_m(next.rise_m, self.climbing, self.config.tuning.lookup.doubt),
             onward,
         };
         let tolerance = Tolerance {
@@ -148,14 +146,14 @@ impl Before<'_> {
     /// How far to the left the robot must move to have room on both sides of the step, with some to spare, and not to be far
     /// from where the way crosses its edge, m.
     fn aside_m(&self, next: &Step) -> f64 {
-        const OFF_THE_WAY_M: f64 = 0.04;
-        const SPARE_M: f64 = 0.015;
-        let room_m = 0.5 * self.feet.pair_width_m + self.climbing.side_room + SPARE_M;
+        let tuning = &self.config.tuning.placement;
+        let off_the_way_m = tuning.off_the_way;
+        let room_m = 0.5 * self.feet.pair_width_m + self.climbing.side_room + tuning.spare;
         let stand = self.stand(next);
         let (most_m, least_m) = (stand.left_m - room_m, room_m - stand.right_m);
         let [x_m, y_m] = next.crossing_m;
         let crossing_m = self.left_m(next, &Point::new(x_m, y_m, 0.0));
-        let wanted_m = 0.0_f64.clamp(crossing_m - OFF_THE_WAY_M, crossing_m + OFF_THE_WAY_M);
+        let wanted_m = 0.0_f64.clamp(crossing_m - off_the_way_m, crossing_m + off_the_way_m);
         if least_m < most_m {
             wanted_m.clamp(least_m, most_m)
         } else {
@@ -175,7 +173,11 @@ impl Before<'_> {
         let half_pair_m = 0.5 * self.feet.pair_width_m;
         // Between two edges that are turned against each other the feet stand half way (a spiral).
         let turn_rad = match behind {
-            Behind::Step(after) => half_turn_rad(edge_rad, after.stair.front.heading_rad()),
+            Behind::Step(after) => half_turn_rad(
+                edge_rad,
+                after.stair.front.heading_rad(),
+                &self.config.tuning.placement,
+            ),
             _ => 0.0,
         };
         let slack_m = half_pair_m * turn_rad.sin().abs();
@@ -208,7 +210,9 @@ impl Before<'_> {
     pub(crate) fn without_next(&self, next: &Step) -> Behind<'static> {
         let depth_m = next.stair.front.beyond_m(middle_of(&next.stair.back));
         let set = self.climbing.set_for(next.rise_m);
-        let needed_m = set.front_x_limit.max(0.015) + self.feet.length_m + KNOWN_AHEAD_M;
+        let tuning = &self.config.tuning.placement;
+        let needed_m =
+            set.front_x_limit.max(tuning.heels) + self.feet.length_m + tuning.known_ahead;
         if depth_m >= needed_m {
             Behind::Level
         } else if next.stair.back_fit.is_some() || next.stair.seen_ends.back > 0 {
@@ -220,25 +224,19 @@ impl Before<'_> {
 }
 
 /// Half of the turn from one edge to the next. What their headings may be wrong by is no turn.
-fn half_turn_rad(from_rad: f64, to_rad: f64) -> f64 {
-    const UNSURE_RAD: f64 = 0.05;
-    const MOST_RAD: f64 = 0.3;
+fn half_turn_rad(from_rad: f64, to_rad: f64, tuning: &PlacementTuning) -> f64 {
+    let most_rad = tuning.largest_turn;
     let turn_rad = angle_between(from_rad, to_rad);
-    if turn_rad.abs() < UNSURE_RAD {
+    if turn_rad.abs() < tuning.unsure_turn {
         0.0
     } else {
-        0.5 * turn_rad.clamp(-MOST_RAD, MOST_RAD)
+        0.5 * turn_rad.clamp(-most_rad, most_rad)
     }
 }
 
 fn middle_of(edge: &stairs::Edge<Map>) -> [f64; 2] {
     let middle = edge.middle().inner;
     [middle.x, middle.y]
-}
-
-/// From the front edge of a step to that of the next one, along the way, m.
-pub(crate) fn depth_m(next: &Step, after: &Step) -> f64 {
-    next.stair.front.beyond_m(after.crossing_m)
 }
 
 /// The refusal of a step, with figures.

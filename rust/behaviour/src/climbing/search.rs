@@ -26,7 +26,7 @@ impl StairClimbing {
     pub(super) fn search(&mut self, tick: &Tick<'_>) -> Motion {
         let climbs = self.leg(tick).is_some();
         self.ahead.climb.count(climbs, tick.passed_s);
-        let found = self.ahead.is_sure();
+        let found = self.ahead.is_sure(&self.config.tuning.walk);
         let seen = self.look(tick, false);
         if (!found && !seen) || self.had_stumbled {
             return Motion::Stand;

@@ -38,8 +38,8 @@ impl StairClimbing {
                 self.memory.pauses = true;
                 self.begin_look(tick);
             }
-        } else if self.memory.tries.missteps == 1 && missed.is_some() {
-            // The feet stand on two levels: the other one tries once more.
+        } else if self.tries_again() && missed.is_some() {
+            // The feet stand on two levels: the other one tries again.
             self.stepper
                 .start(holds[landed..].to_vec(), &tick.pose, tick.ground_m);
             self.move_feet(run);
@@ -47,6 +47,11 @@ impl StairClimbing {
             let reason = format!("blocked: {what}");
             self.take_back(tick, &holds[..landed.min(holds.len())], reason);
         }
+    }
+
+    /// Whether so few steps failed that another try is worth while.
+    const fn tries_again(&self) -> bool {
+        self.memory.tries.missteps <= self.config.tuning.setback.second_tries
     }
 
     /// Looks for stairs from here, or gives up: a walking foot came upon a level that was not seen.
@@ -82,7 +87,7 @@ impl StairClimbing {
     pub(super) fn step_back(&mut self, tick: &Tick<'_>) -> Motion {
         match self.stepper.advance(tick.situation, tick.passed_s) {
             Stepped::Running => {}
-            _ if self.memory.on.is_some() || self.memory.tries.missteps > 1 => {
+            _ if self.memory.on.is_some() || !self.tries_again() => {
                 if let State::StepBack { reason } = self.machine.state() {
                     self.refuse(reason.clone());
                 }

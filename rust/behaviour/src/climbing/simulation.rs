@@ -16,6 +16,7 @@ use crate::{
     StairClimbingConfig, Stepping, WalkingBehaviour, WalkingConfig,
 };
 
+use crate::walking::simulation::EXTENT;
 pub(crate) use course::{stair, straight};
 
 pub(crate) const TICK_NS: u64 = 10_000_000;
@@ -24,6 +25,16 @@ pub(crate) const FEET: Feet = Feet {
     pair_width_m: 0.16,
     stance_m: 0.085,
 };
+
+/// Where the robot's eyes are.
+fn eyes() -> robot::Head {
+    robot::Head {
+        pan: "pan".to_owned(),
+        tilt: "tilt".to_owned(),
+        eye_height: 0.45,
+        eye_ahead: 0.04,
+    }
+}
 
 /// One foot in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,7 +102,7 @@ impl Simulation {
             )),
             height_m: 0.0,
         };
-        let walking = WalkingBehaviour::new(WalkingConfig::default()).unwrap();
+        let walking = WalkingBehaviour::new(WalkingConfig::default(), &EXTENT).unwrap();
         let count = steps.len();
         let mut simulation = Self {
             sunk_m: vec![0.0; count],
@@ -113,6 +124,7 @@ impl Simulation {
                 walking,
                 ClimbingConfig::default(),
                 FEET,
+                &eyes(),
                 pace,
             )
             .unwrap(),

@@ -3,10 +3,8 @@
 use geometry::PlanarPose;
 
 use crate::climbing::footsteps::Foothold;
+use crate::climbing::tuning::StepperTuning;
 use crate::{Footstep, Misstep, Motion, Situation};
-
-/// A list that has not ended after this long and as much again for each step is given up, s.
-const PATIENCE_S: f64 = 3.0;
 
 /// How the list goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,6 +24,7 @@ pub(crate) enum Stepped {
 /// One list at a time.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Stepper {
+    tuning: StepperTuning,
     holds: Vec<Foothold>,
     footsteps: Vec<Footstep>,
     list_from_map: PlanarPose,
@@ -36,6 +35,14 @@ pub(crate) struct Stepper {
 }
 
 impl Stepper {
+    /// No list is on its way.
+    pub(crate) fn new(tuning: StepperTuning) -> Self {
+        Self {
+            tuning,
+            ..Self::default()
+        }
+    }
+
     /// Whether a list is on its way.
     pub(crate) const fn is_running(&self) -> bool {
         !self.footsteps.is_empty()
@@ -84,7 +91,7 @@ impl Stepper {
 
     fn ended(&self, situation: &Situation<'_>) -> Stepped {
         let stepping = &situation.stepping;
-        let limit_s = PATIENCE_S * (1.0 + self.footsteps.len() as f64);
+        let limit_s = self.tuning.patience * (1.0 + self.footsteps.len() as f64);
         if self.set_off && situation.standing {
             return match stepping.misstep {
                 Some(misstep) => Stepped::Missed(misstep, stepping.landed),

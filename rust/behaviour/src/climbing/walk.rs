@@ -2,21 +2,15 @@
 
 use planning::Plan;
 
-use super::{Leg, Pace, StairClimbing, State};
+use super::{ApproachLeg, Pace, StairClimbing, State};
 use crate::climbing::inspection::{self, Inspection};
+use crate::climbing::tuning::ClimbAheadTuning;
 use crate::machine::{State as _, Stopwatch, Tick};
 use crate::{Behaviour, BehaviourError, Decision, Motion, Outcome, Situation};
 
-/// The first look around may end after this when stairs lie on the way, s: by then all near ground was looked at.
-const FIRST_LOOK_S: f64 = 3.8;
-/// Before a climb without stops it may end after this, s: by then the ground on the way was looked at.
-const FIRST_GLANCE_S: f64 = 1.8;
-/// A climb must be on the plan this long to be counted on, s.
-const SURE_S: f64 = 0.4;
-
 /// What a walk finds ahead of it. It stays in mind while the robot climbs.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Ahead {
+pub(super) struct ClimbAhead {
     /// The plan for `walking`: cut off before the next climb.
     plan: Option<Plan>,
     /// How long the plan has led to a climb, or to stairs that need a closer look.
@@ -28,24 +22,24 @@ pub(super) struct Ahead {
     pub(super) inspected: Vec<[f64; 2]>,
 }
 
-impl Ahead {
+impl ClimbAhead {
     /// Whether a climb can be counted on.
-    pub(super) fn is_sure(&self) -> bool {
-        self.climb.s() > SURE_S
+    pub(super) fn is_sure(&self, tuning: &ClimbAheadTuning) -> bool {
+        self.climb.s() > tuning.sure_after
     }
 }
 
 impl StairClimbing {
     const fn first_look_s(&self) -> f64 {
         match self.pace {
-            Pace::StepByStep => FIRST_LOOK_S,
-            Pace::Continuous => FIRST_GLANCE_S,
+            Pace::StepByStep => self.config.tuning.walk.first_look,
+            Pace::Continuous => self.config.tuning.walk.first_glance,
         }
     }
 
     /// The next climb of the plan.
-    pub(super) fn leg<'a>(&self, tick: &Tick<'a>) -> Option<Leg<'a>> {
-        Leg::next(
+    pub(super) fn leg<'a>(&self, tick: &Tick<'a>) -> Option<ApproachLeg<'a>> {
+        ApproachLeg::next(
             tick.situation.plan,
             &self.config,
             &self.climbing,
@@ -63,13 +57,13 @@ impl StairClimbing {
     /// A tick of `walking` on the way to the next climb, to stairs that need a closer look, or to the goal.
     pub(super) fn walk(&mut self, tick: &Tick<'_>) -> Result<Decision, BehaviourError> {
         let situation = tick.situation;
-        let leg = self.leg(tick).filter(|_| !tick.is_at_the_goal());
+        let leg = self.leg(tick).filter(|_| !self.is_at_the_goal(tick));
         self.machine.gets_on();
         let looking = self.walking.is_looking_around();
         self.ahead.looked_around |= !looking;
         let first_look = looking && !self.ahead.looked_around;
         if tick.new_frame {
-            self.ahead.inspection = if leg.is_none() && !tick.is_at_the_goal() {
+            self.ahead.inspection = if leg.is_none() && !self.is_at_the_goal(tick) {
                 Inspection::find(tick, &self.before(tick), &self.ahead.inspected)
             } else {
                 None
@@ -77,32 +71,29 @@ impl StairClimbing {
         }
         let climbs = leg.is_some() || self.ahead.inspection.is_some();
         self.ahead.climb.count(climbs, tick.passed_s);
-        let sure = self.ahead.is_sure();
+        let sure = self.ahead.is_sure(&self.config.tuning.walk);
         if let Some(leg) = &leg {
-            if sure && leg.is_reached(&tick.pose) && !looking {
+            if sure && leg.is_reached(&tick.pose, &self.config.tuning.leg) && !looking {
                 self.flight.adopt(leg.steps);
                 self.head.gazer.start(situation.gaze);
                 self.enter(State::Align);
                 return Ok(self.decision(tick, Motion::Stand));
             }
             if tick.new_frame || self.ahead.plan.is_none() {
-                self.ahead.plan = situation.plan.and_then(|plan| leg.walk(plan));
+                let tuning = &self.config.tuning.leg;
+                self.ahead.plan = situation.plan.and_then(|plan| leg.walk(plan, tuning));
             }
         } else if let Some(inspection) = self.ahead.inspection {
-            if sure && inspection.is_reached(&tick.pose) && !looking {
+            if sure && inspection.is_reached(&tick.pose, &self.config.tuning.inspection) && !looking
+            {
                 self.inspect(tick, &inspection);
                 return Ok(self.decision(tick, Motion::Stand));
             }
             if tick.new_frame || self.ahead.plan.is_none() {
-                self.ahead.plan = Some(inspection.plan(&tick.pose));
+                self.ahead.plan = Some(inspection.plan(&tick.pose, &self.config.tuning.inspection));
             }
-        } else if tick.is_at_the_goal() && !tick.has_level_way() {
-            // It stands there already, whatever the planner makes of the surface under its feet.
-            let decision = self.walking.next(&Situation {
-                plan: Some(&inspection::straight_plan(&tick.pose, tick.goal_m())),
-                ..*situation
-            })?;
-            return Ok(decision);
+        } else if self.is_at_the_goal(tick) && !tick.has_level_way() {
+            return self.walk_at_the_goal(tick);
         } else {
             self.ahead.plan = None;
             let decision = self.walking.next(situation)?;
@@ -121,6 +112,16 @@ impl StairClimbing {
             decision.state = State::Search.name();
         }
         Ok(decision)
+    }
+
+    /// A tick of `walking` at the goal: the robot stands there already, whatever the planner makes of the surface under its feet.
+    fn walk_at_the_goal(&mut self, tick: &Tick<'_>) -> Result<Decision, BehaviourError> {
+        let tuning = &self.config.tuning.inspection;
+        let plan = inspection::straight_plan(&tick.pose, tick.goal_m(), tuning);
+        self.walking.next(&Situation {
+            plan: Some(&plan),
+            ..*tick.situation
+        })
     }
 
     /// Looks at stairs from near by.

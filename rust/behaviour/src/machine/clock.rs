@@ -35,7 +35,6 @@ impl Clock {
             passed_s,
             elapsed_s: self.elapsed_s + passed_s,
             new_frame: situation.frames_used != self.frames_used || !self.has_begun(),
-            track: None,
         }
     }
 

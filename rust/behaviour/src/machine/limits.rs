@@ -5,6 +5,8 @@
 pub(crate) struct Limits {
     /// Seeing nothing for this long is being blind.
     pub(crate) blind_after_s: f64,
+    /// In some states nothing may be seen for so many times as long ([`super::State::is_patient`]).
+    pub(crate) patience: f64,
     /// Being blind for this long is hopeless.
     pub(crate) blind_limit_s: f64,
     /// Whether a robot that never saw anything has been without sight since it began.

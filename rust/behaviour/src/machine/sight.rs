@@ -4,7 +4,7 @@ use super::{Machine, State, Tick};
 
 /// How a robot fares that stands because it sees nothing, or does not know where it is.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Sight {
+pub(crate) enum SightAgain {
     /// It sees again, and knows where it is.
     Back,
     /// It waits.
@@ -26,20 +26,25 @@ impl<S: State> Machine<S> {
 
     /// Whether the robot sees nothing, by the patience of its state.
     pub(super) fn is_blind(&self, tick: &Tick<'_>) -> bool {
-        self.unseen_s(tick) > self.state.patience() * self.limits.blind_after_s
+        let patience = if self.state.is_patient() {
+            self.limits.patience
+        } else {
+            1.0
+        };
+        self.unseen_s(tick) > patience * self.limits.blind_after_s
     }
 
     /// Whether a robot sees again that stands for want of sight, since it entered its state.
-    pub(crate) fn sight(&self, tick: &Tick<'_>) -> Sight {
+    pub(crate) fn sight(&self, tick: &Tick<'_>) -> SightAgain {
         let lost = tick.situation.estimate.lost;
         if !lost && !self.is_blind(tick) {
-            return Sight::Back;
+            return SightAgain::Back;
         }
         if self.lasted_s() <= self.limits.blind_limit_s {
-            return Sight::Away;
+            return SightAgain::Away;
         }
         let place = self.limits.place_words;
-        Sight::Hopeless(if lost {
+        SightAgain::Hopeless(if lost {
             let lasted_s = self.lasted_s();
             format!("lost: the robot has not known where it is for {lasted_s:.0} s{place}")
         } else {

@@ -37,9 +37,9 @@ pub(crate) trait State: Debug + Clone {
     /// Whether what happens may end it before its own end.
     fn is_interruptible(&self) -> bool;
 
-    /// How many times as long as elsewhere nothing may be seen in it.
-    fn patience(&self) -> f64 {
-        1.0
+    /// Whether nothing may be seen in it for longer than elsewhere.
+    fn is_patient(&self) -> bool {
+        false
     }
 
     /// Whether it is the same state, whatever is known in it.

@@ -12,6 +12,7 @@ use crate::{Gaze, Stepping, climbing, walking};
 
 const LIMITS: Limits = Limits {
     blind_after_s: 1.0,
+    patience: 4.0,
     blind_limit_s: 4.05,
     blind_from_the_start: true,
     idle_limit_s: 9.0,
@@ -129,8 +130,10 @@ fn assert_waits_in_bounded_time<S: State>(all: &[S]) {
             });
             let bound_s = if sees {
                 LIMITS.idle_limit_s
+            } else if state.is_patient() {
+                LIMITS.patience * LIMITS.blind_after_s
             } else {
-                state.patience() * LIMITS.blind_after_s
+                LIMITS.blind_after_s
             };
             let counts = state.idling() == Idling::Counts || !sees;
             assert_eq!(waited.is_some(), counts, "{state:?}");
@@ -169,15 +172,16 @@ fn blindness_is_hopeless_after_its_limit_and_over_when_something_is_seen() {
             let sight = machine.sight(&machine.read(&situation));
             let waits = tick as f64 * TICK_S <= LIMITS.blind_limit_s;
             if tick > 10 || lost {
-                assert_eq!(sight == Sight::Away, waits, "{lost} {tick}");
+                assert_eq!(sight == SightAgain::Away, waits, "{lost} {tick}");
                 assert!(
-                    waits || matches!(sight, Sight::Hopeless(reason) if reason.ends_with(", here"))
+                    waits
+                        || matches!(sight, SightAgain::Hopeless(reason) if reason.ends_with(", here"))
                 );
             }
         }
         let situation = world.at(100, true);
         let sight = machine.sight(&machine.read(&situation));
-        assert_eq!(sight == Sight::Back, !lost);
+        assert_eq!(sight == SightAgain::Back, !lost);
     }
 }
 

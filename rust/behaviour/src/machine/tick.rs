@@ -1,10 +1,9 @@
 //! What the states read at a tick.
 
 use geometry::PlanarPose;
-use planning::Path;
 
 use crate::Situation;
-use crate::walking::Track;
+use crate::place::distance_m;
 
 /// A tick as the states read it: the situation, and what follows from it alone.
 #[derive(Clone, Copy)]
@@ -21,8 +20,6 @@ pub(crate) struct Tick<'a> {
     pub(crate) elapsed_s: f64,
     /// Whether a frame was taken into the map since the last tick.
     pub(crate) new_frame: bool,
-    /// The planned way and the robot's place on it, for who follows one.
-    pub(crate) track: Option<(&'a Path, Track)>,
 }
 
 impl Tick<'_> {
@@ -56,8 +53,7 @@ impl Tick<'_> {
 
     /// How far the goal's middle is away, m.
     pub(crate) fn goal_away_m(&self) -> f64 {
-        let [x_m, y_m] = self.goal_m();
-        (x_m - self.pose.x_m).hypot(y_m - self.pose.y_m)
+        distance_m(self.goal_m(), [self.pose.x_m, self.pose.y_m])
     }
 
     /// How far above or below the robot's ground the goal is, m, where its height is told.

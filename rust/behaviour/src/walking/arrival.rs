@@ -1,43 +1,38 @@
 //! Whether the robot has arrived: in the goal's disc, and on its level where one is told.
 
+use terrain::support::is_roomy;
+
 use super::WalkingBehaviour;
 use super::state::State;
+use super::tick::WayTick;
 use super::track::Track;
 use crate::machine::Tick;
-use crate::walking::is_roomy;
 use crate::{Motion, Outcome};
 
-/// Nearer than this to its end a path is done, m.
-const PATH_END_M: f64 = 0.04;
-/// A goal whose height is further than this from that of the ground under the robot is on another level, m: a robot that has walked
-/// and climbed for long knows its height no better.
-const SAME_LEVEL_M: f64 = 0.04;
-
-impl Tick<'_> {
+impl WalkingBehaviour {
     /// Whether the robot is on the goal's level, as far as one is told: below a platform it may stand in the disc and be nowhere near.
-    fn is_on_the_goals_level(&self) -> bool {
-        self.goal_off_level_m()
-            .is_none_or(|off_m| off_m <= SAME_LEVEL_M)
+    fn is_on_the_goals_level(&self, tick: &Tick<'_>) -> bool {
+        tick.goal_off_level_m()
+            .is_none_or(|off_m| off_m <= self.config.tuning.arrival.same_level)
     }
 
     /// Whether the robot is no further from the goal's middle than this, m, and on its level.
-    fn is_within(&self, radius_m: f64) -> bool {
-        self.goal_away_m() <= radius_m && self.is_on_the_goals_level()
+    fn is_within(&self, tick: &Tick<'_>, radius_m: f64) -> bool {
+        tick.goal_away_m() <= radius_m && self.is_on_the_goals_level(tick)
     }
 
-    pub(super) fn is_in_the_disc(&self) -> bool {
-        self.is_within(self.situation.goal.radius_m)
+    fn is_in_the_disc(&self, tick: &Tick<'_>) -> bool {
+        self.is_within(tick, tick.situation.goal.radius_m)
     }
-}
 
-impl WalkingBehaviour {
     /// A path may end at the rim of the goal's disc: where there is room, the way goes on to its middle.
     pub(super) fn lengthened(&self, track: Track, tick: &Tick<'_>) -> Track {
         let (pose, [x_m, y_m]) = (&tick.pose, tick.goal_m());
         let half_way = [f64::midpoint(x_m, pose.x_m), f64::midpoint(y_m, pose.y_m)];
         let roomy = |place_m| is_roomy(tick.situation.view, place_m, self.config.slow_clearance);
-        let near = tick.goal_away_m() < tick.situation.goal.radius_m + PATH_END_M
-            && tick.is_on_the_goals_level();
+        let near = tick.goal_away_m()
+            < tick.situation.goal.radius_m + self.config.tuning.arrival.path_end
+            && self.is_on_the_goals_level(tick);
         if near && roomy([x_m, y_m]) && roomy(half_way) {
             track.going_on_to(pose.inverse().apply(x_m, y_m))
         } else {
@@ -46,26 +41,27 @@ impl WalkingBehaviour {
     }
 
     /// Deep inside the goal's disc, or as deep as the way leads.
-    pub(super) fn has_arrived(&self, tick: &Tick<'_>) -> bool {
+    pub(super) fn has_arrived(&self, tick: &WayTick<'_>) -> bool {
         let radius_m = tick.situation.goal.radius_m;
         let way_done = tick.track.map_or(tick.finds_no_way(), |(_, track)| {
-            track.whole_m() < PATH_END_M
+            track.whole_m() < self.config.tuning.arrival.path_end
         });
         tick.situation.last_goal
-            && (tick.is_within(self.config.arrive_share * radius_m)
-                || (way_done && tick.is_in_the_disc()))
+            && (self.is_within(tick, self.config.arrive_share * radius_m)
+                || (way_done && self.is_in_the_disc(tick)))
     }
 
     /// Well inside the goal's disc.
-    pub(super) fn is_inside(&self, tick: &Tick<'_>) -> bool {
+    pub(super) fn is_inside(&self, tick: &WayTick<'_>) -> bool {
         let radius_m = tick.situation.goal.radius_m;
-        tick.is_within(radius_m - self.config.via_margin.min(0.5 * radius_m))
+        let most_m = self.config.tuning.arrival.via_share * radius_m;
+        self.is_within(tick, radius_m - self.config.via_margin.min(most_m))
     }
 
     /// Stands at the goal for a while, and goes on when it has slipped out.
-    pub(super) fn arrive(&mut self, tick: &Tick<'_>) -> Motion {
+    pub(super) fn arrive(&mut self, tick: &WayTick<'_>) -> Motion {
         self.gaze_at(tick, 0.0, self.config.gaze_far);
-        if self.rests() && !tick.is_in_the_disc() {
+        if self.rests() && !self.is_in_the_disc(tick) {
             self.watched_m = None;
             self.enter(State::Stop);
         }
@@ -77,10 +73,10 @@ impl WalkingBehaviour {
         self.standing.s() > self.config.arrive_time
     }
 
-    pub(super) fn outcome(&self, tick: &Tick<'_>) -> Option<Outcome> {
+    pub(super) fn outcome(&self, tick: &WayTick<'_>) -> Option<Outcome> {
         match self.machine.state() {
             State::Arrive => {
-                (self.rests() && tick.is_in_the_disc()).then_some(Outcome::GoalReached)
+                (self.rests() && self.is_in_the_disc(tick)).then_some(Outcome::GoalReached)
             }
             _ => self.machine.refusal(tick.situation.standing),
         }

@@ -2,17 +2,18 @@
 
 use super::WalkingBehaviour;
 use crate::Motion;
-use crate::machine::{Sight, Tick};
+use crate::machine::SightAgain;
 use crate::walking::gaze::Sweep;
+use crate::walking::tick::WayTick;
 
 impl WalkingBehaviour {
     /// One tick without sight.
-    pub(super) fn wait_for_sight(&mut self, tick: &Tick<'_>) -> Motion {
+    pub(super) fn wait_for_sight(&mut self, tick: &WayTick<'_>) -> Motion {
         self.gaze_at(tick, 0.0, self.config.gaze_near);
         match self.machine.sight(tick) {
-            Sight::Back => self.look(Sweep::around(&self.config)),
-            Sight::Away => {}
-            Sight::Hopeless(reason) => self.refuse(reason),
+            SightAgain::Back => self.look(Sweep::around(&self.config)),
+            SightAgain::Away => {}
+            SightAgain::Hopeless(reason) => self.refuse(reason),
         }
         Motion::Stand
     }

@@ -33,6 +33,7 @@ impl Gazer {
     }
 }
 
+/// Most places in a list: an array's size, no list here is longer.
 const LONGEST_SWEEP: usize = 6;
 
 /// A list of places to look at, one after the other.
@@ -42,19 +43,19 @@ pub(crate) struct Sweep {
     count: usize,
     next: usize,
     last_frame_at: Option<u64>,
+    /// Frames that must be used after the last place was reached.
+    last_frames: u64,
 }
 
-/// Frames that must have been used after the last place was reached.
-const FRAMES_AT_THE_END: u64 = 2;
-
 impl Sweep {
-    /// Places as pan and down, rad; no more than six.
-    pub(crate) fn through(places: &[(f64, f64)]) -> Self {
+    /// Places as pan and down, rad, no more than six; so many frames must be used after the last one was reached.
+    pub(crate) fn through(places: &[(f64, f64)], last_frames: u64) -> Self {
         let mut sweep = Self {
             places: [Gaze::default(); LONGEST_SWEEP],
             count: places.len().min(LONGEST_SWEEP),
             next: 0,
             last_frame_at: None,
+            last_frames,
         };
         for (slot, &(pan_rad, down_rad)) in sweep.places.iter_mut().zip(places) {
             *slot = Gaze { pan_rad, down_rad };
@@ -65,28 +66,31 @@ impl Sweep {
     /// All that can be seen from here: near from left to right, then far from right to left.
     pub(crate) fn around(config: &WalkingConfig) -> Self {
         let (side, near, far) = (config.sweep, config.gaze_near, config.gaze_far);
-        Self::through(&[
+        let places = [
             (0.0, config.gaze_steep),
             (side, near),
             (-side, near),
             (-side, far),
             (side, far),
             (0.0, far),
-        ])
+        ];
+        Self::through(&places, config.tuning.gaze.last_frames)
     }
 
     /// A place at `bearing_rad`, and what lies around it.
     pub(crate) fn at(bearing_rad: f64, config: &WalkingConfig) -> Self {
         let bearing_rad = bearing_rad.clamp(-config.sweep, config.sweep);
-        let (left, right) = (bearing_rad + 0.3, bearing_rad - 0.3);
+        let aside_rad = config.tuning.gaze.aside;
+        let (left, right) = (bearing_rad + aside_rad, bearing_rad - aside_rad);
         let (steep, near) = (config.gaze_steep, config.gaze_near);
-        Self::through(&[
+        let places = [
             (left, steep),
             (right, steep),
             (right, near),
             (left, near),
             (bearing_rad, near),
-        ])
+        ];
+        Self::through(&places, config.tuning.gaze.last_frames)
     }
 
     /// One tick; true when all was looked at and the frames of it were used.
@@ -104,19 +108,19 @@ impl Sweep {
             return false;
         }
         let since = *self.last_frame_at.get_or_insert(frames_used);
-        frames_used >= since + FRAMES_AT_THE_END
+        frames_used >= since + self.last_frames
     }
 }
 
 /// Where to look while walking: along the path, by turns far and near, swaying a little.
 pub(crate) fn glance(time_s: f64, bearing_rad: f64, config: &WalkingConfig) -> Gaze {
-    const PERIOD_S: f64 = 3.0;
-    const SWAY_RAD: f64 = 0.35;
-    let phase = (time_s / PERIOD_S).fract();
-    let sway_rad = SWAY_RAD * (std::f64::consts::TAU * time_s / (1.5 * PERIOD_S)).sin();
+    let tuning = &config.tuning.gaze;
+    let phase = (time_s / tuning.period).fract();
+    let sway_period_s = tuning.sway_periods * tuning.period;
+    let sway_rad = tuning.sway * (std::f64::consts::TAU * time_s / sway_period_s).sin();
     Gaze {
         pan_rad: (bearing_rad + sway_rad).clamp(-config.sweep, config.sweep),
-        down_rad: if phase < 0.6 {
+        down_rad: if phase < tuning.far_share {
             config.gaze_far
         } else {
             config.gaze_near

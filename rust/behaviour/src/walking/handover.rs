@@ -1,7 +1,7 @@
 //! Walking as a part of a longer way: another behaviour breaks it off, and hands the robot over again.
 
 use super::state::State;
-use super::{Progress, WalkingBehaviour};
+use super::{Progress, WalkingBehaviour, WayObstaclesTuning};
 use crate::Situation;
 
 impl WalkingBehaviour {
@@ -15,6 +15,11 @@ impl WalkingBehaviour {
         self.no_way.reset();
         self.looks = 0;
         self.watched_m = None;
+    }
+
+    /// What counts as an obstacle on the way, and as the edge of a stair.
+    pub(crate) const fn obstacles(&self) -> &WayObstaclesTuning {
+        &self.config.tuning.obstacles
     }
 
     /// Whether it stands and looks around.

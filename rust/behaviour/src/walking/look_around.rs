@@ -3,20 +3,10 @@
 use geometry::wrap_angle;
 
 use super::WalkingBehaviour;
-use crate::machine::Tick;
 use crate::walking::gaze::Sweep;
 use crate::walking::state::State;
+use crate::walking::tick::WayTick;
 use crate::{Gaze, Motion};
-
-/// A way must hold this long to end a look around, or a turn to the next one, before its end, s.
-pub(super) const SURE_S: f64 = 0.5;
-/// Looks in that many directions see all around: each sweep covers 3 rad with the camera's width, and the head looks on while the
-/// robot turns.
-const LOOKS: u32 = 2;
-/// The directions of the looks are this far apart, rad.
-const LOOK_APART_RAD: f64 = 3.1;
-/// A look around ends after this, whatever the frames do, s.
-const LONGEST_LOOK_S: f64 = 20.0;
 
 impl WalkingBehaviour {
     /// Stands and looks where the sweep leads.
@@ -25,18 +15,19 @@ impl WalkingBehaviour {
     }
 
     /// One tick of the look.
-    pub(super) fn look_around(&mut self, tick: &Tick<'_>) -> Motion {
+    pub(super) fn look_around(&mut self, tick: &WayTick<'_>) -> Motion {
         let State::LookAround(sweep) = self.machine.state_mut() else {
             return Motion::Stand;
         };
         let frames = tick.situation.frames_used;
         let speed_radps = self.config.gaze_speed;
         let seen = sweep.advance(&mut self.gazer, frames, tick.passed_s, speed_radps);
-        let found_a_way = self.looks > 0 && self.way.s() > SURE_S;
-        if seen || found_a_way || self.machine.lasted_s() > LONGEST_LOOK_S {
+        let found_a_way = self.looks > 0 && self.has_a_sure_way();
+        if seen || found_a_way || self.machine.lasted_s() > self.config.tuning.look_around.longest {
             if let Some((path, track)) = &tick.track {
                 let view = tick.situation.view;
-                self.looked.mark(path, track, view, &self.config);
+                self.looked
+                    .mark(path, track, view, &self.config, self.foot_side_m);
                 self.looks = 0;
                 self.set_off(track);
             } else {
@@ -46,11 +37,17 @@ impl WalkingBehaviour {
         Motion::Stand
     }
 
+    /// Whether there is a way, and has been for long enough to go by it.
+    pub(super) fn has_a_sure_way(&self) -> bool {
+        self.way.s() > self.config.tuning.look_around.sure_after
+    }
+
     /// There is no way from what was seen here: turn and look there, and give up when all around was looked at.
-    fn look_elsewhere(&mut self, tick: &Tick<'_>) {
+    fn look_elsewhere(&mut self, tick: &WayTick<'_>) {
         self.looks += 1;
-        if self.looks < LOOKS {
-            let to_rad = Some(wrap_angle(tick.pose.yaw_rad + LOOK_APART_RAD));
+        let tuning = &self.config.tuning.look_around;
+        if self.looks < tuning.directions {
+            let to_rad = Some(wrap_angle(tick.pose.yaw_rad + tuning.apart));
             self.enter(State::Turn { to_rad });
             return;
         }
@@ -65,7 +62,7 @@ impl WalkingBehaviour {
     }
 
     /// Turns the head towards a direction, as far as it goes.
-    pub(super) fn gaze_at(&mut self, tick: &Tick<'_>, pan_rad: f64, down_rad: f64) {
+    pub(super) fn gaze_at(&mut self, tick: &WayTick<'_>, pan_rad: f64, down_rad: f64) {
         let pan_rad = pan_rad.clamp(-self.config.sweep, self.config.sweep);
         let goal = Gaze { pan_rad, down_rad };
         self.gazer.turn(goal, tick.passed_s, self.config.gaze_speed);

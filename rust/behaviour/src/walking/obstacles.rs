@@ -1,18 +1,13 @@
-//! Obstacles: what was not on the way before and is now, and where there is room.
+//! Obstacles: what was not on the way before and is now.
 
 use geometry::PlanarPose;
-use mapping::{FloorView, Surface};
+use mapping::FloorView;
 use planning::Path;
 use stairs::Staircase;
+use terrain::support::{ObstacleCell, is_riser, obstacles_within};
 
+use crate::place::distance_m;
 use crate::walking::WalkingConfig;
-
-/// An obstacle may be the edge of a stair when it is no higher above it than this, m.
-const RISER_M: f64 = 0.06;
-/// It is that edge when it is no further from it than this, m.
-const BESIDE_M: f64 = 0.06;
-/// What ends further than this below the ground that the robot walks on does not stand in its way, m.
-const BELOW_M: f64 = 0.015;
 
 /// The way that was followed at the last frame: planned with room to all that was known then.
 #[derive(Debug, Clone, Default)]
@@ -40,65 +35,24 @@ impl Followed {
         (robot, ground_m): (&PlanarPose, f64),
         config: &WalkingConfig,
     ) -> Option<[f64; 2]> {
+        let tuning = &config.tuning.obstacles;
+        let edges = tuning.edges();
         let near = |place: &&[f64; 2]| {
-            (place[0] - robot.x_m).hypot(place[1] - robot.y_m) < config.stopping_distance
+            distance_m(**place, [robot.x_m, robot.y_m]) < config.stopping_distance
         };
         self.points_m
             .iter()
             .filter(near)
             .find(|place| {
-                let cells = obstacles(view, **place, config.corridor);
-                let above = |cell: &Obstacle| f64::from(cell.1) > ground_m - BELOW_M;
+                let cells = obstacles_within(view, **place, config.corridor);
+                let above = |cell: &ObstacleCell| f64::from(cell.1) > ground_m - tuning.below;
                 cells
-                    .filter(|cell| above(cell) && !is_edge(stairs, cell))
+                    .filter(|cell| above(cell) && !is_riser(stairs, cell, edges))
                     .count()
-                    >= 2
+                    >= tuning.cells
             })
             .copied()
     }
-}
-
-/// Whether no obstacle is known within this distance of a place.
-pub(crate) fn is_roomy(view: &FloorView, place_m: [f64; 2], radius_m: f64) -> bool {
-    obstacles(view, place_m, radius_m).next().is_none()
-}
-
-/// An obstacle cell: its middle and its height, m.
-pub(crate) type Obstacle = ([f64; 2], f32);
-
-fn obstacles(
-    view: &FloorView,
-    [x, y]: [f64; 2],
-    radius_m: f64,
-) -> impl Iterator<Item = Obstacle> + '_ {
-    let (low, high) = (
-        view.lattice.cell_at(x - radius_m, y - radius_m),
-        view.lattice.cell_at(x + radius_m, y + radius_m),
-    );
-    let area = geometry::CellArea {
-        min: low,
-        max: high,
-    };
-    // Settings may ask for more room than the window shows: beyond it nothing is known.
-    area.within(view.cells.area())
-        .cells()
-        .filter_map(|cell| match view.cell(cell) {
-            Surface::Obstacle(top_m) => Some((view.lattice.center_of(cell), top_m)),
-            _ => None,
-        })
-        .filter(move |([cx, cy], _)| (cx - x).hypot(cy - y) < radius_m)
-}
-
-/// Whether an obstacle is only the riser of a stair, or what the depth image makes of its edge.
-pub(crate) fn is_edge(stairs: &Staircase, (place_m, top_m): &Obstacle) -> bool {
-    stairs.stairs.iter().any(|stair| {
-        let low = f64::from(*top_m) < stair.height_m() + RISER_M;
-        low && [&stair.front, &stair.back].into_iter().any(|edge| {
-            let middle = edge.middle().inner;
-            let along_m = (place_m[0] - middle.x).hypot(place_m[1] - middle.y);
-            edge.beyond_m(*place_m).abs() < BESIDE_M && along_m < 0.5 * edge.length_m() + BESIDE_M
-        })
-    })
 }
 
 #[cfg(test)]
@@ -106,7 +60,10 @@ mod tests {
     use super::*;
     use crate::climbing::simulation::stair as stair_at;
     use crate::walking::track::tests::straight;
+    use crate::walking::tuning::WayObstaclesTuning;
     use crate::walking::unknown::tests::{paint, view};
+    use mapping::Surface;
+    use terrain::support::is_roomy;
 
     #[test]
     fn only_an_obstacle_on_the_way_and_near_is_reported() {
@@ -161,6 +118,7 @@ mod tests {
             stairs: vec![stair(0.5, 0.05), stair(0.62, 0.1)],
             ..Staircase::default()
         };
+        let edges = WayObstaclesTuning::default().edges();
         // The riser before the toes, one behind the heels, and boxes at the edge, on the tread and beside the stair.
         for (place_m, top_m, edge) in [
             ([0.63, 0.1], 0.11, true),
@@ -170,7 +128,8 @@ mod tests {
             ([0.8, 0.0], 0.15, false),
             ([0.62, 0.4], 0.11, false),
         ] {
-            assert_eq!(is_edge(&stairs, &(place_m, top_m)), edge, "{place_m:?}");
+            let found = is_riser(&stairs, &(place_m, top_m), edges);
+            assert_eq!(found, edge, "{place_m:?}");
         }
     }
 }

@@ -2,11 +2,6 @@
 
 use crate::walking::WalkingConfig;
 
-/// A gain smaller than this is none, m.
-const HEADWAY_M: f64 = 0.05;
-/// This many patiences without a new best are too many, detours or not.
-const LONGEST_DETOUR: f64 = 12.0;
-
 /// What the watchdog says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Headway {
@@ -54,19 +49,20 @@ impl Progress {
         passed_s: f64,
         config: &WalkingConfig,
     ) -> Headway {
+        let tuning = &config.tuning.progress;
         self.waited_s += passed_s;
         self.waited_ever_s += passed_s;
-        if remaining_m < self.best_ever_m - HEADWAY_M {
+        if remaining_m < self.best_ever_m - tuning.headway {
             self.best_ever_m = remaining_m;
             self.waited_ever_s = 0.0;
             self.tries = 0;
         }
-        let longer = detour && remaining_m > self.best_m + 2.0 * HEADWAY_M;
-        if remaining_m < self.best_m - HEADWAY_M || longer {
+        let longer = detour && remaining_m > self.best_m + tuning.detour * tuning.headway;
+        if remaining_m < self.best_m - tuning.headway || longer {
             self.best_m = remaining_m;
             self.waited_s = 0.0;
         }
-        if self.waited_ever_s > LONGEST_DETOUR * config.patience {
+        if self.waited_ever_s > tuning.longest_detour * config.patience {
             return Headway::Hopeless;
         }
         if self.waited_s <= config.patience {
@@ -99,7 +95,8 @@ mod tests {
                 let remaining_m = lengths[tick / 100 % lengths.len()];
                 progress.watch(remaining_m, true, 0.01, &config) == Headway::Hopeless
             });
-            prop_assert!(hopeless.is_some_and(|tick| tick as f64 * 0.01 <= LONGEST_DETOUR * config.patience + 1.0));
+            let longest_s = config.tuning.progress.longest_detour * config.patience;
+            prop_assert!(hopeless.is_some_and(|tick| tick as f64 * 0.01 <= longest_s + 1.0));
         }
 
         #[test]

@@ -1,92 +1,33 @@
 //! Sideways through what is too narrow to be walked straight ahead: turn before it, then side steps with the heading kept.
 
-use geometry::{PlanarPose, angle_between};
-use planning::{Path, Sidle};
-
 use super::WalkingBehaviour;
+use super::side_leg::{OnLeg, next_sidle};
 use super::state::State;
-use super::track::turn_speed;
-use crate::machine::Tick;
+use super::tick::WayTick;
+use super::turn::turn_speed;
 use crate::walking::gaze::glance;
 use crate::{Motion, Velocity};
 
-/// A leg sideways is over when less than this is left of it, m.
-const DONE_M: f64 = 0.02;
-/// It begins when the robot is this near to where it has to turn, m.
-const THERE_M: f64 = 0.03;
-/// The robot turns on the spot until its heading is no further off than this, rad.
-const TURNED_RAD: f64 = 0.06;
-/// The robot turns on the spot again when its heading is further off than this, rad.
-const ASTRAY_RAD: f64 = 0.2;
-/// Further beside the leg than this it goes on only once it is back, m.
-const BESIDE_M: f64 = 0.03;
-
-/// The robot on a leg sideways.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct OnLeg {
-    /// What is left of it, m.
-    left_m: f64,
-    /// The leg's direction, in the robot's frame.
-    along: [f64; 2],
-    /// From the robot to the leg, square to it, in the robot's frame, m.
-    beside_m: [f64; 2],
-    /// By how much its heading is to change, rad.
-    turn_rad: f64,
-}
-
-impl OnLeg {
-    fn new(path: &Path, sidle: &Sidle, pose: &PlanarPose) -> Option<Self> {
-        let robot_from_map = pose.inverse();
-        let in_robot = |point: usize| {
-            let [x, y] = *path.points_m.get(point)?;
-            Some(robot_from_map.apply(x, y))
-        };
-        let ((x0, y0), (x1, y1)) = (in_robot(sidle.from_point)?, in_robot(sidle.to_point)?);
-        let length_m = (x1 - x0).hypot(y1 - y0);
-        if length_m < 1e-6 {
-            return None;
-        }
-        let along = [(x1 - x0) / length_m, (y1 - y0) / length_m];
-        let left_m = x1 * along[0] + y1 * along[1];
-        Some(Self {
-            left_m,
-            along,
-            beside_m: [x1 - left_m * along[0], y1 - left_m * along[1]],
-            turn_rad: angle_between(pose.yaw_rad, sidle.heading_rad),
-        })
-    }
-}
-
-/// The first leg sideways of a path that the robot has not come to the end of.
-pub(super) fn next_sidle<'a>(path: &'a Path, pose: &PlanarPose) -> Option<&'a Sidle> {
-    let over = |sidle: &&Sidle| {
-        let on_leg = OnLeg::new(path, sidle, pose);
-        sidle.from_point == 0 && on_leg.is_none_or(|on_leg| on_leg.left_m < DONE_M)
-    };
-    path.sidles.iter().find(|sidle| !over(sidle))
-}
-
-impl Tick<'_> {
-    /// Whether the robot is on a leg sideways, or where one begins.
-    pub(super) fn is_at_sidle(&self) -> bool {
-        self.track.is_some_and(|(path, track)| {
-            next_sidle(path, &self.pose)
-                .is_some_and(|sidle| sidle.from_point == 0 || track.remaining_m < THERE_M)
-        })
-    }
-}
-
 impl WalkingBehaviour {
+    /// Whether the robot is on a leg sideways, or where one begins.
+    pub(super) fn is_at_sidle(&self, tick: &WayTick<'_>) -> bool {
+        let tuning = &self.config.tuning.sidle;
+        tick.track.is_some_and(|(path, track)| {
+            next_sidle(path, &tick.pose, tuning)
+                .is_some_and(|sidle| sidle.from_point == 0 || track.remaining_m < tuning.there)
+        })
+    }
+
     /// One tick of the walk sideways.
-    pub(super) fn sidle(&mut self, tick: &Tick<'_>) -> Motion {
+    pub(super) fn sidle(&mut self, tick: &WayTick<'_>) -> Motion {
         let Some((path, _)) = tick.track else {
             return self.without_way(tick);
         };
         if let Some(motion) = self.check_way(tick) {
             return motion;
         }
-        let on_leg = next_sidle(path, &tick.pose)
-            .filter(|_| tick.is_at_sidle())
+        let on_leg = next_sidle(path, &tick.pose, &self.config.tuning.sidle)
+            .filter(|_| self.is_at_sidle(tick))
             .and_then(|sidle| OnLeg::new(path, sidle, &tick.pose));
         let Some(on_leg) = on_leg else {
             self.enter(State::Walk);
@@ -102,7 +43,12 @@ impl WalkingBehaviour {
     fn sidestep(&self, on_leg: &OnLeg) -> Velocity {
         let turning = matches!(&self.motion, Motion::Walk(before)
             if before.x_mps == 0.0 && before.y_mps == 0.0);
-        let allowed_rad = if turning { TURNED_RAD } else { ASTRAY_RAD };
+        let tuning = &self.config.tuning.sidle;
+        let allowed_rad = if turning {
+            tuning.turned
+        } else {
+            tuning.astray
+        };
         if on_leg.turn_rad.abs() > allowed_rad {
             return Velocity {
                 yaw_radps: turn_speed(on_leg.turn_rad, &self.config),
@@ -114,7 +60,7 @@ impl WalkingBehaviour {
         } = on_leg;
         let side_mps = self.config.side_speed;
         let aside_m = beside_m[0].hypot(beside_m[1]);
-        let along_mps = side_mps * (1.0 - aside_m / BESIDE_M).max(0.0);
+        let along_mps = side_mps * (1.0 - aside_m / tuning.beside).max(0.0);
         let back = |axis: usize| (beside_m[axis]).clamp(-side_mps, side_mps);
         Velocity {
             x_mps: along_mps * along[0] + back(0),
@@ -129,6 +75,7 @@ mod tests {
     use super::*;
     use crate::Outcome;
     use crate::walking::simulation::Simulation;
+    use geometry::PlanarPose;
     use planning::{AStar, AStarConfig, Footprint};
     use proptest::prelude::*;
     use stairs::{ClimbingConfig, Feet};

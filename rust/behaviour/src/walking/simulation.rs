@@ -6,10 +6,20 @@ use geometry::{Cell, Grid, Lattice, PlanarPose, Pose};
 use localization::Estimate;
 use mapping::{FloorView, Surface};
 use planning::{AStar, Goal, NoWay, Path, Plan, Planner, Refusal};
+use robot::Extent;
 use stairs::Staircase;
 
 use crate::{
     Behaviour, Decision, Gaze, Motion, Outcome, Situation, WalkingBehaviour, WalkingConfig,
+};
+
+/// Size of the robot.
+pub(crate) const EXTENT: Extent = Extent {
+    radius: BODY_RADIUS_M,
+    height: 0.58,
+    depth: None,
+    width: None,
+    foot_side: 0.06,
 };
 
 pub(crate) const TICK_NS: u64 = 10_000_000;
@@ -87,7 +97,7 @@ impl Simulation {
                 gradients: Grid::filled(CELLS, CELLS, [0.0; 2]),
             },
             plan: None,
-            behaviour: WalkingBehaviour::new(WalkingConfig::default()).unwrap(),
+            behaviour: WalkingBehaviour::new(WalkingConfig::default(), &EXTENT).unwrap(),
             states: Vec::new(),
             gaze: Gaze::default(),
             stumbled: false,

@@ -1,11 +1,18 @@
 //! The states of the behaviour `walking`, and which may follow which.
 
+use geometry::PlanarPose;
+
 use super::gaze::Sweep;
-use super::locate::Locating;
 use crate::machine::{self, Idling};
 
-/// A robot that looks around may see nothing for so many times as long as one that does not.
-const LOOK_AROUND_PATIENCE: f64 = 4.0;
+/// What is known while the robot finds out where it is.
+#[derive(Debug, Clone)]
+pub(crate) struct Locating {
+    /// The look around at its beginning.
+    pub(super) sweep: Sweep,
+    /// The odometry frame in the map when the robot lost its place.
+    pub(super) lost_at: PlanarPose,
+}
 
 /// What the robot is doing, and what it knows only while it does.
 #[derive(Debug, Clone)]
@@ -34,8 +41,8 @@ impl State {
     /// All of them.
     #[cfg(test)]
     pub(crate) fn all() -> [Self; 9] {
-        let sweep = Sweep::through(&[]);
-        let lost_at = geometry::PlanarPose::default();
+        let sweep = Sweep::through(&[], 2);
+        let lost_at = PlanarPose::default();
         [
             Self::LookAround(sweep),
             Self::Walk,
@@ -119,10 +126,7 @@ impl machine::State for State {
     }
 
     /// A robot that stands and looks around may look where there is no ground for a while.
-    fn patience(&self) -> f64 {
-        match self {
-            Self::LookAround(_) => LOOK_AROUND_PATIENCE,
-            _ => 1.0,
-        }
+    fn is_patient(&self) -> bool {
+        matches!(self, Self::LookAround(_))
     }
 }

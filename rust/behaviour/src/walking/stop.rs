@@ -2,16 +2,13 @@
 
 use super::WalkingBehaviour;
 use crate::Motion;
-use crate::machine::Tick;
 use crate::walking::gaze::Sweep;
 use crate::walking::state::State;
-
-/// A robot whose feet come upon unseen steps more often than this gives up.
-const STUMBLES: u32 = 3;
+use crate::walking::tick::WayTick;
 
 impl WalkingBehaviour {
     /// One tick of standing.
-    pub(super) fn stop(&mut self, tick: &Tick<'_>) -> Motion {
+    pub(super) fn stop(&mut self, tick: &WayTick<'_>) -> Motion {
         let bearing_rad = self
             .watched_m
             .map_or(0.0, |place_m| tick.bearing_rad(place_m));
@@ -30,7 +27,7 @@ impl WalkingBehaviour {
     /// Stands and looks, or gives up: the feet came upon a step that nobody saw.
     pub(super) fn stumble(&mut self) {
         self.stumbles += 1;
-        if self.stumbles > STUMBLES {
+        if self.stumbles > self.config.tuning.stop.stumbles {
             self.refuse("blocked: the feet come upon a step that cannot be seen".to_owned());
         } else {
             self.watched_m = None;

@@ -4,8 +4,10 @@ use geometry::PlanarPose;
 use planning::{Goal, Path};
 
 use crate::Velocity;
+use crate::place::distance_m;
 use crate::walking::WalkingConfig;
-use crate::walking::sidle::next_sidle;
+use crate::walking::side_leg::next_sidle;
+use crate::walking::tuning::TrackTuning;
 
 /// The path from the robot's place on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +28,11 @@ pub(crate) struct Track {
 
 impl Track {
     /// None for a path without points.
-    pub(crate) fn new(path: &Path, map_from_robot: &PlanarPose, lookahead_m: f64) -> Option<Self> {
+    pub(crate) fn new(
+        path: &Path,
+        map_from_robot: &PlanarPose,
+        config: &WalkingConfig,
+    ) -> Option<Self> {
         let robot_from_map = map_from_robot.inverse();
         let in_robot = |index: usize| {
             let [x, y] = path.points_m[index];
@@ -38,7 +44,8 @@ impl Track {
             x.hypot(y)
         };
         let all = path.points_m.len();
-        let end = next_sidle(path, map_from_robot).map_or(all, |sidle| sidle.from_point + 1);
+        let sidle = next_sidle(path, map_from_robot, &config.tuning.sidle);
+        let end = sidle.map_or(all, |sidle| sidle.from_point + 1);
         let end = end.min(all);
         let nearest = (0..end).min_by(|&a, &b| distance(a).total_cmp(&distance(b)))?;
         let mut target_m = in_robot(nearest);
@@ -46,7 +53,7 @@ impl Track {
         let mut along_m = 0.0;
         for index in nearest + 1..end {
             let step_m = length(path, index);
-            if along_m < lookahead_m {
+            if along_m < config.lookahead {
                 target_m = in_robot(index);
                 clearance_m = clearance_m.min(clearance(path, index));
             }
@@ -70,7 +77,7 @@ impl Track {
     /// The least that is left to the goal, m: a path may end where the map does, or where more is to be seen.
     pub(crate) fn goal_ahead_m(&self, path: &Path, goal: &Goal) -> f64 {
         let end_m = path.points_m.last();
-        let from_end_m = end_m.map_or(0.0, |[x, y]| (goal.x_m - x).hypot(goal.y_m - y));
+        let from_end_m = end_m.map_or(0.0, |&end_m| distance_m([goal.x_m, goal.y_m], end_m));
         self.whole_m() + from_end_m
     }
 
@@ -84,44 +91,49 @@ impl Track {
     }
 
     /// Direction of the point steered to, rad to the left of straight ahead; 0 where the robot stands on it.
-    pub(crate) fn bearing_rad(&self) -> f64 {
+    pub(crate) fn bearing_rad(&self, tuning: &TrackTuning) -> f64 {
         let [x, y] = self.target_m;
-        if x.hypot(y) < 0.02 { 0.0 } else { y.atan2(x) }
+        if x.hypot(y) < tuning.on_target {
+            0.0
+        } else {
+            y.atan2(x)
+        }
     }
 
     /// How to walk: towards the target with turns on the way, with side steps near the end.
     pub(crate) fn velocity(&self, limit_mps: f64, config: &WalkingConfig) -> Velocity {
-        let near = (self.clearance_m / config.slow_clearance).clamp(0.4, 1.0);
+        let tuning = &config.tuning.track;
+        let near = (self.clearance_m / config.slow_clearance).clamp(tuning.slowest_share, 1.0);
         let top_mps = (config.forward_speed * near).min(limit_mps);
         if self.remaining_m < config.approach {
             return self.approach(top_mps, config);
         }
-        let bearing_rad = self.bearing_rad();
+        let bearing_rad = self.bearing_rad(tuning);
         let ahead = bearing_rad.cos().max(0.0).powi(2);
         // Only a path that runs about straight ahead is met by side steps; else the turn meets it.
-        let side_mps = if bearing_rad.abs() < 0.35 {
-            0.5 * self.offset_m[1]
+        let side_mps = if bearing_rad.abs() < tuning.straight {
+            tuning.side_gain * self.offset_m[1]
         } else {
             0.0
         };
         Velocity {
             x_mps: top_mps * ahead,
             y_mps: side_mps.clamp(-config.side_speed, config.side_speed),
-            yaw_radps: (1.5 * bearing_rad).clamp(-config.turn_speed, config.turn_speed),
+            yaw_radps: (tuning.turn_gain * bearing_rad)
+                .clamp(-config.turn_speed, config.turn_speed),
         }
     }
 
     /// Straight to the path's end without turning, slower the nearer it is.
     fn approach(&self, top_mps: f64, config: &WalkingConfig) -> Velocity {
-        const TIME_S: f64 = 1.0;
-        const LEAST_MPS: f64 = 0.02;
+        let (time_s, least_mps) = (config.tuning.track.end_time, config.tuning.track.slowest);
         let [x, y] = self.target_m;
-        let distance_m = x.hypot(y);
-        if distance_m < 1e-6 {
+        let left_m = x.hypot(y);
+        if left_m < 1e-6 {
             return Velocity::default();
         }
-        let wanted_mps = (distance_m / TIME_S).clamp(LEAST_MPS, top_mps.max(LEAST_MPS));
-        let (vx, vy) = (x / distance_m * wanted_mps, y / distance_m * wanted_mps);
+        let wanted_mps = (left_m / time_s).clamp(least_mps, top_mps.max(least_mps));
+        let (vx, vy) = (x / left_m * wanted_mps, y / left_m * wanted_mps);
         let over = (vy.abs() / config.side_speed).max(1.0);
         Velocity {
             x_mps: vx / over,
@@ -140,22 +152,20 @@ fn clearance(path: &Path, index: usize) -> f64 {
 
 /// Length of the path's piece that ends at `index`, m.
 pub(crate) fn length(path: &Path, index: usize) -> f64 {
-    let ([x0, y0], [x1, y1]) = (path.points_m[index - 1], path.points_m[index]);
-    (x1 - x0).hypot(y1 - y0)
-}
-
-/// Speed of a turn on the spot by `error_rad`, rad/s: slower at its end, never so slow that it ends before.
-pub(crate) fn turn_speed(error_rad: f64, config: &WalkingConfig) -> f64 {
-    const LEAST_RADPS: f64 = 0.1;
-    let speed =
-        (1.5 * error_rad.abs()).clamp(LEAST_RADPS.min(config.turn_speed), config.turn_speed);
-    speed.copysign(error_rad)
+    distance_m(path.points_m[index - 1], path.points_m[index])
 }
 
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    pub(crate) fn config_of_tests() -> WalkingConfig {
+        WalkingConfig {
+            lookahead: 0.25,
+            ..WalkingConfig::default()
+        }
+    }
 
     pub(crate) fn straight(from: [f64; 2], to: [f64; 2]) -> Path {
         let length_m = (to[0] - from[0]).hypot(to[1] - from[1]);
@@ -182,7 +192,7 @@ pub(crate) mod tests {
     #[test]
     fn a_path_that_ends_before_the_goal_is_not_all_that_is_left() {
         let path = straight([0.0, 0.0], [0.6, 0.0]);
-        let track = Track::new(&path, &PlanarPose::new(0.1, 0.0, 0.0), 0.25).unwrap();
+        let track = Track::new(&path, &PlanarPose::new(0.1, 0.0, 0.0), &config_of_tests()).unwrap();
         let goal = Goal {
             x_m: 0.6,
             y_m: 2.0,
@@ -198,7 +208,7 @@ pub(crate) mod tests {
             x in -2.0..2.0f64, y in -2.0..2.0f64, yaw in -3.2..3.2f64, tx in -2.0..2.0f64, ty in -2.0..2.0f64,
         ) {
             let config = WalkingConfig::default();
-            let track = Track::new(&straight([x, y], [tx, ty]), &PlanarPose::new(x, y, yaw), 0.25).unwrap();
+            let track = Track::new(&straight([x, y], [tx, ty]), &PlanarPose::new(x, y, yaw), &config_of_tests()).unwrap();
             let velocity = track.velocity(f64::INFINITY, &config);
             prop_assert!(velocity.x_mps.abs() <= config.forward_speed + 1e-9);
             prop_assert!(velocity.y_mps.abs() <= config.side_speed + 1e-9);
@@ -208,7 +218,7 @@ pub(crate) mod tests {
 
         #[test]
         fn what_remains_is_the_way_along_the_path(x in 0.0..1.9f64, y in -0.3..0.3f64) {
-            let track = Track::new(&straight([0.0, 0.0], [2.0, 0.0]), &PlanarPose::new(x, y, 0.0), 0.25).unwrap();
+            let track = Track::new(&straight([0.0, 0.0], [2.0, 0.0]), &PlanarPose::new(x, y, 0.0), &config_of_tests()).unwrap();
             prop_assert!(track.remaining_m >= 2.0 - x - 0.03);
             prop_assert!(track.remaining_m <= 2.0 - x + y.abs() + 0.05);
         }
@@ -217,7 +227,7 @@ pub(crate) mod tests {
     #[test]
     fn an_empty_path_has_no_track() {
         assert_eq!(
-            Track::new(&Path::default(), &PlanarPose::default(), 0.25),
+            Track::new(&Path::default(), &PlanarPose::default(), &config_of_tests()),
             None
         );
     }
@@ -227,7 +237,7 @@ pub(crate) mod tests {
         let track = Track::new(
             &straight([0.0, 0.0], [0.0, 0.0]),
             &PlanarPose::default(),
-            0.25,
+            &config_of_tests(),
         )
         .unwrap();
         assert_eq!(
@@ -241,7 +251,7 @@ pub(crate) mod tests {
         let mut path = straight([0.0, 0.0], [2.0, 0.0]);
         let config = WalkingConfig::default();
         let speed = |path: &Path| {
-            let track = Track::new(path, &PlanarPose::default(), 0.25).unwrap();
+            let track = Track::new(path, &PlanarPose::default(), &config_of_tests()).unwrap();
             track.velocity(f64::INFINITY, &config).x_mps
         };
         let open_mps = speed(&path);

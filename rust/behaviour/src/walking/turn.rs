@@ -2,26 +2,17 @@
 
 use geometry::angle_between;
 
-use super::WalkingBehaviour;
-use crate::machine::Tick;
+use super::{WalkingBehaviour, WalkingConfig};
 use crate::walking::gaze::Sweep;
-use crate::walking::look_around::SURE_S;
 use crate::walking::state::State;
-use crate::walking::track::turn_speed;
+use crate::walking::tick::WayTick;
 use crate::{Motion, Velocity};
-
-/// A turn ends after this, wherever it points, s.
-const LONGEST_TURN_S: f64 = 15.0;
-/// A turn with less than this left looks at the ground near by, rad.
-const LOOK_NEAR_RAD: f64 = 1.0;
-/// Above this a turn keeps its direction, rad.
-const KEEP_DIRECTION_RAD: f64 = 2.4;
 
 impl WalkingBehaviour {
     /// One tick of a turn to a heading, rad, or to where the path leads.
-    pub(super) fn turn(&mut self, tick: &Tick<'_>, to_rad: Option<f64>) -> Motion {
+    pub(super) fn turn(&mut self, tick: &WayTick<'_>, to_rad: Option<f64>) -> Motion {
         let error_rad = if let Some(goal_rad) = to_rad {
-            if self.way.s() > SURE_S {
+            if self.has_a_sure_way() {
                 self.enter(State::Stop);
                 return Motion::Stand;
             }
@@ -33,10 +24,13 @@ impl WalkingBehaviour {
             if let Some(motion) = self.check_way(tick) {
                 return motion;
             }
-            track.bearing_rad()
+            track.bearing_rad(&self.config.tuning.track)
         };
+        let tuning = &self.config.tuning.turn;
         let done =
-            error_rad.abs() < self.config.turn_until || self.machine.lasted_s() > LONGEST_TURN_S;
+            error_rad.abs() < self.config.turn_until || self.machine.lasted_s() > tuning.longest;
+        // Far while there is much to turn, to see walls; near at its end, to see the ground that is stepped on next.
+        let far = error_rad.abs() > tuning.look_near;
         if done && to_rad.is_some() {
             self.look(Sweep::around(&self.config));
             return Motion::Stand;
@@ -44,8 +38,6 @@ impl WalkingBehaviour {
         if done {
             self.enter(State::Walk);
         }
-        // Far while there is much to turn, to see walls; near at its end, to see the ground that is stepped on next.
-        let far = error_rad.abs() > LOOK_NEAR_RAD;
         let down_rad = if far {
             self.config.gaze_far
         } else {
@@ -63,7 +55,7 @@ impl WalkingBehaviour {
         let speed_radps = turn_speed(error_rad, &self.config);
         match &self.motion {
             Motion::Walk(before)
-                if error_rad.abs() > KEEP_DIRECTION_RAD
+                if error_rad.abs() > self.config.tuning.turn.keeps_side
                     && before.x_mps == 0.0
                     && before.yaw_radps != 0.0 =>
             {
@@ -72,4 +64,12 @@ impl WalkingBehaviour {
             _ => speed_radps,
         }
     }
+}
+
+/// Speed of a turn on the spot by `error_rad`, rad/s: slower at its end, never so slow that it ends before.
+pub(super) fn turn_speed(error_rad: f64, config: &WalkingConfig) -> f64 {
+    let tuning = &config.tuning.turn;
+    let least_radps = tuning.slowest.min(config.turn_speed);
+    let speed_radps = (tuning.gain * error_rad.abs()).clamp(least_radps, config.turn_speed);
+    speed_radps.copysign(error_rad)
 }

@@ -1,18 +1,14 @@
 //! Unknown ground ahead on the path: it is looked at before it is walked on.
 
 use geometry::PlanarPose;
-use mapping::{FloorView, Surface};
+use mapping::FloorView;
 use planning::Path;
+use terrain::support::unknown_across;
 
+use crate::place::distance_m;
 use crate::walking::WalkingConfig;
 use crate::walking::track::{Track, length};
-
-/// A place that is still unknown after it was looked at counts as looked at within this distance, m.
-const LOOKED_RADIUS_M: f64 = 0.12;
-/// Places looked at that are remembered.
-const LOOKED_PLACES: usize = 32;
-/// Half the distance between the outer edges of the feet, m, as far as the ground matters.
-const FOOT_SIDE_M: f64 = 0.06;
+use crate::walking::tuning::UnknownGroundTuning;
 
 /// The places looked at lately, in a ring.
 #[derive(Debug, Clone, Default)]
@@ -23,21 +19,21 @@ pub(crate) struct Looked {
 
 impl Looked {
     /// Whether this place was looked at.
-    pub(crate) fn holds(&self, place_m: [f64; 2]) -> bool {
+    fn holds(&self, place_m: [f64; 2], radius_m: f64) -> bool {
         self.places_m
             .iter()
-            .any(|p| (p[0] - place_m[0]).hypot(p[1] - place_m[1]) < LOOKED_RADIUS_M)
+            .any(|&looked_m| distance_m(looked_m, place_m) < radius_m)
     }
 
-    fn add(&mut self, place_m: [f64; 2]) {
-        if self.holds(place_m) {
+    fn add(&mut self, place_m: [f64; 2], tuning: &UnknownGroundTuning) {
+        if self.holds(place_m, tuning.looked_radius) {
             return;
         }
-        if self.places_m.len() < LOOKED_PLACES {
+        if self.places_m.len() < tuning.looked_places {
             self.places_m.push(place_m);
         } else {
             self.places_m[self.next] = place_m;
-            self.next = (self.next + 1) % LOOKED_PLACES;
+            self.next = (self.next + 1) % tuning.looked_places;
         }
     }
 
@@ -48,9 +44,10 @@ impl Looked {
         track: &Track,
         view: &FloorView,
         config: &WalkingConfig,
+        foot_side_m: f64,
     ) {
-        for place_m in unknown_places(path, track, view, config) {
-            self.add(place_m);
+        for place_m in unknown_places(path, track, view, config, foot_side_m) {
+            self.add(place_m, &config.tuning.unknown);
         }
     }
 }
@@ -61,10 +58,12 @@ fn unknown_places<'a>(
     track: &Track,
     view: &'a FloorView,
     config: &'a WalkingConfig,
+    foot_side_m: f64,
 ) -> impl Iterator<Item = [f64; 2]> + 'a {
     let [x, y] = track.offset_m;
     let mut along_m = x.hypot(y);
     let nearest = track.nearest;
+    let across = config.tuning.unknown.across;
     (nearest + 1..path.points_m.len())
         .map(move |index| {
             along_m += length(path, index);
@@ -72,21 +71,21 @@ fn unknown_places<'a>(
         })
         .skip_while(|&(_, along_m)| along_m < config.unseen_radius)
         .take_while(|&(_, along_m)| along_m <= config.look_distance)
-        .filter(|&(index, _)| is_unknown(path, index, view))
+        .filter(move |&(index, _)| is_unknown(path, index, view, foot_side_m, across))
         .map(|(index, _)| path.points_m[index])
 }
 
-/// Whether most of the ground across the path is unknown here.
-fn is_unknown(path: &Path, index: usize, view: &FloorView) -> bool {
+/// Whether the ground here is unknown at so many of three places across the path.
+fn is_unknown(
+    path: &Path,
+    index: usize,
+    view: &FloorView,
+    foot_side_m: f64,
+    across: usize,
+) -> bool {
     let ([x0, y0], [x, y]) = (path.points_m[index - 1], path.points_m[index]);
     let heading = PlanarPose::new(x, y, (y - y0).atan2(x - x0));
-    let unknown = [-FOOT_SIDE_M, 0.0, FOOT_SIDE_M]
-        .into_iter()
-        .filter(|&side_m| {
-            let (x, y) = heading.apply(0.0, side_m);
-            view.at(x, y) == Surface::Unknown
-        });
-    unknown.count() >= 2
+    unknown_across(view, &heading, &[-foot_side_m, 0.0, foot_side_m]) >= across
 }
 
 /// The first unknown place ahead that has not been looked at, and whether there is one that has.
@@ -96,10 +95,11 @@ pub(crate) fn unknown_ahead(
     view: &FloorView,
     looked: &Looked,
     config: &WalkingConfig,
+    foot_side_m: f64,
 ) -> (Option<[f64; 2]>, bool) {
     let mut stays_unknown = false;
-    for place_m in unknown_places(path, track, view, config) {
-        if !looked.holds(place_m) {
+    for place_m in unknown_places(path, track, view, config, foot_side_m) {
+        if !looked.holds(place_m, config.tuning.unknown.looked_radius) {
             return (Some(place_m), stays_unknown);
         }
         stays_unknown = true;
@@ -110,8 +110,11 @@ pub(crate) fn unknown_ahead(
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::walking::track::tests::straight;
+    use crate::walking::track::tests::{config_of_tests, straight};
     use geometry::{Grid, Lattice};
+    use mapping::Surface;
+
+    const FOOT_SIDE_M: f64 = 0.06;
 
     pub(crate) fn view(surface: Surface) -> FloorView {
         FloorView {
@@ -140,13 +143,13 @@ pub(crate) mod tests {
         let mut view = view(Surface::Floor(0.0));
         paint(&mut view, 0.3, 0.4, Surface::Unknown);
         let path = straight([0.0, 0.0], [1.0, 0.0]);
-        let track = Track::new(&path, &PlanarPose::default(), 0.25).unwrap();
+        let track = Track::new(&path, &PlanarPose::default(), &config_of_tests()).unwrap();
         let mut looked = Looked::default();
-        let (place, stays) = unknown_ahead(&path, &track, &view, &looked, &config);
+        let (place, stays) = unknown_ahead(&path, &track, &view, &looked, &config, FOOT_SIDE_M);
         assert!(place.is_some_and(|p| p[0] > 0.27 && p[0] < 0.42) && !stays);
-        looked.mark(&path, &track, &view, &config);
+        looked.mark(&path, &track, &view, &config, FOOT_SIDE_M);
         assert_eq!(
-            unknown_ahead(&path, &track, &view, &looked, &config),
+            unknown_ahead(&path, &track, &view, &looked, &config, FOOT_SIDE_M),
             (None, true)
         );
     }
@@ -158,8 +161,15 @@ pub(crate) mod tests {
         paint(&mut view, -1.0, 0.14, Surface::Unknown);
         paint(&mut view, 0.6, 1.5, Surface::Unknown);
         let path = straight([0.0, 0.0], [1.0, 0.0]);
-        let track = Track::new(&path, &PlanarPose::default(), 0.25).unwrap();
-        let found = unknown_ahead(&path, &track, &view, &Looked::default(), &config);
+        let track = Track::new(&path, &PlanarPose::default(), &config_of_tests()).unwrap();
+        let found = unknown_ahead(
+            &path,
+            &track,
+            &view,
+            &Looked::default(),
+            &config,
+            FOOT_SIDE_M,
+        );
         assert_eq!(found, (None, false));
     }
 }

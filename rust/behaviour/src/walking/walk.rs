@@ -2,15 +2,12 @@
 
 use super::WalkingBehaviour;
 use crate::Motion;
-use crate::machine::Tick;
 use crate::walking::gaze::{Sweep, glance};
 use crate::walking::progress::Headway;
 use crate::walking::state::State;
+use crate::walking::tick::WayTick;
 use crate::walking::track::Track;
 use crate::walking::unknown::unknown_ahead;
-
-/// Without a plan for less than this the last command holds, s.
-const HOLD_S: f64 = 0.3;
 
 impl WalkingBehaviour {
     /// Walks, or first turns to where the way leads.
@@ -23,13 +20,17 @@ impl WalkingBehaviour {
         });
     }
 
+    fn bearing_rad(&self, track: &Track) -> f64 {
+        track.bearing_rad(&self.config.tuning.track)
+    }
+
     fn must_turn(&self, track: &Track) -> bool {
         track.remaining_m >= self.config.approach
-            && track.bearing_rad().abs() > self.config.turn_above
+            && self.bearing_rad(track).abs() > self.config.turn_above
     }
 
     /// One tick of the walk.
-    pub(super) fn walk(&mut self, tick: &Tick<'_>) -> Motion {
+    pub(super) fn walk(&mut self, tick: &WayTick<'_>) -> Motion {
         let Some((path, track)) = &tick.track else {
             return self.without_way(tick);
         };
@@ -37,12 +38,19 @@ impl WalkingBehaviour {
             return motion;
         }
         let view = tick.situation.view;
-        let (unknown, stays_unknown) = unknown_ahead(path, track, view, &self.looked, &self.config);
+        let (unknown, stays_unknown) = unknown_ahead(
+            path,
+            track,
+            view,
+            &self.looked,
+            &self.config,
+            self.foot_side_m,
+        );
         if let Some(place_m) = unknown {
             self.look(Sweep::at(tick.bearing_rad(place_m), &self.config));
             return Motion::Stand;
         }
-        if tick.is_at_sidle() {
+        if self.is_at_sidle(tick) {
             self.enter(State::Sidle);
             return Motion::Stand;
         }
@@ -50,7 +58,7 @@ impl WalkingBehaviour {
             self.enter(State::Turn { to_rad: None });
         }
         self.machine.gets_on();
-        let gaze = glance(tick.elapsed_s, track.bearing_rad(), &self.config);
+        let gaze = glance(tick.elapsed_s, self.bearing_rad(track), &self.config);
         self.gazer.turn(gaze, tick.passed_s, self.config.gaze_speed);
         let limit_mps = if stays_unknown {
             self.config.creep_speed
@@ -61,7 +69,7 @@ impl WalkingBehaviour {
     }
 
     /// Looks at what is new on the way, and at the watchdog; a motion when that ends the state.
-    pub(super) fn check_way(&mut self, tick: &Tick<'_>) -> Option<Motion> {
+    pub(super) fn check_way(&mut self, tick: &WayTick<'_>) -> Option<Motion> {
         let (path, track) = tick.track.as_ref()?;
         if tick.new_frame {
             let (view, stairs) = (tick.situation.view, tick.situation.stairs);
@@ -95,8 +103,9 @@ impl WalkingBehaviour {
     }
 
     /// Waits or stops without a way: just after a goal was passed the plan is not there yet; else the way is gone.
-    pub(super) fn without_way(&mut self, tick: &Tick<'_>) -> Motion {
-        let waiting = tick.situation.plan.is_none() && self.no_plan.s() < HOLD_S;
+    pub(super) fn without_way(&mut self, tick: &WayTick<'_>) -> Motion {
+        let waiting =
+            tick.situation.plan.is_none() && self.no_plan.s() < self.config.tuning.plan_hold;
         if waiting {
             return self.motion.clone();
         }

@@ -4,54 +4,55 @@ use geometry::{Map, PlanarPose, angle_between};
 use planning::Step;
 use stairs::{ClimbingConfig, Stair, Staircase};
 
-/// Two sights of one stair differ by less than this in height, m.
-pub(crate) const SAME_HEIGHT_M: f64 = 0.012;
-/// Two sights of a front edge that was measured differ by less than this in its place, m.
-const SAME_PLACE_M: f64 = 0.05;
-/// Two sights of a front edge that was not measured differ by less than this in its place, m.
-const VAGUE_PLACE_M: f64 = 0.09;
-/// Two sights of a front edge differ by less than this in its heading, rad.
-const SAME_HEADING_RAD: f64 = 0.4;
-/// Steps whose edges are nearer than this do not follow each other: a way turns back, or they are one, m.
-pub(crate) const LEAST_TREAD_M: f64 = 0.06;
-/// A step follows another when its front edge is no further than this behind the other's back edge, m.
-const JOINT_M: f64 = 0.06;
+use crate::climbing::tuning::StepLookupTuning;
+use crate::place::distance_m;
 
-/// A step in mind may seem this much higher than one that is planned, m.
-const DOUBT_M: f64 = 0.0015;
+/// By what steps are found.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct StepRules<'a> {
+    /// Which changes of height are steps.
+    pub(crate) climbing: &'a ClimbingConfig,
+    /// Which sights are of the same step.
+    pub(crate) lookup: &'a StepLookupTuning,
+}
+
+/// From the front edge of a step to that of the next one, along the way, m.
+pub(crate) fn depth_m(next: &Step, after: &Step) -> f64 {
+    next.stair.front.beyond_m(after.crossing_m)
+}
 
 /// Whether a stair is where the feet would come to stand on a step.
-pub(crate) fn covers(stair: &Stair<Map>, step: &Step) -> bool {
-    const ON_IT_M: f64 = 0.05;
-    const MARGIN_M: f64 = 0.02;
+pub(crate) fn covers(stair: &Stair<Map>, step: &Step, lookup: &StepLookupTuning) -> bool {
+    let (on_it_m, margin_m) = (lookup.on_it, lookup.margin);
     let (sin, cos) = step.stair.front.heading_rad().sin_cos();
     let [x_m, y_m] = step.crossing_m;
-    let place_m = [x_m + cos * ON_IT_M, y_m + sin * ON_IT_M];
-    (step.stair.height_m() - stair.height_m()).abs() < SAME_HEIGHT_M
-        && stair.front.beyond_m(place_m) > -MARGIN_M
-        && stair.back.beyond_m(place_m) < MARGIN_M
+    let place_m = [x_m + cos * on_it_m, y_m + sin * on_it_m];
+    (step.stair.height_m() - stair.height_m()).abs() < lookup.same_height
+        && stair.front.beyond_m(place_m) > -margin_m
+        && stair.back.beyond_m(place_m) < margin_m
 }
 
 /// Whether a stair is the one of a step.
-pub(crate) fn is_same(step: &Step, stair: &Stair<Map>) -> bool {
+pub(crate) fn is_same(step: &Step, stair: &Stair<Map>, lookup: &StepLookupTuning) -> bool {
     let turned_rad = angle_between(step.stair.front.heading_rad(), stair.front.heading_rad());
     let same_place_m = if step.stair.front_fit.is_some() {
-        SAME_PLACE_M
+        lookup.same_place
     } else {
-        VAGUE_PLACE_M
+        lookup.vague_place
     };
-    (step.stair.height_m() - stair.height_m()).abs() < SAME_HEIGHT_M
+    (step.stair.height_m() - stair.height_m()).abs() < lookup.same_height
         && stair.front.beyond_m(step.crossing_m).abs() < same_place_m
-        && turned_rad.abs() < SAME_HEADING_RAD
+        && turned_rad.abs() < lookup.same_heading
 }
 
 /// The step behind another by the stairs alone: the nearest whose change of height a parameter set takes.
-pub(crate) fn following(last: &Step, stairs: &Staircase, config: &ClimbingConfig) -> Option<Step> {
+pub(crate) fn following(last: &Step, stairs: &Staircase, rules: &StepRules<'_>) -> Option<Step> {
+    let (least_m, joint_m) = (rules.lookup.least_tread, rules.lookup.joint);
     let middle = last.stair.back.middle().inner;
-    let end_m = last.stair.front.beyond_m([middle.x, middle.y]) + JOINT_M;
+    let end_m = last.stair.front.beyond_m([middle.x, middle.y]) + joint_m;
     let way = (last.crossing_m, last.stair.front.heading_rad());
-    let near = |depth_m| depth_m > LEAST_TREAD_M && depth_m < end_m;
-    nearest_where(near, stairs, way, last.stair.height_m(), config)
+    let near = |depth_m| depth_m > least_m && depth_m < end_m;
+    nearest_where(near, stairs, way, last.stair.height_m(), rules)
 }
 
 /// The nearest stair ahead of a robot that a parameter set takes (003, section V), no further than `reach_m`.
@@ -60,11 +61,11 @@ pub(crate) fn nearest(
     pose: &PlanarPose,
     ground_m: f64,
     reach_m: f64,
-    config: &ClimbingConfig,
+    rules: &StepRules<'_>,
 ) -> Option<Step> {
     let way = ([pose.x_m, pose.y_m], pose.yaw_rad);
     let near = |away_m| away_m > 0.0 && away_m < reach_m;
-    nearest_where(near, stairs, way, ground_m, config)
+    nearest_where(near, stairs, way, ground_m, rules)
 }
 
 /// The nearest step from a level on a way, given by a place, m, and a heading, rad, of those whose edge is `near` enough, m.
@@ -73,16 +74,16 @@ fn nearest_where(
     stairs: &Staircase,
     (from_m, heading_rad): ([f64; 2], f64),
     level_m: f64,
-    config: &ClimbingConfig,
+    rules: &StepRules<'_>,
 ) -> Option<Step> {
     let step = |stair: &Stair<Map>| {
-        let (away_m, crossing_m) = ahead(stair, from_m, heading_rad)?;
+        let (away_m, crossing_m) = ahead(stair, from_m, heading_rad, rules.lookup)?;
         let step = Step {
             stair: *stair,
             rise_m: stair.height_m() - level_m,
             crossing_m,
         };
-        (near(away_m) && is_step(step.rise_m, config)).then_some((away_m, step))
+        (near(away_m) && is_step(step.rise_m, rules.climbing)).then_some((away_m, step))
     };
     let steps = stairs.stairs.iter().filter_map(step);
     let nearest = steps.min_by(|a, b| a.0.total_cmp(&b.0));
@@ -98,7 +99,7 @@ pub(crate) fn is_step(rise_m: f64, config: &ClimbingConfig) -> bool {
 
 /// The change of height of a step in mind that counts, m: one that is seen a little above the limit is at the limit. It was not when
 /// the step was planned, and heights vary as long as they are seen.
-pub(crate) fn settled_rise_m(rise_m: f64, config: &ClimbingConfig) -> f64 {
+pub(crate) fn settled_rise_m(rise_m: f64, config: &ClimbingConfig, doubt_m: f64) -> f64 {
     let set = config.set_for(rise_m);
     let limit_m = if rise_m > 0.0 {
         set.step_max_z
@@ -106,7 +107,7 @@ pub(crate) fn settled_rise_m(rise_m: f64, config: &ClimbingConfig) -> f64 {
         -set.step_min_z
     };
     let most_m = limit_m + config.tolerance;
-    let is_in_doubt = (most_m..=most_m + DOUBT_M).contains(&rise_m.abs());
+    let is_in_doubt = (most_m..=most_m + doubt_m).contains(&rise_m.abs());
     if is_in_doubt {
         most_m.copysign(rise_m)
     } else {
@@ -115,31 +116,35 @@ pub(crate) fn settled_rise_m(rise_m: f64, config: &ClimbingConfig) -> f64 {
 }
 
 /// How far ahead of a place in this direction the stair's front edge is crossed, and where; `None` where it is not.
-fn ahead(stair: &Stair<Map>, [x_m, y_m]: [f64; 2], heading_rad: f64) -> Option<(f64, [f64; 2])> {
+fn ahead(
+    stair: &Stair<Map>,
+    [x_m, y_m]: [f64; 2],
+    heading_rad: f64,
+    lookup: &StepLookupTuning,
+) -> Option<(f64, [f64; 2])> {
     let edge = &stair.front;
     let towards = angle_between(heading_rad, edge.heading_rad()).cos();
-    if towards < 0.5 {
+    if towards < lookup.towards {
         return None;
     }
     let away_m = -edge.beyond_m([x_m, y_m]) / towards;
     let (sin, cos) = heading_rad.sin_cos();
     let crossing_m = [x_m + cos * away_m, y_m + sin * away_m];
     let middle = edge.middle().inner;
-    let aside_m = (crossing_m[0] - middle.x).hypot(crossing_m[1] - middle.y);
+    let aside_m = distance_m(crossing_m, [middle.x, middle.y]);
     (aside_m < 0.5 * edge.length_m()).then_some((away_m, crossing_m))
 }
 
 /// Whether a robot on the way to where a step is taken from would cross the edge of another one.
 pub(crate) fn crosses_another(
     stairs: &Staircase,
-    pose: &PlanarPose,
-    ground_m: f64,
+    (pose, ground_m): (&PlanarPose, f64),
     to: &PlanarPose,
     step: &Step,
-    config: &ClimbingConfig,
+    rules: &StepRules<'_>,
 ) -> bool {
-    nearest(stairs, pose, ground_m, pose.distance_m(to), config)
-        .is_some_and(|other| !is_same(step, &other.stair))
+    nearest(stairs, pose, ground_m, pose.distance_m(to), rules)
+        .is_some_and(|other| !is_same(step, &other.stair, rules.lookup))
 }
 
 #[cfg(test)]
@@ -149,7 +154,11 @@ mod tests {
 
     #[test]
     fn the_way_to_a_step_may_cross_its_own_edge_but_no_other_one() {
-        let config = ClimbingConfig::default();
+        let (climbing, lookup) = (ClimbingConfig::default(), StepLookupTuning::default());
+        let rules = StepRules {
+            climbing: &climbing,
+            lookup: &lookup,
+        };
         let low = stair([0.07, 0.0, 0.0], [0.25, 0.0, 0.0], 0.018, 0.6);
         let high = stair([0.25, 0.0, 0.0], [0.43, 0.0, 0.0], 0.036, 0.6);
         let stairs = Staircase {
@@ -163,7 +172,7 @@ mod tests {
         };
         let crosses = |to_m: f64, step: &Step| {
             let to = PlanarPose::new(to_m, 0.0, 0.0);
-            crosses_another(&stairs, &PlanarPose::default(), 0.0, &to, step, &config)
+            crosses_another(&stairs, (&PlanarPose::default(), 0.0), &to, step, &rules)
         };
         assert!(crosses(0.21, &step(high)));
         assert!(!crosses(0.03, &step(high)));
