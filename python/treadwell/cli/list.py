@@ -1,6 +1,6 @@
 """The verb `list`: scenarios, robots, components, experiments and parameters."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from treadwell.cli.output import write_table
@@ -17,7 +17,7 @@ def listed(kinds: Sequence[str], name: str | None = None) -> dict[str, Any]:
     Raises:
         InputError: nothing has parameters by that name.
     """
-    makers = {
+    makers: dict[str, Callable[[], Any]] = {
         "scenarios": _scenarios,
         "robots": _robots,
         "components": _components,
@@ -48,8 +48,8 @@ def show(document: Mapping[str, Any]) -> None:
             rows = [[_shown(entry[field]) for field in fields] for entry in entries]
             write_table(kind, header, rows)
         else:
-            rows = [(entry["name"], entry["description"]) for entry in entries]
-            write_table(kind, ("name", "what it is"), rows)
+            pairs = [(entry["name"], entry["description"]) for entry in entries]
+            write_table(kind, ("name", "what it is"), pairs)
 
 
 def _scenarios() -> list[dict[str, str]]:

@@ -1,4 +1,4 @@
-//! What a segmenter is made of. Those that come with the crate stand in `lib.rs`, a line each.
+//! What a segmenter is made of. Those that come with the crate stand in `finders/mod.rs`, a line each.
 
 use sensing::Intrinsics;
 use settings::{MakeError, Part, Tables};

@@ -1,4 +1,4 @@
-//! How long a machine waits for what, and in what words it gives up.
+//! How long a machine waits for what, and in what words it gives up: `walking.rs` and `climbing.rs` fill it from their settings.
 
 /// The limits of a machine, s.
 #[derive(Debug, Clone, Copy, PartialEq)]
