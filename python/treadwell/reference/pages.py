@@ -44,7 +44,7 @@ def _components() -> str:
         lines += [f"## `{slot}`", "", *_head("name", "what it is", "paper", "parameters")]
         for name, about in names.items():
             link = f"[`{name}`](parameters/{name}.md)" if name in tables else ""
-            lines.append(_row(f"`{name}`", about, SOURCES[slot].get(name) or "", link))
+            lines.append(_row(f"`{name}`", about, SOURCES[slot].get(name) or "none: our own", link))
         lines.append("")
     return "\n".join(lines)
 

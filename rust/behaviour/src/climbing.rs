@@ -78,7 +78,7 @@ const CONTINUOUS_KEY: &str = "navigation.continuous";
 pub(crate) const CONTINUOUS: BehaviourPart = Part {
     name: "continuous",
     about: "climbs one foot a step without stopping where the treads allow it",
-    source: Some("003, section VI, future work"),
+    source: Some("003, section VIII, left to the future there"),
     tables: &[TableDescription::at::<StairClimbingConfig>(CONTINUOUS_KEY)],
     make: |needs| {
         Ok(Box::new(StairClimbing::of(

@@ -48,7 +48,7 @@ use unknown::Looked;
 pub(crate) const PART: BehaviourPart = Part {
     name: "walking",
     about: "walks the path, looks around, stops for what appears, refuses where no way is",
-    source: Some("000, section V"),
+    source: None,
     tables: &[TableDescription::of::<WalkingConfig>()],
     make: |needs| Ok(Box::new(WalkingBehaviour::of(needs)?)),
 };

@@ -9,7 +9,7 @@ use crate::{AStar, AStarConfig, GuideConfig, Guided, Planner, VoronoiConfig};
 pub(crate) const A_STAR: PlannerPart = Part {
     name: "a_star",
     about: "A* on the grid by clearance; levels join by climbs, unknown cells have a price",
-    source: Some("000, section V; 002, section III.D; climbs after 003"),
+    source: Some("002, section III.D; climbs after 003"),
     tables: &[
         TableDescription::of::<AStarConfig>(),
         TableDescription::of::<GuideConfig>(),
