@@ -66,7 +66,7 @@ settings! {
         blind_limit: f64 = 10.0, "s", PATIENCE;
         /// A robot that does not know where it is gives up after this time.
         locate_limit: f64 = 60.0, "s", PATIENCE;
-        /// "No way" must be the planner's answer for this long, and in all directions looked at, before the robot gives up.
+        /// The planner must find no way for this long, and in all directions looked at, before the robot gives up.
         refuse_time: f64 = 3.0, "s", STAND;
         /// The robot looks around when it has made no headway for this long.
         patience: f64 = 15.0, "s", PATIENCE;
