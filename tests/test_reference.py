@@ -21,7 +21,6 @@ from treadwell.robot.load import load_robot, robot_names
 from treadwell.scenario.model import Scenario
 
 ROOT = Path(__file__).resolve().parent.parent
-UNITS = {"m", "rad", "s", "1", "-", "m/s", "rad/s", "m/rad", "px", "N", "Hz", "kg", "N m"}
 
 
 def test_every_parameter_says_what_it_is() -> None:
