@@ -15,7 +15,7 @@ type Row = (
 pub(crate) fn components() -> Vec<Row> {
     let all = pilot::components();
     all.iter()
-        .map(|one| one.listed())
+        .map(pilot::Component::listed)
         .map(|one| (one.slot, one.name, one.about, one.source))
         .collect()
 }

@@ -39,7 +39,7 @@ mod tests {
     fn every_setting_has_a_meaning_that_is_a_sentence_and_one_key() {
         let all: Vec<_> = tables()
             .iter()
-            .flat_map(|table| table.parameters())
+            .flat_map(settings::TableDescription::parameters)
             .collect();
         for one in &all {
             let begins = one

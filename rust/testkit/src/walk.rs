@@ -32,6 +32,12 @@ fn smooth(share: f64) -> f64 {
     share * share * (3.0 - 2.0 * share)
 }
 
+impl Default for Walk {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Walk {
     /// Stands at the origin.
     pub fn new() -> Self {
@@ -54,6 +60,7 @@ impl Walk {
     }
 
     /// Stands on both feet for a number of ticks.
+    #[must_use]
     pub fn stand(mut self, ticks: usize) -> Self {
         for _ in 0..ticks {
             self.tick(0.5, self.soles, Side::Left);
@@ -62,6 +69,7 @@ impl Walk {
     }
 
     /// Moves one foot to a place and a level: load shift, 20 ticks in the air, load shift back to the middle.
+    #[must_use]
     pub fn step(mut self, side: Side, to: PlanarPose, level_m: f64) -> Self {
         let from = self.soles;
         let lifted = if side == Side::Left { 1.0 } else { 0.0 };
@@ -99,6 +107,7 @@ impl Walk {
     }
 
     /// Walks `count` steps; each brings one foot to where `forward`, and `turn_rad` more of heading, put it.
+    #[must_use]
     pub fn walk(mut self, count: usize, forward_m: f64, turn_rad: f64) -> Self {
         let mut at = PlanarPose::default();
         for step in 0..count {
