@@ -5,7 +5,7 @@ use mapping::{FloorView, Surface};
 use pilot::Component;
 use planning::{Goal, NoWay, Path, Plan, PlanError, Planner, PlannerPart, Refusal};
 use pyo3::prelude::*;
-use settings::{ConfigError, TableDescription, POSITIVE, Part, Table, read, settings};
+use settings::{ConfigError, POSITIVE, Part, Table, TableDescription, read, settings};
 use stairs::Staircase;
 
 settings! {
