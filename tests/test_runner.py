@@ -149,7 +149,7 @@ def test_a_file_that_cannot_be_written_does_not_keep_the_others_from_it(
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("treadwell.recording.writers.draw_map", full)
+    monkeypatch.setattr("treadwell.recording.map_picture.draw_map", full)
     out = tmp_path / "run"
     with pytest.raises(RecordingError, match=r"not everything could be written: .*No space left"):
         treadwell.run("slalom", overrides=("time_limit=0.2",), out=out, record=False)

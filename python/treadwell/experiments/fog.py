@@ -2,13 +2,21 @@
 
 from collections.abc import Callable, Sequence
 from itertools import chain
+from pathlib import Path
 from typing import Final
 
 from treadwell.experiments import fog_cases as cases
-from treadwell.experiments.experiment import NOTHING, Experiment, Results, Table, middle, share
+from treadwell.experiments.experiment import (
+    NOTHING,
+    Experiment,
+    Picture,
+    Results,
+    Table,
+    middle,
+    share,
+)
 from treadwell.experiments.fog_drift import height_drift, turning
 from treadwell.experiments.fog_levels import three_levels, worse_senses
-from treadwell.experiments.fog_pictures import fog_pictures
 from treadwell.experiments.fog_surfaces import ceilings, slopes_walked, surfaces
 from treadwell.experiments.level_heights import level_heights
 from treadwell.measuring.map_watch import MapFrame, MapHistory
@@ -174,10 +182,17 @@ def fog_tables(results: Results) -> list[Table]:
     return [table for table in made if table.rows]
 
 
+def _pictures(results: Results, folder: Path) -> Sequence[Picture]:
+    # Late, because matplotlib takes half a second to import.
+    from treadwell.experiments.fog_pictures import fog_pictures
+
+    return fog_pictures(results, folder)
+
+
 FOG: Final = Experiment(
     name="fog",
     description="The floor and obstacle height map (Gutmann, Fukuchi, Fujita 2005)",
     cases=cases.CASES,
     tables=fog_tables,
-    pictures=fog_pictures,
+    pictures=_pictures,
 )

@@ -1,5 +1,7 @@
 """A NAO in a house on two levels, with a depth camera and a map (Maier et al., Humanoids 2012)."""
 
+from collections.abc import Sequence
+from pathlib import Path
 from statistics import median
 from typing import Final
 
@@ -7,6 +9,7 @@ from treadwell.experiments import nao_cases as cases
 from treadwell.experiments.experiment import (
     NOTHING,
     Experiment,
+    Picture,
     Results,
     Table,
     middle,
@@ -14,7 +17,6 @@ from treadwell.experiments.experiment import (
 )
 from treadwell.experiments.nao_localization import accuracy, finding, hallway
 from treadwell.experiments.nao_maps import local_map, visitors
-from treadwell.experiments.nao_pictures import nao_pictures
 from treadwell.experiments.stairs import reasons
 
 _STAGES: Final = ("segment", "localize", "map", "stairs", "plan")
@@ -90,10 +92,17 @@ def nao_tables(results: Results) -> list[Table]:
     return [table for table in made if table.rows]
 
 
+def _pictures(results: Results, folder: Path) -> Sequence[Picture]:
+    # Late, because matplotlib takes half a second to import.
+    from treadwell.experiments.nao_pictures import nao_pictures
+
+    return nao_pictures(results, folder)
+
+
 NAO: Final = Experiment(
     name="nao",
     description="Navigation on two levels with a depth camera (Maier, Hornung, Bennewitz 2012)",
     cases=cases.CASES,
     tables=nao_tables,
-    pictures=nao_pictures,
+    pictures=_pictures,
 )

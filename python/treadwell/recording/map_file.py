@@ -20,6 +20,8 @@ from treadwell.errors import InputError
 from treadwell.map_memory import OBSTACLE, RememberedMap
 
 NAME: Final = "map.npz"
+PICTURE: Final = "map.png"
+"""What `map_picture` draws of it."""
 _MOST_CELLS: Final = 2**26
 """What a file may claim to hold: a map of 300 m by 300 m in cells of 4 cm."""
 

@@ -21,7 +21,6 @@ from treadwell.recording.stair_memory import StairMemory, outline
 from treadwell.recording.trajectory import Trajectory
 from treadwell.trace import StairTrace
 
-NAME: Final = "map.png"
 _UNKNOWN: Final = (0.80, 0.80, 0.82)
 _OBSTACLE: Final = (0.09, 0.09, 0.11)
 _BELIEVED, _CLIMBED, _TRUE, _OUTLINE, _GOAL = "#ff5fa2", "#7d3cd7", "#ffffff", "#e4572e", "#b8f53d"

@@ -13,8 +13,7 @@ from treadwell.physics.audit import STEPS_PER_TICK, replay_limited
 from treadwell.recording.file import whole_length
 from treadwell.recording.log_file import read_front, read_messages
 from treadwell.recording.map_file import NAME as MAP
-from treadwell.recording.map_file import read_map
-from treadwell.recording.map_picture import NAME as PICTURE
+from treadwell.recording.map_file import PICTURE, read_map
 from treadwell.recording.observation_log import CORE, hash_of, header_of, read_observations
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
 from treadwell.recording.recorder import NAME as RECORDING

@@ -12,8 +12,7 @@ from treadwell.errors import CoreError, InputError, RecordingError
 from treadwell.judging.result import Result
 from treadwell.map_memory import RememberedMap
 from treadwell.recording.map_file import NAME as MAP
-from treadwell.recording.map_file import write_map
-from treadwell.recording.map_picture import draw_map
+from treadwell.recording.map_file import PICTURE, write_map
 from treadwell.recording.messages import encode_command, encode_estimate
 from treadwell.recording.scenario_file import NAME as SCENARIO
 from treadwell.recording.scenario_file import write_scenario
@@ -133,9 +132,7 @@ class Writers:
             lambda: estimate.write(folder / ESTIMATE),
             lambda: truth.write(folder / TRUTH),
             lambda: episode.simulation.save_audit(folder),
-            lambda: draw_map(
-                folder / "map.png", episode.course, result, remembered, estimate, truth, stairs
-            ),
+            lambda: self._draw(result, estimate, truth, remembered, stairs),
             lambda: write_map(folder / MAP, remembered, occupied(episode)),
             lambda: result.write(folder / "result.json"),
         ]
@@ -147,6 +144,20 @@ class Writers:
                 first = first or error
         if first is not None:
             raise RecordingError(f"{folder}: not everything could be written: {first}") from first
+
+    def _draw(
+        self,
+        result: Result,
+        estimate: Trajectory,
+        truth: Trajectory,
+        remembered: RememberedMap,
+        stairs: StairMemory,
+    ) -> None:
+        # Late, because matplotlib takes half a second to import.
+        from treadwell.recording.map_picture import draw_map
+
+        course, path = self._episode.course, self._folder / PICTURE
+        draw_map(path, course, result, remembered, estimate, truth, stairs)
 
     def _close(self) -> None:
         if self._viewer is not None:

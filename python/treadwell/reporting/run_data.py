@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from treadwell.errors import InputError
 from treadwell.judging.result import Result, read_result
-from treadwell.recording.map_picture import NAME as PICTURE
+from treadwell.recording.map_file import PICTURE
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
 from treadwell.recording.observation_log import read_header, read_observations
 from treadwell.recording.recorder import NAME as RECORDING

@@ -11,7 +11,7 @@ from markupsafe import Markup
 
 from treadwell.errors import InputError
 from treadwell.judging.result import Result, Spread
-from treadwell.recording.map_picture import NAME as PICTURE
+from treadwell.recording.map_file import PICTURE
 from treadwell.recording.scenario_file import without_nothing
 from treadwell.reporting.charts import Line, plot, state_lane
 from treadwell.reporting.images import Shot, film_uri, picture_uri, strip
