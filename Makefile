@@ -8,10 +8,12 @@ RUN := $(UV) run --locked --quiet
 DEMO ?= obstacle_course
 # One Python for all that cargo builds: for another, pyo3 and what uses it are compiled again.
 export PYO3_PYTHON ?= $(shell command -v $(PYTHON))
+# The tests start hundreds of Pythons: each module is compiled once, whatever the shell says.
+unexport PYTHONDONTWRITEBYTECODE
 # What the built package is made of: `make setup` builds anew when it changes.
 SOURCES := $(shell find rust models scenarios -type f)
 
-.PHONY: setup demo test fast fuzz check lint clippy format bench clean
+.PHONY: setup demo test test-core test-package fast fuzz check lint lint-package clippy format bench clean
 
 setup: .venv/.ready ## the environment in .venv, with the command .venv/bin/treadwell
 
@@ -28,9 +30,15 @@ demo: setup ## one episode: the result, and where its pictures are
 
 # The same cases in every run: what passes for one passes for all. `make fuzz` draws new ones.
 test: export PROPTEST_RNG_SEED ?= 2004
-test: lint ## every check and every test
+test: ## every check and every test: the core's and the package's side by side, since much of each waits for one processor
+	$(MAKE) --jobs=2 --output-sync=line test-core test-package
+
+test-core: clippy
+	cargo fmt --check
 	$(CARGO_TEST)
 	cargo test --workspace --doc --quiet
+
+test-package: lint-package
 	$(PYTEST) --hypothesis-profile ci
 
 fast: export PROPTEST_RNG_SEED ?= 2004
@@ -53,7 +61,9 @@ fuzz: setup ## the property tests with new random cases, FUZZ_ROUNDS times
 
 lint:
 	cargo fmt --check
-	$(MAKE) --jobs=2 setup clippy # the package's build leaves a processor free
+	$(MAKE) --jobs=2 lint-package clippy # the package's build leaves a processor free
+
+lint-package: setup
 	$(RUN) ruff check
 	$(RUN) ruff format --check
 	$(RUN) mypy
