@@ -44,14 +44,20 @@ pub struct FloorView {
 }
 
 impl FloorView {
-    /// A square window of which nothing is known.
-    pub(crate) fn unknown(lattice: Lattice, cells: usize) -> Self {
+    /// A window of these cells, each seen so often, with all of its floors level.
+    pub fn new(lattice: Lattice, cells: Grid<Surface>, sightings: u16) -> Self {
+        let (cols, rows) = (cells.cols(), cells.rows());
         Self {
             lattice,
-            cells: Grid::filled(cells, cells, Surface::Unknown),
-            sightings: Grid::filled(cells, cells, 0),
-            gradients: Grid::filled(cells, cells, [0.0; 2]),
+            cells,
+            sightings: Grid::filled(cols, rows, sightings),
+            gradients: Grid::filled(cols, rows, [0.0; 2]),
         }
+    }
+
+    /// A square window of which nothing is known.
+    pub(crate) fn unknown(lattice: Lattice, cells: usize) -> Self {
+        Self::new(lattice, Grid::filled(cells, cells, Surface::Unknown), 0)
     }
 
     /// Moves the window by whole cells to where `lattice` lies.

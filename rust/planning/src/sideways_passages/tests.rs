@@ -40,15 +40,14 @@ fn planner(footprint: Footprint) -> AStar {
 /// A window of floor, 3.2 m a side, around the origin.
 fn floor(cell_m: f64) -> FloorView {
     let cells = (3.2 / cell_m).round() as usize;
-    FloorView {
-        lattice: Lattice {
+    FloorView::new(
+        Lattice {
             origin_m: [-1.6, -1.6],
             cell_m,
         },
-        cells: Grid::filled(cells, cells, Surface::Floor(0.0)),
-        sightings: Grid::filled(cells, cells, 9),
-        gradients: Grid::filled(cells, cells, [0.0; 2]),
-    }
+        Grid::filled(cells, cells, Surface::Floor(0.0)),
+        9,
+    )
 }
 
 /// Sets all cells whose centre lies in the rectangle, or on its border.
