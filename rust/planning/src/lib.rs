@@ -43,7 +43,7 @@ pub use config::{AStarConfig, Footprint};
 pub use geometry::Goal;
 pub use guide::{GuideConfig, GuideTuning, Guided};
 pub use part::{PlannerNeeds, PlannerPart};
-pub use plan::{Climb, NoWay, Path, Plan, PlanError, Planner, Refusal, Sidle, Step};
+pub use plan::{Climb, NoWay, Path, PathEnd, Plan, PlanError, Planner, Refusal, Sidle, Step};
 pub use terrain::{TerrainConfig, VoronoiConfig};
 pub use tuning::PlanningTuning;
 

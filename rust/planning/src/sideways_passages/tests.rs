@@ -6,8 +6,8 @@ use proptest::prelude::*;
 use stairs::{ClimbingConfig, Feet, Staircase};
 
 use super::*;
-use crate::path::ends::{PathEnd, PathEnds, run};
-use crate::{AStar, AStarConfig, Footprint, Goal, Path, Plan, Planner, Refusal, Sidle};
+use crate::path::ends::{PathEnds, run};
+use crate::{AStar, AStarConfig, Footprint, Goal, Path, PathEnd, Plan, Planner, Refusal, Sidle};
 
 /// Of the robot: the circle, and what it needs sideways, from front to back and across, m.
 const RADIUS_M: f64 = 0.17;
