@@ -85,15 +85,14 @@ fn body(number: u64, odometry_from_robot: Isometry3<f64>) -> BodyState {
 }
 
 fn no_view() -> FloorView {
-    FloorView {
-        lattice: Lattice {
+    FloorView::new(
+        Lattice {
             origin_m: [0.0; 2],
             cell_m: 1.0,
         },
-        cells: Grid::filled(1, 1, Surface::Unknown),
-        sightings: Grid::filled(1, 1, 0),
-        gradients: Grid::filled(1, 1, [0.0; 2]),
-    }
+        Grid::filled(1, 1, Surface::Unknown),
+        0,
+    )
 }
 
 /// Whole steps: beams drawn from a frame of 320 x 240, guesses moved, weighed and drawn anew.

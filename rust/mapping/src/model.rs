@@ -26,9 +26,6 @@ pub enum Surface {
     Obstacle(f32),
 }
 
-/// Floor that rises by less per metre is level ground seen a little wrong.
-const LEAST_GRADIENT: f64 = 0.03;
-
 /// The floor, obstacle and unknown view that planners read. Cells are fixed to the map; the window moves with the robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FloorView {
@@ -41,17 +38,26 @@ pub struct FloorView {
     pub sightings: Grid<u16>,
     /// How much each cell's floor rises per metre along the map's axes: nothing where it is level.
     pub gradients: Grid<[f32; 2]>,
+    /// Floor that rises by less per metre is level ground seen a little wrong.
+    pub least_gradient: f64,
 }
 
 impl FloorView {
-    /// A square window of which nothing is known.
-    pub(crate) fn unknown(lattice: Lattice, cells: usize) -> Self {
+    /// A window of these cells, each seen so often, with all of its floors level; of gradients that are set later each one counts.
+    pub fn new(lattice: Lattice, cells: Grid<Surface>, sightings: u16) -> Self {
+        let (cols, rows) = (cells.cols(), cells.rows());
         Self {
             lattice,
-            cells: Grid::filled(cells, cells, Surface::Unknown),
-            sightings: Grid::filled(cells, cells, 0),
-            gradients: Grid::filled(cells, cells, [0.0; 2]),
+            cells,
+            sightings: Grid::filled(cols, rows, sightings),
+            gradients: Grid::filled(cols, rows, [0.0; 2]),
+            least_gradient: 0.0,
         }
+    }
+
+    /// A square window of which nothing is known.
+    pub(crate) fn unknown(lattice: Lattice, cells: usize) -> Self {
+        Self::new(lattice, Grid::filled(cells, cells, Surface::Unknown), 0)
     }
 
     /// Moves the window by whole cells to where `lattice` lies.
@@ -89,7 +95,7 @@ impl FloorView {
         let cell = self.lattice.cell_at(x_m, y_m);
         let gradient = self.gradients.get(cell).copied().unwrap_or_default();
         let gradient = gradient.map(f64::from);
-        if gradient[0].hypot(gradient[1]) < LEAST_GRADIENT {
+        if gradient[0].hypot(gradient[1]) < self.least_gradient {
             [0.0; 2]
         } else {
             gradient

@@ -22,15 +22,14 @@ fn slalom() -> FloorView {
             *slot = Surface::Obstacle(0.3);
         }
     }
-    FloorView {
-        lattice: Lattice {
+    FloorView::new(
+        Lattice {
             origin_m: [-2.0, -2.0],
             cell_m: 0.04,
         },
         cells,
-        sightings: Grid::filled(100, 100, 9),
-        gradients: Grid::filled(100, 100, [0.0; 2]),
-    }
+        9,
+    )
 }
 
 /// A wall with a door to one side.

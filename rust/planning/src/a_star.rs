@@ -14,11 +14,12 @@ use terrain::{
 
 use crate::climb_links::{ClimbLinks, Scene};
 use crate::outside_window::OutsideWindow;
-use crate::path::followed_path::FollowedPath;
 use crate::path::viewpoints::Viewpoints;
 use crate::plan::place_of;
 use crate::search::Search;
-use crate::{AStarConfig, Footprint, Goal, Plan, PlanError, Planner, TerrainConfig, VoronoiConfig};
+use crate::{
+    AStarConfig, Footprint, Goal, Path, Plan, PlanError, Planner, TerrainConfig, VoronoiConfig,
+};
 
 /// Plans by A* on the floor and obstacle grid, and over the stairs that join its levels.
 #[derive(Debug, Clone)]
@@ -34,7 +35,11 @@ pub struct AStar {
     goal_level: GoalLevel,
     landings: LongerLandings,
     pub(crate) outside: OutsideWindow,
-    pub(crate) followed: Option<FollowedPath>,
+    pub(crate) followed: Option<Path>,
+    /// Where the path that is followed was to lead.
+    goal: Option<Goal>,
+    /// Whether that lay in the window when the path was found.
+    goal_inside: bool,
 }
 
 impl AStar {
@@ -77,6 +82,8 @@ impl AStar {
             goal_level: GoalLevel::default(),
             landings: LongerLandings::default(),
             followed: None,
+            goal: None,
+            goal_inside: false,
         })
     }
 
@@ -134,24 +141,24 @@ impl Planner for AStar {
             heading_rad: start.yaw_rad,
             gradient: view.gradient_at(start.x_m, start.y_m),
         };
-        let levelled = (self.goal_level).of(goal, view, &stand, &self.rules.config.goal_level);
+        let mut levelled = (self.goal_level).of(goal, view, &stand, &self.rules.config.goal_level);
         self.viewpoints.begin(&levelled);
         self.look(view, stairs, stand, &levelled);
         self.outside.look(&self.terrain, stand.at_m, &levelled);
         let settled = stairs.stairs.is_empty();
         let rest = match self.rest(&stand, &levelled) {
             Some(rest) if rest.in_passage() => return Ok(self.hold(rest)),
-            Some(rest) if rest.end.is_certain() && settled && !rest.is_revealed() => {
+            Some(rest) if rest.end.is_certain() && settled && !self.is_revealed(&rest) => {
                 return Ok(self.hold(rest));
             }
             other => other,
         };
         let mut found = self.find(&stand, &levelled);
         if found.is_err() && self.goal_level.is_seen() {
-            let anywhere = self.goal_level.give_up(goal);
-            found = self.find(&stand, &anywhere);
+            levelled = self.goal_level.give_up(goal);
+            found = self.find(&stand, &levelled);
         }
-        Ok(self.choose(rest, found, &start))
+        Ok(self.choose(rest, found, &levelled, &start))
     }
 
     fn forget(&mut self) {

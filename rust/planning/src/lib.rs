@@ -9,12 +9,7 @@
 //! use stairs::{ClimbingConfig, Feet, Staircase};
 //!
 //! let lattice = Lattice { origin_m: [-1.0, -1.0], cell_m: 0.04 };
-//! let mut view = FloorView {
-//!     lattice,
-//!     cells: Grid::filled(75, 50, Surface::Floor(0.0)),
-//!     sightings: Grid::filled(75, 50, 10),
-//!     gradients: Grid::filled(75, 50, [0.0; 2]),
-//! };
+//! let mut view = FloorView::new(lattice, Grid::filled(75, 50, Surface::Floor(0.0)), 10);
 //! for row in 0..35 {
 //!     *view.cells.get_mut(Cell::new(40, row)).unwrap() = Surface::Obstacle(0.5); // a wall with a way round its end
 //! }
@@ -48,7 +43,7 @@ pub use config::{AStarConfig, Footprint};
 pub use geometry::Goal;
 pub use guide::{GuideConfig, GuideTuning, Guided};
 pub use part::{PlannerNeeds, PlannerPart};
-pub use plan::{Climb, NoWay, Path, Plan, PlanError, Planner, Refusal, Sidle, Step};
+pub use plan::{Climb, NoWay, Path, PathEnd, Plan, PlanError, Planner, Refusal, Sidle, Step};
 pub use terrain::{TerrainConfig, VoronoiConfig};
 pub use tuning::PlanningTuning;
 

@@ -1,7 +1,7 @@
 //! The path: where it may end, its legs, what is left of it while it is followed, and from where the robot looks.
 
+pub(crate) mod annotation;
 pub(crate) mod ends;
-pub(crate) mod followed_path;
 pub(crate) mod legs;
 pub(crate) mod rest;
 pub(crate) mod shortcut;

@@ -65,6 +65,27 @@ pub struct Sidle {
     pub heading_rad: f64,
 }
 
+/// Where a path ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PathEnd {
+    /// In the goal's disc.
+    #[default]
+    Goal,
+    /// At the border of the window: the goal lies outside, or the way there does.
+    Border,
+    /// On a stair behind which, or on unseen ground where, the way may go on.
+    Hope,
+    /// At a place from which more is to be seen.
+    Look,
+}
+
+impl PathEnd {
+    /// Whether everything up to there is as it should be.
+    pub const fn is_certain(self) -> bool {
+        matches!(self, Self::Goal | Self::Border)
+    }
+}
+
 /// A path on the ground: legs that are walked, and between them legs that are climbed or walked sideways.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Path {
@@ -78,6 +99,10 @@ pub struct Path {
     pub climbs: Vec<Climb>,
     /// The legs that are walked sideways, in their order.
     pub sidles: Vec<Sidle>,
+    /// First and last point of each piece at stairs or in a passage, with what is walked close to edges there.
+    pub spans: Vec<[usize; 2]>,
+    /// Where it ends.
+    pub end: PathEnd,
     /// What it costs, in metres of open known floor.
     pub cost_m: f64,
 }

@@ -19,15 +19,14 @@ const START: PlanarPose = PlanarPose::new(0.0, 0.0, 0.0);
 
 /// A window of floor, 4 m a side, around the origin.
 fn floor() -> FloorView {
-    FloorView {
-        lattice: Lattice {
+    FloorView::new(
+        Lattice {
             origin_m: [-2.0, -2.0],
             cell_m: CELL,
         },
-        cells: Grid::filled(100, 100, Surface::Floor(0.0)),
-        sightings: Grid::filled(100, 100, 9),
-        gradients: Grid::filled(100, 100, [0.0; 2]),
-    }
+        Grid::filled(100, 100, Surface::Floor(0.0)),
+        9,
+    )
 }
 
 /// Sets all cells whose centre lies in the rectangle.

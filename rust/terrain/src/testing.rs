@@ -87,15 +87,14 @@ pub(crate) struct Floor {
 impl Floor {
     pub(crate) fn new() -> Self {
         Self {
-            view: FloorView {
-                lattice: Lattice {
+            view: FloorView::new(
+                Lattice {
                     origin_m: [-2.0, -2.0],
                     cell_m: CELL_M,
                 },
-                cells: Grid::filled(80, 80, Surface::Floor(0.0)),
-                sightings: Grid::filled(80, 80, 9),
-                gradients: Grid::filled(80, 80, [0.0; 2]),
-            },
+                Grid::filled(80, 80, Surface::Floor(0.0)),
+                9,
+            ),
             stairs: Staircase::default(),
             stand: stand(),
             goal_m: None,

@@ -72,12 +72,7 @@ mod tests {
                 };
             }
         }
-        FloorView {
-            lattice,
-            cells,
-            sightings: Grid::filled(50, 50, 9),
-            gradients: Grid::filled(50, 50, [0.0; 2]),
-        }
+        FloorView::new(lattice, cells, 9)
     }
 
     fn drop_off<'a>(view: &'a FloorView, tuning: &'a DropOffTuning) -> DropOff<'a> {

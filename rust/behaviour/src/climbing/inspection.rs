@@ -118,10 +118,9 @@ pub(crate) fn straight_plan(from: &PlanarPose, to_m: [f64; 2], tuning: &Inspecti
         way: Ok(Path {
             unknown: vec![false; points_m.len()],
             clearance_m: vec![tuning.room; points_m.len()],
-            climbs: Vec::new(),
-            sidles: Vec::new(),
             cost_m: distance_m([from.x_m, from.y_m], to_m),
             points_m,
+            ..Path::default()
         }),
         replanned: false,
     }

@@ -71,7 +71,6 @@ impl<'a> ApproachLeg<'a> {
             points_m: path.points_m[..kept].to_vec(),
             unknown: path.unknown.iter().take(kept).copied().collect(),
             clearance_m: path.clearance_m.iter().take(kept).copied().collect(),
-            climbs: Vec::new(),
             sidles: path
                 .sidles
                 .iter()
@@ -79,6 +78,7 @@ impl<'a> ApproachLeg<'a> {
                 .copied()
                 .collect(),
             cost_m: path.cost_m,
+            ..Path::default()
         };
         cut.points_m.push([self.align.x_m, self.align.y_m]);
         cut.unknown.push(false);

@@ -142,15 +142,14 @@ impl Simulation {
             last_frame_ns: None,
             staircase: Staircase::default(),
             plan: None,
-            view: FloorView {
-                lattice: Lattice {
+            view: FloorView::new(
+                Lattice {
                     origin_m: [-2.0, -2.0],
                     cell_m: 0.04,
                 },
-                cells: Grid::filled(150, 100, Surface::Unknown),
-                sightings: Grid::filled(150, 100, 3),
-                gradients: Grid::filled(150, 100, [0.0; 2]),
-            },
+                Grid::filled(150, 100, Surface::Unknown),
+                3,
+            ),
         };
         simulation.paint();
         simulation

@@ -38,15 +38,14 @@ impl World {
                 map_from_odometry: Pose::identity(),
                 lost,
             },
-            view: FloorView {
-                lattice: Lattice {
+            view: FloorView::new(
+                Lattice {
                     origin_m: [0.0, 0.0],
                     cell_m: 0.04,
                 },
-                cells: Grid::filled(1, 1, Surface::Unknown),
-                sightings: Grid::filled(1, 1, 0),
-                gradients: Grid::filled(1, 1, [0.0; 2]),
-            },
+                Grid::filled(1, 1, Surface::Unknown),
+                0,
+            ),
             stairs: Staircase::default(),
             goal: Goal {
                 x_m: 1.0,

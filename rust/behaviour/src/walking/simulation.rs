@@ -87,15 +87,14 @@ impl Simulation {
             },
             last_goal: true,
             time_ns: 0,
-            view: FloorView {
-                lattice: Lattice {
+            view: FloorView::new(
+                Lattice {
                     origin_m: [-half_m, -half_m],
                     cell_m: CELL_M,
                 },
-                cells: Grid::filled(CELLS, CELLS, Surface::Unknown),
-                sightings: Grid::filled(CELLS, CELLS, 0),
-                gradients: Grid::filled(CELLS, CELLS, [0.0; 2]),
-            },
+                Grid::filled(CELLS, CELLS, Surface::Unknown),
+                0,
+            ),
             plan: None,
             behaviour: WalkingBehaviour::new(WalkingConfig::default(), &EXTENT).unwrap(),
             states: Vec::new(),

@@ -182,10 +182,9 @@ pub(crate) mod tests {
         Path {
             unknown: vec![false; points_m.len()],
             clearance_m: vec![1.0; points_m.len()],
-            climbs: Vec::new(),
-            sidles: Vec::new(),
             cost_m: length_m,
             points_m,
+            ..Path::default()
         }
     }
 

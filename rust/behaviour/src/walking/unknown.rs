@@ -117,15 +117,14 @@ pub(crate) mod tests {
     const FOOT_SIDE_M: f64 = 0.06;
 
     pub(crate) fn view(surface: Surface) -> FloorView {
-        FloorView {
-            lattice: Lattice {
+        FloorView::new(
+            Lattice {
                 origin_m: [-2.0, -2.0],
                 cell_m: 0.04,
             },
-            cells: Grid::filled(100, 100, surface),
-            sightings: Grid::filled(100, 100, 1),
-            gradients: Grid::filled(100, 100, [0.0; 2]),
-        }
+            Grid::filled(100, 100, surface),
+            1,
+        )
     }
 
     pub(crate) fn paint(view: &mut FloorView, from_x_m: f64, to_x_m: f64, surface: Surface) {

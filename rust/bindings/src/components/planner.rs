@@ -101,9 +101,8 @@ fn describe(points_m: Vec<[f64; 2]>, view: &FloorView) -> Path {
         points_m,
         unknown,
         clearance_m,
-        climbs: Vec::new(),
-        sidles: Vec::new(),
         cost_m,
+        ..Path::default()
     }
 }
 

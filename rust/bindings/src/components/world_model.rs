@@ -22,15 +22,14 @@ struct PythonWorldModel {
 
 /// Wraps an object with the methods of `treadwell.protocols.WorldModel`.
 pub(crate) fn world_model(object: Py<PyAny>) -> Box<dyn WorldModel> {
-    let view = FloorView {
-        lattice: Lattice {
+    let view = FloorView::new(
+        Lattice {
             origin_m: [0.0; 2],
             cell_m: 1.0,
         },
-        cells: Grid::filled(0, 0, Surface::Unknown),
-        sightings: Grid::filled(0, 0, 0),
-        gradients: Grid::filled(0, 0, [0.0; 2]),
-    };
+        Grid::filled(0, 0, Surface::Unknown),
+        0,
+    );
     Box::new(PythonWorldModel {
         object,
         view,
@@ -94,10 +93,8 @@ fn read_view(object: &Bound<'_, PyAny>, into: &mut FloorView) -> PyResult<()> {
     }
     into.lattice = read_lattice(object)?;
     if (into.cells.rows(), into.cells.cols()) != (rows, cols) {
-        into.cells = Grid::filled(cols, rows, Surface::Unknown);
-        into.sightings = Grid::filled(cols, rows, 0);
         // A model in Python says of each floor how high it is: as far as is known, all of them are level.
-        into.gradients = Grid::filled(cols, rows, [0.0; 2]);
+        *into = FloorView::new(into.lattice, Grid::filled(cols, rows, Surface::Unknown), 0);
     }
     for ((slot, &kind), &height) in into.cells.values_mut().iter_mut().zip(kind).zip(height) {
         *slot = match kind {

@@ -29,15 +29,14 @@ const BEFORE_IT: [f64; 3] = [0.0, 0.0, 0.0];
 const ONE_WALL: [Side; 1] = [[[0.6, -9.0], [0.6, 9.0]]];
 
 fn nothing_known() -> FloorView {
-    FloorView {
-        lattice: Lattice {
+    FloorView::new(
+        Lattice {
             origin_m: [-2.0, -2.0],
             cell_m: 0.04,
         },
-        cells: Grid::filled(100, 100, Surface::Unknown),
-        sightings: Grid::filled(100, 100, 0),
-        gradients: Grid::filled(100, 100, [0.0; 2]),
-    }
+        Grid::filled(100, 100, Surface::Unknown),
+        0,
+    )
 }
 
 /// How far the first wall is along a ray of the map, m.

@@ -173,15 +173,14 @@ impl World {
 
 /// A floor view that nobody reads.
 pub(super) fn no_view() -> FloorView {
-    FloorView {
-        lattice: Lattice {
+    FloorView::new(
+        Lattice {
             origin_m: [0.0, 0.0],
             cell_m: 1.0,
         },
-        cells: Grid::filled(1, 1, Surface::Unknown),
-        sightings: Grid::filled(1, 1, 0),
-        gradients: Grid::filled(1, 1, [0.0; 2]),
-    }
+        Grid::filled(1, 1, Surface::Unknown),
+        0,
+    )
 }
 
 /// A walk: the truth, what odometry says of it, and a localizer that hears and sees.

@@ -132,15 +132,14 @@ mod tests {
     use testkit::state_at;
 
     fn view(surface: Surface) -> FloorView {
-        FloorView {
-            lattice: Lattice {
+        FloorView::new(
+            Lattice {
                 origin_m: [-2.0, -2.0],
                 cell_m: 0.04,
             },
-            cells: Grid::filled(100, 100, surface),
-            sightings: Grid::filled(100, 100, 1),
-            gradients: Grid::filled(100, 100, [0.0; 2]),
-        }
+            Grid::filled(100, 100, surface),
+            1,
+        )
     }
 
     fn localizer(start: Pose<Map, Robot>) -> OdometryLocalizer {

@@ -75,7 +75,10 @@ impl Fog {
             rough: Rough::new(n, config.tuning.rough_lead),
             underfoot: Underfoot::new(n, config.footprint),
             surroundings: Surroundings::default(),
-            view: FloorView::unknown(lattice, n),
+            view: FloorView {
+                least_gradient: config.tuning.slopes.least,
+                ..FloorView::unknown(lattice, n)
+            },
             frame: LabelledFrame::default(),
             window,
             layers,

@@ -68,5 +68,7 @@ settings! {
         seen: u8 = 4, "1", within(1.0, 100.0);
         /// So many frames that show a cell level are enough to take back any slope.
         most_sure: u8 = 40, "1", within(1.0, 100.0);
+        /// Floor that rises by less per metre is level ground seen a little wrong.
+        least: f64 = 0.03, "1", NOT_NEGATIVE;
     }
 }

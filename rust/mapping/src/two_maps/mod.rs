@@ -13,7 +13,7 @@ mod local_columns;
 mod tuning;
 
 use crate::part::WorldModelPart;
-use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
+use geometry::{Cell, CellArea, Grid, Lattice, Map, Pose, Robot};
 use known_map::{AroundLimits, KnownMap, MapAround};
 use segmentation::Planes;
 use settings::ConfigError;
@@ -100,7 +100,7 @@ impl TwoMaps {
             known: static_map.map(known).transpose()?,
             level_m: f64::NAN,
             seen: LocalColumns::default(),
-            view: FloorView::unknown(lattice, cells),
+            view: floors.view().clone(),
             rays: Vec::new(),
             fresh: floors.clone(),
             layers,
@@ -118,12 +118,20 @@ impl TwoMaps {
     pub fn projected(&self) -> FloorView {
         let mut whole = self.clone();
         whole.seen = LocalColumns::default();
-        whole.view = FloorView::unknown(*self.layers.lattice(), self.layers.size()[0]);
+        whole.view = self.unknown(*self.layers.lattice());
         let all = whole.layers.all();
         let local = (&whole.local, whole.config.p_occ);
         whole.seen.read(local, &whole.layers, all);
         whole.project(all);
         whole.view
+    }
+
+    /// A view of which nothing is known.
+    fn unknown(&self, lattice: Lattice) -> FloorView {
+        FloorView {
+            lattice,
+            ..self.fresh.view().clone()
+        }
     }
 
     /// Follows the robot: where its level or the window is another one, all is looked at anew; whether that is so.
@@ -138,7 +146,7 @@ impl TwoMaps {
         let bottom_m = self.level_m - self.config.below_m();
         let place = (lattice, self.layers.size());
         self.layers = ViewLayers::above(bottom_m, place, self.config.resolution);
-        self.view = FloorView::unknown(lattice, self.layers.size()[0]);
+        self.view = self.unknown(lattice);
         if let Some(known) = &mut self.known {
             let limits = AroundLimits {
                 height_m: self.config.height,

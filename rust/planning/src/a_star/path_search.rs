@@ -3,15 +3,14 @@
 use terrain::{StandingAt, Terrain};
 
 use crate::climb_links::Fit;
-use crate::path::ends::{PathEnd, PathEnds, end_of, run};
-use crate::path::followed_path::FollowedPath;
+use crate::path::ends::{PathEnds, end_of, run};
 use crate::refusal::{explain, first_limit};
 use crate::search::Route;
-use crate::{AStar, Goal, NoWay, Refusal};
+use crate::{AStar, Goal, NoWay, Path, PathEnd, Refusal};
 
 impl AStar {
     /// A new path over the terrain.
-    pub(crate) fn find(&mut self, stand: &StandingAt, goal: &Goal) -> Result<FollowedPath, NoWay> {
+    pub(crate) fn find(&mut self, stand: &StandingAt, goal: &Goal) -> Result<Path, NoWay> {
         let outside = || NoWay {
             refusal: Refusal::NoPath,
             sentence: "the robot stands outside of its map".into(),
@@ -27,11 +26,14 @@ impl AStar {
                 terrain.center_m(last)
             }
         };
-        let mut followed = FollowedPath::from(stand.at_m, *goal, end);
-        followed.inside = terrain.index_at([goal.x_m, goal.y_m]).is_some();
+        let mut path = Path {
+            points_m: vec![stand.at_m],
+            end,
+            ..Path::default()
+        };
         let tuning = &self.config.tuning.legs;
-        followed.go_along(terrain, links, (&route, worst), end_m, tuning);
-        Ok(followed)
+        path.go_along(terrain, links, (&route, worst), end_m, tuning);
+        Ok(path)
     }
 
     /// The cheapest route over what is known to fit; and whether it may lead out of the window and back to a goal in it.

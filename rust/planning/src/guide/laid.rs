@@ -53,15 +53,14 @@ mod tests {
             .unwrap()
             .prior(0.58)
             .unwrap();
-        let view = FloorView {
-            lattice: Lattice {
+        let view = FloorView::new(
+            Lattice {
                 origin_m: [0.0, 0.0],
                 cell_m: 0.04,
             },
-            cells: Grid::filled(50, 25, Surface::Unknown),
-            sightings: Grid::filled(50, 25, 0),
-            gradients: Grid::filled(50, 25, [0.0; 2]),
-        };
+            Grid::filled(50, 25, Surface::Unknown),
+            0,
+        );
         let below = laid_under(&prior, &view, [0.6, 0.3, 0.003]);
         assert_eq!(below.at(0.3, 0.3), Surface::Floor(0.003));
         assert!(matches!(below.at(0.98, 0.5), Surface::Obstacle(_)));
@@ -86,15 +85,14 @@ mod tests {
             .unwrap()
             .prior(0.58)
             .unwrap();
-        let view = FloorView {
-            lattice: Lattice {
+        let view = FloorView::new(
+            Lattice {
                 origin_m: [0.0, 0.0],
                 cell_m: 0.04,
             },
-            cells: Grid::filled(50, 25, Surface::Obstacle(0.05)),
-            sightings: Grid::filled(50, 25, 3),
-            gradients: Grid::filled(50, 25, [0.0; 2]),
-        };
+            Grid::filled(50, 25, Surface::Obstacle(0.05)),
+            3,
+        );
         let laid = laid_under(&prior, &view, [0.6, 0.3, 0.0]);
         assert_eq!(laid.at(1.0, 0.5), Surface::Obstacle(0.58));
         assert_eq!(laid.at(1.5, 0.5), Surface::Obstacle(0.05));

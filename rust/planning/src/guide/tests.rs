@@ -61,12 +61,7 @@ fn seen(things: &[Block], at_m: [f64; 2]) -> FloorView {
         origin_m: corner_m,
         cell_m: CELL_M,
     };
-    let mut view = FloorView {
-        lattice,
-        cells: Grid::filled(cells, cells, Surface::Unknown),
-        sightings: Grid::filled(cells, cells, 9),
-        gradients: Grid::filled(cells, cells, [0.0; 2]),
-    };
+    let mut view = FloorView::new(lattice, Grid::filled(cells, cells, Surface::Unknown), 9);
     for cell in view.cells.area().cells() {
         let place_m = lattice.center_of(cell);
         if (place_m[0] - at_m[0]).hypot(place_m[1] - at_m[1]) < SIGHT_M {

@@ -34,12 +34,7 @@ fn hall(around_m: f64, posts_m: f64, gap: i64) -> FloorView {
             *slot = Surface::Obstacle(0.5);
         }
     }
-    FloorView {
-        lattice,
-        cells,
-        sightings: Grid::filled(100, 100, 9),
-        gradients: Grid::filled(100, 100, [0.0; 2]),
-    }
+    FloorView::new(lattice, cells, 9)
 }
 
 fn planner() -> AStar {
@@ -96,15 +91,14 @@ fn window(origin_m: [f64; 2], side: usize) -> FloorView {
             *slot = Surface::Obstacle(0.5);
         }
     }
-    FloorView {
-        lattice: Lattice {
+    FloorView::new(
+        Lattice {
             origin_m,
             cell_m: CELL_M,
         },
         cells,
-        sightings: Grid::filled(side, side, 9),
-        gradients: Grid::filled(side, side, [0.0; 2]),
-    }
+        9,
+    )
 }
 
 #[test]

@@ -6,27 +6,7 @@ use terrain::Terrain;
 use crate::climb_links::{ClimbLinks, Fit};
 use crate::outside_window::OutsideWindow;
 use crate::search::{Graph, Route, Search, octile};
-use crate::{AStarConfig, Goal};
-
-/// Where a path ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum PathEnd {
-    /// In the goal's disc.
-    Goal,
-    /// At the border of the window: the goal lies outside.
-    Border,
-    /// On a stair behind which, or on unseen ground where, the way may go on.
-    Hope,
-    /// At a place from which more is to be seen.
-    Look,
-}
-
-impl PathEnd {
-    /// Whether everything up to there is as it should be.
-    pub(crate) const fn is_certain(self) -> bool {
-        matches!(self, Self::Goal | Self::Border)
-    }
-}
+use crate::{AStarConfig, Goal, PathEnd};
 
 /// The ends of a search.
 #[derive(Debug, Clone, Copy)]

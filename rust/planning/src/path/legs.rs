@@ -2,17 +2,16 @@
 
 use terrain::Terrain;
 
-use super::followed_path::FollowedPath;
 use super::shortcut::{lay, walk};
 use crate::climb_links::{ClimbLinks, Fit, Stride, Way};
 use crate::search::Route;
 use crate::tuning::LegsTuning;
-use crate::{Climb, Sidle};
+use crate::{Climb, Path, Sidle};
 
 /// Two places are one up to this, m: a rounding guard.
 const NO_WAY_M: f64 = 1e-9;
 
-impl FollowedPath {
+impl Path {
     /// Goes along a route over ways up to `worst`, and ends at `end_m` where that ends in a cell. It ends where a way begins that is in
     /// doubt.
     pub(crate) fn go_along(
@@ -44,21 +43,21 @@ impl FollowedPath {
     }
 
     fn walk(&mut self, terrain: &Terrain, tuning: &LegsTuning, cells: &[u32], end_m: [f64; 2]) {
-        let here = self.path.points_m.last() == Some(&end_m);
+        let here = self.points_m.last() == Some(&end_m);
         if !(here && cells.len() == 1) {
-            let points_m = &mut self.path.points_m;
+            let points_m = &mut self.points_m;
             walk(points_m, terrain, tuning.straighter, (cells, end_m));
         }
     }
 
     fn climb(&mut self, terrain: &Terrain, tuning: &LegsTuning, strides: &[Stride], way: &Way) {
         let cell_m = terrain.lattice.cell_m;
-        let begin = self.path.points_m.len() - 1;
+        let begin = self.points_m.len() - 1;
         for stride in strides {
-            let at_m = self.path.points_m[self.path.points_m.len() - 1];
+            let at_m = self.points_m[self.points_m.len() - 1];
             let away_m = (at_m[0] - stride.from_m[0]).hypot(at_m[1] - stride.from_m[1]);
-            let from = self.path.points_m.len() - 1;
-            let joined = self.path.climbs.last_mut().filter(|climb| {
+            let from = self.points_m.len() - 1;
+            let joined = self.climbs.last_mut().filter(|climb| {
                 climb.to_point == from && from > begin && away_m <= tuning.same_place
             });
             if let Some(climb) = joined {
@@ -66,28 +65,26 @@ impl FollowedPath {
                 climb.steps.push(stride.step);
             } else {
                 if away_m > NO_WAY_M {
-                    lay(&mut self.path.points_m, stride.from_m, cell_m);
+                    lay(&mut self.points_m, stride.from_m, cell_m);
                 }
-                let from_point = self.path.points_m.len() - 1;
-                self.path.climbs.push(Climb {
+                let from_point = self.points_m.len() - 1;
+                self.climbs.push(Climb {
                     from_point,
                     to_point: from_point + 1,
                     steps: vec![stride.step],
                 });
             }
-            self.path.points_m.push(stride.to_m);
+            self.points_m.push(stride.to_m);
         }
         if let Some(leave_m) = way.leave_m {
-            lay(&mut self.path.points_m, leave_m, cell_m);
+            lay(&mut self.points_m, leave_m, cell_m);
         }
-        let end = self.path.points_m.len() - 1;
+        let end = self.points_m.len() - 1;
         self.spans.push([begin, end]);
-        self.path
-            .sidles
-            .extend(way.turned_rad.map(|heading_rad| Sidle {
-                from_point: begin,
-                to_point: end,
-                heading_rad,
-            }));
+        self.sidles.extend(way.turned_rad.map(|heading_rad| Sidle {
+            from_point: begin,
+            to_point: end,
+            heading_rad,
+        }));
     }
 }

@@ -3,14 +3,12 @@
 use geometry::same_level;
 use terrain::{StandingAt, Terrain};
 
-use super::ends::PathEnd;
-use super::followed_path::FollowedPath;
 use crate::climb_links::room_at_edges::distance_m;
 use crate::climb_links::{ClimbLinks, Fit, Stride};
 use crate::tuning::FollowedPathTuning;
-use crate::{AStarConfig, Climb, Path, Sidle};
+use crate::{AStarConfig, Climb, Path, PathEnd, Sidle};
 
-impl FollowedPath {
+impl Path {
     /// What is left of it where it holds.
     pub(crate) fn rest(
         &self,
@@ -21,19 +19,15 @@ impl FollowedPath {
     ) -> Option<Self> {
         let tuning = &config.tuning.followed_path;
         let mut rest = rest_of(self, stand.at_m, (config.stray, tuning))?;
-        if self.end == PathEnd::Border {
-            let is_inside = terrain.index_at([self.goal.x_m, self.goal.y_m]).is_some();
-            let left = rest.path.points_m.len() as f64 * terrain.lattice.cell_m;
-            if is_inside && !self.inside || left < tuning.horizon {
-                return None;
-            }
+        let left_m = rest.points_m.len() as f64 * terrain.lattice.cell_m;
+        if self.end == PathEnd::Border && left_m < tuning.horizon {
+            return None;
         }
-        for index in 0..rest.path.climbs.len() {
+        for index in 0..rest.climbs.len() {
             let tread = rest.tread_before(index);
-            let path = &mut rest.path;
-            let climb = &mut path.climbs[index];
+            let climb = &mut rest.climbs[index];
             let level_m = (climb.from_point == 0).then_some(stand.height_m);
-            refresh(climb, (level_m, tread), &mut path.points_m, (links, tuning))?;
+            refresh(climb, (level_m, tread), &mut rest.points_m, (links, tuning))?;
         }
         if another_lane_is_roomier(&rest, (links, tuning), config.climb_cost) {
             return None;
@@ -41,15 +35,27 @@ impl FollowedPath {
         let holds = holds(&rest, terrain) && passages_hold(&rest, terrain);
         (holds && walks_on_level(&rest, terrain, tuning.tolerance)).then_some(rest)
     }
+
+    /// The point at which the robot stands on a tread before a climb: where it is, or where the climb before ended at these
+    /// stairs.
+    fn tread_before(&self, index: usize) -> Option<usize> {
+        let from = self.climbs[index].from_point;
+        if from == 0 {
+            return Some(0);
+        }
+        let before = self.climbs[..index].last()?.to_point;
+        let here = |span: &[usize; 2]| span[0] < before && from < span[1];
+        self.spans.iter().any(here).then_some(before)
+    }
 }
 
 /// Whether the robot has room everywhere: an obstacle or edge may seem half a cell nearer without a new plan.
-fn holds(rest: &FollowedPath, terrain: &Terrain) -> bool {
+fn holds(rest: &Path, terrain: &Terrain) -> bool {
     let half_m = 0.5 * terrain.lattice.cell_m;
     let needs = &terrain.needs;
     let least_m = (needs.body_m - half_m).max(needs.body_m - terrain.room.slack);
     let least_edge_m = needs.feet_m - half_m;
-    rest.path.points_m.iter().enumerate().all(|(i, point)| {
+    rest.points_m.iter().enumerate().all(|(i, point)| {
         let Some(index) = terrain.index_at(*point) else {
             return false;
         };
@@ -62,10 +68,10 @@ fn holds(rest: &FollowedPath, terrain: &Terrain) -> bool {
 }
 
 /// Whether there is room sideways where the robot is to walk so, by the same measure.
-fn passages_hold(rest: &FollowedPath, terrain: &Terrain) -> bool {
+fn passages_hold(rest: &Path, terrain: &Terrain) -> bool {
     let slack_m = (0.5 * terrain.lattice.cell_m).min(terrain.room.slack);
-    rest.path.sidles.iter().all(|sidle| {
-        let mut points = rest.path.points_m[sidle.from_point..=sidle.to_point].iter();
+    rest.sidles.iter().all(|sidle| {
+        let mut points = rest.points_m[sidle.from_point..=sidle.to_point].iter();
         points.all(|&at_m| {
             let weight = terrain.sideways_weight(at_m, sidle.heading_rad, slack_m);
             weight.is_some()
@@ -74,9 +80,9 @@ fn passages_hold(rest: &FollowedPath, terrain: &Terrain) -> bool {
 }
 
 /// Whether what is walked behind the last step at stairs lies as high as that: a further edge may be seen there by now.
-fn walks_on_level(rest: &FollowedPath, terrain: &Terrain, tolerance_m: f64) -> bool {
+fn walks_on_level(rest: &Path, terrain: &Terrain, tolerance_m: f64) -> bool {
     let lasts = rest.spans.iter().filter_map(|span| {
-        let mut climbs = rest.path.climbs.iter();
+        let mut climbs = rest.climbs.iter();
         let climb = climbs.rfind(|climb| (span[0]..=span[1]).contains(&climb.to_point))?;
         Some((climb, span[1]))
     });
@@ -84,7 +90,7 @@ fn walks_on_level(rest: &FollowedPath, terrain: &Terrain, tolerance_m: f64) -> b
         lasts.filter_map(|(climb, end)| Some((climb.steps.last()?, climb.to_point..=end)));
     lasts.all(|(step, walked)| {
         let level_m = step.stair.height_m();
-        rest.path.points_m[walked].iter().all(|point| {
+        rest.points_m[walked].iter().all(|point| {
             let here = terrain
                 .index_at(*point)
                 .and_then(|cell| terrain.level_m(cell));
@@ -161,16 +167,11 @@ fn seen_now<'a>(
 /// Whether the edge that the path climbs first, and that the robot has not come to yet, can be crossed elsewhere with more room
 /// beside the stairs: when the path was found but a piece of it may have been seen. `climb_cost` as configured.
 fn another_lane_is_roomier(
-    rest: &FollowedPath,
+    rest: &Path,
     (links, tuning): (&ClimbLinks, &FollowedPathTuning),
     climb_cost: f64,
 ) -> bool {
-    let Some(climb) = rest
-        .path
-        .climbs
-        .first()
-        .filter(|climb| climb.from_point > 0)
-    else {
+    let Some(climb) = rest.climbs.first().filter(|climb| climb.from_point > 0) else {
         return false;
     };
     let Some(kept) = (climb.steps.first()).and_then(|step| seen_now(step, None, (links, tuning)))
@@ -179,8 +180,8 @@ fn another_lane_is_roomier(
     };
     let crossed_m = climb.steps[0].crossing_m;
     let length_m = distance_m(
-        rest.path.points_m[climb.from_point],
-        rest.path.points_m[climb.to_point],
+        rest.points_m[climb.from_point],
+        rest.points_m[climb.to_point],
     );
     let climb_m = length_m + climb_cost * climb.steps.len() as f64;
     let mut lanes = (links.ways.iter().filter(|way| way.fit == Fit::Holds))
@@ -194,11 +195,11 @@ fn another_lane_is_roomier(
 
 /// The path from where the robot is beside it onward; `None` where it strayed too far.
 fn rest_of(
-    whole: &FollowedPath,
+    whole: &Path,
     at: [f64; 2],
     (stray_m, tuning): (f64, &FollowedPathTuning),
-) -> Option<FollowedPath> {
-    let points = &whole.path.points_m;
+) -> Option<Path> {
+    let points = &whole.points_m;
     let mut best: Option<(f64, usize, f64, [f64; 2])> = None;
     let mut along = 0.0;
     for (i, pair) in points.windows(2).enumerate() {
@@ -225,7 +226,6 @@ fn rest_of(
         return None;
     }
     let climbing = whole
-        .path
         .climbs
         .iter()
         .any(|climb| (climb.from_point..climb.to_point).contains(&piece));
@@ -240,33 +240,30 @@ fn rest_of(
 }
 
 /// The path from a point on, which is replaced by `here`.
-fn cut(whole: &FollowedPath, passed: usize, here: [f64; 2]) -> FollowedPath {
-    let path = &whole.path;
+fn cut(whole: &Path, passed: usize, here: [f64; 2]) -> Path {
     let mut points_m = vec![here];
-    points_m.extend(path.points_m.iter().skip(passed + 1));
+    points_m.extend(whole.points_m.iter().skip(passed + 1));
     let shifted = |point: usize| point.saturating_sub(passed);
-    let climbs = path.climbs.iter().filter(|climb| climb.to_point > passed);
+    let climbs = whole.climbs.iter().filter(|climb| climb.to_point > passed);
     let climbs = climbs.map(|climb| Climb {
         from_point: shifted(climb.from_point),
         to_point: shifted(climb.to_point),
         steps: climb.steps[passed.saturating_sub(climb.from_point)..].to_vec(),
     });
-    let sidles = path.sidles.iter().filter(|sidle| sidle.to_point > passed);
+    let sidles = whole.sidles.iter().filter(|sidle| sidle.to_point > passed);
     let sidles = sidles.map(|sidle| Sidle {
         from_point: shifted(sidle.from_point),
         to_point: shifted(sidle.to_point),
         ..*sidle
     });
     let spans = whole.spans.iter().filter(|span| span[1] > passed);
-    FollowedPath {
-        path: Path {
-            climbs: climbs.collect(),
-            sidles: sidles.collect(),
-            points_m,
-            ..Path::default()
-        },
+    Path {
+        climbs: climbs.collect(),
+        sidles: sidles.collect(),
         spans: spans.map(|span| span.map(shifted)).collect(),
-        ..*whole
+        end: whole.end,
+        points_m,
+        ..Path::default()
     }
 }
 

@@ -6,8 +6,8 @@ use proptest::prelude::*;
 use stairs::{ClimbingConfig, Feet, Staircase};
 
 use super::*;
-use crate::path::ends::{PathEnd, PathEnds, run};
-use crate::{AStar, AStarConfig, Footprint, Goal, Path, Plan, Planner, Refusal, Sidle};
+use crate::path::ends::{PathEnds, run};
+use crate::{AStar, AStarConfig, Footprint, Goal, Path, PathEnd, Plan, Planner, Refusal, Sidle};
 
 /// Of the robot: the circle, and what it needs sideways, from front to back and across, m.
 const RADIUS_M: f64 = 0.17;
@@ -40,15 +40,14 @@ fn planner(footprint: Footprint) -> AStar {
 /// A window of floor, 3.2 m a side, around the origin.
 fn floor(cell_m: f64) -> FloorView {
     let cells = (3.2 / cell_m).round() as usize;
-    FloorView {
-        lattice: Lattice {
+    FloorView::new(
+        Lattice {
             origin_m: [-1.6, -1.6],
             cell_m,
         },
-        cells: Grid::filled(cells, cells, Surface::Floor(0.0)),
-        sightings: Grid::filled(cells, cells, 9),
-        gradients: Grid::filled(cells, cells, [0.0; 2]),
-    }
+        Grid::filled(cells, cells, Surface::Floor(0.0)),
+        9,
+    )
 }
 
 /// Sets all cells whose centre lies in the rectangle, or on its border.

@@ -26,15 +26,14 @@ impl Course {
     /// A window of floor, 4 m a side, around the origin.
     pub(crate) fn floor() -> Self {
         Self {
-            view: FloorView {
-                lattice: Lattice {
+            view: FloorView::new(
+                Lattice {
                     origin_m: [-2.0, -2.0],
                     cell_m: 0.04,
                 },
-                cells: Grid::filled(100, 100, Surface::Floor(0.0)),
-                sightings: Grid::filled(100, 100, 9),
-                gradients: Grid::filled(100, 100, [0.0; 2]),
-            },
+                Grid::filled(100, 100, Surface::Floor(0.0)),
+                9,
+            ),
             stairs: Staircase::default(),
         }
     }

@@ -13,12 +13,7 @@ fn sloped(from_m: f64, to_m: f64) -> FloorView {
         origin_m: [-1.0, -1.0],
         cell_m: 0.04,
     };
-    let mut view = FloorView {
-        lattice,
-        cells: Grid::filled(60, 50, Surface::Floor(0.0)),
-        sightings: Grid::filled(60, 50, 9),
-        gradients: Grid::filled(60, 50, [0.0; 2]),
-    };
+    let mut view = FloorView::new(lattice, Grid::filled(60, 50, Surface::Floor(0.0)), 9);
     for cell in view.cells.area().cells() {
         let [x, _] = lattice.center_of(cell);
         if let Some(slot) = view.gradients.get_mut(cell)

@@ -101,15 +101,14 @@ mod tests {
     use crate::testing::{Floor, terrain};
 
     fn view(origin_m: f64, surface: Surface) -> FloorView {
-        FloorView {
-            lattice: Lattice {
+        FloorView::new(
+            Lattice {
                 origin_m: [origin_m, -1.0],
                 cell_m: 0.1,
             },
-            cells: Grid::filled(40, 20, surface),
-            sightings: Grid::filled(40, 20, 9),
-            gradients: Grid::filled(40, 20, [0.0; 2]),
-        }
+            Grid::filled(40, 20, surface),
+            9,
+        )
     }
 
     /// Whether the place at (x, 0) is unknown for a robot that was at `places` before.

@@ -4,7 +4,6 @@ use geometry::{Lattice, Map, Point};
 use stairs::{Edge, Sides, Stair};
 
 use super::*;
-use crate::Goal;
 use crate::climb_links::Way;
 use terrain::{HeightLimits, Needs};
 
@@ -82,17 +81,12 @@ fn terrain(higher_m: f32) -> Terrain {
 }
 
 /// A path over these points with one climb.
-fn path(points_m: Vec<[f64; 2]>, climb: Climb) -> FollowedPath {
-    let goal = Goal {
-        x_m: 2.0,
-        y_m: 0.0,
-        radius_m: 0.1,
-        height_m: None,
-    };
-    let mut path = FollowedPath::from(points_m[0], goal, PathEnd::Goal);
-    path.path.points_m = points_m;
-    path.path.climbs = vec![climb];
-    path
+fn path(points_m: Vec<[f64; 2]>, climb: Climb) -> Path {
+    Path {
+        points_m,
+        climbs: vec![climb],
+        ..Path::default()
+    }
 }
 
 #[test]
@@ -153,8 +147,8 @@ fn a_lane_is_left_only_ahead_and_where_another_one_saves_more_than_the_way_there
         0.0
     ));
     let mut begun = ahead;
-    drop(begun.path.points_m.drain(..1));
-    begun.path.climbs[0].from_point = 0;
-    begun.path.climbs[0].to_point = 1;
+    drop(begun.points_m.drain(..1));
+    begun.climbs[0].from_point = 0;
+    begun.climbs[0].to_point = 1;
     assert!(!another_lane_is_roomier(&begun, (&by_a_wall, &tuning), 0.0));
 }
