@@ -3,9 +3,7 @@
 use geometry::{Map, Point, Pose, Robot};
 use nalgebra::{Point2, Vector2};
 
-use crate::PlacesTuning;
-use crate::edge_line::EdgeLine;
-use crate::lines::line::StraightLine;
+use crate::{PlacesTuning, edge_line::EdgeLine, lines::line::StraightLine};
 
 /// A straight edge of a level surface. Its ends are left and right for one who goes over it from front to back.
 #[derive(Debug, Clone, Copy, PartialEq)]

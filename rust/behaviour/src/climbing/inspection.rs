@@ -1,6 +1,6 @@
 //! Stairs that a plan needs and does not use yet: too little of them is known from afar, so they are looked at from near by.
 
-use geometry::{Map, PlanarPose};
+use geometry::{Map, PlanarPose, distance_m};
 use mapping::FloorView;
 use planning::{Path, Plan, Step};
 use stairs::Stair;
@@ -11,7 +11,6 @@ use crate::climbing::leg::align_pose;
 use crate::climbing::placement::Before;
 use crate::climbing::tuning::InspectionTuning;
 use crate::machine::Tick;
-use crate::place::distance_m;
 
 /// Where to go and what to look at there.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,8 +3,7 @@
 use geometry::{Map, Point};
 use nalgebra::Point2;
 
-use crate::lines::line::StraightLine;
-use crate::{Edge, JointsTuning, Stair, StairsConfig};
+use crate::{Edge, JointsTuning, Stair, StairsConfig, lines::line::StraightLine};
 
 /// Index of the stair that ends where another begins.
 pub(crate) fn before(stairs: &[Stair<Map>], index: usize, config: &StairsConfig) -> Option<usize> {

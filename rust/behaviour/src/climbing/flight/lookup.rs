@@ -1,11 +1,10 @@
 //! Finds steps among the stairs that are known.
 
-use geometry::{Map, PlanarPose, angle_between};
+use geometry::{Map, PlanarPose, angle_between, distance_m};
 use planning::Step;
 use stairs::{ClimbingConfig, Stair, Staircase};
 
 use crate::climbing::tuning::StepLookupTuning;
-use crate::place::distance_m;
 
 /// By what steps are found.
 #[derive(Debug, Clone, Copy)]
