@@ -75,17 +75,6 @@ fn remembered(
     }
 }
 
-/// Who took a frame.
-#[derive(Clone, Copy)]
-pub(crate) struct TakenBy<'a> {
-    /// The body.
-    pub(crate) body: &'a Body,
-    /// Its state at the exposure.
-    pub(crate) state: &'a BodyState,
-    /// The steps it had taken.
-    pub(crate) steps_taken: u64,
-}
-
 /// Whether what was mapped lies in the wrong place.
 fn is_elsewhere(before: &Estimate, after: &Estimate, tuning: &PerceptionTuning) -> bool {
     let moved = before.map_from_odometry.inverse() * after.map_from_odometry;
@@ -120,15 +109,11 @@ impl Perception {
     pub(crate) fn see(
         &mut self,
         frame: &Frame,
-        taken_by: &TakenBy<'_>,
+        (body, body_then): (&Body, &BodyState),
+        steps_taken: u64,
         localizer: &mut dyn Localizer,
         timing: &mut Timing,
     ) -> Result<bool, PilotError> {
-        let TakenBy {
-            body,
-            state: body_then,
-            steps_taken,
-        } = *taken_by;
         let torso_from_camera = body.torso_from_camera(&body_then.links);
         let robot_from_camera: Pose<Robot, Camera> = body_then.robot_from_torso * torso_from_camera;
         self.scan.read(frame, robot_from_camera)?;

@@ -15,7 +15,7 @@ use walking::relief::{Mapped, Slopes};
 use walking::{JointTargets, Walker};
 
 use crate::goals::Goals;
-use crate::perception::{Perception, PerceptionConfig, TakenBy};
+use crate::perception::{Perception, PerceptionConfig};
 use crate::registry::{self, Components, Making};
 use crate::timing::{Stage, Timing};
 use crate::{PilotError, Settings};
@@ -182,12 +182,8 @@ impl Pilot {
             return Ok(());
         };
         let (localizer, timing) = (self.localizer.as_mut(), &mut self.timing);
-        let taken_by = TakenBy {
-            body: &self.body,
-            state: body_then,
-            steps_taken: self.walker.steps_taken(),
-        };
-        if self.perception.see(frame, &taken_by, localizer, timing)? {
+        let (body, steps) = ((&self.body, body_then), self.walker.steps_taken());
+        if (self.perception).see(frame, body, steps, localizer, timing)? {
             self.planner.forget();
         }
         let estimate = self.localizer.estimate(self.proprioception.state())?;

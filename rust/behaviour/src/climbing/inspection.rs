@@ -53,8 +53,7 @@ impl Inspection {
     fn of(stair: &Stair<Map>, before: &Before<'_>) -> Option<Self> {
         let tuning = &before.config.tuning.inspection;
         let rise_m = stair.height_m() - before.ground_m;
-        let middle = stair.front.middle().inner;
-        let edge_m = [middle.x, middle.y];
+        let edge_m = stair.front.middle_m();
         let here_m = [before.pose.x_m, before.pose.y_m];
         let adjacent = rise_m.abs() > before.climbing.floor_max && rise_m.abs() < tuning.highest;
         let ahead = stair.front.beyond_m(here_m) < 0.0;

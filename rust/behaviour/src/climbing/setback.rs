@@ -20,7 +20,7 @@ impl StairClimbing {
     pub(super) fn after_misstep(&mut self, tick: &Tick<'_>, misstep: Misstep, landed: usize) {
         self.memory.tries.missteps += 1;
         let what = told(misstep);
-        let holds = self.stepper.holds.to_vec();
+        let holds = self.stepper.holds.clone();
         let missed = holds.get(landed).copied();
         let run = self.run();
         let stands_on = landed.checked_sub(1).and_then(|last| run.get(last));

@@ -174,7 +174,7 @@ mod tests {
         };
         for (message, key) in [
             (refused(|c| c.range_noise = 0.0), "range_noise"),
-            (refused(|c| c.reach = [2.0, 1.0]), "reach"),
+            (refused(|c| c.reach = [2.0, 1.0]), "reach.0"),
             (refused(|c| c.place_noise[1] = f64::NAN), "place_noise.1"),
             (refused(|c| c.independence = 1.5), "independence"),
             (refused(|c| c.resample_below = 0.3), "resample_below"),

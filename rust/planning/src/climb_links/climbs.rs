@@ -269,8 +269,7 @@ fn doubt_of(scene: &Scene<'_>, entry: &Entry, stride: &Stride, level_known: bool
     };
     let near = |place_m| scene.terrain.nearest_m(place_m) <= scene.config.limit_range;
     // A tread may have been seen from its other side; wide floor has no other side that says anything of this one.
-    let behind = stair.back.middle().inner;
-    let other_side = stair.depth_m() <= scene.config.limit_range && near([behind.x, behind.y]);
+    let other_side = stair.depth_m() <= scene.config.limit_range && near(stair.back.middle_m());
     let looked_m = scene.config.tuning.climbs.looked;
     let mut looked = scene.looked_m.iter();
     if measured || near(stride.step.crossing_m) || other_side {

@@ -28,6 +28,12 @@ fn root(parent: &[usize], mut at: usize) -> usize {
     at
 }
 
+/// Makes two groups one, under the lower of their roots.
+fn unite(parent: &mut [usize], a: usize, b: usize) {
+    let (a, b) = (root(parent, a), root(parent, b));
+    parent[a.max(b)] = a.min(b);
+}
+
 impl Grouping {
     pub(super) fn new(min_region: usize) -> Self {
         Self {
@@ -56,8 +62,7 @@ impl Grouping {
             let mut other = left;
             while segments[other].strip + 1 == segment.strip {
                 if alike(picture, config, &segments[other], segment) {
-                    let (a, b) = (root(&self.parent, other), root(&self.parent, at));
-                    self.parent[a.max(b)] = a.min(b);
+                    unite(&mut self.parent, other, at);
                 }
                 other += 1;
             }
@@ -215,8 +220,7 @@ impl Grouping {
                     config.join as f32
                 };
                 if apart < join * limit / times as f32 {
-                    let (a, b) = (root(&self.parent, i), root(&self.parent, j));
-                    self.parent[a.max(b)] = a.min(b);
+                    unite(&mut self.parent, i, j);
                 }
             }
         }
