@@ -27,6 +27,6 @@ impl Plane {
 
     /// Angle between the normal and the z axis, radians, in [0, pi].
     pub fn tilt_rad(&self) -> f64 {
-        self.normal.z.clamp(-1.0, 1.0).acos()
+        libm::acos(self.normal.z.clamp(-1.0, 1.0))
     }
 }

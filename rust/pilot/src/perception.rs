@@ -65,7 +65,7 @@ impl<'a> Remembered<'a> {
         Self {
             view,
             origin_m: [origin.x, origin.y, origin.z],
-            heading: map_from_robot.yaw_rad().sin_cos(),
+            heading: libm::sincos(map_from_robot.yaw_rad()),
             seen_often,
         }
     }

@@ -125,7 +125,7 @@ pub fn obstacles_within(
             Surface::Obstacle(top_m) => Some((view.lattice.center_of(cell), top_m)),
             _ => None,
         })
-        .filter(move |([cx, cy], _)| (cx - x).hypot(cy - y) < radius_m)
+        .filter(move |([cx, cy], _)| geometry::hypot(cx - x, cy - y) < radius_m)
 }
 
 /// Whether no obstacle is known nearer to a place than this, m.
@@ -144,7 +144,7 @@ pub fn is_riser(
         let low = f64::from(*top_m) < stair.height_m() + higher_m;
         low && [&stair.front, &stair.back].into_iter().any(|edge| {
             let middle = edge.middle().inner;
-            let along_m = (place_m[0] - middle.x).hypot(place_m[1] - middle.y);
+            let along_m = geometry::hypot(place_m[0] - middle.x, place_m[1] - middle.y);
             edge.beyond_m(*place_m).abs() < beside_m && along_m < 0.5 * edge.length_m() + beside_m
         })
     })

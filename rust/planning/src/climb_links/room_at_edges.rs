@@ -139,7 +139,7 @@ pub(crate) fn lanes(range_m: f64, lane_m: f64, narrow_m: f64) -> impl Iterator<I
 
 /// Distance between two places, m.
 pub(crate) fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
+    geometry::hypot(a[0] - b[0], a[1] - b[1])
 }
 
 /// Length of a way on the grid, m: what the search's heuristic takes for the least.
