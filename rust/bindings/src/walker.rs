@@ -30,7 +30,7 @@ impl Slopes for Slope {
         if !(from_m..to_m).contains(&at.inner.x) {
             return Vector2::zeros();
         }
-        let (sin, cos) = self.odometry_from_robot.yaw_rad().sin_cos();
+        let (sin, cos) = libm::sincos(self.odometry_from_robot.yaw_rad());
         Vector2::new(cos, -sin) * rise
     }
 }

@@ -44,7 +44,7 @@ pub use gravity::GRAVITY_MPS2;
 pub use lattice::{Cell, Grid, Lattice};
 pub use level::{Apart, Height, same_level, two_levels};
 pub use outline::{Cut, Outline, OutlineError};
-pub use planar::{PlanarPose, distance_m};
+pub use planar::{PlanarPose, distance_m, hypot};
 pub use plane::Plane;
 pub use pose::{Point, Pose, Vector};
 pub use random::{GOLDEN, SplitMix64, mix};

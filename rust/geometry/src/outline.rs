@@ -187,7 +187,7 @@ mod tests {
             let place = |i: i32| {
                 let t = f64::from(i) / 200.0;
                 let [x, y] = [ax + t * (bx - ax), ay + t * (by - ay)];
-                (1.0 - x).hypot(y.abs().max(0.5) - 0.5) - 0.14
+                crate::hypot(1.0 - x, y.abs().max(0.5) - 0.5) - 0.14
             };
             let least = (0..=200).map(place).fold(f64::INFINITY, f64::min);
             prop_assert!(swept <= least + 1e-6 && swept > least - 0.02);
@@ -219,7 +219,7 @@ mod tests {
             let Ok(hull) = Outline::hull(&points) else { return Ok(()) };
             let total: f64 = weights.iter().take(points.len()).sum();
             let inside = points.iter().zip(&weights).map(|(p, w)| p.coords * *w / total).sum::<Vector2<f64>>();
-            let direction = Vector2::new(heading.cos(), heading.sin());
+            let direction = Vector2::new(libm::cos(heading), libm::sin(heading));
             let [enters, leaves] = hull.cuts(&inside.into(), &direction).unwrap();
             for cut in [enters, leaves] {
                 prop_assert!(direction.perp(&(cut.at.coords - inside)).abs() < 1e-9);

@@ -4,6 +4,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::wrap_angle;
 
+/// Length of (x, y). Squares of metres neither overflow nor vanish, so no scaling is needed, and each operation rounds the same
+/// way on every processor.
+pub fn hypot(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
 /// Position and heading on the ground; composes like a pose, cheap enough for footsteps.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct PlanarPose {
@@ -34,7 +40,7 @@ impl PlanarPose {
 
     /// Coordinates of a local point in the frame that `self` is given in.
     pub fn apply(&self, x_m: f64, y_m: f64) -> (f64, f64) {
-        let (sin, cos) = self.yaw_rad.sin_cos();
+        let (sin, cos) = libm::sincos(self.yaw_rad);
         (
             self.x_m + cos * x_m - sin * y_m,
             self.y_m + sin * x_m + cos * y_m,
@@ -44,7 +50,7 @@ impl PlanarPose {
     /// Turns the pose round: source in target.
     #[must_use]
     pub fn inverse(&self) -> Self {
-        let (sin, cos) = self.yaw_rad.sin_cos();
+        let (sin, cos) = libm::sincos(self.yaw_rad);
         Self {
             x_m: -cos * self.x_m - sin * self.y_m,
             y_m: sin * self.x_m - cos * self.y_m,
@@ -60,13 +66,13 @@ impl PlanarPose {
 
     /// Distance between the two positions, metres.
     pub fn distance_m(&self, other: &Self) -> f64 {
-        (self.x_m - other.x_m).hypot(self.y_m - other.y_m)
+        crate::hypot(self.x_m - other.x_m, self.y_m - other.y_m)
     }
 }
 
 /// Distance between two places, m.
 pub fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
+    crate::hypot(a[0] - b[0], a[1] - b[1])
 }
 
 #[cfg(test)]

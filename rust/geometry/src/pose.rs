@@ -58,7 +58,7 @@ impl<T, S> Pose<T, S> {
     /// Heading of the source's x axis in the target's x-y plane, radians.
     pub fn yaw_rad(&self) -> f64 {
         let x_axis = self.inner.rotation * Vector3::x();
-        x_axis.y.atan2(x_axis.x)
+        libm::atan2(x_axis.y, x_axis.x)
     }
 
     /// Origin of the source in the target.

@@ -140,7 +140,7 @@ impl Floors {
             .flat_map(|column| self.first[column]..self.first[column + 1])
             .map(move |place| {
                 let [x, y, _] = self.at_m(place);
-                (place, (x - x_m).hypot(y - y_m))
+                (place, geometry::hypot(x - x_m, y - y_m))
             })
             .filter(move |&(_, away_m)| away_m <= near_m)
     }

@@ -26,7 +26,7 @@ fn insert(criterion: &mut Criterion) {
     let frames: Vec<_> = (0..50)
         .map(|i| {
             let pose = Pose::<Map, Robot>::from_yaw(0.008 * f64::from(i), 0.0, 0.0, 0.0);
-            let pan = 0.5 * (0.3 * f64::from(i)).sin();
+            let pan = 0.5 * libm::sin(0.3 * f64::from(i));
             (look(&blocks, &pose, camera(0.5, 0.6, pan)), pose)
         })
         .collect();
@@ -75,7 +75,7 @@ fn insert_into_two_maps(criterion: &mut Criterion) {
     let frames: Vec<_> = (0..50)
         .map(|i| {
             let pose = Pose::<Map, Robot>::from_yaw(0.013 * f64::from(i), 0.0, 0.0, 0.0);
-            let eye = camera(0.5, 0.52, 0.5 * (0.3 * f64::from(i)).sin());
+            let eye = camera(0.5, 0.52, 0.5 * libm::sin(0.3 * f64::from(i)));
             (look_through(DEPTH_CAMERA, &blocks, &pose, eye), pose)
         })
         .collect();

@@ -95,7 +95,7 @@ impl FloorView {
         let cell = self.lattice.cell_at(x_m, y_m);
         let gradient = self.gradients.get(cell).copied().unwrap_or_default();
         let gradient = gradient.map(f64::from);
-        if gradient[0].hypot(gradient[1]) < self.least_gradient {
+        if geometry::hypot(gradient[0], gradient[1]) < self.least_gradient {
             [0.0; 2]
         } else {
             gradient

@@ -12,7 +12,7 @@ use volume::{Ray, VoxelWalk, bayes};
 
 /// Log-odds in the tree's steps.
 fn steps(p: f64) -> f32 {
-    (((p / (1.0 - p)).ln() * 1_048_576.0).round() / 1_048_576.0) as f32
+    ((libm::log(p / (1.0 - p)) * 1_048_576.0).round() / 1_048_576.0) as f32
 }
 
 /// Probabilities by voxel, each as equation (1) of 002 says: nothing is merged, left out or bounded by a brick.

@@ -203,7 +203,7 @@ proptest! {
         let mut tree = tree(0.1);
         let rays: Vec<_> = (0..40).map(|i| {
             let angle = 0.15 * f64::from(i);
-            Ray { end_m: [3.0 * angle.cos(), 3.0 * angle.sin(), 0.3 + 0.1 * angle], hit: true }
+            Ray { end_m: [3.0 * libm::cos(angle), 3.0 * libm::sin(angle), 0.3 + 0.1 * angle], hit: true }
         }).collect();
         tree.insert([0.01, 0.02, 0.03], &rays, Update::PerFrame).unwrap();
         let mut bytes = tree.to_bytes(if full { Format::Full } else { Format::Binary });

@@ -62,8 +62,12 @@ fn a_cast_in_a_box_room_is_the_distance_to_its_wall() {
     };
     let origin = [0.31, -0.42, 0.13];
     for n in 0..500 {
-        let (turn, rise) = (0.37 * f64::from(n), 0.9 * (0.11 * f64::from(n)).sin());
-        let direction = [turn.cos() * rise.cos(), turn.sin() * rise.cos(), rise.sin()];
+        let (turn, rise) = (0.37 * f64::from(n), 0.9 * libm::sin(0.11 * f64::from(n)));
+        let direction = [
+            libm::cos(turn) * libm::cos(rise),
+            libm::sin(turn) * libm::cos(rise),
+            libm::sin(rise),
+        ];
         let to_wall =
             |axis: usize| (2.0_f64.copysign(direction[axis]) - origin[axis]) / direction[axis];
         let expected = to_wall(0).min(to_wall(1)).min(to_wall(2));

@@ -217,7 +217,7 @@ fn free_floor_is_no_obstacle_and_five_centimetres_are_one_to_a_camera_with_error
         let (mut free, mut called) = (0, 0);
         for frame in 0..40 {
             let pose = at(0.01 * f64::from(frame));
-            let pan = 0.4 * (0.5 * f64::from(frame)).sin();
+            let pan = 0.4 * libm::sin(0.5 * f64::from(frame));
             let mut planes = look_through(DEPTH_CAMERA, &low, &pose, camera(0.5, 0.52, pan));
             errors.spoil(&mut planes);
             let _ = maps.insert(&planes, &pose).unwrap();
@@ -226,7 +226,7 @@ fn free_floor_is_no_obstacle_and_five_centimetres_are_one_to_a_camera_with_error
                 let [x, y] = view.lattice.center_of(cell);
                 let beside = |block: &Block| {
                     let off = |a: usize, v: f64| (block.min[a] - v).max(v - block.max[a]).max(0.0);
-                    off(0, x).hypot(off(1, y)) < 0.06
+                    geometry::hypot(off(0, x), off(1, y)) < 0.06
                 };
                 if !low.iter().any(beside) {
                     free += u32::from(view.cell(cell) != Surface::Unknown);

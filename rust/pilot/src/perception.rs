@@ -60,7 +60,7 @@ fn remembered(
     seen_often: u16,
 ) -> impl Fn(f64, f64) -> Option<f64> {
     let origin_m = map_from_robot.origin().inner;
-    let (sin, cos) = map_from_robot.yaw_rad().sin_cos();
+    let (sin, cos) = libm::sincos(map_from_robot.yaw_rad());
     move |x_m, y_m| {
         let cell = view.lattice.cell_at(
             origin_m.x + cos * x_m - sin * y_m,

@@ -65,7 +65,7 @@ impl Guided {
         let (mut walked_m, mut level_m, mut climbs) = (0.0, 0.0, false);
         for pair in way.windows(2) {
             let [from, to] = [pair[0], pair[1]].map(|place| self.floors.at_m(place));
-            let step_m = (to[0] - from[0]).hypot(to[1] - from[1]);
+            let step_m = geometry::hypot(to[0] - from[0], to[1] - from[1]);
             walked_m += step_m;
             if (to[2] - from[2]).abs() > self.tuning.level {
                 climbs = true;
@@ -99,7 +99,7 @@ impl Guided {
         if (z - robot_m[2]).abs() > self.tuning.level || self.floors.is_at_step(place) {
             return None;
         }
-        let near = (x - robot_m[0]).hypot(y - robot_m[1]) < self.tuning.own;
+        let near = geometry::hypot(x - robot_m[0], y - robot_m[1]) < self.tuning.own;
         let clearance_m = self.near.clearance_m(x, y)?;
         Some(if near {
             0.0
@@ -134,7 +134,7 @@ impl Guided {
     fn send(&mut self, at_m: [f64; 3], goal: &Goal) -> Option<Vec<u32>> {
         let way = self.way(at_m)?;
         let stays = self.sent.is_some_and(|(sent, place)| {
-            let far = (sent.x_m - at_m[0]).hypot(sent.y_m - at_m[1]) > self.tuning.send_on;
+            let far = geometry::hypot(sent.x_m - at_m[0], sent.y_m - at_m[1]) > self.tuning.send_on;
             let below = sent
                 .height_m
                 .is_some_and(|h| (h - at_m[2]).abs() > self.tuning.level);
@@ -155,7 +155,7 @@ impl Guided {
         let Some(&[x, y]) = path.points_m.last() else {
             return;
         };
-        if (x - sent.x_m).hypot(y - sent.y_m) > sent.radius_m {
+        if geometry::hypot(x - sent.x_m, y - sent.y_m) > sent.radius_m {
             return;
         }
         for &place in &way[rest + 1..] {

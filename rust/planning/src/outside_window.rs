@@ -109,7 +109,7 @@ impl OutsideWindow {
     /// Length of the way from a place to the goal, m, as far as is known: the straight line where nothing is; infinite where no way leads
     /// around. A way to a goal outside of the window is a long one from where the robot has no room, as at a wall at the border.
     pub(crate) fn left_m(&self, at_m: [f64; 2], goal: &Goal) -> f64 {
-        let straight_m = (goal.x_m - at_m[0]).hypot(goal.y_m - at_m[1]);
+        let straight_m = geometry::hypot(goal.x_m - at_m[0], goal.y_m - at_m[1]);
         let has_field = self.field != Field::Straight;
         let known_m = self
             .ground

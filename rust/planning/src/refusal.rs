@@ -167,7 +167,7 @@ fn first_too_steep(terrain: &Terrain, route: &Route) -> Option<f64> {
 
 /// The word and sentence for a slope that is too steep, both in rise per metre.
 fn too_steep(rise_per_m: f64, limit: f64) -> NoWay {
-    let degrees = |rise_per_m: f64| rise_per_m.atan().to_degrees().round();
+    let degrees = |rise_per_m: f64| libm::atan(rise_per_m).to_degrees().round();
     NoWay {
         refusal: Refusal::Blocked,
         sentence: format!(

@@ -50,7 +50,7 @@ impl ClimbLinks {
         } = scene;
         let (cell_m, tuning) = (terrain.lattice.cell_m, &config.tuning.sideways_passages);
         let heading_rad = turned(along_rad, scene.stand.heading_rad);
-        let (sin, cos) = along_rad.sin_cos();
+        let (sin, cos) = libm::sincos(along_rad);
         let stride_m = terrain.room.stride * cell_m;
         let mut cost_m = config.turn_cost * TURNS_RAD;
         let at = |stride: u32| {

@@ -85,7 +85,7 @@ fn refused(view: &FloorView, goal: &Goal) -> (Refusal, String) {
 }
 
 fn length_m(path: &Path) -> f64 {
-    let step = |p: &[[f64; 2]]| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]);
+    let step = |p: &[[f64; 2]]| geometry::hypot(p[1][0] - p[0][0], p[1][1] - p[0][1]);
     path.points_m.windows(2).map(step).sum()
 }
 
@@ -94,7 +94,7 @@ fn to_obstacle_m(view: &FloorView, at: [f64; 2]) -> f64 {
     let obstacle = |cell: &Cell| matches!(view.cell(*cell), Surface::Obstacle(_));
     let away = |cell: Cell| {
         let [x, y] = view.lattice.center_of(cell);
-        (x - at[0]).hypot(y - at[1])
+        geometry::hypot(x - at[0], y - at[1])
     };
     let cells = view.cells.area().cells().filter(obstacle);
     cells.map(away).fold(f64::INFINITY, f64::min)
@@ -104,7 +104,7 @@ fn to_obstacle_m(view: &FloorView, at: [f64; 2]) -> f64 {
 fn over_open_floor_the_path_is_straight_and_ends_in_the_goals_middle() {
     let path = way(&mut planner(), &floor(), START, &goal(1.5, 0.7));
     assert!(
-        (length_m(&path) - 1.5_f64.hypot(0.7)).abs() < 1e-3,
+        (length_m(&path) - geometry::hypot(1.5_f64, 0.7)).abs() < 1e-3,
         "{}",
         length_m(&path)
     );
@@ -124,7 +124,7 @@ proptest! {
         for (x, y, size) in boxes {
             // A robot that starts too near to something leaves it first: that has a test of its own.
             let nearest = |low: f64| 0.0_f64.clamp(low, low + size);
-            if nearest(x).hypot(nearest(y)) > 0.3 {
+            if geometry::hypot(nearest(x), nearest(y)) > 0.3 {
                 paint(&mut view, [x, y], [x + size, y + size], Surface::Obstacle(0.3));
             }
         }
@@ -133,14 +133,14 @@ proptest! {
         prop_assert_eq!(path.points_m.len(), path.unknown.len());
         prop_assert_eq!(path.points_m.len(), path.clearance_m.len());
         for (pair, clearance) in path.points_m.windows(2).zip(&path.clearance_m) {
-            let gap = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
+            let gap = geometry::hypot(pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]);
             prop_assert!(gap <= CELL * 1.4143);
             // Clearance is that of the cell's centre.
             prop_assert!(*clearance >= planner.needed_m());
             prop_assert!(to_obstacle_m(&view, pair[0]) >= planner.needed_m() - 0.7072 * CELL);
         }
         let end = path.points_m.last().unwrap();
-        prop_assert!((end[0] - 1.6).hypot(end[1] - 1.2) <= 0.15 + 1e-9);
+        prop_assert!(geometry::hypot(end[0] - 1.6, end[1] - 1.2) <= 0.15 + 1e-9);
     }
 }
 
@@ -203,7 +203,7 @@ fn a_goal_under_an_obstacle_is_reached_at_the_discs_free_side_or_refused() {
     };
     let path = way(&mut planner(), &view, START, &disc);
     let end = path.points_m.last().unwrap();
-    assert!((end[0] - 1.3).hypot(end[1]) <= 0.45);
+    assert!(geometry::hypot(end[0] - 1.3, end[1]) <= 0.45);
     let (refusal, sentence) = refused(&view, &goal(1.3, 0.0));
     assert_eq!(refusal, Refusal::Blocked);
     assert!(sentence.contains("0.15 m of the goal"), "{sentence}");
@@ -302,7 +302,7 @@ fn the_robot_may_leave_a_place_too_near_to_an_obstacle() {
     let mut planner = planner();
     let path = way(&mut planner, &view, START, &goal(1.4, 0.0));
     for (point, &clearance) in path.points_m.iter().zip(&path.clearance_m) {
-        assert!(clearance >= planner.needed_m() || point[0].hypot(point[1]) < 0.33);
+        assert!(clearance >= planner.needed_m() || geometry::hypot(point[0], point[1]) < 0.33);
         assert!(clearance > 0.06, "{point:?} {clearance}");
     }
 }

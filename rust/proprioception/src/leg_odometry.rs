@@ -37,7 +37,7 @@ impl LegPosture {
         let [left, right] = self.torso_from_sole.map(|torso_from_sole| {
             let toes =
                 self.odometry_from_torso_rotation * (torso_from_sole.rotation * Vector3::x());
-            toes.y.atan2(toes.x)
+            libm::atan2(toes.y, toes.x)
         });
         left + 0.5 * angle_between(left, right)
     }

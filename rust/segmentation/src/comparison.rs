@@ -94,7 +94,7 @@ impl Score {
             let parts = || shared.iter().map(|row| row[i]);
             let good = parts().filter(|&part| 5 * part >= size(i)).count();
             self.merged += usize::from(good > 1 && size(i) >= LEAST);
-            let slope = (-region.plane.normal.x).atan2(region.plane.normal.z);
+            let slope = libm::atan2(-region.plane.normal.x, region.plane.normal.z);
             let treads = parts().skip(1).filter(|&part| 2 * part >= LEAST).count();
             self.diagonal += usize::from((0.14..0.35).contains(&slope) && treads > 1);
         }
@@ -235,7 +235,7 @@ fn each_finds_the_floor_and_levels_a_camera_that_is_turned_and_low() {
             assert!(10 * support > 8 * scan.valid, "{name}: {support}");
             let found = planes.robot_from_camera.inner;
             let up = found.rotation * truth.inner.rotation.inverse() * Vector3::z();
-            tilts.push(up.xy().norm().asin().to_degrees());
+            tilts.push(libm::asin(up.xy().norm()).to_degrees());
             let low_m = found.translation.z - truth.inner.translation.z;
             assert!(low_m.abs() < 0.008, "{name}: {low_m}");
         }

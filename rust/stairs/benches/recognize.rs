@@ -27,7 +27,7 @@ fn main() {
     let mut model = EdgeModel::new(CAMERA, EdgeModelTuning::default());
     let (mut whole_ms, mut fit_ms) = (Vec::new(), Vec::new());
     for i in 0..FRAMES {
-        let pose = camera_pose(0.3 * (i as f64 / 10.0).sin(), 0.75);
+        let pose = camera_pose(0.3 * libm::sin(i as f64 / 10.0), 0.75);
         let scan = scene.scan(&pose, pose, 0.125, &mut noise);
         segmenter.segment(&scan, &mut planes).expect("it fits");
         let start = Instant::now();

@@ -19,7 +19,7 @@ impl EdgeLine {
     pub(crate) fn new(middle_m: [f64; 2], heading_rad: f64, length_m: f64) -> Self {
         Self {
             middle_m,
-            ahead: [heading_rad.cos(), heading_rad.sin()],
+            ahead: [libm::cos(heading_rad), libm::sin(heading_rad)],
             half_m: 0.5 * length_m,
             heading_rad,
         }

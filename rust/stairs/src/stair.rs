@@ -95,7 +95,7 @@ impl<F> Edge<F> {
     /// Heading square to it, from front to back, rad.
     pub fn heading_rad(&self) -> f64 {
         let along = self.left.inner - self.right.inner;
-        (-along.x).atan2(along.y)
+        libm::atan2(-along.x, along.y)
     }
 
     /// Its line seen from above, for one who goes over it.
@@ -116,7 +116,7 @@ impl<F> Edge<F> {
 
     /// Where one crosses its line who goes straight on from a place, square to it, m.
     pub fn straight_on_m(&self, [x_m, y_m]: [f64; 2]) -> [f64; 2] {
-        let (sin, cos) = self.heading_rad().sin_cos();
+        let (sin, cos) = libm::sincos(self.heading_rad());
         let away_m = -self.beyond_m([x_m, y_m]);
         [x_m + cos * away_m, y_m + sin * away_m]
     }
@@ -132,7 +132,7 @@ impl<F> Edge<F> {
 
     /// Direction square to it, from front to back, length 1.
     pub(crate) fn across(&self) -> Vector2<f64> {
-        let (sin, cos) = self.heading_rad().sin_cos();
+        let (sin, cos) = libm::sincos(self.heading_rad());
         Vector2::new(cos, sin)
     }
 

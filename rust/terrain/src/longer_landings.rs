@@ -105,7 +105,7 @@ fn goes_on(
 }
 
 fn lengthen(stair: &mut Stair<Map>, by_m: f64) {
-    let (sin, cos) = stair.back.heading_rad().sin_cos();
+    let (sin, cos) = libm::sincos(stair.back.heading_rad());
     let moved =
         |p: &Point<Map>| Point::new(p.inner.x + by_m * cos, p.inner.y + by_m * sin, p.inner.z);
     stair.back = Edge {

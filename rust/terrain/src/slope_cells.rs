@@ -34,9 +34,9 @@ impl SlopeCells {
 
     /// How steep a cell is if that is more than what is walked on: rise per metre.
     pub fn too_steep_at(&self, index: usize) -> Option<f64> {
-        let [x, y] = self.gradients.get(index)?;
-        let rise = x.hypot(*y);
-        (rise > self.most).then_some(f64::from(rise))
+        let [x, y] = self.gradients.get(index)?.map(f64::from);
+        let rise = geometry::hypot(x, y);
+        (rise > f64::from(self.most)).then_some(rise)
     }
 
     /// The steepest slope that is walked on: rise per metre.

@@ -28,7 +28,7 @@ impl StairOutline {
         let sides = std::array::from_fn(|i| {
             let [from, to] = [corners_m[i], corners_m[(i + 1) % 4]];
             let side: [f64; 2] = [to[0] - from[0], to[1] - from[1]];
-            (side, side[0].hypot(side[1]))
+            (side, geometry::hypot(side[0], side[1]))
         });
         Self { corners_m, sides }
     }

@@ -125,7 +125,7 @@ pub fn obstacles_within(
             Surface::Obstacle(top_m) => Some((view.lattice.center_of(cell), top_m)),
             _ => None,
         })
-        .filter(move |([cx, cy], _)| (cx - x).hypot(cy - y) < radius_m)
+        .filter(move |([cx, cy], _)| geometry::hypot(cx - x, cy - y) < radius_m)
 }
 
 /// Whether no obstacle is known nearer to a place than this, m.

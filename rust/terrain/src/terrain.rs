@@ -164,7 +164,7 @@ impl Terrain {
     /// What the straight way between two points costs, m; `None` where it may not be walked. Looked at in short pieces, each weighed by
     /// the cell of its middle.
     pub fn straight_cost_m(&self, from: [f64; 2], to: [f64; 2]) -> Option<f64> {
-        let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+        let length = geometry::hypot(to[0] - from[0], to[1] - from[1]);
         let pieces = (length / (self.room.piece * self.lattice.cell_m))
             .ceil()
             .max(1.0);
@@ -197,9 +197,9 @@ impl Terrain {
         let half_width_m = rectangle.half_width_m - slack_m;
         let half_depth_m = rectangle.half_depth_m - slack_m;
         let soft_m = half_depth_m + settings.soft_range;
-        let (sin, cos) = heading_rad.sin_cos();
+        let (sin, cos) = libm::sincos(heading_rad);
         let mut spare_m = settings.soft_range;
-        let reach_m = half_width_m.hypot(soft_m);
+        let reach_m = geometry::hypot(half_width_m, soft_m);
         for place_m in self.obstacles_near(at_m, reach_m) {
             let [dx, dy] = [place_m[0] - at_m[0], place_m[1] - at_m[1]];
             let ahead_m = (cos * dx + sin * dy).abs();

@@ -92,7 +92,7 @@ impl Walk {
                 ),
                 start_level_m
                     + (level_m - start_level_m) * share
-                    + 0.02 * (share * std::f64::consts::PI).sin(),
+                    + 0.02 * libm::sin(share * std::f64::consts::PI),
             );
             self.tick(lifted, soles, side.other());
         }

@@ -208,10 +208,13 @@ mod tests {
         for index in 0..width * height {
             let u = ((index % width) as f64 - 0.5 * width as f64) / focal;
             let v = ((index / width) as f64 - 0.5 * height as f64) / focal;
-            let (level, z) = (pitch.cos() + v * pitch.sin(), pitch.sin() - v * pitch.cos());
+            let (level, z) = (
+                libm::cos(pitch) + v * libm::sin(pitch),
+                libm::sin(pitch) - v * libm::cos(pitch),
+            );
             let along = [
-                level * heading.cos() + u * heading.sin(),
-                level * heading.sin() - u * heading.cos(),
+                level * libm::cos(heading) + u * libm::sin(heading),
+                level * libm::sin(heading) - u * libm::cos(heading),
                 z,
             ];
             let to = |low: [f64; 3], high: [f64; 3], far: bool| {

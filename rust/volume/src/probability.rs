@@ -16,7 +16,7 @@ pub fn bayes(prior: f64, given_occupied: f64, given_empty: f64) -> f64 {
 }
 
 fn logit(probability: f64) -> f64 {
-    (probability / (1.0 - probability)).ln()
+    libm::log(probability / (1.0 - probability))
 }
 
 /// Codes of probabilities, what a hit and a miss make of each, and which of them count as occupied.
@@ -66,7 +66,7 @@ impl ProbabilityTable {
     /// Probability of a code.
     pub fn decode(&self, code: u8) -> f64 {
         let log_odds = (f64::from(code) - f64::from(EVEN)) * self.step_logit;
-        1.0 / (1.0 + (-log_odds).exp())
+        1.0 / (1.0 + libm::exp(-log_odds))
     }
 
     /// Code of a voxel of which nothing is known: exactly 0.5, equation (4).

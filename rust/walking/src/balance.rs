@@ -132,6 +132,6 @@ fn heading_of(
     foot: &PlanarPose,
 ) -> UnitQuaternion<f64> {
     let toes = attitude * (torso_from_sole.rotation * Vector3::x());
-    let turn = foot.yaw_rad - toes.y.atan2(toes.x);
+    let turn = foot.yaw_rad - libm::atan2(toes.y, toes.x);
     UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn) * attitude
 }

@@ -66,7 +66,7 @@ impl Capture {
                 swing,
             } => {
                 let left_s = (*duration_s - *elapsed_s).max(0.0);
-                let growth = (omega * left_s).exp();
+                let growth = libm::exp(omega * left_s);
                 let stance = swing.side.other();
                 let foot = &feet[stance.index()];
                 let best = error * (growth / (growth - 1.0).max(tuning.least_growth));

@@ -24,7 +24,7 @@ impl ZmpSegment {
             return *end_dcm;
         }
         let lag = (self.to - self.from) / (self.duration_s * omega);
-        self.from + lag + (end_dcm - self.to - lag) * (-omega * self.duration_s).exp()
+        self.from + lag + (end_dcm - self.to - lag) * libm::exp(-omega * self.duration_s)
     }
 
     /// What is left of it after `elapsed_s`.
@@ -88,7 +88,7 @@ mod tests {
                 let passed_s = segment.duration_s / f64::from(steps);
                 for step in 0..steps {
                     let middle = segment.rest((f64::from(step) + 0.5) * passed_s).from;
-                    dcm = middle + (dcm - middle) * (OMEGA * passed_s).exp();
+                    dcm = middle + (dcm - middle) * libm::exp(OMEGA * passed_s);
                 }
                 let next = start_dcm(&plan[index + 1..], OMEGA).unwrap_or(segment.to);
                 prop_assert!((dcm - next).norm() < 1e-5, "{dcm} {next}");

@@ -61,7 +61,7 @@ impl Felt {
         let share = elapsed_s / swing.in_air_s(config);
         let told = swing.foot(elapsed_s, config);
         let sole = &self.soles_m[swing.side.index()];
-        let off_m = (sole.x - told.planar.x_m).hypot(sole.y - told.planar.y_m);
+        let off_m = geometry::hypot(sole.x - told.planar.x_m, sole.y - told.planar.y_m);
         let ahead = swing.foot(elapsed_s + tuning.lag, config);
         let lag_m = ahead.planar.distance_m(&told.planar);
         share >= tuning.left_share && (touches || off_m > config.obstructed_distance + lag_m)

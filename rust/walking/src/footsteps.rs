@@ -69,7 +69,7 @@ impl FootstepPlanner {
             swing.sign() * 0.5 * config.stance_width,
             0.0,
         ));
-        let (sin, cos) = (0.5 * yaw).sin_cos();
+        let (sin, cos) = libm::sincos(0.5 * yaw);
         let advanced = middle.compose(&PlanarPose::new(cos * x - sin * y, sin * x + cos * y, yaw));
         let half = PlanarPose::new(0.0, swing.sign() * 0.5 * config.stance_width, 0.0);
         self.keep_apart(stance, &advanced.compose(&half), swing)
@@ -112,7 +112,7 @@ impl FootstepPlanner {
 
     /// Least and largest distance of the feet's centres across the standing foot when they differ by this heading.
     pub fn lateral_limits_m(&self, yaw_rad: f64) -> (f64, f64) {
-        let (sin, cos) = yaw_rad.abs().sin_cos();
+        let (sin, cos) = libm::sincos(yaw_rad.abs());
         let nearest = 0.5 * (self.sole_width_m * (1.0 + cos) + self.sole_length_m * sin)
             + self.config.foot_gap;
         let farthest = self.config.stance_width + self.config.max_sideways;
@@ -152,20 +152,23 @@ mod tests {
             [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)]
                 .map(|(x, y)| foot.apply(0.0525 * x, 0.0375 * y))
         };
-        [a.yaw_rad, b.yaw_rad].iter().all(|yaw| {
-            [(yaw.cos(), yaw.sin()), (-yaw.sin(), yaw.cos())]
-                .iter()
-                .all(|(x, y)| {
-                    let span = |foot: &PlanarPose| {
-                        let on = corners(foot).map(|corner| corner.0 * x + corner.1 * y);
-                        (
-                            on.iter().copied().fold(f64::MAX, f64::min),
-                            on.iter().copied().fold(f64::MIN, f64::max),
-                        )
-                    };
-                    let (a, b) = (span(a), span(b));
-                    a.0 <= b.1 && b.0 <= a.1
-                })
+        [a.yaw_rad, b.yaw_rad].iter().all(|&yaw| {
+            [
+                (libm::cos(yaw), libm::sin(yaw)),
+                (-libm::sin(yaw), libm::cos(yaw)),
+            ]
+            .iter()
+            .all(|(x, y)| {
+                let span = |foot: &PlanarPose| {
+                    let on = corners(foot).map(|corner| corner.0 * x + corner.1 * y);
+                    (
+                        on.iter().copied().fold(f64::MAX, f64::min),
+                        on.iter().copied().fold(f64::MIN, f64::max),
+                    )
+                };
+                let (a, b) = (span(a), span(b));
+                a.0 <= b.1 && b.0 <= a.1
+            })
         })
     }
 

@@ -41,13 +41,13 @@ impl HeadControl {
             body.pose_links(&angles, &mut poses)?;
             Ok(body.torso_from_camera(&poses).inner.rotation * Vector3::z())
         };
-        let down = |axis: Vector3<f64>| -axis.z.atan2(axis.x.hypot(axis.y));
+        let down = |axis: Vector3<f64>| -libm::atan2(axis.z, geometry::hypot(axis.x, axis.y));
         let (straight, panned, tilted) = (
             look(0.0, 0.0)?,
             look(SMALL_RAD, 0.0)?,
             look(0.0, SMALL_RAD)?,
         );
-        let left = panned.y.atan2(panned.x) - straight.y.atan2(straight.x);
+        let left = libm::atan2(panned.y, panned.x) - libm::atan2(straight.y, straight.x);
         let angles_rad = [description.stand[joints[0]], description.stand[joints[1]]];
         Ok(Self {
             joints,

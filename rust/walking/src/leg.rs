@@ -76,7 +76,7 @@ impl LegSolver {
     /// no more than `stretch_rad`: the knee bends until the shank makes up for the rest.
     pub fn stretched_m(&self, back_m: f64, aside_m: f64, stretch_rad: f64) -> f64 {
         let (thigh_m, shank_m) = (self.geometry.thigh_m, self.geometry.shank_m);
-        let (sin, cos) = stretch_rad.sin_cos();
+        let (sin, cos) = libm::sincos(stretch_rad);
         if back_m <= (thigh_m + shank_m) * sin {
             return f64::INFINITY;
         }
@@ -110,20 +110,20 @@ impl LegSolver {
         let ankle_to_hip = rotation.transpose() * (self.geometry.hip - ankle);
         let bend = self.bend(ankle_to_hip.norm());
         let knee = bend.knee_rad;
-        let lean = (self.geometry.thigh_m / bend.distance_m * knee.sin())
-            .clamp(-1.0, 1.0)
-            .asin();
+        let lean = libm::asin(
+            (self.geometry.thigh_m / bend.distance_m * libm::sin(knee)).clamp(-1.0, 1.0),
+        );
         let (x, y, z) = (ankle_to_hip.x, ankle_to_hip.y, ankle_to_hip.z);
-        let ankle_roll = y.atan2(z);
-        let ankle_pitch = -x.atan2(y.hypot(z) * z.signum()) - lean;
+        let ankle_roll = libm::atan2(y, z);
+        let ankle_pitch = -libm::atan2(x, geometry::hypot(y, z) * z.signum()) - lean;
         let hip = rotation_x(-self.geometry.slant_rad)
             * rotation
             * rotation_x(-ankle_roll)
             * rotation_y(-knee - ankle_pitch);
-        let hip_yaw = (-hip[(0, 1)]).atan2(hip[(1, 1)]);
-        let (sin, cos) = hip_yaw.sin_cos();
-        let hip_roll = hip[(2, 1)].atan2(-hip[(0, 1)] * sin + hip[(1, 1)] * cos);
-        let hip_pitch = (-hip[(2, 0)]).atan2(hip[(2, 2)]);
+        let hip_yaw = libm::atan2(-hip[(0, 1)], hip[(1, 1)]);
+        let (sin, cos) = libm::sincos(hip_yaw);
+        let hip_roll = libm::atan2(hip[(2, 1)], -hip[(0, 1)] * sin + hip[(1, 1)] * cos);
+        let hip_pitch = libm::atan2(-hip[(2, 0)], hip[(2, 2)]);
         let hip_roll = hip_roll + self.geometry.slant_rad;
         (
             [hip_yaw, hip_roll, hip_pitch, knee, ankle_pitch, ankle_roll],
@@ -138,7 +138,7 @@ impl LegSolver {
 
     /// How much the angle of the yaw joint has to grow by a turn of the torso to the left.
     pub fn yaw_per_turn(&self) -> f64 {
-        -self.geometry.signs[0] / self.geometry.slant_rad.cos()
+        -self.geometry.signs[0] / libm::cos(self.geometry.slant_rad)
     }
 
     /// The joint angles that put the ankle where it is at `torso_from_sole` and the sole as level as there, the yaw joint being
@@ -152,17 +152,17 @@ impl LegSolver {
         let turned = rotation_x(geometry.slant_rad) * rotation_z(yaw);
         // In the frame behind the yaw joint, its own axis upright: the roll from here is the slant less.
         let to_ankle = turned.transpose() * (ankle - geometry.hip);
-        let roll = to_ankle.y.atan2(-to_ankle.z);
+        let roll = libm::atan2(to_ankle.y, -to_ankle.z);
         let bend = self.bend(to_ankle.norm());
         let knee = bend.knee_rad;
-        let within = geometry.shank_m * knee.sin();
-        let below = geometry.thigh_m + geometry.shank_m * knee.cos();
-        let drop = to_ankle.y.hypot(to_ankle.z);
-        let pitch = (-to_ankle.x).atan2(drop) - within.atan2(below);
+        let within = geometry.shank_m * libm::sin(knee);
+        let below = geometry.thigh_m + geometry.shank_m * libm::cos(knee);
+        let drop = geometry::hypot(to_ankle.y, to_ankle.z);
+        let pitch = libm::atan2(-to_ankle.x, drop) - libm::atan2(within, below);
         let shank = turned * rotation_x(roll) * rotation_y(pitch + knee);
         let normal = shank.transpose() * (rotation * Vector3::z());
-        let ankle_pitch = normal.x.atan2(normal.z);
-        let ankle_roll = -normal.y.clamp(-1.0, 1.0).asin();
+        let ankle_pitch = libm::atan2(normal.x, normal.z);
+        let ankle_roll = -libm::asin(normal.y.clamp(-1.0, 1.0));
         self.within_ranges(
             [
                 yaw,
@@ -182,7 +182,7 @@ impl LegSolver {
         let inner = ((a * a + b * b - distance_m * distance_m) / (2.0 * a * b)).clamp(-1.0, 1.0);
         Bend {
             distance_m,
-            knee_rad: std::f64::consts::PI - inner.acos(),
+            knee_rad: std::f64::consts::PI - libm::acos(inner),
             reached: (wanted_m - distance_m).abs() < 1e-9,
             short_m: (wanted_m - distance_m).max(0.0),
         }
@@ -206,17 +206,17 @@ impl LegSolver {
 }
 
 fn rotation_x(angle_rad: f64) -> Matrix3<f64> {
-    let (s, c) = angle_rad.sin_cos();
+    let (s, c) = libm::sincos(angle_rad);
     Matrix3::new(1.0, 0.0, 0.0, 0.0, c, -s, 0.0, s, c)
 }
 
 fn rotation_z(angle_rad: f64) -> Matrix3<f64> {
-    let (s, c) = angle_rad.sin_cos();
+    let (s, c) = libm::sincos(angle_rad);
     Matrix3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
 }
 
 fn rotation_y(angle_rad: f64) -> Matrix3<f64> {
-    let (s, c) = angle_rad.sin_cos();
+    let (s, c) = libm::sincos(angle_rad);
     Matrix3::new(c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c)
 }
 

@@ -88,7 +88,7 @@ impl LegGeometry {
 /// The sign and the slant of a hip's yaw axis: it may lie in the plane of y and z, as a NAO's does.
 fn yaw_axis(axis: &Vector3<f64>, steepest_rad: f64) -> Option<(f64, f64)> {
     let sign = axis.z.signum();
-    let slant_rad = (-sign * axis.y).atan2(sign * axis.z);
+    let slant_rad = libm::atan2(-sign * axis.y, sign * axis.z);
     let holds = axis.x.abs() < TOLERANCE && slant_rad.abs() < steepest_rad;
     let upright = axis.z.abs() >= 1.0 - TOLERANCE;
     holds.then_some((sign, if upright { 0.0 } else { slant_rad }))
@@ -111,7 +111,7 @@ fn meeting_points(
     let hip = Vector3::new(yaw.x, roll.y, roll.z);
     let knee = Vector3::new(knee.x, hip.y, knee.z);
     let ankle = Vector3::new(ankle_pitch.x, ankle_roll.y, ankle_pitch.z);
-    let yaw_y = yaw.y - slant_rad.tan() * (hip.z - yaw.z);
+    let yaw_y = yaw.y - libm::tan(slant_rad) * (hip.z - yaw.z);
     let near = |a: f64, b: f64| (a - b).abs() < miss_m;
     let claims = [
         (

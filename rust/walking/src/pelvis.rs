@@ -79,7 +79,7 @@ impl Pelvis {
         for moment in 1..=self.tuning.moments {
             gait.advance(apart_s, course.task, &KnownGround::AsTold);
             let GaitReference { dcm, .. } = gait.reference(course.omega, course.task);
-            com += (dcm - com) * (1.0 - (-course.omega * apart_s).exp());
+            com += (dcm - com) * (1.0 - libm::exp(-course.omega * apart_s));
             let feet = Side::BOTH.map(|side| gait.foot(side));
             let over = com + trunk.from_com;
             let limit_m = self.limit_m(legs, trunk, &feet, gait.ground_m(), &over);

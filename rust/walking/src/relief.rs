@@ -114,7 +114,7 @@ impl Slopes for Mapped<'_> {
     fn gradient(&self, x_m: f64, y_m: f64) -> Vector2<f64> {
         let (x, y) = self.map_from_robot.apply(x_m, y_m);
         let gradient = Vector2::from(self.view.gradient_at(x, y));
-        let (sin, cos) = self.map_from_robot.yaw_rad.sin_cos();
+        let (sin, cos) = libm::sincos(self.map_from_robot.yaw_rad);
         Vector2::new(
             cos * gradient.x + sin * gradient.y,
             cos * gradient.y - sin * gradient.x,

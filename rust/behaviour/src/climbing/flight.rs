@@ -220,7 +220,7 @@ fn look_up(
             let old = *step;
             step.stair = *stair;
             higher_m = stair.height_m() - old.stair.height_m();
-            let (sin, cos) = stair.front.heading_rad().sin_cos();
+            let (sin, cos) = libm::sincos(stair.front.heading_rad());
             let off_m = stair.front.beyond_m(old.crossing_m);
             step.crossing_m[0] -= off_m * cos;
             step.crossing_m[1] -= off_m * sin;
@@ -234,7 +234,7 @@ fn look_up(
 /// How far to the left of where it was crossed before the first step is crossed now, m.
 fn aside_m(steps: &[Step], before: &Step) -> f64 {
     steps.first().map_or(0.0, |first| {
-        let (sin, cos) = first.stair.front.heading_rad().sin_cos();
+        let (sin, cos) = libm::sincos(first.stair.front.heading_rad());
         let [x_m, y_m] = first.crossing_m;
         let [from_x_m, from_y_m] = before.crossing_m;
         (y_m - from_y_m) * cos - (x_m - from_x_m) * sin
@@ -244,7 +244,7 @@ fn aside_m(steps: &[Step], before: &Step) -> f64 {
 /// Moves where steps are crossed to the left.
 fn shift(steps: &mut [Step], left_m: f64) {
     for step in steps {
-        let (sin, cos) = step.stair.front.heading_rad().sin_cos();
+        let (sin, cos) = libm::sincos(step.stair.front.heading_rad());
         step.crossing_m[0] -= left_m * sin;
         step.crossing_m[1] += left_m * cos;
     }

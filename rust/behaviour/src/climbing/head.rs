@@ -118,9 +118,9 @@ impl ClimbingHead {
     fn towards(&self, [x_m, y_m]: [f64; 2]) -> Gaze {
         let (widest_rad, nearest_m) = (self.tuning.widest, self.tuning.nearest);
         let from_eyes_m = x_m - self.eye_ahead_m;
-        let away_m = from_eyes_m.hypot(y_m).max(nearest_m);
-        let pan_rad = y_m.atan2(from_eyes_m.max(nearest_m));
-        let down_rad = self.eye_height_m.atan2(away_m);
+        let away_m = geometry::hypot(from_eyes_m, y_m).max(nearest_m);
+        let pan_rad = libm::atan2(y_m, from_eyes_m.max(nearest_m));
+        let down_rad = libm::atan2(self.eye_height_m, away_m);
         Gaze {
             pan_rad: pan_rad.clamp(-widest_rad, widest_rad),
             down_rad: down_rad.clamp(self.tuning.flattest, self.steep_rad),

@@ -40,7 +40,7 @@ impl<'a> ApproachLeg<'a> {
     /// Whether a robot here may go on by the climb's own states.
     pub(crate) fn is_reached(&self, pose: &PlanarPose, tuning: &ApproachLegTuning) -> bool {
         let way = self.align.relative(pose);
-        let aside_m = if way.yaw_rad.cos() > tuning.heads_for_it {
+        let aside_m = if libm::cos(way.yaw_rad) > tuning.heads_for_it {
             tuning.stops_aside
         } else {
             tuning.aside
@@ -100,7 +100,7 @@ pub(crate) fn align_pose(
     let set = climbing.set_for(first.rise_m);
     let away_m = (set.align_distance + 0.5 * feet.length_m).max(config.look_distance);
     let heading_rad = first.stair.front.heading_rad();
-    let (sin, cos) = heading_rad.sin_cos();
+    let (sin, cos) = libm::sincos(heading_rad);
     let on_edge_m = first.stair.front.beyond_m(first.crossing_m);
     let back_m = away_m + on_edge_m;
     PlanarPose::new(

@@ -95,7 +95,7 @@ impl Before<'_> {
         let middle_m = edge.beyond_m([self.pose.x_m, self.pose.y_m]);
         let [left_room_m, right_room_m] = next.stair.room_beside_m();
         Stand {
-            toes_m: middle_m + 0.5 * self.feet.length_m * askew_rad.cos(),
+            toes_m: middle_m + 0.5 * self.feet.length_m * libm::cos(askew_rad),
             askew_rad,
             left_m: self.left_m(next, &edge.left) + left_room_m,
             right_m: right_room_m - self.left_m(next, &edge.right),
@@ -104,7 +104,7 @@ impl Before<'_> {
 
     /// How far to the left of the robot a place lies, along the front edge of a step, m.
     fn left_m(&self, next: &Step, place: &Point<Map>) -> f64 {
-        let (sin, cos) = next.stair.front.heading_rad().sin_cos();
+        let (sin, cos) = libm::sincos(next.stair.front.heading_rad());
         (place.inner.y - self.pose.y_m) * cos - (place.inner.x - self.pose.x_m) * sin
     }
 
@@ -133,7 +133,7 @@ impl Before<'_> {
         let edge = &next.stair.front;
         let here = [self.pose.x_m, self.pose.y_m];
         let square_rad = edge.heading_rad();
-        let (sin, cos) = square_rad.sin_cos();
+        let (sin, cos) = libm::sincos(square_rad);
         let forward_m = middle_m - edge.beyond_m(here);
         let aside_m = self.aside_m(next);
         PlanarPose::new(
@@ -180,7 +180,7 @@ impl Before<'_> {
             ),
             _ => 0.0,
         };
-        let slack_m = half_pair_m * turn_rad.sin().abs();
+        let slack_m = half_pair_m * libm::sin(turn_rad).abs();
         let set = self.climbing.set_for(next.rise_m);
         let least_m = set.front_x_limit + slack_m;
         let here_m = next.stair.front.beyond_m([self.pose.x_m, self.pose.y_m]);

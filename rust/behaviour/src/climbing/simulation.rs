@@ -161,7 +161,7 @@ impl Simulation {
             let [x_m, y_m] = self.view.lattice.center_of(cell);
             let hit = self
                 .obstacle
-                .is_some_and(|[ox, oy, r]| (ox - x_m).hypot(oy - y_m) < r);
+                .is_some_and(|[ox, oy, r]| geometry::hypot(ox - x_m, oy - y_m) < r);
             let surface = if hit {
                 Surface::Obstacle(0.4)
             } else {

@@ -31,7 +31,7 @@ impl Tick<'_> {
     /// Direction of a place of the map, rad to the left of straight ahead.
     pub(crate) fn bearing_rad(&self, place_m: [f64; 2]) -> f64 {
         let [x_m, y_m] = self.in_robot(place_m);
-        y_m.atan2(x_m)
+        libm::atan2(y_m, x_m)
     }
 
     /// Whether the planner finds no way.

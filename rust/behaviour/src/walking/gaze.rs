@@ -112,7 +112,7 @@ pub(crate) fn glance(time_s: f64, bearing_rad: f64, config: &WalkingConfig) -> G
     let tuning = &config.tuning.gaze;
     let phase = (time_s / tuning.period).fract();
     let sway_period_s = tuning.sway_periods * tuning.period;
-    let sway_rad = tuning.sway * (std::f64::consts::TAU * time_s / sway_period_s).sin();
+    let sway_rad = tuning.sway * libm::sin(std::f64::consts::TAU * time_s / sway_period_s);
     Gaze {
         pan_rad: (bearing_rad + sway_rad).clamp(-config.sweep, config.sweep),
         down_rad: if phase < tuning.far_share {

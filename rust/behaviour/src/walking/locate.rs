@@ -54,7 +54,7 @@ impl WalkingBehaviour {
         };
         let turned_s = tick.elapsed_s - looked_s;
         let phase = std::f64::consts::TAU * turned_s / self.config.tuning.locate.sway_period;
-        let pan_rad = self.config.tuning.locate.sway * phase.sin();
+        let pan_rad = self.config.tuning.locate.sway * libm::sin(phase);
         self.gaze_at(tick, pan_rad, self.config.gaze_far);
         let tuning = &self.config.tuning.locate;
         let turn_radps = self.config.turn_speed;

@@ -26,7 +26,7 @@ impl OnLeg {
             Some(robot_from_map.apply(x, y))
         };
         let ((x0, y0), (x1, y1)) = (in_robot(sidle.from_point)?, in_robot(sidle.to_point)?);
-        let length_m = (x1 - x0).hypot(y1 - y0);
+        let length_m = geometry::hypot(x1 - x0, y1 - y0);
         if length_m < 1e-6 {
             return None;
         }

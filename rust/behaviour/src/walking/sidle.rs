@@ -33,7 +33,7 @@ impl WalkingBehaviour {
             return Motion::Stand;
         };
         self.machine.gets_on();
-        let bearing_rad = on_leg.along[1].atan2(on_leg.along[0]);
+        let bearing_rad = libm::atan2(on_leg.along[1], on_leg.along[0]);
         let gaze = glance(tick.elapsed_s, bearing_rad, &self.config);
         self.gazer.turn(gaze, tick.passed_s, self.config.gaze_speed);
         Motion::Walk(self.sidestep(&on_leg))
@@ -58,7 +58,7 @@ impl WalkingBehaviour {
             along, beside_m, ..
         } = on_leg;
         let side_mps = self.config.side_speed;
-        let aside_m = beside_m[0].hypot(beside_m[1]);
+        let aside_m = geometry::hypot(beside_m[0], beside_m[1]);
         let along_mps = side_mps * (1.0 - aside_m / tuning.beside).max(0.0);
         let back = |axis: usize| (beside_m[axis]).clamp(-side_mps, side_mps);
         Velocity {
@@ -119,7 +119,7 @@ mod tests {
             if sideways {
                 (0.5 * BOX_M[0] - x.abs()).min(0.5 * BOX_M[1] - y.abs())
             } else {
-                RADIUS_M - HALF_M - x.hypot(y)
+                RADIUS_M - HALF_M - geometry::hypot(x, y)
             }
         });
         inside.fold(f64::NEG_INFINITY, f64::max)

@@ -194,7 +194,11 @@ impl Simulation {
     }
 
     fn truth(&self, [x, y]: [f64; 2]) -> Surface {
-        let within = |discs: &[[f64; 3]]| discs.iter().any(|d| (d[0] - x).hypot(d[1] - y) < d[2]);
+        let within = |discs: &[[f64; 3]]| {
+            discs
+                .iter()
+                .any(|d| geometry::hypot(d[0] - x, d[1] - y) < d[2])
+        };
         let boxed = self
             .boxes
             .iter()
@@ -217,9 +221,9 @@ impl Simulation {
                 continue;
             }
             let (x, y) = robot_from_map.apply(center[0], center[1]);
-            let distance_m = x.hypot(y);
-            let pan_error_rad = geometry::angle_between(self.gaze.pan_rad, y.atan2(x));
-            let down_rad = EYE_HEIGHT_M.atan2((distance_m - 0.05).max(0.01));
+            let distance_m = geometry::hypot(x, y);
+            let pan_error_rad = geometry::angle_between(self.gaze.pan_rad, libm::atan2(y, x));
+            let down_rad = libm::atan2(EYE_HEIGHT_M, (distance_m - 0.05).max(0.01));
             let in_view =
                 pan_error_rad.abs() < 0.41 && (down_rad - self.gaze.down_rad).abs() < 0.34;
             if in_view
@@ -269,7 +273,8 @@ impl Simulation {
             .cloned();
         let way = match kept {
             Some(mut path) if blocked_cells == self.blocked_cells => {
-                let from = |p: &[f64; 2]| (p[0] - self.pose.x_m).hypot(p[1] - self.pose.y_m);
+                let from =
+                    |p: &[f64; 2]| geometry::hypot(p[0] - self.pose.x_m, p[1] - self.pose.y_m);
                 let nearest = (0..path.points_m.len())
                     .min_by(|&a, &b| from(&path.points_m[a]).total_cmp(&from(&path.points_m[b])));
                 let passed = nearest.unwrap_or(0);
@@ -345,7 +350,7 @@ impl Simulation {
         }
         path.points_m.push([self.goal.x_m, self.goal.y_m]);
         if self.ends_at_the_rim {
-            let away_m = |p: &[f64; 2]| (p[0] - self.goal.x_m).hypot(p[1] - self.goal.y_m);
+            let away_m = |p: &[f64; 2]| geometry::hypot(p[0] - self.goal.x_m, p[1] - self.goal.y_m);
             let rim = path
                 .points_m
                 .iter()
@@ -368,7 +373,7 @@ impl Simulation {
         self.obstacles
             .iter()
             .filter(known)
-            .all(|d| (d[0] - x).hypot(d[1] - y) > d[2] + BODY_RADIUS_M)
+            .all(|d| geometry::hypot(d[0] - x, d[1] - y) > d[2] + BODY_RADIUS_M)
     }
 }
 

@@ -23,7 +23,7 @@ fn a_path_that_ends_at_the_rim_of_the_disc_is_followed_to_its_middle() {
         "{:?}",
         simulation.states
     );
-    let miss_m = (simulation.pose.x_m - 1.0).hypot(simulation.pose.y_m - 0.1);
+    let miss_m = geometry::hypot(simulation.pose.x_m - 1.0, simulation.pose.y_m - 0.1);
     assert!(miss_m < 0.08, "{miss_m}");
 }
 
@@ -126,7 +126,7 @@ fn no_way_is_refused_with_the_planners_reason_after_looking_all_around() {
         .filter(|(name, _)| *name == "turn")
         .count();
     assert_eq!(turns, 1, "{:?}", simulation.states);
-    assert!(simulation.pose.x_m.hypot(simulation.pose.y_m) < 1e-9);
+    assert!(geometry::hypot(simulation.pose.x_m, simulation.pose.y_m) < 1e-9);
 }
 
 #[test]
@@ -374,7 +374,7 @@ mod slow {
             let mut simulation = Simulation::new(PlanarPose::new(x, y, yaw), [goal_x, goal_y]);
             let (outcome, _) = simulation.run(150.0);
             prop_assert_eq!(outcome, Some(Outcome::GoalReached), "{:?}", simulation.states);
-            let miss_m = (simulation.pose.x_m - goal_x).hypot(simulation.pose.y_m - goal_y);
+            let miss_m = geometry::hypot(simulation.pose.x_m - goal_x, simulation.pose.y_m - goal_y);
             prop_assert!(miss_m < 0.12, "{}", miss_m);
         }
 
@@ -385,7 +385,7 @@ mod slow {
                 let decision = simulation.tick();
                 let (x, y) = simulation.pose.apply(0.08, 0.0);
                 let forward = matches!(decision.command.motion, Motion::Walk(v) if v.x_mps > 0.02);
-                if forward && x.hypot(y) > 0.3 {
+                if forward && geometry::hypot(x, y) > 0.3 {
                     prop_assert!(simulation.view.at(x, y) != Surface::Unknown, "{} {} {:?}", x, y, simulation.states);
                 }
                 if decision.outcome.is_some() {

@@ -40,7 +40,7 @@ impl Track {
         };
         let distance = |index: usize| {
             let [x, y] = in_robot(index);
-            x.hypot(y)
+            geometry::hypot(x, y)
         };
         let all = path.points_m.len();
         let sidle = next_sidle(path, map_from_robot, &config.tuning.sidle);
@@ -84,7 +84,7 @@ impl Track {
     pub(crate) fn going_on_to(self, (x, y): (f64, f64)) -> Self {
         Self {
             target_m: [x, y],
-            remaining_m: x.hypot(y),
+            remaining_m: geometry::hypot(x, y),
             ..self
         }
     }
@@ -92,10 +92,10 @@ impl Track {
     /// Direction of the point steered to, rad to the left of straight ahead; 0 where the robot stands on it.
     pub(crate) fn bearing_rad(&self, tuning: &TrackTuning) -> f64 {
         let [x, y] = self.target_m;
-        if x.hypot(y) < tuning.on_target {
+        if geometry::hypot(x, y) < tuning.on_target {
             0.0
         } else {
-            y.atan2(x)
+            libm::atan2(y, x)
         }
     }
 
@@ -108,7 +108,7 @@ impl Track {
             return self.approach(top_mps, config);
         }
         let bearing_rad = self.bearing_rad(tuning);
-        let ahead = bearing_rad.cos().max(0.0).powi(2);
+        let ahead = libm::cos(bearing_rad).max(0.0).powi(2);
         // Only a path that runs about straight ahead is met by side steps; else the turn meets it.
         let side_mps = if bearing_rad.abs() < tuning.straight {
             tuning.side_gain * self.offset_m[1]
@@ -127,7 +127,7 @@ impl Track {
     fn approach(&self, top_mps: f64, config: &WalkingConfig) -> Velocity {
         let (time_s, least_mps) = (config.tuning.track.end_time, config.tuning.track.slowest);
         let [x, y] = self.target_m;
-        let left_m = x.hypot(y);
+        let left_m = geometry::hypot(x, y);
         if left_m < 1e-6 {
             return Velocity::default();
         }
@@ -167,7 +167,7 @@ pub(crate) mod tests {
     }
 
     pub(crate) fn straight(from: [f64; 2], to: [f64; 2]) -> Path {
-        let length_m = (to[0] - from[0]).hypot(to[1] - from[1]);
+        let length_m = geometry::hypot(to[0] - from[0], to[1] - from[1]);
         let count = (length_m / 0.04).ceil().max(1.0) as usize;
         let points_m: Vec<_> = (0..=count)
             .map(|i| {

@@ -60,7 +60,7 @@ fn unknown_places<'a>(
     foot_side_m: f64,
 ) -> impl Iterator<Item = [f64; 2]> + 'a {
     let [x, y] = track.offset_m;
-    let mut along_m = x.hypot(y);
+    let mut along_m = geometry::hypot(x, y);
     let nearest = track.nearest;
     let across = config.tuning.unknown.across;
     (nearest + 1..path.points_m.len())
@@ -83,7 +83,7 @@ fn is_unknown(
     across: usize,
 ) -> bool {
     let ([x0, y0], [x, y]) = (path.points_m[index - 1], path.points_m[index]);
-    let heading = PlanarPose::new(x, y, (y - y0).atan2(x - x0));
+    let heading = PlanarPose::new(x, y, libm::atan2(y - y0, x - x0));
     unknown_across(view, &heading, &[-foot_side_m, 0.0, foot_side_m]) >= across
 }
 

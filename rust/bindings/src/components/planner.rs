@@ -95,7 +95,8 @@ fn describe(points_m: Vec<[f64; 2]>, view: &FloorView) -> Path {
         .map(|[x, y]| view.at(*x, *y) == Surface::Unknown)
         .collect();
     let clearance_m = vec![f64::INFINITY; points_m.len()];
-    let length = |pair: &[[f64; 2]]| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
+    let length =
+        |pair: &[[f64; 2]]| geometry::hypot(pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]);
     let cost_m = points_m.windows(2).map(length).sum();
     Path {
         points_m,

@@ -117,7 +117,8 @@ impl HeadingMemory {
         if self.still_s > config.rest_time {
             self.rested_s += passed_s;
             let noise_radps = config.rest_noise / self.rested_s.sqrt();
-            self.filter.rested(noise_radps.hypot(config.bias_creep));
+            self.filter
+                .rested(geometry::hypot(noise_radps, config.bias_creep));
         }
     }
 

@@ -47,12 +47,13 @@ pub(super) fn beams(planes: &Planes, config: &MatchingConfig) -> Vec<UprightBeam
             let count = surface.len() as f64;
             let mean = |of: fn(&UprightPoint) -> f64| surface.iter().map(of).sum::<f64>() / count;
             let (distance_m, bearing_rad) = (mean(|s| s.distance_m), mean(|s| s.bearing_rad));
-            let slant_m = distance_m.hypot(eye.z - mean(|s| s.height_m));
-            let along_m = (noise_per_m * slant_m * distance_m
-                / (count / tuning.window).max(1.0).sqrt())
-            .hypot(tuning.least_noise);
+            let slant_m = geometry::hypot(distance_m, eye.z - mean(|s| s.height_m));
+            let along_m = geometry::hypot(
+                noise_per_m * slant_m * distance_m / (count / tuning.window).max(1.0).sqrt(),
+                tuning.least_noise,
+            );
             let across_m = (tuning.across * config.beam * distance_m).max(tuning.least_across);
-            let ahead = Vector2::new(bearing_rad.cos(), bearing_rad.sin());
+            let ahead = Vector2::new(libm::cos(bearing_rad), libm::sin(bearing_rad));
             let aside = Vector2::new(-ahead.y, ahead.x);
             Some(UprightBeam {
                 place_m: eye.coords.xy() + ahead * distance_m,
@@ -75,8 +76,8 @@ fn sightings(planes: &Planes, config: &MatchingConfig) -> Vec<UprightPoint> {
         .filter_map(|(point, _)| {
             let [x_m, y_m, height_m] = point.map(f64::from);
             let (ahead_m, aside_m) = (x_m - eye.x, y_m - eye.y);
-            let distance_m = ahead_m.hypot(aside_m);
-            let bearing_rad = aside_m.atan2(ahead_m);
+            let distance_m = geometry::hypot(ahead_m, aside_m);
+            let bearing_rad = libm::atan2(aside_m, ahead_m);
             // False for what is no number, too.
             let counts = height_m > tuning.lowest
                 && distance_m > tuning.nearest

@@ -84,7 +84,7 @@ impl UprightSurfaces {
             if distance2 > near * near {
                 continue;
             }
-            let share = patch.count * (-0.5 * distance2).exp();
+            let share = patch.count * libm::exp(-0.5 * distance2);
             weight += share;
             first += off * share;
             second += (patch.scatter_m2 / patch.count + off * off.transpose()) * share;
@@ -110,9 +110,9 @@ impl UprightSurfaces {
 fn principal(spread: &Matrix2<f64>) -> (f64, f64, Vector2<f64>) {
     let (xx, yy, xy) = (spread.m11, spread.m22, spread.m12);
     let (mean, half) = (f64::midpoint(xx, yy), 0.5 * (xx - yy));
-    let radius = half.hypot(xy);
-    let along_rad = 0.5 * xy.atan2(half);
-    let (sin, cos) = along_rad.sin_cos();
+    let radius = geometry::hypot(half, xy);
+    let along_rad = 0.5 * libm::atan2(xy, half);
+    let (sin, cos) = libm::sincos(along_rad);
     (
         (mean - radius).max(0.0),
         mean + radius,
@@ -128,7 +128,7 @@ mod tests {
     proptest! {
         #[test]
         fn a_wall_has_its_normal_wherever_it_stands(angle in -3.0..3.0f64, shift in -0.4..0.4f64, at in -0.4..0.4f64) {
-            let along = Vector2::new(angle.cos(), angle.sin());
+            let along = Vector2::new(libm::cos(angle), libm::sin(angle));
             let normal = Vector2::new(-along.y, along.x);
             let mut surfaces = UprightSurfaces::new(0.05, &SurfacesTuning::default());
             for step in -100..=100 {
@@ -145,7 +145,7 @@ mod tests {
         let mut surfaces = UprightSurfaces::new(0.05, &SurfacesTuning::default());
         assert_eq!(surfaces.wall_at(Vector2::zeros()), None);
         for step in 0..20 {
-            let (sin, cos) = (0.3 * f64::from(step)).sin_cos();
+            let (sin, cos) = libm::sincos(0.3 * f64::from(step));
             surfaces.add(Vector2::new(cos, sin) * 0.03);
         }
         assert_eq!(surfaces.wall_at(Vector2::zeros()), None);

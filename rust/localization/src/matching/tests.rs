@@ -159,7 +159,9 @@ impl Drive {
             let estimate = self.see(pose);
             let place = estimate.origin().inner;
             worst.0 = worst.0.max(wrap_angle(estimate.yaw_rad() - pose[2]).abs());
-            worst.1 = worst.1.max((place.x - pose[0]).hypot(place.y - pose[1]));
+            worst.1 = worst
+                .1
+                .max(geometry::hypot(place.x - pose[0], place.y - pose[1]));
         }
         worst
     }
@@ -192,7 +194,7 @@ fn one_wall_is_enough_for_the_heading_and_moves_nothing() {
         let estimate = drive.see([0.0, y_m, 0.0]);
         let place = estimate.origin().inner;
         // No further off than that heading takes it over the way.
-        assert!(place.x.hypot(place.y - y_m) < 0.02, "{place}");
+        assert!(geometry::hypot(place.x, place.y - y_m) < 0.02, "{place}");
         assert!(estimate.yaw_rad().abs() < 0.02, "{}", estimate.yaw_rad());
     }
 }
@@ -224,7 +226,7 @@ fn a_wall_that_moves_is_not_followed() {
     let mut worst_rad = 0.0_f64;
     for step in 0..100 {
         let angle_rad = (0.0042 * f64::from(step)).min(0.105);
-        let (sin, cos) = angle_rad.sin_cos();
+        let (sin, cos) = libm::sincos(angle_rad);
         let hinge = Vector2::new(0.6, -0.4);
         let [begin, end] = [-9.0, 9.0].map(|s| (hinge + Vector2::new(-sin, cos) * s).into());
         drive.sides = vec![[begin, end]];

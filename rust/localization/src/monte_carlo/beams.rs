@@ -75,7 +75,7 @@ impl Beams {
             self.drawn.push(RangeBeam {
                 direction: along.into(),
                 range_m,
-                noise_m: config.range_noise.hypot(growth_m),
+                noise_m: geometry::hypot(config.range_noise, growth_m),
                 is_ground: sighting.is_ground,
             });
         }
@@ -126,7 +126,7 @@ mod tests {
             let eye = Eye::ahead();
             let mut planes = world.frame(&robot, &eye, number);
             // What is seen is turned about the robot by an attitude that is wrong.
-            let axis = Vector3::new(tilt_about.cos(), tilt_about.sin(), 0.0);
+            let axis = Vector3::new(libm::cos(tilt_about), libm::sin(tilt_about), 0.0);
             let wrong = UnitQuaternion::new(axis * 5.0_f64.to_radians());
             let config = MonteCarloConfig::default();
             for point in &mut planes.points_in_robot_m {

@@ -79,7 +79,7 @@ impl Belief {
             self.covariance.m22,
             self.covariance.m12,
         );
-        let radius = (0.5 * (xx - yy)).hypot(xy);
+        let radius = geometry::hypot(0.5 * (xx - yy), xy);
         (f64::midpoint(xx, yy) + radius).max(0.0).sqrt()
     }
 }

@@ -57,7 +57,7 @@ mod tests {
         assert!(!doubt.is_lost(&config) && doubt.explained() > 0.9);
         let fit = |on: f64, before: f64| FrameFit::of([on, before, 50.0 - on - before]);
         for step in 0..200 {
-            doubt.update(fit(40.0 + 5.0 * f64::from(step).sin(), 0.0), &config);
+            doubt.update(fit(40.0 + 5.0 * libm::sin(f64::from(step)), 0.0), &config);
             assert!(!doubt.is_lost(&config));
         }
         // Much that is not mapped: no reason to be lost, but one to look whether another place is better.

@@ -49,7 +49,7 @@ impl BodyReading {
     /// Where the camera looks to by leg odometry, rad.
     pub(super) fn heading_of_camera_rad(&self) -> f64 {
         let along = self.odometry_from_camera.rotation * Vector3::z();
-        along.y.atan2(along.x)
+        libm::atan2(along.y, along.x)
     }
 }
 
@@ -108,7 +108,7 @@ impl TorsoMotion {
     /// Moves a guess by the increment and its error.
     pub(super) fn apply(&self, pose: &mut TorsoPose, draw: &[f64; 6]) {
         let shift: [f64; 3] = std::array::from_fn(|a| self.shift_m[a] + draw[a]);
-        let (sin, cos) = pose.yaw_rad.sin_cos();
+        let (sin, cos) = libm::sincos(pose.yaw_rad);
         pose.place_m[0] += cos * shift[0] - sin * shift[1];
         pose.place_m[1] += sin * shift[0] + cos * shift[1];
         pose.place_m[2] += shift[2];
@@ -150,7 +150,7 @@ mod tests {
             pitch_rad: -0.03,
             yaw_rad: 1.2,
         };
-        let (sin, cos) = start.yaw_rad.sin_cos();
+        let (sin, cos) = libm::sincos(start.yaw_rad);
         let draws = 100_000;
         let (mut mean, mut square) = (SVector::<f64, 6>::zeros(), SMatrix::<f64, 6, 6>::zeros());
         for index in 0..draws {

@@ -78,7 +78,7 @@ impl SeenFrame {
         self.rays.clear();
         self.left_out.clear();
         self.rays.extend(beams.drawn.iter().map(|beam: &RangeBeam| {
-            let noise_m = beam.noise_m.hypot(blur_m);
+            let noise_m = geometry::hypot(beam.noise_m, blur_m);
             let per_noise = 1.0 / noise_m;
             BeamRay {
                 direction: beam.direction,
@@ -87,14 +87,13 @@ impl SeenFrame {
                 per_noise,
                 hit: hit * per_noise / std::f64::consts::TAU.sqrt(),
                 is_ground: beam.is_ground,
-                short: short * config.short_rate * (-config.short_rate * beam.range_m).exp(),
+                short: short * config.short_rate * libm::exp(-config.short_rate * beam.range_m),
             }
         }));
         self.height_m = reading.torso_height_m;
         // The map's ground is as coarse as its voxels: an even distribution over one has a twelfth of its square as variance.
-        self.height_noise_m = config
-            .height_noise
-            .hypot(map.resolution_m() / 12.0_f64.sqrt());
+        self.height_noise_m =
+            geometry::hypot(config.height_noise, map.resolution_m() / 12.0_f64.sqrt());
         let torso = &reading.odometry_from_torso;
         self.attitude_rad = [torso.roll_rad, torso.pitch_rad];
         self.attitude_noise_rad = config.attitude_noise;

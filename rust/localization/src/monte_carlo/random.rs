@@ -44,8 +44,8 @@ impl Stream {
         let mut numbers = [0.0; N];
         for pair in numbers.chunks_mut(2) {
             // 1 - u is above 0.
-            let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
-            let (sin, cos) = (std::f64::consts::TAU * self.uniform()).sin_cos();
+            let radius = (-2.0 * libm::log(1.0 - self.uniform())).sqrt();
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * self.uniform());
             for (slot, value) in pair.iter_mut().zip([radius * cos, radius * sin]) {
                 *slot = value;
             }

@@ -36,7 +36,7 @@ pub(super) fn weigh(
     let exponent = flattening(particles, logs, least, tuning);
     let (weights, mut sum) = (logs, 0.0);
     for (particle, log) in particles.iter().zip(weights.iter_mut()) {
-        *log = particle.weight * (exponent * *log).exp();
+        *log = particle.weight * libm::exp(exponent * *log);
         sum += *log;
     }
     // Nothing: the best may be one that weighed nothing before.
@@ -52,7 +52,7 @@ fn flattening(particles: &[Particle], logs: &[f64], least: f64, tuning: &Weights
     let is_enough = |exponent: f64| {
         let (mut sum, mut squares) = (0.0, 0.0);
         for (particle, log) in particles.iter().zip(logs) {
-            let weight = particle.weight * (exponent * log).exp();
+            let weight = particle.weight * libm::exp(exponent * log);
             sum += weight;
             squares += weight * weight;
         }
@@ -134,9 +134,9 @@ mod tests {
             let mut particles = cloud(logs.len());
             let likelihoods: Vec<_> = logs.iter().map(|&log| of(log)).collect();
             weigh(&mut particles, &likelihoods, [1.0, 0.1], &WeightsTuning::default(), &mut Vec::new());
-            let sum = logs.iter().map(|log| log.exp()).sum::<f64>();
-            for (particle, log) in particles.iter().zip(&logs) {
-                prop_assert!((particle.weight - log.exp() / sum).abs() < 1e-12);
+            let sum = logs.iter().map(|&log| libm::exp(log)).sum::<f64>();
+            for (particle, &log) in particles.iter().zip(&logs) {
+                prop_assert!((particle.weight - libm::exp(log) / sum).abs() < 1e-12);
             }
         }
 

@@ -229,7 +229,7 @@ impl<'a> Walk<'a> {
             0.003 * noise[1],
             turn_rad + self.drift[1] + 0.004 * noise[2],
         ));
-        let sway = |number: u64| 0.03 * (0.9 * number as f64).sin();
+        let sway = |number: u64| 0.03 * libm::sin(0.9 * number as f64);
         let tilt = UnitQuaternion::from_euler_angles(sway(self.number), 0.05, 0.0);
         let measured = UnitQuaternion::from_euler_angles(
             sway(self.number) + 0.005 * noise[3],
@@ -253,7 +253,7 @@ impl<'a> Walk<'a> {
         let estimate = self.localizer.estimate(&body).unwrap().map_from_robot;
         let at = estimate.origin().inner;
         [
-            (at.x - x_m).hypot(at.y - y_m),
+            geometry::hypot(at.x - x_m, at.y - y_m),
             geometry::wrap_angle(estimate.yaw_rad() - yaw_rad).abs(),
             (at.z - self.level_m).abs(),
         ]

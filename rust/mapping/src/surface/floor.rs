@@ -228,7 +228,7 @@ impl FloorGrid {
             *top = INVALID;
             *sum = (0.0, 0);
             let [x, y] = self.lattice.center_of(cell);
-            let distance_m = (x - eye_x_m).hypot(y - eye_y_m) as f32;
+            let distance_m = geometry::hypot(x - eye_x_m, y - eye_y_m) as f32;
             self.merge((cell, index), measured, distance_m, update);
         }
     }

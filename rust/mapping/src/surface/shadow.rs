@@ -91,7 +91,7 @@ impl<'a> Shadow<'a> {
             self.eye_m[1] - y_m,
             self.eye_m[2] - z_m,
         ];
-        let distance_m = back[0].hypot(back[1]);
+        let distance_m = geometry::hypot(back[0], back[1]);
         let cell_m = self.view.lattice.cell_m;
         let cells = (self.reach_m.min(distance_m) / cell_m).round() as i32;
         (1..=cells).any(|cell| {

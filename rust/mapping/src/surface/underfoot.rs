@@ -34,7 +34,7 @@ impl Underfoot {
         };
         for cell in window.cells() {
             let [cx, cy] = lattice.center_of(cell);
-            if (cx - x).hypot(cy - y) <= reach
+            if geometry::hypot(cx - x, cy - y) <= reach
                 && let Some(height) = self.heights.get_mut(cell)
             {
                 *height = z as f32;

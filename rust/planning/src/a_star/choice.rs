@@ -107,13 +107,13 @@ impl AStar {
 
 /// How far the robot has to turn to set off on a path, rad.
 fn turn_rad(path: &Path, start: &PlanarPose, setting_off_m: f64) -> f64 {
-    let away_m = |point: &&[f64; 2]| (point[0] - start.x_m).hypot(point[1] - start.y_m);
+    let away_m = |point: &&[f64; 2]| geometry::hypot(point[0] - start.x_m, point[1] - start.y_m);
     let ahead = path
         .points_m
         .iter()
         .find(|point| away_m(point) > setting_off_m);
     ahead.map_or(0.0, |[x, y]| {
-        let bearing_rad = (y - start.y_m).atan2(x - start.x_m);
+        let bearing_rad = libm::atan2(y - start.y_m, x - start.x_m);
         angle_between(start.yaw_rad, bearing_rad).abs()
     })
 }

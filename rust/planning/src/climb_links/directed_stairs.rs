@@ -125,7 +125,7 @@ impl DirectedStairs {
         for (index, face) in self.all.iter().enumerate() {
             let turned_rad = back.askew_rad(&face.front);
             let depth_m =
-                -face.front.beyond_m(crossing_m) / turned_rad.cos().max(tuning.least_cosine);
+                -face.front.beyond_m(crossing_m) / libm::cos(turned_rad).max(tuning.least_cosine);
             let joined = own.is_none_or(|own| own / 2 != index / 2)
                 && turned_rad <= askew_rad
                 && depth_m > tuning.least_depth
@@ -229,8 +229,8 @@ pub(crate) fn ground_behind(stair: &Stair<Map>, height_m: f64, depth_m: f64) -> 
     let heading_rad = stair.back.heading_rad();
     let moved = |point: Point<Map>, by_m: f64| {
         Point::new(
-            point.inner.x + by_m * heading_rad.cos(),
-            point.inner.y + by_m * heading_rad.sin(),
+            point.inner.x + by_m * libm::cos(heading_rad),
+            point.inner.y + by_m * libm::sin(heading_rad),
             height_m,
         )
     };

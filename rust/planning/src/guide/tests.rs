@@ -64,7 +64,7 @@ fn seen(things: &[Block], at_m: [f64; 2]) -> FloorView {
     let mut view = FloorView::new(lattice, Grid::filled(cells, cells, Surface::Unknown), 9);
     for cell in view.cells.area().cells() {
         let place_m = lattice.center_of(cell);
-        if (place_m[0] - at_m[0]).hypot(place_m[1] - at_m[1]) < SIGHT_M {
+        if geometry::hypot(place_m[0] - at_m[0], place_m[1] - at_m[1]) < SIGHT_M {
             let stands = things.iter().any(|block| holds(block, place_m));
             let surface = [Surface::Floor(0.0), Surface::Obstacle(0.6)][usize::from(stands)];
             *view.cells.get_mut(cell).unwrap() = surface;
@@ -89,7 +89,8 @@ fn goal(x_m: f64, y_m: f64) -> Goal {
 /// The largest distance between neighbouring points, m.
 fn largest_jump_m(path: &Path) -> f64 {
     let jumps = path.points_m.windows(2);
-    let jumps_m = jumps.map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]));
+    let jumps_m =
+        jumps.map(|pair| geometry::hypot(pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]));
     jumps_m.fold(0.0, f64::max)
 }
 
@@ -111,7 +112,7 @@ fn walk(
         prop_assert!(largest_jump_m(&path) <= 2.0_f64.sqrt() * CELL_M + 1e-9);
         prop_assert_eq!(path.unknown.len(), path.points_m.len());
         prop_assert_eq!(path.clearance_m.len(), path.points_m.len());
-        let away_m = |point: &&[f64; 2]| (point[0] - at_m[0]).hypot(point[1] - at_m[1]);
+        let away_m = |point: &&[f64; 2]| geometry::hypot(point[0] - at_m[0], point[1] - at_m[1]);
         let next = path.points_m.iter().find(|point| away_m(point) > 0.1);
         let Some(&next_m) = next else {
             break; // arrived
@@ -132,7 +133,7 @@ fn the_way_round_a_known_wall_leads_away_from_the_goal_at_first() {
     let mut guided = guided(&map);
     let plan = guided.plan(&view, &Staircase::default(), &start, &goal);
     let path = plan.unwrap().way.unwrap();
-    let away_m = |[x, y]: [f64; 2]| (x - goal.x_m).hypot(y - goal.y_m);
+    let away_m = |[x, y]: [f64; 2]| geometry::hypot(x - goal.x_m, y - goal.y_m);
     let metre = path.points_m[(1.0 / CELL_M) as usize];
     assert!(away_m(metre) > away_m(start_m) + 0.3, "{metre:?}");
     assert!(away_m(*path.points_m.last().unwrap()) < goal.radius_m);
@@ -167,7 +168,7 @@ fn what_blocks_the_nearer_of_two_ways_is_seen_and_the_other_one_taken() {
     let [x, y] = *been_m.last().unwrap();
     assert!(been_m.iter().any(below), "{been_m:?}");
     assert!(
-        (x - goal.x_m).hypot(y - goal.y_m) < goal.radius_m,
+        geometry::hypot(x - goal.x_m, y - goal.y_m) < goal.radius_m,
         "{x} {y}"
     );
 }
@@ -189,7 +190,7 @@ fn a_path_is_lengthened_only_from_where_the_planner_was_sent() {
         guided.lengthen(&mut path, &way, sent, CELL_M);
         path
     };
-    let away_m = |[x, y]: [f64; 2]| (x - sent.0.x_m).hypot(y - sent.0.y_m);
+    let away_m = |[x, y]: [f64; 2]| geometry::hypot(x - sent.0.x_m, y - sent.0.y_m);
     let off = whole.points_m.iter().position(|at_m| away_m(*at_m) < 0.5);
     let on = whole.points_m.iter().position(|at_m| away_m(*at_m) < 0.15);
     let (off, on) = (off.unwrap() + 1, on.unwrap() + 1);

@@ -24,7 +24,7 @@ impl GroundOutside {
         let (lattice, has_moved) = self.follow(terrain);
         for (index, &unknown) in terrain.unknown.iter().enumerate() {
             let at_m = terrain.center_m(index);
-            let near = (at_m[0] - robot_m[0]).hypot(at_m[1] - robot_m[1]) < near_m;
+            let near = geometry::hypot(at_m[0] - robot_m[0], at_m[1] - robot_m[1]) < near_m;
             if let Some([col, row]) = cell_at(&lattice, at_m).filter(|_| !unknown) {
                 let known = &mut self.blocked[row * SIDE + col];
                 *known = terrain.blocked[index] || *known && !near;

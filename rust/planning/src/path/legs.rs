@@ -55,7 +55,7 @@ impl Path {
         let begin = self.points_m.len() - 1;
         for stride in strides {
             let at_m = self.points_m[self.points_m.len() - 1];
-            let away_m = (at_m[0] - stride.from_m[0]).hypot(at_m[1] - stride.from_m[1]);
+            let away_m = geometry::hypot(at_m[0] - stride.from_m[0], at_m[1] - stride.from_m[1]);
             let from = self.points_m.len() - 1;
             let joined = self.climbs.last_mut().filter(|climb| {
                 climb.to_point == from && from > begin && away_m <= tuning.same_place

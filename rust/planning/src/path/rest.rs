@@ -204,7 +204,7 @@ fn rest_of(
     let mut along = 0.0;
     for (i, pair) in points.windows(2).enumerate() {
         let d = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
-        let length = d[0].hypot(d[1]);
+        let length = geometry::hypot(d[0], d[1]);
         let dot = (at[0] - pair[0][0]) * d[0] + (at[1] - pair[0][1]) * d[1];
         let t = if length > 0.0 {
             (dot / (length * length)).clamp(0.0, 1.0)
@@ -212,7 +212,7 @@ fn rest_of(
             0.0
         };
         let foot = [pair[0][0] + t * d[0], pair[0][1] + t * d[1]];
-        let away = (at[0] - foot[0]).hypot(at[1] - foot[1]);
+        let away = geometry::hypot(at[0] - foot[0], at[1] - foot[1]);
         if best.is_none_or(|(least, ..)| away < least) {
             best = Some((away, i, t, foot));
         }

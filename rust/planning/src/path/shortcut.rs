@@ -81,7 +81,7 @@ pub(crate) fn lay(points: &mut Vec<[f64; 2]>, to: [f64; 2], cell_m: f64) {
     let Some(&from) = points.last() else {
         return;
     };
-    let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+    let length = geometry::hypot(to[0] - from[0], to[1] - from[1]);
     let pieces = (length / cell_m).ceil().max(1.0) as usize;
     for piece in 1..=pieces {
         let t = piece as f64 / pieces as f64;

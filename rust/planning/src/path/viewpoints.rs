@@ -35,7 +35,7 @@ impl Viewpoints {
 
     /// Says that the robot stands at `at_m` on its way to look from `end_m`; true once it has seen what there is to see.
     pub(crate) fn arrive(&mut self, at_m: [f64; 2], end_m: [f64; 2]) -> bool {
-        if (at_m[0] - end_m[0]).hypot(at_m[1] - end_m[1]) > self.tuning.there {
+        if geometry::hypot(at_m[0] - end_m[0], at_m[1] - end_m[1]) > self.tuning.there {
             self.frames = 0;
             return false;
         }
@@ -102,8 +102,9 @@ impl Viewpoints {
         }
         for (index, worth) in self.worth.iter_mut().enumerate() {
             let place_m = terrain.center_m(index);
-            let seen =
-                |at_m: &[f64; 2]| (place_m[0] - at_m[0]).hypot(place_m[1] - at_m[1]) <= seen_m;
+            let seen = |at_m: &[f64; 2]| {
+                geometry::hypot(place_m[0] - at_m[0], place_m[1] - at_m[1]) <= seen_m
+            };
             *worth =
                 *worth && terrain.weights[index].is_finite() && !self.looked_m.iter().any(seen);
         }

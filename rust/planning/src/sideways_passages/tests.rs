@@ -92,8 +92,8 @@ fn touches(view: &FloorView, path: &Path) -> Option<[f64; 2]> {
             let [dx, dy] = [x - at_m[0], y - at_m[1]];
             // A point of the path lies up to half a diagonal from the cell centre that the circle was looked at in.
             let off_m = 0.5_f64.sqrt() * view.lattice.cell_m;
-            sidle.map_or(dx.hypot(dy) > NEEDED_M - off_m, |sidle| {
-                let (sin, cos) = sidle.heading_rad.sin_cos();
+            sidle.map_or(geometry::hypot(dx, dy) > NEEDED_M - off_m, |sidle| {
+                let (sin, cos) = libm::sincos(sidle.heading_rad);
                 let ahead_m = (cos * dx + sin * dy).abs();
                 let aside_m = (cos * dy - sin * dx).abs();
                 let [half_depth_m, half_width_m] = BOX_M.map(|m| 0.5 * m + MARGIN_M);
@@ -124,7 +124,7 @@ fn what_the_circle_refuses_is_passed_sideways_and_what_it_passes_is_passed_as_ev
         "the widest gap is 0.38 m, 0.40 m are needed"
     );
     let path = plan(&mut oriented, &narrow, &start).way.unwrap();
-    assert!(matches!(path.sidles[..], [sidle] if sidle.heading_rad.cos().abs() < 1e-9));
+    assert!(matches!(path.sidles[..], [sidle] if libm::cos(sidle.heading_rad).abs() < 1e-9));
     assert_eq!(touches(&narrow, &path), None);
     let [round, turned] = [Footprint::Circle, Footprint::Oriented]
         .map(|footprint| plan(&mut planner(footprint), &wide, &start).way.unwrap());

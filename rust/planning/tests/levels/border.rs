@@ -59,13 +59,14 @@ fn walked_m(walls: &[[[f64; 2]; 2]], goal: &Goal) -> f64 {
     const STRIDE_M: f64 = 0.1;
     let mut planner = planner();
     let (mut at, mut walked_m) = ([0.0, 0.0], 0.0);
-    while walked_m < 200.0 && (goal.x_m - at[0]).hypot(goal.y_m - at[1]) > goal.radius_m {
+    while walked_m < 200.0 && geometry::hypot(goal.x_m - at[0], goal.y_m - at[1]) > goal.radius_m {
         let course = seen_from(at, walls);
         let here = course.view.cell(Cell::new(50, 50));
         assert!(matches!(here, Surface::Floor(_)), "in a wall at {at:?}");
         let plan = plan(&mut planner, &course, [at[0], at[1], 0.0], 0.0, goal);
         let path = plan.way.unwrap();
-        let ahead = |point: &&[f64; 2]| (point[0] - at[0]).hypot(point[1] - at[1]) >= STRIDE_M;
+        let ahead =
+            |point: &&[f64; 2]| geometry::hypot(point[0] - at[0], point[1] - at[1]) >= STRIDE_M;
         let next = path.points_m.iter().find(ahead);
         at = *next.or(path.points_m.last()).unwrap();
         walked_m += STRIDE_M;
@@ -98,7 +99,7 @@ fn a_goal_that_comes_in_sight_behind_a_long_wall_is_not_walked_back_for() {
         let course = seen_from(at, &LONG_WALL);
         let plan = plan(&mut planner, &course, [at[0], at[1], 0.0], 0.0, &behind);
         let path = plan.way.unwrap();
-        let ahead = |point: &&[f64; 2]| (point[0] - at[0]).hypot(point[1] - at[1]) >= 0.1;
+        let ahead = |point: &&[f64; 2]| geometry::hypot(point[0] - at[0], point[1] - at[1]) >= 0.1;
         let next = *path
             .points_m
             .iter()
@@ -109,7 +110,7 @@ fn a_goal_that_comes_in_sight_behind_a_long_wall_is_not_walked_back_for() {
         at = next;
     }
     assert!(
-        (at[0] - behind.x_m).hypot(at[1] - behind.y_m) <= behind.radius_m,
+        geometry::hypot(at[0] - behind.x_m, at[1] - behind.y_m) <= behind.radius_m,
         "{at:?}"
     );
     assert!(turned_back_m < 1.5, "{turned_back_m}");

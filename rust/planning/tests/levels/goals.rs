@@ -64,7 +64,7 @@ fn where_no_way_leads_up_any_place_in_the_disc_will_do() {
     for _ in 0..200 {
         let path = plan(&mut planner, &course, at, 0.0, &table).way.unwrap();
         let &[x, y] = path.points_m.last().unwrap();
-        if (x - table.x_m).hypot(y - table.y_m) <= table.radius_m {
+        if geometry::hypot(x - table.x_m, y - table.y_m) <= table.radius_m {
             return;
         }
         at = [x, y, 0.0];

@@ -50,7 +50,7 @@ fn blocks(boxes: &[Block]) -> Course {
             x < high.x && x + size > low.x && y < high.y && y + size > low.y
         };
         let covered = course.stairs.stairs.iter().any(covers);
-        if covered || nearest(x).hypot(nearest(y)) < 0.3 {
+        if covered || geometry::hypot(nearest(x), nearest(y)) < 0.3 {
             continue;
         }
         let height = Surface::Floor(height_m as f32);
@@ -175,7 +175,7 @@ fn a_box_whose_top_is_flat_is_kept_clear_of_by_the_body() {
     course.paint([0.6, -0.2], [0.9, 0.12], Surface::Floor(0.25));
     let path = way(&course, 0.0, &goal(1.5, 0.0));
     for [x, y] in path.points_m {
-        let away_m = (x - x.clamp(0.6, 0.9)).hypot(y - y.clamp(-0.2, 0.12));
+        let away_m = geometry::hypot(x - x.clamp(0.6, 0.9), y - y.clamp(-0.2, 0.12));
         assert!(away_m > 0.14, "{x} {y}");
     }
 }

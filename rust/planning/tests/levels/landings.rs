@@ -48,7 +48,7 @@ fn from_a_landing_seen_in_part_the_goal_on_it_is_walked_to() {
     let path = way_from(&course, [1.3, 0.0, 0.08], 0.0, &goal);
     assert_eq!(steps(&path), 0, "{:?}", path.points_m);
     let [x, y] = path.points_m[path.points_m.len() - 1];
-    assert!((x - goal.x_m).hypot(y - goal.y_m) < goal.radius_m);
+    assert!(geometry::hypot(x - goal.x_m, y - goal.y_m) < goal.radius_m);
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn the_outline_of_the_floor_beside_a_landing_bars_no_way_along_it() {
     let path = way_from(&course, [0.0, 0.0, 0.08], 0.0, &goal_at(1.3, 0.0, 0.08));
     assert!(path.climbs.is_empty(), "{:?}", path.climbs);
     let [x, y] = path.points_m[path.points_m.len() - 1];
-    assert!((x - 1.3).hypot(y) < 0.1, "{x} {y}");
+    assert!(geometry::hypot(x - 1.3, y) < 0.1, "{x} {y}");
 }
 
 /// How near a path comes to a box to its right, m.
@@ -105,7 +105,7 @@ fn room_beside_m(box_height_m: f64) -> f64 {
     });
     let off_m = beside.map(|[x, y]| {
         let ahead_m = (0.8 - x).max(x - 1.1).max(0.0);
-        ahead_m.hypot((y - TOP).max(0.0))
+        geometry::hypot(ahead_m, (y - TOP).max(0.0))
     });
     off_m.fold(f64::INFINITY, f64::min)
 }

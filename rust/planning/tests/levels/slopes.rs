@@ -15,7 +15,7 @@ const HALF_WIDTH_M: f64 = 0.5;
 /// a level strip.
 fn slope(heading_rad: f64, rise: f64, told: bool) -> Course {
     let mut course = Course::floor();
-    let (sin, cos) = heading_rad.sin_cos();
+    let (sin, cos) = libm::sincos(heading_rad);
     let cells: Vec<Cell> = course.view.cells.area().cells().collect();
     for cell in cells {
         let [x, y] = course.view.lattice.center_of(cell);
@@ -37,7 +37,7 @@ fn slope(heading_rad: f64, rise: f64, told: bool) -> Course {
 
 /// The longest way off the straight line along `heading_rad`, m.
 fn off_m(path: &Path, heading_rad: f64) -> f64 {
-    let (sin, cos) = heading_rad.sin_cos();
+    let (sin, cos) = libm::sincos(heading_rad);
     let off_m = path.points_m.iter().map(|[x, y]| (cos * y - sin * x).abs());
     off_m.fold(0.0, f64::max)
 }
@@ -45,12 +45,12 @@ fn off_m(path: &Path, heading_rad: f64) -> f64 {
 #[test]
 fn a_slope_in_any_direction_is_walked_straight_up() {
     for heading_rad in [0.0, 0.4, std::f64::consts::FRAC_PI_4] {
-        let (sin, cos) = f64::sin_cos(heading_rad);
+        let (sin, cos) = libm::sincos(heading_rad);
         let goal = goal_at(1.6 * cos, 1.6 * sin, TOP_M);
         let path = way(&slope(heading_rad, RISE, true), heading_rad, &goal);
         assert!(path.climbs.is_empty());
         let last = path.points_m.last().unwrap();
-        assert!(last[0].hypot(last[1]) > 1.4, "{last:?}");
+        assert!(geometry::hypot(last[0], last[1]) > 1.4, "{last:?}");
         assert!(off_m(&path, heading_rad) < 0.1, "{heading_rad}");
     }
 }
@@ -58,14 +58,14 @@ fn a_slope_in_any_direction_is_walked_straight_up() {
 #[test]
 fn what_is_not_told_to_be_a_slope_is_no_way_up() {
     let heading_rad = std::f64::consts::FRAC_PI_4;
-    let (sin, cos) = heading_rad.sin_cos();
+    let (sin, cos) = libm::sincos(heading_rad);
     let goal = goal_at(1.6 * cos, 1.6 * sin, TOP_M);
     let course = slope(heading_rad, RISE, false);
     let found = plan(&mut planner(), &course, [0.0; 3], heading_rad, &goal);
     let up = |path: &Path| {
         path.points_m
             .last()
-            .is_some_and(|at| at[0].hypot(at[1]) > 1.4)
+            .is_some_and(|at| geometry::hypot(at[0], at[1]) > 1.4)
     };
     assert!(!found.way.is_ok_and(|path| up(&path)));
 }
@@ -73,7 +73,7 @@ fn what_is_not_told_to_be_a_slope_is_no_way_up() {
 /// A slope of 15 degrees across the whole floor, with a platform behind it.
 #[test]
 fn a_slope_that_is_too_steep_is_looked_at_from_near_and_then_refused() {
-    let course = slope(0.0, 15.0_f64.to_radians().tan(), true);
+    let course = slope(0.0, libm::tan(15.0_f64.to_radians()), true);
     let (goal, mut planner) = (goal_at(1.6, 0.0, TOP_M), planner());
     let (mut at, mut calls) = ([0.0; 2], 0);
     let mut nearest_m = f64::INFINITY;

@@ -16,7 +16,7 @@ fn run(walk: &Walk) -> Vec<BodyState> {
 
 fn error_m(state: &BodyState, truth: &PlanarPose) -> f64 {
     let is = state.odometry_from_robot.inner.translation.vector;
-    (is.x - truth.x_m).hypot(is.y - truth.y_m)
+    geometry::hypot(is.x - truth.x_m, is.y - truth.y_m)
 }
 
 #[test]

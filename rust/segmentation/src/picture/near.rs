@@ -39,7 +39,8 @@ impl<'a> NearFeet<'a> {
             let y_m = self.camera_m.y + f64::from(y.at(col) / d);
             let square = x_m * x_m + y_m * y_m;
             // The exact distance takes long, and is asked for where it matters.
-            square < self.surely || square < self.possibly && x_m.hypot(y_m) < self.reach_m
+            square < self.surely
+                || square < self.possibly && geometry::hypot(x_m, y_m) < self.reach_m
         })
     }
 }
@@ -61,7 +62,7 @@ mod tests {
             let distance_m = |col: usize| {
                 let x_m = camera_m.x + f64::from(view.x.at(col, row) / d);
                 let y_m = camera_m.y + f64::from(view.y.at(col, row) / d);
-                x_m.hypot(y_m)
+                geometry::hypot(x_m, y_m)
             };
             // As far as one of the pixels, or nearly so.
             let reach_m = (distance_m(CAMERA.width / 2) + off).max(0.0);

@@ -149,7 +149,7 @@ impl Cuts {
     /// The best line of one direction across the region whose parts are `own`.
     fn best_across(&mut self, lie: &Lie, across_rad: f64, step_m: f64) -> Option<RegionCut> {
         let (most_places, least_side) = (self.tuning.most_places, self.tuning.least_side);
-        let across = Vector2::new(across_rad.cos(), across_rad.sin());
+        let across = Vector2::new(libm::cos(across_rad), libm::sin(across_rad));
         self.along_m.clear();
         let own = self.own.iter();
         self.along_m

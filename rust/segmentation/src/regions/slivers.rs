@@ -109,7 +109,8 @@ impl Slivers {
         };
         let (far, near) = (place(run.first), place(run.last + 1));
         columns.runs += 1;
-        columns.depth_m += f64::from((far[0] - near[0]).hypot(far[1] - near[1]));
+        columns.depth_m +=
+            geometry::hypot(f64::from(far[0] - near[0]), f64::from(far[1] - near[1]));
         if let [Some(above), Some(below)] = beside {
             let close = run.first - above.last <= gap + 1 && below.first - run.last <= gap + 1;
             let others = (regions[above.region].q, regions[below.region].q);

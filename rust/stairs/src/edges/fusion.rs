@@ -197,8 +197,8 @@ impl FusedEdge {
         self.edge = self.ends.onto(&line);
         self.fit = EdgeFit {
             frames: self.looks.iter().map(|look| look.frames).sum(),
-            place_sigma_m: covariance[(0, 0)].sqrt().hypot(tuning.common_place),
-            heading_sigma_rad: covariance[(1, 1)].sqrt().hypot(tuning.common_heading),
+            place_sigma_m: geometry::hypot(covariance[(0, 0)].sqrt(), tuning.common_place),
+            heading_sigma_rad: geometry::hypot(covariance[(1, 1)].sqrt(), tuning.common_heading),
         };
     }
 }

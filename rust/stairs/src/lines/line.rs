@@ -78,8 +78,8 @@ impl LineSum {
         let rough = self.along.try_normalize(1e-9)?;
         let mean = self.places / self.weight;
         let spread = self.squares / self.weight - mean * mean.transpose();
-        let turn = 0.5 * (2.0 * spread.m12).atan2(spread.m11 - spread.m22);
-        let along = Vector2::new(turn.cos(), turn.sin());
+        let turn = 0.5 * libm::atan2(2.0 * spread.m12, spread.m11 - spread.m22);
+        let along = Vector2::new(libm::cos(turn), libm::sin(turn));
         let agreement = along.dot(&rough);
         Some(StraightLine {
             at: mean.into(),

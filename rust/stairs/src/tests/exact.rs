@@ -34,7 +34,7 @@ fn edges_of_a_spiral_staircase_are_within_1_cm_and_3_degrees() {
     let (mut middle, mut heading_rad) = ([0.45, 0.0], 0.0_f64);
     let (mut prisms, mut fronts) = (Vec::new(), Vec::new());
     for step in 0..4 {
-        let (sin, cos) = heading_rad.sin_cos();
+        let (sin, cos) = libm::sincos(heading_rad);
         let at = |ahead: f64, left: f64| {
             [
                 middle[0] + ahead * cos - left * sin,
@@ -103,7 +103,7 @@ fn a_head_swing_finds_nine_tenths_of_an_edge_and_no_more_than_2_cm_too_much() {
     ];
     let mut recognizer = Recognizer::new(StairsConfig::default(), CAMERA).unwrap();
     for i in 0..40 {
-        let camera = camera_pose(0.8 * (f64::from(i) / 6.0).sin(), 0.75);
+        let camera = camera_pose(0.8 * libm::sin(f64::from(i) / 6.0), 0.75);
         let (scan, planes) = frame(&prisms, &Pose::identity(), &camera);
         let _ = recognizer
             .update(&scan, &planes, &Pose::identity(), 0)

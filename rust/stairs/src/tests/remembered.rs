@@ -217,7 +217,7 @@ fn edges_that_were_fitted_stay_where_they_are_when_they_leave_the_view() {
         let way_m = 0.08 * f64::from(i / 40);
         let pose: Pose<Map, Robot> = Pose::from_yaw(way_m, 0.0, 0.0, 0.0);
         let camera = camera_pose(
-            0.3 * (0.7 * f64::from(i)).sin(),
+            0.3 * libm::sin(0.7 * f64::from(i)),
             0.9 + 0.04 * f64::from(i / 40),
         );
         let (scan, planes) = frame(&prisms, &pose, &camera);

@@ -30,7 +30,7 @@ pub fn open(terrain: &mut Terrain, start_m: [f64; 2]) {
     for index in 0..terrain.weights.len() {
         let near = || {
             let [x, y] = terrain.center_m(index);
-            (x - start_m[0]).hypot(y - start_m[1]) <= settings.escape_range
+            geometry::hypot(x - start_m[0], y - start_m[1]) <= settings.escape_range
         };
         let no_ground = terrain.blocked[index] || terrain.edge[index];
         let barred = terrain.weights[index].is_infinite() && !no_ground;

@@ -82,7 +82,8 @@ impl PlatformEdges {
                 let cell = Cell::new((index % cols) as i32, (index / cols) as i32);
                 let [x, y] = lattice.center_of(cell);
                 let (dx, dy) = (x - stand.at_m[0], y - stand.at_m[1]);
-                if dx.abs() <= blind_m && dy.abs() <= blind_m && dx.hypot(dy) <= blind_m {
+                if dx.abs() <= blind_m && dy.abs() <= blind_m && geometry::hypot(dx, dy) <= blind_m
+                {
                     *height = stand.ground_m([dx, dy]) as f32;
                 }
             }

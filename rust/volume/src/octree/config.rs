@@ -66,12 +66,12 @@ impl Beam {
 pub(super) fn log_odds(probability: f64) -> f32 {
     // Exact in the 24 bits of a number with 32: sums stay below 16.
     const STEPS: f64 = 1_048_576.0;
-    (((probability / (1.0 - probability)).ln() * STEPS).round() / STEPS) as f32
+    ((libm::log(probability / (1.0 - probability)) * STEPS).round() / STEPS) as f32
 }
 
 /// Probability of log-odds.
 pub fn probability(log_odds: f32) -> f64 {
-    1.0 / (1.0 + f64::from(-log_odds).exp())
+    1.0 / (1.0 + libm::exp(f64::from(-log_odds)))
 }
 
 #[cfg(test)]

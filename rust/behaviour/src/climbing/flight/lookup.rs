@@ -23,7 +23,7 @@ pub(crate) fn depth_m(next: &Step, after: &Step) -> f64 {
 /// Whether a stair is where the feet would come to stand on a step.
 pub(crate) fn covers(stair: &Stair<Map>, step: &Step, lookup: &StepLookupTuning) -> bool {
     let (on_it_m, margin_m) = (lookup.on_it, lookup.margin);
-    let (sin, cos) = step.stair.front.heading_rad().sin_cos();
+    let (sin, cos) = libm::sincos(step.stair.front.heading_rad());
     let [x_m, y_m] = step.crossing_m;
     let place_m = [x_m + cos * on_it_m, y_m + sin * on_it_m];
     (step.stair.height_m() - stair.height_m()).abs() < lookup.same_height
@@ -121,12 +121,12 @@ fn ahead(
     lookup: &StepLookupTuning,
 ) -> Option<(f64, [f64; 2])> {
     let edge = &stair.front;
-    let towards = angle_between(heading_rad, edge.heading_rad()).cos();
+    let towards = libm::cos(angle_between(heading_rad, edge.heading_rad()));
     if towards < lookup.towards {
         return None;
     }
     let away_m = -edge.beyond_m([x_m, y_m]) / towards;
-    let (sin, cos) = heading_rad.sin_cos();
+    let (sin, cos) = libm::sincos(heading_rad);
     let crossing_m = [x_m + cos * away_m, y_m + sin * away_m];
     let aside_m = distance_m(crossing_m, edge.middle_m());
     (aside_m < 0.5 * edge.length_m()).then_some((away_m, crossing_m))

@@ -20,7 +20,7 @@ pub(crate) fn straight(first_m: f64, steps: &[(f64, f64)], width_m: f64) -> Vec<
 /// A stair between two edges, each by middle and heading.
 pub(crate) fn stair(front: [f64; 3], back: [f64; 3], z_m: f64, width_m: f64) -> Stair<Map> {
     let edge = |[x_m, y_m, heading_rad]: [f64; 3]| {
-        let (sin, cos) = heading_rad.sin_cos();
+        let (sin, cos) = libm::sincos(heading_rad);
         let half_m = 0.5 * width_m;
         Edge {
             left: Point::new(x_m - sin * half_m, y_m + cos * half_m, z_m),

@@ -15,9 +15,10 @@ impl Simulation {
         for (at, stair) in self.steps.iter().enumerate() {
             let middle = stair.front.middle().inner;
             let (x_m, y_m) = pose.inverse().apply(middle.x, middle.y);
-            let away_m = (x_m - 0.04).hypot(y_m);
-            let down_rad = (EYE_HEIGHT_M - (stair.height_m() - self.ground_m())).atan2(away_m);
-            let in_view = geometry::angle_between(self.gaze.pan_rad, y_m.atan2(x_m)).abs() < 0.41
+            let away_m = geometry::hypot(x_m - 0.04, y_m);
+            let down_rad = libm::atan2(EYE_HEIGHT_M - (stair.height_m() - self.ground_m()), away_m);
+            let in_view = geometry::angle_between(self.gaze.pan_rad, libm::atan2(y_m, x_m)).abs()
+                < 0.41
                 && (down_rad - self.gaze.down_rad).abs() < 0.30
                 && x_m > 0.14
                 && away_m < 1.2;
@@ -118,7 +119,7 @@ impl Simulation {
 
 fn dense(points_m: &mut Vec<[f64; 2]>, to: [f64; 2]) {
     let Some(&from) = points_m.last() else { return };
-    let count = ((to[0] - from[0]).hypot(to[1] - from[1]) / 0.04)
+    let count = (geometry::hypot(to[0] - from[0], to[1] - from[1]) / 0.04)
         .ceil()
         .max(1.0) as usize;
     points_m.extend((1..=count).map(|i| {

@@ -31,7 +31,7 @@ proptest! {
         let map_from_robot = Pose::from_yaw(px, py, pz, yaw);
         let mut frame = LabelledFrame::default();
         frame.read(&planes([x, y, z], f32::NAN), &map_from_robot, reading(true, 10.0));
-        let (sin, cos) = yaw.sin_cos();
+        let (sin, cos) = libm::sincos(yaw);
         let (x, y, z) = (f64::from(x), f64::from(y), f64::from(z));
         let expected = [cos * x - sin * y + px, sin * x + cos * y + py, z + pz];
         for (found, wanted) in frame.points[0].position_m.iter().zip(expected) {

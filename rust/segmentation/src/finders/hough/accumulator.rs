@@ -59,8 +59,8 @@ impl Accumulator {
 
     /// The pole of the angles is to the side, where the fewest planes that are walked on or into have their normals.
     fn cell(&self, normal: &Vector3<f64>, distance_m: f64) -> usize {
-        let aside = (normal.y.clamp(-1.0, 1.0).asin() + PI / 2.0) / self.angle_rad;
-        let turn = (normal.z.atan2(normal.x) + PI) / self.angle_rad;
+        let aside = (libm::asin(normal.y.clamp(-1.0, 1.0)) + PI / 2.0) / self.angle_rad;
+        let turn = (libm::atan2(normal.z, normal.x) + PI) / self.angle_rad;
         let away = distance_m / self.distance_m;
         let [i, j, k] = [aside, turn, away].map(|cells| cells as usize);
         (i * self.sizes[1] + j) * self.sizes[2] + k
@@ -90,7 +90,7 @@ mod tests {
             x in -1.0..1.0f64, y in -1.0..1.0f64, z in -1.0..1.0f64, away in 0.001..10.0f64,
             angle in 0.03..0.5f64, distance in 0.05..0.5f64,
         ) {
-            prop_assume!(x.hypot(y).hypot(z) > 0.1);
+            prop_assume!(geometry::hypot(geometry::hypot(x, y), z) > 0.1);
             let mut votes = Accumulator::new(angle, distance, 4.0);
             votes.vote(Linear::default(), &(Vector3::new(x, y, z).normalize() / away));
             prop_assert_eq!(votes.peak().is_some(), away < 4.0);

@@ -54,15 +54,15 @@ mod tests {
         for row in 0..30 {
             let down = (40.0 + 20.0 * f64::from(row) / 29.0_f64).to_radians();
             // The ray's fall and way forward for a unit of depth of a camera that looks down by 50 degrees.
-            let depth = (down - 50.0_f64.to_radians()).cos();
-            let (fall, forward) = (down.sin() / depth, down.cos() / depth);
+            let depth = libm::cos(down - 50.0_f64.to_radians());
+            let (fall, forward) = (libm::sin(down) / depth, libm::cos(down) / depth);
             let d = if slope.is_infinite() {
                 SCALE * forward / 0.4
             } else {
                 SCALE * (fall + slope * forward) / 0.5
             };
             // What rises linearly on the image is linear in the row's tangent, here close enough to the row.
-            let tangent = (down - 50.0_f64.to_radians()).tan();
+            let tangent = libm::tan(down - 50.0_f64.to_radians());
             sums = sums.with(tangent * 100.0, d, SCALE * fall, 64.0);
         }
         sums.steep_cost(&LineSums::default(), 0.3)

@@ -21,7 +21,7 @@ impl NoisyPlane {
         Self {
             plane: Linear::new(plane),
             precision: (1.0 / sigma_px) as f32,
-            vagueness: (2.0 * sigma_px.ln()) as f32,
+            vagueness: (2.0 * libm::log(sigma_px)) as f32,
         }
     }
 

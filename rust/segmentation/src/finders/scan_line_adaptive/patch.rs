@@ -133,7 +133,7 @@ impl PlanePatch {
         let (_, squares) = self.fit();
         let variance =
             (squares / self.n.max(1.0)).clamp(noise.least_px.powi(2), noise.most_px.powi(2));
-        self.n * variance.ln() + squares / variance
+        self.n * libm::log(variance) + squares / variance
     }
 }
 

@@ -52,8 +52,8 @@ fn the_ground_is_kept_while_the_head_turns_with_an_error_of_seven_degrees() {
         let mut noise = Noise::new(3);
         let (mut segmenter, mut planes) = (segmenter(), planes());
         for frame in 0..50 {
-            let pan = 0.9 * (f64::from(frame) * 0.15).sin();
-            let truth = camera_pose(pan, 0.75 + 0.15 * (f64::from(frame) * 0.1).sin());
+            let pan = 0.9 * libm::sin(f64::from(frame) * 0.15);
+            let truth = camera_pose(pan, 0.75 + 0.15 * libm::sin(f64::from(frame) * 0.1));
             let believed = turned(&truth, &Vector3::new(pitch, 0.0, roll), 0.0);
             let scan = Scene::floor().scan(&truth, believed, SIGMA, &mut noise);
             segmenter.segment(&scan, &mut planes).unwrap();
@@ -251,7 +251,7 @@ mod slow {
                 for frame in 0..90 {
                     let down =
                         (0.02 + 0.07 * f64::from(frame)).min(if frame > 20 { 0.85 } else { 1.0 });
-                    let aside = 0.8 * (f64::from((frame - 20).max(0)) * 0.09).sin();
+                    let aside = 0.8 * libm::sin(f64::from((frame - 20).max(0)) * 0.09);
                     let truth = camera_pose(aside, down);
                     let believed = turned(&truth, &turn, 0.004);
                     let scan = scene.scan(&truth, believed, SIGMA, &mut noise);

@@ -67,7 +67,7 @@ fn pose_error(planes: &Planes, truth: &Pose<Robot, Camera>) -> (f64, f64) {
     let found = planes.robot_from_camera.inner;
     let up = found.rotation * truth.inner.rotation.inverse() * Vector3::z();
     (
-        up.xy().norm().asin(),
+        libm::asin(up.xy().norm()),
         found.translation.z - truth.inner.translation.z,
     )
 }

@@ -7,7 +7,7 @@ const FINE_M: f64 = 0.001;
 
 /// A slope of 0.7 m from `front_m` on.
 fn slope(front_m: f64, tilt_rad: f64) -> Scene {
-    let depth_m = FINE_M / tilt_rad.tan();
+    let depth_m = FINE_M / libm::tan(tilt_rad);
     let block = |i: i32| {
         let near = front_m + f64::from(i) * depth_m;
         Block {
@@ -43,7 +43,7 @@ fn found(planes: &Planes) -> Option<(f64, usize)> {
     let regions = planes.regions.iter().zip(&floor[1..]);
     regions
         .filter(|(region, count)| region.floor_height_m.is_none() && **count > 0)
-        .map(|(region, &count)| (region.plane.normal.z.acos(), count))
+        .map(|(region, &count)| (libm::acos(region.plane.normal.z), count))
         .max_by_key(|&(_, count)| count)
 }
 

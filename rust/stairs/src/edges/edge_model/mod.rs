@@ -95,7 +95,8 @@ impl EdgeModel {
         }
         let covariance = equations.covariance().ok_or(Untrusted::NotSettled)?;
         let scale = equations.roughness.max(1.0);
-        let sigma = |i: usize, model: f64| (scale * covariance[(i, i)].sqrt()).hypot(model);
+        let sigma =
+            |i: usize, model: f64| geometry::hypot(scale * covariance[(i, i)].sqrt(), model);
         Ok(FittedEdge {
             edge: onto_step(guess, &stretch, &step),
             place_sigma_m: sigma(0, self.tuning.model_place),

@@ -23,7 +23,7 @@ impl PixelLinear {
 
     /// Length of the gradient, per pixel.
     pub(super) fn steepness(&self) -> f64 {
-        self.per_col.hypot(self.per_row)
+        geometry::hypot(self.per_col, self.per_row)
     }
 
     /// `a self + b other`.
@@ -113,7 +113,7 @@ pub(super) struct StepFaces {
 
 impl StepModel {
     pub(super) fn normal(&self) -> Vector2<f64> {
-        Vector2::new(self.heading_rad.cos(), self.heading_rad.sin())
+        Vector2::new(libm::cos(self.heading_rad), libm::sin(self.heading_rad))
     }
 
     /// From right to left along the edge.

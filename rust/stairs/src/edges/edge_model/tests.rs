@@ -110,7 +110,7 @@ impl View {
     /// Error of the place, m, at the true edge's point that is nearest to the robot, and of the heading, rad.
     fn errors(&self, fitted: &FittedEdge) -> (f64, f64) {
         let truth = self.edge();
-        let (sin, cos) = truth.heading_rad().sin_cos();
+        let (sin, cos) = libm::sincos(truth.heading_rad());
         let place_m = fitted
             .edge
             .beyond_m([self.front_m * cos, self.front_m * sin]);

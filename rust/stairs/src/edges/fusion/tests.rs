@@ -16,7 +16,7 @@ fn camera(pan_rad: f64) -> Pose<Map, Camera> {
 
 /// An edge across the way at 1 m, off by this, as one frame shows it.
 fn fitted(off_m: f64, turn_rad: f64, aside_m: f64) -> FittedEdge {
-    let (sin, cos) = turn_rad.sin_cos();
+    let (sin, cos) = libm::sincos(turn_rad);
     let at = |t: f64| Point::<Robot>::new(1.0 + off_m - t * sin, aside_m + t * cos, 0.03);
     FittedEdge {
         edge: Edge {
