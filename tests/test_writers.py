@@ -16,12 +16,13 @@ def episode() -> treadwell.Episode:
     return treadwell.Episode("slalom", seed=1, overrides=("time_limit=0.2",))
 
 
-def test_without_recording_only_the_scenario_is_written_at_first(
+def test_without_recording_only_scenario_and_audit_are_written_at_first(
     tmp_path: Path, episode: treadwell.Episode
 ) -> None:
     made = writers.Writers(tmp_path, episode, record=False)
     made.tick(episode.tick())
-    assert [path.name for path in tmp_path.iterdir()] == ["scenario.toml"]
+    there = {path.name for path in tmp_path.iterdir()}
+    assert there == {"scenario.toml", "model.mjb", "physics.part"}
 
 
 def test_a_folder_that_vanished_is_an_error_of_the_recording(

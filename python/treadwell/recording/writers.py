@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from treadwell.recording.recorder import Recorder
 
 
+_TICKS_A_FLUSH: Final = 32
+"""Control ticks, a third of a second, whose part of the audit may wait in memory."""
+
+
 class Writers:
     """Everything that writes into a run's folder."""
 
@@ -53,11 +57,13 @@ class Writers:
         self._recorder: Recorder | None = None
         self._observations: ObservationLog | None = None
         self._viewer = viewer
+        self._ticks = 0
         # First of all: the folder is then taken, and what was run is known however it ends.
         try:
             write_scenario(folder / SCENARIO, episode.scenario)
         except OSError as error:
             raise RecordingError(f"{folder}: cannot be written: {error.strerror}") from error
+        episode.simulation.audit.keep_in(folder)
         if record:
             from treadwell.recording import observation_log
             from treadwell.recording import recorder as recording
@@ -88,6 +94,9 @@ class Writers:
         """
         if self._observations is not None:
             self._log(self._observations, step)
+        self._ticks += 1
+        if self._ticks % _TICKS_A_FLUSH == 0:
+            self._episode.simulation.audit.flush()
         if self._viewer is not None and step.observation.depth is not None:
             self._viewer.sync()
 
