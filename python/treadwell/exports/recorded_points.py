@@ -1,6 +1,7 @@
 """The points that a run saw, where the robot believed them to be: out of `recording.rrd`.
 
-The recording has every third pixel of each camera frame, in the map frame, and the camera's pose.
+The recording has of each camera frame some two thousand pixels, evenly out of all, in the map
+frame, and the camera's pose.
 """
 
 from collections.abc import Iterator
