@@ -14,7 +14,7 @@ What `replay` hands to the core comes from `read_observations` alone, which skip
 import hashlib
 import json
 import struct
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -44,6 +44,8 @@ CONFIGURATION, ROBOT, CORE, STATIC_MAP = (
 )
 """Names of the attachments."""
 _CHUNK: Final = 1 << 18
+Entry = tuple[int, int, int, bytes]
+"""A message: its channel, log time and publish time, ns, and what it says."""
 
 
 class ObservationLog:
@@ -105,50 +107,70 @@ class ObservationLog:
         Raises:
             RecordingError: the file cannot be written.
         """
-        time = observation.time_ns
-        try:
-            self._writer.add_message(self._observation, time, cdr.encode(observation), time)
-            if observation.depth is not None:
-                frame = observation.depth
-                self._writer.add_message(
-                    self._depth, frame.arrival_ns, cdr.encode_image(frame), frame.exposure_ns
-                )
-        except OSError as error:
-            raise self._failed(error) from error
+        self.append(self.observed(observation))
 
     def write_answer(self, time_ns: int, command: bytes, estimate: bytes) -> None:
-        """Append what the core answered to a tick's observation.
+        """Append what the core answered to a tick's observation, as `answered` has it.
+
+        Raises:
+            RecordingError: the file cannot be written.
+        """
+        self.append(self.answered(time_ns, command, estimate))
+
+    def write_truth(
+        self, time_ns: int, position: tuple[float, ...], quaternion: tuple[float, ...]
+    ) -> None:
+        """Append where the robot truly stands, as `stood` has it.
+
+        Raises:
+            RecordingError: the file cannot be written.
+        """
+        self.append(self.stood(time_ns, position, quaternion))
+
+    def observed(self, observation: Observation) -> list[Entry]:
+        """Return the messages of a tick's measurements, and of its frame where it has one."""
+        time, frame = observation.time_ns, observation.depth
+        entries = [(self._observation, time, time, cdr.encode(observation))]
+        if frame is not None:
+            image = cdr.encode_image(frame)
+            entries.append((self._depth, frame.arrival_ns, frame.exposure_ns, image))
+        return entries
+
+    def answered(self, time_ns: int, command: bytes, estimate: bytes) -> list[Entry]:
+        """Return the messages of what the core answered to a tick's observation.
 
         Args:
             time_ns: the observation's, nanoseconds since the start.
             command: the message `COMMAND`.
             estimate: the message `ESTIMATE`.
-
-        Raises:
-            RecordingError: the file cannot be written.
         """
-        try:
-            self._writer.add_message(self._command, time_ns, command, time_ns)
-            self._writer.add_message(self._estimate, time_ns, estimate, time_ns)
-        except OSError as error:
-            raise self._failed(error) from error
+        return [
+            (self._command, time_ns, time_ns, command),
+            (self._estimate, time_ns, time_ns, estimate),
+        ]
 
-    def write_truth(
+    def stood(
         self, time_ns: int, position: tuple[float, ...], quaternion: tuple[float, ...]
-    ) -> None:
-        """Append where the robot truly stands.
+    ) -> list[Entry]:
+        """Return the message of where the robot truly stands.
 
         Args:
             time_ns: nanoseconds since the start.
             position: x, y, z m, of the robot's frame in the map.
             quaternion: x, y, z, w.
+        """
+        message = messages.encode_truth(time_ns, position, quaternion)
+        return [(self._truth, time_ns, time_ns, message)]
+
+    def append(self, entries: Iterable[Entry]) -> None:
+        """Append messages.
 
         Raises:
             RecordingError: the file cannot be written.
         """
-        message = messages.encode_truth(time_ns, position, quaternion)
         try:
-            self._writer.add_message(self._truth, time_ns, message, time_ns)
+            for channel, log_ns, publish_ns, data in entries:
+                self._writer.add_message(channel, log_ns, data, publish_ns)
         except OSError as error:
             raise self._failed(error) from error
 
