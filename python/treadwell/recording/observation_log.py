@@ -20,14 +20,13 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Final
 
-from mcap.writer import CompressionType, Writer
-
 from treadwell._core import Octree
 from treadwell._core import version as core_version
 from treadwell.errors import InputError, RecordingError
 from treadwell.observation import Observation
 from treadwell.recording import cdr, messages
 from treadwell.recording.log_file import BrokenLogError, Front, read_front, read_messages
+from treadwell.recording.log_writer import Entry, LogWriter
 from treadwell.scenario.model import Scenario
 from treadwell.version import __version__
 
@@ -44,8 +43,6 @@ CONFIGURATION, ROBOT, CORE, STATIC_MAP = (
 )
 """Names of the attachments."""
 _CHUNK: Final = 1 << 18
-Entry = tuple[int, int, int, bytes]
-"""A message: its channel, log time and publish time, ns, and what it says."""
 
 
 class ObservationLog:
@@ -68,10 +65,8 @@ class ObservationLog:
         self._path = folder / NAME
         try:
             self._file = self._path.open("wb")
-            self._writer = writer = Writer(
-                self._file, chunk_size=_CHUNK, compression=CompressionType.ZSTD
-            )
-            writer.start(profile="ros2", library=f"treadwell {__version__}")
+            library = f"treadwell {__version__}"
+            self._writer = writer = LogWriter(self._file, _CHUNK, "ros2", library)
             self._observation = self._channel("/observation", "Observation", cdr.OBSERVATION)
             self._depth = self._channel("/depth", "sensor_msgs/msg/Image", cdr.IMAGE)
             self._command = self._channel("/command", "JointTargets", messages.COMMAND)
@@ -94,10 +89,10 @@ class ObservationLog:
                 tables[CORE] = _core_table(core)
             for name, table in tables.items():
                 text = json.dumps(table, allow_nan=False).encode()
-                writer.add_attachment(0, 0, name, "application/json", text)
+                writer.add_attachment(name, "application/json", text)
             if core is not None and core.static_map is not None:
                 told = _octree_bytes(core.static_map)
-                writer.add_attachment(0, 0, STATIC_MAP, "application/octet-stream", told)
+                writer.add_attachment(STATIC_MAP, "application/octet-stream", told)
         except OSError as error:
             raise self._failed(error) from error
 
@@ -169,8 +164,7 @@ class ObservationLog:
             RecordingError: the file cannot be written.
         """
         try:
-            for channel, log_ns, publish_ns, data in entries:
-                self._writer.add_message(channel, log_ns, data, publish_ns)
+            self._writer.add_messages(entries)
         except OSError as error:
             raise self._failed(error) from error
 
@@ -181,7 +175,7 @@ class ObservationLog:
             RecordingError: the rest cannot be written.
         """
         try:
-            self._writer.finish()  # type: ignore[no-untyped-call]
+            self._writer.finish()
             self._file.flush()
         except OSError as error:
             raise self._failed(error) from error
@@ -193,8 +187,7 @@ class ObservationLog:
 
     def _channel(self, topic: str, name: str, definition: str) -> int:
         full = name if "/" in name else f"treadwell_msgs/msg/{name}"
-        schema = self._writer.register_schema(full, "ros2msg", definition.encode())
-        return int(self._writer.register_channel(topic, "cdr", schema))
+        return self._writer.add_channel(topic, full, definition)
 
     def _failed(self, error: OSError) -> RecordingError:
         return RecordingError(

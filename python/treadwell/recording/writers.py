@@ -24,7 +24,8 @@ from treadwell.recording.writing_thread import WritingThread
 from treadwell.trace import Trace
 
 if TYPE_CHECKING:
-    from treadwell.recording.observation_log import Entry, ObservationLog
+    from treadwell.recording.log_writer import Entry
+    from treadwell.recording.observation_log import ObservationLog
     from treadwell.recording.recorder import Recorder
 
 
