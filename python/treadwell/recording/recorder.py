@@ -14,6 +14,7 @@ from treadwell.course.course import Course
 from treadwell.course.pieces import bounds
 from treadwell.errors import InputError, RecordingError
 from treadwell.recording.file import cut_to_whole_messages, room
+from treadwell.recording.quiet import first_import
 from treadwell.robot.load import Robot
 from treadwell.scenario.model import Scenario
 from treadwell.trace import Trace
@@ -62,7 +63,8 @@ class Recorder:
             RecordingError: the file cannot be opened.
         """
         # Late, because rerun takes a second to import.
-        import rerun as rr
+        with first_import():
+            import rerun as rr
 
         from treadwell.recording.frame_log import FrameLog
         from treadwell.recording.layout import blueprint
@@ -89,7 +91,8 @@ class Recorder:
             views = blueprint(
                 centre, extent, feet=begin if top > 0.0 else None, maps=static_map is not None
             )
-            self._stream.save(path, views)
+            # A table of contents would take memory, 14 kB with each batch of each entity.
+            self._stream.save(path, views, write_footer=False)
         except (OSError, RuntimeError) as error:
             raise RecordingError(f"{path}: cannot be written: {_reason(error)}") from error
         self._stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
