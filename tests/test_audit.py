@@ -1,14 +1,16 @@
 """Claims about the audit: plain MuJoCo steps to a run's states, and to no other run's."""
 
 from pathlib import Path
+from zipfile import ZipFile
 
 import mujoco
 import numpy as np
 import pytest
 
-from treadwell.errors import InputError
-from treadwell.physics.audit import replay_audit
+from treadwell.errors import InputError, RecordingError
+from treadwell.physics.audit import join_parts, replay_audit
 from treadwell.physics.motors import JointTargets
+from treadwell.physics.parts import PARTS
 from treadwell.physics.simulation import Simulation, Start
 from treadwell.robot.load import Robot, load_robot
 
@@ -29,9 +31,11 @@ def standing(robot: Robot) -> JointTargets:
     return JointTargets(robot.stand, np.zeros(26), np.zeros(26))
 
 
-def eventful(robot: Robot, model: mujoco.MjModel) -> Simulation:
-    """Two seconds with a push, a slippery floor and a kidnapping."""
+def eventful(robot: Robot, model: mujoco.MjModel, folder: Path | None = None) -> Simulation:
+    """Two seconds with a push, a slippery floor and a kidnapping; audited into a folder if any."""
     simulation = Simulation(model, robot, Start(yaw=0.4))
+    if folder is not None:
+        simulation.audit.keep_in(folder)
     push = np.zeros((model.nbody, 6))
     push[model.body("torso").id, 1] = 4.0
     friction = model.geom_friction.copy()
@@ -90,3 +94,60 @@ def test_a_cut_audit_is_refused(
     (tmp_path / name).unlink()
     with pytest.raises(InputError, match=name):
         replay_audit(tmp_path)
+
+
+def arrays(folder: Path) -> dict[str, np.ndarray]:
+    with np.load(folder / "physics.npz") as file:
+        return dict(file)
+
+
+def test_it_makes_no_difference_whether_the_audit_is_written_as_it_comes(
+    qrio: Robot, flat: mujoco.MjModel, tmp_path: Path
+) -> None:
+    for name in ("late", "soon"):
+        (tmp_path / name).mkdir()
+    eventful(qrio, flat).save_audit(tmp_path / "late")
+    simulation = eventful(qrio, flat, tmp_path / "soon")
+    assert (tmp_path / "soon" / PARTS / "ctrl.npy").is_file()
+    simulation.save_audit(tmp_path / "soon")
+    assert {path.name for path in (tmp_path / "soon").iterdir()} == {"model.mjb", "physics.npz"}
+    late, soon = arrays(tmp_path / "late"), arrays(tmp_path / "soon")
+    assert list(late) == list(soon)
+    assert all(np.array_equal(late[key], soon[key], equal_nan=True) for key in late)
+
+
+def test_the_file_is_as_numpy_writes_it(qrio: Robot, flat: mujoco.MjModel, tmp_path: Path) -> None:
+    eventful(qrio, flat).save_audit(tmp_path)
+    np.savez(tmp_path / "other.npz", **arrays(tmp_path))
+    with ZipFile(tmp_path / "physics.npz") as one, ZipFile(tmp_path / "other.npz") as other:
+        assert one.namelist() == other.namelist()
+        assert all(one.read(name) == other.read(name) for name in one.namelist())
+
+
+def test_of_a_killed_run_the_ticks_that_were_written_can_be_replayed(
+    qrio: Robot, flat: mujoco.MjModel, tmp_path: Path
+) -> None:
+    simulation = eventful(qrio, flat, tmp_path)
+    simulation.audit.flush()
+    parts = tmp_path / PARTS
+    whole = (parts / "ctrl.npy").read_bytes()
+    (parts / "ctrl.npy").write_bytes(whole[:-100])  # cut amid a row
+    join_parts(tmp_path)
+    assert arrays(tmp_path)["ctrl"].shape == (995, 26)
+    assert arrays(tmp_path)["qpos"].shape == (199, 33)
+    assert replay_audit(tmp_path) is None
+    assert not parts.exists()
+    with pytest.raises(RecordingError, match=r"physics\.npz: cannot be written"):
+        join_parts(tmp_path)
+
+
+def test_an_audit_that_was_dropped_keeps_nothing(
+    qrio: Robot, flat: mujoco.MjModel, tmp_path: Path
+) -> None:
+    simulation = Simulation(flat, qrio)
+    simulation.audit.drop()
+    for _ in range(300):
+        simulation.advance(standing(qrio))
+    assert len(simulation.audit.ctrl.array()) < 1500
+    with pytest.raises(RecordingError, match="was dropped"):
+        simulation.save_audit(tmp_path)

@@ -59,6 +59,45 @@ def test_rows_are_in_the_file_as_if_each_had_been_logged_by_itself(tmp_path: Pat
     assert found == rows(tmp_path / "other.rrd")
 
 
+def test_a_row_for_each_frame_is_as_if_each_had_been_logged_by_itself(tmp_path: Path) -> None:
+    one, other = opened(tmp_path / "one.rrd"), opened(tmp_path / "other.rrd")
+    log, places = FrameLog(one), np.random.default_rng(1).random((3, 4, 3))
+    for i, each in enumerate(places):
+        log.begin(i * FRAME)
+        other.set_time("time", duration=1e-9 * i * FRAME)
+        other.log("points", rr.Points3D(each))
+    log.log_all("points", rr.Points3D, positions=places)
+    log.send()
+    for stream in (one, other):
+        stream.disconnect()
+    assert len(rows(tmp_path / "one.rrd")) == 3
+    assert rows(tmp_path / "one.rrd") == rows(tmp_path / "other.rrd")
+
+
+def test_a_style_is_said_once_and_fields_that_come_later_are_rows_of_their_own(
+    tmp_path: Path,
+) -> None:
+    stream = opened(tmp_path / "one.rrd")
+    log = FrameLog(stream)
+    for i in range(3):
+        log.begin(i * FRAME)
+        log.style("points", rr.Points3D, radii=[0.1 + i])
+        log.log("points", rr.Points3D, positions=np.ones((1, 3)))
+        if i == 1:
+            log.log("points", rr.Points3D, labels=["one"])
+    log.send()
+    stream.disconnect()
+    chunks = [
+        chunk
+        for chunk in RrdReader(tmp_path / "one.rrd").stream().to_chunks()
+        if str(chunk.entity_path) == "/points"
+    ]
+    (style,) = [chunk for chunk in chunks if chunk.is_static]
+    column = style.to_record_batch().column("Points3D:radii").to_pylist()
+    assert column == [[pytest.approx(0.1)]]
+    assert sorted(chunk.num_rows for chunk in chunks if not chunk.is_static) == [1, 3]
+
+
 @pytest.mark.parametrize("pace_s", [0.001, 0.1])
 def test_a_slow_runs_frames_do_not_wait_until_there_is_a_dozen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pace_s: float
@@ -67,9 +106,9 @@ def test_a_slow_runs_frames_do_not_wait_until_there_is_a_dozen(
     clock = iter(range(10**18, 2 * 10**18, round(1e9 * pace_s)))
     writer: Any = recorder(tmp_path, made)
     monkeypatch.setattr(time, "time_ns", lambda: next(clock))
-    for i in range(4):
+    for i in range(6):
         writer.frame(trace(made, i * FRAME))
     writer._stream.flush()
-    assert ("/world/points" in entities(tmp_path / NAME)) == (pace_s > 0.05)
+    assert ("/map/floor" in entities(tmp_path / NAME)) == (pace_s > 0.05)
     writer.close()
-    assert "/world/points" in entities(tmp_path / NAME)
+    assert "/map/floor" in entities(tmp_path / NAME)

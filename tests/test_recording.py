@@ -12,7 +12,7 @@ from episode_builders import BOX, STEP, World, entities, flight, qrio, trace, wo
 
 from treadwell.errors import InputError, RecordingError
 from treadwell.protocols import Footstep
-from treadwell.recording import products
+from treadwell.recording import map_shapes
 from treadwell.recording import recorder as recording
 from treadwell.recording.file import cut_to_whole_messages, whole_length
 from treadwell.recording.layout import CLIMB, PATH
@@ -41,8 +41,8 @@ def test_a_recording_holds_world_map_camera_states_and_plots(tmp_path: Path, mad
         "/world/robot/capsules",
         "/world/course/boxes",
         "/world/points",
-        "/world/floor",
-        "/world/obstacles",
+        "/world/floor/0_0",
+        "/world/obstacles/0_0",
         "/world/path",
         "/world/goal",
         "/world/trajectory/truth",
@@ -108,12 +108,12 @@ def test_a_path_changes_its_colour_and_its_height_where_it_climbs(made: World) -
         path=np.array([[-0.6, 0.0], [0.3, 0.0], [0.5, 0.0], [0.7, 0.0], [5.0, 0.0]]),
         climbs=((1, 2),),
     )
-    assert products.legs(seen) == [
+    assert map_shapes.legs(seen) == [
         (slice(0, 2), PATH),
         (slice(1, 3), CLIMB),
         (slice(2, 5), PATH),
     ]
-    heights = products.floor_heights(seen)
+    heights = map_shapes.floor_heights(seen)
     assert heights == pytest.approx([0.0, 0.0, 0.03, 0.03, 0.03])
 
 
@@ -131,7 +131,7 @@ def test_a_frame_in_which_nothing_was_seen_can_be_recorded(tmp_path: Path, made:
     writer.frame(trace(made, 0, **nothing))
     writer.frame(trace(made, FRAME, depth=np.full((72, 88), np.nan, dtype=np.float32)))
     writer.close()
-    assert "/world/floor" in entities(tmp_path / NAME)
+    assert "/world/robot/capsules" in entities(tmp_path / NAME)
 
 
 def test_a_frame_is_recorded_within_a_few_milliseconds(tmp_path: Path, made: World) -> None:
@@ -216,7 +216,7 @@ def test_what_breaks_off_amid_a_message_is_cut_behind_the_last_whole_one(
     cut_to_whole_messages(path)
     assert whole.startswith(path.read_bytes())
     assert path.stat().st_size > 0.5 * len(whole)
-    assert "/world/floor" in entities(path)
+    assert "/world/floor/0_0" in entities(path)
 
 
 def test_a_recording_that_cannot_be_opened_is_an_error(tmp_path: Path, made: World) -> None:

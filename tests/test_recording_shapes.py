@@ -23,7 +23,7 @@ def test_poses_are_those_of_the_geoms() -> None:
     mujoco.mj_kinematics(made.model, data)
     geoms = robot_geoms(made.model, qrio().root)
     shapes = Shapes(made.model, geoms, "robot")
-    places, turns = shapes._poses(data.xpos, data.xquat)
+    places, turns = (values[0] for values in shapes._poses(data.xpos[None], data.xquat[None]))
     assert sorted(shapes.geoms) == sorted(geoms)
     assert places == pytest.approx(data.geom_xpos[shapes.geoms], abs=1e-12)
     for turn, expected in zip(turns, data.geom_xmat[shapes.geoms], strict=True):

@@ -29,7 +29,7 @@ def test_what_is_written_is_read(tmp_path: Path) -> None:
     for i in range(50):
         trajectory.add(80_000_000 * i, pose_matrix(0.01 * i, 0.02 * i, 0.0, 0.1 * i))
     trajectory.write(tmp_path / "t.tum")
-    assert read_trajectory(tmp_path / "t.tum") == pytest.approx(np.array(trajectory.rows), abs=1e-8)
+    assert read_trajectory(tmp_path / "t.tum") == pytest.approx(trajectory.rows, abs=1e-8)
     assert trajectory.positions().shape == (50, 3)
 
 

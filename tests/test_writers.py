@@ -4,10 +4,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from episode_builders import entities
 
 import treadwell
 from treadwell.errors import InputError, RecordingError
+from treadwell.judging.result import read_result
 from treadwell.recording import writers
+from treadwell.recording.observation_log import read_observations
 from treadwell.runner import run
 
 
@@ -16,12 +19,13 @@ def episode() -> treadwell.Episode:
     return treadwell.Episode("slalom", seed=1, overrides=("time_limit=0.2",))
 
 
-def test_without_recording_only_the_scenario_is_written_at_first(
+def test_without_recording_only_scenario_and_audit_are_written_at_first(
     tmp_path: Path, episode: treadwell.Episode
 ) -> None:
     made = writers.Writers(tmp_path, episode, record=False)
     made.tick(episode.tick())
-    assert [path.name for path in tmp_path.iterdir()] == ["scenario.toml"]
+    there = {path.name for path in tmp_path.iterdir()}
+    assert there == {"scenario.toml", "model.mjb", "physics.part"}
 
 
 def test_a_folder_that_vanished_is_an_error_of_the_recording(
@@ -51,20 +55,38 @@ def test_a_recording_that_breaks_ends_the_run_and_leaves_its_result(
 ) -> None:
     from treadwell.recording.observation_log import ObservationLog
 
-    write, count = ObservationLog.write, [0]
+    append, count = ObservationLog.append, [0]
 
-    def full(self: ObservationLog, observation: Any) -> None:  # noqa: ANN401 - handed on
+    def full(self: ObservationLog, entries: Any) -> None:  # noqa: ANN401 - handed on
         count[0] += 1
-        if count[0] > 10:
+        if count[0] > 2:
             raise RecordingError("observations.mcap: No space left on device")
-        write(self, observation)
+        append(self, entries)
 
-    monkeypatch.setattr(ObservationLog, "write", full)
+    monkeypatch.setattr(ObservationLog, "append", full)
     out = tmp_path / "run"
     with pytest.raises(RecordingError, match=r"observations\.mcap: No space left"):
         run("slalom", overrides=("time_limit=1",), out=out)
     assert (out / "result.json").is_file()
     assert '"outcome": "error"' in (out / "result.json").read_text()
+    assert "/map/floor" in entities(out / "recording.rrd")
+
+
+def test_a_recording_that_breaks_loses_no_observation(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from treadwell.recording.recorder import Recorder
+
+    def full(self: Recorder, trace: Any) -> None:  # noqa: ANN401, ARG001 - of the same form
+        raise RecordingError("recording.rrd: the disk is full")
+
+    monkeypatch.setattr(Recorder, "frame", full)
+    out = tmp_path / "run"
+    with pytest.raises(RecordingError, match=r"recording\.rrd: the disk is full"):
+        run("slalom", overrides=("time_limit=1",), out=out)
+    ticks = round(100 * read_result(out / "result.json").simulated_seconds)
+    assert 0 < ticks < 100
+    assert sum(1 for _ in read_observations(out / "observations.mcap")) == ticks
 
 
 def test_a_window_that_cannot_be_opened_is_bad_input(

@@ -1,6 +1,7 @@
 """One episode: observe, tick, act, advance, judge. What is written of it: `run.py`."""
 
 import math
+from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -87,7 +88,8 @@ class Episode:
         core_input: what the core was made of.
         ablation: whether anything in the core was given the truth.
         verdict: how it ended, None while it goes on.
-        seconds: stage -> seconds that it took, one a tick at which it ran.
+        seconds: stage -> seconds that it took, one a tick at which it ran; 4 bytes each, since
+            nothing else of an episode grows with every tick.
     """
 
     def __init__(
@@ -131,8 +133,8 @@ class Episode:
         self.judge = Judge(self.course.model, self.course, scenario, self.robot)
         self.referee = Referee(self.judge, scenario.time_limit)
         self.verdict: Verdict | None = None
-        self.seconds: dict[str, list[float]] = {name: [] for name in ("physics", "depth")}
-        self.seconds |= {name: [] for name in Pilot.stages}
+        stages = ("physics", "depth", *Pilot.stages)
+        self.seconds = {name: array("f") for name in stages}
         brought = {slot: class_path(component) for slot, component in components.items()}
         given = user_components(scenario, dict(components))
         self.guards = guards(scenario, given, set(components))

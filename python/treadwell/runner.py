@@ -186,6 +186,7 @@ def play_episode(episode: Episode) -> Result:
     Raises:
         TreadwellError: what is neither the physics' nor a component's failure.
     """
+    episode.simulation.audit.drop()
     result, problem = _played(episode, Scores(episode), NoWriters(), None)
     if problem is not None:
         raise problem

@@ -24,5 +24,5 @@ def export_tum(source: Path, out: Path) -> Sequence[Path]:
         if not len(rows):
             raise InputError(f"{source / name}: has not one pose")
     for name, rows in ways:
-        Trajectory([tuple(row) for row in rows.tolist()]).write(out / name)
+        Trajectory(rows).write(out / name)
     return [out / name for name, _ in ways]

@@ -1,5 +1,6 @@
 """What is measured of an episode without the simulator: errors of the pose, times of the stages."""
 
+from array import array
 from collections.abc import Sequence
 
 import numpy as np
@@ -15,7 +16,7 @@ class PoseErrors:
 
     def __init__(self) -> None:
         """Begin with none."""
-        self._rows: list[tuple[float, float, float]] = []
+        self._numbers = array("d")
 
     def add(self, estimate: Floats, odometry: Floats, truth: Floats) -> None:
         """Take in what was believed and what was so; (4, 4) each.
@@ -26,7 +27,7 @@ class PoseErrors:
             truth: world_from_robot.
         """
         turn = truth[:3, :3].T @ estimate[:3, :3]
-        self._rows.append(
+        self._numbers.extend(
             (
                 float(np.linalg.norm(estimate[:3, 3] - truth[:3, 3])),
                 abs(float(np.arctan2(turn[1, 0], turn[0, 0]))),
@@ -36,9 +37,10 @@ class PoseErrors:
 
     def errors(self) -> LocalizationErrors | None:
         """Return the errors so far, None without a pose."""
-        if not self._rows:
+        if not self._numbers:
             return None
-        translation, heading, odometry = (spread(column) for column in np.array(self._rows).T)
+        columns = np.array(self._numbers).reshape(-1, 3).T
+        translation, heading, odometry = (spread(column) for column in columns)
         return LocalizationErrors(
             translation_error=translation,
             heading_error=heading,

@@ -9,8 +9,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.errors import InputError
+from treadwell.errors import InputError, RecordingError
 from treadwell.limited import Limits, limited
+from treadwell.physics.parts import CTRL, EVENT_STEP, PARTS, QPOS, STATE0, join
+from treadwell.physics.rows import Rows
 
 # By default MuJoCo appends its warnings to a file in the current folder.
 mujoco.set_mju_user_warning(logging.getLogger(__name__).warning)
@@ -31,26 +33,6 @@ _OWN_KEYS = ("qpos", "qvel")
 """Fields that move by themselves. Their keys begin with `event_`, and a row of NaN sets nothing."""
 
 
-class Rows:
-    """A two-dimensional array that grows by rows."""
-
-    def __init__(self, width: int) -> None:
-        """Make room for rows of this width."""
-        self._rows = np.empty((1024, width))
-        self._count = 0
-
-    def append(self, row: NDArray[np.float64]) -> None:
-        """Copy a row to the end."""
-        if self._count == len(self._rows):
-            self._rows = np.concatenate([self._rows, np.empty_like(self._rows)])
-        self._rows[self._count] = row
-        self._count += 1
-
-    def array(self) -> NDArray[np.float64]:
-        """Return (n, width): the rows so far, a view."""
-        return self._rows[: self._count]
-
-
 class Audit:
     """Collects the audit of one run: what plain MuJoCo needs to step to the same states.
 
@@ -58,18 +40,30 @@ class Audit:
     further array was set before physics step `event_step[i]`. The arrays have the names of
     MuJoCo's fields (`xfrc_applied`, `mocap_pos`, `geom_friction`, ...), each row the whole field;
     `event_qpos` and `event_qvel` are NaN where an event left them alone.
+
+    What is collected lies in files, not in memory: nameless ones, or those of `keep_in`. Where
+    one cannot be written, all but the constructor raise RecordingError.
+
+    Attributes:
+        ctrl: a row a physics step.
+        qpos: a row a control tick.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         """Keep the model and the state as they are before the first step."""
         self._model = np.empty(mujoco.mj_sizeModel(model), dtype=np.uint8)
         mujoco.mj_saveModel(model, None, self._model)
-        self._state0 = np.empty(mujoco.mj_stateSize(model, STATE))
-        mujoco.mj_getState(model, data, self._state0, STATE)
-        self.ctrl = Rows(model.nu)
-        self.qpos = Rows(model.nq)
-        self._event_step: list[int] = []
-        self._events: dict[str, list[NDArray[Any]]] = {}
+        state0 = np.empty(mujoco.mj_stateSize(model, STATE))
+        mujoco.mj_getState(model, data, state0, STATE)
+        self.ctrl = Rows((model.nu,))
+        self.qpos = Rows((model.nq,))
+        self._state0, self._event_step = Rows(()), Rows((), np.int64)
+        self._state0.extend(state0)
+        self._events: dict[str, Rows] = {}
+        self._now: dict[str, NDArray[Any]] = {}
+        """Each field as it is before the next step: as an event left it, or untouched."""
+        self._now_step: int | None = None
+        self._folder: Path | None = None
 
     def event(self, step: int, field: str, before: NDArray[Any], after: NDArray[Any]) -> None:
         """Keep what an event set.
@@ -80,28 +74,83 @@ class Audit:
             before: the whole field as it was.
             after: the whole field as it is now.
         """
-        if not self._event_step or self._event_step[-1] != step:
-            self._event_step.append(step)
-            for name, rows in self._events.items():
-                rows.append(_untouched(name, rows[-1]))
+        if self._now_step != step:
+            self._end_events()
+            self._now_step = step
         if field not in self._events:
+            rows = self._events[field] = Rows(before.shape, before.dtype)
+            if self._folder is not None:
+                rows.keep_in(self._folder / f"{_key(field)}.npy")
             earlier = _untouched(field, np.array(before))
-            self._events[field] = [earlier] * len(self._event_step)
-        self._events[field][-1] = np.array(after)
+            rows.extend(np.broadcast_to(earlier, (len(self._event_step), *earlier.shape)))
+        self._now[field] = np.array(after)
+
+    def keep_in(self, folder: Path) -> None:
+        """Keep what there is and what is to come in a run's folder, which exists.
+
+        As it comes it is there: `model.mjb`, and an array a file in the folder `PARTS`, of which
+        `save` or `join_parts` make `physics.npz`.
+
+        Raises:
+            RecordingError: it cannot be written.
+        """
+        parts = folder / PARTS
+        try:
+            parts.mkdir()
+            self._model.tofile(folder / "model.mjb")
+        except OSError as error:
+            raise RecordingError(f"{parts}: cannot be written: {error.strerror}") from error
+        self._folder = parts
+        for key, rows in self._rows().items():
+            rows.keep_in(parts / f"{key}.npy")
+
+    def drop(self) -> None:
+        """Forget everything, and what is to come: of a run of which nothing will be written."""
+        for rows in self._rows().values():
+            rows.drop()
+
+    def flush(self) -> None:
+        """Write what waits in memory."""
+        if self._now_step is not None and len(self.ctrl) > self._now_step:
+            self._end_events()
+        # The steps last: what they need to be repeated is then there.
+        for rows in reversed(self._rows().values()):
+            rows.flush()
 
     def save(self, folder: Path) -> None:
         """Write `model.mjb` and `physics.npz` into a folder that exists."""
-        self._model.tofile(folder / "model.mjb")
-        arrays: dict[str, Any] = {
-            "state0": self._state0,
-            "ctrl": self.ctrl.array(),
-            "qpos": self.qpos.array(),
-        }
-        if self._event_step:
-            arrays["event_step"] = np.array(self._event_step, dtype=np.int64)
-            for field, rows in self._events.items():
-                arrays[_key(field)] = np.stack(rows)
-        np.savez(folder / "physics.npz", **arrays)
+        if self._folder is None or self._folder.parent != folder:
+            self.keep_in(folder)
+        self._end_events()
+        rows = self._rows()
+        for each in rows.values():
+            each.close()
+        join(folder, rows, STEPS_PER_TICK)
+
+    def _rows(self) -> dict[str, Rows]:
+        """Return the arrays by their names in the file."""
+        rows = {STATE0: self._state0, CTRL: self.ctrl, QPOS: self.qpos}
+        rows[EVENT_STEP] = self._event_step
+        return rows | {_key(field): each for field, each in self._events.items()}
+
+    def _end_events(self) -> None:
+        """Add the row of the last step that had events."""
+        step, self._now_step = self._now_step, None
+        if step is None:
+            return
+        self._event_step.append(np.array(step))
+        for field, rows in self._events.items():
+            rows.append(self._now[field])
+            self._now[field] = _untouched(field, self._now[field])
+
+
+def join_parts(folder: Path) -> None:
+    """Make `physics.npz` of what a run that was killed has left in its folder.
+
+    Raises:
+        RecordingError: there is nothing, or it cannot be written.
+    """
+    join(folder, (), STEPS_PER_TICK)
 
 
 def replay_audit(folder: Path) -> int | None:

@@ -172,7 +172,11 @@ class Simulation:
         self.data.qpos[:] = self.standing_qpos(start)
 
     def save_audit(self, folder: Path) -> None:
-        """Write `model.mjb` and `physics.npz` into a folder that exists."""
+        """Write `model.mjb` and `physics.npz` into a folder that exists.
+
+        Raises:
+            RecordingError: they cannot be written.
+        """
         self.audit.save(folder)
 
     def _check_targets(self, targets: JointTargets) -> None:

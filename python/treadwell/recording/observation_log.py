@@ -14,13 +14,11 @@ What `replay` hands to the core comes from `read_observations` alone, which skip
 import hashlib
 import json
 import struct
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Final
-
-from mcap.writer import CompressionType, Writer
 
 from treadwell._core import Octree
 from treadwell._core import version as core_version
@@ -28,6 +26,7 @@ from treadwell.errors import InputError, RecordingError
 from treadwell.observation import Observation
 from treadwell.recording import cdr, messages
 from treadwell.recording.log_file import BrokenLogError, Front, read_front, read_messages
+from treadwell.recording.log_writer import Entry, LogWriter
 from treadwell.scenario.model import Scenario
 from treadwell.version import __version__
 
@@ -66,10 +65,8 @@ class ObservationLog:
         self._path = folder / NAME
         try:
             self._file = self._path.open("wb")
-            self._writer = writer = Writer(
-                self._file, chunk_size=_CHUNK, compression=CompressionType.ZSTD
-            )
-            writer.start(profile="ros2", library=f"treadwell {__version__}")
+            library = f"treadwell {__version__}"
+            self._writer = writer = LogWriter(self._file, _CHUNK, "ros2", library)
             self._observation = self._channel("/observation", "Observation", cdr.OBSERVATION)
             self._depth = self._channel("/depth", "sensor_msgs/msg/Image", cdr.IMAGE)
             self._command = self._channel("/command", "JointTargets", messages.COMMAND)
@@ -92,10 +89,10 @@ class ObservationLog:
                 tables[CORE] = _core_table(core)
             for name, table in tables.items():
                 text = json.dumps(table, allow_nan=False).encode()
-                writer.add_attachment(0, 0, name, "application/json", text)
+                writer.add_attachment(name, "application/json", text)
             if core is not None and core.static_map is not None:
                 told = _octree_bytes(core.static_map)
-                writer.add_attachment(0, 0, STATIC_MAP, "application/octet-stream", told)
+                writer.add_attachment(STATIC_MAP, "application/octet-stream", told)
         except OSError as error:
             raise self._failed(error) from error
 
@@ -105,50 +102,69 @@ class ObservationLog:
         Raises:
             RecordingError: the file cannot be written.
         """
-        time = observation.time_ns
-        try:
-            self._writer.add_message(self._observation, time, cdr.encode(observation), time)
-            if observation.depth is not None:
-                frame = observation.depth
-                self._writer.add_message(
-                    self._depth, frame.arrival_ns, cdr.encode_image(frame), frame.exposure_ns
-                )
-        except OSError as error:
-            raise self._failed(error) from error
+        self.append(self.observed(observation))
 
     def write_answer(self, time_ns: int, command: bytes, estimate: bytes) -> None:
-        """Append what the core answered to a tick's observation.
+        """Append what the core answered to a tick's observation, as `answered` has it.
+
+        Raises:
+            RecordingError: the file cannot be written.
+        """
+        self.append(self.answered(time_ns, command, estimate))
+
+    def write_truth(
+        self, time_ns: int, position: tuple[float, ...], quaternion: tuple[float, ...]
+    ) -> None:
+        """Append where the robot truly stands, as `stood` has it.
+
+        Raises:
+            RecordingError: the file cannot be written.
+        """
+        self.append(self.stood(time_ns, position, quaternion))
+
+    def observed(self, observation: Observation) -> list[Entry]:
+        """Return the messages of a tick's measurements, and of its frame where it has one."""
+        time, frame = observation.time_ns, observation.depth
+        entries = [(self._observation, time, time, cdr.encode(observation))]
+        if frame is not None:
+            image = cdr.encode_image(frame)
+            entries.append((self._depth, frame.arrival_ns, frame.exposure_ns, image))
+        return entries
+
+    def answered(self, time_ns: int, command: bytes, estimate: bytes) -> list[Entry]:
+        """Return the messages of what the core answered to a tick's observation.
 
         Args:
             time_ns: the observation's, nanoseconds since the start.
             command: the message `COMMAND`.
             estimate: the message `ESTIMATE`.
-
-        Raises:
-            RecordingError: the file cannot be written.
         """
-        try:
-            self._writer.add_message(self._command, time_ns, command, time_ns)
-            self._writer.add_message(self._estimate, time_ns, estimate, time_ns)
-        except OSError as error:
-            raise self._failed(error) from error
+        return [
+            (self._command, time_ns, time_ns, command),
+            (self._estimate, time_ns, time_ns, estimate),
+        ]
 
-    def write_truth(
+    def stood(
         self, time_ns: int, position: tuple[float, ...], quaternion: tuple[float, ...]
-    ) -> None:
-        """Append where the robot truly stands.
+    ) -> list[Entry]:
+        """Return the message of where the robot truly stands.
 
         Args:
             time_ns: nanoseconds since the start.
             position: x, y, z m, of the robot's frame in the map.
             quaternion: x, y, z, w.
+        """
+        message = messages.encode_truth(time_ns, position, quaternion)
+        return [(self._truth, time_ns, time_ns, message)]
+
+    def append(self, entries: Iterable[Entry]) -> None:
+        """Append messages.
 
         Raises:
             RecordingError: the file cannot be written.
         """
-        message = messages.encode_truth(time_ns, position, quaternion)
         try:
-            self._writer.add_message(self._truth, time_ns, message, time_ns)
+            self._writer.add_messages(entries)
         except OSError as error:
             raise self._failed(error) from error
 
@@ -159,7 +175,7 @@ class ObservationLog:
             RecordingError: the rest cannot be written.
         """
         try:
-            self._writer.finish()  # type: ignore[no-untyped-call]
+            self._writer.finish()
             self._file.flush()
         except OSError as error:
             raise self._failed(error) from error
@@ -171,8 +187,7 @@ class ObservationLog:
 
     def _channel(self, topic: str, name: str, definition: str) -> int:
         full = name if "/" in name else f"treadwell_msgs/msg/{name}"
-        schema = self._writer.register_schema(full, "ros2msg", definition.encode())
-        return int(self._writer.register_channel(topic, "cdr", schema))
+        return self._writer.add_channel(topic, full, definition)
 
     def _failed(self, error: OSError) -> RecordingError:
         return RecordingError(

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Final
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from treadwell._core import Octree
 from treadwell.course.course import Course
 from treadwell.course.pieces import bounds
 from treadwell.errors import InputError, RecordingError
 from treadwell.recording.file import cut_to_whole_messages, room
+from treadwell.recording.quiet import first_import
 from treadwell.robot.load import Robot
 from treadwell.scenario.model import Scenario
 from treadwell.trace import Trace
@@ -21,10 +23,10 @@ if TYPE_CHECKING:
     from treadwell.recording.shapes import Shapes
 
 NAME: Final = "recording.rrd"
-_FRAMES_A_CHECK: Final = 12
-"""Camera frames, about a second, that are written at a time; then the file is looked at."""
-_LONGEST_WAIT: Final = 0.2
-"""Seconds after which a slow run's frames are written before the dozen is full."""
+_FRAMES_A_BATCH: Final = 48
+"""Camera frames, about four seconds, that are written at a time; then the file is looked at."""
+_LONGEST_WAIT: Final = 0.3
+"""Seconds of the clock after which frames are written before there are so many."""
 _FLUSH_SECONDS: Final = 10.0
 _SPARE_BYTES: Final = 16_000_000
 """Room that must be left for what is logged between two looks."""
@@ -61,7 +63,8 @@ class Recorder:
             RecordingError: the file cannot be opened.
         """
         # Late, because rerun takes a second to import.
-        import rerun as rr
+        with first_import():
+            import rerun as rr
 
         from treadwell.recording.frame_log import FrameLog
         from treadwell.recording.layout import blueprint
@@ -70,7 +73,9 @@ class Recorder:
         from treadwell.recording.volumes import Volumes
 
         self._path = path
-        self._frames, self._broken = 0, False
+        self._broken = False
+        self._bodies: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []
+        """Places and turns of all bodies at each frame that waits."""
         top = max((t.height for _, t in course.tops()), default=0.0)
         begin = (*course.start.position, course.start.height)
         centre, extent = _middle_and_extent(scenario, course)
@@ -86,7 +91,8 @@ class Recorder:
             views = blueprint(
                 centre, extent, feet=begin if top > 0.0 else None, maps=static_map is not None
             )
-            self._stream.save(path, views)
+            # A table of contents would take memory, 14 kB with each batch of each entity.
+            self._stream.save(path, views, write_footer=False)
         except (OSError, RuntimeError) as error:
             raise RecordingError(f"{path}: cannot be written: {_reason(error)}") from error
         self._stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
@@ -102,22 +108,19 @@ class Recorder:
         self._check()
 
     def frame(self, trace: Trace) -> None:
-        """Write one camera frame.
+        """Write one camera frame; after an error nothing more.
 
         Raises:
             RecordingError: the file does not take it any more.
         """
+        if self._broken:
+            return
         self._rows.begin(trace.time_ns)
-        for shapes in (self._robot, self._movable):
-            for entity, kind, fields in shapes.posed(trace.body_positions, trace.body_orientations):
-                self._rows.log(entity, kind, **fields)
+        self._bodies.append((trace.body_positions, trace.body_orientations))
         self._products.log(trace)
         self._volumes.log(trace)
-        self._frames += 1
-        if self._frames % _FRAMES_A_CHECK == 0:
+        if self._rows.frames >= _FRAMES_A_BATCH or self._rows.waiting_seconds > _LONGEST_WAIT:
             self._check()
-        elif self._rows.waiting_seconds > _LONGEST_WAIT:
-            self._rows.send()
 
     def close(self) -> None:
         """Write what is left and close the file. After an error there is nothing left to do.
@@ -138,7 +141,7 @@ class Recorder:
                 self._broken = True
                 self._stream.disconnect()
                 raise self._full()
-            self._rows.send()
+            self._send()
             self._stream.flush(timeout_sec=_FLUSH_SECONDS)
             _ = self._path.stat()
         except (OSError, RuntimeError, ValueError) as error:
@@ -147,6 +150,16 @@ class Recorder:
                 f"{self._path}: writing failed, what was recorded before stays readable: "
                 f"{_reason(error)}"
             ) from error
+
+    def _send(self) -> None:
+        """Hand over the frames that wait."""
+        if self._bodies:
+            places, turns = (np.array(values) for values in zip(*self._bodies, strict=True))
+            self._bodies.clear()
+            for shapes in (self._robot, self._movable):
+                for entity, kind, fields in shapes.posed(places, turns):
+                    self._rows.log_all(entity, kind, **fields)
+        self._rows.send()
 
     def _full(self) -> RecordingError:
         return RecordingError(
@@ -179,8 +192,9 @@ class Recorder:
             ids = np.array(geoms, dtype=np.intp)
             shapes = Shapes(model, ids, f"world/{name}", opacity=opacity)
             shapes.draw(self._stream)
-            for entity, kind, fields in shapes.posed(data.xpos, data.xquat):
-                self._stream.log(entity, kind.from_fields(**fields), static=True)
+            for entity, kind, fields in shapes.posed(data.xpos[None], data.xquat[None]):
+                still = {name: values[0] for name, values in fields.items()}
+                self._stream.log(entity, kind.from_fields(**still), static=True)
         movable = Shapes(model, np.array(moving, dtype=np.intp), "world/movable")
         movable.draw(self._stream)
         return movable

@@ -104,35 +104,35 @@ class Shapes:
     def posed(
         self, positions: Floats, orientations: Floats
     ) -> Iterator[tuple[str, type[Any], dict[str, Floats]]]:
-        """Yield where the geoms are: entity, rerun's archetype, its fields.
+        """Yield where the geoms are: entity, rerun's archetype, its fields, (frames, n, ...) each.
 
         Args:
-            positions: (nbody, 3) of MuJoCo's bodies, m.
-            orientations: (nbody, 4) wxyz.
+            positions: (frames, nbody, 3) of MuJoCo's bodies, m.
+            orientations: (frames, nbody, 4) wxyz.
         """
         if not self.geoms.size:
             return
         places, turns = self._poses(positions, orientations)
-        xyzw = turns[:, [1, 2, 3, 0]]
+        xyzw = turns[..., [1, 2, 3, 0]]
         end = 0
         for batch in self._batches:
             first, end = end, end + len(batch.geoms)
-            name, centres = "centers", places[first:end]
+            name, centres = "centers", places[:, first:end]
             if batch.kind == "capsules":
                 # A capsule of the recording begins at its pose; MuJoCo's lies around it.
-                axes = rotated(turns[first:end], (0.0, 0.0, 1.0))
+                axes = rotated(turns[:, first:end], (0.0, 0.0, 1.0))
                 name, centres = "translations", centres - batch.sizes[:, 1:2] * axes
-            fields = {name: centres, "quaternions": xyzw[first:end]}
+            fields = {name: centres, "quaternions": xyzw[:, first:end]}
             yield f"{self.entity}/{batch.kind}", _ARCHETYPES[batch.kind], fields
         for i, geom in enumerate(self._meshes, start=end):
-            fields = {"translations": places[i : i + 1], "quaternions": xyzw[i : i + 1]}
+            fields = {"translations": places[:, i : i + 1], "quaternions": xyzw[:, i : i + 1]}
             yield f"{self.entity}/mesh_{geom}", rr.InstancePoses3D, fields
 
     def _poses(self, positions: Floats, orientations: Floats) -> tuple[Floats, Floats]:
-        """Return world positions (n, 3) and quaternions (n, 4) wxyz of the geoms, in order."""
-        turn = orientations[self._body]
+        """Return world positions and quaternions wxyz of the geoms, (frames, n, ...), in order."""
+        turn = orientations[:, self._body]
         place, local_turn = self._local
-        return positions[self._body] + rotated(turn, place), multiplied(turn, local_turn)
+        return positions[:, self._body] + rotated(turn, place), multiplied(turn, local_turn)
 
     def _mesh(self, geom: int) -> rr.Mesh3D:
         model = self._model
@@ -169,8 +169,8 @@ def colours(model: mujoco.MjModel, geoms: NDArray[np.intp]) -> NDArray[np.uint8]
 
 
 def rotated(quaternions: Floats, vectors: Floats | tuple[float, float, float]) -> Floats:
-    """Return vectors (n, 3) or (3,) turned by quaternions (n, 4) wxyz."""
-    w, u = quaternions[:, :1], quaternions[:, 1:]
+    """Return vectors (..., 3) or (3,) turned by quaternions (..., 4) wxyz."""
+    w, u = quaternions[..., :1], quaternions[..., 1:]
     v = np.broadcast_to(np.asarray(vectors, dtype=np.float64), u.shape)
     t = 2.0 * _cross(u, v)
     turned: Floats = v + w * t + _cross(u, t)
@@ -178,16 +178,18 @@ def rotated(quaternions: Floats, vectors: Floats | tuple[float, float, float]) -
 
 
 def multiplied(first: Floats, second: Floats) -> Floats:
-    """Return the quaternion products (n, 4) wxyz: the second turn comes first."""
-    a, b = first, second
-    w = a[:, 0] * b[:, 0] - (a[:, 1:] * b[:, 1:]).sum(axis=1)
-    v = a[:, :1] * b[:, 1:] + b[:, :1] * a[:, 1:] + _cross(a[:, 1:], b[:, 1:])
-    product: Floats = np.column_stack([w, v])
+    """Return the quaternion products (..., 4) wxyz: the second turn comes first."""
+    a, b = first, np.broadcast_to(second, first.shape)
+    w = a[..., :1] * b[..., :1] - (a[..., 1:] * b[..., 1:]).sum(axis=-1, keepdims=True)
+    v = a[..., :1] * b[..., 1:] + b[..., :1] * a[..., 1:] + _cross(a[..., 1:], b[..., 1:])
+    product: Floats = np.concatenate([w, v], axis=-1)
     return product
 
 
 def _cross(first: Floats, second: Floats) -> Floats:
-    """Return the cross products (n, 3). For so few vectors `np.cross` takes ten times as long."""
+    """Return the cross products (..., 3). For so few vectors `np.cross` takes ten times as long."""
     ahead, behind = [1, 2, 0], [2, 0, 1]
-    product: Floats = first[:, ahead] * second[:, behind] - first[:, behind] * second[:, ahead]
+    product: Floats = (
+        first[..., ahead] * second[..., behind] - first[..., behind] * second[..., ahead]
+    )
     return product

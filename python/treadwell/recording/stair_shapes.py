@@ -39,7 +39,7 @@ class StairShapes:
             sole: m, length and width of a sole.
         """
         self._rows, self._sole = rows, sole
-        self._stairs_shown = False
+        self._stairs_shown: list[tuple[object, ...]] = []
         self._listed: tuple[Footstep, ...] = ()
         self._touch = (True, True)
         self._marks: list[tuple[NDArray[np.float64], tuple[int, int, int]]] = []
@@ -60,9 +60,10 @@ class StairShapes:
             self._rows.log("behaviour/misstep", rr.StateChange, state=[trace.misstep or ""])
 
     def _log_stairs(self, stairs: tuple[StairTrace, ...]) -> None:
-        if not stairs and not self._stairs_shown:
+        shown = [_content(stair) for stair in stairs]
+        if shown == self._stairs_shown:
             return
-        self._stairs_shown = bool(stairs)
+        self._stairs_shown = shown
         # The floor at the foot of stairs is one of them, but its rim would lie over everything.
         steps = [s for s in stairs if s.depth() < FLOOR_DEPTH]
         rims = [_raised([*s.front, *s.back[::-1], s.front[0]]) for s in steps]
@@ -70,14 +71,18 @@ class StairShapes:
         fronts = [_raised(s.front) for s in stairs]
         colours = [_edge_colour(s, fitted=s.front_fitted) for s in stairs]
         self._lines("world/stairs/front", fronts, colours, 0.006)
+        self._rows.style(
+            "world/stairs/height",
+            rr.Points3D,
+            radii=[0.001],
+            colors=[(255, 255, 255)],
+            show_labels=[True],
+        )
         self._rows.log(
             "world/stairs/height",
             rr.Points3D,
             positions=[s.front.mean(axis=0) for s in steps],
-            radii=[0.001],
-            colors=[(255, 255, 255)],
             labels=[f"{1e3 * s.height():.0f} mm" for s in steps],
-            show_labels=[True],
         )
         backs = [s for s in stairs if s.back_fitted]
         colours = [_edge_colour(s, fitted=True) for s in backs]
@@ -124,7 +129,14 @@ class StairShapes:
         colours: list[_Colour],
         radius: float,
     ) -> None:
-        self._rows.log(entity, rr.LineStrips3D, strips=strips, colors=colours, radii=[radius])
+        self._rows.style(entity, rr.LineStrips3D, radii=[radius])
+        self._rows.log(entity, rr.LineStrips3D, strips=strips, colors=colours)
+
+
+def _content(stair: StairTrace) -> tuple[object, ...]:
+    """Return all that is drawn of a stair, to be compared."""
+    fitted = stair.front_fitted, stair.back_fitted
+    return stair.front.tobytes(), stair.back.tobytes(), *fitted, _opacity(stair)
 
 
 def _opacity(stair: StairTrace) -> int:

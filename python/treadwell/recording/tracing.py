@@ -55,8 +55,8 @@ def trace_of(episode: Episode, step: Step, *, pictures: bool = True) -> Trace:
         state=step.state,
         goal=episode.goal,
         gaze=(pilot.gaze[0], pilot.gaze[1]),
-        body_positions=data.xpos,
-        body_orientations=data.xquat,
+        body_positions=data.xpos.copy(),
+        body_orientations=data.xquat.copy(),
         timing=dict(zip(pilot.stages, pilot.timing, strict=True)),
     )
 

@@ -1,6 +1,6 @@
 """Trajectories in the format of the TUM RGB-D benchmark: time, position, quaternion xyzw."""
 
-from dataclasses import dataclass, field
+from array import array
 from pathlib import Path
 
 import numpy as np
@@ -18,15 +18,17 @@ ESTIMATE, TRUTH = "trajectory.tum", "trajectory_truth.tum"
 """Names of the two files in a run's folder."""
 
 
-@dataclass
 class Trajectory:
-    """Poses of the robot frame in the map, one a camera frame.
+    """Poses of the robot frame in the map, one a camera frame; 64 bytes each."""
 
-    Attributes:
-        rows: time s, x, y, z m, quaternion x, y, z, w.
-    """
+    def __init__(self, rows: NDArray[np.float64] | None = None) -> None:
+        """Begin with rows as in the attribute `rows`, or with none."""
+        self._numbers = array("d", [] if rows is None else rows.ravel())
 
-    rows: list[tuple[float, ...]] = field(default_factory=list)
+    @property
+    def rows(self) -> NDArray[np.float64]:
+        """(n, 8): time s, x, y, z m, quaternion x, y, z, w."""
+        return np.array(self._numbers).reshape(-1, 8)
 
     def add(self, time_ns: int, pose: NDArray[np.float64]) -> None:
         """Append a pose.
@@ -35,11 +37,11 @@ class Trajectory:
             time_ns: nanoseconds since the start.
             pose: map_from_robot, (4, 4).
         """
-        self.rows.append((1e-9 * time_ns, *pose[:3, 3].tolist(), *quaternion(pose[:3, :3])))
+        self._numbers.extend((1e-9 * time_ns, *pose[:3, 3].tolist(), *quaternion(pose[:3, :3])))
 
     def positions(self) -> NDArray[np.float64]:
         """Return the positions, (n, 3) m."""
-        return np.array([row[1:4] for row in self.rows]).reshape(-1, 3)
+        return self.rows[:, 1:4]
 
     def write(self, path: Path) -> None:
         """Write the file whole or not at all.
@@ -49,7 +51,8 @@ class Trajectory:
         """
         lines = ["# timestamp tx ty tz qx qy qz qw"]
         lines += [
-            f"{row[0]:.9f} " + " ".join(f"{value:.9f}" for value in row[1:]) for row in self.rows
+            f"{row[0]:.9f} " + " ".join(f"{value:.9f}" for value in row[1:])
+            for row in self.rows.tolist()
         ]
         write_whole(path, "\n".join(lines) + "\n")
 

@@ -1,6 +1,7 @@
 """What a run leaves behind: recording, observations, audit, trajectories, picture, result."""
 
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -18,11 +19,19 @@ from treadwell.recording.scenario_file import NAME as SCENARIO
 from treadwell.recording.scenario_file import write_scenario
 from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.trajectory import ESTIMATE, TRUTH, Trajectory, quaternion
+from treadwell.recording.writing_thread import WritingThread
 from treadwell.trace import Trace
 
 if TYPE_CHECKING:
+    from treadwell.recording.log_writer import Entry
     from treadwell.recording.observation_log import ObservationLog
     from treadwell.recording.recorder import Recorder
+
+
+_TICKS_A_JOB: Final = 16
+"""Control ticks that are handed over for writing at a time."""
+_TICKS_A_FLUSH: Final = 32
+"""Control ticks, a third of a second, whose part of the audit may wait in memory."""
 
 
 class Writers:
@@ -51,12 +60,17 @@ class Writers:
         self._episode = episode
         self._recorder: Recorder | None = None
         self._observations: ObservationLog | None = None
+        self._thread: WritingThread | None = None
         self._viewer = viewer
+        self._ticks = 0
+        self._messages: list[Entry] = []
+        self._frames: list[Trace] = []
         # First of all: the folder is then taken, and what was run is known however it ends.
         try:
             write_scenario(folder / SCENARIO, episode.scenario)
         except OSError as error:
             raise RecordingError(f"{folder}: cannot be written: {error.strerror}") from error
+        episode.simulation.audit.keep_in(folder)
         if record:
             from treadwell.recording import observation_log
             from treadwell.recording import recorder as recording
@@ -73,6 +87,7 @@ class Writers:
             self._observations = observation_log.ObservationLog(
                 folder, made, episode.robot, episode.core_input
             )
+            self._thread = WritingThread()
 
     @property
     def records(self) -> bool:
@@ -85,33 +100,55 @@ class Writers:
         Raises:
             RecordingError: a file does not take it any more.
         """
+        self._ticks += 1
         if self._observations is not None:
-            self._log(self._observations, step)
+            self._take(self._observations, step)
+            if self._ticks % _TICKS_A_JOB == 0:
+                self._hand_over()
+        if self._ticks % _TICKS_A_FLUSH == 0:
+            self._episode.simulation.audit.flush()
         if self._viewer is not None and step.observation.depth is not None:
             self._viewer.sync()
 
-    def _log(self, log: "ObservationLog", step: Step) -> None:
+    def _take(self, log: "ObservationLog", step: Step) -> None:
+        """Keep a tick's messages. They are made here: a part's arrays may be its own again soon."""
         now, command, belief = step.time_ns, step.command, step.estimate
-        log.write(step.observation)
-        log.write_answer(
-            now,
-            encode_command(now, command.position, command.velocity, command.torque),
-            encode_estimate(
-                now, belief.pose, belief.odometry, step.state, step.outcome, step.reason
-            ),
+        told = encode_command(now, command.position, command.velocity, command.torque)
+        believed = encode_estimate(
+            now, belief.pose, belief.odometry, step.state, step.outcome, step.reason
         )
         truth = self._episode.judge.frame.matrix()
         place = tuple(truth[:3, 3].tolist())
-        log.write_truth(self._episode.simulation.time_ns, place, quaternion(truth[:3, :3]))
+        stood_ns = self._episode.simulation.time_ns
+        self._messages += log.observed(step.observation)
+        self._messages += log.answered(now, told, believed)
+        self._messages += log.stood(stood_ns, place, quaternion(truth[:3, :3]))
 
     def frame(self, trace: Trace) -> None:
-        """Take in a camera frame.
+        """Take in a camera frame, which nobody changes afterwards."""
+        if self._recorder is not None:
+            self._frames.append(trace)
+
+    def _hand_over(self) -> None:
+        """Let the thread write what has come.
 
         Raises:
-            RecordingError: the file does not take it any more.
+            RecordingError: a file does not take any more.
         """
-        if self._recorder is not None:
-            self._recorder.frame(trace)
+        if self._thread is not None:
+            messages, self._messages = self._messages, []
+            frames, self._frames = self._frames, []
+            self._thread.do(lambda: self._write(messages, frames))
+
+    def _write(self, messages: list["Entry"], frames: list[Trace]) -> None:
+        """Write messages and frames, each though the other fails."""
+        assert self._observations is not None
+        assert self._recorder is not None
+        try:
+            self._observations.append(messages)
+        finally:
+            for trace in frames:
+                self._recorder.frame(trace)
 
     def finish(
         self,
@@ -162,12 +199,15 @@ class Writers:
     def _close(self) -> None:
         if self._viewer is not None:
             self._viewer.close()
-        try:
-            if self._observations is not None:
-                self._observations.close()
-        finally:
+        with ExitStack() as closing:
+            # The last is the first to be done, and each is though one before it fails.
             if self._recorder is not None:
-                self._recorder.close()
+                closing.callback(self._recorder.close)
+            if self._observations is not None:
+                closing.callback(self._observations.close)
+            if self._thread is not None:
+                closing.callback(self._thread.close)
+                closing.callback(self._hand_over)
 
 
 class NoWriters:

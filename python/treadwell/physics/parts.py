@@ -1,0 +1,79 @@
+"""The arrays of an audit while it goes on, a file each, and `physics.npz` made of them."""
+
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+from typing import IO, Final
+from zipfile import ZIP_STORED, ZipFile
+
+import numpy as np
+
+from treadwell.errors import RecordingError
+from treadwell.physics.rows import write_header
+
+PARTS: Final = "physics.part"
+"""Name of the folder, in a run's, while it goes on."""
+AUDIT: Final = "physics.npz"
+STATE0, CTRL, QPOS, EVENT_STEP = "state0", "ctrl", "qpos", "event_step"
+_FIRST: Final = (STATE0, CTRL, QPOS, EVENT_STEP)
+
+
+def join(folder: Path, names: Iterable[str], steps_a_tick: int) -> None:
+    """Make `physics.npz` of the parts in a run's folder, and delete them.
+
+    Of a run that was killed the rows to the last tick that all parts have are taken.
+
+    Args:
+        folder: the run's.
+        names: the arrays in the order in which they are written; those that are there by default.
+        steps_a_tick: rows of `ctrl` to one of `qpos`.
+
+    Raises:
+        RecordingError: a part is missing or broken, or the file cannot be written.
+    """
+    parts = folder / PARTS
+    try:
+        others = sorted(path.stem for path in parts.glob("*.npy") if path.stem not in _FIRST)
+        order = list(names) or [*_FIRST, *others]
+        rows = {name: _rows(parts / f"{name}.npy") for name in order}
+        ticks = min(rows[QPOS], rows[CTRL] // steps_a_tick)
+        events = min(rows[name] for name in order if name not in (STATE0, CTRL, QPOS))
+        taken = dict.fromkeys(order, events)
+        taken |= {STATE0: rows[STATE0], CTRL: ticks * steps_a_tick, QPOS: ticks}
+        with ZipFile(folder / AUDIT, "w", ZIP_STORED) as archive:
+            for name in order if events else (STATE0, CTRL, QPOS):
+                # As numpy writes it: an hour's are larger than what memory should hold.
+                with (
+                    (parts / f"{name}.npy").open("rb") as part,
+                    archive.open(f"{name}.npy", "w", force_zip64=True) as member,
+                ):
+                    _copy(part, member, taken[name])
+        shutil.rmtree(parts)
+    except (OSError, ValueError, KeyError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise RecordingError(f"{folder / AUDIT}: cannot be written: {reason}") from error
+
+
+def _rows(path: Path) -> int:
+    """Return how many rows a part has in truth."""
+    with path.open("rb") as file:
+        shape, _, dtype = _header(file)
+        row_bytes = dtype.itemsize * int(np.prod(shape[1:]))
+        return min(shape[0], (path.stat().st_size - file.tell()) // max(1, row_bytes))
+
+
+def _copy(part: IO[bytes], member: IO[bytes], count: int) -> None:
+    """Copy a part's first rows with a header that says how many they are."""
+    shape, _, dtype = _header(part)
+    write_header(member, dtype, (count, *shape[1:]))
+    left = count * dtype.itemsize * int(np.prod(shape[1:]))
+    while left and (block := part.read(min(left, 1 << 20))):
+        left -= len(block)
+        member.write(block)
+
+
+def _header(file: IO[bytes]) -> tuple[tuple[int, ...], bool, "np.dtype[np.generic]"]:
+    np.lib.format.read_magic(file)
+    said: tuple[tuple[int, ...], bool, np.dtype[np.generic]]
+    said = np.lib.format.read_array_header_1_0(file)
+    return said
