@@ -163,8 +163,9 @@ def through_stereo(frame: RealFrame, seed: int, pinhole: Pinhole = ROBOT_EYE) ->
     model = StereoModel(
         StereoConfig(frame.baseline),
         pinhole,
+        np.ones(1),
         np.random.default_rng([seed, 0]),
         np.random.default_rng([seed, 1]),
     )
-    seen = model.see(Cast(depth, geom, np.zeros(3), np.eye(3)), np.ones(1))
+    seen = model.see(Cast(depth, geom, np.zeros(3), np.eye(3)))
     return replace(frame, depth=seen.astype(np.float64), truth=truth, pinhole=pinhole)

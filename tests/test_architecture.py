@@ -229,6 +229,13 @@ def test_no_crate_but_for_its_tests_uses_the_testkit() -> None:
         assert "testkit" not in manifest.get("dependencies", {}), crate
 
 
+def test_no_crate_but_the_bindings_knows_the_simulators_true_scene() -> None:
+    for crate in members():
+        manifest = tomllib.loads((ROOT / "rust" / crate / "Cargo.toml").read_text())
+        used = [*manifest.get("dependencies", {}), *manifest.get("dev-dependencies", {})]
+        assert crate == "bindings" or "simulated_senses" not in used, crate
+
+
 def test_the_tools_count_what_they_say() -> None:
     text = rust_source.blank(
         'const A: f64 = 0.3; // 0.4\nlet b = 1.5 * x + 0.5 + 1e-6 + 10.0;\nlet t = "0.7";\n'

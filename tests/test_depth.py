@@ -1,7 +1,5 @@
 """Tests of the rays: against analytic scenes."""
 
-from unittest.mock import patch
-
 import mujoco
 import numpy as np
 import pytest
@@ -9,7 +7,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from treadwell.senses.depth import DepthCamera, Mount, Pinhole
-from treadwell.senses.view import View
 
 WORLD = """
 <mujoco><worldbody>
@@ -49,90 +46,6 @@ def test_the_depth_of_the_floor_is_the_analytic_one(height: float, tilt: float, 
     floor = (cast.geom == model.geom("floor").id) & (expected < 8.0)
     assert floor.sum() > 1000
     np.testing.assert_allclose(cast.depth[floor], expected[floor], rtol=0.0, atol=1e-6)
-
-
-CLUTTER = """
-<mujoco><worldbody>
-  <geom type="plane" size="9 9 1"/>
-  <geom type="box" size="0.3 0.3 0.015" pos="0.7 0 0.015"/>
-  <geom type="box" size="0.2 0.3 0.015" pos="0.8 0 0.045"/>
-  <geom type="box" size="0.1 0.04 0.2" pos="0.6 0.3 0.2" euler="10 5 30"/>
-  <geom type="cylinder" size="0.03 0.3" pos="0.5 -0.2 0.3"/>
-  <body pos="0.9 0.1 0.1"><geom type="sphere" size="0.1"/></body>
-  <body pos="1.2 0.2 0.2" euler="0 30 10">
-    <geom type="ellipsoid" size="0.1 0.05 0.2"/>
-    <geom type="box" size="0.6 0.01 0.01" pos="0.1 0.2 0" euler="20 10 60"/>
-  </body>
-  <body pos="0.3 0.1 0.1"><geom type="capsule" size="0.02 0.2" euler="80 10 0"/></body>
-  <body name="head" mocap="true"><camera name="eye" xyaxes="0 -1 0 0 0 1"/></body>
-</worldbody></mujoco>
-"""
-
-
-def clutter(x: float, tilt: float, yaw: float) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """Return things in a heap, seen from 0.5 m above the floor at x m."""
-    model = mujoco.MjModel.from_xml_string(CLUTTER)
-    data = mujoco.MjData(model)
-    data.mocap_pos[0] = [x, 0.0, 0.5]
-    mujoco.mju_euler2Quat(data.mocap_quat[0], [yaw, tilt, 0.0], "zyx")
-    mujoco.mj_forward(model, data)
-    return model, data
-
-
-@settings(max_examples=40, deadline=None)
-@given(st.floats(-0.2, 1.2), st.floats(-0.5, 1.4), st.floats(-0.6, 0.6), st.integers(7, 90))
-def test_the_rays_that_are_saved_would_have_met_the_same(
-    x: float, tilt: float, yaw: float, width: int
-) -> None:
-    model, data = clutter(x, tilt, yaw)
-    pinhole = Pinhole(width, 72, 101.4)
-    saving = DepthCamera(model, "eye", pinhole).cast(data)
-    whole = DepthCamera(model, "eye", pinhole, every_pixel=True).cast(data)
-    same = saving.geom == whole.geom
-    # What is narrower than two pixels, as the tip of a corner is, can be missed.
-    assert np.count_nonzero(~same) <= 3
-    np.testing.assert_allclose(saving.depth[same], whole.depth[same], rtol=1e-9)
-
-
-@settings(max_examples=40, deadline=None)
-@given(st.floats(-0.2, 1.2), st.floats(-0.5, 1.4), st.floats(-0.6, 0.6))
-def test_what_is_hidden_because_it_lies_beside_the_picture_is_met_by_no_ray(
-    x: float, tilt: float, yaw: float
-) -> None:
-    model, data = clutter(x, tilt, yaw)
-    fields = (model.geom_group, model.body_geomnum, model.body_bvhadr)
-    before = [field.copy() for field in fields]
-    camera = DepthCamera(model, "eye", PINHOLE)
-    saving = camera.cast(data)
-    for field, was in zip(fields, before, strict=True):
-        np.testing.assert_array_equal(field, was)
-    with patch.object(View, "beside", return_value=np.zeros(model.ngeom, np.bool_)):
-        whole = camera.cast(data)
-    assert (saving.geom == whole.geom).all()
-    np.testing.assert_array_equal(saving.depth, whole.depth)
-
-
-def test_what_lies_behind_the_camera_is_hidden_from_its_rays() -> None:
-    model, data = world(0.5, 0.0)
-    backward = Mount(rotation=np.diag([-1.0, 1.0, -1.0]))
-    for mount, hidden in ((Mount(), False), (backward, True)):
-        camera = DepthCamera(model, "eye", PINHOLE, mount)
-        beside = View(model, PINHOLE.borders()).beside(data, *camera.pose(data))
-        assert beside[model.geom("nose").id] == hidden
-        assert not beside[model.geom("floor").id]
-
-
-def test_a_long_wall_beside_the_picture_is_hidden_and_its_body_passed_over() -> None:
-    wall = '<body name="wall" pos="1 {} 0"><geom type="box" size="2 0.02 1"/></body>'
-    for y, hidden in ((1.6, True), (0.8, False)):
-        xml = WORLD.replace("</worldbody>", wall.format(y) + "</worldbody>")
-        model = mujoco.MjModel.from_xml_string(xml.replace('pos="0.3 0 0"', 'pos="-0.3 0 0"'))
-        data = mujoco.MjData(model)
-        mujoco.mj_forward(model, data)
-        camera = DepthCamera(model, "eye", Pinhole(88, 72, 88.0))
-        with View(model, camera.pinhole.borders()).alone(data, *camera.pose(data)):
-            bodies = [name for name in ("wall", "nose") if model.body(name).geomnum[0]]
-        assert bodies == ([] if hidden else ["wall"])
 
 
 def test_every_geom_is_where_the_pinhole_projects_it() -> None:

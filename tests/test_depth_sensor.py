@@ -22,7 +22,7 @@ def sensor(latency: int = 0) -> tuple[DepthSensor, mujoco.MjData]:
     data = mujoco.MjData(MODEL)
     mujoco.mj_forward(MODEL, data)
     camera = DepthCamera(MODEL, "eye", Pinhole(8, 6, 10.0))
-    return DepthSensor(MODEL, camera, None, np.ones(MODEL.ngeom), PERIOD, latency), data
+    return DepthSensor(camera, None, PERIOD, latency), data
 
 
 def frames(seen: DepthSensor, data: mujoco.MjData, ticks: range) -> list[Frame]:
@@ -85,10 +85,7 @@ def test_looking_changes_nothing_in_the_state() -> None:
 
 def test_what_cannot_be_is_refused() -> None:
     camera = DepthCamera(MODEL, "eye", Pinhole(8, 6, 10.0))
-    texture = np.ones(MODEL.ngeom)
     with pytest.raises(ValueError, match="period must be > 0"):
-        DepthSensor(MODEL, camera, None, texture, 0, 0)
+        DepthSensor(camera, None, 0, 0)
     with pytest.raises(ValueError, match="latency must be >= 0"):
-        DepthSensor(MODEL, camera, None, texture, PERIOD, -1)
-    with pytest.raises(ValueError, match="texture: 2 geoms, got 1 values"):
-        DepthSensor(MODEL, camera, None, texture[:1], PERIOD, 0)
+        DepthSensor(camera, None, PERIOD, -1)

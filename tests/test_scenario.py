@@ -120,6 +120,15 @@ def test_bad_input_names_file_key_finding_and_hint(
     assert str(tmp_path / "x.toml") in found
 
 
+def test_2000_elements_are_taken_and_one_more_is_refused_in_one_line(tmp_path: Path) -> None:
+    element = '[[course]]\nkind = "box"\nsize = [0.1, 0.1, 0.1]\nposition = [{}.0, {}.0]\n'
+    elements = [element.format(2 + i % 40, i // 40) for i in range(2001)]
+    assert len(load_scenario(write(tmp_path, HEAD + "".join(elements[:-1]))).course) == 2000
+    found = message(write(tmp_path, HEAD + "".join(elements)))
+    assert "at most 2000 items" in found
+    assert len(found.splitlines()) == 1
+
+
 def test_all_faults_are_told_at_once_but_not_more_than_a_screenful(tmp_path: Path) -> None:
     text = HEAD + '[[course]]\nkind = "box"\nyaw = "a"\n' * 50 + "[physics]\nfriction = -1\n"
     lines = message(write(tmp_path, text)).splitlines()

@@ -182,6 +182,12 @@ def test_frames_are_late_by_the_latency() -> None:
     assert frames == [(3, 0), (11, 8 * TICK_NS), (19, 16 * TICK_NS)]
 
 
+def test_a_texture_that_is_not_one_a_geom_is_refused() -> None:
+    world = simulation()
+    with pytest.raises(ValueError, match=r"texture: .* geoms, got 1 values"):
+        Sensors(world.model, ROBOT, Settings(), RandomStreams(0), np.ones(1))
+
+
 def test_what_is_blank_is_not_seen() -> None:
     world = simulation()
     texture = np.ones(world.model.ngeom)

@@ -14,7 +14,6 @@ from treadwell.senses.structured_light import StructuredLightConfig, StructuredL
 PINHOLE = Pinhole(320, 240, 288.7)
 CONFIG = StructuredLightConfig(baseline=0.075)
 SHAPE = (240, 320)
-ANY = np.ones(1)
 
 
 def cast(depth: NDArray[np.float64] | float) -> Cast:
@@ -30,7 +29,7 @@ def camera(config: StructuredLightConfig = CONFIG) -> StructuredLightModel:
 def see(
     depth: NDArray[np.float64] | float, config: StructuredLightConfig = CONFIG
 ) -> NDArray[np.float64]:
-    return camera(config).see(cast(depth), ANY).astype(np.float64)
+    return camera(config).see(cast(depth)).astype(np.float64)
 
 
 def tilted(degrees: float, depth: float) -> NDArray[np.float64]:
@@ -101,7 +100,7 @@ def test_a_border_wanders_by_half_a_pixel_and_a_plane_keeps_its_axial_noise() ->
     depth = np.full(SHAPE, 2.0)
     depth[:, 200:] = 1.0
     light = camera(replace(CONFIG, edge_dropout=0.0))
-    near = np.stack([light.see(cast(depth), ANY) < 1.5 for _ in range(40)])
+    near = np.stack([light.see(cast(depth)) < 1.5 for _ in range(40)])
     assert not near[:, :, :198].any()
     assert near[:, :, 203:].all()
     wanders = near[:, :, 200:202].mean()
@@ -116,7 +115,7 @@ def test_some_pixels_at_borders_are_missing() -> None:
     depth = np.full(SHAPE, 2.0)
     depth[:, 200:] = 1.0
     light = camera(replace(CONFIG, lateral_noise=0.0))
-    missing = np.stack([np.isnan(light.see(cast(depth), ANY)) for _ in range(60)])
+    missing = np.stack([np.isnan(light.see(cast(depth))) for _ in range(60)])
     assert missing[:, :, 200].mean() == pytest.approx(0.015, abs=0.005)
     assert not missing[:, :, 201:].any()
 

@@ -1,5 +1,6 @@
 """The core, compiled: an observation in, joint targets out."""
 
+from collections.abc import Sequence
 from typing import ClassVar, final
 
 import numpy as np
@@ -11,6 +12,8 @@ from treadwell.observation import Observation
 __all__ = [
     "BodyState",
     "Climb",
+    "DepthCamera",
+    "DepthErrors",
     "FloorView",
     "Goal",
     "Legs",
@@ -162,6 +165,68 @@ class Segmenter:
     ) -> Planes: ...
     @property
     def seconds(self) -> float: ...
+
+@final
+class DepthCamera:
+    def __new__(
+        cls,
+        types: NDArray[np.int32],
+        sizes: NDArray[np.float64],
+        seen: NDArray[np.bool_],
+        data: NDArray[np.int32],
+        meshes: Sequence[tuple[NDArray[np.float32], NDArray[np.int32]]],
+        height_fields: Sequence[tuple[NDArray[np.float32], tuple[float, float, float, float]]],
+        *,
+        width: int,
+        height: int,
+        focal: float,
+    ) -> DepthCamera: ...
+    @property
+    def unknown(self) -> list[int]: ...
+    def cast(
+        self,
+        positions: NDArray[np.float64],
+        rotations: NDArray[np.float64],
+        position: tuple[float, float, float],
+        rotation: NDArray[np.float64],
+        *,
+        others: tuple[NDArray[np.float64], NDArray[np.int32]] | None = None,
+    ) -> tuple[NDArray[np.float64], NDArray[np.int32]]: ...
+    def see(
+        self,
+        positions: NDArray[np.float64],
+        rotations: NDArray[np.float64],
+        position: tuple[float, float, float],
+        rotation: NDArray[np.float64],
+        errors: DepthErrors,
+        *,
+        others: tuple[NDArray[np.float64], NDArray[np.int32]] | None = None,
+    ) -> NDArray[np.float32]: ...
+
+@final
+class DepthErrors:
+    @staticmethod
+    def stereo(
+        textures: NDArray[np.float64],
+        *,
+        width: int,
+        height: int,
+        focal: float,
+        settings: str,
+        pattern: int,
+        noise: int,
+    ) -> DepthErrors: ...
+    @staticmethod
+    def structured_light(
+        *, width: int, height: int, focal: float, settings: str, noise: int
+    ) -> DepthErrors: ...
+    def see(
+        self,
+        depth: NDArray[np.float64],
+        body: NDArray[np.int32],
+        position: tuple[float, float, float],
+        rotation: NDArray[np.float64],
+    ) -> NDArray[np.float32]: ...
 
 @final
 class WorldModel:

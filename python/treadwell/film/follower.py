@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from treadwell.film.poses import RecordedPoses
 from treadwell.film.ray_camera import Eye
-from treadwell.senses.view import VISIBLE_GROUPS
+from treadwell.senses.projection import VISIBLE_GROUPS
 
 Floats = NDArray[np.float64]
 _ELEVATION: Final = math.radians(32.0)

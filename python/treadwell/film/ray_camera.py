@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.senses.view import VISIBLE_GROUPS
+from treadwell.senses.projection import VISIBLE_GROUPS
 
 Floats = NDArray[np.float64]
 _FAR: Final = 30.0

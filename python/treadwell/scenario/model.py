@@ -32,7 +32,7 @@ from treadwell.scenario.values import check_parameters
 SCHEMA = 1
 SEEDS = 2**53
 """Seeds are below it: JSON's numbers hold them."""
-MOST_ELEMENTS = 500
+MOST_ELEMENTS = 2000
 MOST_EVENTS = 200
 Count = Annotated[int, Field(ge=0, le=1_000_000)]
 Limit = Annotated[float, Field(gt=0.0, le=1e6)]

@@ -1,23 +1,14 @@
 """The depth camera in time: when it exposes, when its frames arrive, when it is blind."""
 
 from collections import deque
-from typing import Protocol
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell import _core
 from treadwell.observation import Frame
-from treadwell.senses.depth import Cast, DepthCamera
-
-Floats = NDArray[np.float64]
-
-
-class DepthErrors(Protocol):
-    """What turns exact depth into a sensor's."""
-
-    def see(self, cast: Cast, texture: Floats) -> NDArray[np.float32]:
-        """Return the measured depth, (h, w) m, NaN for none; texture for each geom id, 0 to 1."""
+from treadwell.senses.depth import DepthCamera
 
 
 class DepthSensor:
@@ -29,20 +20,16 @@ class DepthSensor:
 
     def __init__(
         self,
-        model: mujoco.MjModel,
         camera: DepthCamera,
-        errors: DepthErrors | None,
-        texture: Floats,
+        errors: _core.DepthErrors | None,
         period_ns: int,
         latency_ns: int,
     ) -> None:
         """Join the parts.
 
         Args:
-            model: the compiled world with the robot.
             camera: where the rays start.
             errors: the sensor's; None: the exact depth is delivered.
-            texture: for each geom id, how well stereo sees it, 0 (blank) to 1.
             period_ns: from one exposure to the next.
             latency_ns: from exposure to arrival.
         """
@@ -50,9 +37,6 @@ class DepthSensor:
             raise ValueError(f"camera.period must be > 0, got {period_ns} ns")
         if latency_ns < 0:
             raise ValueError(f"sensors.latency must be >= 0, got {latency_ns} ns")
-        if len(texture) != model.ngeom:
-            raise ValueError(f"texture: {model.ngeom} geoms, got {len(texture)} values")
-        self._texture = texture
         self.camera = camera
         self._errors = errors
         self._period_ns = period_ns
@@ -84,7 +68,6 @@ class DepthSensor:
 
     def _expose(self, data: mujoco.MjData) -> NDArray[np.float32]:
         """Return the depth image (h, w) of the present state."""
-        cast = self.camera.cast(data)
         if self._errors is None:
-            return cast.depth.astype(np.float32)
-        return self._errors.see(cast, self._texture)
+            return self.camera.cast(data).depth.astype(np.float32)
+        return self.camera.see(data, self._errors)

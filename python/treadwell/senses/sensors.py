@@ -7,13 +7,14 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell import _core
 from treadwell.observation import Observation
 from treadwell.robot.description import focal_length
 from treadwell.robot.file import RobotFile
 from treadwell.senses.body import Encoders, FootForces, Imu, ImuNoise, MotorSide, SensedSole
 from treadwell.senses.camera_error import CameraError, CameraErrorBounds, draw_camera_error
 from treadwell.senses.depth import DepthCamera, Mount, Pinhole
-from treadwell.senses.depth_sensor import DepthErrors, DepthSensor
+from treadwell.senses.depth_sensor import DepthSensor
 from treadwell.senses.stereo import StereoConfig, StereoModel
 from treadwell.senses.structured_light import StructuredLightConfig, StructuredLightModel
 
@@ -245,31 +246,36 @@ def _depth(
 ) -> DepthSensor:
     table = file.camera
     pinhole = Pinhole(table.width, table.height, focal_length(file))
+    textures = np.ones(model.ngeom) if texture is None else texture
+    if len(textures) != model.ngeom:
+        raise ValueError(f"texture: {model.ngeom} geoms, got {len(textures)} values")
     errors = None
     if settings.depth == "ideal":
         mount = Mount()
     else:
-        errors = _depth_errors(file, settings, streams, pinhole)
+        errors = _depth_errors(file, settings, streams, pinhole, textures)
     return DepthSensor(
-        model,
-        DepthCamera(model, table.name, pinhole, mount, every_pixel=errors is None),
+        DepthCamera(model, table.name, pinhole, mount),
         errors,
-        np.ones(model.ngeom) if texture is None else texture,
         round(table.period * 1e9),
         round(settings.latency * 1e9),
     )
 
 
 def _depth_errors(
-    file: RobotFile, settings: SensorSettings, streams: Streams, pinhole: Pinhole
-) -> DepthErrors:
+    file: RobotFile,
+    settings: SensorSettings,
+    streams: Streams,
+    pinhole: Pinhole,
+    textures: Floats,
+) -> _core.DepthErrors:
     camera, noise = file.camera, streams("sensors.depth.noise")
     if camera.structured_light is not None:
         light = StructuredLightConfig(**camera.structured_light.model_dump())
-        return StructuredLightModel(light, pinhole, noise)
+        return StructuredLightModel(light, pinhole, noise).errors
     assert camera.stereo is not None
     values = camera.stereo.model_dump()
     values["valid_textured"] = 1.0 - values.pop("dropout_rate")
     values["mismatch_rate"] = _either(settings.mismatch_rate, values["mismatch_rate"])
     pattern = streams("sensors.depth.pattern")
-    return StereoModel(StereoConfig(**values), pinhole, pattern, noise)
+    return StereoModel(StereoConfig(**values), pinhole, textures, pattern, noise).errors

@@ -8,17 +8,15 @@ them (the lateral noise of Nguyen, Izadi and Lovell, 3DIMPVT 2012). Texture does
 light brings its own.
 """
 
-from dataclasses import dataclass
+import json
+from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.senses.depth import Cast, Pinhole
-from treadwell.senses.stereo import occluded
-
-Floats = NDArray[np.float64]
-Floats32 = NDArray[np.float32]
-Mask = NDArray[np.bool_]
+from treadwell import _core
+from treadwell.senses.depth import Cast, Pinhole, place
+from treadwell.senses.stereo import seed
 
 
 @dataclass(frozen=True)
@@ -69,105 +67,31 @@ class StructuredLightConfig:
                 raise ValueError(f"camera.structured_light.{key} cannot be {value}")
 
 
-def _slopes(disparity: Floats32, axis: int) -> Floats32:
-    """Return the slope along an axis, px/px: the smaller one of those to the two neighbours."""
-    steps = np.diff(disparity, axis=axis)
-    first, last = np.take(steps, [0], axis=axis), np.take(steps, [-1], axis=axis)
-    ahead, behind = np.concatenate([steps, last], axis), np.concatenate([first, steps], axis)
-    return np.where(np.abs(ahead) < np.abs(behind), ahead, behind)
-
-
 class StructuredLightModel:
-    """Turns what the rays met into the depth image that a structured-light camera would give."""
+    """Turns what the rays met into the depth image that a structured-light camera would give.
+
+    Attributes:
+        errors: the core's.
+    """
 
     def __init__(
         self, config: StructuredLightConfig, pinhole: Pinhole, noise: np.random.Generator
     ) -> None:
-        """Prepare the rays.
+        """Seed the errors.
 
         Args:
             config: the camera's parameters.
             pinhole: the camera.
-            noise: what is new in each frame: all of it.
+            noise: seeds what is new in each frame: all of it.
         """
-        self.config = config
-        self._pinhole = pinhole
-        self._noise = noise
-        rays = pinhole.directions().astype(np.float32)
-        shape = (pinhole.height, pinhole.width)
-        self._across = np.ascontiguousarray(rays[:, 0].reshape(shape)) * np.float32(pinhole.focal)
-        self._down = np.ascontiguousarray(rays[:, 1].reshape(shape)) * np.float32(pinhole.focal)
-        self._ray_length = np.linalg.norm(rays, axis=1).reshape(shape)
-        self._rows, self._columns = np.indices(shape)
+        self.errors = _core.DepthErrors.structured_light(
+            width=pinhole.width,
+            height=pinhole.height,
+            focal=pinhole.focal,
+            settings=json.dumps(asdict(config)),
+            noise=seed(noise),
+        )
 
-    def see(self, cast: Cast, _texture: Floats) -> Floats32:
-        """Return the measured depth, (h, w) metres along the optical axis, NaN for none.
-
-        Args:
-            cast: the exact depth and the geoms met.
-            _texture: for each geom id; of no matter.
-        """
-        config = self.config
-        scale = np.float32(self._pinhole.focal * config.baseline)
-        exact = (scale / cast.depth).astype(np.float32)
-        exact[np.isnan(exact)] = 0.0
-        found, border = self._at_borders(exact)
-
-        measured = found + self._disparity_noise(exact.shape)
-        if config.quantum > 0.0:
-            quantum = np.float32(config.quantum)
-            measured = np.rint(measured / quantum) * quantum
-        seen = found > 0.0
-        seen &= ~occluded(exact)
-        seen &= self._facing(exact)
-        seen &= ~(border & (self._noise.random(exact.shape, np.float32) < config.edge_dropout))
-        seen &= (measured >= scale / config.farthest) & (measured <= scale / config.nearest)
-        depth = np.full(exact.shape, np.nan, np.float32)
-        np.divide(scale, measured, out=depth, where=seen)
-        return depth
-
-    def _disparity_noise(self, shape: tuple[int, ...]) -> Floats32:
-        """Return what is added before rounding, px: the rounding's own error is part of sigma."""
-        config, window = self.config, self.config.window
-        sigma = np.sqrt(max(config.disparity_noise**2 - config.quantum**2 / 12.0, 0.0))
-        size = [-(-length // window) for length in shape]
-        noise = self._noise.standard_normal(size, np.float32) * np.float32(sigma)
-        wide = np.repeat(np.repeat(noise, window, axis=0), window, axis=1)
-        return wide[: shape[0], : shape[1]]
-
-    def _at_borders(self, exact: Floats32) -> tuple[Floats32, Mask]:
-        """Return the disparities with jittered borders, and which pixels are at one.
-
-        A pixel takes the place of one beside it where that is on another surface; within one
-        surface the axial noise is all that was measured, so it stays what it is.
-        """
-        rows, columns = exact.shape
-        step = np.float32(self.config.lateral_noise)
-        shift = np.rint(self._noise.standard_normal((2, *exact.shape), np.float32) * step)
-        row = np.clip(self._rows + shift[0].astype(np.intp), 0, rows - 1)
-        column = np.clip(self._columns + shift[1].astype(np.intp), 0, columns - 1)
-        beside = exact[row, column]
-        jump = self.config.edge_jump
-        found = np.where(np.abs(beside - exact) > jump, beside, exact)
-
-        border = np.zeros(exact.shape, np.bool_)
-        down = np.abs(np.diff(exact, axis=0)) > jump
-        across = np.abs(np.diff(exact, axis=1)) > jump
-        border[1:] |= down
-        border[:-1] |= down
-        border[:, 1:] |= across
-        border[:, :-1] |= across
-        return found, border
-
-    def _facing(self, exact: Floats32) -> Mask:
-        """Return which pixels see their surface steeply enough.
-
-        On a plane n . P = k the disparity is d = (f b / k) n . ray, so that its slopes tell n.
-        """
-        focal = np.float32(self._pinhole.focal)
-        across, down = _slopes(exact, 1), _slopes(exact, 0)
-        ahead = (exact - across * self._across - down * self._down) / focal
-        normal = np.sqrt(across**2 + down**2 + ahead**2)
-        least = np.float32(np.cos(self.config.steepest))
-        facing: Mask = exact >= least * focal * self._ray_length * normal
-        return facing
+    def see(self, cast: Cast) -> NDArray[np.float32]:
+        """Return the measured depth, (h, w) metres along the optical axis, NaN for none."""
+        return self.errors.see(cast.depth, cast.geom, place(cast.position), cast.rotation)

@@ -2,6 +2,8 @@
 
 mod clearance;
 mod components;
+mod depth_camera;
+mod depth_errors;
 mod distance;
 mod error;
 mod legs;
@@ -28,6 +30,8 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(lists::components, module)?)?;
     module.add_function(wrap_pyfunction!(lists::tables, module)?)?;
     module.add_function(wrap_pyfunction!(lists::parameters, module)?)?;
+    module.add_class::<depth_camera::PyDepthCamera>()?;
+    module.add_class::<depth_errors::PyDepthErrors>()?;
     module.add_class::<legs::PyLegs>()?;
     module.add_class::<octree::PyOctree>()?;
     module.add_class::<pilot::PyPilot>()?;
