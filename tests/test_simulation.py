@@ -1,11 +1,13 @@
 """Claims about the physics: a robot stands by its motors alone, and falls without."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
 
+from treadwell._core import Physics, Servos
 from treadwell.errors import SimulationError
 from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import Simulation, Start
@@ -52,12 +54,11 @@ def test_held_in_the_keyframe_by_its_servos_the_robot_stands_for_five_seconds(
 
 def test_without_torque_the_robot_falls(qrio: Robot, flat: mujoco.MjModel) -> None:
     simulation = Simulation(flat, qrio)
-    simulation.motors.limits.peak_torque[:] = 0.0
-    try:
-        for _ in range(150):
-            simulation.advance(standing(qrio))
-    finally:
-        simulation.motors.limits.peak_torque[:] = qrio.nominal.actuator_ctrlrange[:, 1]
+    powerless = replace(qrio.limits, peak_torque=np.zeros(26))
+    simulation.motors = Servos(powerless, play=0.0, timestep=flat.opt.timestep)
+    for _ in range(150):
+        simulation.advance(standing(qrio))
+    assert not simulation.audit.ctrl.array().any()
     assert simulation.data.body("pelvis").xpos[2] < 0.15
 
 
@@ -135,3 +136,20 @@ def test_physics_that_diverge_are_an_error_with_the_time(
     with pytest.raises(SimulationError, match=r"diverged at 0\.02 s"):
         simulation.advance(standing(qrio))
     assert not list(tmp_path.iterdir())
+
+
+def test_a_model_and_data_that_do_not_belong_together_are_not_stepped(
+    qrio: Robot, flat: mujoco.MjModel
+) -> None:
+    data = mujoco.MjData(flat)
+    motors = [(joint, joint) for joint in range(26)]
+    with pytest.raises(ValueError, match="data is not of this model"):
+        Physics(mujoco.MjModel.from_xml_string("<mujoco/>"), data, 26, 7, 6, motors)
+    with pytest.raises(TypeError, match="MjModel"):
+        Physics(object(), data, 26, 7, 6, motors)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="not all in this model"):
+        Physics(flat, data, 27, 7, 6, motors)
+    with pytest.raises(ValueError, match="26 columns"):
+        Physics(flat, data, 26, 7, 6, motors).step(
+            Servos(qrio.limits, play=0.0, timestep=0.002), np.zeros((1, 25))
+        )

@@ -3,12 +3,15 @@
 from typing import ClassVar, final
 
 import numpy as np
+from mujoco import MjData, MjModel
 from numpy.typing import NDArray
 
 from treadwell import protocols
 from treadwell.observation import Observation
+from treadwell.robot.motor_limits import MotorLimits
 
 __all__ = [
+    "BodySenses",
     "BodyState",
     "Climb",
     "FloorView",
@@ -16,11 +19,13 @@ __all__ = [
     "Legs",
     "OccupancyGrid",
     "Octree",
+    "Physics",
     "Pilot",
     "Planes",
     "RangeField",
     "Scan",
     "Segmenter",
+    "Servos",
     "Situation",
     "Stair",
     "Staircase",
@@ -51,6 +56,50 @@ def swept_clearance(
 ) -> float: ...
 def tables() -> list[str]: ...
 def version() -> str: ...
+
+@final
+class Servos:
+    encoder_offsets: NDArray[np.float64]
+    def __new__(cls, limits: MotorLimits, *, play: float, timestep: float) -> Servos: ...
+    def command(
+        self,
+        position: NDArray[np.float64],
+        velocity: NDArray[np.float64],
+        torque: NDArray[np.float64],
+    ) -> bool: ...
+    def torques(
+        self, position: NDArray[np.float64], velocity: NDArray[np.float64]
+    ) -> NDArray[np.float64]: ...
+    def measured_angle(self, position: NDArray[np.float64]) -> NDArray[np.float64]: ...
+
+@final
+class Physics:
+    def __new__(
+        cls,
+        model: MjModel,
+        data: MjData,
+        joints: int,
+        position: int,
+        velocity: int,
+        motors: list[tuple[int, int]],
+    ) -> Physics: ...
+    def step(self, servos: Servos, controls: NDArray[np.float64]) -> bool: ...
+    def copy_positions(self, row: NDArray[np.float64]) -> None: ...
+
+@final
+class BodySenses:
+    @property
+    def encoder_offsets(self) -> NDArray[np.float64]: ...
+    def __new__(cls, settings: str, encoder_offsets: NDArray[np.float64]) -> BodySenses: ...
+    def read(
+        self, data: MjData, time_ns: int, motors: Servos | None
+    ) -> tuple[
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.float64],
+    ]: ...
 
 @final
 class Tick:

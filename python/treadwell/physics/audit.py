@@ -39,12 +39,12 @@ class Rows:
         self._rows = np.empty((1024, width))
         self._count = 0
 
-    def append(self, row: NDArray[np.float64]) -> None:
-        """Copy a row to the end."""
-        if self._count == len(self._rows):
+    def add(self, count: int) -> NDArray[np.float64]:
+        """Return new rows (count, width) at the end, to be filled."""
+        begin, self._count = self._count, self._count + count
+        while self._count > len(self._rows):
             self._rows = np.concatenate([self._rows, np.empty_like(self._rows)])
-        self._rows[self._count] = row
-        self._count += 1
+        return self._rows[begin : self._count]
 
     def array(self) -> NDArray[np.float64]:
         """Return (n, width): the rows so far, a view."""

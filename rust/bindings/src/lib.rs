@@ -1,5 +1,6 @@
 //! The Python module `treadwell._core`: converts and forwards, decides nothing. One file a class.
 
+mod body_senses;
 mod clearance;
 mod components;
 mod distance;
@@ -13,6 +14,7 @@ mod pose;
 mod products;
 mod ranges;
 mod segmenter;
+mod servos;
 mod situation;
 mod stairs;
 mod walker;
@@ -28,6 +30,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(lists::components, module)?)?;
     module.add_function(wrap_pyfunction!(lists::tables, module)?)?;
     module.add_function(wrap_pyfunction!(lists::parameters, module)?)?;
+    module.add_class::<body_senses::PyBodySenses>()?;
     module.add_class::<legs::PyLegs>()?;
     module.add_class::<octree::PyOctree>()?;
     module.add_class::<pilot::PyPilot>()?;
@@ -37,6 +40,8 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<products::PyPlanes>()?;
     module.add_class::<ranges::PyRangeField>()?;
     module.add_class::<segmenter::PySegmenter>()?;
+    module.add_class::<servos::PyPhysics>()?;
+    module.add_class::<servos::PyServos>()?;
     module.add_class::<situation::PyGoal>()?;
     module.add_class::<situation::PyScan>()?;
     module.add_class::<situation::PySituation>()?;
