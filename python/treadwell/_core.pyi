@@ -1,5 +1,6 @@
 """The core, compiled: an observation in, joint targets out."""
 
+from collections.abc import Sequence
 from typing import ClassVar, final
 
 import numpy as np
@@ -31,7 +32,9 @@ __all__ = [
     "Staircase",
     "Step",
     "Stepping",
+    "Surfaces",
     "Tick",
+    "TrueStance",
     "Walker",
     "WorldModel",
     "components",
@@ -44,6 +47,7 @@ __all__ = [
 
 _Pose = tuple[float, float, float, float]
 _Point = tuple[float, float, float]
+_Sole = tuple[float, float, float, tuple[float, float]]
 _Edge = tuple[_Point, _Point]
 _Fit = tuple[int, float, float]
 _Footstep = tuple[str, float, float, float, float, float, float]
@@ -100,6 +104,20 @@ class BodySenses:
         NDArray[np.float64],
         NDArray[np.float64],
     ]: ...
+
+@final
+class TrueStance:
+    def __new__(
+        cls, soles: Sequence[tuple[int, _Point]], torso: int, up: Sequence[float]
+    ) -> TrueStance: ...
+    def look(self, data: MjData) -> tuple[_Sole, _Sole, float]: ...
+
+@final
+class Surfaces:
+    def __new__(cls, geoms: Sequence[str], sole_on_top: float, lies_on_top: float) -> Surfaces: ...
+    def sort(
+        self, geoms: NDArray[np.int32], frames: NDArray[np.float64]
+    ) -> tuple[bool, bool, int | None, list[tuple[int, int, int]]]: ...
 
 @final
 class Tick:

@@ -81,9 +81,10 @@ class Judge:
         """
         interval, self._time = max(0.0, time_s - self._time), time_s
         touch = self.touch = self._contacts.look(data, time_s, interval)
-        soles = self.soles = self.truth.soles(data)
+        soles, tilt = self.truth.look(data)
+        self.soles = soles
         frame = self.frame = self.truth.frame(soles, (touch.left, touch.right))
-        self._watch_fall(data, time_s, touch)
+        self._watch_fall(tilt, time_s, touch)
         self._watch_stillness(time_s, touch, soles, frame)
         self._watch_progress(time_s, frame)
         for foot, sole, touching in zip(
@@ -145,8 +146,7 @@ class Judge:
         inside = self.distance_to_goal <= self._goal.radius
         return inside and level and self.standing_still and not self.fallen
 
-    def _watch_fall(self, data: mujoco.MjData, time: float, touch: Touch) -> None:
-        tilt = self.truth.tilt(data)
+    def _watch_fall(self, tilt: float, time: float, touch: Touch) -> None:
         if tilt <= FALLEN_TILT and touch.fallen_part is None:
             return
         if time - self._last_fallen > UPRIGHT_SECONDS:

@@ -17,6 +17,7 @@ mod segmenter;
 mod servos;
 mod situation;
 mod stairs;
+mod truth;
 mod walker;
 mod world_model;
 
@@ -50,6 +51,8 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<stairs::PyStaircase>()?;
     module.add_class::<stairs::PyStep>()?;
     module.add_class::<stairs::PyStepping>()?;
+    module.add_class::<truth::PySurfaces>()?;
+    module.add_class::<truth::PyTrueStance>()?;
     module.add_class::<walker::PyWalker>()?;
     module.add_class::<world_model::PyOccupancyGrid>()?;
     module.add_class::<world_model::PyWorldModel>()

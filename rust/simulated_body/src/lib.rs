@@ -1,7 +1,8 @@
 //! The robot's body in the simulator. It knows the true state, so that nothing of the core may use it: only the bindings do.
 //!
 //! [`Servos`] turn joint targets into torques, within what a motor could do. [`BodySenses`] are what encoders, inertial unit and soles
-//! measure of a [`TrueState`], each with errors from a seeded stream of its own ([`Normals`]).
+//! measure of a [`TrueState`], each with errors from a seeded stream of its own ([`Normals`]). For the judge, [`TrueStance`] is where the
+//! robot stands and [`Surfaces`] sort what it touches.
 
 mod encoders;
 mod error;
@@ -10,6 +11,8 @@ mod inertial;
 mod normals;
 mod senses;
 mod servo;
+mod soles;
+mod touch;
 mod truth;
 
 pub use encoders::{Encoders, EncodersConfig, EncodersTuning};
@@ -19,4 +22,6 @@ pub use inertial::{InertialConfig, InertialTuning, InertialUnit};
 pub use normals::Normals;
 pub use senses::{BodyReading, BodySenses, BodySensesConfig};
 pub use servo::{Motor, ServoTuning, Servos};
+pub use soles::{TrueSole, TrueStance};
+pub use touch::{Contact, GeomKind, Surfaces, Touches};
 pub use truth::TrueState;

@@ -25,6 +25,21 @@ pub struct TrueState<'a> {
     pub sensordata: &'a [f64],
 }
 
+impl TrueState<'_> {
+    /// A state of a world without anything, for those who read a few arrays only.
+    pub const NOTHING: Self = Self {
+        qpos: &[],
+        qvel: &[],
+        xpos: &[],
+        xmat: &[],
+        cvel: &[],
+        subtree_com: &[],
+        site_xpos: &[],
+        site_xmat: &[],
+        sensordata: &[],
+    };
+}
+
 /// Row `row` of an array of rows of `N` numbers. [`needs`] has looked that it is there.
 pub(crate) fn row<const N: usize>(array: &[f64], row: usize) -> [f64; N] {
     let from = row * N;
