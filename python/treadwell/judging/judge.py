@@ -87,10 +87,9 @@ class Judge:
         self._watch_fall(tilt, time_s, touch)
         self._watch_stillness(time_s, touch, soles, frame)
         self._watch_progress(time_s, frame)
-        for foot, sole, touching in zip(
-            self._levels.feet, soles, (touch.left, touch.right), strict=True
-        ):
-            foot.look(sole.x, sole.y, sole.z, touching=touching)
+        (left, right), (left_foot, right_foot) = soles, self._levels.feet
+        left_foot.look(left.x, left.y, left.z, touching=touch.left)
+        right_foot.look(right.x, right.y, right.z, touching=touch.right)
 
     @property
     def fallen(self) -> bool:
@@ -166,10 +165,7 @@ class Judge:
             return
         if self._still is not None:
             _, before, yaw = self._still
-            drift = max(
-                math.dist((a.x, a.y, a.z), (b.x, b.y, b.z))
-                for a, b in zip(before, soles, strict=True)
-            )
+            drift = max(math.dist(before[i][:3], soles[i][:3]) for i in (0, 1))
             turn = abs(math.remainder(frame.yaw - yaw, 2 * math.pi))
             if drift <= STILL_DRIFT and turn <= STILL_TURN:
                 return
