@@ -75,8 +75,8 @@ def inertial(made: BodySenses, data: mujoco.MjData, time_ns: int) -> tuple[Float
 
 def leading() -> Servos:
     """Motors that lead their joints by half a radian."""
-    one = np.ones(2)
-    motors = Servos(MotorLimits(one, one, one, one, one), play=1.0, timestep=0.002)
+    one, none = np.ones(2), np.zeros(2)
+    motors = Servos(MotorLimits(one, one, one, one, one, none, none), play=1.0, timestep=0.002)
     motors.command(np.zeros(2), np.zeros(2), np.full(2, 9.0))
     for _ in range(500):
         motors.torques(np.full(2, -9.0), np.zeros(2))

@@ -1,11 +1,13 @@
 """Claims about the servos as Python has them; what they do is claimed beside their code."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from treadwell._core import Servos
 from treadwell.physics.motors import JointTargets
-from treadwell.robot.motor_limits import MotorLimits
+from treadwell.robot.motor_limits import LEAST_SHARE, MotorLimits, rotors
 
 STEP = 0.002
 PLAY = np.radians(0.3)
@@ -18,6 +20,8 @@ def limits(n: int = 3) -> MotorLimits:
         peak_torque=np.full(n, 6.0),
         stall_torque=np.full(n, 8.5),
         no_load_speed=np.full(n, 7.0),
+        friction=np.zeros(n),
+        inertia=np.zeros(n),
     )
 
 
@@ -70,7 +74,29 @@ def test_targets_that_cannot_be_are_not_taken(targets: JointTargets) -> None:
 def test_limits_of_different_lengths_are_refused() -> None:
     with pytest.raises(ValueError, match="one value a joint"):
         Servos(
-            MotorLimits(np.ones(2), np.ones(2), np.ones(2), np.ones(1), np.ones(2)),
+            replace(limits(2), stall_torque=np.ones(1)),
             play=0.0,
             timestep=STEP,
         )
+
+
+def test_friction_and_rotor_of_a_joint_without_a_motor_are_its_leaders() -> None:
+    armature, moved, friction = np.full(3, 0.01), np.full(3, 0.02), np.full(3, 0.05)
+    inertia, rubbing = rotors(armature, moved, friction, {2: 0})
+    assert inertia.tolist() == [0.02, 0.01, 0.0]
+    assert rubbing.tolist() == [0.1, 0.05, 0.0]
+    assert friction.tolist() == [0.05] * 3
+
+
+def test_a_joint_without_armature_rubs_by_what_it_moves() -> None:
+    inertia, _ = rotors(np.array([0.0, 0.01]), np.full(2, 0.03), np.full(2, 0.05), {})
+    assert inertia == pytest.approx([0.03 * LEAST_SHARE, 0.01])
+
+
+def test_friction_stops_what_turns_with_the_motor_within_a_step_and_no_more() -> None:
+    rubs = replace(limits(2), friction=np.full(2, 0.05), inertia=np.full(2, 0.008))
+    servos, free = (Servos(each, play=0.0, timestep=STEP) for each in (rubs, limits(2)))
+    for speed in (0.001, 1.0, -1.0):
+        speeds = np.full(2, speed)
+        taken = free.torques(np.zeros(2), speeds) - servos.torques(np.zeros(2), speeds)
+        assert taken == pytest.approx(np.clip(0.008 / STEP * speeds, -0.05, 0.05))

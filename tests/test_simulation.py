@@ -54,7 +54,8 @@ def test_held_in_the_keyframe_by_its_servos_the_robot_stands_for_five_seconds(
 
 def test_without_torque_the_robot_falls(qrio: Robot, flat: mujoco.MjModel) -> None:
     simulation = Simulation(flat, qrio)
-    powerless = replace(qrio.limits, peak_torque=np.zeros(26))
+    nothing = np.zeros(26)
+    powerless = replace(qrio.limits, peak_torque=nothing, friction=nothing)
     simulation.motors = Servos(powerless, play=0.0, timestep=flat.opt.timestep)
     for _ in range(150):
         simulation.advance(standing(qrio))
@@ -73,7 +74,7 @@ def test_the_start_puts_the_middle_of_the_soles_at_the_place_with_the_yaw(
     assert across == pytest.approx([-np.sin(2), np.cos(2), 0], abs=1e-5)
 
 
-def test_each_torque_that_reaches_mujoco_is_within_peak_and_line(
+def test_each_torque_that_reaches_mujoco_is_within_peak_and_line_but_for_friction(
     qrio: Robot, flat: mujoco.MjModel
 ) -> None:
     simulation = Simulation(flat, qrio)
@@ -84,11 +85,24 @@ def test_each_torque_that_reaches_mujoco_is_within_peak_and_line(
         velocity = simulation.joint_velocities.copy()
         simulation.advance(wild)
         first = simulation.audit.ctrl.array()[-5]
-        assert (np.abs(first) <= limits.peak_torque).all()
+        assert (np.abs(first) <= limits.peak_torque + limits.friction).all()
         line = limits.stall_torque * (1.0 - np.abs(velocity) / limits.no_load_speed)
         driving = first * velocity > 0.0
         assert (np.abs(first) <= np.maximum(line, 0.0) + 1e-12)[driving].all()
         assert (simulation.data.ctrl == simulation.audit.ctrl.array()[-1]).all()
+
+
+def test_friction_is_the_servos_and_a_control_beyond_the_peak_by_it_is_not_clipped(
+    qrio: Robot, flat: mujoco.MjModel
+) -> None:
+    assert not flat.dof_frictionloss.any()
+    assert (qrio.nominal.dof_frictionloss[6:] > 0.0).all()
+    assert np.array_equal(qrio.limits.friction, qrio.nominal.dof_frictionloss[6:])
+    assert np.array_equal(qrio.limits.inertia, qrio.nominal.dof_armature[6:])
+    most = qrio.limits.peak_torque + qrio.limits.friction
+    assert flat.actuator_ctrlrange[:, 1] == pytest.approx(most)
+    assert flat.actuator_ctrlrange[:, 0] == pytest.approx(-most)
+    assert (flat.opt.noslip_iterations, flat.opt.noslip_tolerance) == (6, 0.0)
 
 
 def test_two_runs_give_the_same_states(qrio: Robot, flat: mujoco.MjModel) -> None:

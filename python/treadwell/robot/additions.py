@@ -53,6 +53,26 @@ def complete(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> None:
     _add_stand(spec, file, toml)
 
 
+def leave_friction_to_servos(spec: mujoco.MjSpec) -> None:
+    """Take the joints' dry friction out of a specification that is simulated: the servos have it.
+
+    A control is then the motor's torque less the friction: where the motor brakes at its peak that
+    is more than the peak, which a control's range must leave room for.
+    """
+    friction = {joint.name: joint.frictionloss for joint in spec.joints}
+    ties = [tie for tie in spec.equalities if tie.type == mujoco.mjtEq.mjEQ_JOINT]
+    for joint in spec.joints:
+        joint.frictionloss = 0.0
+    for actuator in spec.actuators:
+        followers = [tie.name1 for tie in ties if tie.name2 == actuator.target]
+        more = sum(friction.get(name, 0.0) for name in (actuator.target, *followers))
+        low, high = actuator.ctrlrange
+        actuator.ctrlrange = [low - more, high + more]
+    # The solver's rows of friction kept the sweeps against slip going: without them they would stop
+    # before the soles are held.
+    spec.option.noslip_tolerance = 0.0
+
+
 def _leave_out_world(spec: mujoco.MjSpec) -> None:
     """Leave out what stands on the world and not on the robot, as the floor of a scene does."""
     for geom in list(spec.worldbody.geoms):
@@ -71,7 +91,7 @@ def _add_options(spec: mujoco.MjSpec) -> None:
     ours.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     ours.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     ours.impratio = 10.0
-    ours.noslip_iterations = 4
+    ours.noslip_iterations = 6
     ours.iterations = 30
     ours.ls_iterations = 20
 

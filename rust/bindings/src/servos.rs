@@ -44,7 +44,8 @@ impl PyServos {
         };
         let (kp, kv, peak) = (of("kp")?, of("kv")?, of("peak_torque")?);
         let (stall, no_load) = (of("stall_torque")?, of("no_load_speed")?);
-        if [&kv, &peak, &stall, &no_load]
+        let (friction, inertia) = (of("friction")?, of("inertia")?);
+        if [&kv, &peak, &stall, &no_load, &friction, &inertia]
             .iter()
             .any(|other| other.len() != kp.len())
         {
@@ -58,6 +59,8 @@ impl PyServos {
             peak_torque_nm: peak[joint],
             stall_torque_nm: stall[joint],
             no_load_speed_radps: no_load[joint],
+            friction_nm: friction[joint],
+            inertia_kgm2: inertia[joint],
         };
         let motors: Vec<Motor> = (0..kp.len()).map(motor).collect();
         let servos = Servos::new(&motors, play, timestep, &ServoTuning::default());

@@ -28,6 +28,10 @@ pub struct Motor {
     pub stall_torque_nm: f64,
     /// Where the line ends, rad/s.
     pub no_load_speed_radps: f64,
+    /// Dry friction of motor, gear and joint, N m.
+    pub friction_nm: f64,
+    /// What turns with the motor, kg m²: its friction brings as much to rest within a step, and no more.
+    pub inertia_kgm2: f64,
 }
 
 /// A motor, and what follows from it.
@@ -38,6 +42,8 @@ struct DrivenJoint {
     slope: f64,
     /// How far the motor leads its joint for each newton metre, up to half of the play, rad/(N m).
     lead_per_torque: f64,
+    /// What brings the motor to rest within a step, N m s/rad.
+    stopping: f64,
     /// All that the targets contribute to the torque, N m.
     asked_nm: f64,
 }
@@ -46,6 +52,10 @@ struct DrivenJoint {
 ///
 /// The torque is `kp (position* - angle) + kv (velocity* - velocity) + torque*`, held within the peak torque and, where a motor drives,
 /// within the line from the stall torque at rest to nothing at the no-load speed. Braking is limited by the peak alone.
+///
+/// What reaches the joint is that less the dry friction: `clip(velocity inertia / step, ± friction)`, which stops what turns with the
+/// motor and drives nothing. Friction as constraints of the simulator's solver took a third of its time, and held a resting joint no
+/// better.
 ///
 /// The angle is the motor's, before the gear's play; the encoder sits there too. It leads the joint by half of the play in the direction
 /// of the torque; the lead follows a change of sign with the time constant [`ServoTuning::play_time`] and grows with the torque up to
@@ -76,6 +86,7 @@ impl Servos {
                 motor: *motor,
                 slope: motor.stall_torque_nm / motor.no_load_speed_radps,
                 lead_per_torque: half_play_rad / takes_up_nm,
+                stopping: motor.inertia_kgm2 / timestep_s,
                 asked_nm: 0.0,
             }
         };
@@ -122,7 +133,7 @@ impl Servos {
         Ok(())
     }
 
-    /// The torques (N m) for the coming physics step at these true angles (rad) and velocities (rad/s); in the joint order.
+    /// The torques at the joints (N m) for the coming physics step at these true angles (rad) and velocities (rad/s); in the joint order.
     pub fn torques<'a>(
         &'a mut self,
         positions_rad: &'a [f64],
@@ -137,14 +148,21 @@ impl Servos {
                 let torque_nm = joint.torque_nm(angle_rad + *lead_rad, speed_radps);
                 if half_play_rad > 0.0 {
                     let drawn = joint.lead_per_torque * torque_nm;
-                    *lead_rad += (drawn.clamp(-half_play_rad, half_play_rad) - *lead_rad) * follow;
+                    let most = drawn.min(half_play_rad).max(-half_play_rad);
+                    *lead_rad += (most - *lead_rad) * follow;
                 }
-                torque_nm
+                torque_nm - joint.friction_nm(speed_radps)
             })
     }
 }
 
 impl DrivenJoint {
+    /// What friction takes at the joint's speed, N m.
+    fn friction_nm(&self, speed_radps: f64) -> f64 {
+        let most_nm = self.motor.friction_nm;
+        (self.stopping * speed_radps).min(most_nm).max(-most_nm)
+    }
+
     /// What the motor gives at its angle and the joint's speed, N m.
     fn torque_nm(&self, angle_rad: f64, speed_radps: f64) -> f64 {
         let motor = &self.motor;

@@ -15,7 +15,18 @@ fn motor(kp: f64, kv: f64) -> Motor {
         peak_torque_nm: 6.0,
         stall_torque_nm: 8.5,
         no_load_speed_radps: 7.0,
+        friction_nm: 0.0,
+        inertia_kgm2: 0.0,
     }
+}
+
+fn rubbing() -> Servos {
+    let motor = Motor {
+        friction_nm: 0.05,
+        inertia_kgm2: 0.008,
+        ..motor(150.0, 3.0)
+    };
+    servo(motor, 0.0)
 }
 
 fn servo(motor: Motor, play_rad: f64) -> Servos {
@@ -43,6 +54,16 @@ proptest! {
         prop_assert!(torque.abs() <= 6.0);
         let line = (8.5 * (1.0 - speed.abs() / 7.0)).max(0.0);
         prop_assert!(torque * speed <= 0.0 || torque.abs() <= line + 1e-12);
+    }
+
+    #[test]
+    fn friction_brakes_by_its_torque_at_most_and_drives_nothing(speed in -5.0..5.0) {
+        let friction = torque_nm(&mut servo(motor(150.0, 3.0), 0.0), 0.0, speed) - torque_nm(&mut rubbing(), 0.0, speed);
+        prop_assert!(friction.abs() <= 0.05 + 1e-12);
+        prop_assert!(friction * speed >= 0.0);
+        // The motor alone would turn the other way at once if more than its momentum were taken.
+        prop_assert!((friction * STEP_S).abs() <= (0.008 * speed).abs() + 1e-15);
+        prop_assert!(speed.abs() < 0.05 * STEP_S / 0.008 || (friction.abs() - 0.05).abs() < 1e-12);
     }
 
     #[test]
@@ -82,6 +103,13 @@ fn at_the_no_load_speed_a_motor_can_only_brake() {
     ask(&mut servo, 10.0, 0.0, 0.0);
     assert_eq!(torque_nm(&mut servo, 0.0, 7.0), 0.0);
     assert_eq!(torque_nm(&mut servo, 0.0, -7.0), 6.0);
+}
+
+#[test]
+fn a_motor_that_brakes_at_its_peak_is_helped_by_friction() {
+    let mut servo = rubbing();
+    ask(&mut servo, 10.0, 0.0, 0.0);
+    assert_relative_eq!(torque_nm(&mut servo, 0.0, -3.0), 6.05, epsilon = 1e-12);
 }
 
 #[test]
