@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from treadwell._core import Physics, Servos
 from treadwell.errors import SimulationError
-from treadwell.physics.audit import DATA_FIELDS, STEPS_PER_TICK, Audit
+from treadwell.physics.audit import DATA_FIELDS, Audit, steps_per_tick
 from treadwell.physics.motors import JointTargets
 from treadwell.robot.load import Robot
 
@@ -67,6 +67,7 @@ class Simulation:
             play: False for gears without play, as with ideal encoders.
         """
         self.model = model
+        self._steps_per_tick = steps_per_tick(model)
         self.data = mujoco.MjData(model)
         self.robot = robot
         joints = [model.joint(name) for name in robot.joints]
@@ -95,7 +96,7 @@ class Simulation:
     @property
     def time_ns(self) -> int:
         """Nanoseconds since the start."""
-        return self.steps * TICK_NS // STEPS_PER_TICK
+        return self.steps * TICK_NS // self._steps_per_tick
 
     @property
     def joint_positions(self) -> NDArray[np.float64]:
@@ -110,20 +111,20 @@ class Simulation:
         return view
 
     def advance(self, targets: JointTargets) -> None:
-        """Advance by one control tick: five physics steps, with the servos at each.
+        """Advance by one control tick: some physics steps, with the servos at each.
 
         Raises:
             SimulationError: the targets or the state are not finite.
         """
         if not self.motors.command(targets.position, targets.velocity, targets.torque):
             self._refuse(targets)
-        options, controls = self.model.opt, self.audit.ctrl.add(STEPS_PER_TICK)
+        options, controls = self.model.opt, self.audit.ctrl.add(self._steps_per_tick)
         # Nobody reads MuJoCo's sensors between two ticks, and nothing that moves depends on them.
         options.disableflags |= _SENSORS
         self._physics.step(self.motors, controls[:-1])
         options.disableflags &= ~_SENSORS
         healthy = self._physics.step(self.motors, controls[-1:])
-        self.steps += STEPS_PER_TICK
+        self.steps += self._steps_per_tick
         self._physics.copy_positions(self.audit.qpos.add(1)[0])
         if not healthy:
             self._tell_divergence()
