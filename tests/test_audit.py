@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from treadwell.errors import InputError
-from treadwell.physics.audit import replay_audit
+from treadwell.physics.audit import replay_audit, replay_lengths, steps_per_tick
 from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import Simulation, Start
 from treadwell.robot.load import Robot, load_robot
@@ -58,9 +58,9 @@ def test_plain_mujoco_steps_to_the_same_states_bit_for_bit(
     simulation = eventful(qrio, flat)
     simulation.save_audit(tmp_path)
     with np.load(tmp_path / "physics.npz") as arrays:
-        assert arrays["ctrl"].shape == (1000, 26)
+        assert arrays["ctrl"].shape == (800, 26)
         assert arrays["qpos"].shape == (200, 33)
-        assert arrays["event_step"].tolist() == [250, 300, 400, 600]
+        assert arrays["event_step"].tolist() == [200, 240, 320, 480]
         assert arrays["xfrc_applied"].shape == (4, flat.nbody, 6)
         assert np.isnan(arrays["event_qpos"][:3]).all()
     assert replay_audit(tmp_path) is None
@@ -76,6 +76,36 @@ def test_a_changed_audit_does_not_step_to_the_same_states(
     arrays[key][-1 if key == "event_qpos" else 2] += 1e-3
     np.savez(tmp_path / "physics.npz", **arrays)
     assert replay_audit(tmp_path) is not None
+
+
+def test_an_audit_of_another_time_step_is_read_by_its_own(
+    qrio: Robot, flat: mujoco.MjModel, tmp_path: Path
+) -> None:
+    timestep = flat.opt.timestep
+    flat.opt.timestep = 0.002
+    try:
+        simulation = eventful(qrio, flat)
+        simulation.save_audit(tmp_path)
+    finally:
+        flat.opt.timestep = timestep
+    with np.load(tmp_path / "physics.npz") as arrays:
+        assert arrays["ctrl"].shape == (1000, 26)
+        assert arrays["event_step"].tolist() == [250, 300, 400, 600]
+    assert replay_audit(tmp_path) is None
+    assert replay_lengths(str(tmp_path)) == (200, None, 5)
+
+
+@pytest.mark.parametrize("timestep", [0.0, -0.0025, 0.003, 1e-300, np.nan])
+def test_a_time_step_of_which_a_tick_is_not_made_is_refused(
+    flat: mujoco.MjModel, timestep: float
+) -> None:
+    before = flat.opt.timestep
+    flat.opt.timestep = timestep
+    try:
+        with pytest.raises(ValueError, match="whole time steps"):
+            steps_per_tick(flat)
+    finally:
+        flat.opt.timestep = before
 
 
 @pytest.mark.parametrize("name", ["model.mjb", "physics.npz"])

@@ -84,7 +84,7 @@ def test_each_torque_that_reaches_mujoco_is_within_peak_and_line_but_for_frictio
         wild = JointTargets(rng.normal(0, 2, 26), rng.normal(0, 9, 26), rng.normal(0, 9, 26))
         velocity = simulation.joint_velocities.copy()
         simulation.advance(wild)
-        first = simulation.audit.ctrl.array()[-5]
+        first = simulation.audit.ctrl.array()[-4]
         assert (np.abs(first) <= limits.peak_torque + limits.friction).all()
         line = limits.stall_torque * (1.0 - np.abs(velocity) / limits.no_load_speed)
         driving = first * velocity > 0.0
@@ -105,6 +105,18 @@ def test_friction_is_the_servos_and_a_control_beyond_the_peak_by_it_is_not_clipp
     assert (flat.opt.noslip_iterations, flat.opt.noslip_tolerance) == (6, 0.0)
 
 
+def test_a_tick_is_four_steps_whatever_the_robots_model_says(
+    qrio: Robot, flat: mujoco.MjModel
+) -> None:
+    assert (qrio.nominal.opt.timestep, flat.opt.timestep) == (0.002, 0.0025)
+    simulation = Simulation(flat, qrio)
+    for _ in range(3):
+        simulation.advance(standing(qrio))
+    assert simulation.steps == len(simulation.audit.ctrl.array()) == 12
+    assert len(simulation.audit.qpos.array()) == 3
+    assert simulation.data.time == pytest.approx(0.03)
+
+
 def test_two_runs_give_the_same_states(qrio: Robot, flat: mujoco.MjModel) -> None:
     first, second = Simulation(flat, qrio), Simulation(flat, qrio)
     for simulation in (first, second):
@@ -122,7 +134,7 @@ def test_after_a_tick_the_sensors_say_what_they_do_in_plain_mujoco(
     mujoco.mj_step1(flat, plain)
     for tick in range(30):
         simulation.advance(standing(qrio))
-        for ctrl in simulation.audit.ctrl.array()[5 * tick :]:
+        for ctrl in simulation.audit.ctrl.array()[4 * tick :]:
             plain.ctrl[:] = ctrl
             mujoco.mj_step2(flat, plain)
             mujoco.mj_step1(flat, plain)

@@ -19,6 +19,8 @@ STAND = "stand"
 """Name of the keyframe in which the robot stands upright."""
 BASE = "base"
 """Name that a free joint without one gets."""
+PHYSICS_STEP = 0.0025
+"""Of every simulation, s, whatever a model says: four steps are a control tick."""
 SEEN_GROUPS = 3
 """Geoms of the groups below this are what a camera sees."""
 
@@ -53,8 +55,8 @@ def complete(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> None:
     _add_stand(spec, file, toml)
 
 
-def leave_friction_to_servos(spec: mujoco.MjSpec) -> None:
-    """Take the joints' dry friction out of a specification that is simulated: the servos have it.
+def prepare(spec: mujoco.MjSpec) -> None:
+    """Prepare a specification for its simulation: our time step, and friction in the servos alone.
 
     A control is then the motor's torque less the friction: where the motor brakes at its peak that
     is more than the peak, which a control's range must leave room for.
@@ -68,6 +70,7 @@ def leave_friction_to_servos(spec: mujoco.MjSpec) -> None:
         more = sum(friction.get(name, 0.0) for name in (actuator.target, *followers))
         low, high = actuator.ctrlrange
         actuator.ctrlrange = [low - more, high + more]
+    spec.option.timestep = PHYSICS_STEP
     # The solver's rows of friction kept the sweeps against slip going: without them they would stop
     # before the soles are held.
     spec.option.noslip_tolerance = 0.0

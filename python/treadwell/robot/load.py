@@ -15,7 +15,7 @@ from treadwell.data import data_folder
 from treadwell.errors import InputError
 from treadwell.mjcf.build import check_builds, compiled, read_spec
 from treadwell.mjcf.xml import check_xml
-from treadwell.robot.additions import STAND, complete, leave_friction_to_servos
+from treadwell.robot.additions import STAND, complete, prepare
 from treadwell.robot.check import check_robot
 from treadwell.robot.description import describe
 from treadwell.robot.file import MotorsTable, RobotFile
@@ -51,15 +51,16 @@ class Robot:
     def spec(self) -> mujoco.MjSpec:
         """Return a fresh specification of the robot, to which a course can be added.
 
-        Its keyframes are left out: they would not fit a model with more joints. Its joints are
-        without friction: the servos have it, since in the solver it takes a third of the time.
+        Its keyframes are left out: they would not fit a model with more joints. It has the
+        harness's time step, and its joints are without friction: the servos have it, since in the
+        solver it takes a third of the time.
         """
         path = self.folder / self.file.robot.model
         spec = read_spec(path, str(path))
         complete(spec, self.file, self.folder / "robot.toml")
         for key in list(spec.keys):
             spec.delete(key)
-        leave_friction_to_servos(spec)
+        prepare(spec)
         return spec
 
     @cached_property
