@@ -38,7 +38,7 @@ pub struct Physics {
 
 // SAFETY: the pointers are to memory of the two owners, which any thread may use as long as one alone does; `step` borrows mutably.
 unsafe impl Send for Physics {}
-// SAFETY: nothing can be read through a shared reference.
+// SAFETY: through a shared reference it is only read, and who has one keeps `step` from being called.
 unsafe impl Sync for Physics {}
 
 impl Physics {
