@@ -1,4 +1,4 @@
-"""A whole episode against real time on one core, without and with recording; each stage's median.
+"""A whole episode against real time and frozen physics, one core; without and with recording.
 
 python benches/speed.py --scenario slalom --seeds 400-404
 """
@@ -15,6 +15,7 @@ from episodes import seeds
 from into_results import add_options, write
 
 from treadwell.runner import run
+from treadwell.timing.episode import frozen_ms
 
 CORE = ("segment", "map", "stairs", "localize", "plan", "behave", "walk")
 
@@ -48,15 +49,17 @@ def main() -> None:
     import rerun  # noqa: F401
 
     for record in (False, True):
-        factors, processor, shares, both = [], [], [], []
+        factors, processor, shares, both, ratios = [], [], [], [], []
         for seed in options.seeds:
             with tempfile.TemporaryDirectory() as folder:
                 out = Path(folder) / "run"
                 looks = Processor()
+                before = frozen_ms()
                 result = run(
                     options.scenario, seed=seed, record=record, out=out, progress=looks
                 ).result
             processor.append(looks.factor())
+            ratios.append(1e3 / looks.factor() / (0.5 * (before + frozen_ms())))
             table = result.timing_ms
             core = sum(table[name].median * table[name].count for name in CORE) / 1e3
             factors.append(result.real_time_factor)
@@ -67,8 +70,10 @@ def main() -> None:
             f"{title} recording: {np.median(factors):.1f} times real time "
             f"({min(factors):.1f} to {max(factors):.1f}), "
             f"{np.median(processor):.1f} by processor time "
-            f"({min(processor):.1f} to {max(processor):.1f}), core {100 * np.median(shares):.0f} % "
-            f"of the wall time, segmentation and map {np.median(both):.2f} ms a frame\n"
+            f"({min(processor):.1f} to {max(processor):.1f}), {np.median(ratios):.2f} times the "
+            f"frozen physics ({min(ratios):.2f} to {max(ratios):.2f}), "
+            f"core {100 * np.median(shares):.0f} % of the wall time, "
+            f"segmentation and map {np.median(both):.2f} ms a frame\n"
         )
         sys.stdout.flush()
         times = f"{np.median(factors):.1f} times real time"
@@ -77,6 +82,8 @@ def main() -> None:
         rows.append(
             {"what": f"{title} recording", "measured": f"{times} ({spread}), {by_processor}"}
         )
+        what = f"processor time {title} recording against the frozen physics"
+        rows.append({"what": what, "measured": f"{np.median(ratios):.2f}"})
         if not record:
             share = f"{100 * np.median(shares):.0f} %"
             what = "share of the core, walking included, in the wall time"

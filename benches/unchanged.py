@@ -25,7 +25,6 @@ import numpy as np
 
 import treadwell
 
-STEPS_PER_TICK = 5
 NOT_COMPARED = {
     "configuration",
     "version",
@@ -169,7 +168,8 @@ def _arrays(was: Path, now: Path, ticks_a_row: int | None) -> str | None:
             row = int(np.argmin(same)) if not same.all() else length
             if ticks_a_row is None:
                 return f"{name}: row {row}"
-            tick = row // STEPS_PER_TICK if name == "ctrl" else row
+            steps_a_tick = len(before["ctrl"]) // max(1, len(before["qpos"]))
+            tick = row // steps_a_tick if name == "ctrl" else row
             return f"{name}: row {row}, tick {tick}"
     return None
 

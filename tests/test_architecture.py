@@ -4,6 +4,7 @@ import re
 import tomllib
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import doc_comments
 import module_circles
@@ -16,6 +17,7 @@ from import_graph import between_floors, circle, floor_of, imports, modules
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "python" / "treadwell"
 LONGEST_FILE = 400
+SIMULATOR = {"simulated_body", "mujoco_step"}
 # Tested through what uses them, by the test named.
 TESTED_BY = {
     "cli.verify": "test_difference.py",
@@ -68,6 +70,10 @@ def floors() -> list[list[str]]:
     table = section.partition("\n## ")[0]
     rows = [line.split("|")[1] for line in table.splitlines() if line.startswith("| `")]
     return [re.findall(r"`([^`]+)`", row) for row in rows]
+
+
+def manifest(crate: str) -> dict[str, Any]:
+    return tomllib.loads((ROOT / "rust" / crate / "Cargo.toml").read_text())
 
 
 def sources(pattern: str, *folders: str) -> list[Path]:
@@ -191,8 +197,24 @@ def test_the_senses_and_the_core_cannot_read_the_truth() -> None:
     truth = r"treadwell\.(judging|measuring|solving|recording|trace)\b"
     for path in before:
         assert not re.search(truth, path.read_text()), path.name
-    core = "\n".join(path.read_text() for path in (ROOT / "rust").rglob("*.rs"))
-    assert "mujoco" not in core.lower().replace("mujoco's quaternions", "")
+    core = [name for name in members() if name not in (*SIMULATOR, "bindings")]
+    text = "\n".join(path.read_text() for path in sources("*.rs", *(f"rust/{n}" for n in core)))
+    assert "mujoco" not in text.lower().replace("mujoco's quaternions", "")
+
+
+@pytest.mark.parametrize("crate", members())
+def test_only_the_bindings_use_what_the_simulator_knows(crate: str) -> None:
+    used = SIMULATOR & manifest(crate).get("dependencies", {}).keys()
+    assert not used or crate in {"bindings", *SIMULATOR}
+    assert set(members()) >= SIMULATOR
+
+
+@pytest.mark.parametrize("crate", members())
+def test_unsafe_code_stands_in_one_crate_alone(crate: str) -> None:
+    inherits = manifest(crate)["lints"].get("workspace", False)
+    assert inherits == (crate != "mujoco_step")
+    text = "\n".join(path.read_text() for path in sources("*.rs", f"rust/{crate}"))
+    assert inherits or text.count("// SAFETY: ") == len(re.findall(r"\bunsafe (?:\{|impl)", text))
 
 
 # Float literals that are true by nature (`python tools/numbers.py --list`). The count only falls.

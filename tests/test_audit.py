@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from treadwell.errors import InputError, RecordingError
-from treadwell.physics.audit import join_parts, replay_audit
+from treadwell.physics.audit import join_parts, replay_audit, replay_lengths, steps_per_tick
 from treadwell.physics.motors import JointTargets
 from treadwell.physics.parts import PARTS
 from treadwell.physics.simulation import Simulation, Start
@@ -62,9 +62,9 @@ def test_plain_mujoco_steps_to_the_same_states_bit_for_bit(
     simulation = eventful(qrio, flat)
     simulation.save_audit(tmp_path)
     with np.load(tmp_path / "physics.npz") as arrays:
-        assert arrays["ctrl"].shape == (1000, 26)
+        assert arrays["ctrl"].shape == (800, 26)
         assert arrays["qpos"].shape == (200, 33)
-        assert arrays["event_step"].tolist() == [250, 300, 400, 600]
+        assert arrays["event_step"].tolist() == [200, 240, 320, 480]
         assert arrays["xfrc_applied"].shape == (4, flat.nbody, 6)
         assert np.isnan(arrays["event_qpos"][:3]).all()
     assert replay_audit(tmp_path) is None
@@ -80,6 +80,36 @@ def test_a_changed_audit_does_not_step_to_the_same_states(
     arrays[key][-1 if key == "event_qpos" else 2] += 1e-3
     np.savez(tmp_path / "physics.npz", **arrays)
     assert replay_audit(tmp_path) is not None
+
+
+def test_an_audit_of_another_time_step_is_read_by_its_own(
+    qrio: Robot, flat: mujoco.MjModel, tmp_path: Path
+) -> None:
+    timestep = flat.opt.timestep
+    flat.opt.timestep = 0.002
+    try:
+        simulation = eventful(qrio, flat)
+        simulation.save_audit(tmp_path)
+    finally:
+        flat.opt.timestep = timestep
+    with np.load(tmp_path / "physics.npz") as arrays:
+        assert arrays["ctrl"].shape == (1000, 26)
+        assert arrays["event_step"].tolist() == [250, 300, 400, 600]
+    assert replay_audit(tmp_path) is None
+    assert replay_lengths(str(tmp_path)) == (200, None, 5)
+
+
+@pytest.mark.parametrize("timestep", [0.0, -0.0025, 0.003, 1e-300, np.nan])
+def test_a_time_step_of_which_a_tick_is_not_made_is_refused(
+    flat: mujoco.MjModel, timestep: float
+) -> None:
+    before = flat.opt.timestep
+    flat.opt.timestep = timestep
+    try:
+        with pytest.raises(ValueError, match="whole time steps"):
+            steps_per_tick(flat)
+    finally:
+        flat.opt.timestep = before
 
 
 @pytest.mark.parametrize("name", ["model.mjb", "physics.npz"])
@@ -133,7 +163,7 @@ def test_of_a_killed_run_the_ticks_that_were_written_can_be_replayed(
     whole = (parts / "ctrl.npy").read_bytes()
     (parts / "ctrl.npy").write_bytes(whole[:-100])  # cut amid a row
     join_parts(tmp_path)
-    assert arrays(tmp_path)["ctrl"].shape == (995, 26)
+    assert arrays(tmp_path)["ctrl"].shape == (796, 26)
     assert arrays(tmp_path)["qpos"].shape == (199, 33)
     assert replay_audit(tmp_path) is None
     assert not parts.exists()
@@ -148,6 +178,6 @@ def test_an_audit_that_was_dropped_keeps_nothing(
     simulation.audit.drop()
     for _ in range(300):
         simulation.advance(standing(qrio))
-    assert len(simulation.audit.ctrl.array()) < 1500
+    assert len(simulation.audit.ctrl.array()) < 1200
     with pytest.raises(RecordingError, match="was dropped"):
         simulation.save_audit(tmp_path)

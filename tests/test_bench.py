@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 from treadwell._core import OccupancyGrid, WorldModel
 from treadwell.cli.app import execute
-from treadwell.errors import InputError
+from treadwell.errors import InputError, TreadwellError
 from treadwell.timing.benches import agreement, occupancy, step, times
+from treadwell.timing.episode import FROZEN, frozen, stepped
 from treadwell.timing.frames import read_frames, write_frames
 from treadwell.timing.room import room
 
@@ -74,7 +75,7 @@ def test_a_bad_file_is_refused(tmp_path: Path, data: bytes, says: str) -> None:
 
 @pytest.mark.slow
 def test_json_holds_times_ratio_and_agreement(capsys: pytest.CaptureFixture[str]) -> None:
-    assert execute(["bench", "--frames", "2", "--json"]) == 0
+    assert execute(["bench", "occupancy", "step", "--frames", "2", "--json"]) == 0
     document = json.loads(capsys.readouterr().out)
     assert document["schema"] == "treadwell.bench/1"
     assert [(row["bench"], row["frames"]) for row in document["benches"]] == [
@@ -90,6 +91,34 @@ def test_json_holds_times_ratio_and_agreement(capsys: pytest.CaptureFixture[str]
             assert 0.0 <= found["bindings_share"] < 1.0
             assert found["ratio"] > 0.0
             assert found["agreement"]
+
+
+def test_plain_mujoco_steps_the_frozen_physics_to_the_same_state_bit_for_bit() -> None:
+    reference = frozen()
+    seconds, end = stepped(reference)
+    assert seconds > 0.0
+    assert np.array_equal(end, reference.end)
+    assert len(reference.torques) == 5000
+    assert FROZEN.stat().st_size < 1 << 20
+
+
+def test_a_frozen_model_that_mujoco_does_not_read_is_said(tmp_path: Path) -> None:
+    np.savez(tmp_path / "old.npz", model=np.zeros(8, np.uint8))
+    with pytest.raises(TreadwellError, match=r"old\.npz: MuJoCo .* does not read"):
+        frozen(tmp_path / "old.npz")
+
+
+@pytest.mark.slow
+def test_an_episode_is_timed_against_the_frozen_physics(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert execute(["bench", "episode", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["benches"] == []
+    found = document["episode"]
+    expected = found["ms_a_simulated_second"] / found["frozen_ms"]
+    assert found["ratio"] == pytest.approx(expected, rel=0.01)
+    assert found["ratio"] > 1.0
 
 
 @pytest.mark.parametrize("arguments", [["nothing"], ["--frames", "0"], ["--frames", "nowhere.bin"]])

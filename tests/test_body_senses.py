@@ -1,17 +1,31 @@
-"""Tests of encoders, inertial unit and foot forces."""
+"""Claims about encoders, inertial unit and foot forces in MuJoCo; more beside their code."""
+
+from collections.abc import Mapping
+from types import MappingProxyType
 
 import mujoco
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from treadwell._core import BodySenses, Servos
 from treadwell.random_streams import stream
-from treadwell.senses.body import Encoders, FootForces, Imu, ImuNoise, SensedSole
+from treadwell.robot.motor_limits import MotorLimits
+from treadwell.senses.body import (
+    EncoderSenses,
+    FootSenses,
+    Generators,
+    ImuNoise,
+    SensedSole,
+    body_senses,
+)
 
+Floats = NDArray[np.float64]
 QUANTUM = np.radians(0.088)
 TICK = 10_000_000
+IDEAL = ImuNoise()
 SOLES = (
     SensedSole("forces", "body", (0.0, 0.0, -0.1), (0.2, 0.2)),
     SensedSole("forces", "body", (0.0, 0.0, -0.1), (0.2, 0.2)),
@@ -36,68 +50,72 @@ def state() -> mujoco.MjData:
     return data
 
 
-class Play:
-    """Motors that lead their joints by a constant."""
-
-    def measured_angle(self, position: NDArray[np.float64]) -> NDArray[np.float64]:
-        return position + 0.5
-
-
-@settings(max_examples=50, deadline=None)
-@given(st.floats(-2.0, 2.0), st.floats(-0.1, 0.1))
-def test_an_encoder_reads_its_joint_and_offset_to_half_a_quantum(
-    angle: float, offset: float
-) -> None:
-    data = state()
-    data.joint("two").qpos = angle
-    offsets = np.array([offset, 0.0])
-    encoders = Encoders(MODEL, ("two", "one"), QUANTUM, offsets, stream(0, "e"))
-    readings, _ = encoders.read(data, None)
-    assert abs(readings[0] - (angle + offset)) <= QUANTUM / 2 + 1e-12
-    assert readings[0] / QUANTUM == pytest.approx(np.rint(readings[0] / QUANTUM), abs=1e-6)
-    assert readings[1] == 0.0
+def senses(
+    imu: ImuNoise = IDEAL,
+    *,
+    quantum: float = 0.0,
+    offsets: tuple[float, float] = (0.0, 0.0),
+    followers: Mapping[int, int] = MappingProxyType({}),
+    foot_noise: tuple[float, float] = (0.0, 0.0),
+    seed: int = 0,
+) -> BodySenses:
+    return body_senses(
+        MODEL,
+        EncoderSenses(("two", "one"), quantum, np.array(offsets), followers),
+        "imu",
+        imu,
+        FootSenses(SOLES, *foot_noise),
+        Generators(*(stream(seed, name) for name in "eif")),
+    )
 
 
-def test_ideal_encoders_are_exact() -> None:
+def inertial(made: BodySenses, data: mujoco.MjData, time_ns: int) -> tuple[Floats, Floats]:
+    return made.read(data, time_ns, None)[2:4]
+
+
+def leading() -> Servos:
+    """Motors that lead their joints by half a radian."""
+    one, none = np.ones(2), np.zeros(2)
+    motors = Servos(MotorLimits(one, one, one, one, one, none, none), play=1.0, timestep=0.002)
+    motors.command(np.zeros(2), np.zeros(2), np.full(2, 9.0))
+    for _ in range(500):
+        motors.torques(np.full(2, -9.0), np.zeros(2))
+    return motors
+
+
+def test_encoders_read_their_joints_motors_and_offsets_in_quanta() -> None:
     data = state()
     data.joint("one").qpos, data.joint("two").qpos = 0.1234567, -0.7654321
     data.joint("one").qvel, data.joint("two").qvel = 1.5, -2.5
-    encoders = Encoders(MODEL, ("one", "two"), 0.0, np.zeros(2), stream(0, "e"))
-    positions, velocities = encoders.read(data, None)
-    assert positions.tolist() == [0.1234567, -0.7654321]
-    assert velocities.tolist() == [1.5, -2.5]
+    positions, velocities = senses().read(data, 0, None)[:2]
+    assert positions.tolist() == [-0.7654321, 0.1234567]
+    assert velocities.tolist() == [-2.5, 1.5]
+    read = senses(quantum=QUANTUM, offsets=(0.01, 0.2), followers={1: 0}).read(data, 0, leading())
+    assert read[0][0] == read[0][1] == pytest.approx(-0.2554321, abs=QUANTUM)
+    assert read[1][0] == read[1][1] == pytest.approx(-2.5, abs=0.2)
     assert data.joint("one").qvel == 1.5
 
 
-def test_encoders_sit_at_the_motors() -> None:
-    encoders = Encoders(MODEL, ("one", "two"), 0.0, np.zeros(2), stream(0, "e"))
-    positions, _ = encoders.read(state(), Play())
-    assert positions.tolist() == [0.5, 0.5]
+def test_another_data_object_is_read_from_then_on_and_one_of_another_model_refused() -> None:
+    made, first, second = senses(), state(), state()
+    first.joint("two").qpos, second.joint("two").qpos = 0.1, 0.2
+    found = [made.read(data, 0, None)[0][0] for data in (first, second, first)]
+    assert found == [0.1, 0.2, 0.1]
+    other = mujoco.MjModel.from_xml_string("<mujoco/>")
+    with pytest.raises(ValueError, match=r"qpos has 0 numbers, \d+ are needed"):
+        made.read(mujoco.MjData(other), 0, None)
 
 
-def test_a_joint_without_an_encoder_reads_what_its_leader_reads() -> None:
-    data = state()
-    data.joint("one").qpos, data.joint("two").qpos = 0.3, 0.302
-    data.joint("one").qvel = 1.0
-    offsets = np.array([0.01, 0.2])
-    encoders = Encoders(MODEL, ("one", "two"), QUANTUM, offsets, stream(0, "e"), {1: 0})
-    positions, velocities = encoders.read(data, Play())
-    assert positions[0] == positions[1] == pytest.approx(0.81, abs=QUANTUM)
-    assert velocities[0] == velocities[1]
-
-
-def test_velocities_have_the_noise_of_two_readings() -> None:
-    data = state()
-    data.joint("one").qvel = 1.0
-    encoders = Encoders(MODEL, ("one",), QUANTUM, np.zeros(1), stream(0, "e"))
-    found = np.array([encoders.read(data, None)[1][0] for _ in range(3000)])
-    assert found.mean() == pytest.approx(1.0, abs=0.003)
-    assert found.std() == pytest.approx(QUANTUM * np.sqrt(2 / 12) / 0.02, rel=0.05)
+def test_an_offset_that_changes_is_read_at_the_next_tick() -> None:
+    made, data = senses(), state()
+    before = made.read(data, 0, None)[0]
+    made.encoder_offsets[:] = (0.25, 0.0)
+    assert (made.read(data, TICK, None)[0] - before).tolist() == [0.25, 0.0]
 
 
 def test_at_rest_the_accelerometer_reads_gravity_upward_in_its_own_frame() -> None:
-    imu = Imu(MODEL, "imu", ImuNoise(), stream(0, "i"))
-    angular_velocity, specific_force = imu.read(state(), 0)
+    imu = senses()
+    angular_velocity, specific_force = inertial(imu, state(), 0)
     np.testing.assert_allclose(angular_velocity, 0.0, atol=1e-12)
     # The site is turned by 90 degrees about x: its y points up.
     np.testing.assert_allclose(specific_force, [0.0, 9.81, 0.0], atol=1e-9)
@@ -106,12 +124,12 @@ def test_at_rest_the_accelerometer_reads_gravity_upward_in_its_own_frame() -> No
 def test_a_falling_body_feels_no_force() -> None:
     data = state()
     data.qpos[2] = 2.0
-    imu = Imu(MODEL, "imu", ImuNoise(), stream(0, "i"))
+    imu = senses()
     force = np.zeros(3)
     for i in range(5):
         for _ in range(5):
             mujoco.mj_step(MODEL, data)
-        _, force = imu.read(data, i * TICK)
+        _, force = inertial(imu, data, i * TICK)
     np.testing.assert_allclose(force, 0.0, atol=0.05)
 
 
@@ -120,12 +138,12 @@ def test_the_gyro_reads_in_the_sites_frame_and_the_lever_is_felt() -> None:
     data.qpos[2] = 2.0
     rate = 3.0
     data.qvel[5] = rate
-    imu = Imu(MODEL, "imu", ImuNoise(), stream(0, "i"))
+    imu = senses()
     forces = []
     for i in range(20):
         for _ in range(5):
             mujoco.mj_step(MODEL, data)
-        angular_velocity, force = imu.read(data, i * TICK)
+        angular_velocity, force = inertial(imu, data, i * TICK)
         np.testing.assert_allclose(angular_velocity, [0.0, rate, 0.0], atol=1e-2)
         forces.append(force)
     # It flies freely: what is felt is the centripetal pull toward the axis, 0.03 m away.
@@ -136,15 +154,15 @@ def test_the_gyro_misses_nothing_between_two_readings() -> None:
     data = state()
     data.qpos[2] = 50.0
     mujoco.mj_forward(MODEL, data)
-    imu, rng = Imu(MODEL, "imu", ImuNoise(), stream(0, "i")), stream(0, "w")
-    imu.read(data, 0)
+    imu, rng = senses(), stream(0, "w")
+    inertial(imu, data, 0)
     turned = 0.0
     for i in range(1, 50):
         for _ in range(5):
             data.qvel[3:6] = [0.0, 0.0, rng.uniform(-5.0, 8.0)]
             mujoco.mj_step(MODEL, data)
         mujoco.mj_forward(MODEL, data)
-        angular_velocity, _ = imu.read(data, i * TICK)
+        angular_velocity, _ = inertial(imu, data, i * TICK)
         turned += angular_velocity[1] * 1e-9 * TICK
     rotation = data.body("body").xmat.reshape(3, 3)
     heading = np.arctan2(rotation[1, 0], rotation[0, 0])
@@ -153,11 +171,11 @@ def test_the_gyro_misses_nothing_between_two_readings() -> None:
 
 def test_the_accelerometer_does_not_take_a_pause_for_a_jerk() -> None:
     data = state()
-    imu = Imu(MODEL, "imu", ImuNoise(), stream(0, "i"))
-    imu.read(data, 0)
+    imu = senses()
+    inertial(imu, data, 0)
     data.qvel[0] = 1.0
     mujoco.mj_forward(MODEL, data)
-    _, force = imu.read(data, 1_000_000_000)
+    _, force = inertial(imu, data, 1_000_000_000)
     np.testing.assert_allclose(force, [0.0, 9.81, 0.0], atol=1e-9)
 
 
@@ -166,8 +184,8 @@ def test_biases_stay_and_noise_is_new() -> None:
     data = state()
     biases = []
     for seed in range(60):
-        imu = Imu(MODEL, "imu", noise, stream(seed, "i"))
-        samples = np.array([np.concatenate(imu.read(data, i * TICK)) for i in range(400)])
+        imu = senses(noise, seed=seed)
+        samples = np.array([np.concatenate(inertial(imu, data, i * TICK)) for i in range(400)])
         assert samples.std(axis=0)[:3] == pytest.approx(0.002, rel=0.25)
         assert samples.std(axis=0)[3:] == pytest.approx(0.15, rel=0.25)
         biases.append(samples.mean(axis=0) - [0, 0, 0, 0, 9.81, 0])
@@ -183,8 +201,7 @@ def standing() -> mujoco.MjData:
 
 
 def test_the_feet_carry_the_weight() -> None:
-    feet = FootForces(MODEL, SOLES, 0.0, 0.0, stream(0, "f"))
-    forces = feet.read(standing())
+    forces = senses().read(standing(), 0, None)[4]
     assert forces.shape == (2, 4)
     assert forces[0].sum() == pytest.approx(2.02 * 9.81, rel=0.01)
     np.testing.assert_array_equal(forces[0], forces[1])
@@ -198,7 +215,7 @@ def test_a_sole_shares_a_force_as_a_stiff_plate_does(x: float, y: float, yaw: fl
     body = data.body("body")
     data.sensordata[:3] = [0.0, 0.0, -20.0]
     data.sensordata[3:] = body.xpos + body.xmat.reshape(3, 3) @ [x, y, -0.1]
-    forces = FootForces(MODEL, SOLES, 0.0, 0.0, stream(0, "f")).read(data)[0]
+    forces = senses().read(data, 0, None)[4][0]
     corners = np.array([[0.1, 0.1], [0.1, -0.1], [-0.1, 0.1], [-0.1, -0.1]])
     assert forces.min() >= 0.0
     assert forces.sum() == pytest.approx(20.0)
@@ -211,18 +228,18 @@ def test_what_pushes_along_a_sole_or_pulls_at_it_is_not_felt(force: list[float])
     mujoco.mj_kinematics(MODEL, data)
     data.sensordata[:3] = data.body("body").xmat.reshape(3, 3) @ force
     data.sensordata[3:] = data.body("body").xpos + np.array([0.05, 0.0, -0.1])
-    forces = FootForces(MODEL, SOLES, 0.0, 0.0, stream(0, "f")).read(data)
+    forces = senses().read(data, 0, None)[4]
     assert np.abs(forces).max() < 1e-12
 
 
 def test_foot_forces_are_noisy_and_never_pull() -> None:
     data = standing()
-    exact = FootForces(MODEL, SOLES, 0.0, 0.0, stream(0, "f")).read(data)
-    feet = FootForces(MODEL, SOLES, 0.02, 0.1, stream(0, "f"))
-    found = np.array([feet.read(data) for _ in range(2000)])
+    exact = senses().read(data, 0, None)[4]
+    feet = senses(foot_noise=(0.02, 0.1))
+    found = np.array([feet.read(data, 0, None)[4] for _ in range(2000)])
     expected = np.sqrt((0.02 * exact) ** 2 + 0.1**2)
     np.testing.assert_allclose(found.std(axis=0), expected, rtol=0.1)
     data.sensordata[:] = 0.0
-    lifted = np.array([feet.read(data) for _ in range(200)])
+    lifted = np.array([feet.read(data, 0, None)[4] for _ in range(200)])
     assert lifted.min() == 0.0
     assert lifted.max() > 0.0

@@ -118,7 +118,7 @@ def test_a_model_without_physics_options_gets_the_testbeds_and_others_keep_their
     (robot / "qrio.xml").write_text(text[:begin] + text[end:], encoding="utf-8")
     bare, ours = load_robot(robot).nominal.opt, load_robot("qrio").nominal.opt
     assert bare.cone == ours.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
-    assert bare.noslip_iterations == ours.noslip_iterations == 4
+    assert bare.noslip_iterations == ours.noslip_iterations == 6
     (robot / "qrio.xml").write_text(
         text[:begin] + '<option impratio="3"/>' + text[end:], encoding="utf-8"
     )

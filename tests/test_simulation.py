@@ -1,11 +1,13 @@
 """Claims about the physics: a robot stands by its motors alone, and falls without."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
 
+from treadwell._core import Physics, Servos
 from treadwell.errors import SimulationError
 from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import Simulation, Start
@@ -52,12 +54,12 @@ def test_held_in_the_keyframe_by_its_servos_the_robot_stands_for_five_seconds(
 
 def test_without_torque_the_robot_falls(qrio: Robot, flat: mujoco.MjModel) -> None:
     simulation = Simulation(flat, qrio)
-    simulation.motors.limits.peak_torque[:] = 0.0
-    try:
-        for _ in range(150):
-            simulation.advance(standing(qrio))
-    finally:
-        simulation.motors.limits.peak_torque[:] = qrio.nominal.actuator_ctrlrange[:, 1]
+    nothing = np.zeros(26)
+    powerless = replace(qrio.limits, peak_torque=nothing, friction=nothing)
+    simulation.motors = Servos(powerless, play=0.0, timestep=flat.opt.timestep)
+    for _ in range(150):
+        simulation.advance(standing(qrio))
+    assert not simulation.audit.ctrl.array().any()
     assert simulation.data.body("pelvis").xpos[2] < 0.15
 
 
@@ -72,7 +74,7 @@ def test_the_start_puts_the_middle_of_the_soles_at_the_place_with_the_yaw(
     assert across == pytest.approx([-np.sin(2), np.cos(2), 0], abs=1e-5)
 
 
-def test_each_torque_that_reaches_mujoco_is_within_peak_and_line(
+def test_each_torque_that_reaches_mujoco_is_within_peak_and_line_but_for_friction(
     qrio: Robot, flat: mujoco.MjModel
 ) -> None:
     simulation = Simulation(flat, qrio)
@@ -82,12 +84,37 @@ def test_each_torque_that_reaches_mujoco_is_within_peak_and_line(
         wild = JointTargets(rng.normal(0, 2, 26), rng.normal(0, 9, 26), rng.normal(0, 9, 26))
         velocity = simulation.joint_velocities.copy()
         simulation.advance(wild)
-        first = simulation.audit.ctrl.array()[-5]
-        assert (np.abs(first) <= limits.peak_torque).all()
+        first = simulation.audit.ctrl.array()[-4]
+        assert (np.abs(first) <= limits.peak_torque + limits.friction).all()
         line = limits.stall_torque * (1.0 - np.abs(velocity) / limits.no_load_speed)
         driving = first * velocity > 0.0
         assert (np.abs(first) <= np.maximum(line, 0.0) + 1e-12)[driving].all()
         assert (simulation.data.ctrl == simulation.audit.ctrl.array()[-1]).all()
+
+
+def test_friction_is_the_servos_and_a_control_beyond_the_peak_by_it_is_not_clipped(
+    qrio: Robot, flat: mujoco.MjModel
+) -> None:
+    assert not flat.dof_frictionloss.any()
+    assert (qrio.nominal.dof_frictionloss[6:] > 0.0).all()
+    assert np.array_equal(qrio.limits.friction, qrio.nominal.dof_frictionloss[6:])
+    assert np.array_equal(qrio.limits.inertia, qrio.nominal.dof_armature[6:])
+    most = qrio.limits.peak_torque + qrio.limits.friction
+    assert flat.actuator_ctrlrange[:, 1] == pytest.approx(most)
+    assert flat.actuator_ctrlrange[:, 0] == pytest.approx(-most)
+    assert (flat.opt.noslip_iterations, flat.opt.noslip_tolerance) == (6, 0.0)
+
+
+def test_a_tick_is_four_steps_whatever_the_robots_model_says(
+    qrio: Robot, flat: mujoco.MjModel
+) -> None:
+    assert (qrio.nominal.opt.timestep, flat.opt.timestep) == (0.002, 0.0025)
+    simulation = Simulation(flat, qrio)
+    for _ in range(3):
+        simulation.advance(standing(qrio))
+    assert simulation.steps == len(simulation.audit.ctrl.array()) == 12
+    assert len(simulation.audit.qpos.array()) == 3
+    assert simulation.data.time == pytest.approx(0.03)
 
 
 def test_two_runs_give_the_same_states(qrio: Robot, flat: mujoco.MjModel) -> None:
@@ -107,7 +134,7 @@ def test_after_a_tick_the_sensors_say_what_they_do_in_plain_mujoco(
     mujoco.mj_step1(flat, plain)
     for tick in range(30):
         simulation.advance(standing(qrio))
-        for ctrl in simulation.audit.ctrl.array()[5 * tick :]:
+        for ctrl in simulation.audit.ctrl.array()[4 * tick :]:
             plain.ctrl[:] = ctrl
             mujoco.mj_step2(flat, plain)
             mujoco.mj_step1(flat, plain)
@@ -135,3 +162,20 @@ def test_physics_that_diverge_are_an_error_with_the_time(
     with pytest.raises(SimulationError, match=r"diverged at 0\.02 s"):
         simulation.advance(standing(qrio))
     assert not list(tmp_path.iterdir())
+
+
+def test_a_model_and_data_that_do_not_belong_together_are_not_stepped(
+    qrio: Robot, flat: mujoco.MjModel
+) -> None:
+    data = mujoco.MjData(flat)
+    motors = [(joint, joint) for joint in range(26)]
+    with pytest.raises(ValueError, match="data is not of this model"):
+        Physics(mujoco.MjModel.from_xml_string("<mujoco/>"), data, 26, 7, 6, motors)
+    with pytest.raises(TypeError, match="MjModel"):
+        Physics(object(), data, 26, 7, 6, motors)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="not all in this model"):
+        Physics(flat, data, 27, 7, 6, motors)
+    with pytest.raises(ValueError, match="26 columns"):
+        Physics(flat, data, 26, 7, 6, motors).step(
+            Servos(qrio.limits, play=0.0, timestep=0.002), np.zeros((1, 25))
+        )

@@ -4,12 +4,15 @@ from collections.abc import Sequence
 from typing import ClassVar, final
 
 import numpy as np
+from mujoco import MjData, MjModel
 from numpy.typing import NDArray
 
 from treadwell import protocols
 from treadwell.observation import Observation
+from treadwell.robot.motor_limits import MotorLimits
 
 __all__ = [
+    "BodySenses",
     "BodyState",
     "Climb",
     "DepthCamera",
@@ -19,17 +22,21 @@ __all__ = [
     "Legs",
     "OccupancyGrid",
     "Octree",
+    "Physics",
     "Pilot",
     "Planes",
     "RangeField",
     "Scan",
     "Segmenter",
+    "Servos",
     "Situation",
     "Stair",
     "Staircase",
     "Step",
     "Stepping",
+    "Surfaces",
     "Tick",
+    "TrueStance",
     "Walker",
     "WorldModel",
     "components",
@@ -42,6 +49,7 @@ __all__ = [
 
 _Pose = tuple[float, float, float, float]
 _Point = tuple[float, float, float]
+_Sole = tuple[float, float, float, tuple[float, float]]
 _Edge = tuple[_Point, _Point]
 _Fit = tuple[int, float, float]
 _Footstep = tuple[str, float, float, float, float, float, float]
@@ -54,6 +62,63 @@ def swept_clearance(
 ) -> float: ...
 def tables() -> list[str]: ...
 def version() -> str: ...
+
+@final
+class Servos:
+    encoder_offsets: NDArray[np.float64]
+    def __new__(cls, limits: MotorLimits, *, play: float, timestep: float) -> Servos: ...
+    def command(
+        self,
+        position: NDArray[np.float64],
+        velocity: NDArray[np.float64],
+        torque: NDArray[np.float64],
+    ) -> bool: ...
+    def torques(
+        self, position: NDArray[np.float64], velocity: NDArray[np.float64]
+    ) -> NDArray[np.float64]: ...
+    def measured_angle(self, position: NDArray[np.float64]) -> NDArray[np.float64]: ...
+
+@final
+class Physics:
+    def __new__(
+        cls,
+        model: MjModel,
+        data: MjData,
+        joints: int,
+        position: int,
+        velocity: int,
+        motors: list[tuple[int, int]],
+    ) -> Physics: ...
+    def step(self, servos: Servos, controls: NDArray[np.float64]) -> bool: ...
+
+@final
+class BodySenses:
+    @property
+    def encoder_offsets(self) -> NDArray[np.float64]: ...
+    def __new__(cls, settings: str, encoder_offsets: NDArray[np.float64]) -> BodySenses: ...
+    def read(
+        self, data: MjData, time_ns: int, motors: Servos | None
+    ) -> tuple[
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.float64],
+    ]: ...
+
+@final
+class TrueStance:
+    def __new__(
+        cls, soles: Sequence[tuple[int, _Point]], torso: int, up: Sequence[float]
+    ) -> TrueStance: ...
+    def look(self, data: MjData) -> tuple[_Sole, _Sole, float]: ...
+
+@final
+class Surfaces:
+    def __new__(cls, geoms: Sequence[str], sole_on_top: float, lies_on_top: float) -> Surfaces: ...
+    def sort(
+        self, geoms: NDArray[np.int32], frames: NDArray[np.float64]
+    ) -> tuple[bool, bool, int | None, list[tuple[int, int, int]]]: ...
 
 @final
 class Tick:
@@ -92,6 +157,11 @@ class Pilot:
     ) -> Pilot: ...
     def tick(self, observation: Observation) -> Tick: ...
     def planes(self) -> Planes: ...
+    def floor(
+        self,
+    ) -> tuple[
+        tuple[float, float], float, NDArray[np.uint8], NDArray[np.float32], NDArray[np.uint16]
+    ]: ...
     def view(self) -> FloorView: ...
     def staircase(self) -> Staircase: ...
     def climbs(self) -> list[Climb] | None: ...

@@ -135,6 +135,7 @@ class Episode:
         self.verdict: Verdict | None = None
         stages = ("physics", "depth", *Pilot.stages)
         self.seconds = {name: array("f") for name in stages}
+        self._core_seconds = [self.seconds[name] for name in Pilot.stages]
         brought = {slot: class_path(component) for slot, component in components.items()}
         given = user_components(scenario, dict(components))
         self.guards = guards(scenario, given, set(components))
@@ -165,9 +166,9 @@ class Episode:
         except CoreError as error:
             named = blamed(error, self.guards)
             raise named from named.__cause__
-        for stage, seconds in zip(Pilot.stages, self.pilot.timing, strict=True):
+        for times, seconds in zip(self._core_seconds, self.pilot.timing, strict=True):
             if not math.isnan(seconds):
-                self.seconds[stage].append(seconds)
+                times.append(seconds)
         command = JointTargets(tick.positions, tick.velocities, tick.torques)
         self.events.before_tick(simulation)
         self._tell_senses(time_ns)
@@ -183,7 +184,7 @@ class Episode:
             Estimate(tick.estimate, tick.odometry),
             command,
             tick.state,
-            tuple(Footstep(*listed) for listed in tick.footsteps),
+            tuple([Footstep(*listed) for listed in tick.footsteps]),
             tick.outcome,
             tick.reason,
         )

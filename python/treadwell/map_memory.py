@@ -54,6 +54,10 @@ class MapMemory:
         # Cells whose value is older than the window's present stay there.
         self._kept = np.zeros((0, 0), dtype=bool)
         self._window: tuple[int, int, int, int] | None = None
+        # Where nothing older stays, a window in its place is but the newest one.
+        self._newest: tuple[NDArray[np.uint8], NDArray[np.float32], NDArray[np.uint16]] | None = (
+            None
+        )
 
     def update(
         self,
@@ -63,7 +67,7 @@ class MapMemory:
         height: NDArray[np.float32],
         sightings: NDArray[np.uint16],
     ) -> None:
-        """Take in the window as it is now.
+        """Take in the window as it is now; its arrays may not change afterwards.
 
         Args:
             origin: (x, y) m, lower-left corner of the window in the map frame.
@@ -78,13 +82,17 @@ class MapMemory:
         col = round((origin[0] - self._origin[0]) / cell)
         row = round((origin[1] - self._origin[1]) / cell)
         rows, cols = kind.shape
+        if self._newest is not None:
+            if self._window == (row, col, row + rows, col + cols):
+                self._newest = (kind, height, sightings)
+                return
+            self._write_newest()
         self._make_room(row, col, row + rows, col + cols)
         self._mark_entering(row, col, row + rows, col + cols)
         r, c = row - self._corner[0], col - self._corner[1]
         here = np.s_[r : r + rows, c : c + cols]
         if not self._kept[here].any():
-            self._kind[here], self._height[here] = kind, height
-            self._sightings[here] = sightings
+            self._newest = (kind, height, sightings)
             return
         fresh = (kind != UNKNOWN) | ~self._kept[here]
         np.copyto(self._kind[here], kind, where=fresh)
@@ -96,9 +104,20 @@ class MapMemory:
 
     def map(self) -> RememberedMap:
         """Return all cells that were ever in the window; arrays are views."""
+        self._write_newest()
         x = self._origin[0] + self._corner[1] * self._cell
         y = self._origin[1] + self._corner[0] * self._cell
         return RememberedMap((x, y), self._cell, self._kind, self._height, self._sightings)
+
+    def _write_newest(self) -> None:
+        """Write down the window that is but the newest one."""
+        if self._newest is None or self._window is None:
+            return
+        row, col, end_row, end_col = self._window
+        top, left = self._corner
+        here = np.s_[row - top : end_row - top, col - left : end_col - left]
+        self._kind[here], self._height[here], self._sightings[here] = self._newest
+        self._newest = None
 
     def _mark_entering(self, row: int, col: int, end_row: int, end_col: int) -> None:
         """Keep what is remembered of the cells that were outside the window before."""

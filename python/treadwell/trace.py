@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +15,7 @@ FLOOR_DEPTH: Final = 1.0
 """Metres from front to back from which on a level is floor to look at, not a stair."""
 
 
-@dataclass(frozen=True, slots=True)
-class Sole:
+class Sole(NamedTuple):
     """The true pose of a sole.
 
     Attributes:

@@ -166,13 +166,15 @@ def experiment(
 
 
 @app.command(
-    short_help="Time the core on a fixed workload.",
+    short_help="Time the core on a fixed workload, and an episode.",
     epilog="Example: treadwell bench occupancy --frames frames/f320.bin",
 )
 def bench(
     names: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[NAME]...", help="Which: occupancy, step; all without it."),
+        typer.Argument(
+            metavar="[NAME]...", help="Which: occupancy, step, episode; all without it."
+        ),
     ] = None,
     *,
     frames: Annotated[
@@ -181,7 +183,7 @@ def bench(
     ] = None,
     as_json: JsonOption = False,
 ) -> int:
-    """Time the core on a fixed workload, and beside it following every ray by itself."""
+    """Time the core on a fixed workload, and an episode against physics that never change."""
     from treadwell.cli import bench as cli_bench
 
     document = cli_bench.bench(names or [], frames)

@@ -1,4 +1,4 @@
-"""The verb `bench`: times of the core on a fixed workload."""
+"""The verb `bench`: times of the core on a fixed workload, and of an episode."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -7,10 +7,12 @@ from typing import Any, Final
 from treadwell.cli.output import write_message, write_table
 from treadwell.errors import InputError
 from treadwell.timing.benches import BENCHES
+from treadwell.timing.episode import episode
 from treadwell.timing.frames import Frames, read_frames
 from treadwell.timing.room import CAMERAS, room
 
 _COUNT: Final = 40
+_EPISODE: Final = "episode"
 
 
 def bench(names: Sequence[str], frames: str | None) -> dict[str, Any]:
@@ -23,16 +25,21 @@ def bench(names: Sequence[str], frames: str | None) -> dict[str, Any]:
     Raises:
         InputError: there is no such bench or file.
     """
+    known = (*BENCHES, _EPISODE)
     for name in names:
-        if name not in BENCHES:
-            raise InputError(f"there is no bench {name!r}; there are {', '.join(BENCHES)}")
+        if name not in known:
+            raise InputError(f"there is no bench {name!r}; there are {', '.join(known)}")
     chosen = [name for name in BENCHES if not names or name in names]
     rows = []
-    for workload in _workloads(frames):
+    for workload in _workloads(frames) if chosen else []:
         for name in chosen:
             write_message(f"{name}: {workload.name} {workload.shape}")
             rows.append(BENCHES[name](workload))
-    return {"schema": "treadwell.bench/1", "unit": "ms", "benches": rows}
+    document: dict[str, Any] = {"schema": "treadwell.bench/1", "unit": "ms", "benches": rows}
+    if not names or _EPISODE in names:
+        write_message(_EPISODE)
+        document[_EPISODE] = episode()
+    return document
 
 
 def _workloads(frames: str | None) -> list[Frames]:
@@ -45,7 +52,11 @@ def _workloads(frames: str | None) -> list[Frames]:
 
 
 def show(document: Mapping[str, Any]) -> None:
-    """Write what `bench` returned as a table."""
+    """Write what `bench` returned as tables."""
+    if _EPISODE in document:
+        _show_episode(document[_EPISODE])
+    if not document["benches"]:
+        return
     rows = []
     for row in document["benches"]:
         for mode, found in row["modes"].items():
@@ -68,3 +79,16 @@ def show(document: Mapping[str, Any]) -> None:
             )
     header = ("bench", "frames", "mode", "p50", "p95", "worst", "bindings", "faster", "agreement")
     write_table("the core, milliseconds a frame", header, rows)
+
+
+def _show_episode(row: Mapping[str, Any]) -> None:
+    header = ("episode", "a simulated second", "of the frozen physics", "ratio", "real time")
+    cells = (
+        f"{row['scenario']} {row['seed']}",
+        f"{row['ms_a_simulated_second']:.1f} ms",
+        f"{row['frozen_ms']:.1f} ms",
+        f"{row['ratio']:.2f}",
+        f"{row['times_real_time']:.1f} times",
+    )
+    title = "ten seconds of an episode, the processor's time without recording"
+    write_table(title, header, [cells])

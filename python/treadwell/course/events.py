@@ -12,7 +12,7 @@ from treadwell.course.course import LEVEL_TOLERANCE, Course, CourseElement
 from treadwell.course.geometry import parked
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import about_z
-from treadwell.physics.audit import STEPS_PER_TICK
+from treadwell.physics.audit import TICK_SECONDS
 from treadwell.robot.load import Robot
 from treadwell.scenario.events import (
     Add,
@@ -169,7 +169,7 @@ class Events:
             place = places[motion.element.mocap_id]
             way = motion.target - place[:2]
             distance = float(np.hypot(*way))
-            stride = motion.speed * STEPS_PER_TICK * physics.model.opt.timestep
+            stride = motion.speed * TICK_SECONDS
             if distance <= stride:
                 place[:2] = motion.target
                 del self._motions[name]

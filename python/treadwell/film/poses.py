@@ -7,9 +7,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.physics.audit import STATE, STEPS_PER_TICK, event_keys, load_audit
+from treadwell.physics.audit import STATE, TICK_SECONDS, event_keys, load_audit, steps_per_tick
 
-TICK_S = 0.01
+TICK_S = TICK_SECONDS
 """Seconds between two rows."""
 _MOVED = ("mocap_pos", "mocap_quat")
 """What an event sets that is seen."""
@@ -31,6 +31,7 @@ class RecordedPoses:
             InputError: it is missing or broken.
         """
         self.model, self._arrays = load_audit(folder)
+        self._steps_per_tick = steps_per_tick(self.model)
         self.data = mujoco.MjData(self.model)
         mujoco.mj_setState(self.model, self.data, self._arrays["state0"], STATE)
         self.count = len(self._arrays["qpos"])
@@ -42,7 +43,8 @@ class RecordedPoses:
     def set(self, row: int) -> mujoco.MjData:
         """Return the data with the poses of a row, 0 <= row < count."""
         self.data.qpos[:] = self._arrays["qpos"][row]
-        last = int(np.searchsorted(self._steps, (row + 1) * STEPS_PER_TICK, side="left")) - 1
+        step = (row + 1) * self._steps_per_tick
+        last = int(np.searchsorted(self._steps, step, side="left")) - 1
         for key in self._moved:
             getattr(self.data, key)[:] = self._arrays[key][last] if last >= 0 else self._first[key]
         mujoco.mj_kinematics(self.model, self.data)

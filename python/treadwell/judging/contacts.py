@@ -1,10 +1,12 @@
 """What the robot truly touches: soles on floors, falls, and collisions as the contract has them."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
 
+from treadwell._core import Surfaces
 from treadwell.course.course import Course
 from treadwell.robot.load import Robot
 
@@ -45,8 +47,7 @@ class Collision:
         return not self.riser_only or self.impulse > RISER_IMPULSE
 
 
-@dataclass(frozen=True, slots=True)
-class Touch:
+class Touch(NamedTuple):
     """What a look at the contacts found.
 
     Attributes:
@@ -81,8 +82,6 @@ class Contacts:
         foot = np.full(model.ngeom, -1)
         for side, body in enumerate(sole_bodies):
             foot[body_of == body] = side
-        # For each geom; lists, since a look takes up a few of them one by one.
-        self._is_robot: list[bool] = is_robot.tolist()
         self._foot: list[int] = foot.tolist()
         self._part = [str(model.body(int(body)).name) for body in body_of]
         # For each geom: index of its element, -1 for the ground, -2 for the robot.
@@ -90,6 +89,8 @@ class Contacts:
         self._element: list[int] = element.tolist()
         self._names = [element.name for element in course.elements]
         self._walkable = [*(element.walkable for element in course.elements), True]
+        words = [self._word(geom) for geom in range(model.ngeom)]
+        self._surfaces = Surfaces(words, SOLE_ON_TOP, LIES_ON_TOP)
         self._open: dict[tuple[str, str], Collision] = {}
         self._closed: list[Collision] = []
 
@@ -102,33 +103,25 @@ class Contacts:
             interval: s since the last look: for how long the forces are taken to have acted.
         """
         contact = data.contact
-        standing, lying, hits = [False, False], None, []
-        pairs, normals = contact.geom.tolist(), contact.frame[:, 2].tolist()
-        for index, ((first, second), up) in enumerate(zip(pairs, normals, strict=True)):
-            if self._is_robot[first] == self._is_robot[second]:
-                continue
-            # MuJoCo's normal points from the first geom to the second; ours points to the robot.
-            ours, theirs = second, first
-            if self._is_robot[first]:
-                ours, theirs, up = first, second, -up
-            foot, element = self._foot[ours], self._element[theirs]
-            if self._walkable[element] and up > SOLE_ON_TOP:
-                if foot >= 0:
-                    standing[foot] = True
-                    continue
-                if lying is None and (element == _GROUND or up > LIES_ON_TOP):
-                    lying = self._part[ours]
-            if element >= 0:
-                hits.append((index, ours, theirs))
+        left, right, lying, hits = self._surfaces.sort(contact.geom, contact.frame)
         if hits:
             self._add(data, hits, time, interval)
-        return Touch(standing[0], standing[1], lying)
+        return Touch(left, right, None if lying is None else self._part[lying])
 
     def collisions(self) -> list[Collision]:
         """Return the collisions so far that count, in the order of time."""
         every = [*self._closed, *self._open.values()]
         counted = [collision for collision in every if collision.counts]
         return sorted(counted, key=lambda hit: (hit.time, hit.robot_part, hit.element))
+
+    def _word(self, geom: int) -> str:
+        """Return what `Surfaces` calls a geom."""
+        element, foot = self._element[geom], self._foot[geom]
+        if element == _NOTHING:
+            return "robot" if foot < 0 else ("left", "right")[foot]
+        if element == _GROUND:
+            return "ground"
+        return "walkable" if self._walkable[element] else "obstacle"
 
     def _add(
         self,

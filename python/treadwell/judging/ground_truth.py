@@ -1,12 +1,13 @@
 """Where the robot truly is: its soles and its frame on the ground, read from the simulator."""
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell._core import TrueStance
 from treadwell.poses import pose_matrix
 from treadwell.robot.load import Robot
 from treadwell.trace import Sole
@@ -14,8 +15,7 @@ from treadwell.trace import Sole
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
-class GroundFrame:
+class GroundFrame(NamedTuple):
     """The robot frame: midway between the soles, on what carries them, x along their mean heading.
 
     Attributes:
@@ -48,14 +48,20 @@ class GroundTruth:
         legs = (robot.file.legs.left, robot.file.legs.right)
         left, right = (int(model.body(leg.sole.link).id) for leg in legs)
         self.sole_bodies = (left, right)
-        self._offsets = tuple(leg.sole.position for leg in legs)
         self.torso = int(model.body(robot.file.body.torso).id)
-        self._up: list[float] = _upright_axis(robot).tolist()
+        soles = [
+            (body, leg.sole.position) for body, leg in zip(self.sole_bodies, legs, strict=True)
+        ]
+        self._stance = TrueStance(soles, self.torso, _upright_axis(robot).tolist())
+
+    def look(self, data: mujoco.MjData) -> tuple[tuple[Sole, Sole], float]:
+        """Return the left and the right sole, and by how much the torso leans from upright, rad."""
+        left, right, tilt = self._stance.look(data)
+        return (Sole._make(left), Sole._make(right)), tilt
 
     def soles(self, data: mujoco.MjData) -> tuple[Sole, Sole]:
         """Return the left and the right sole."""
-        left, right = self.sole_bodies
-        return _sole(data, left, self._offsets[0]), _sole(data, right, self._offsets[1])
+        return self.look(data)[0]
 
     def frame(
         self, soles: tuple[Sole, Sole], touching: tuple[bool, bool] = (True, True)
@@ -78,26 +84,12 @@ class GroundTruth:
 
     def tilt(self, data: mujoco.MjData) -> float:
         """Return by how much the torso leans from upright, rad."""
-        x, y, z = data.xmat[self.torso, 6:].tolist()
-        up = x * self._up[0] + y * self._up[1] + z * self._up[2]
-        return math.acos(min(1.0, max(-1.0, up)))
+        return self.look(data)[1]
 
 
 def wrapped(angle: float) -> float:
     """Return the same angle within (-pi, pi]."""
     return math.pi - (math.pi - angle) % (2 * math.pi)
-
-
-def _sole(data: mujoco.MjData, body: int, offset: tuple[float, float, float]) -> Sole:
-    r = data.xmat[body].tolist()
-    p = data.xpos[body].tolist()
-    a, b, c = offset
-    return Sole(
-        p[0] + r[0] * a + r[1] * b + r[2] * c,
-        p[1] + r[3] * a + r[4] * b + r[5] * c,
-        p[2] + r[6] * a + r[7] * b + r[8] * c,
-        (r[0], r[3]),
-    )
 
 
 def _upright_axis(robot: Robot) -> Floats:

@@ -81,15 +81,15 @@ class Judge:
         """
         interval, self._time = max(0.0, time_s - self._time), time_s
         touch = self.touch = self._contacts.look(data, time_s, interval)
-        soles = self.soles = self.truth.soles(data)
+        soles, tilt = self.truth.look(data)
+        self.soles = soles
         frame = self.frame = self.truth.frame(soles, (touch.left, touch.right))
-        self._watch_fall(data, time_s, touch)
+        self._watch_fall(tilt, time_s, touch)
         self._watch_stillness(time_s, touch, soles, frame)
         self._watch_progress(time_s, frame)
-        for foot, sole, touching in zip(
-            self._levels.feet, soles, (touch.left, touch.right), strict=True
-        ):
-            foot.look(sole.x, sole.y, sole.z, touching=touching)
+        (left, right), (left_foot, right_foot) = soles, self._levels.feet
+        left_foot.look(left.x, left.y, left.z, touching=touch.left)
+        right_foot.look(right.x, right.y, right.z, touching=touch.right)
 
     @property
     def fallen(self) -> bool:
@@ -145,8 +145,7 @@ class Judge:
         inside = self.distance_to_goal <= self._goal.radius
         return inside and level and self.standing_still and not self.fallen
 
-    def _watch_fall(self, data: mujoco.MjData, time: float, touch: Touch) -> None:
-        tilt = self.truth.tilt(data)
+    def _watch_fall(self, tilt: float, time: float, touch: Touch) -> None:
         if tilt <= FALLEN_TILT and touch.fallen_part is None:
             return
         if time - self._last_fallen > UPRIGHT_SECONDS:
@@ -166,10 +165,7 @@ class Judge:
             return
         if self._still is not None:
             _, before, yaw = self._still
-            drift = max(
-                math.dist((a.x, a.y, a.z), (b.x, b.y, b.z))
-                for a, b in zip(before, soles, strict=True)
-            )
+            drift = max(math.dist(before[i][:3], soles[i][:3]) for i in (0, 1))
             turn = abs(math.remainder(frame.yaw - yaw, 2 * math.pi))
             if drift <= STILL_DRIFT and turn <= STILL_TURN:
                 return

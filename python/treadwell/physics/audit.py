@@ -17,8 +17,10 @@ from treadwell.physics.rows import Rows
 # By default MuJoCo appends its warnings to a file in the current folder.
 mujoco.set_mju_user_warning(logging.getLogger(__name__).warning)
 
-STEPS_PER_TICK = 5
-"""Physics steps between two rows of `qpos`: one control tick."""
+TICK_SECONDS = 0.01
+"""A control tick: the time between two rows of `qpos`, s."""
+SHORTEST_STEP = 1e-5
+"""Seconds; a model with a shorter one is no run's."""
 STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 LARGEST_MODEL = 500 << 20
 """Bytes of a model: as many as those of all files of a robot may have."""
@@ -31,6 +33,19 @@ DATA_FIELDS = ("xfrc_applied", "qpos", "qvel", "mocap_pos", "mocap_quat")
 """Fields of MuJoCo's data that an event may set; any other name is a field of the model."""
 _OWN_KEYS = ("qpos", "qvel")
 """Fields that move by themselves. Their keys begin with `event_`, and a row of NaN sets nothing."""
+
+
+def steps_per_tick(model: mujoco.MjModel) -> int:
+    """Return the physics steps of a control tick: what the model's time step says.
+
+    Raises:
+        ValueError: a tick is not whole steps.
+    """
+    timestep = float(model.opt.timestep)
+    steps = round(TICK_SECONDS / timestep) if timestep >= SHORTEST_STEP else 0
+    if steps < 1 or abs(steps * timestep - TICK_SECONDS) > 1e-9:
+        raise ValueError(f"{TICK_SECONDS} s must be whole time steps, got steps of {timestep:g} s")
+    return steps
 
 
 class Audit:
@@ -64,6 +79,7 @@ class Audit:
         """Each field as it is before the next step: as an event left it, or untouched."""
         self._now_step: int | None = None
         self._folder: Path | None = None
+        self._steps_per_tick = steps_per_tick(model)
 
     def event(self, step: int, field: str, before: NDArray[Any], after: NDArray[Any]) -> None:
         """Keep what an event set.
@@ -125,7 +141,7 @@ class Audit:
         rows = self._rows()
         for each in rows.values():
             each.close()
-        join(folder, rows, STEPS_PER_TICK)
+        join(folder, rows, self._steps_per_tick)
 
     def _rows(self) -> dict[str, Rows]:
         """Return the arrays by their names in the file."""
@@ -150,7 +166,11 @@ def join_parts(folder: Path) -> None:
     Raises:
         RecordingError: there is nothing, or it cannot be written.
     """
-    join(folder, (), STEPS_PER_TICK)
+    try:
+        model = mujoco.MjModel.from_binary_path(str(folder / "model.mjb"))
+    except ValueError as error:
+        raise RecordingError(f"{folder / 'model.mjb'}: is missing or broken") from error
+    join(folder, (), steps_per_tick(model))
 
 
 def replay_audit(folder: Path) -> int | None:
@@ -166,7 +186,7 @@ def replay_audit(folder: Path) -> int | None:
         InputError: a file is missing or broken, or they do not belong together.
     """
     model, arrays = load_audit(folder)
-    data = mujoco.MjData(model)
+    data, steps = mujoco.MjData(model), steps_per_tick(model)
     mujoco.mj_setState(model, data, arrays["state0"], STATE)
     events = {int(step): row for row, step in enumerate(arrays.get("event_step", ()))}
     fields = [(arrays[key], _field(model, data, key)) for key in event_keys(arrays)]
@@ -178,17 +198,18 @@ def replay_audit(folder: Path) -> int | None:
                     array[:] = row
         data.ctrl[:] = ctrl
         mujoco.mj_step(model, data)
-        tick, rest = divmod(step + 1, STEPS_PER_TICK)
+        tick, rest = divmod(step + 1, steps)
         if rest == 0 and not np.array_equal(arrays["qpos"][tick - 1], data.qpos):
             return tick - 1
     return None
 
 
-def replay_limited(folder: Path) -> tuple[int, int | None]:
+def replay_limited(folder: Path) -> tuple[int, int | None, int]:
     """Do what `replay_audit` does in a child process: a model may be made to crash MuJoCo.
 
     Returns:
-        The rows of `qpos`, and the first that differs, or None if all are the same.
+        The rows of `qpos`, the first that differs, or None if all are the same, and the physics
+        steps of a row.
 
     Raises:
         InputError: a file is missing or broken, or takes more than an audit of its size should.
@@ -202,15 +223,16 @@ def replay_limited(folder: Path) -> tuple[int, int | None]:
         )
     seconds = FIXED_SECONDS + int(STEP_SECONDS * _steps(path))
     limits = Limits(cpu_seconds=seconds, deadline_seconds=60.0 + 10.0 * seconds)
-    rows, different = limited(replay_lengths, [str(folder)], str(model), limits)
-    return int(rows), None if different is None else int(different)
+    rows, different, steps = limited(replay_lengths, [str(folder)], str(model), limits)
+    return int(rows), None if different is None else int(different), int(steps)
 
 
-def replay_lengths(folder: str) -> tuple[int, int | None]:
+def replay_lengths(folder: str) -> tuple[int, int | None, int]:
     """Return what `replay_limited` returns: the part that the child does."""
     different = replay_audit(Path(folder))
     with np.load(Path(folder) / "physics.npz", allow_pickle=False) as file:
-        return len(file["qpos"]), different
+        rows = len(file["qpos"])
+        return rows, different, len(file["ctrl"]) // max(rows, 1)
 
 
 def _steps(path: Path) -> int:
@@ -266,7 +288,7 @@ def _fits(model: mujoco.MjModel, arrays: dict[str, NDArray[Any]]) -> bool:
         all(array.dtype.kind in "bifu" for array in arrays.values())
         and ctrl.ndim == 2
         and ctrl.shape[1] == model.nu
-        and qpos.shape == (len(ctrl) // STEPS_PER_TICK, model.nq)
+        and qpos.shape == (len(ctrl) // steps_per_tick(model), model.nq)
         and state0.shape == (mujoco.mj_stateSize(model, STATE),)
         and all(
             arrays[key].shape == (len(events), *_field(model, data, key).shape)

@@ -1,17 +1,17 @@
 """The physics of one episode: the robot at its start, stepped by its motors alone, and audited."""
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from treadwell._core import Physics, Servos
 from treadwell.errors import SimulationError
-from treadwell.physics.audit import DATA_FIELDS, STEPS_PER_TICK, Audit
-from treadwell.physics.motors import JointTargets, Motors
+from treadwell.physics.audit import DATA_FIELDS, Audit, steps_per_tick
+from treadwell.physics.motors import JointTargets
 from treadwell.robot.load import Robot
 
 TICK_NS = 10_000_000
@@ -49,7 +49,8 @@ class Simulation:
         model: the compiled robot and course.
         data: MuJoCo's state.
         robot: the robot in it.
-        motors: the servos; the encoders' view of the joints is `motors.measured_angle`.
+        motors: the servos: a proportional-derivative one with feed-forward on each joint, within
+            what its motor can do, and the play in its gear.
         audit: what a replay needs.
         steps: physics steps so far.
     """
@@ -66,19 +67,27 @@ class Simulation:
             play: False for gears without play, as with ideal encoders.
         """
         self.model = model
+        self._steps_per_tick = steps_per_tick(model)
+        self._controls = np.empty((self._steps_per_tick, model.nu))
         self.data = mujoco.MjData(model)
         self.robot = robot
         joints = [model.joint(name) for name in robot.joints]
         self._positions = _slice([int(joint.qposadr[0]) for joint in joints])
         self._velocities = _slice([int(joint.dofadr[0]) for joint in joints])
-        self._actuators = np.array([model.actuator(name).id for name in robot.actuators])
-        self._driven: slice | NDArray[np.intp] = slice(None)
-        if robot.followers:
-            self._driven = np.setdiff1d(np.arange(len(joints)), list(robot.followers))
-        self.motors = Motors(
+        self.motors = Servos(
             robot.limits,
             play=robot.file.encoders.play if play else 0.0,
             timestep=float(model.opt.timestep),
+        )
+        driven = [i for i in range(len(joints)) if i not in robot.followers]
+        actuators = [int(model.actuator(name).id) for name in robot.actuators]
+        self._physics = Physics(
+            model,
+            self.data,
+            len(joints),
+            self._positions.start,
+            self._velocities.start,
+            list(zip(driven, actuators, strict=True)),
         )
         self.place(start or Start())
         self.steps = 0
@@ -88,7 +97,7 @@ class Simulation:
     @property
     def time_ns(self) -> int:
         """Nanoseconds since the start."""
-        return self.steps * TICK_NS // STEPS_PER_TICK
+        return self.steps * TICK_NS // self._steps_per_tick
 
     @property
     def joint_positions(self) -> NDArray[np.float64]:
@@ -103,28 +112,24 @@ class Simulation:
         return view
 
     def advance(self, targets: JointTargets) -> None:
-        """Advance by one control tick: five physics steps, with the servos at each.
+        """Advance by one control tick: some physics steps, with the servos at each.
 
         Raises:
             SimulationError: the targets or the state are not finite.
         """
-        model, data, audit = self.model, self.data, self.audit
-        self._check_targets(targets)
-        self.motors.command(targets)
-        positions, velocities, ctrl = self.joint_positions, self.joint_velocities, data.ctrl
+        if not self.motors.command(targets.position, targets.velocity, targets.torque):
+            self._refuse(targets)
+        options, controls = self.model.opt, self._controls
         # Nobody reads MuJoCo's sensors between two ticks, and nothing that moves depends on them.
-        model.opt.disableflags |= _SENSORS
-        for left in reversed(range(STEPS_PER_TICK)):
-            if left == 0:
-                model.opt.disableflags &= ~_SENSORS
-            torques = self.motors.torques(positions, velocities)
-            ctrl[self._actuators] = torques[self._driven]
-            audit.ctrl.append(ctrl)
-            mujoco.mj_step2(model, data)
-            mujoco.mj_step1(model, data)
-        self.steps += STEPS_PER_TICK
-        audit.qpos.append(data.qpos)
-        self._check_state()
+        options.disableflags |= _SENSORS
+        self._physics.step(self.motors, controls[:-1])
+        options.disableflags &= ~_SENSORS
+        healthy = self._physics.step(self.motors, controls[-1:])
+        self.steps += self._steps_per_tick
+        self.audit.ctrl.extend(controls)
+        self.audit.qpos.append(self.data.qpos)
+        if not healthy:
+            self._tell_divergence()
 
     def set(self, field: str, value: ArrayLike) -> None:
         """Do what an event does: set a whole field before the next step, and audit it.
@@ -179,32 +184,29 @@ class Simulation:
         """
         self.audit.save(folder)
 
-    def _check_targets(self, targets: JointTargets) -> None:
-        position, velocity, torque = targets.position, targets.velocity, targets.torque
+    def _refuse(self, targets: JointTargets) -> NoReturn:
         shape = (len(self.robot.joints),)
-        # A product with what is not finite is not finite.
-        if position.shape == velocity.shape == torque.shape == shape and math.isfinite(
-            position.dot(velocity) + torque.dot(torque)
-        ):
-            return
-        for name, array in (("position", position), ("velocity", velocity), ("torque", torque)):
-            if array.shape != shape or not np.isfinite(array).all():
-                raise SimulationError(
-                    f"joint targets: {name} must be {shape[0]} finite numbers, got {array!r} "
-                    f"at {1e-9 * self.time_ns:.2f} s"
-                )
+        arrays = {name: getattr(targets, name) for name in ("position", "velocity", "torque")}
+        wrong = {
+            name: array
+            for name, array in arrays.items()
+            if array.shape != shape or not np.isfinite(array).all()
+        }
+        name, array = next(iter(wrong.items()))
+        raise SimulationError(
+            f"joint targets: {name} must be {shape[0]} finite numbers, got {array!r} "
+            f"at {1e-9 * self.time_ns:.2f} s"
+        )
 
-    def _check_state(self) -> None:
-        numbers, qpos = self.data.warning.number, self.data.qpos
-        if any(numbers.tolist()) or not math.isfinite(qpos.dot(qpos)):
-            names = [
-                mujoco.mjtWarning(kind).name.removeprefix("mjWARN_")
-                for kind in np.flatnonzero(numbers)
-            ]
-            raise SimulationError(
-                f"the physics diverged at {1e-9 * self.time_ns:.2f} s "
-                f"(MuJoCo: {', '.join(names) or 'not finite'})"
-            )
+    def _tell_divergence(self) -> NoReturn:
+        names = [
+            mujoco.mjtWarning(kind).name.removeprefix("mjWARN_")
+            for kind in np.flatnonzero(self.data.warning.number)
+        ]
+        raise SimulationError(
+            f"the physics diverged at {1e-9 * self.time_ns:.2f} s "
+            f"(MuJoCo: {', '.join(names) or 'not finite'})"
+        )
 
 
 def _slice(addresses: list[int]) -> slice:

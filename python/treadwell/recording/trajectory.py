@@ -1,5 +1,6 @@
 """Trajectories in the format of the TUM RGB-D benchmark: time, position, quaternion xyzw."""
 
+import math
 from array import array
 from pathlib import Path
 
@@ -102,6 +103,6 @@ def quaternion(rotation: NDArray[np.float64]) -> tuple[float, float, float, floa
         q = [0.0, 0.0, 0.0, m[k][j] - m[j][k]]
         q[i] = 1.0 + m[i][i] - m[j][j] - m[k][k]
         q[j], q[k] = m[j][i] + m[i][j], m[k][i] + m[i][k]
-    length = float(np.linalg.norm(q)) * (1.0 if q[3] >= 0.0 else -1.0)
+    length = math.hypot(*q) * (1.0 if q[3] >= 0.0 else -1.0)
     x, y, z, w = (value / length for value in q)
     return x, y, z, w

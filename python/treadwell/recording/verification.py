@@ -9,7 +9,7 @@ from typing import Any, Final
 from treadwell.errors import InputError
 from treadwell.files import read_content
 from treadwell.judging.result import Result, read_result
-from treadwell.physics.audit import STEPS_PER_TICK, replay_limited
+from treadwell.physics.audit import TICK_SECONDS, replay_limited
 from treadwell.recording.file import whole_length
 from treadwell.recording.log_file import read_front, read_messages
 from treadwell.recording.map_file import NAME as MAP
@@ -26,7 +26,7 @@ RESULT: Final = "result.json"
 _PNG: Final = b"\x89PNG\r\n\x1a\n"
 _LARGEST_PICTURE: Final = 100_000_000
 """Bytes."""
-_TICK: Final = 0.01
+_TICK: Final = TICK_SECONDS
 _BESIDE: Final = ("/command", "/estimate", "/truth")
 """Topics that have one message for each observation."""
 
@@ -65,7 +65,7 @@ def verify_run(folder: Path) -> Verification:
     problems: list[str] = []
     result = _result(folder, problems)
     rows = _trajectories(folder, problems)
-    ticks, difference = _audit(folder, problems)
+    ticks, difference, steps_a_tick = _audit(folder, problems)
     if result is not None and ticks is not None:
         simulated = round(result.simulated_seconds / _TICK)
         if simulated != ticks:
@@ -79,7 +79,7 @@ def verify_run(folder: Path) -> Verification:
     _map(folder, problems)
     _scenario(folder, result, problems)
     _recordings(folder, result, ticks, problems)
-    steps = (ticks or 0) * STEPS_PER_TICK if difference is None else difference
+    steps = (ticks or 0) * steps_a_tick if difference is None else difference
     return Verification(folder, tuple(problems), steps, difference)
 
 
@@ -109,21 +109,21 @@ def _trajectories(folder: Path, problems: list[str]) -> list[float]:
     return times.get(ESTIMATE, [])
 
 
-def _audit(folder: Path, problems: list[str]) -> tuple[int | None, int | None]:
-    """Return the control ticks in the audit, and the first step that differs."""
+def _audit(folder: Path, problems: list[str]) -> tuple[int | None, int | None, int]:
+    """Return the control ticks in the audit, the first step that differs, and a tick's steps."""
     try:
-        ticks, row = replay_limited(folder)
+        ticks, row, steps = replay_limited(folder)
     except InputError as error:
         problems.append(str(error))
-        return None, None
+        return None, None, 0
     if row is None:
-        return ticks, None
-    step = (row + 1) * STEPS_PER_TICK
+        return ticks, None, steps
+    step = (row + 1) * steps
     problems.append(
         f"physics.npz: plain MuJoCo comes to another state; the first that differs is after "
-        f"step {step} ({step / STEPS_PER_TICK * _TICK:.2f} s)"
+        f"step {step} ({(row + 1) * _TICK:.2f} s)"
     )
-    return ticks, step
+    return ticks, step, steps
 
 
 def _picture(folder: Path, problems: list[str]) -> None:

@@ -19,6 +19,8 @@ STAND = "stand"
 """Name of the keyframe in which the robot stands upright."""
 BASE = "base"
 """Name that a free joint without one gets."""
+PHYSICS_STEP = 0.0025
+"""Of every simulation, s, whatever a model says: four steps are a control tick."""
 SEEN_GROUPS = 3
 """Geoms of the groups below this are what a camera sees."""
 
@@ -53,6 +55,27 @@ def complete(spec: mujoco.MjSpec, file: RobotFile, toml: Path) -> None:
     _add_stand(spec, file, toml)
 
 
+def prepare(spec: mujoco.MjSpec) -> None:
+    """Prepare a specification for its simulation: our time step, and friction in the servos alone.
+
+    A control is then the motor's torque less the friction: where the motor brakes at its peak that
+    is more than the peak, which a control's range must leave room for.
+    """
+    friction = {joint.name: joint.frictionloss for joint in spec.joints}
+    ties = [tie for tie in spec.equalities if tie.type == mujoco.mjtEq.mjEQ_JOINT]
+    for joint in spec.joints:
+        joint.frictionloss = 0.0
+    for actuator in spec.actuators:
+        followers = [tie.name1 for tie in ties if tie.name2 == actuator.target]
+        more = sum(friction.get(name, 0.0) for name in (actuator.target, *followers))
+        low, high = actuator.ctrlrange
+        actuator.ctrlrange = [low - more, high + more]
+    spec.option.timestep = PHYSICS_STEP
+    # The solver's rows of friction kept the sweeps against slip going: without them they would stop
+    # before the soles are held.
+    spec.option.noslip_tolerance = 0.0
+
+
 def _leave_out_world(spec: mujoco.MjSpec) -> None:
     """Leave out what stands on the world and not on the robot, as the floor of a scene does."""
     for geom in list(spec.worldbody.geoms):
@@ -71,7 +94,7 @@ def _add_options(spec: mujoco.MjSpec) -> None:
     ours.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     ours.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     ours.impratio = 10.0
-    ours.noslip_iterations = 4
+    ours.noslip_iterations = 6
     ours.iterations = 30
     ours.ls_iterations = 20
 

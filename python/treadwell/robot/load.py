@@ -15,12 +15,12 @@ from treadwell.data import data_folder
 from treadwell.errors import InputError
 from treadwell.mjcf.build import check_builds, compiled, read_spec
 from treadwell.mjcf.xml import check_xml
-from treadwell.robot.additions import STAND, complete
+from treadwell.robot.additions import STAND, complete, prepare
 from treadwell.robot.check import check_robot
 from treadwell.robot.description import describe
 from treadwell.robot.file import MotorsTable, RobotFile
 from treadwell.robot.followers import followers
-from treadwell.robot.motor_limits import MotorLimits
+from treadwell.robot.motor_limits import MotorLimits, rotors
 from treadwell.robot.reading import read_robot_file
 from treadwell.scenario.messages import shortened
 
@@ -51,13 +51,16 @@ class Robot:
     def spec(self) -> mujoco.MjSpec:
         """Return a fresh specification of the robot, to which a course can be added.
 
-        Its keyframes are left out: they would not fit a model with more joints.
+        Its keyframes are left out: they would not fit a model with more joints. It has the
+        harness's time step, and its joints are without friction: the servos have it, since in the
+        solver it takes a third of the time.
         """
         path = self.folder / self.file.robot.model
         spec = read_spec(path, str(path))
         complete(spec, self.file, self.folder / "robot.toml")
         for key in list(spec.keys):
             spec.delete(key)
+        prepare(spec)
         return spec
 
     @cached_property
@@ -100,6 +103,10 @@ class Robot:
     @cached_property
     def limits(self) -> MotorLimits:
         """What the motors can do, in joint order; a follower's is its leader's."""
+        model = self.nominal
+        inertia, friction = rotors(
+            model.dof_armature[6:], model.dof_M0[6:], model.dof_frictionloss[6:], self.followers
+        )
         leaders = [self.followers.get(i, i) for i in range(len(self.joints))]
         groups = [self._group(self.joints[leader]) for leader in leaders]
         return MotorLimits(
@@ -108,6 +115,8 @@ class Robot:
             peak_torque=np.array([group.peak_torque for group in groups]),
             stall_torque=np.array([group.stall_torque or group.peak_torque for group in groups]),
             no_load_speed=np.array([group.no_load_speed for group in groups]),
+            friction=friction,
+            inertia=inertia,
         )
 
     def description(self) -> dict[str, Any]:

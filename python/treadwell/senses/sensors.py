@@ -8,10 +8,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell import _core
+from treadwell._core import Servos
 from treadwell.observation import Observation
 from treadwell.robot.description import focal_length
 from treadwell.robot.file import RobotFile
-from treadwell.senses.body import Encoders, FootForces, Imu, ImuNoise, MotorSide, SensedSole
+from treadwell.senses.body import (
+    EncoderSenses,
+    FootSenses,
+    Generators,
+    ImuNoise,
+    SensedSole,
+    body_senses,
+)
 from treadwell.senses.camera_error import CameraError, CameraErrorBounds, draw_camera_error
 from treadwell.senses.depth import DepthCamera, Mount, Pinhole
 from treadwell.senses.depth_sensor import DepthSensor
@@ -108,19 +116,25 @@ class Sensors:
         file = robot.file
         error = _camera_error(robot.nominal, file, settings, streams("sensors.camera"))
         self._joint_order = {name: i for i, name in enumerate(robot.joints)}
-        self._encoders = self._build_encoders(model, robot, settings, streams, error)
-        self._drawn_offsets = self._encoders.offsets.copy()
-        self._imu = _imu(model, file, settings, streams)
-        self._feet = _feet(model, file, settings, streams)
+        encoders = streams("sensors.encoders")
+        self._body = body_senses(
+            model,
+            self._encoders(robot, settings, encoders, error),
+            file.imu.site,
+            _imu(file, settings),
+            _feet(file, settings),
+            Generators(encoders, streams("sensors.imu"), streams("sensors.feet")),
+        )
+        self._drawn_offsets = self._body.encoder_offsets.copy()
         self._depth = _depth(model, file, settings, streams, error.mount, texture)
 
     @property
     def encoder_offsets(self) -> Floats:
-        """(n,) rad: what the encoders read too much; for `Motors.encoder_offsets`, as it is.
+        """(n,) rad: what the encoders read too much; for `Servos.encoder_offsets`, as it is.
 
         Always the same array; what is in it changes when an encoder shifts.
         """
-        return self._encoders.offsets
+        return self._body.encoder_offsets
 
     @property
     def camera(self) -> DepthCamera:
@@ -128,7 +142,7 @@ class Sensors:
         return self._depth.camera
 
     def observe(
-        self, data: mujoco.MjData, time_ns: int, motors: MotorSide | None = None
+        self, data: mujoco.MjData, time_ns: int, motors: Servos | None = None
     ) -> Observation:
         """Return what the senses say now; call it at every control tick.
 
@@ -138,16 +152,9 @@ class Sensors:
             time_ns: now, nanoseconds since the start.
             motors: whose angles the encoders read; None: the joints' own.
         """
-        positions, velocities = self._encoders.read(data, motors)
-        angular_velocity, specific_force = self._imu.read(data, time_ns)
-        foot_forces = self._feet.read(data)
         return Observation(
             time_ns,
-            positions,
-            velocities,
-            angular_velocity,
-            specific_force,
-            foot_forces,
+            *self._body.read(data, time_ns, motors),
             self._depth.observe(data, time_ns),
         )
 
@@ -161,30 +168,28 @@ class Sensors:
         Args:
             shifts: rad, by the joint's name.
         """
-        offsets = self._encoders.offsets
+        offsets = self._body.encoder_offsets
         offsets[:] = self._drawn_offsets
         for joint, shift in shifts.items():
             offsets[self._joint_order[joint]] += shift
 
-    def _build_encoders(
+    def _encoders(
         self,
-        model: mujoco.MjModel,
         robot: SensedRobot,
         settings: SensorSettings,
-        streams: Streams,
+        numbers: np.random.Generator,
         error: CameraError,
-    ) -> Encoders:
-        rng = streams("sensors.encoders")
+    ) -> EncoderSenses:
         table = robot.file.encoders
         offsets = np.zeros(len(robot.joints))
         if settings.encoders == "ideal":
-            return Encoders(model, robot.joints, 0.0, offsets, rng, robot.followers)
+            return EncoderSenses(robot.joints, 0.0, offsets, robot.followers)
         for leg in (robot.file.legs.left, robot.file.legs.right):
             at = [self._joint_order[joint] for joint in leg.joints]
-            offsets[at] = rng.uniform(-table.leg_offset, table.leg_offset, len(at))
+            offsets[at] = numbers.uniform(-table.leg_offset, table.leg_offset, len(at))
         for joint, offset in zip(_camera_joints(robot.file), error.offsets, strict=True):
             offsets[self._joint_order[joint]] = offset
-        return Encoders(model, robot.joints, table.quantum, offsets, rng, robot.followers)
+        return EncoderSenses(robot.joints, table.quantum, offsets, robot.followers)
 
 
 def _camera_joints(file: RobotFile) -> tuple[str, ...]:
@@ -211,29 +216,27 @@ def _either(asked: float | None, own: float) -> float:
     return own if asked is None else asked
 
 
-def _imu(model: mujoco.MjModel, file: RobotFile, settings: SensorSettings, streams: Streams) -> Imu:
-    noise = ImuNoise()
-    if settings.imu != "ideal":
-        noise = ImuNoise(
-            file.imu.gyro_noise,
-            file.imu.gyro_bias,
-            file.imu.accelerometer_noise,
-            file.imu.accelerometer_bias,
-        )
-    return Imu(model, file.imu.site, noise, streams("sensors.imu"))
+def _imu(file: RobotFile, settings: SensorSettings) -> ImuNoise:
+    if settings.imu == "ideal":
+        return ImuNoise()
+    return ImuNoise(
+        file.imu.gyro_noise,
+        file.imu.gyro_bias,
+        file.imu.accelerometer_noise,
+        file.imu.accelerometer_bias,
+    )
 
 
-def _feet(
-    model: mujoco.MjModel, file: RobotFile, settings: SensorSettings, streams: Streams
-) -> FootForces:
-    share, absolute = 0.0, 0.0
-    if settings.feet != "ideal":
-        share, absolute = file.feet.force_noise, file.feet.force_noise_absolute
-    soles = []
-    for leg in (file.legs.left, file.legs.right):
-        at = leg.sensors or leg.sole
-        soles.append(SensedSole(leg.forces, leg.sole.link, at.position, (at.length, at.width)))
-    return FootForces(model, soles, share, absolute, streams("sensors.feet"))
+def _feet(file: RobotFile, settings: SensorSettings) -> FootSenses:
+    legs = (file.legs.left, file.legs.right)
+    left, right = (
+        SensedSole(leg.forces, leg.sole.link, at.position, (at.length, at.width))
+        for leg in legs
+        for at in [leg.sensors or leg.sole]
+    )
+    if settings.feet == "ideal":
+        return FootSenses((left, right))
+    return FootSenses((left, right), file.feet.force_noise, file.feet.force_noise_absolute)
 
 
 def _depth(

@@ -1,5 +1,6 @@
 //! The Python module `treadwell._core`: converts and forwards, decides nothing. One file a class.
 
+mod body_senses;
 mod clearance;
 mod components;
 mod depth_camera;
@@ -15,8 +16,10 @@ mod pose;
 mod products;
 mod ranges;
 mod segmenter;
+mod servos;
 mod situation;
 mod stairs;
+mod truth;
 mod walker;
 mod world_model;
 
@@ -30,6 +33,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(lists::components, module)?)?;
     module.add_function(wrap_pyfunction!(lists::tables, module)?)?;
     module.add_function(wrap_pyfunction!(lists::parameters, module)?)?;
+    module.add_class::<body_senses::PyBodySenses>()?;
     module.add_class::<depth_camera::PyDepthCamera>()?;
     module.add_class::<depth_errors::PyDepthErrors>()?;
     module.add_class::<legs::PyLegs>()?;
@@ -41,6 +45,8 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<products::PyPlanes>()?;
     module.add_class::<ranges::PyRangeField>()?;
     module.add_class::<segmenter::PySegmenter>()?;
+    module.add_class::<servos::PyPhysics>()?;
+    module.add_class::<servos::PyServos>()?;
     module.add_class::<situation::PyGoal>()?;
     module.add_class::<situation::PyScan>()?;
     module.add_class::<situation::PySituation>()?;
@@ -49,6 +55,8 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<stairs::PyStaircase>()?;
     module.add_class::<stairs::PyStep>()?;
     module.add_class::<stairs::PyStepping>()?;
+    module.add_class::<truth::PySurfaces>()?;
+    module.add_class::<truth::PyTrueStance>()?;
     module.add_class::<walker::PyWalker>()?;
     module.add_class::<world_model::PyOccupancyGrid>()?;
     module.add_class::<world_model::PyWorldModel>()

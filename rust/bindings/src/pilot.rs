@@ -11,7 +11,7 @@ use crate::components;
 use crate::error::{bad_setting, failed, parse, run, unreadable};
 use crate::observation;
 use crate::octree::{PyOctree, Rows, rows};
-use crate::products::{FlatPose, PyFloorView, PyPlanes, flat, matrix};
+use crate::products::{FlatPose, Floor, PyFloorView, PyPlanes, flat, floor, matrix};
 use crate::stairs::{FlatFootstep, PyClimb, PyStaircase, PyStepping, flat_footsteps};
 
 /// Places, headings and weights.
@@ -134,6 +134,12 @@ impl PyPilot {
     /// The map's view; a copy.
     fn view(&self) -> PyFloorView {
         PyFloorView(self.pilot.perception.world_model.view().clone())
+    }
+
+    /// What the map's view says: corner (2,) m, side of a cell m, and (rows, cols) kinds, heights and sightings, as those of
+    /// `FloorView`; without a copy of the rest.
+    fn floor<'py>(&self, py: Python<'py>) -> PyResult<Floor<'py>> {
+        floor(py, self.pilot.perception().view())
     }
 
     /// The stairs that are seen or remembered; a copy.

@@ -118,10 +118,50 @@ impl PyPlanes {
 #[pyclass(frozen, name = "FloorView", module = "treadwell._core")]
 pub(crate) struct PyFloorView(pub(crate) mapping::FloorView);
 
-impl PyFloorView {
-    fn shape(&self) -> [usize; 2] {
-        [self.0.cells.rows(), self.0.cells.cols()]
-    }
+/// Corner, side of a cell, kinds, heights and sightings of a view: see the properties of `FloorView`.
+pub(crate) type Floor<'py> = (
+    (f64, f64),
+    f64,
+    Bound<'py, PyArray2<u8>>,
+    Bound<'py, PyArray2<f32>>,
+    Bound<'py, PyArray2<u16>>,
+);
+
+/// What `FloorView` has but for gradients, at once and without a copy of the view.
+pub(crate) fn floor<'py>(py: Python<'py>, view: &mapping::FloorView) -> PyResult<Floor<'py>> {
+    let origin = view.lattice.origin_m.into();
+    let arrays = (kinds(py, view)?, heights(py, view)?, sightings(py, view)?);
+    Ok((origin, view.lattice.cell_m, arrays.0, arrays.1, arrays.2))
+}
+
+fn shape(view: &mapping::FloorView) -> [usize; 2] {
+    [view.cells.rows(), view.cells.cols()]
+}
+
+fn kinds<'py>(py: Python<'py>, view: &mapping::FloorView) -> PyResult<Bound<'py, PyArray2<u8>>> {
+    let kind = |surface: &Surface| match surface {
+        Surface::Unknown => 0,
+        Surface::Floor(_) => 1,
+        Surface::Obstacle(_) => 2,
+    };
+    let flat: Vec<u8> = view.cells.values().iter().map(kind).collect();
+    flat.into_pyarray(py).reshape(shape(view))
+}
+
+fn heights<'py>(py: Python<'py>, view: &mapping::FloorView) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let height = |surface: &Surface| match *surface {
+        Surface::Unknown => f32::NAN,
+        Surface::Floor(height) | Surface::Obstacle(height) => height,
+    };
+    let flat: Vec<f32> = view.cells.values().iter().map(height).collect();
+    flat.into_pyarray(py).reshape(shape(view))
+}
+
+fn sightings<'py>(
+    py: Python<'py>,
+    view: &mapping::FloorView,
+) -> PyResult<Bound<'py, PyArray2<u16>>> {
+    view.sightings.values().to_pyarray(py).reshape(shape(view))
 }
 
 #[pymethods]
@@ -141,30 +181,19 @@ impl PyFloorView {
     /// (rows, cols) uint8: 0 unknown, 1 floor, 2 obstacle; rows along +y.
     #[getter]
     fn kind<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u8>>> {
-        let kind = |surface: &Surface| match surface {
-            Surface::Unknown => 0,
-            Surface::Floor(_) => 1,
-            Surface::Obstacle(_) => 2,
-        };
-        let flat: Vec<u8> = self.0.cells.values().iter().map(kind).collect();
-        flat.into_pyarray(py).reshape(self.shape())
+        kinds(py, &self.0)
     }
 
     /// (rows, cols) float32: height in the map frame, m; NaN where unknown.
     #[getter]
     fn height<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let height = |surface: &Surface| match *surface {
-            Surface::Unknown => f32::NAN,
-            Surface::Floor(height) | Surface::Obstacle(height) => height,
-        };
-        let flat: Vec<f32> = self.0.cells.values().iter().map(height).collect();
-        flat.into_pyarray(py).reshape(self.shape())
+        heights(py, &self.0)
     }
 
     /// (rows, cols, 2) float32: how much each cell's floor rises per metre along x and y of the map; 0 where it is level.
     #[getter]
     fn gradient<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
-        let [rows, cols] = self.shape();
+        let [rows, cols] = shape(&self.0);
         let flat: Vec<f32> = self
             .0
             .gradients
@@ -179,10 +208,6 @@ impl PyFloorView {
     /// (rows, cols) uint16: in how many frames each cell was seen as floor.
     #[getter]
     fn sightings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u16>>> {
-        self.0
-            .sightings
-            .values()
-            .to_pyarray(py)
-            .reshape(self.shape())
+        sightings(py, &self.0)
     }
 }

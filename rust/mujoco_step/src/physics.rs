@@ -1,0 +1,162 @@
+//! One episode's physics.
+
+use std::ffi::c_void;
+
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use simulated_body::Servos;
+
+use crate::library::Library;
+use crate::memory::LiveArray;
+
+/// Where the robot's joints and motors are in MuJoCo's arrays.
+#[derive(Debug, Clone)]
+pub struct Wiring {
+    /// Index in `qpos` of the first joint's angle; the others follow it.
+    pub first_position: usize,
+    /// Index in `qvel` of the first joint's velocity; the others follow it.
+    pub first_velocity: usize,
+    /// For each motor the joint whose servo it is, by the joint order, and its index in `ctrl`.
+    pub motors: Vec<(usize, usize)>,
+}
+
+/// A model and its state, stepped.
+pub struct Physics {
+    library: Library,
+    model: *const c_void,
+    data: *mut c_void,
+    wiring: Wiring,
+    positions: LiveArray<f64>,
+    velocities: LiveArray<f64>,
+    controls: LiveArray<f64>,
+    warnings: LiveArray<i32>,
+    angles_rad: Vec<f64>,
+    speeds_radps: Vec<f64>,
+    /// Model and data of Python's: as long as they live, what is pointed at does.
+    _owners: [Py<PyAny>; 2],
+}
+
+// SAFETY: the pointers are to memory of the two owners, which any thread may use as long as one alone does; `step` borrows mutably.
+unsafe impl Send for Physics {}
+// SAFETY: through a shared reference it is only read, and who has one keeps `step` from being called.
+unsafe impl Sync for Physics {}
+
+impl Physics {
+    /// Takes a model and a data object of Python's MuJoCo, made for each other, to step them.
+    pub fn new(
+        model: &Bound<'_, PyAny>,
+        data: &Bound<'_, PyAny>,
+        wiring: Wiring,
+        joints: usize,
+    ) -> PyResult<Self> {
+        let py = model.py();
+        let physics = Self {
+            library: Library::of_package(py)?,
+            model: address(model, "MjModel")? as *const c_void,
+            data: address(data, "MjData")? as *mut c_void,
+            positions: LiveArray::of(data, "qpos")?,
+            velocities: LiveArray::of(data, "qvel")?,
+            controls: LiveArray::of(data, "ctrl")?,
+            warnings: LiveArray::of(&data.getattr("warning")?, "number")?,
+            angles_rad: vec![0.0; joints],
+            speeds_radps: vec![0.0; joints],
+            wiring,
+            _owners: [model.clone().unbind(), data.clone().unbind()],
+        };
+        let lengths = ["nq", "nv", "nu"].map(|name| model.getattr(name)?.extract::<usize>());
+        let [positions, velocities, controls] = lengths;
+        if physics.lengths() != [positions?, velocities?, controls?] {
+            return Err(PyValueError::new_err("data is not of this model"));
+        }
+        physics.check(joints)?;
+        Ok(physics)
+    }
+
+    /// How many numbers a row of controls has, and a row of positions.
+    pub const fn widths(&self) -> [usize; 2] {
+        [self.controls.len(), self.positions.len()]
+    }
+
+    const fn lengths(&self) -> [usize; 3] {
+        [
+            self.positions.len(),
+            self.velocities.len(),
+            self.controls.len(),
+        ]
+    }
+
+    fn check(&self, joints: usize) -> PyResult<()> {
+        let Wiring {
+            first_position,
+            first_velocity,
+            motors,
+        } = &self.wiring;
+        let fits = first_position + joints <= self.positions.len()
+            && first_velocity + joints <= self.velocities.len()
+            && motors
+                .iter()
+                .all(|&(joint, control)| joint < joints && control < self.controls.len());
+        if fits {
+            return Ok(());
+        }
+        Err(PyValueError::new_err(
+            "the robot's joints are not all in this model",
+        ))
+    }
+
+    /// Steps once for each row of `controls`, which gets what the motors were told; `false` where a state is not finite, or MuJoCo warned.
+    ///
+    /// Each step is `mj_step2` and `mj_step1`: before and after, all that follows from positions and velocities is up to date.
+    pub fn step(&mut self, servos: &mut Servos, controls: &mut [f64]) -> bool {
+        let width = self.controls.len().max(1);
+        for row in controls.chunks_exact_mut(width) {
+            self.drive(servos);
+            self.controls.copy_to(row);
+            // SAFETY: model and data are alive and made for each other, as `new` has looked; nobody else uses them meanwhile, and no
+            // reference into their memory exists.
+            unsafe { (self.library.step2)(self.model, self.data) };
+            // SAFETY: as above.
+            unsafe { (self.library.step1)(self.model, self.data) };
+        }
+        self.positions.iter().all(f64::is_finite) && self.warnings.iter().all(|count| count == 0)
+    }
+
+    /// Sets the controls to what the servos give.
+    fn drive(&mut self, servos: &mut Servos) {
+        let Wiring {
+            first_position,
+            first_velocity,
+            ..
+        } = self.wiring;
+        let truth = self.angles_rad.iter_mut().zip(&mut self.speeds_radps);
+        for (joint, (angle, speed)) in truth.enumerate() {
+            *angle = self.positions.get(first_position + joint).unwrap_or(0.0);
+            *speed = self.velocities.get(first_velocity + joint).unwrap_or(0.0);
+        }
+        let mut motors = self.wiring.motors.iter().peekable();
+        for (joint, torque) in servos
+            .torques(&self.angles_rad, &self.speeds_radps)
+            .enumerate()
+        {
+            while let Some((_, control)) = motors.next_if(|motor| motor.0 == joint) {
+                self.controls.set(*control, torque);
+            }
+        }
+    }
+}
+
+/// The address of the C structure behind an object of Python's MuJoCo.
+fn address(object: &Bound<'_, PyAny>, class: &str) -> PyResult<usize> {
+    let class = object.py().import("mujoco")?.getattr(class)?;
+    if !object.is_instance(&class)? {
+        return Err(PyTypeError::new_err(format!(
+            "must be a {class}, got {}",
+            object.get_type()
+        )));
+    }
+    let address: usize = object.getattr("_address")?.extract()?;
+    if address == 0 {
+        return Err(PyValueError::new_err("there is nothing behind the object"));
+    }
+    Ok(address)
+}
