@@ -172,7 +172,7 @@ mod tests {
         for corner in 0..4 {
             let errors = found.iter().map(|forces| forces[corner] - exact[corner]);
             let sigma = (errors.map(|error| error * error).sum::<f64>() / 4000.0).sqrt();
-            let expected = (0.02 * exact[corner]).hypot(0.1);
+            let expected = geometry::hypot(0.02 * exact[corner], 0.1);
             assert_relative_eq!(sigma, expected, max_relative = 0.05);
         }
         let lifted: Vec<_> = (0..200).map(|_| noisy.read(&arrays().state())).collect();

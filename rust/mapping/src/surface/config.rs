@@ -164,7 +164,7 @@ mod tests {
         config.tuning.matching.window = 41;
         assert_eq!(
             config.check().unwrap_err().to_string(),
-            "navigation.fog.tuning.matching.window must be at most bins (40), got 41"
+            "navigation.fog.tuning.matching.window must be <= bins (40), got 41"
         );
     }
 

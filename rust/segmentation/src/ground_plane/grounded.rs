@@ -61,7 +61,7 @@ impl<F: Configured> Grounded<F> {
         })
     }
 
-    /// The same with the settings that a user wrote.
+    /// A segmenter for a camera by the settings that a user wrote.
     pub(crate) fn make(needs: &SegmenterNeeds<'_>) -> Result<Box<dyn Segmenter>, MakeError> {
         let finder = read(
             needs.tables,

@@ -200,7 +200,7 @@ impl Grouping {
         labels: &mut [u16],
     ) {
         let (count, tuning) = (regions.len(), &config.tuning);
-        let join_small = (tuning.small_join * config.join) as f32;
+        let joins = [config.join, tuning.small_join * config.join].map(|join| join as f32);
         self.contacts
             .count(picture, count, labels, tuning.contact_reach);
         self.parent.clear();
@@ -214,11 +214,7 @@ impl Grouping {
                 // The mean of sigma / g at the border turns the noise into a difference of q.
                 let apart = (regions[i].q - regions[j].q).abs();
                 let small = regions[i].support.min(regions[j].support) < tuning.small_region;
-                let join = if small {
-                    join_small
-                } else {
-                    config.join as f32
-                };
+                let join = joins[usize::from(small)];
                 if apart < join * limit / times as f32 {
                     unite(&mut self.parent, i, j);
                 }
