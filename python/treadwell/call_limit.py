@@ -3,7 +3,7 @@
 import signal
 import threading
 from time import perf_counter
-from types import FrameType, TracebackType
+from types import FrameType
 from typing import Any, Self
 
 AGAIN_S = 1.0
@@ -42,12 +42,7 @@ class CallLimit:
             signal.setitimer(signal.ITIMER_REAL, self._seconds, AGAIN_S)
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *raised: object) -> None:
         """Put back what was there, and look at the time."""
         taken = perf_counter() - self._begin
         if self._armed:
@@ -57,7 +52,7 @@ class CallLimit:
             delay, interval = self._other
             if delay > 0.0:
                 signal.setitimer(signal.ITIMER_REAL, max(delay - taken, 1e-6), interval)
-        if error is None and taken > self._seconds:
+        if kind is None and taken > self._seconds:
             self._late()
 
     def _late(self, _number: int = 0, _frame: FrameType | None = None) -> None:

@@ -2,7 +2,6 @@
 
 use geometry::{Map, Pose, Robot};
 use mapping::{FloorView, Surface};
-use pilot::Component;
 use planning::{Goal, NoWay, Path, Plan, PlanError, Planner, PlannerPart, Refusal};
 use pyo3::prelude::*;
 use settings::{ConfigError, POSITIVE, Part, Table, TableDescription, read, settings};
@@ -84,7 +83,7 @@ impl Planner for Beeline {
 /// The core with the planner in it: what `TREADWELL_CORE` names is imported in the place of `treadwell._core`.
 #[pymodule(name = "_core")]
 fn own_core(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    pilot::add(Component::Planner(BEELINE));
+    pilot::PLANNERS.add(BEELINE);
     _core::fill(module)
 }
 

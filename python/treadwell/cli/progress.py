@@ -1,7 +1,6 @@
 """The live line of a run: simulated time, state, distance to the goal, real-time factor."""
 
 import sys
-from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
 if TYPE_CHECKING:
@@ -55,12 +54,7 @@ class ProgressLine:
             self._status.start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         """Take the line away, whatever happened."""
         if self._status is not None:
             self._status.stop()

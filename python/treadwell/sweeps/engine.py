@@ -1,7 +1,6 @@
 """Where the episodes of a sweep are done: what every engine can, and the one of this machine."""
 
 from collections.abc import Iterator
-from types import TracebackType
 from typing import Any, Protocol, Self
 
 from treadwell.sweeps.job import do
@@ -16,12 +15,7 @@ class Engine(Protocol):
         """Begin."""
         ...
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         """End all that is being done."""
         ...
 

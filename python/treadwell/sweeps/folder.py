@@ -7,7 +7,6 @@ import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Final, Self
 
 from treadwell.errors import InputError, RecordingError
@@ -55,12 +54,7 @@ class SweepFolder:
         """Begin."""
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         """Give the folder up."""
         self._journal.close()
         shutil.rmtree(self.path / _DOING, ignore_errors=True)

@@ -7,7 +7,6 @@ hangs are dealt with as on one machine. All nodes must see the same folders.
 import os
 from collections import deque
 from collections.abc import Iterator
-from types import TracebackType
 from typing import Any, Final, Self
 
 from treadwell.errors import InputError
@@ -82,12 +81,7 @@ class _RayEngine:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         for actor in [*self._idle, *(actor for actor, _ in self._running.values())]:
             self._ray.kill(actor)
         self._idle.clear()

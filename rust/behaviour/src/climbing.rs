@@ -259,7 +259,7 @@ impl StairClimbing {
         Decision {
             command: Command {
                 motion,
-                gaze: self.head.gazer.at(),
+                gaze: self.head.gazer.at,
                 arms: if cheers { Arms::Raised } else { Arms::AtRest },
             },
             state: state.name(),

@@ -5,7 +5,6 @@ mod command;
 mod decision;
 mod machine;
 mod part;
-mod place;
 mod walking;
 
 pub use climbing::{Pace, StairClimbing, StairClimbingConfig};

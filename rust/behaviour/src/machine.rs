@@ -3,7 +3,6 @@
 
 mod clock;
 mod interruption;
-mod limits;
 mod sight;
 mod state;
 mod tick;
@@ -14,12 +13,30 @@ mod tests;
 use clock::Clock;
 pub(crate) use clock::Stopwatch;
 pub(crate) use interruption::Interruption;
-pub(crate) use limits::Limits;
 pub(crate) use sight::SightAgain;
 pub(crate) use state::{Idling, State};
 pub(crate) use tick::Tick;
 
 use crate::{Outcome, Situation};
+
+/// The limits of a machine, s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Limits {
+    /// Seeing nothing for this long is being blind.
+    pub(crate) blind_after_s: f64,
+    /// In some states nothing may be seen for so many times as long ([`super::State::is_patient`]).
+    pub(crate) patience: f64,
+    /// Being blind for this long is hopeless.
+    pub(crate) blind_limit_s: f64,
+    /// Whether a robot that never saw anything has been without sight since it began.
+    pub(crate) blind_from_the_start: bool,
+    /// Nothing has been done for the goal for this long: the robot gives up.
+    pub(crate) idle_limit_s: f64,
+    /// What could not be done then.
+    pub(crate) idle_words: &'static str,
+    /// Where the robot was blind, as the end of a sentence.
+    pub(crate) place_words: &'static str,
+}
 
 /// The present state, how long it has lasted, and what the clocks say.
 #[derive(Debug, Clone)]

@@ -216,7 +216,7 @@ impl Behaviour for WalkingBehaviour {
         Ok(Decision {
             command: Command {
                 motion: self.motion.clone(),
-                gaze: self.gazer.at(),
+                gaze: self.gazer.at,
                 ..Command::default()
             },
             state: state.name(),

@@ -22,5 +22,5 @@ pub(crate) fn squared_distances<'py>(
         field.compute(cells, cols);
         field
     });
-    field.into_squared().into_pyarray(py).reshape([rows, cols])
+    field.squared.into_pyarray(py).reshape([rows, cols])
 }

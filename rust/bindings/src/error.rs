@@ -1,7 +1,10 @@
 //! From the core's errors to Python's: bad settings are `InputError`, everything else is `CoreError`.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
 use pyo3::prelude::*;
 use pyo3::types::PyString;
+use serde::de::DeserializeOwned;
 
 fn raise(py: Python<'_>, class: &str, message: &str) -> PyErr {
     let made = py
@@ -29,14 +32,20 @@ pub(crate) fn unreadable(py: Python<'_>, error: &PyErr) -> PyErr {
     failed(py, &format_args!("observation: {}", error.value(py)))
 }
 
-/// Runs `work`; a panic, which is a bug, comes back as its sentence and ends the episode, not the program.
-pub(crate) fn unpanicked<T>(work: impl FnOnce() -> T) -> Result<T, String> {
-    std::panic::catch_unwind(std::panic::AssertUnwindSafe(work)).map_err(|panic| {
-        let text = panic
-            .downcast_ref::<String>()
-            .map(String::as_str)
-            .or_else(|| panic.downcast_ref::<&str>().copied())
-            .unwrap_or("no reason given");
-        format!("a bug in the core: {text}")
-    })
+/// Reads settings or a description from the JSON text that Python writes.
+pub(crate) fn parse<T: DeserializeOwned>(py: Python<'_>, json: &str) -> PyResult<T> {
+    serde_json::from_str(json).map_err(|error| bad_setting(py, &error))
+}
+
+/// Runs `work` while Python goes on; a panic, which is a bug, comes back as its sentence and ends the episode, not the program.
+pub(crate) fn run<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    py.detach(|| catch_unwind(AssertUnwindSafe(work)))
+        .map_err(|panic| {
+            let text = panic
+                .downcast_ref::<String>()
+                .map(String::as_str)
+                .or_else(|| panic.downcast_ref::<&str>().copied())
+                .unwrap_or("no reason given");
+            failed(py, &format_args!("a bug in the core: {text}"))
+        })
 }

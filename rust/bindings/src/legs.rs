@@ -3,11 +3,12 @@
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use numpy::{PyArray1, ToPyArray};
 use pyo3::prelude::*;
-use robot::{Body, Description, Side};
+use robot::{Body, Side};
 use walking::GaitConfig;
 use walking::leg::LegSolver;
 
-use crate::error::bad_setting;
+use crate::error::{bad_setting, parse};
+use crate::stairs::side;
 
 /// Two legs and their gait.
 #[pyclass(frozen, name = "Legs", module = "treadwell._core")]
@@ -16,24 +17,17 @@ pub(crate) struct PyLegs {
     gait: GaitConfig,
 }
 
-fn index(py: Python<'_>, side: &str) -> PyResult<usize> {
-    match side {
-        "left" => Ok(Side::Left.index()),
-        "right" => Ok(Side::Right.index()),
-        other => Err(bad_setting(
-            py,
-            &format_args!("side must be left or right, got {other}"),
-        )),
-    }
+fn index(py: Python<'_>, name: &str) -> PyResult<usize> {
+    let side = side(name).map_err(|error| bad_setting(py, &error))?;
+    Ok(side.index())
 }
 
 #[pymethods]
 impl PyLegs {
     #[new]
     fn new(py: Python<'_>, description_json: &str) -> PyResult<Self> {
-        let description: Description =
-            serde_json::from_str(description_json).map_err(|error| bad_setting(py, &error))?;
-        let body = Body::new(description).map_err(|error| bad_setting(py, &error))?;
+        let body =
+            Body::new(parse(py, description_json)?).map_err(|error| bad_setting(py, &error))?;
         let (gait, _) = GaitConfig::read(&body).map_err(|error| bad_setting(py, &error))?;
         let leg = |side| {
             LegSolver::new(&body, side, gait.max_extension, &gait.tuning.leg)

@@ -13,10 +13,8 @@ type Row = (
 /// Slot, name, one line and paper of each component that a name stands for.
 #[pyfunction]
 pub(crate) fn components() -> Vec<Row> {
-    let all = pilot::components();
-    all.iter()
-        .map(pilot::Component::listed)
-        .map(|one| (one.slot, one.name, one.about, one.source))
+    let all = pilot::components().into_iter();
+    all.map(|(slot, one)| (slot, one.name, one.about, one.source))
         .collect()
 }
 

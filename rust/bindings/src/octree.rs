@@ -12,7 +12,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use volume::octree::{Cast, Leaf, Octree, OctreeConfig, Sighting};
 
-use crate::error::{bad_setting, failed, unpanicked};
+use crate::error::{bad_setting, parse, run};
 use crate::world_model::{by_row, rays};
 
 /// Rows of three metres each, and one number a row.
@@ -34,11 +34,9 @@ impl PyOctree {
     #[new]
     #[pyo3(signature = (resolution=0.04, *, settings="{}"))]
     fn new(py: Python<'_>, resolution: f64, settings: &str) -> PyResult<Self> {
-        let config: OctreeConfig =
-            serde_json::from_str(settings).map_err(|error| bad_setting(py, &error))?;
         let config = OctreeConfig {
             resolution,
-            ..config
+            ..parse(py, settings)?
         };
         let tree = Octree::new(config).map_err(|error| bad_setting(py, &error))?;
         Ok(Self::of(tree))
@@ -47,19 +45,15 @@ impl PyOctree {
     /// Reads a file of OctoMap's, `.bt` or `.ot`.
     #[staticmethod]
     fn read(py: Python<'_>, path: &str) -> PyResult<Self> {
-        let tree = py
-            .detach(|| unpanicked(|| Octree::read(Path::new(path))))
-            .map_err(|error| failed(py, &error))?
-            .map_err(|error| bad_setting(py, &error))?;
+        let tree = run(py, || Octree::read(Path::new(path)))?;
+        let tree = tree.map_err(|error| bad_setting(py, &error))?;
         Ok(Self::of(tree))
     }
 
     /// Writes a file that OctoMap reads, of the format that its name ends in: `.bt` or `.ot`.
     fn write(&self, py: Python<'_>, path: &str) -> PyResult<()> {
         let tree = &self.tree;
-        py.detach(|| unpanicked(|| tree.write(Path::new(path))))
-            .map_err(|error| failed(py, &error))?
-            .map_err(|error| bad_setting(py, &error))
+        run(py, || tree.write(Path::new(path)))?.map_err(|error| bad_setting(py, &error))
     }
 
     /// Takes in a frame's points, (n, 3) m, all seen from `eye`; what is further than `max_range` clears the way up to it. Points
@@ -85,13 +79,10 @@ impl PyOctree {
         };
         let tree = Arc::make_mut(&mut self.tree);
         let started = Instant::now();
-        py.detach(|| {
-            unpanicked(|| {
-                let rays: Vec<_> = rays(eye, points, max_range).map(|(_, ray)| ray).collect();
-                tree.insert(eye, &rays, update)
-            })
-        })
-        .map_err(|error| failed(py, &error))?
+        run(py, || {
+            let rays: Vec<_> = rays(eye, points, max_range).map(|(_, ray)| ray).collect();
+            tree.insert(eye, &rays, update)
+        })?
         .map_err(|error| bad_setting(py, &error))?;
         self.seconds = started.elapsed().as_secs_f64();
         Ok(())
@@ -103,8 +94,7 @@ impl PyOctree {
         let points = points.readonly();
         let points = triples("points", &points)?;
         let tree = Arc::make_mut(&mut self.tree);
-        py.detach(|| unpanicked(|| tree.occupy(points)))
-            .map_err(|error| failed(py, &error))
+        run(py, || tree.occupy(points))
     }
 
     /// The occupied leaves: (n, 3) m, their centres, and (n,) m, their sides.
@@ -156,14 +146,14 @@ impl PyOctree {
             Cast::Occupied(end) => (end, distance(end, *origin)),
             Cast::Unknown(_) | Cast::Nothing => ([f64::NAN; 3], f64::NAN),
         };
-        let found = py.detach(|| unpanicked(|| origins.iter().zip(directions).map(cast).unzip()));
-        rows(py, found.map_err(|error| failed(py, &error))?)
+        let found = run(py, || origins.iter().zip(directions).map(cast).unzip())?;
+        rows(py, found)
     }
 
     /// Side of the smallest voxels, m.
     #[getter]
     fn resolution(&self) -> f64 {
-        self.tree.config().resolution
+        self.tree.config.resolution
     }
 
     /// Inner nodes and leaves.
@@ -193,7 +183,7 @@ impl PyOctree {
     }
 
     fn cubes<'py>(&self, py: Python<'py>, wanted: impl Fn(&Leaf) -> bool) -> PyResult<Rows<'py>> {
-        let resolution = self.tree.config().resolution;
+        let resolution = self.tree.config.resolution;
         let cube = |leaf: Leaf| {
             let side = f64::from(leaf.edge()) * resolution;
             (self.tree.centre_m(&leaf), side)

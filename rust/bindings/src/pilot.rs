@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use sensing::{Frame, Observation};
 
 use crate::components;
-use crate::error::{bad_setting, failed, unpanicked, unreadable};
+use crate::error::{bad_setting, failed, parse, run, unreadable};
 use crate::observation;
 use crate::octree::{PyOctree, Rows, rows};
 use crate::products::{FlatPose, PyFloorView, PyPlanes, flat, matrix};
@@ -79,8 +79,7 @@ impl PyPilot {
         planner: Option<Py<PyAny>>,
         behaviour: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
-        let settings: Settings =
-            serde_json::from_str(settings).map_err(|error| bad_setting(py, &error))?;
+        let settings: Settings = parse(py, settings)?;
         let given = Components {
             segmenter: segmenter.map(components::segmenter),
             world_model: world_model.map(components::world_model),
@@ -108,10 +107,7 @@ impl PyPilot {
         observation::read(observation, &mut self.observation, &mut self.spare)
             .map_err(|error| unreadable(py, &error))?;
         let (pilot, observation) = (&mut self.pilot, &self.observation);
-        let tick = py
-            .detach(|| unpanicked(|| pilot.tick(observation)))
-            .map_err(|error| failed(py, &error))?
-            .map_err(|error| failed(py, &error))?;
+        let tick = run(py, || pilot.tick(observation))?.map_err(|error| failed(py, &error))?;
         let (outcome, reason) = match &tick.decision.outcome {
             None => (None, None),
             Some(Outcome::GoalReached) => (Some("goal_reached"), None),
@@ -132,41 +128,41 @@ impl PyPilot {
 
     /// The planes of the last frame; a copy.
     fn planes(&self) -> PyPlanes {
-        PyPlanes(self.pilot.perception().planes().clone())
+        PyPlanes(self.pilot.perception.planes.clone())
     }
 
     /// The map's view; a copy.
     fn view(&self) -> PyFloorView {
-        PyFloorView(self.pilot.perception().view().clone())
+        PyFloorView(self.pilot.perception.world_model.view().clone())
     }
 
     /// The stairs that are seen or remembered; a copy.
     fn staircase(&self) -> PyStaircase {
-        PyStaircase(self.pilot.perception().staircase().clone())
+        (&self.pilot.perception.recognizer.staircase).into()
     }
 
     /// The path's legs that are climbed, in their order; None where there is no path.
     fn climbs(&self) -> Option<Vec<PyClimb>> {
-        let path = self.pilot.plan()?.way.as_ref().ok()?;
-        Some(path.climbs.iter().cloned().map(PyClimb).collect())
+        let path = self.pilot.plan.as_ref()?.way.as_ref().ok()?;
+        Some(path.climbs.iter().map(PyClimb::from).collect())
     }
 
     /// (n, 2) m: the path in the map frame; None where there is none.
     fn path<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray2<f64>>> {
-        let path = self.pilot.plan()?.way.as_ref().ok()?;
+        let path = self.pilot.plan.as_ref()?.way.as_ref().ok()?;
         let rows: Vec<Vec<f64>> = path.points_m.iter().map(|point| point.to_vec()).collect();
         PyArray2::from_vec2(py, &rows).ok()
     }
 
     /// (4, 4): the camera in the robot's frame at the last frame, corrected by the ground plane.
     fn robot_from_camera<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        matrix(py, &self.pilot.perception().planes().robot_from_camera)
+        matrix(py, &self.pilot.perception.planes.robot_from_camera)
     }
 
     /// (rows, cols) float32 m: distance of each cell of the view to the nearest obstacle; None where it is not known.
     fn clearance<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray2<f32>>> {
-        let cells = &self.pilot.perception().view().cells;
-        let field = self.pilot.distance_field_m()?;
+        let cells = &self.pilot.perception.world_model.view().cells;
+        let field = self.pilot.planner.distance_field_m()?;
         field
             .into_pyarray(py)
             .reshape([cells.rows(), cells.cols()])
@@ -175,7 +171,7 @@ impl PyPilot {
 
     /// (rows, cols) float32 m: where what hangs above each cell's floor begins; NaN where nothing does, None without a ceiling map.
     fn ceilings<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray2<f32>>> {
-        let ceilings = self.pilot.perception().ceilings()?;
+        let ceilings = self.pilot.perception.world_model.ceilings()?;
         let flat = ceilings.values().to_pyarray(py);
         flat.reshape([ceilings.rows(), ceilings.cols()]).ok()
     }
@@ -183,7 +179,7 @@ impl PyPilot {
     /// (n, 3) m, (n,) rad and (n,): the torso, its heading and the weight of each place where the robot may be; empty of a localizer
     /// that keeps no guesses.
     fn guesses<'py>(&self, py: Python<'py>) -> PyResult<Guesses<'py>> {
-        let guesses = self.pilot.guesses();
+        let guesses = self.pilot.localizer.guesses();
         let places: Vec<f64> = guesses.iter().flat_map(|guess| guess.place_m).collect();
         let of = |value: fn(&Guess) -> f64| -> Vec<f64> { guesses.iter().map(value).collect() };
         Ok((
@@ -195,7 +191,7 @@ impl PyPilot {
 
     /// (n, 3) m and (n,) m: middles and sides of the cubes that were seen to be occupied; empty of a world model that keeps none.
     fn occupied<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        let voxels = self.pilot.perception().occupied();
+        let voxels = self.pilot.perception.world_model.occupied();
         let split = voxels.iter().map(|voxel| (voxel.centre_m, voxel.side_m));
         rows(py, split.unzip())
     }
@@ -209,38 +205,38 @@ impl PyPilot {
     /// How often a way was planned anew after the first.
     #[getter]
     fn replans(&self) -> u64 {
-        self.pilot.replans()
+        self.pilot.replans
     }
 
     /// Steps taken so far.
     #[getter]
     fn steps_taken(&self) -> u64 {
-        self.pilot.steps_taken()
+        self.pilot.walker.steps_taken()
     }
 
     /// How the listed footsteps go.
     #[getter]
     fn stepping(&self) -> PyStepping {
-        PyStepping(self.pilot.stepping())
+        self.pilot.walker.stepping().into()
     }
 
     /// Frames taken into the map so far.
     #[getter]
     fn frames_used(&self) -> u64 {
-        self.pilot.perception().frames_used()
+        self.pilot.perception.frames_used
     }
 
     /// (pan to the left, down from the horizon) rad: where the head is told to look.
     #[getter]
     fn gaze(&self) -> (f64, f64) {
-        let gaze = self.pilot.gaze();
+        let gaze = self.pilot.walker.gaze();
         (gaze.pan_rad, gaze.down_rad)
     }
 
     /// Seconds that each stage took at the last tick, in the order of `stages`; NaN where it did not run.
     #[getter]
     fn timing(&self) -> [f64; STAGES.len()] {
-        self.pilot.timing().seconds
+        self.pilot.timing.seconds
     }
 
     /// Names of the stages that `timing` counts.

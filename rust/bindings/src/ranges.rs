@@ -2,9 +2,9 @@
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use volume::{LANES, Lanes, RangeField, SolidVoxels};
+use volume::{LANES, Lanes, RangeField, SolidError, SolidVoxels};
 
-use crate::error::{bad_setting, failed, unpanicked};
+use crate::error::{bad_setting, run};
 use crate::octree::{PyOctree, must_be_rays, triples};
 
 /// How far rays get among the occupied voxels of an octree.
@@ -17,11 +17,10 @@ impl PyRangeField {
     #[new]
     fn new(py: Python<'_>, octree: &PyOctree) -> PyResult<Self> {
         let tree = octree.tree();
-        let field = py
-            .detach(|| unpanicked(|| Ok(RangeField::new(&SolidVoxels::occupied(&tree)?))))
-            .map_err(|error| failed(py, &error))?
-            .map_err(|error: volume::SolidError| bad_setting(py, &error))?;
-        Ok(Self(field))
+        run(py, || {
+            Ok(Self(RangeField::new(&SolidVoxels::occupied(&tree)?)))
+        })?
+        .map_err(|error: SolidError| bad_setting(py, &error))
     }
 
     /// For rays from (n, 3) m along unit vectors (n, 3): how far it is to where each enters an occupied voxel, (n,) m, infinity
@@ -51,8 +50,7 @@ impl PyRangeField {
                 ends_m.copy_from_slice(&found_m[..ends_m.len()]);
             }
         };
-        py.detach(|| unpanicked(cast))
-            .map_err(|error| failed(py, &error))?;
+        run(py, cast)?;
         Ok(ends_m.into_pyarray(py))
     }
 }

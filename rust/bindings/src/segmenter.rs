@@ -3,13 +3,13 @@
 use std::time::Instant;
 
 use numpy::{PyArray2, PyArrayMethods};
+use pilot::SEGMENTERS;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use segmentation::{Planes, Segmenter, SegmenterNeeds};
 use sensing::{Intrinsics, Scan};
-use settings::Tables;
 
-use crate::error::{bad_setting, failed, unpanicked};
+use crate::error::{bad_setting, failed, parse, run};
 use crate::pose::rigid;
 use crate::products::PyPlanes;
 
@@ -56,14 +56,14 @@ impl PySegmenter {
             focal_px: focal,
             baseline_m: baseline,
         };
-        let tables: Tables =
-            serde_json::from_str(settings).map_err(|error| bad_setting(py, &error))?;
         let needs = SegmenterNeeds {
-            tables: &tables,
+            tables: &parse(py, settings)?,
             camera,
         };
-        let segmenter =
-            pilot::parts::segmenter(name, &needs).map_err(|error| bad_setting(py, &error))?;
+        let make = SEGMENTERS
+            .find(name)
+            .map_err(|error| bad_setting(py, &error))?;
+        let segmenter = make(&needs).map_err(|error| bad_setting(py, &error))?;
         Ok(Self {
             segmenter,
             scan: Scan::new(camera),
@@ -98,9 +98,7 @@ impl PySegmenter {
         scan.read_depths(depths_m.iter().copied(), robot_from_camera)
             .map_err(|error| failed(py, &error))?;
         let mut planes = Planes::new(depths_m.len());
-        py.detach(|| unpanicked(|| segmenter.segment(scan, &mut planes)))
-            .map_err(|error| failed(py, &error))?
-            .map_err(|error| failed(py, &error))?;
+        run(py, || segmenter.segment(scan, &mut planes))?.map_err(|error| failed(py, &error))?;
         *seconds = started.elapsed().as_secs_f64();
         Ok(PyPlanes(planes))
     }

@@ -1,36 +1,32 @@
 //! What a user's planner and behaviour are told: the goal, the scan, the situation.
 
-use behaviour::{Situation, Stepping};
+use behaviour::Situation;
+use mapping::FloorView;
 use numpy::{PyArray2, PyArrayMethods, ToPyArray};
-use planning::{Climb, Goal};
+use planning::Goal;
 use pyo3::prelude::*;
-use stairs::Staircase;
 
 use crate::products::{FlatPose, PyFloorView, flat, matrix};
 use crate::stairs::{PyClimb, PyStaircase, PyStepping};
 
 /// Where to go: any place inside the disc on which the robot can stand.
-#[pyclass(frozen, name = "Goal", module = "treadwell._core")]
-pub(crate) struct PyGoal(pub(crate) Goal);
-
-#[pymethods]
-impl PyGoal {
+#[pyclass(frozen, get_all, name = "Goal", module = "treadwell._core")]
+pub(crate) struct PyGoal {
     /// (x, y) m: the disc's centre in the map frame.
-    #[getter]
-    fn position(&self) -> (f64, f64) {
-        (self.0.x_m, self.0.y_m)
-    }
-
+    position: (f64, f64),
     /// The disc's radius, m.
-    #[getter]
-    fn radius(&self) -> f64 {
-        self.0.radius_m
-    }
-
+    radius: f64,
     /// Height of the level, m, or None.
-    #[getter]
-    fn height(&self) -> Option<f64> {
-        self.0.height_m
+    height: Option<f64>,
+}
+
+impl From<&Goal> for PyGoal {
+    fn from(goal: &Goal) -> Self {
+        Self {
+            position: (goal.x_m, goal.y_m),
+            radius: goal.radius_m,
+            height: goal.height_m,
+        }
     }
 }
 
@@ -108,37 +104,42 @@ pub(crate) struct PySituation {
     /// Depth frames taken into the map so far.
     #[pyo3(get)]
     frames_used: u64,
-    view: mapping::FloorView,
-    stairs: Staircase,
-    climbs: Vec<Climb>,
-    stepping: Stepping,
+    /// The stairs that are seen or remembered.
+    #[pyo3(get)]
+    stairs: PyStaircase,
+    /// The way's legs that are climbed, in their order; empty where no way is known.
+    #[pyo3(get)]
+    climbs: Vec<PyClimb>,
+    /// How the listed footsteps go.
+    #[pyo3(get)]
+    stepping: PyStepping,
+    view: FloorView,
 }
 
 impl PySituation {
     pub(crate) fn new(situation: &Situation<'_>) -> Self {
         let pose = &situation.estimate.map_from_robot;
-        let way = situation.plan.map(|plan| &plan.way);
+        let way = situation.plan.map(|plan| plan.way.as_ref());
+        let path = way.and_then(Result::ok);
         Self {
             time_ns: situation.time_ns,
             estimate: flat(pose),
             goal: (situation.goal.x_m, situation.goal.y_m),
             goal_radius: situation.goal.radius_m,
             last_goal: situation.last_goal,
-            path: way
-                .and_then(|way| way.as_ref().ok())
-                .map(|path| path.points_m.iter().map(|&[x, y]| (x, y)).collect()),
+            path: path.map(|path| path.points_m.iter().map(|&[x, y]| (x, y)).collect()),
             no_way: way
-                .and_then(|way| way.as_ref().err())
+                .and_then(Result::err)
                 .map(|no| format!("{}: {}", no.refusal.word(), no.sentence)),
             standing: situation.standing,
             gaze: (situation.gaze.pan_rad, situation.gaze.down_rad),
             frames_used: situation.frames_used,
             view: situation.view.clone(),
-            stairs: situation.stairs.clone(),
-            climbs: way
-                .and_then(|way| way.as_ref().ok())
-                .map_or_else(Vec::new, |path| path.climbs.clone()),
-            stepping: situation.stepping,
+            stairs: situation.stairs.into(),
+            climbs: path.map_or_else(Vec::new, |path| {
+                path.climbs.iter().map(PyClimb::from).collect()
+            }),
+            stepping: situation.stepping.into(),
         }
     }
 }
@@ -148,23 +149,5 @@ impl PySituation {
     /// The map's view; a copy.
     fn view(&self) -> PyFloorView {
         PyFloorView(self.view.clone())
-    }
-
-    /// The stairs that are seen or remembered.
-    #[getter]
-    fn stairs(&self) -> PyStaircase {
-        PyStaircase(self.stairs.clone())
-    }
-
-    /// The way's legs that are climbed, in their order; empty where no way is known.
-    #[getter]
-    fn climbs(&self) -> Vec<PyClimb> {
-        self.climbs.iter().cloned().map(PyClimb).collect()
-    }
-
-    /// How the listed footsteps go.
-    #[getter]
-    fn stepping(&self) -> PyStepping {
-        PyStepping(self.stepping)
     }
 }

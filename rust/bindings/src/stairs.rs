@@ -1,7 +1,7 @@
 //! Stairs, climbs and footsteps as Python sees them: frozen, map frame, metres and radians.
 
 use behaviour::{Footstep, Misstep, Motion, Stepping};
-use geometry::{Map, Point};
+use geometry::{Map, PlanarPose, Point};
 use planning::{Climb, Step};
 use pyo3::prelude::*;
 use robot::Side;
@@ -19,7 +19,7 @@ fn flat_edge(edge: &Edge<Map>) -> FlatEdge {
     (flat_point(&edge.left), flat_point(&edge.right))
 }
 
-fn flat_fit(fit: &EdgeFit) -> FlatFit {
+fn flat_fit(fit: EdgeFit) -> FlatFit {
     (fit.frames, fit.place_sigma_m, fit.heading_sigma_rad)
 }
 
@@ -36,188 +36,163 @@ pub(crate) fn flat_footsteps(motion: &Motion) -> Vec<FlatFootstep> {
 
 fn flat_footstep(step: &Footstep) -> FlatFootstep {
     let side = match step.side {
-        Side::Left => "left",
-        Side::Right => "right",
+        Side::Left => "left".to_owned(),
+        Side::Right => "right".to_owned(),
     };
-    let (pose, [from_m, to_m]) = (step.pose, step.bearing_m);
-    let side = side.to_owned();
-    (
-        side,
-        pose.x_m,
-        pose.y_m,
-        pose.yaw_rad,
-        step.height_m,
-        from_m,
-        to_m,
-    )
+    let (PlanarPose { x_m, y_m, yaw_rad }, [from_m, to_m]) = (step.pose, step.bearing_m);
+    (side, x_m, y_m, yaw_rad, step.height_m, from_m, to_m)
+}
+
+/// A footstep that Python lists.
+pub(crate) fn footstep(flat: FlatFootstep) -> Result<Footstep, String> {
+    let (side, x_m, y_m, yaw_rad, height_m, from_m, to_m) = flat;
+    Ok(Footstep {
+        side: self::side(&side)?,
+        pose: PlanarPose { x_m, y_m, yaw_rad },
+        height_m,
+        bearing_m: [from_m, to_m],
+    })
+}
+
+/// A side as Python names it.
+pub(crate) fn side(name: &str) -> Result<Side, String> {
+    match name {
+        "left" => Ok(Side::Left),
+        "right" => Ok(Side::Right),
+        other => Err(format!("a side must be left or right, got {other}")),
+    }
 }
 
 /// The stairs that are seen or remembered.
-#[pyclass(frozen, name = "Staircase", module = "treadwell._core")]
-pub(crate) struct PyStaircase(pub(crate) Staircase);
-
-#[pymethods]
-impl PyStaircase {
+#[pyclass(frozen, get_all, name = "Staircase", module = "treadwell._core")]
+#[derive(Clone)]
+pub(crate) struct PyStaircase {
     /// Frames merged since the robot last stepped.
-    #[getter]
-    fn frames(&self) -> u32 {
-        self.0.frames
-    }
-
+    frames: u32,
     /// The stairs, nearest first; no two overlap.
-    #[getter]
-    fn stairs(&self) -> Vec<PyStair> {
-        self.0.stairs.iter().copied().map(PyStair).collect()
+    stairs: Vec<PyStair>,
+}
+
+impl From<&Staircase> for PyStaircase {
+    fn from(staircase: &Staircase) -> Self {
+        Self {
+            frames: staircase.frames,
+            stairs: staircase.stairs.iter().map(PyStair::from).collect(),
+        }
     }
 }
 
 /// One surface to step on: a step, a sill, a landing, or the lower ground at the foot of a staircase.
-#[pyclass(frozen, name = "Stair", module = "treadwell._core")]
-pub(crate) struct PyStair(pub(crate) Stair<Map>);
-
-#[pymethods]
-impl PyStair {
+#[pyclass(frozen, get_all, name = "Stair", module = "treadwell._core")]
+#[derive(Clone)]
+pub(crate) struct PyStair {
     /// ((x, y, z), (x, y, z)) m: left and right end of the edge that is crossed onto it.
-    #[getter]
-    fn front(&self) -> FlatEdge {
-        flat_edge(&self.0.front)
-    }
-
+    front: FlatEdge,
     /// ((x, y, z), (x, y, z)) m: left and right end of the edge that is crossed off it.
-    #[getter]
-    fn back(&self) -> FlatEdge {
-        flat_edge(&self.0.back)
-    }
-
+    back: FlatEdge,
     /// (x, y, z) m: mean of the points that were seen on it.
-    #[getter]
-    fn reference(&self) -> FlatPoint {
-        flat_point(&self.0.reference)
-    }
-
+    reference: FlatPoint,
     /// Height in the map frame, m.
-    #[getter]
-    fn height(&self) -> f64 {
-        self.0.height_m()
-    }
-
+    height: f64,
     /// From the front to the back edge through the reference point, m.
-    #[getter]
-    fn depth(&self) -> f64 {
-        self.0.depth_m()
-    }
-
+    depth: f64,
     /// (left, right) m: room beyond the edges' ends.
-    #[getter]
-    fn margins(&self) -> (f64, f64) {
-        (self.0.left_margin_m, self.0.right_margin_m)
-    }
-
+    margins: (f64, f64),
     /// Points that were seen on it, in all frames.
-    #[getter]
-    fn support(&self) -> usize {
-        self.0.support
-    }
-
+    support: usize,
     /// Steps taken since it was last seen.
-    #[getter]
-    fn steps_ago(&self) -> u32 {
-        self.0.steps_ago
-    }
-
+    steps_ago: u32,
     /// From how near it was seen: the least distance of its front edge's middle, m.
-    #[getter]
-    fn seen_from(&self) -> f64 {
-        self.0.seen_from_m
-    }
-
+    seen_from: f64,
     /// (frames, standard deviation across itself m, of its heading rad) of the fitted front edge, or None.
-    #[getter]
-    fn front_fit(&self) -> Option<FlatFit> {
-        self.0.front_fit.as_ref().map(flat_fit)
-    }
-
+    front_fit: Option<FlatFit>,
     /// Fit of the back edge, as of the front one; None also where the view ended there.
-    #[getter]
-    fn back_fit(&self) -> Option<FlatFit> {
-        self.0.back_fit.as_ref().map(flat_fit)
+    back_fit: Option<FlatFit>,
+}
+
+impl From<&Stair<Map>> for PyStair {
+    fn from(stair: &Stair<Map>) -> Self {
+        Self {
+            front: flat_edge(&stair.front),
+            back: flat_edge(&stair.back),
+            reference: flat_point(&stair.reference),
+            height: stair.height_m(),
+            depth: stair.depth_m(),
+            margins: (stair.left_margin_m, stair.right_margin_m),
+            support: stair.support,
+            steps_ago: stair.steps_ago,
+            seen_from: stair.seen_from_m,
+            front_fit: stair.front_fit.map(flat_fit),
+            back_fit: stair.back_fit.map(flat_fit),
+        }
     }
 }
 
 /// A leg of a path that is climbed: steps one behind the other.
-#[pyclass(frozen, name = "Climb", module = "treadwell._core")]
-pub(crate) struct PyClimb(pub(crate) Climb);
-
-#[pymethods]
-impl PyClimb {
+#[pyclass(frozen, get_all, name = "Climb", module = "treadwell._core")]
+#[derive(Clone)]
+pub(crate) struct PyClimb {
     /// (first, last): indices of the path's points from which the first step is taken and at which the last one ends.
-    #[getter]
-    fn span(&self) -> (usize, usize) {
-        (self.0.from_point, self.0.to_point)
-    }
-
+    span: (usize, usize),
     /// The steps in their order.
-    #[getter]
-    fn steps(&self) -> Vec<PyStep> {
-        self.0.steps.iter().copied().map(PyStep).collect()
+    steps: Vec<PyStep>,
+}
+
+impl From<&Climb> for PyClimb {
+    fn from(climb: &Climb) -> Self {
+        Self {
+            span: (climb.from_point, climb.to_point),
+            steps: climb.steps.iter().map(PyStep::from).collect(),
+        }
     }
 }
 
 /// One step up or down on the way.
-#[pyclass(frozen, name = "Step", module = "treadwell._core")]
-pub(crate) struct PyStep(Step);
-
-#[pymethods]
-impl PyStep {
+#[pyclass(frozen, get_all, name = "Step", module = "treadwell._core")]
+#[derive(Clone)]
+pub(crate) struct PyStep {
     /// The stair that is stepped on.
-    #[getter]
-    fn stair(&self) -> PyStair {
-        PyStair(self.0.stair)
-    }
-
+    stair: PyStair,
     /// Change of height onto it, m.
-    #[getter]
-    fn rise(&self) -> f64 {
-        self.0.rise_m
-    }
-
+    rise: f64,
     /// (x, y) m: where the way crosses its front edge.
-    #[getter]
-    fn crossing(&self) -> (f64, f64) {
-        self.0.crossing_m.into()
+    crossing: (f64, f64),
+}
+
+impl From<&Step> for PyStep {
+    fn from(step: &Step) -> Self {
+        Self {
+            stair: PyStair::from(&step.stair),
+            rise: step.rise_m,
+            crossing: step.crossing_m.into(),
+        }
     }
 }
 
 /// How the listed footsteps go.
-#[pyclass(frozen, name = "Stepping", module = "treadwell._core")]
-pub(crate) struct PyStepping(pub(crate) Stepping);
-
-#[pymethods]
-impl PyStepping {
+#[pyclass(frozen, get_all, name = "Stepping", module = "treadwell._core")]
+#[derive(Clone, Copy)]
+pub(crate) struct PyStepping {
     /// Steps of the present or the last list that landed.
-    #[getter]
-    fn landed(&self) -> usize {
-        self.0.landed
-    }
-
+    pub(crate) landed: usize,
     /// How much higher than told the last one landed, m.
-    #[getter]
-    fn height_error(&self) -> f64 {
-        self.0.height_error_m
-    }
-
+    pub(crate) height_error: f64,
     /// Whether a walking foot came upon a level that nobody told it of.
-    #[getter]
-    fn stumbled(&self) -> bool {
-        self.0.stumbled
-    }
-
+    stumbled: bool,
     /// "no_ground" or "obstructed" when a step was taken back and the list given up, else None.
-    #[getter]
-    fn misstep(&self) -> Option<&'static str> {
-        self.0.misstep.map(|misstep| match misstep {
-            Misstep::NoGround => "no_ground",
-            Misstep::Obstructed => "obstructed",
-        })
+    pub(crate) misstep: Option<&'static str>,
+}
+
+impl From<Stepping> for PyStepping {
+    fn from(stepping: Stepping) -> Self {
+        Self {
+            landed: stepping.landed,
+            height_error: stepping.height_error_m,
+            stumbled: stepping.stumbled,
+            misstep: stepping.misstep.map(|misstep| match misstep {
+                Misstep::NoGround => "no_ground",
+                Misstep::Obstructed => "obstructed",
+            }),
+        }
     }
 }

@@ -1,18 +1,19 @@
 //! The walker alone, with the senses that it needs: for walking trials without camera and map.
 
-use behaviour::{Arms, Command, Footstep, Gaze, Misstep, Motion, Velocity};
-use geometry::{Odometry, PlanarPose, Point, Pose, Robot};
+use behaviour::{Arms, Command, Gaze, Motion, Velocity};
+use geometry::{Odometry, Point, Pose, Robot};
 use nalgebra::Vector2;
 use numpy::{PyArray1, ToPyArray};
 use proprioception::{Proprioception, ProprioceptionConfig};
 use pyo3::prelude::*;
-use robot::{Body, Description, Side};
+use robot::Body;
 use sensing::{Frame, Observation};
 use walking::Walker;
 use walking::relief::Slopes;
 
-use crate::error::{bad_setting, failed, unreadable};
+use crate::error::{bad_setting, failed, parse, unreadable};
 use crate::observation;
+use crate::stairs::{FlatFootstep, PyStepping, footstep};
 
 /// Ground that rises along the odometry's x from one place to another.
 #[derive(Debug)]
@@ -40,14 +41,11 @@ type Targets<'py> = (
     Bound<'py, PyArray1<f64>>,
 );
 
-/// Side, x m, y m, yaw rad, height m, bearing from m, bearing to m: see `behaviour::Footstep`.
-type Step = (String, f64, f64, f64, f64, f64, f64);
-
 /// What the feet are told.
 #[derive(FromPyObject)]
 enum Told {
     Velocity((f64, f64, f64)),
-    Steps(Vec<Step>),
+    Steps(Vec<FlatFootstep>),
 }
 
 /// Walks as it is told: proprioception and walker of one robot.
@@ -65,9 +63,8 @@ pub(crate) struct PyWalker {
 impl PyWalker {
     #[new]
     fn new(py: Python<'_>, description_json: &str) -> PyResult<Self> {
-        let description: Description =
-            serde_json::from_str(description_json).map_err(|error| bad_setting(py, &error))?;
-        let body = Body::new(description).map_err(|error| bad_setting(py, &error))?;
+        let body =
+            Body::new(parse(py, description_json)?).map_err(|error| bad_setting(py, &error))?;
         Ok(Self {
             proprioception: Proprioception::new(&body, ProprioceptionConfig::default())
                 .map_err(|error| bad_setting(py, &error))?,
@@ -168,12 +165,8 @@ impl PyWalker {
     /// up, if it was: "no_ground" or "obstructed".
     #[getter]
     fn stepping(&self) -> (usize, f64, Option<&'static str>) {
-        let stepping = self.walker.stepping();
-        let misstep = stepping.misstep.map(|misstep| match misstep {
-            Misstep::NoGround => "no_ground",
-            Misstep::Obstructed => "obstructed",
-        });
-        (stepping.landed, stepping.height_error_m, misstep)
+        let stepping = PyStepping::from(self.walker.stepping());
+        (stepping.landed, stepping.height_error, stepping.misstep)
     }
 
     /// Height of the ground that carries by leg odometry, above that of the start, m.
@@ -202,19 +195,5 @@ fn told(motion: Told) -> Result<Motion, String> {
         Told::Steps(steps) => {
             Motion::Footsteps(steps.into_iter().map(footstep).collect::<Result<_, _>>()?)
         }
-    })
-}
-
-fn footstep((side, x_m, y_m, yaw_rad, height_m, from_m, to_m): Step) -> Result<Footstep, String> {
-    let side = match side.as_str() {
-        "left" => Side::Left,
-        "right" => Side::Right,
-        other => return Err(format!("a footstep's side is left or right, got {other}")),
-    };
-    Ok(Footstep {
-        side,
-        pose: PlanarPose::new(x_m, y_m, yaw_rad),
-        height_m,
-        bearing_m: [from_m, to_m],
     })
 }

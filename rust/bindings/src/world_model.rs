@@ -8,12 +8,13 @@ use numpy::ndarray::Dimension;
 use numpy::{
     IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray, PyUntypedArrayMethods,
 };
+use pilot::WORLD_MODELS;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use settings::{Table as _, Tables};
+use settings::Table as _;
 use volume::{OccupancyGrid, Picture, Placement, ProbabilityTable, Ray, Size};
 
-use crate::error::{bad_setting, failed, unpanicked};
+use crate::error::{bad_setting, failed, parse, run};
 use crate::pose::rigid;
 use crate::products::{FlatPose, PyFloorView, PyPlanes};
 
@@ -32,14 +33,14 @@ impl PyWorldModel {
     #[new]
     #[pyo3(signature = (name, *, settings="{}"))]
     fn new(py: Python<'_>, name: &str, settings: &str) -> PyResult<Self> {
-        let tables: Tables =
-            serde_json::from_str(settings).map_err(|error| bad_setting(py, &error))?;
         let needs = WorldModelNeeds {
-            tables: &tables,
+            tables: &parse(py, settings)?,
             known_map: None,
         };
-        let model =
-            pilot::parts::world_model(name, &needs).map_err(|error| bad_setting(py, &error))?;
+        let make = WORLD_MODELS
+            .find(name)
+            .map_err(|error| bad_setting(py, &error))?;
+        let model = make(&needs).map_err(|error| bad_setting(py, &error))?;
         Ok(Self {
             model,
             seconds: 0.0,
@@ -52,9 +53,7 @@ impl PyWorldModel {
         let map_from_robot = Pose::<Map, Robot>::from_yaw(x, y, z, yaw);
         let (model, planes) = (&mut self.model, &planes.0);
         let started = Instant::now();
-        let insertion = py
-            .detach(|| unpanicked(|| model.insert(planes, &map_from_robot)))
-            .map_err(|error| failed(py, &error))?
+        let insertion = run(py, || model.insert(planes, &map_from_robot))?
             .map_err(|error| failed(py, &error))?;
         self.seconds = started.elapsed().as_secs_f64();
         Ok(insertion.used)
@@ -88,8 +87,7 @@ impl PyOccupancyGrid {
         corner: [f64; 3],
         settings: &str,
     ) -> PyResult<Self> {
-        let config: FogConfig =
-            serde_json::from_str(settings).map_err(|error| bad_setting(py, &error))?;
+        let config: FogConfig = parse(py, settings)?;
         config.check().map_err(|error| bad_setting(py, &error))?;
         let (cols, rows, layers) = size;
         let holds = [cols, rows].iter().all(|n| (1..=2000).contains(n));
@@ -135,9 +133,9 @@ impl PyOccupancyGrid {
         let (grid, config) = (&mut self.grid, &self.config);
         let rays = rays(eye, points, config.max_range).map(|(_, ray)| ray);
         let started = Instant::now();
-        let _area = py
-            .detach(|| unpanicked(|| grid.insert(eye, rays, config.update, config.clearing)))
-            .map_err(|error| failed(py, &error))?;
+        let _area = run(py, || {
+            grid.insert(eye, rays, config.update, config.clearing)
+        })?;
         self.seconds = started.elapsed().as_secs_f64();
         Ok(())
     }
@@ -176,13 +174,9 @@ impl PyOccupancyGrid {
         let (grid, config) = (&mut self.grid, &self.config);
         let rays = rays(eye, points, config.max_range);
         let started = Instant::now();
-        let _area = py
-            .detach(|| {
-                unpanicked(|| {
-                    grid.insert_picture(eye, &picture, rays, config.update, config.clearing)
-                })
-            })
-            .map_err(|error| failed(py, &error))?;
+        let _area = run(py, || {
+            grid.insert_picture(eye, &picture, rays, config.update, config.clearing)
+        })?;
         self.seconds = started.elapsed().as_secs_f64();
         Ok(())
     }
@@ -190,7 +184,7 @@ impl PyOccupancyGrid {
     /// (rows, columns, layers) float32: how likely each voxel is occupied.
     fn probability<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
         let Size { cols, rows, layers } = self.size;
-        let placement = self.grid.placement();
+        let placement = &self.grid.placement;
         let mut values = Vec::with_capacity(rows * cols * layers);
         for (row, col) in (0..rows).flat_map(|row| (0..cols).map(move |col| (row, col))) {
             let [x, y] = placement

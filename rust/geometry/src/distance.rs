@@ -11,7 +11,8 @@ const BESIDE: usize = 3;
 /// Squared distances, in cells, from every cell's centre to the centre of the nearest blocked cell. Reused.
 #[derive(Debug, Clone, Default)]
 pub struct CellDistances {
-    squared: Vec<u32>,
+    /// All squared distances, row by row, in cells.
+    pub squared: Vec<u32>,
     /// Distance to the nearest blocked cell of the same column.
     along_column: Vec<i16>,
     envelope: Envelope,
@@ -36,16 +37,6 @@ impl CellDistances {
     /// Squared distance of a cell by its index, in cells.
     pub fn squared(&self, index: usize) -> u32 {
         self.squared[index]
-    }
-
-    /// All squared distances, row by row, in cells.
-    pub fn all_squared(&self) -> &[u32] {
-        &self.squared
-    }
-
-    /// All squared distances, kept.
-    pub fn into_squared(self) -> Vec<u32> {
-        self.squared
     }
 
     /// First pass, all columns at once: downwards, then upwards.
@@ -218,6 +209,6 @@ mod tests {
         let mut field = CellDistances::default();
         field.compute(&[true; 12], 4);
         field.compute(&[true, false, false], 3);
-        assert_eq!(field.all_squared(), [0, 1, 4]);
+        assert_eq!(field.squared, [0, 1, 4]);
     }
 }

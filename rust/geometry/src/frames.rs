@@ -25,11 +25,3 @@ pub enum Torso {}
 /// The depth camera, optical axes. Origin: the optical centre. X right, y down, z forward along the axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Camera {}
-
-/// The left sole. Origin: centre of the sole's rectangle, in the plane that touches the ground. X to the toes, y left, z up.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LeftSole {}
-
-/// The right sole. Origin: centre of the sole's rectangle, in the plane that touches the ground. X to the toes, y left, z up.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RightSole {}

@@ -21,7 +21,7 @@ impl Cell {
 }
 
 /// Square cells over the plane: the corner of cell (0, 0) lies at `origin_m`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Lattice {
     /// Lower-left corner of cell (0, 0), metres.
     pub origin_m: [f64; 2],

@@ -64,6 +64,11 @@ impl PlanarPose {
     }
 }
 
+/// Distance between two places, m.
+pub fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

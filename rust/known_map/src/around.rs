@@ -7,8 +7,7 @@ use geometry::{CellArea, runs};
 use settings::ConfigError;
 use volume::octree::{LAYERS, LayerColumns, Octree, OctreeConfig, ViewLayers};
 
-use crate::recut::recut;
-use crate::{AroundTuning, KnownMapTuning};
+use crate::{AroundTuning, KnownMapTuning, recut::recut};
 
 /// What the robot passes and climbs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +43,7 @@ impl MapAround {
         key: &str,
         tuning: &KnownMapTuning,
     ) -> Result<Self, ConfigError> {
-        let same = tree.config().resolution == voxels.resolution;
+        let same = tree.config.resolution == voxels.resolution;
         Ok(Self {
             tree: if same {
                 Arc::clone(tree)
@@ -64,14 +63,14 @@ impl MapAround {
     pub fn look(&mut self, layers: &ViewLayers, robot_m: [f64; 3], limits: AroundLimits) {
         self.columns.read((&self.tree, 0.5), layers, layers.all());
         let [cols, rows] = layers.size();
-        let headroom = (limits.height_m / layers.side_m()).ceil() as u32;
+        let headroom = (limits.height_m / layers.resolution_m).ceil() as u32;
         let columns = (0..cols * rows).map(|index| self.columns.at(index));
         self.standable.clear();
         self.standable
             .extend(columns.map(|solid| standable(solid, headroom)));
         self.reach(layers, robot_m, limits.rise_m);
         self.floors.clear();
-        let own_m = layers.side_m() * self.tuning.own_level;
+        let own_m = layers.resolution_m * self.tuning.own_level;
         let floor = |&reached: &u64| floor_m(reached, layers, robot_m[2], own_m).map(|m| m as f32);
         self.floors.extend(self.reached.iter().map(floor));
         self.upright.clear();
@@ -86,14 +85,14 @@ impl MapAround {
     pub fn stands_near(&self, at_m: [f64; 3], off_m: f64, layers: &ViewLayers) -> bool {
         let corner = |off_m: f64| {
             let [x_m, y_m, _] = at_m;
-            layers.lattice().cell_at(x_m + off_m, y_m + off_m)
+            layers.lattice.cell_at(x_m + off_m, y_m + off_m)
         };
         let around = CellArea {
             min: corner(-off_m),
             max: corner(off_m),
         };
         // A layer counts by its middle above, by its lower border below.
-        let half_m = 0.5 * layers.side_m();
+        let half_m = 0.5 * layers.resolution_m;
         let heights = layers.between(at_m[2] - off_m - half_m, at_m[2] + off_m);
         (runs(around.within(layers.all()), layers.size()).flatten())
             .any(|index| self.upright[index] & heights != 0)
@@ -103,7 +102,7 @@ impl MapAround {
     fn reach(&mut self, layers: &ViewLayers, [x_m, y_m, z_m]: [f64; 3], rise_m: f64) {
         let [cols, rows] = layers.size();
         // Rounding must not decide about a whole number of voxels.
-        let most = ((rise_m / layers.side_m() + 1e-6) as u32).min(LAYERS as u32 - 1);
+        let most = ((rise_m / layers.resolution_m + 1e-6) as u32).min(LAYERS as u32 - 1);
         let mut open = VecDeque::new();
         self.reached.clear();
         self.reached.resize(cols * rows, 0);
@@ -114,7 +113,7 @@ impl MapAround {
                 open.push_back((index, new));
             }
         };
-        let side_m = layers.side_m();
+        let side_m = layers.resolution_m;
         let AroundTuning {
             start,
             start_below,
@@ -122,7 +121,7 @@ impl MapAround {
             ..
         } = self.tuning;
         let own = layers.between(z_m - start_below * side_m, z_m + start_above * side_m);
-        let corner = |off_m: f64| layers.lattice().cell_at(x_m + off_m, y_m + off_m);
+        let corner = |off_m: f64| layers.lattice.cell_at(x_m + off_m, y_m + off_m);
         let around = CellArea {
             min: corner(-start),
             max: corner(start),

@@ -5,8 +5,7 @@ use std::collections::BinaryHeap;
 
 use volume::SolidVoxels;
 
-use crate::standing::standing;
-use crate::{FloorsTuning, KnownMapTuning, StandingRoom};
+use crate::{FloorsTuning, KnownMapTuning, StandingRoom, standing::standing};
 
 /// No place.
 const NONE: u32 = u32::MAX;
@@ -14,7 +13,8 @@ const NONE: u32 = u32::MAX;
 /// Places to stand, by their numbers: a column of the map has one on each of its levels.
 #[derive(Debug, Clone)]
 pub struct Floors {
-    side_m: f64,
+    /// Side of a column, m.
+    pub side_m: f64,
     corner_m: [f64; 2],
     cols: usize,
     rows: usize,
@@ -80,7 +80,7 @@ impl Floors {
         let corner = solid.corner_m([0; 3]);
         let (column, height_m) = places.into_iter().unzip();
         Self {
-            side_m: solid.resolution_m(),
+            side_m: solid.resolution_m,
             corner_m: [corner[0], corner[1]],
             cols,
             rows,
@@ -94,11 +94,6 @@ impl Floors {
     /// How many places there are; they are numbered from 0 on.
     pub const fn count(&self) -> usize {
         self.height_m.len()
-    }
-
-    /// Side of a column, m.
-    pub const fn side_m(&self) -> f64 {
-        self.side_m
     }
 
     /// The column that holds a point, seen from above; none outside the map.

@@ -6,13 +6,13 @@ use settings::{ConfigError, Table};
 use volume::octree::{Leaf, Octree, OctreeConfig};
 use volume::{DistanceField, RangeField, SolidError, SolidVoxels};
 
-use crate::standing::standing;
-use crate::{Floors, KnownMapConfig, MapAround, Prior, Standing, StandingRoom};
+use crate::{Floors, KnownMapConfig, MapAround, Prior, Standing, StandingRoom, standing::standing};
 
 /// The map that a robot is told. Nothing that is seen changes it. What several components read is made when the first of them asks.
 #[derive(Debug)]
 pub struct KnownMap {
-    tree: Arc<Octree>,
+    /// The octree that was told.
+    pub tree: Arc<Octree>,
     solid: OnceLock<Result<Arc<SolidVoxels>, ConfigError>>,
     ranges: OnceLock<Arc<RangeField>>,
     distances: OnceLock<Arc<DistanceField>>,
@@ -57,18 +57,13 @@ impl KnownMap {
         })
     }
 
-    /// The octree that was told.
-    pub const fn tree(&self) -> &Arc<Octree> {
-        &self.tree
-    }
-
     /// Where the map lies: the middle of what is occupied and how far it reaches to each side, m; none where nothing is.
     pub fn extent_m(&self) -> Option<([f64; 2], f64)> {
         let tree = &self.tree;
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for leaf in tree.leaves().filter(Leaf::is_occupied) {
             let centre = tree.centre_m(&leaf);
-            let half_m = 0.5 * f64::from(leaf.edge()) * tree.config().resolution;
+            let half_m = 0.5 * f64::from(leaf.edge()) * tree.config.resolution;
             for axis in 0..2 {
                 low[axis] = low[axis].min(centre[axis] - half_m);
                 high[axis] = high[axis].max(centre[axis] + half_m);
@@ -164,7 +159,7 @@ mod tests {
     #[test]
     fn a_tree_and_its_boxes_are_one_map() {
         let boxes = KnownMap::of_boxes(&BOXES, 0.04).unwrap();
-        let tree = known(Arc::clone(boxes.tree()));
+        let tree = known(Arc::clone(&boxes.tree));
         assert_eq!(tree.solid(), boxes.solid());
         assert_eq!(tree.extent_m(), boxes.extent_m());
         let ([x_m, y_m], reach_m) = tree.extent_m().unwrap();

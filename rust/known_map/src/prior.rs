@@ -77,7 +77,7 @@ impl Prior {
             other |= off_m <= self.tuning.other_level;
         }
         let layer = |height_m: f64| {
-            ((level_m + height_m - self.solid.corner_m([0; 3])[2]) / self.solid.resolution_m())
+            ((level_m + height_m - self.solid.corner_m([0; 3])[2]) / self.solid.resolution_m)
                 .floor() as i64
         };
         let [x, y] = self.floors.cell_of(column).map(|at| at as i64);

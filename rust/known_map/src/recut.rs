@@ -12,7 +12,7 @@ pub(crate) fn recut(
 ) -> Result<Octree, ConfigError> {
     let mut other = Octree::new(config.clone())?;
     let solid = || tree.leaves().filter(Leaf::is_occupied);
-    let side_m = |leaf: &Leaf| f64::from(leaf.edge()) * tree.config().resolution;
+    let side_m = |leaf: &Leaf| f64::from(leaf.edge()) * tree.config.resolution;
     let parts = |leaf: &Leaf| (side_m(leaf) / config.resolution - 1e-6).ceil();
     let voxels: f64 = solid().map(|leaf| parts(&leaf).powi(3)).sum();
     let allowed = format!("so coarse that the static map has at most {most_voxels} solid voxels");

@@ -30,7 +30,7 @@ pub(crate) fn standing(
     tuning: &StandingTuning,
 ) -> Vec<Standing> {
     let StandingRoom { radius_m, height_m } = room;
-    let side_m = solid.resolution_m();
+    let side_m = solid.resolution_m;
     let [cols, rows, layers] = solid.size().map(|count| count as i64);
     let reach = (radius_m / side_m).ceil() as i64;
     let disc: Vec<[i64; 2]> = (-reach..=reach)

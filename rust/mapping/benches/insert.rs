@@ -49,12 +49,12 @@ fn insert(criterion: &mut Criterion) {
                 ..FogConfig::default()
             },
         ),
-        ("fog insert 88x72, 16 layers, per frame", FogConfig::paper()),
+        ("fog insert 88x72, 16 layers, per frame", common::paper()),
         (
             "fog insert 88x72, 16 layers, per point",
             FogConfig {
                 update: Update::PerPoint,
-                ..FogConfig::paper()
+                ..common::paper()
             },
         ),
     ];

@@ -14,7 +14,7 @@ const EYE: [f64; 3] = [0.0, 0.0, 0.5];
 fn small() -> FogConfig {
     FogConfig {
         cells: 20,
-        ..FogConfig::paper()
+        ..common::paper()
     }
 }
 
@@ -151,7 +151,7 @@ fn equation_8_a_floor_without_support_is_forgotten_and_others_stay() {
     }
     let (lost, kept) = (Cell::new(12, 9), Cell::new(5, 5));
     let before = floor.clone();
-    floor.verify(&grid, floor.heights().area());
+    floor.verify(&grid, floor.heights.area());
     assert_eq!(
         floor, before,
         "what is supported stays as it was, bit by bit"
@@ -276,7 +276,7 @@ proptest! {
             if grid.is_occupied(at) { let _ = highest.insert(cell, at[2]); }
         }
         for (cell, _) in centers() {
-            match (grid.obstacle_height_m(cell), highest.get(&cell)) {
+            match (grid.obstacle_height_at(cell.row as usize * 20 + cell.col as usize), highest.get(&cell)) {
                 (None, None) => {}
                 (Some(found), Some(&wanted)) => prop_assert!((found - wanted).abs() < 1e-9),
                 other => prop_assert!(false, "{:?}", other),
@@ -334,8 +334,8 @@ proptest! {
         for _ in 0..2 { let _ = insert(&mut grid, &ends, Update::PerFrame); }
         let before = grid.clone();
         grid.shift(by.0, by.1, by.2);
-        let origin = grid.placement().lattice.origin_m;
-        let bottom = grid.placement().bottom_m;
+        let origin = grid.placement.lattice.origin_m;
+        let bottom = grid.placement.bottom_m;
         for (cell, at) in centers() {
             // The same place of the map, before and after; 0.5 where it was outside before.
             let layer = ((at[2] + 0.02) / 0.04).floor();
@@ -370,7 +370,7 @@ proptest! {
             for cell in view.cells.area().cells() {
                 let surface = view.cell(cell);
                 prop_assert_eq!(surface, fog.surface(cell));
-                prop_assert_eq!(view.sightings.get(cell).copied(), Some(fog.floor().sightings(cell)));
+                prop_assert_eq!(view.sightings.get(cell).copied(), Some(fog.floor.sightings(cell)));
                 let ceiling_m = ceilings.get(cell).copied().unwrap();
                 prop_assert_eq!((!ceiling_m.is_nan()).then_some(ceiling_m), fog.ceiling_m(cell).map(|m| m as f32));
                 match surface {

@@ -6,28 +6,10 @@ use beams::{CENTRE, RESOLUTION, SPAN, frames, in_voxels, point, tree};
 use mapping::Update;
 use proptest::prelude::*;
 use volume::VoxelWalk;
-use volume::octree::{Cast, Key, Sighting};
+use volume::octree::{Cast, Sighting};
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
-    #[test]
-    fn a_box_holds_the_leaves_that_meet_it(
-        frames in frames(3.0),
-        a in proptest::array::uniform3(32_740..32_800_u16),
-        b in proptest::array::uniform3(32_740..32_800_u16),
-    ) {
-        let mut tree = tree();
-        for (eye, rays) in &frames {
-            tree.insert(*eye, rays, Update::PerFrame).unwrap();
-        }
-        let low: Key = std::array::from_fn(|axis| a[axis].min(b[axis]));
-        let high: Key = std::array::from_fn(|axis| a[axis].max(b[axis]));
-        let expected: Vec<_> = tree.leaves().filter(|leaf| (0..3).all(|axis| {
-            leaf.corner[axis] <= high[axis] && u32::from(leaf.corner[axis]) + leaf.edge() > u32::from(low[axis])
-        })).collect();
-        prop_assert_eq!(tree.leaves_within(low, high).collect::<Vec<_>>(), expected);
-    }
-
     #[test]
     fn a_cast_ray_ends_in_the_first_occupied_voxel(
         frames in frames(3.0),

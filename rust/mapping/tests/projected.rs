@@ -78,7 +78,7 @@ fn probabilities_of(grid: &OccupancyGrid, size: Size) -> Vec<f64> {
         lattice,
         bottom_m,
         layer_m,
-    } = *grid.placement();
+    } = grid.placement;
     let middle = |n: usize| n as f64 + 0.5;
     (0..size.cols * size.rows * size.layers)
         .map(|number| {
@@ -171,7 +171,7 @@ fn a_fog_looks_into_pictures_and_follows_the_rays_of_other_frames() {
             planes.camera = planes.camera.filter(|_| is_picture);
             assert!(fog.insert(&planes, &pose).unwrap().used);
         }
-        (probabilities_of(fog.occupancy(), size), fog.view().clone())
+        (probabilities_of(&fog.occupancy, size), fog.view().clone())
     };
     let (exact, exact_view) = map(Clearing::EveryRay, true);
     assert!(map(Clearing::Projected, false).0 == exact);

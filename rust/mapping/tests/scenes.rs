@@ -34,7 +34,7 @@ fn floors_are_exact_and_obstacles_coarse_with_a_perfect_sensor() {
         Block::new([1.0, -0.4, 0.0], [1.2, -0.2, 0.2], false),
         Block::new([1.0, 0.1, 0.0], [1.3, 0.3, 0.3], false),
     ];
-    let mut fog = Fog::new(FogConfig::paper()).unwrap();
+    let mut fog = Fog::new(common::paper()).unwrap();
     for (x, y) in [(0.0, 0.0), (0.2, -0.3), (0.2, 0.3), (0.55, -0.3)] {
         look_around(&mut fog, &blocks, &at(x, y));
     }
@@ -61,7 +61,7 @@ fn floors_are_exact_and_obstacles_coarse_with_a_perfect_sensor() {
             [block.max[0], block.max[1]],
         ) {
             assert_eq!(
-                fog.floor().height(cell),
+                fog.floor.height(cell),
                 None,
                 "the floor grid alone knows nothing here"
             );
@@ -81,7 +81,7 @@ fn floors_are_exact_and_obstacles_coarse_with_a_perfect_sensor() {
 #[test]
 fn a_removed_box_vanishes_within_12_frames() {
     let box_ = [Block::new([0.5, -0.1, 0.0], [0.8, 0.1, 0.06], true)];
-    for config in [FogConfig::default(), FogConfig::paper()] {
+    for config in [FogConfig::default(), common::paper()] {
         let mut fog = Fog::new(config).unwrap();
         let (pose, eye) = (at(0.0, 0.0), camera(0.5, 0.6, 0.0));
         for _ in 0..20 {
@@ -113,7 +113,7 @@ fn a_moving_box_leaves_no_heights_in_between() {
         let y = -0.3 + 0.05 * 0.08 * f64::from(i);
         let moving = [Block::new([0.5, y, 0.0], [0.7, y + 0.2, 0.06], true)];
         let _ = fog.insert(&look(&moving, &pose, eye), &pose).unwrap();
-        for &height in fog.floor().heights().values() {
+        for &height in fog.floor.heights.values() {
             assert!(!(0.01..0.05).contains(&height), "{height}");
         }
     }
@@ -132,7 +132,7 @@ fn a_curtain_above_a_floor_is_an_obstacle() {
         }
     }
     let cell = fog.view().lattice.cell_at(0.82, 0.02);
-    assert!(fog.floor().height(cell).is_some(), "there is a floor below");
+    assert!(fog.floor.height(cell).is_some(), "there is a floor below");
     assert!(matches!(fog.view().cell(cell), Surface::Obstacle(h) if h > 0.3));
 }
 
@@ -176,7 +176,7 @@ fn the_robot_stands_on_floor_that_it_cannot_see() {
     assert_eq!(fog.view().at(0.4, 0.02), Surface::Unknown);
     let cell = fog.view().lattice.cell_at(0.02, 0.02);
     assert_eq!(
-        (fog.floor().height(cell), fog.floor().sightings(cell)),
+        (fog.floor.height(cell), fog.floor.sightings(cell)),
         (None, 0)
     );
     let _ = fog
@@ -235,9 +235,9 @@ fn a_frame_without_ground_is_withdrawn_unless_it_fits_the_floor() {
     let mut planes = look(&[], &at(0.0, 0.0), eye);
     planes.reliable = false;
     let mut fog = Fog::new(FogConfig::default()).unwrap();
-    let before = fog.occupancy().clone();
+    let before = fog.occupancy.clone();
     assert!(!fog.insert(&planes, &at(0.0, 0.0)).unwrap().used);
-    assert_eq!(*fog.occupancy(), before);
+    assert_eq!(fog.occupancy, before);
     planes.reliable = true;
     for _ in 0..2 {
         assert!(fog.insert(&planes, &at(0.0, 0.0)).unwrap().used);
@@ -254,12 +254,12 @@ fn a_pose_that_is_no_number_changes_nothing() {
     let mut fog = Fog::new(FogConfig::default()).unwrap();
     let planes = look(&[], &at(0.0, 0.0), camera(0.5, 0.6, 0.0));
     let _ = fog.insert(&planes, &at(0.0, 0.0)).unwrap();
-    let before = (fog.view().clone(), fog.occupancy().clone());
+    let before = (fog.view().clone(), fog.occupancy.clone());
     for bad in [f64::NAN, f64::INFINITY] {
         let error = fog.insert(&planes, &at(bad, 0.0)).unwrap_err();
         assert_eq!(error, MapError::PoseNotFinite);
     }
-    assert_eq!((fog.view().clone(), fog.occupancy().clone()), before);
+    assert_eq!((fog.view().clone(), fog.occupancy.clone()), before);
 }
 
 #[test]

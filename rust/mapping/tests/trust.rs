@@ -7,6 +7,7 @@ mod common;
 use common::{Block, camera, is_obstacle, look};
 use geometry::{Map, Plane, Point, Pose};
 use mapping::{Fog, FogConfig, Surface, WorldModel};
+use nalgebra::Vector3;
 use segmentation::{PlaneRegion, Planes};
 
 /// A wall across the robot's way, and a lid before it on the left.
@@ -48,7 +49,7 @@ fn floors_behind_the_wall(config: FogConfig) -> usize {
         .cells()
         .filter(|&cell| behind(view.lattice.center_of(cell)))
         .filter(|&cell| {
-            matches!(view.cell(cell), Surface::Floor(_)) && fog.floor().sightings(cell) > 2
+            matches!(view.cell(cell), Surface::Floor(_)) && fog.floor.sightings(cell) > 2
         })
         .count()
 }
@@ -137,7 +138,10 @@ fn block_that_is_smooth_every(smooth_every: usize, config: FogConfig) -> Surface
         planes.regions.push(PlaneRegion {
             support: 1000,
             mean: Point::new(0.6, 0.0, 0.1),
-            plane: Plane::horizontal(0.1),
+            plane: Plane {
+                normal: Vector3::z_axis(),
+                distance_m: 0.1,
+            },
             boundary: None,
             floor_height_m: Some(0.1),
             roughness: Some(if frame % smooth_every == 0 { 1.0 } else { 2.0 }),

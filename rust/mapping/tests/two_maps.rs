@@ -77,7 +77,7 @@ fn no_voxel_of_the_floor_is_occupied_and_tops_of_boxes_are_kept() {
         let mut maps = maps(resolution, None);
         look_around(&mut maps, &[box_], &at(0.0, 0.0, 0.0));
         let (mut floor, mut occupied) = (0, 0);
-        let local = maps.local();
+        let local = &maps.local;
         for x in 0..100 {
             for y in -50..50 {
                 let place = [0.3 + 0.02 * f64::from(x), 0.02 * f64::from(y) + 0.01];
@@ -222,7 +222,7 @@ fn both_maps_block_and_what_is_seen_does_not_erase_what_was_told() {
         look_around(&mut maps, &[basket], &pose);
     }
     assert!(
-        maps.local().is_occupied_at([0.82, 0.3, 0.1]) == Some(false),
+        maps.local.is_occupied_at([0.82, 0.3, 0.1]) == Some(false),
         "it is seen that nothing is there"
     );
     assert!(is_obstacle(shown(&maps, 0.3)), "and it blocks all the same");
@@ -282,14 +282,14 @@ fn a_pose_that_cannot_be_changes_nothing() {
     let pose = at(0.0, 0.0, 0.0);
     let planes = look(&[], &pose, camera(0.5, 0.6, 0.0));
     let _ = maps.insert(&planes, &pose).unwrap();
-    let before = (maps.view().clone(), maps.local().clone());
+    let before = (maps.view().clone(), maps.local.clone());
     for bad in [f64::NAN, f64::INFINITY] {
         let error = maps.insert(&planes, &at(bad, 0.0, 0.0)).unwrap_err();
         assert_eq!(error, MapError::PoseNotFinite);
     }
     let error = maps.insert(&planes, &at(1e9, 0.0, 0.0)).unwrap_err();
     assert!(matches!(error, MapError::Failed(_)));
-    assert_eq!((maps.view().clone(), maps.local().clone()), before);
+    assert_eq!((maps.view().clone(), maps.local.clone()), before);
 }
 
 /// What takes seconds: not in the fast part of the tests.

@@ -121,7 +121,7 @@ fn what_came_too_near_to_be_seen_is_remembered() {
             let _ = maps.insert(&planes, &pose).unwrap();
         }
         assert!(is_obstacle(maps.view().at(0.62, 0.02)), "{pitch}");
-        let ahead = maps.local().is_occupied_at([0.62, 0.02, 0.5]);
+        let ahead = maps.local.is_occupied_at([0.62, 0.02, 0.5]);
         assert_eq!(ahead, Some(true), "{pitch}");
     }
 }
@@ -147,7 +147,7 @@ fn what_lies_in_the_shadow_of_a_nearer_thing_is_remembered() {
         }
     }
     let remembered = |maps: &TwoMaps| {
-        let seen = |at: &&[f64; 3]| maps.local().is_occupied_at(**at) == Some(true);
+        let seen = |at: &&[f64; 3]| maps.local.is_occupied_at(**at) == Some(true);
         shadow.iter().filter(seen).count()
     };
     let before = remembered(&maps);

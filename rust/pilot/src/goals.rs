@@ -9,7 +9,8 @@ use crate::GoalSettings;
 #[derive(Debug, Clone)]
 pub(crate) struct Goals {
     places: Vec<Goal>,
-    next: usize,
+    /// How many were passed.
+    pub(crate) passed: usize,
 }
 
 impl Goals {
@@ -30,29 +31,24 @@ impl Goals {
         }
         Ok(Self {
             places: settings.iter().copied().map(Goal::from).collect(),
-            next: 0,
+            passed: 0,
         })
     }
 
     /// The place that is pursued now.
     pub(crate) fn current(&self) -> &Goal {
-        &self.places[self.next]
-    }
-
-    /// How many were passed.
-    pub(crate) const fn passed(&self) -> usize {
-        self.next
+        &self.places[self.passed]
     }
 
     /// Whether it is the last.
     pub(crate) fn is_last(&self) -> bool {
-        self.next + 1 == self.places.len()
+        self.passed + 1 == self.places.len()
     }
 
     /// Goes for the next place; stays at the last.
     pub(crate) fn advance(&mut self) {
         if !self.is_last() {
-            self.next += 1;
+            self.passed += 1;
         }
     }
 }

@@ -2,7 +2,7 @@
 
 mod error;
 mod goals;
-pub mod parts;
+mod parts;
 mod perception;
 mod registry;
 mod settings;
@@ -11,7 +11,9 @@ mod tick;
 mod timing;
 
 pub use error::PilotError;
-pub use parts::{Component, ListedPart, add, components};
+pub use parts::{
+    BEHAVIOURS, LOCALIZERS, ListedPart, PLANNERS, SEGMENTERS, Slot, WORLD_MODELS, components,
+};
 pub use perception::{Perception, PerceptionConfig, PerceptionTuning};
 pub use registry::Components;
 pub use settings::{GoalSettings, Navigation, Settings, StartSettings};

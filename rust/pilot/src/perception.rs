@@ -1,14 +1,14 @@
 //! What a depth frame sets off: scan, planes, pose, map.
 
-use geometry::{Camera, Grid, Map, Pose, Robot};
+use geometry::{Camera, Map, Pose, Robot};
 use localization::{Estimate, Localizer};
-use mapping::{FloorView, Insertion, Surface, Voxel, WorldModel};
+use mapping::{FloorView, Surface, WorldModel};
 use proprioception::BodyState;
 use robot::Body;
-use segmentation::{KnownFloor, Planes, Segmenter};
+use segmentation::{Planes, Segmenter};
 use sensing::{Frame, Scan, SelfFilter};
 use settings::{POSITIVE, at_least, settings};
-use stairs::{Recognizer, Staircase};
+use stairs::Recognizer;
 
 use crate::PilotError;
 use crate::timing::{Stage, Timing};
@@ -38,65 +38,41 @@ settings! {
 /// The stages from the depth image to map and stairs, with their products.
 pub struct Perception {
     segmenter: Box<dyn Segmenter>,
-    world_model: Box<dyn WorldModel>,
-    recognizer: Recognizer,
+    /// The map.
+    pub world_model: Box<dyn WorldModel>,
+    /// The stairs that are seen or remembered.
+    pub recognizer: Recognizer,
     scan: Scan,
     self_filter: SelfFilter,
-    planes: Planes,
-    insertion: Option<Insertion>,
-    frames_used: u64,
-    last_frame_ns: Option<u64>,
+    /// The planes of the last frame.
+    pub planes: Planes,
+    /// Frames taken into the map so far.
+    pub frames_used: u64,
+    /// When the last frame was taken into the map, nanoseconds since the start.
+    pub last_frame_ns: Option<u64>,
     tuning: PerceptionTuning,
 }
 
-/// The floor in the map as the robot remembers it from where it stands.
-struct Remembered<'a> {
-    view: &'a FloorView,
-    /// The robot's frame in the map: origin, m, and sine and cosine of its heading.
-    origin_m: [f64; 3],
-    heading: (f64, f64),
-    /// Frames that must have seen a cell's floor before its height counts as known.
+/// What the map remembers of the floor around the robot, where it was seen often enough: heights above the robot's ground.
+fn remembered(
+    view: &FloorView,
+    map_from_robot: &Pose<Map, Robot>,
     seen_often: u16,
-}
-
-impl<'a> Remembered<'a> {
-    fn new(view: &'a FloorView, map_from_robot: &Pose<Map, Robot>, seen_often: u16) -> Self {
-        let origin = map_from_robot.origin().inner;
-        Self {
-            view,
-            origin_m: [origin.x, origin.y, origin.z],
-            heading: map_from_robot.yaw_rad().sin_cos(),
-            seen_often,
-        }
-    }
-}
-
-impl KnownFloor for Remembered<'_> {
-    fn height_m(&self, x_m: f64, y_m: f64) -> Option<f64> {
-        let (sin, cos) = self.heading;
-        let [origin_x_m, origin_y_m, origin_z_m] = self.origin_m;
-        let cell = self.view.lattice.cell_at(
-            origin_x_m + cos * x_m - sin * y_m,
-            origin_y_m + sin * x_m + cos * y_m,
+) -> impl Fn(f64, f64) -> Option<f64> {
+    let origin_m = map_from_robot.origin().inner;
+    let (sin, cos) = map_from_robot.yaw_rad().sin_cos();
+    move |x_m, y_m| {
+        let cell = view.lattice.cell_at(
+            origin_m.x + cos * x_m - sin * y_m,
+            origin_m.y + sin * x_m + cos * y_m,
         );
-        match self.view.cell(cell) {
-            Surface::Floor(height_m) if *self.view.sightings.get(cell)? >= self.seen_often => {
-                Some(f64::from(height_m) - origin_z_m)
+        match view.cell(cell) {
+            Surface::Floor(height_m) if *view.sightings.get(cell)? >= seen_often => {
+                Some(f64::from(height_m) - origin_m.z)
             }
             _ => None,
         }
     }
-}
-
-/// Who took a frame.
-#[derive(Clone, Copy)]
-pub(crate) struct TakenBy<'a> {
-    /// The body.
-    pub(crate) body: &'a Body,
-    /// Its state at the exposure.
-    pub(crate) state: &'a BodyState,
-    /// The steps it had taken.
-    pub(crate) steps_taken: u64,
 }
 
 /// Whether what was mapped lies in the wrong place.
@@ -122,7 +98,6 @@ impl Perception {
             planes: Planes::new(scan.disparity_px.len()),
             scan,
             self_filter,
-            insertion: None,
             frames_used: 0,
             last_frame_ns: None,
             tuning: config.tuning,
@@ -134,15 +109,11 @@ impl Perception {
     pub(crate) fn see(
         &mut self,
         frame: &Frame,
-        taken_by: &TakenBy<'_>,
+        (body, body_then): (&Body, &BodyState),
+        steps_taken: u64,
         localizer: &mut dyn Localizer,
         timing: &mut Timing,
     ) -> Result<bool, PilotError> {
-        let TakenBy {
-            body,
-            state: body_then,
-            steps_taken,
-        } = *taken_by;
         let torso_from_camera = body.torso_from_camera(&body_then.links);
         let robot_from_camera: Pose<Robot, Camera> = body_then.robot_from_torso * torso_from_camera;
         self.scan.read(frame, robot_from_camera)?;
@@ -151,11 +122,8 @@ impl Perception {
                 .mask(&mut self.scan, &body_then.links, &torso_from_camera);
         let predicted = timing.measure(Stage::Localize, || localizer.estimate(body_then))?;
         timing.measure(Stage::Segment, || {
-            let remembered = Remembered::new(
-                self.world_model.view(),
-                &predicted.map_from_robot,
-                self.tuning.seen_often,
-            );
+            let (view, seen_often) = (self.world_model.view(), self.tuning.seen_often);
+            let remembered = remembered(view, &predicted.map_from_robot, seen_often);
             self.segmenter
                 .segment_known(&self.scan, &remembered, &mut self.planes)
         })?;
@@ -182,47 +150,6 @@ impl Perception {
             self.frames_used += 1;
             self.last_frame_ns = Some(frame.arrival_ns);
         }
-        self.insertion = Some(insertion);
         Ok(elsewhere)
-    }
-
-    /// The planes of the last frame.
-    pub const fn planes(&self) -> &Planes {
-        &self.planes
-    }
-
-    /// The map's view.
-    pub fn view(&self) -> &mapping::FloorView {
-        self.world_model.view()
-    }
-
-    /// Where what hangs above the view's cells begins, m, where the map keeps it.
-    pub fn ceilings(&self) -> Option<Grid<f32>> {
-        self.world_model.ceilings()
-    }
-
-    /// What was seen to be occupied, where the model keeps the space in three dimensions.
-    pub fn occupied(&self) -> Vec<Voxel> {
-        self.world_model.occupied()
-    }
-
-    /// The stairs that are seen or remembered.
-    pub const fn staircase(&self) -> &Staircase {
-        self.recognizer.staircase()
-    }
-
-    /// What the last frame did to the map.
-    pub const fn insertion(&self) -> Option<&Insertion> {
-        self.insertion.as_ref()
-    }
-
-    /// Frames taken into the map so far.
-    pub const fn frames_used(&self) -> u64 {
-        self.frames_used
-    }
-
-    /// When the last frame was taken into the map, nanoseconds since the start.
-    pub const fn last_frame_ns(&self) -> Option<u64> {
-        self.last_frame_ns
     }
 }

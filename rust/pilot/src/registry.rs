@@ -16,7 +16,7 @@ use stairs::{Feet, Recognizer};
 use volume::octree::Octree;
 use walking::Walker;
 
-use crate::{PilotError, Settings, parts};
+use crate::{BEHAVIOURS, LOCALIZERS, PLANNERS, PilotError, SEGMENTERS, Settings, WORLD_MODELS};
 
 /// The five components. One that is `None` is built by its name in the settings.
 #[derive(Default)]
@@ -49,7 +49,9 @@ impl Making<'_> {
             tables: &self.settings.navigation.tables,
             camera: self.camera,
         };
-        parts::segmenter(&self.settings.navigation.segmenter, &needs)
+        Ok(SEGMENTERS.find(&self.settings.navigation.segmenter)?(
+            &needs,
+        )?)
     }
 
     pub(crate) fn world_model(&self) -> Result<Box<dyn WorldModel>, PilotError> {
@@ -57,7 +59,9 @@ impl Making<'_> {
             tables: &self.settings.navigation.tables,
             known_map: self.known_map,
         };
-        parts::world_model(&self.settings.navigation.world_model, &needs)
+        Ok(WORLD_MODELS.find(&self.settings.navigation.world_model)?(
+            &needs,
+        )?)
     }
 
     pub(crate) fn localizer(&self) -> Result<Box<dyn Localizer>, PilotError> {
@@ -66,7 +70,9 @@ impl Making<'_> {
             start: self.settings.start.map(Pose::from),
             known_map: self.known_map,
         };
-        parts::localizer(&self.settings.navigation.localizer, &needs)
+        Ok(LOCALIZERS.find(&self.settings.navigation.localizer)?(
+            &needs,
+        )?)
     }
 
     pub(crate) fn planner(&self) -> Result<Box<dyn Planner>, PilotError> {
@@ -76,7 +82,7 @@ impl Making<'_> {
             feet: self.feet,
             known_map: self.known_map,
         };
-        parts::planner(&self.settings.navigation.planner, &needs)
+        Ok(PLANNERS.find(&self.settings.navigation.planner)?(&needs)?)
     }
 
     pub(crate) fn behaviour(&self) -> Result<Box<dyn Behaviour>, PilotError> {
@@ -85,7 +91,9 @@ impl Making<'_> {
             body: self.body,
             feet: self.feet,
         };
-        parts::behaviour(&self.settings.navigation.behaviour, &needs)
+        Ok(BEHAVIOURS.find(&self.settings.navigation.behaviour)?(
+            &needs,
+        )?)
     }
 
     pub(crate) fn recognizer(&self) -> Result<Recognizer, PilotError> {

@@ -21,11 +21,9 @@ const STAGES: &[TableDescription] = &[
 /// Every table once, those of the stages first.
 pub fn tables() -> Vec<TableDescription> {
     let mut all = STAGES.to_vec();
-    for component in components() {
-        for table in component.listed().tables {
-            if !all.iter().any(|other| other.key == table.key) {
-                all.push(*table);
-            }
+    for table in components().iter().flat_map(|(_, part)| part.tables) {
+        if !all.iter().any(|other| other.key == table.key) {
+            all.push(*table);
         }
     }
     all

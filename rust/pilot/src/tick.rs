@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use behaviour::{Behaviour, Decision, Gaze, Situation, Stepping};
+use behaviour::{Behaviour, Decision, Situation};
 use geometry::{Map, Odometry, Pose, Robot};
-use localization::{Estimate, Guess, Localizer};
+use localization::{Estimate, Localizer};
 use planning::{Plan, Planner};
 use proprioception::{BodyStateHistory, Proprioception, ProprioceptionConfig};
 use robot::Body;
@@ -15,7 +15,7 @@ use walking::relief::{Mapped, Slopes};
 use walking::{JointTargets, Walker};
 
 use crate::goals::Goals;
-use crate::perception::{Perception, PerceptionConfig, TakenBy};
+use crate::perception::{Perception, PerceptionConfig};
 use crate::registry::{self, Components, Making};
 use crate::timing::{Stage, Timing};
 use crate::{PilotError, Settings};
@@ -27,16 +27,23 @@ pub struct Pilot {
     map_from_odometry_at_start: Pose<Map, Odometry>,
     proprioception: Proprioception,
     history: BodyStateHistory,
-    perception: Perception,
-    localizer: Box<dyn Localizer>,
-    planner: Box<dyn Planner>,
+    /// The stages from the depth image to the map, with their products.
+    pub perception: Perception,
+    /// Where the robot is.
+    pub localizer: Box<dyn Localizer>,
+    /// Which way it goes.
+    pub planner: Box<dyn Planner>,
     behaviour: Box<dyn Behaviour>,
-    walker: Walker,
+    /// What moves the legs.
+    pub walker: Walker,
     goals: Goals,
-    plan: Option<Plan>,
-    replans: u64,
+    /// The way to the current goal, once one was planned.
+    pub plan: Option<Plan>,
+    /// How often a way was planned anew after the first.
+    pub replans: u64,
     time_ns: Option<u64>,
-    timing: Timing,
+    /// How long each stage took at the last tick.
+    pub timing: Timing,
 }
 
 /// The products of a tick.
@@ -128,16 +135,16 @@ impl Pilot {
         let situation = Situation {
             time_ns: observation.time_ns,
             estimate: &estimate,
-            view: self.perception.view(),
-            stairs: self.perception.staircase(),
+            view: self.perception.world_model.view(),
+            stairs: &self.perception.recognizer.staircase,
             plan: self.plan.as_ref(),
             goal: self.goals.current(),
             last_goal: self.goals.is_last(),
             standing: self.walker.standing(),
             stepping: self.walker.stepping(),
             gaze: self.walker.gaze(),
-            frames_used: self.perception.frames_used(),
-            last_frame_ns: self.perception.last_frame_ns(),
+            frames_used: self.perception.frames_used,
+            last_frame_ns: self.perception.last_frame_ns,
         };
         let decision = self
             .timing
@@ -147,7 +154,10 @@ impl Pilot {
             self.plan = None;
         }
         let targets = self.timing.measure(Stage::Walk, || {
-            let (view, tuning) = (self.perception.view(), self.walker.relief_tuning());
+            let (view, tuning) = (
+                self.perception.world_model.view(),
+                self.walker.relief_tuning(),
+            );
             let slopes = Mapped::around(view, &estimate.map_from_robot, tuning);
             let slopes = slopes.as_ref().map(|slopes| slopes as &dyn Slopes);
             self.walker
@@ -172,19 +182,15 @@ impl Pilot {
             return Ok(());
         };
         let (localizer, timing) = (self.localizer.as_mut(), &mut self.timing);
-        let taken_by = TakenBy {
-            body: &self.body,
-            state: body_then,
-            steps_taken: self.walker.steps_taken(),
-        };
-        if self.perception.see(frame, &taken_by, localizer, timing)? {
+        let (body, steps) = ((&self.body, body_then), self.walker.steps_taken());
+        if (self.perception).see(frame, body, steps, localizer, timing)? {
             self.planner.forget();
         }
         let estimate = self.localizer.estimate(self.proprioception.state())?;
         let plan = self.timing.measure(Stage::Plan, || {
             self.planner.plan(
-                self.perception.view(),
-                self.perception.staircase(),
+                self.perception.world_model.view(),
+                &self.perception.recognizer.staircase,
                 &estimate.map_from_robot,
                 self.goals.current(),
             )
@@ -194,53 +200,8 @@ impl Pilot {
         Ok(())
     }
 
-    /// The stages from the depth image to the map, with their products.
-    pub const fn perception(&self) -> &Perception {
-        &self.perception
-    }
-
-    /// The way to the current goal, once one was planned.
-    pub const fn plan(&self) -> Option<&Plan> {
-        self.plan.as_ref()
-    }
-
-    /// Distance of each cell of the view to the nearest obstacle, m, row by row, by the planner's last look.
-    pub fn distance_field_m(&self) -> Option<Vec<f32>> {
-        self.planner.distance_field_m()
-    }
-
-    /// Where the robot may be, by a localizer that keeps several places in mind.
-    pub fn guesses(&self) -> Vec<Guess> {
-        self.localizer.guesses()
-    }
-
     /// Via points passed so far.
     pub const fn goals_passed(&self) -> usize {
-        self.goals.passed()
-    }
-
-    /// How often a way was planned anew after the first.
-    pub const fn replans(&self) -> u64 {
-        self.replans
-    }
-
-    /// Steps taken so far.
-    pub fn steps_taken(&self) -> u64 {
-        self.walker.steps_taken()
-    }
-
-    /// How the listed footsteps go.
-    pub fn stepping(&self) -> Stepping {
-        self.walker.stepping()
-    }
-
-    /// Where the head is told to look.
-    pub fn gaze(&self) -> Gaze {
-        self.walker.gaze()
-    }
-
-    /// How long each stage took at the last tick.
-    pub const fn timing(&self) -> &Timing {
-        &self.timing
+        self.goals.passed
     }
 }

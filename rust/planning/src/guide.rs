@@ -9,9 +9,7 @@ use mapping::FloorView;
 use settings::{ConfigError, Table};
 use stairs::Staircase;
 
-use crate::path::shortcut::lay;
-use crate::plan::place_of;
-use crate::{AStar, Goal, Path, Plan, PlanError, Planner};
+use crate::{AStar, Goal, Path, Plan, PlanError, Planner, path::shortcut::lay, plan::place_of};
 pub use config::{GuideConfig, GuideTuning};
 use laid::laid_under;
 
@@ -79,7 +77,7 @@ impl Guided {
             if landed || (walked_m > self.tuning.ahead && !climbs) {
                 let height_m = match goal.height_m {
                     // What the goal says of its level is finer than voxels.
-                    Some(height_m) if (height_m - to[2]).abs() < self.floors.side_m() => height_m,
+                    Some(height_m) if (height_m - to[2]).abs() < self.floors.side_m => height_m,
                     _ => to[2],
                 };
                 let place = Goal {

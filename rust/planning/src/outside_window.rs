@@ -9,8 +9,7 @@ use geometry::Dijkstra;
 use geometry::distance::CellDistances;
 use terrain::Terrain;
 
-use crate::Goal;
-use crate::tuning::OutsideWindowTuning;
+use crate::{Goal, tuning::OutsideWindowTuning};
 use ground::{GroundOutside, SIDE, cell_at};
 
 /// The way is looked for over nodes of so many of them each way. Of four all lie beside each other, so that a node says exactly which
@@ -149,7 +148,7 @@ impl OutsideWindow {
         self.weights.resize(NODES * NODES, f32::INFINITY);
         let room = terrain.needs.body_m / terrain.lattice.cell_m;
         let [x, y] = lattice.origin_m;
-        for (cell, &squared) in self.distance.all_squared().iter().enumerate() {
+        for (cell, &squared) in self.distance.squared.iter().enumerate() {
             let [col, row] = [cell % SIDE, cell / SIDE];
             let at_m = |at: usize| (at as f64 + 0.5) * lattice.cell_m;
             let weight = known([x + at_m(col), y + at_m(row)]).unwrap_or_else(|| {

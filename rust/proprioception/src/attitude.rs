@@ -24,10 +24,12 @@ pub(crate) struct ImuSample {
 }
 
 /// Orientation and bias of the gyroscope.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct AttitudeFilter {
-    odometry_from_imu: UnitQuaternion<f64>,
-    bias_radps: Vector3<f64>,
+    /// Orientation of the unit against the odometry frame.
+    pub(crate) odometry_from_imu: UnitQuaternion<f64>,
+    /// What the gyroscope reads at rest, rad/s.
+    pub(crate) bias_radps: Vector3<f64>,
     bias_variance: f64,
     stride_bias_radps: Vector3<f64>,
     slow_rate_radps: Vector3<f64>,
@@ -47,31 +49,15 @@ struct RestMean {
 impl AttitudeFilter {
     pub(crate) fn new(config: &ProprioceptionConfig) -> Self {
         Self {
-            odometry_from_imu: UnitQuaternion::identity(),
-            bias_radps: Vector3::zeros(),
             bias_variance: config.gyro_bias * config.gyro_bias,
-            stride_bias_radps: Vector3::zeros(),
-            slow_rate_radps: Vector3::zeros(),
-            quiet_s: 0.0,
-            pending: RestMean::default(),
-            samples: 0,
+            ..Self::default()
         }
-    }
-
-    /// Orientation of the unit against the odometry frame.
-    pub(crate) const fn odometry_from_imu(&self) -> UnitQuaternion<f64> {
-        self.odometry_from_imu
     }
 
     /// Turns the odometry frame itself about the vertical, rad.
     pub(crate) fn turn_odometry(&mut self, yaw_rad: f64) {
         self.odometry_from_imu =
             UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw_rad) * self.odometry_from_imu;
-    }
-
-    /// What the gyroscope reads at rest, rad/s.
-    pub(crate) const fn bias_radps(&self) -> Vector3<f64> {
-        self.bias_radps
     }
 
     /// Whether the robot has stood still for a while.
@@ -197,7 +183,7 @@ mod tests {
     }
 
     fn tilt_between(filter: &AttitudeFilter, truth: UnitQuaternion<f64>) -> f64 {
-        let estimated = filter.odometry_from_imu().inverse() * Vector3::z();
+        let estimated = filter.odometry_from_imu.inverse() * Vector3::z();
         estimated.angle(&(truth.inverse() * Vector3::z()))
     }
 
@@ -227,7 +213,7 @@ mod tests {
                 truth *= UnitQuaternion::from_scaled_axis(rate * TICK_S);
                 filter.update(&sample(rate, truth), TICK_S, false, &config);
             }
-            prop_assert!(filter.odometry_from_imu().angle_to(&truth) < 1e-3);
+            prop_assert!(filter.odometry_from_imu.angle_to(&truth) < 1e-3);
         }
 
         #[test]
@@ -238,7 +224,7 @@ mod tests {
             for _ in 0..300 {
                 filter.update(&sample(bias, UnitQuaternion::identity()), TICK_S, true, &config);
             }
-            prop_assert!((filter.bias_radps() - bias).norm() < 0.15 * bias.norm() + 1e-6);
+            prop_assert!((filter.bias_radps - bias).norm() < 0.15 * bias.norm() + 1e-6);
         }
     }
 
@@ -250,7 +236,7 @@ mod tests {
         for _ in 0..500 {
             filter.update(&reading, TICK_S, false, &config);
         }
-        assert_eq!(filter.bias_radps().z, 0.0);
+        assert_eq!(filter.bias_radps.z, 0.0);
     }
 
     #[test]

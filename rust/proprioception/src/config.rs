@@ -1,6 +1,6 @@
 //! Settings of proprioception.
 
-use settings::{ConfigError, NOT_NEGATIVE, POSITIVE, above_to, between, require, settings};
+use settings::{NOT_NEGATIVE, POSITIVE, above_to, between, settings};
 
 use crate::tuning::ProprioceptionTuning;
 
@@ -47,19 +47,10 @@ settings! {
         /// Numbers that few will want to turn.
         tuning: ProprioceptionTuning;
     }
-    check ProprioceptionConfig::fit_together;
+    require (release_share) < (hold_share);
 }
 
 impl ProprioceptionConfig {
-    fn fit_together(&self, key: &str) -> Result<(), ConfigError> {
-        require(
-            self.release_share < self.hold_share,
-            &format!("{key}.release_share"),
-            "below hold_share",
-            self.release_share,
-        )
-    }
-
     /// Share of an angular velocity in the smoothed one, `passed_s` after the one before. At the first tick no time has passed.
     pub(crate) fn still_share(&self, passed_s: f64) -> f64 {
         if self.still_filter_time > 0.0 {

@@ -10,7 +10,8 @@ pub(crate) struct FootContacts {
     loads_n: [f64; 2],
     slow_loads_n: [f64; 2],
     holds: [bool; 2],
-    support: Side,
+    /// The foot that carries more, with hysteresis.
+    pub(crate) support: Side,
     least_load_n: f64,
     started: bool,
 }
@@ -31,11 +32,6 @@ impl FootContacts {
     /// Load on each sole now, N.
     pub(crate) const fn loads_n(&self) -> [f64; 2] {
         self.loads_n
-    }
-
-    /// The foot that carries more, with hysteresis.
-    pub(crate) const fn support(&self) -> Side {
-        self.support
     }
 
     /// Whether this foot stands firmly enough to measure by.
@@ -151,16 +147,16 @@ mod tests {
 
     #[test]
     fn the_support_foot_changes_with_the_load_but_not_at_an_even_one() {
-        assert_eq!(after(&[(60.0, 5.0)]).0.support(), Side::Left);
-        assert_eq!(after(&[(60.0, 5.0), (31.0, 34.0)]).0.support(), Side::Left);
-        assert_eq!(after(&[(60.0, 5.0), (5.0, 60.0)]).0.support(), Side::Right);
-        assert_eq!(after(&[(5.0, 60.0), (34.0, 31.0)]).0.support(), Side::Right);
+        assert_eq!(after(&[(60.0, 5.0)]).0.support, Side::Left);
+        assert_eq!(after(&[(60.0, 5.0), (31.0, 34.0)]).0.support, Side::Left);
+        assert_eq!(after(&[(60.0, 5.0), (5.0, 60.0)]).0.support, Side::Right);
+        assert_eq!(after(&[(5.0, 60.0), (34.0, 31.0)]).0.support, Side::Right);
     }
 
     #[test]
     fn a_robot_in_the_air_keeps_its_support() {
         let (contacts, _) = after(&[(5.0, 60.0), (0.0, 0.0)]);
-        assert_eq!(contacts.support(), Side::Right);
+        assert_eq!(contacts.support, Side::Right);
         assert!(contacts.holds(Side::Right));
     }
 }

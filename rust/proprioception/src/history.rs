@@ -2,8 +2,7 @@
 
 use sensing::TICK_NS;
 
-use crate::body_state::BodyState;
-use crate::tuning::HistoryTuning;
+use crate::{body_state::BodyState, tuning::HistoryTuning};
 
 /// The last body states, in a ring. Allocates until it is full, then never.
 #[derive(Debug, Clone)]
@@ -66,11 +65,6 @@ impl BodyStateHistory {
             .min_by_key(|state| state.time_ns.abs_diff(exposure_ns))
             .filter(|state| state.time_ns.abs_diff(exposure_ns) <= self.tolerance_ns)
     }
-
-    /// The state recorded last.
-    pub fn newest(&self) -> Option<&BodyState> {
-        self.states.get(self.newest)
-    }
 }
 
 #[cfg(test)]
@@ -95,7 +89,7 @@ mod tests {
                 history.push(&state_at(tick * TICK_NS));
             }
             let newest_ns = (ticks - 1) * TICK_NS;
-            prop_assert_eq!(history.newest().map(|state| state.time_ns), Some(newest_ns));
+            prop_assert_eq!(history.states[history.newest].time_ns, newest_ns);
             let asked_ns = newest_ns.saturating_sub(back_ns);
             let oldest_ns = newest_ns.saturating_sub(19 * TICK_NS);
             match history.at(asked_ns) {

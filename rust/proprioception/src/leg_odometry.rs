@@ -7,8 +7,7 @@ use geometry::{Odometry, Pose, Robot, angle_between};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use robot::Side;
 
-use crate::config::ProprioceptionConfig;
-use crate::contact::FootContacts;
+use crate::{config::ProprioceptionConfig, contact::FootContacts};
 
 /// The legs as they are now.
 #[derive(Debug, Clone, Copy)]
@@ -48,7 +47,8 @@ impl LegPosture {
 #[derive(Debug, Clone)]
 pub(crate) struct LegOdometry {
     anchors_m: [Option<Vector3<f64>>; 2],
-    torso_m: Vector3<f64>,
+    /// The torso's origin in the odometry frame, m.
+    pub(crate) torso_m: Vector3<f64>,
     /// Feet that stand, or are to land, on a slope.
     pub(crate) on_slope: [bool; 2],
 }
@@ -60,11 +60,6 @@ impl LegOdometry {
             torso_m: Vector3::new(0.0, 0.0, 0.0),
             on_slope: [false; 2],
         }
-    }
-
-    /// The torso's origin in the odometry frame, m.
-    pub(crate) const fn torso_m(&self) -> Vector3<f64> {
-        self.torso_m
     }
 
     /// Whether both feet hold, on one level.

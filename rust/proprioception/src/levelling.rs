@@ -8,7 +8,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 /// A small rotation without yaw, learned as a running mean.
 #[derive(Debug, Clone)]
 pub(crate) struct Levelling {
-    correction: UnitQuaternion<f64>,
+    /// To be applied from the left to the measured `torso_from_imu`.
+    pub(crate) correction: UnitQuaternion<f64>,
     learned_s: f64,
 }
 
@@ -18,11 +19,6 @@ impl Levelling {
             correction: UnitQuaternion::identity(),
             learned_s: 0.0,
         }
-    }
-
-    /// To be applied from the left to the measured `torso_from_imu`.
-    pub(crate) const fn correction(&self) -> UnitQuaternion<f64> {
-        self.correction
     }
 
     /// Whether standing still teaches it something yet.
@@ -62,7 +58,7 @@ mod tests {
             for _ in 0..50 {
                 levelling.learn(&(error.inverse() * Vector3::z()), &Vector3::z(), 0.01, 0.06);
             }
-            let up = levelling.correction() * (error.inverse() * Vector3::z());
+            let up = levelling.correction * (error.inverse() * Vector3::z());
             prop_assert!(up.angle(&Vector3::z()) < 1e-7);
         }
     }
@@ -72,7 +68,7 @@ mod tests {
         let mut levelling = Levelling::new();
         let slope = UnitQuaternion::from_euler_angles(0.0, 0.1, 0.0) * Vector3::z();
         levelling.learn(&Vector3::z(), &slope, 0.01, 0.06);
-        assert_eq!(levelling.correction(), UnitQuaternion::identity());
+        assert_eq!(levelling.correction, UnitQuaternion::identity());
         assert!(levelling.is_learning(0.01));
     }
 }

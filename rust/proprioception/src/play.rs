@@ -40,7 +40,7 @@ impl Play {
         let gears = Side::BOTH
             .iter()
             .flat_map(|&side| body.leg_joints(side))
-            .filter(|&&joint| body.followers().iter().all(|pair| pair.0 != joint))
+            .filter(|&&joint| body.followers.iter().all(|pair| pair.0 != joint))
             .filter_map(|&joint| {
                 let name = &description.joints[joint];
                 let mut hinges = description
@@ -116,7 +116,7 @@ impl Play {
                 &mut self.torques_nm,
             );
         }
-        for &(follower, leader) in body.followers() {
+        for &(follower, leader) in &body.followers {
             self.torques_nm[leader] += self.torques_nm[follower];
         }
         let follow = self.follow;
@@ -132,7 +132,7 @@ impl Play {
             gear.lead_rad += (lead_rad - gear.lead_rad) * follow;
             self.joint_positions_rad[gear.joint] -= gear.lead_rad;
         }
-        for &(follower, leader) in body.followers() {
+        for &(follower, leader) in &body.followers {
             self.joint_positions_rad[follower] = self.joint_positions_rad[leader];
         }
         &self.joint_positions_rad

@@ -93,7 +93,7 @@ impl Proprioception {
         let torso_from_imu_measured = self.body.torso_from_imu(&self.state.links).rotation;
         let learning = self.levelling.is_learning(self.config.level_time);
         if learning && self.attitude.is_still(&self.config) {
-            let up_in_imu = self.attitude.odometry_from_imu().inverse() * Vector3::z();
+            let up_in_imu = self.attitude.odometry_from_imu.inverse() * Vector3::z();
             let up_by_imu = torso_from_imu_measured * up_in_imu;
             let up_by_soles =
                 torso_from_sole.map(|torso_from_sole| torso_from_sole.rotation * Vector3::z());
@@ -102,9 +102,9 @@ impl Proprioception {
             self.levelling
                 .learn(&up_by_imu, &up_by_soles, passed_s, limit_rad);
         }
-        let torso_from_imu = self.levelling.correction() * torso_from_imu_measured;
+        let torso_from_imu = self.levelling.correction * torso_from_imu_measured;
         let mut legs = LegPosture {
-            odometry_from_torso_rotation: self.attitude.odometry_from_imu()
+            odometry_from_torso_rotation: self.attitude.odometry_from_imu
                 * torso_from_imu.inverse(),
             torso_from_sole,
         };
@@ -113,10 +113,10 @@ impl Proprioception {
             let heading_rad = legs.heading_rad();
             self.attitude.turn_odometry(-heading_rad);
             legs.odometry_from_torso_rotation =
-                self.attitude.odometry_from_imu() * torso_from_imu.inverse();
+                self.attitude.odometry_from_imu * torso_from_imu.inverse();
             self.odometry.start(&legs);
         }
-        let rate_in_imu = sample.angular_velocity_radps - self.attitude.bias_radps();
+        let rate_in_imu = sample.angular_velocity_radps - self.attitude.bias_radps;
         let speeds_radps = &observation.joint_velocities_radps;
         let trunk_rate = self.trunk.rate_radps(&self.state.links, speeds_radps);
         self.state.angular_velocity_radps = torso_from_imu * rate_in_imu - trunk_rate;
@@ -124,7 +124,7 @@ impl Proprioception {
         let starting = self.starting_since_ns.is_some();
         let filter_s = self.config.tuning.motion.speed_filter_time;
         self.motion
-            .follow(&self.odometry.torso_m(), passed_s, filter_s, starting);
+            .follow(&self.odometry.torso_m, passed_s, filter_s, starting);
         Ok(&self.state)
     }
 
@@ -168,11 +168,6 @@ impl Proprioception {
         &self.state
     }
 
-    /// What the gyroscope is believed to read at rest, rad/s, in the frame of the inertial measurement unit.
-    pub const fn gyro_bias_radps(&self) -> Vector3<f64> {
-        self.attitude.bias_radps()
-    }
-
     /// Whether the robot has stood still on both feet for a while.
     pub fn is_still(&self) -> bool {
         self.attitude.is_still(&self.config)
@@ -199,11 +194,11 @@ impl Proprioception {
     fn fill(&mut self, time_ns: u64, legs: &LegPosture) {
         let odometry_from_robot = self.odometry.update(legs, &self.contacts, &self.config);
         let rotation = legs.odometry_from_torso_rotation;
-        let odometry_from_torso = odometry_from_torso(rotation, self.odometry.torso_m());
+        let odometry_from_torso = odometry_from_torso(rotation, self.odometry.torso_m);
         self.state.time_ns = time_ns;
         self.state.odometry_from_torso_rotation = rotation;
         self.state.foot_loads_n = self.contacts.loads_n();
-        self.state.support = self.contacts.support();
+        self.state.support = self.contacts.support;
         self.state.stands_level = self.odometry.stands_level(&self.config);
         self.state.odometry_from_robot = odometry_from_robot;
         self.state.robot_from_torso =

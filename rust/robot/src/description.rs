@@ -20,10 +20,7 @@ impl Side {
 
     /// 0 for left, 1 for right: the index into arrays over the feet.
     pub const fn index(self) -> usize {
-        match self {
-            Self::Left => 0,
-            Self::Right => 1,
-        }
+        self as usize
     }
 
     /// The other one.

@@ -16,7 +16,8 @@ pub struct Body {
     link_index: BTreeMap<String, usize>,
     joint_index: BTreeMap<String, usize>,
     leg_joints: [[usize; 6]; 2],
-    followers: Vec<(usize, usize)>,
+    /// Joints without a motor of their own, each with the one whose motor turns it too, by the same angle.
+    pub followers: Vec<(usize, usize)>,
     sole_links: [usize; 2],
     link_from_sole: [Isometry3<f64>; 2],
     camera_link: usize,
@@ -107,11 +108,6 @@ impl Body {
     /// Joint indices of a leg from the hip down: yaw, roll, pitch, knee, ankle pitch, ankle roll.
     pub const fn leg_joints(&self, side: Side) -> &[usize; 6] {
         &self.leg_joints[side.index()]
-    }
-
-    /// Joints without a motor of their own, each with the one whose motor turns it too, by the same angle.
-    pub fn followers(&self) -> &[(usize, usize)] {
-        &self.followers
     }
 
     /// The link that a joint turns, by the joint's index, with what is known of the joint.

@@ -326,7 +326,7 @@ proptest! {
             for (region, support) in planes.regions.iter().zip(supports) {
                 prop_assert_eq!(region.support, support, "{}", name);
                 prop_assert!((region.plane.normal.norm() - 1.0).abs() < 1e-9);
-                prop_assert!(region.plane.signed_distance_m(&region.mean.inner).abs() < 1e-3);
+                prop_assert!((region.plane.normal.dot(&region.mean.inner.coords) - region.plane.distance_m).abs() < 1e-3);
             }
             if let Some(ground) = planes.ground {
                 prop_assert_eq!(planes.regions[ground].floor_height_m, Some(0.0));

@@ -17,4 +17,4 @@ mod tiny_pictures;
 pub use finders::PARTS;
 pub use ground_plane::config::GroundConfig;
 pub use part::{SegmenterNeeds, SegmenterPart};
-pub use planes::{KnownFloor, NothingKnown, PlaneRegion, Planes, SegmentError, Segmenter};
+pub use planes::{KnownFloor, PlaneRegion, Planes, SegmentError, Segmenter};

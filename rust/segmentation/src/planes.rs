@@ -80,22 +80,8 @@ impl Planes {
     }
 }
 
-/// Floor whose height is known from before. A robot on stairs does not see the ground that it stands on, but other treads
-/// that it knows: they tell the camera's height as well as the ground would.
-pub trait KnownFloor {
-    /// Height of the floor at a place of the robot's frame, above the robot's ground, m; none where it is not known.
-    fn height_m(&self, x_m: f64, y_m: f64) -> Option<f64>;
-}
-
-/// Nothing is known of the floor.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct NothingKnown;
-
-impl KnownFloor for NothingKnown {
-    fn height_m(&self, _x_m: f64, _y_m: f64) -> Option<f64> {
-        None
-    }
-}
+/// Height of the floor at a place `(x_m, y_m)` of the robot's frame, above the robot's ground, m; none where it is not known.
+pub type KnownFloor<'a> = dyn Fn(f64, f64) -> Option<f64> + 'a;
 
 /// Finds planes in a scan.
 pub trait Segmenter: Send + Sync {
@@ -106,7 +92,7 @@ pub trait Segmenter: Send + Sync {
     fn segment_known(
         &mut self,
         scan: &Scan,
-        _known: &dyn KnownFloor,
+        _known: &KnownFloor<'_>,
         planes: &mut Planes,
     ) -> Result<(), SegmentError> {
         self.segment(scan, planes)

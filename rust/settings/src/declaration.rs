@@ -5,10 +5,11 @@
 /// The doc comment is the meaning that users read. The unit is SI (`"m"`, `"rad"`, `"s"`), `"1"` for a number without one, `"-"` for
 /// what is no number. Bounds are constants and functions of this crate ([`crate::POSITIVE`], [`crate::within`]). The source is paper
 /// and equation and may be left out. A line `name: type;` holds a table within the table; `name: type = value, "-", ANY;` holds one
-/// whose defaults are those of the value. What more than one setting must fulfil together is checked by the function behind `check`.
+/// whose defaults are those of the value. A line `require (name) < (other);` behind the struct holds two settings against each other,
+/// also parts of one or of a table within (`require (gaze.steep) >= (range[0]);`); what takes more to tell is checked by the function behind `check`.
 ///
 /// ```
-/// use settings::{ConfigError, POSITIVE, Table, require, settings, within};
+/// use settings::{POSITIVE, Table, settings, within};
 ///
 /// settings! {
 ///     /// How the robot walks.
@@ -20,20 +21,16 @@
 ///         /// A turn on the spot ends below this bearing.
 ///         turn_until: f64 = 0.2, "rad", within(0.0, 3.2);
 ///     }
-///     check Walking::is_ordered;
-/// }
-///
-/// impl Walking {
-///     fn is_ordered(&self, key: &str) -> Result<(), ConfigError> {
-///         let holds = self.turn_until < self.turn_above;
-///         require(holds, &format!("{key}.turn_until"), "below turn_above", self.turn_until)
-///     }
+///     require (turn_until) < (turn_above);
 /// }
 ///
 /// assert_eq!(Walking::default().check(), Ok(()));
 /// let slow = Walking { forward_speed: 0.0, ..Walking::default() };
 /// let said = slow.check().unwrap_err().to_string();
 /// assert_eq!(said, "navigation.walking.forward_speed must be > 0, got 0");
+/// let never = Walking { turn_until: 0.7, ..Walking::default() };
+/// let said = never.check().unwrap_err().to_string();
+/// assert_eq!(said, "navigation.walking.turn_until must be < turn_above (0.5), got 0.7");
 /// ```
 #[macro_export]
 macro_rules! settings {
@@ -46,6 +43,7 @@ macro_rules! settings {
                     $(= $default:expr, $unit:literal, $bounds:expr $(, $source:literal)?)?;
             )*
         }
+        $(require ($($one:tt)+) $than:tt ($($other:tt)+);)*
         $(check $relations:path;)?
     ) => {
         $(#[doc = $about])*
@@ -74,6 +72,14 @@ macro_rules! settings {
                         &self.$field,
                         &$crate::key_of(key, stringify!($field)),
                         &$crate::bounds_of!($($bounds)?),
+                    )?;
+                )*
+                $(
+                    $crate::require_fit(
+                        self.$($one)+ $than self.$($other)+,
+                        key,
+                        [stringify!($($one)+), stringify!($than), stringify!($($other)+)],
+                        [&self.$($one)+, &self.$($other)+],
                     )?;
                 )*
                 $($relations(self, key)?;)?
@@ -192,6 +198,7 @@ mod tests {
             /// both axes.
             offsets: [f32; 2] = [0.0, 0.1], "m", SHARE;
         }
+        require (offsets[0]) <= (offsets[1]);
     }
 
     settings! {
@@ -210,6 +217,7 @@ mod tests {
             /// Numbers that few turn, of another kind of cell.
             other: Inner = Inner::of_another_kind(), "-", ANY;
         }
+        require (tuning.nu) > (other.nu);
         check Grid::fits;
     }
 
@@ -269,6 +277,18 @@ mod tests {
             refused(&grid),
             "navigation.grid.cells must be less than 100 m, got 100"
         );
+    }
+
+    #[test]
+    fn a_setting_that_does_not_fit_another_is_refused_with_the_other() {
+        let mut grid = Grid::default();
+        grid.tuning.offsets = [0.3, 0.2];
+        let said = "navigation.grid.tuning.offsets.0 must be <= offsets.1 (0.2), got 0.3";
+        assert_eq!(refused(&grid), said);
+        let mut grid = Grid::default();
+        grid.tuning.nu = 0.05;
+        let said = "navigation.grid.tuning.nu must be > other.nu (0.7), got 0.05";
+        assert_eq!(refused(&grid), said);
     }
 
     #[test]

@@ -41,24 +41,32 @@ pub fn require(
     }
 }
 
-/// `Ok` where `value` can be a length, a time, a weight: finite and above 0.
-pub fn require_positive(key: &str, value: f64) -> Result<(), ConfigError> {
-    let usable = value.is_finite() && value > 0.0;
-    require(usable, key, "finite and > 0", value)
+/// Refuses a setting that does not fit another one of its table: how both are written in the declaration, and their values.
+#[doc(hidden)]
+pub fn require_fit(
+    holds: bool,
+    table: &str,
+    [one, than, other]: [&str; 3],
+    [found, limit]: [&dyn std::fmt::Display; 2],
+) -> Result<(), ConfigError> {
+    let named = |path: &str| path.replace('[', ".").replace([']', ' '], "");
+    let allowed = format!("{than} {} ({limit})", named(other));
+    require(holds, &format!("{table}.{}", named(one)), &allowed, found)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::POSITIVE;
 
     #[test]
     fn what_is_not_positive_or_no_number_is_refused() {
         for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let error = require_positive("a.key", value).unwrap_err();
-            let said = format!("a.key must be finite and > 0, got {value}");
+            let error = POSITIVE.check("a.key", value).unwrap_err();
+            let said = format!("a.key must be > 0, got {value}");
             assert_eq!(error.to_string(), said);
         }
-        assert_eq!(require_positive("a.key", 1e-9), Ok(()));
+        assert_eq!(POSITIVE.check("a.key", 1e-9), Ok(()));
     }
 
     #[test]

@@ -15,7 +15,9 @@ pub use bounds::{
     ANY, Bounds, End, NOT_NEGATIVE, POSITIVE, SHARE, above, above_to, at_least, between,
     from_below, within,
 };
-pub use error::{ConfigError, MakeError, require, require_positive};
+#[doc(hidden)]
+pub use error::require_fit;
+pub use error::{ConfigError, MakeError, require};
 pub use part::Part;
 #[doc(hidden)]
 pub use setting::words_of;

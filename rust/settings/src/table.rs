@@ -53,7 +53,7 @@ impl TableDescription {
         Self {
             key,
             about: T::ABOUT,
-            list: defaults_of::<T>,
+            list: |key| T::default().parameters_as(key),
         }
     }
 
@@ -80,10 +80,6 @@ impl TableDescription {
         }
         schema
     }
-}
-
-fn defaults_of<T: Table>(key: &str) -> Vec<Parameter> {
-    T::default().parameters_as(key)
 }
 
 fn object(about: &str) -> Value {

@@ -9,7 +9,8 @@ pub struct EdgeLine {
     /// Square to the edge, in walking direction.
     ahead: [f64; 2],
     half_m: f64,
-    heading_rad: f64,
+    /// Heading square to the edge, from front to back, rad.
+    pub heading_rad: f64,
 }
 
 impl EdgeLine {
@@ -22,6 +23,12 @@ impl EdgeLine {
             half_m: 0.5 * length_m,
             heading_rad,
         }
+    }
+
+    /// Half the edge's length, m.
+    #[inline]
+    pub const fn half_m(&self) -> f64 {
+        self.half_m
     }
 
     /// How far a place lies beyond the line, m; negative in front of it.
@@ -44,16 +51,6 @@ impl EdgeLine {
             self.middle_m[0] - offset_m * self.ahead[1] + beyond_m * self.ahead[0],
             self.middle_m[1] + offset_m * self.ahead[0] + beyond_m * self.ahead[1],
         ]
-    }
-
-    /// Half the edge's length, m.
-    pub const fn half_m(&self) -> f64 {
-        self.half_m
-    }
-
-    /// Heading square to the edge, from front to back, rad.
-    pub const fn heading_rad(&self) -> f64 {
-        self.heading_rad
     }
 
     /// Difference of heading to another, rad.

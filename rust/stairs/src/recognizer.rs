@@ -38,7 +38,8 @@ pub struct Recognizer {
     memory: TreadMemory,
     fits: Fits,
     steps_taken: u64,
-    staircase: Staircase,
+    /// The stairs as of the last frame.
+    pub staircase: Staircase,
 }
 
 impl Recognizer {
@@ -116,11 +117,6 @@ impl Recognizer {
     /// Takes in where the map has slopes: what lies on them is no stair.
     pub fn leave_slopes(&mut self, floor: &FloorView) {
         self.memory.leave_slopes(floor, &self.config.tuning);
-    }
-
-    /// The stairs as of the last frame.
-    pub const fn staircase(&self) -> &Staircase {
-        &self.staircase
     }
 }
 

@@ -3,9 +3,7 @@
 use geometry::{Map, Point, Pose, Robot};
 use nalgebra::{Point2, Vector2};
 
-use crate::PlacesTuning;
-use crate::edge_line::EdgeLine;
-use crate::lines::line::StraightLine;
+use crate::{PlacesTuning, edge_line::EdgeLine, lines::line::StraightLine};
 
 /// A straight edge of a level surface. Its ends are left and right for one who goes over it from front to back.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,6 +81,12 @@ impl<F> Edge<F> {
         Point::wrap(nalgebra::center(&self.left.inner, &self.right.inner))
     }
 
+    /// Its middle in the plane, m.
+    #[inline]
+    pub fn middle_m(&self) -> [f64; 2] {
+        self.middle().inner.xy().into()
+    }
+
     /// Its length in the plane, m.
     pub fn length_m(&self) -> f64 {
         (self.left.inner - self.right.inner).xy().norm()
@@ -97,8 +101,7 @@ impl<F> Edge<F> {
     /// Its line seen from above, for one who goes over it.
     #[inline]
     pub fn as_line(&self) -> EdgeLine {
-        let middle = self.middle().inner;
-        EdgeLine::new([middle.x, middle.y], self.heading_rad(), self.length_m())
+        EdgeLine::new(self.middle_m(), self.heading_rad(), self.length_m())
     }
 
     /// How far a place lies beyond the edge, m; negative in front of it.

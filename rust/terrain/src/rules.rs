@@ -30,111 +30,111 @@ use voronoi::VoronoiConfig;
 
 /// All rules, in order.
 pub const RULES: [Rule; 19] = [
+    // Decides which cells belong to recognised stairs or lie beside them, and how high those are.
     Rule {
         name: "stair_cells",
-        decides: "which cells belong to recognised stairs or lie beside them, and how high those are",
         apply: |rules, terrain, sight| {
             stair_cells::apply(terrain, sight, &rules.config.stair_cells);
         },
     },
+    // Decides what stands there: what is seen, but a riser beside a stair; and what is unknown.
     Rule {
         name: "obstacles",
-        decides: "what stands there: what is seen, but a riser beside a stair; and what is unknown",
         apply: |rules, terrain, sight| obstacles::apply(terrain, sight, &rules.config.obstacles),
     },
+    // Decides that what looks like a higher level from afar is unknown until it was near.
     Rule {
         name: "far_levels",
-        decides: "that what looks like a higher level from afar is unknown until it was near",
         apply: |rules, terrain, sight| {
             (rules.far_levels).apply(terrain, sight, &rules.config.far_levels);
         },
     },
+    // Decides that obstacles of a cell or two are unknown.
     Rule {
         name: "lone_cells",
-        decides: "that obstacles of a cell or two are unknown",
         apply: |rules, terrain, _| rules.lone_cells.apply(terrain),
     },
+    // Decides that floor has a height where it was seen often enough and is not in doubt.
     Rule {
         name: "heights",
-        decides: "that floor has a height where it was seen often enough and is not in doubt",
         apply: |_, terrain, sight| heights::apply(terrain, sight),
     },
+    // Decides that stairs overwrite heights, but well inside the robot's own level.
     Rule {
         name: "laid_stairs",
-        decides: "that stairs overwrite heights, but well inside the robot's own level",
         apply: |rules, terrain, sight| {
             (rules.laid_stairs).apply(terrain, sight, &rules.config.laid_stairs);
         },
     },
+    // Decides which cells are tilted, and which may be level strips of a slope.
     Rule {
         name: "slopes",
-        decides: "which cells are tilted, and which may be level strips of a slope",
         apply: |rules, terrain, sight| slopes::apply(terrain, sight, &rules.config.slopes),
     },
+    // Decides that a single unseen cell has the height of the ground on both sides of it.
     Rule {
         name: "gaps",
-        decides: "that a single unseen cell has the height of the ground on both sides of it",
         apply: |rules, terrain, _| rules.gaps.apply(terrain),
     },
+    // Decides that a level of stairs has an edge before unseen ground.
     Rule {
         name: "landing_edges",
-        decides: "that a level of stairs has an edge before unseen ground",
         apply: |rules, terrain, sight| rules.landing_edges.apply(terrain, sight),
     },
+    // Decides that there is an edge between neighbours that differ by more than floor does.
     Rule {
         name: "height_differences",
-        decides: "that there is an edge between neighbours that differ by more than floor does",
         apply: |_, terrain, _| height_differences::apply(terrain),
     },
+    // Decides that there is an edge across a few unseen cells between two levels.
     Rule {
         name: "shadows",
-        decides: "that there is an edge across a few unseen cells between two levels",
         apply: |rules, terrain, _| shadows::apply(terrain, &rules.config.shadows),
     },
+    // Decides that slopes too steep to be walked on are edges.
     Rule {
         name: "steep_slopes",
-        decides: "that slopes too steep to be walked on are edges",
         apply: |_, terrain, _| steep_slopes::apply(terrain),
     },
+    // Decides that a raised level under the robot has an edge where nothing was seen beside it.
     Rule {
         name: "platform_edges",
-        decides: "that a raised level under the robot has an edge where nothing was seen beside it",
         apply: |rules, terrain, sight| {
             (rules.platform_edges).apply(terrain, sight, &rules.config.platform_edges);
         },
     },
+    // Decides that what is higher than a step, and no staircase, is an obstacle.
     Rule {
         name: "tall_edges",
-        decides: "that what is higher than a step, and no staircase, is an obstacle",
         apply: |_, terrain, sight| tall_edges::apply(terrain, sight),
     },
+    // Decides how far each cell is from obstacles and from edges.
     Rule {
         name: "clearance",
-        decides: "how far each cell is from obstacles and from edges",
         apply: |_, terrain, _| clearance::apply(terrain),
     },
+    // Decides what a metre costs near to obstacles and in the unknown, and where there is no room.
     Rule {
         name: "obstacle_costs",
-        decides: "what a metre costs near to obstacles and in the unknown, and where there is no room",
         apply: |rules, terrain, _| rules.obstacle_costs.apply(terrain),
     },
+    // Decides where users chose it, what a metre costs off the lines with most room.
     Rule {
         name: "voronoi",
-        decides: "where users chose it, what a metre costs off the lines with most room",
         apply: |rules, terrain, _| {
             if let Some(field) = &mut rules.voronoi {
                 field.apply(terrain);
             }
         },
     },
+    // Decides what a metre costs near to edges, and that nobody walks on one.
     Rule {
         name: "edge_costs",
-        decides: "what a metre costs near to edges, and that nobody walks on one",
         apply: |rules, terrain, _| rules.edge_costs.apply(terrain, &rules.config.edge_costs),
     },
+    // Decides that the robot may leave what it already stands too near to.
     Rule {
         name: "escape",
-        decides: "that the robot may leave what it already stands too near to",
         apply: |_, terrain, sight| escape::apply(terrain, sight),
     },
 ];
@@ -144,8 +144,6 @@ pub const RULES: [Rule; 19] = [
 pub struct Rule {
     /// The name of its file and of its table of settings, if it has one.
     pub name: &'static str,
-    /// What it decides.
-    pub decides: &'static str,
     apply: fn(&mut Rules, &mut Terrain, &Sight<'_>),
 }
 

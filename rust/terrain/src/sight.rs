@@ -24,7 +24,7 @@ impl StandingAt {
 }
 
 /// Differences in height that matter.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HeightLimits {
     /// What is still floor, m.
     pub floor_m: f64,
@@ -42,7 +42,7 @@ pub struct Rectangle {
 }
 
 /// Room that the robot needs.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Needs {
     /// Around its middle, to obstacles, m.
     pub body_m: f64,
@@ -55,7 +55,7 @@ pub struct Needs {
 }
 
 /// What users set of cells in the planner's table: the rules are given the values.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CellSettings {
     /// Higher levels than the robot's own are believed once it has been this near to them, m.
     pub judge_range: f64,

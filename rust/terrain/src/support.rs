@@ -1,6 +1,6 @@
 //! What lies under soles and around a place, asked of the map itself between two plans. Who asks says how much is tolerated.
 
-use geometry::{CellArea, Map, PlanarPose};
+use geometry::{CellArea, Map, PlanarPose, distance_m};
 use mapping::{FloorView, Surface};
 use stairs::{Stair, Staircase};
 
@@ -143,8 +143,7 @@ pub fn is_riser(
     stairs.stairs.iter().any(|stair| {
         let low = f64::from(*top_m) < stair.height_m() + higher_m;
         low && [&stair.front, &stair.back].into_iter().any(|edge| {
-            let middle = edge.middle().inner;
-            let along_m = (place_m[0] - middle.x).hypot(place_m[1] - middle.y);
+            let along_m = distance_m(*place_m, edge.middle_m());
             edge.beyond_m(*place_m).abs() < beside_m && along_m < 0.5 * edge.length_m() + beside_m
         })
     })

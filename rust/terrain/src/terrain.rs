@@ -23,7 +23,7 @@ settings! {
 const FAR_AWAY_M: u16 = u16::MAX;
 
 /// What is known of the cells of a window, row by row. Reused.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Terrain {
     /// Room that the robot needs.
     pub needs: Needs,
@@ -72,26 +72,7 @@ impl Terrain {
         Self {
             needs,
             settings,
-            room: RoomConfig::default(),
-            lattice: Lattice {
-                origin_m: [0.0; 2],
-                cell_m: 1.0,
-            },
-            cols: 0,
-            rows: 0,
-            blocked: Vec::new(),
-            unknown: Vec::new(),
-            nearest_m: Vec::new(),
-            height_m: Vec::new(),
-            edge: Vec::new(),
-            open: Vec::new(),
-            any_edge: false,
-            stairs: StairCells::default(),
-            slopes: SlopeCells::default(),
-            distance: CellDistances::default(),
-            edge_distance: CellDistances::default(),
-            clearance_at_start_m: 0.0,
-            weights: Vec::new(),
+            ..Self::default()
         }
     }
 

@@ -46,12 +46,12 @@ pub(super) struct Grain {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Fan {
     beams: Vec<FanBeam>,
-    grain: Grain,
+    pub(super) grain: Grain,
     /// By reach, and where the rays of each reach begin.
     places: Vec<Place>,
     starts: Vec<u32>,
     /// Bins of the rays that have been let in.
-    raster: Raster,
+    pub(super) raster: Raster,
     /// The rays that have been let in, by block: the first, and by ray its bin and the next.
     heads: Vec<u32>,
     links: Vec<Place>,
@@ -131,15 +131,6 @@ impl Fan {
             };
             *head = place.ray;
         }
-    }
-
-    pub(super) const fn grain(&self) -> &Grain {
-        &self.grain
-    }
-
-    /// The bins of the rays that have been let in.
-    pub(super) const fn raster(&self) -> &Raster {
-        &self.raster
     }
 
     /// Whether it holds for a ray that was let in, of those in some columns and rows.

@@ -15,7 +15,8 @@ use crate::{Clearing, Update};
 #[derive(Debug, Clone, PartialEq)]
 pub struct OccupancyGrid {
     size: Size,
-    placement: Placement,
+    /// Where the voxels lie.
+    pub placement: Placement,
     voxels: Voxels,
     marks: Marks,
 }
@@ -42,11 +43,6 @@ impl OccupancyGrid {
         self
     }
 
-    /// Where the voxels lie.
-    pub const fn placement(&self) -> &Placement {
-        &self.placement
-    }
-
     /// Equation (1): probability that the place is occupied; 0.5 outside the grid, equation (4).
     pub fn probability(&self, point_m: [f64; 3]) -> f64 {
         self.voxel_at(point_m)
@@ -68,11 +64,6 @@ impl OccupancyGrid {
     #[inline]
     pub fn holds(&self, index: usize, layer: usize) -> bool {
         self.voxels.occupied(index) >> layer & 1 == 1
-    }
-
-    /// Equation (10): height of the centre of the highest occupied voxel of a cell, m; `None` is *invalid*.
-    pub fn obstacle_height_m(&self, cell: Cell) -> Option<f64> {
-        self.obstacle_height_at(self.cell_index(cell)?)
     }
 
     /// Equation (10) for the cell that is stored at an index, row by row.

@@ -94,7 +94,7 @@ impl<'a> RaySweep<'a> {
         }
         fan.sort(farthest as u32, self.ends.len());
         // Further away a voxel need not hold a whole bin.
-        let seen = (0.5 * fan.grain().per_slope - self.to_border) as i32;
+        let seen = (0.5 * fan.grain.per_slope - self.to_border) as i32;
         for slab in (0..=farthest).rev() {
             fan.let_in(slab as u32);
             if slab <= seen && slab >= nearest {
@@ -115,20 +115,20 @@ impl<'a> RaySweep<'a> {
         if slab == 0 || enter < NEAREST {
             return;
         }
-        let bands = self.bands(|low| within(fan.grain(), 1, low, enter));
+        let bands = self.bands(|low| within(&fan.grain, 1, low, enter));
         let last = self.size.voxels()[self.axes[0]] - 1;
         let both = [slab - 1, slab].map(|slab| (self.ahead(slab)).clamp(0, last));
-        for line in self.lines(fan.grain(), [enter; 2]) {
+        for line in self.lines(&fan.grain, [enter; 2]) {
             let cells = [self.cell(both[0], line), self.cell(both[1], line)];
             let open = !(marked.known(cells[0]) & marked.known(cells[1]));
-            let cols = within(fan.grain(), 0, self.beside(line), enter);
+            let cols = within(&fan.grain, 0, self.beside(line), enter);
             if cols.is_empty() || open == 0 {
                 continue;
             }
-            let rows = fan.raster().rows(cols);
+            let rows = fan.raster.rows(cols);
             let Some(ends) = rows.ends() else { continue };
             let mut found = 0;
-            for layer in bits(open & self.layers(fan.grain(), ends, [enter; 2])) {
+            for layer in bits(open & self.layers(&fan.grain, ends, [enter; 2])) {
                 found |= u64::from(rows.meet(&bands[layer])) << layer;
             }
             marked.passed[cells[0]] |= found;
@@ -139,7 +139,7 @@ impl<'a> RaySweep<'a> {
     /// Asks the rays about the voxels of a slab that one may pass and that are not marked yet.
     fn look(&self, fan: &Fan, slab: i32, marked: &mut Marked<'_>) {
         let Depth { enter, leave } = self.depth(slab);
-        let grain = fan.grain();
+        let grain = &fan.grain;
         let bands = self.bands(|low| around(grain, 1, low, [enter, leave]));
         let ahead = self.ahead(slab);
         for line in self.lines(grain, [enter, leave]) {
@@ -149,7 +149,7 @@ impl<'a> RaySweep<'a> {
                 continue;
             }
             let cols = around(grain, 0, self.beside(line), [enter, leave]);
-            let rows = fan.raster().rows(cols.clone());
+            let rows = fan.raster.rows(cols.clone());
             let Some(ends) = rows.ends() else { continue };
             for layer in bits(open & self.layers(grain, ends, [enter, leave])) {
                 let band = &bands[layer];

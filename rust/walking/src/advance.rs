@@ -1,9 +1,6 @@
 //! The sequence of steps goes on: from a stand to a step, from one foot to the other, and to a stand again.
 
-use crate::felt::KnownGround;
-use crate::gait::Gait;
-use crate::phase::GaitPhase;
-use crate::task::Task;
+use crate::{felt::KnownGround, gait::Gait, phase::GaitPhase, task::Task};
 
 impl Gait {
     /// Advances the sequence by `passed_s` of its own clock. A command takes effect when the next step is chosen.

@@ -3,9 +3,7 @@
 use behaviour::Arms;
 use robot::Body;
 
-use crate::error::WalkError;
-use crate::swing::minimum_jerk;
-use crate::targets::JointTargets;
+use crate::{error::WalkError, swing::minimum_jerk, targets::JointTargets};
 
 /// Moves the arms slowly between two postures.
 #[derive(Debug, Clone)]

@@ -4,14 +4,13 @@ use geometry::PlanarPose;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 use robot::{Body, Side};
 
-use crate::config::GaitConfig;
-use crate::phase::FootPose;
-use crate::support::sole_corners;
+use crate::{config::GaitConfig, phase::FootPose, support::sole_corners};
 
 /// What is known of the balance at a tick, in the plan frame.
 #[derive(Debug, Clone)]
 pub struct Balance {
-    omega: f64,
+    /// Natural frequency of the pendulum, sqrt(g / height), 1/s.
+    pub(crate) omega: f64,
     blend: f64,
     /// Share of the weight that the feet must carry for their centre of pressure to count.
     least_share: f64,
@@ -64,11 +63,6 @@ impl Balance {
             velocity_mps: Vector2::zeros(),
             pressure: None,
         }
-    }
-
-    /// Natural frequency of the pendulum, sqrt(g / height), 1/s.
-    pub const fn omega(&self) -> f64 {
-        self.omega
     }
 
     /// The divergent component of motion, c + c'/w.

@@ -215,13 +215,13 @@ fn feet_push_only_where_they_bear_also_when_the_robot_then_stands() {
         world.tick(&Command::default());
         for side in Side::BOTH {
             let foot = world.walker.foot_in_plan(side).planar;
-            let point = world.walker.balance().2.point[side.index()];
+            let point = world.walker.pressure.point[side.index()];
             let (x_m, _) = foot.inverse().apply(point.x, point.y);
             assert!(x_m > bearing_m[0] && x_m < bearing_m[1], "{x_m}");
         }
     }
     let middle_m = 0.5 * (bearing_m[0] + bearing_m[1]);
-    let com_m = world.walker.balance().1.com.x - TREAD_M;
+    let com_m = world.walker.balance.com.x - TREAD_M;
     assert!((com_m - middle_m).abs() < 0.003, "{com_m}");
 }
 

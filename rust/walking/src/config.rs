@@ -1,8 +1,6 @@
 //! `[gait]` of robot.toml: how this robot walks.
 
-use settings::{
-    ANY, ConfigError, NOT_NEGATIVE, POSITIVE, SHARE, above, at_least, between, require, settings,
-};
+use settings::{ANY, NOT_NEGATIVE, POSITIVE, SHARE, above, at_least, between, settings};
 
 use crate::tuning::GaitTuning;
 
@@ -132,13 +130,5 @@ settings! {
         /// Numbers that few will want to turn.
         tuning: GaitTuning;
     }
-    check GaitConfig::fit_together;
-}
-
-impl GaitConfig {
-    fn fit_together(&self, key: &str) -> Result<(), ConfigError> {
-        let double = self.double_support;
-        let key = format!("{key}.double_support");
-        require(double < self.step_time, &key, "below step_time", double)
-    }
+    require (double_support) < (step_time);
 }

@@ -7,7 +7,7 @@
 use nalgebra::Vector2;
 
 /// A part of the plan in which the ZMP moves evenly from one point to another.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ZmpSegment {
     /// ZMP at its beginning, m.
     pub from: Vector2<f64>,

@@ -6,7 +6,7 @@ use crate::config::GaitConfig;
 use crate::phase::{CarefulLanding, FootPose, GaitPhase};
 
 /// Heights that are added to the planned ones.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct FeetControl {
     config: GaitConfig,
     tilt_m: f64,
@@ -29,11 +29,7 @@ impl FeetControl {
     pub fn new(config: &GaitConfig) -> Self {
         Self {
             config: config.clone(),
-            tilt_m: 0.0,
-            landed: [0.0; 2],
-            held: None,
-            seeks: None,
-            flying: None,
+            ..Self::default()
         }
     }
 

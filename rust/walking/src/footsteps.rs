@@ -11,7 +11,8 @@ use crate::config::GaitConfig;
 #[derive(Debug, Clone)]
 pub struct FootstepPlanner {
     config: GaitConfig,
-    sole_length_m: f64,
+    /// Length of a sole, m.
+    pub(crate) sole_length_m: f64,
     sole_width_m: f64,
 }
 
@@ -29,11 +30,6 @@ impl FootstepPlanner {
     /// Half of a sole's length and width, m.
     pub const fn half_sole_m(&self) -> Vector2<f64> {
         Vector2::new(0.5 * self.sole_length_m, 0.5 * self.sole_width_m)
-    }
-
-    /// Length of a sole, m.
-    pub const fn sole_length_m(&self) -> f64 {
-        self.sole_length_m
     }
 
     /// The place beside the standing foot.

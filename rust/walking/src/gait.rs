@@ -53,7 +53,7 @@ impl Gait {
         let (foot, other) = (&feet[side.index()], &feet[side.other().index()]);
         let [rear, front] = foot
             .bearing
-            .on_sole_m(0.5 * self.planner.sole_length_m(), 0.0);
+            .on_sole_m(0.5 * self.planner.sole_length_m, 0.0);
         let middle = 0.5 * (rear + front);
         let forward = self.config.support_forward * (foot.z_m - other.z_m).max(0.0);
         let inward = -side.sign() * self.config.support_inward;
@@ -173,7 +173,7 @@ impl Gait {
         FootPose {
             planar,
             z_m: stance.z_m + relief.rise_m(&stance.planar, &planar),
-            gradient: relief.under(&planar, self.planner.sole_length_m()),
+            gradient: relief.under(&planar, self.planner.sole_length_m),
             ..FootPose::default()
         }
     }

@@ -4,8 +4,7 @@ use behaviour::Gaze;
 use nalgebra::Vector3;
 use robot::{Body, LinkPoses};
 
-use crate::error::WalkError;
-use crate::targets::JointTargets;
+use crate::{error::WalkError, targets::JointTargets};
 
 /// A small turn of a joint, rad: only to which side it turns the camera is asked.
 const SMALL_RAD: f64 = 0.01;

@@ -3,9 +3,7 @@
 use nalgebra::{Isometry3, Matrix3, Vector2, Vector3};
 use robot::{Body, Side};
 
-use crate::error::WalkError;
-use crate::leg_geometry::LegGeometry;
-use crate::tuning::LegTuning;
+use crate::{error::WalkError, leg_geometry::LegGeometry, tuning::LegTuning};
 
 /// A leg whose yaw, roll and pitch axes meet in the hip and whose pitch and roll axes meet in the ankle, thigh and shank straight
 /// below each other at joint angles zero.
@@ -13,7 +11,8 @@ use crate::tuning::LegTuning;
 pub struct LegSolver {
     joints: [usize; 6],
     geometry: LegGeometry,
-    max_length_m: f64,
+    /// Longest distance from hip to ankle, m.
+    pub(crate) max_length_m: f64,
     shortest_m: f64,
 }
 
@@ -71,11 +70,6 @@ impl LegSolver {
     /// From hip to knee, and from knee to ankle, m.
     pub const fn lengths_m(&self) -> (f64, f64) {
         (self.geometry.thigh_m, self.geometry.shank_m)
-    }
-
-    /// Longest distance from hip to ankle, m.
-    pub const fn max_length_m(&self) -> f64 {
-        self.max_length_m
     }
 
     /// The greatest height of the hip over an ankle that is `back_m` behind and `aside_m` beside it at which the thigh stretches back by

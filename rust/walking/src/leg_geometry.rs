@@ -3,8 +3,7 @@
 use nalgebra::{Point3, Vector3};
 use robot::{Body, LinkPoses, Side};
 
-use crate::error::WalkError;
-use crate::tuning::LegTuning;
+use crate::{error::WalkError, tuning::LegTuning};
 
 /// A deviation from the assumed geometry that is that of rounding in a description, sine of an angle.
 const TOLERANCE: f64 = 1e-6;

@@ -38,7 +38,7 @@ pub(crate) struct TrunkPlace {
 }
 
 /// The height of the torso's origin over the plan's ground.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Pelvis {
     hip_height_m: f64,
     hip_stretch_rad: Option<f64>,
@@ -57,10 +57,7 @@ impl Pelvis {
             hip_stretch_rad: config.hip_stretch,
             speed_mps: config.hip_speed,
             tuning: config.tuning.pelvis.clone(),
-            goal_m: 0.0,
-            height_m: 0.0,
-            rate_mps: 0.0,
-            started: false,
+            ..Self::default()
         }
     }
 
@@ -117,7 +114,7 @@ impl Pelvis {
             let (leg, foot) = (&legs[side.index()], &feet[side.index()]);
             let hip = &trunk.hips[side.index()];
             let across = over + hip.xy() - leg.ankle_in_plan(&foot.planar);
-            let reach_m = leg.max_length_m();
+            let reach_m = leg.max_length_m;
             let mut rise_m = (reach_m * reach_m - across.norm_squared()).max(0.0).sqrt();
             if let Some(stretch_rad) = self.hip_stretch_rad {
                 let back_m = across.dot(&trunk.forward);

@@ -4,8 +4,7 @@ use geometry::PlanarPose;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector2, Vector3};
 use robot::Side;
 
-use crate::config::GaitConfig;
-use crate::swing;
+use crate::{config::GaitConfig, swing};
 
 /// The part of a sole that bears load, from and to, m from its middle forward. Nothing said: all of it.
 #[derive(Debug, Clone, Copy, PartialEq)]

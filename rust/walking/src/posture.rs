@@ -184,7 +184,7 @@ impl Posture {
         let torso_from_plan = balance.plan_from_torso.rotation.inverse();
         let gravity = torso_from_plan * Vector3::new(0.0, 0.0, -GRAVITY_MPS2);
         body.add_gravity(links, &gravity, torques_nm);
-        let omega2 = balance.omega() * balance.omega();
+        let omega2 = balance.omega * balance.omega;
         let pull = (balance.com - pressure.zmp) * (self.mass_kg * omega2);
         let force = torso_from_plan * Vector3::new(pull.x, pull.y, self.mass_kg * GRAVITY_MPS2);
         for side in Side::BOTH {
@@ -198,7 +198,7 @@ impl Posture {
         for torque in torques_nm.iter_mut() {
             *torque = -*torque;
         }
-        for &(follower, leader) in body.followers() {
+        for &(follower, leader) in &body.followers {
             torques_nm[leader] += torques_nm[follower];
             torques_nm[follower] = 0.0;
         }

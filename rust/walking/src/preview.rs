@@ -13,24 +13,13 @@ use crate::tuning::MOST_STEPS;
 const SEGMENTS: usize = 2 * MOST_STEPS + 1;
 
 /// Segments of the ZMP from now on.
+#[derive(Default)]
 struct ZmpPlan {
     segments: [ZmpSegment; SEGMENTS],
     count: usize,
 }
 
 impl ZmpPlan {
-    fn empty() -> Self {
-        let nothing = ZmpSegment {
-            from: Vector2::zeros(),
-            to: Vector2::zeros(),
-            duration_s: 0.0,
-        };
-        Self {
-            segments: [nothing; SEGMENTS],
-            count: 0,
-        }
-    }
-
     fn add(&mut self, from: Vector2<f64>, to: Vector2<f64>, duration_s: f64) {
         if let Some(slot) = self.segments.get_mut(self.count) {
             *slot = ZmpSegment {
@@ -47,7 +36,7 @@ impl Gait {
     /// ZMP and DCM of the plan at the moment. The plan ends in a stand behind the last step that is looked ahead.
     pub fn reference(&self, omega: f64, task: Task<'_>) -> GaitReference {
         let zmp = self.zmp();
-        let mut plan = ZmpPlan::empty();
+        let mut plan = ZmpPlan::default();
         if let Some(swing) = self.running(&mut plan) {
             self.coming(swing, task, &mut plan);
         }

@@ -45,7 +45,7 @@ impl SharedHip {
         let shared = |&(follower, leader): &(usize, usize)| {
             [[left, right], [right, left]].contains(&[follower, leader])
         };
-        if !body.followers().iter().any(shared) {
+        if !body.followers.iter().any(shared) {
             return Ok(None);
         }
         let apart_per_turn = legs[0].yaw_per_turn() - legs[1].yaw_per_turn();

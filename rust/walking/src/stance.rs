@@ -109,7 +109,7 @@ mod tests {
             ),
             (
                 json!({"swing": {"rise": [0.4, 0.2]}}),
-                "gait.tuning.swing.rise must be ascending, got 0.4, 0.2",
+                "gait.tuning.swing.rise.0 must be < rise.1 (0.2), got 0.4",
             ),
             (
                 json!({"preview": {"steps": 9}}),

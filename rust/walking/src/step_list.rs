@@ -2,9 +2,7 @@
 
 use behaviour::{Footstep, Motion};
 
-use crate::gait::Gait;
-use crate::relief::Relief;
-use crate::task::Task;
+use crate::{gait::Gait, relief::Relief, task::Task};
 
 /// The list of footsteps that was given last.
 ///

@@ -252,7 +252,7 @@ impl Ideal {
     /// One tick.
     pub(crate) fn tick(&mut self, command: &Command) {
         let weight = self.body.mass_kg() * 9.81;
-        let mut loads = self.walker.balance().2.share.map(|share| share * weight);
+        let mut loads = self.walker.pressure.share.map(|share| share * weight);
         if let Some(stance) = self.walker.support() {
             let sole = self.sole_beside(stance);
             let beyond = self
@@ -298,7 +298,7 @@ impl Ideal {
     /// How a stiff sole shares a load that acts where the walker pushes: front left, front right, rear left, rear right, N.
     fn corner_forces_n(&self, side: Side, load_n: f64) -> [f64; 4] {
         let sole = &self.body.description().legs.get(side).sole;
-        let point = self.walker.balance().2.point[side.index()];
+        let point = self.walker.pressure.point[side.index()];
         let place = self.walker.foot_in_plan(side).planar.inverse();
         let (x_m, y_m) = place.apply(point.x, point.y);
         let front = (0.5 + x_m / sole.length).clamp(0.0, 1.0);
@@ -325,5 +325,18 @@ impl Ideal {
             .pose_links(&self.targets.positions_rad, &mut links)
             .unwrap();
         links
+    }
+}
+
+/// What only tests ask a walker for.
+impl Walker {
+    /// Whether the list that was given last is behind the robot: all its steps landed, or it was given up.
+    pub(crate) fn list_is_over(&self) -> bool {
+        self.list.is_over(&self.gait)
+    }
+
+    /// Where a foot stands, or left, in the walker's own frame, which drifts against the world's.
+    pub(crate) const fn foot_in_plan(&self, side: Side) -> &FootPose {
+        &self.gait.feet[side.index()]
     }
 }

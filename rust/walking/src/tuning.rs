@@ -1,8 +1,7 @@
 //! The finer settings of the gait: `[gait.tuning]` of robot.toml.
 
 use settings::{
-    ConfigError, NOT_NEGATIVE, POSITIVE, SHARE, above, above_to, at_least, between, require,
-    settings, within,
+    NOT_NEGATIVE, POSITIVE, SHARE, above, above_to, at_least, between, settings, within,
 };
 
 /// Most steps that may be looked ahead: room for them in an array.
@@ -168,24 +167,12 @@ settings! {
         /// When a careful foot sinks.
         sink: [f64; 2] = [0.62, 1.0], "1", SHARE;
     }
-    check SwingTuning::are_in_order;
-}
-
-impl SwingTuning {
-    fn are_in_order(&self, key: &str) -> Result<(), ConfigError> {
-        for (name, [from, to]) in [
-            ("travel", self.travel),
-            ("off", self.off),
-            ("down", self.down),
-            ("rise", self.rise),
-            ("over", self.over),
-            ("sink", self.sink),
-        ] {
-            let found = format!("{from}, {to}");
-            require(from < to, &format!("{key}.{name}"), "ascending", found)?;
-        }
-        Ok(())
-    }
+    require (travel[0]) < (travel[1]);
+    require (off[0]) < (off[1]);
+    require (down[0]) < (down[1]);
+    require (rise[0]) < (rise[1]);
+    require (over[0]) < (over[1]);
+    require (sink[0]) < (sink[1]);
 }
 
 settings! {

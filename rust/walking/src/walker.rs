@@ -37,9 +37,9 @@ pub struct Walker {
     weight_n: f64,
     head: HeadControl,
     arms: ArmsControl,
-    gait: Gait,
-    list: StepList,
-    balance: Balance,
+    pub(crate) gait: Gait,
+    pub(crate) list: StepList,
+    pub(crate) balance: Balance,
     soles: Soles,
     feet_control: FeetControl,
     ankles: Ankles,
@@ -47,7 +47,7 @@ pub struct Walker {
     posture: Posture,
     com: Vector2<f64>,
     reference: GaitReference,
-    pressure: Pressure,
+    pub(crate) pressure: Pressure,
     targets: JointTargets,
     last_ns: Option<u64>,
 }
@@ -107,7 +107,7 @@ impl Walker {
         let passed_s = self.pass(observation.time_ns);
         self.sense(observation, state, passed_s);
         let error = self.balance.dcm() - self.reference.dcm;
-        let omega = self.balance.omega();
+        let omega = self.balance.omega;
         let rate = self
             .capture
             .adjust(&mut self.gait, &self.soles, &error, omega, passed_s);

@@ -215,7 +215,7 @@ fn a_bad_setting_is_refused_by_its_key() {
         (
             "double_support",
             0.9,
-            "gait.double_support must be below step_time, got 0.9",
+            "gait.double_support must be < step_time (0.6), got 0.9",
         ),
     ] {
         let mut bad = description();

@@ -2,12 +2,8 @@
 
 use geometry::angle_between;
 
-use super::drop_off::DropOff;
-use super::leg::align_pose;
-use super::state::Approach;
-use super::{StairClimbing, State};
-use crate::machine::Tick;
-use crate::{Motion, Velocity};
+use super::{StairClimbing, State, drop_off::DropOff, leg::align_pose, state::Approach};
+use crate::{Motion, Velocity, machine::Tick};
 
 impl StairClimbing {
     /// One tick of the way there.

@@ -8,8 +8,7 @@ use super::setback::told;
 use super::state::Approach;
 use super::stepper::Stepped;
 use super::{StairClimbing, State};
-use crate::Motion;
-use crate::machine::Tick;
+use crate::{Motion, machine::Tick};
 
 /// Why a robot gives up that looked at an edge often enough.
 const NOT_MEASURED: &str = "lost: the edge of the step could not be measured";

@@ -1,8 +1,7 @@
 //! The state `blind`: nothing is seen, or the robot does not know where it is, and it stands before or on the stairs until that is
 //! over.
 
-use super::state::Climb;
-use super::{StairClimbing, State};
+use super::{StairClimbing, State, state::Climb};
 use crate::Motion;
 use crate::machine::{SightAgain, Tick};
 

@@ -2,9 +2,7 @@
 
 use planning::Step;
 
-use super::memory::Tries;
-use super::state::Climb;
-use super::{Pace, StairClimbing, State};
+use super::{Pace, StairClimbing, State, memory::Tries, state::Climb};
 use crate::Motion;
 use crate::climbing::flight::covers;
 use crate::climbing::footsteps::{Stance, alternating, leading_side, level};
@@ -32,7 +30,7 @@ impl StairClimbing {
     /// The first of the wanted edges behind the next one that is not well measured.
     fn edge_to_measure(&self) -> Option<&Step> {
         let wanted = self.config.edges_ahead as usize;
-        let mut behind = self.flight.steps().iter().skip(1).take(wanted);
+        let mut behind = self.flight.steps.iter().skip(1).take(wanted);
         behind.find(|step| !self.is_well_measured(step))
     }
 

@@ -1,8 +1,6 @@
 //! Settings of the behaviours `stair_climbing` and `continuous`.
 
-use settings::{
-    Bounds, ConfigError, POSITIVE, above_to, at_least, from_below, require, settings, within,
-};
+use settings::{Bounds, POSITIVE, above_to, at_least, from_below, settings, within};
 
 use super::tuning::StairClimbingTuning;
 
@@ -51,20 +49,7 @@ settings! {
         /// Numbers that few will want to turn.
         tuning: StairClimbingTuning;
     }
-    check StairClimbingConfig::is_ordered;
-}
-
-impl StairClimbingConfig {
-    fn is_ordered(&self, key: &str) -> Result<(), ConfigError> {
-        let (steep, flattest) = (self.gaze_steep, self.tuning.head.flattest);
-        let allowed = format!("at least tuning.head.flattest ({flattest})");
-        require(
-            steep >= flattest,
-            &format!("{key}.gaze_steep"),
-            &allowed,
-            steep,
-        )
-    }
+    require (gaze_steep) >= (tuning.head.flattest);
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! Climbing without a stop: one foot a step, as far as the steps ahead are known, and on with what is learnt on the way.
 
-use super::state::Climb;
-use super::{Pace, StairClimbing, State};
+use super::{Pace, StairClimbing, State, state::Climb};
 use crate::climbing::footsteps::{Stance, alternating};
 use crate::climbing::placement::{Behind, Verdict};
 use crate::machine::Tick;
@@ -12,7 +11,7 @@ impl StairClimbing {
         let before = run.len();
         while let Some(last) = run.last().copied() {
             let at = [last.pose.x_m, last.pose.y_m];
-            let steps = self.flight.steps();
+            let steps = &self.flight.steps;
             let Some(next) = steps
                 .iter()
                 .position(|step| step.stair.front.beyond_m(at) < 0.0)
@@ -60,7 +59,7 @@ impl StairClimbing {
 
     /// Puts further steps where both feet would have come to stand, while the run is on its way.
     pub(super) fn go_on_without_a_stop(&mut self, tick: &Tick<'_>) {
-        let holds = self.stepper.holds();
+        let holds = &self.stepper.holds;
         // The last step can be changed until the one before it has landed.
         let in_time = tick.situation.stepping.landed + 1 < holds.len();
         let Some(first) = holds.first().map(|hold| hold.side) else {

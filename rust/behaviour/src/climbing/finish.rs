@@ -1,9 +1,7 @@
 //! The end of a climb: to the middle of where it led, arms up for a moment, and on (003, section V.D).
 
-use super::state::Finish;
-use super::{Memory, StairClimbing, State};
-use crate::machine::Tick;
-use crate::{Motion, Velocity};
+use super::{Memory, StairClimbing, State, state::Finish};
+use crate::{Motion, Velocity, machine::Tick};
 
 impl StairClimbing {
     /// No step is left.

@@ -17,7 +17,8 @@ use lookup::{following, is_same};
 /// The steps ahead, in their order. In the map, so that the robot's own motion moves none of them.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Flight {
-    steps: Vec<Step>,
+    /// All of them.
+    pub(crate) steps: Vec<Step>,
     /// How long neither the plan nor the view has shown the first of them, s.
     pub(crate) lost_s: f64,
     /// How long the plan has not led over it, s.
@@ -46,11 +47,6 @@ impl Flight {
     /// The one behind it, *step₂* of 003.
     pub(crate) fn second(&self) -> Option<&Step> {
         self.steps.get(1)
-    }
-
-    /// All of them.
-    pub(crate) fn steps(&self) -> &[Step] {
-        &self.steps
     }
 
     /// Takes over the steps of a plan's leg, but for the edges that the robot is too near to see, and where it crosses them: a

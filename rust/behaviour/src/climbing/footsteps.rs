@@ -3,21 +3,7 @@
 use geometry::PlanarPose;
 use robot::Side;
 
-use crate::climbing::StairClimbingConfig;
-use crate::climbing::tuning::FootstepsTuning;
-
-/// A place for a foot in the map.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Foothold {
-    /// Foot that moves.
-    pub(crate) side: Side,
-    /// Where the centre of its sole is put.
-    pub(crate) pose: PlanarPose,
-    /// Height of the surface there, m.
-    pub(crate) height_m: f64,
-    /// Part of the sole that bears load, from and to, from its middle forward, m.
-    pub(crate) bearing_m: [f64; 2],
-}
+use crate::{Footstep, climbing::StairClimbingConfig, climbing::tuning::FootstepsTuning};
 
 /// Both feet side by side somewhere in the map.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,10 +17,10 @@ pub(crate) struct Stance {
 }
 
 impl Stance {
-    /// One foot of it.
-    pub(crate) fn foothold(&self, side: Side, stance_m: f64) -> Foothold {
+    /// One foot of it, as a footstep of the map.
+    pub(crate) fn foothold(&self, side: Side, stance_m: f64) -> Footstep {
         let place = PlanarPose::new(0.0, 0.5 * side.sign() * stance_m, 0.0);
-        Foothold {
+        Footstep {
             side,
             pose: self.pose.compose(&place),
             height_m: self.height_m,
@@ -43,7 +29,7 @@ impl Stance {
     }
 
     /// Both feet of it, the first of them `first`.
-    pub(crate) fn both(&self, first: Side, stance_m: f64) -> [Foothold; 2] {
+    pub(crate) fn both(&self, first: Side, stance_m: f64) -> [Footstep; 2] {
         [first, first.other()].map(|side| self.foothold(side, stance_m))
     }
 }
@@ -65,7 +51,7 @@ pub(crate) fn level(
     to: &Stance,
     stance_m: f64,
     config: &StairClimbingConfig,
-) -> Vec<Foothold> {
+) -> Vec<Footstep> {
     let tuning = &config.tuning.footsteps;
     let way = from.relative(&to.pose);
     let crosses = way.y_m * way.yaw_rad < 0.0;
@@ -89,7 +75,7 @@ fn straight(
     to: &Stance,
     stance_m: f64,
     config: &StairClimbingConfig,
-) -> Vec<Foothold> {
+) -> Vec<Footstep> {
     let way = from.relative(&to.pose);
     let lead = leading_side(from, &to.pose, &config.tuning.footsteps);
     let pairs = (way.y_m.abs() / config.step_side)
@@ -123,7 +109,7 @@ fn straight(
 }
 
 /// One foot a stance and both on the last: up or down a flight without a stop.
-pub(crate) fn alternating(first: Side, stances: &[Stance], stance_m: f64) -> Vec<Foothold> {
+pub(crate) fn alternating(first: Side, stances: &[Stance], stance_m: f64) -> Vec<Footstep> {
     let mut side = first;
     let mut holds: Vec<_> = stances
         .iter()

@@ -1,6 +1,6 @@
 //! Stairs that a plan needs and does not use yet: too little of them is known from afar, so they are looked at from near by.
 
-use geometry::{Map, PlanarPose};
+use geometry::{Map, PlanarPose, distance_m};
 use mapping::FloorView;
 use planning::{Path, Plan, Step};
 use stairs::Stair;
@@ -11,7 +11,6 @@ use crate::climbing::leg::align_pose;
 use crate::climbing::placement::Before;
 use crate::climbing::tuning::InspectionTuning;
 use crate::machine::Tick;
-use crate::place::distance_m;
 
 /// Where to go and what to look at there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,8 +53,7 @@ impl Inspection {
     fn of(stair: &Stair<Map>, before: &Before<'_>) -> Option<Self> {
         let tuning = &before.config.tuning.inspection;
         let rise_m = stair.height_m() - before.ground_m;
-        let middle = stair.front.middle().inner;
-        let edge_m = [middle.x, middle.y];
+        let edge_m = stair.front.middle_m();
         let here_m = [before.pose.x_m, before.pose.y_m];
         let adjacent = rise_m.abs() > before.climbing.floor_max && rise_m.abs() < tuning.highest;
         let ahead = stair.front.beyond_m(here_m) < 0.0;

@@ -1,12 +1,10 @@
 //! The legs of a plan: the way to the next climb, cut off where the climb's own states take over.
 
-use geometry::PlanarPose;
+use geometry::{PlanarPose, distance_m};
 use planning::{Path, Plan, Step};
 use stairs::{ClimbingConfig, Feet};
 
-use crate::climbing::StairClimbingConfig;
-use crate::climbing::tuning::ApproachLegTuning;
-use crate::place::distance_m;
+use crate::{climbing::StairClimbingConfig, climbing::tuning::ApproachLegTuning};
 
 /// The plan's first climb as seen from the walk before it.
 #[derive(Debug, Clone, Copy)]

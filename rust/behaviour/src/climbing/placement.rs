@@ -80,7 +80,7 @@ impl Before<'_> {
         let on_the_way = self.aside_m(next).abs() <= self.config.step_side;
         match conditions(self.climbing, self.feet, &ahead, &stand, &tolerance) {
             Err(Unready::Unfit(unfit)) => Verdict::Refuse(unfit),
-            Ok(footing) if on_the_way => match self.stance_on(next, behind, &footing, onward) {
+            Ok(footing) if on_the_way => match self.stance_on(next, behind, footing, onward) {
                 Ok(stance) => Verdict::Go(stance),
                 Err(unfit) => Verdict::Refuse(unfit),
             },
@@ -165,7 +165,7 @@ impl Before<'_> {
         &self,
         next: &Step,
         behind: &Behind<'_>,
-        footing: &Footing,
+        footing: Footing,
         onward: Onward,
     ) -> Result<Stance, Unfit> {
         let edge_rad = next.stair.front.heading_rad();
@@ -208,7 +208,7 @@ impl Before<'_> {
 
     /// What is behind a step of which no following one was measured.
     pub(crate) fn without_next(&self, next: &Step) -> Behind<'static> {
-        let depth_m = next.stair.front.beyond_m(middle_of(&next.stair.back));
+        let depth_m = next.stair.front.beyond_m(next.stair.back.middle_m());
         let set = self.climbing.set_for(next.rise_m);
         let tuning = &self.config.tuning.placement;
         let needed_m =
@@ -232,11 +232,6 @@ fn half_turn_rad(from_rad: f64, to_rad: f64, tuning: &PlacementTuning) -> f64 {
     } else {
         0.5 * turn_rad.clamp(-most_rad, most_rad)
     }
-}
-
-fn middle_of(edge: &stairs::Edge<Map>) -> [f64; 2] {
-    let middle = edge.middle().inner;
-    [middle.x, middle.y]
 }
 
 /// The refusal of a step, with figures.

@@ -1,8 +1,7 @@
 //! The state `search`: stands, looks down and swings the head to find stairs, or the one that was lost (003, section V.A).
 
 use super::{StairClimbing, State};
-use crate::Motion;
-use crate::machine::Tick;
+use crate::{Motion, machine::Tick};
 
 impl StairClimbing {
     /// Looks for the step that was lost, else towards the goal.

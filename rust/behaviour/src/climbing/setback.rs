@@ -3,10 +3,9 @@
 use robot::Side;
 
 use super::{StairClimbing, State};
-use crate::climbing::footsteps::Foothold;
 use crate::climbing::stepper::Stepped;
 use crate::machine::{State as _, Tick};
-use crate::{Misstep, Motion};
+use crate::{Footstep, Misstep, Motion};
 
 /// What a misstep says of the world.
 pub(super) const fn told(misstep: Misstep) -> &'static str {
@@ -21,7 +20,7 @@ impl StairClimbing {
     pub(super) fn after_misstep(&mut self, tick: &Tick<'_>, misstep: Misstep, landed: usize) {
         self.memory.tries.missteps += 1;
         let what = told(misstep);
-        let holds = self.stepper.holds().to_vec();
+        let holds = self.stepper.holds.clone();
         let missed = holds.get(landed).copied();
         let run = self.run();
         let stands_on = landed.checked_sub(1).and_then(|last| run.get(last));
@@ -68,7 +67,7 @@ impl StairClimbing {
     }
 
     /// Moves back to where the robot stood before the last list, and gives up for this reason.
-    fn take_back(&mut self, tick: &Tick<'_>, landed: &[Foothold], reason: String) {
+    fn take_back(&mut self, tick: &Tick<'_>, landed: &[Footstep], reason: String) {
         let Some(from) = self.memory.came_from else {
             self.refuse(reason);
             return;

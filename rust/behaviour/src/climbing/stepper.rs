@@ -2,9 +2,7 @@
 
 use geometry::PlanarPose;
 
-use crate::climbing::footsteps::Foothold;
-use crate::climbing::tuning::StepperTuning;
-use crate::{Footstep, Misstep, Motion, Situation};
+use crate::{Footstep, Misstep, Motion, Situation, climbing::tuning::StepperTuning};
 
 /// How the list goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +23,8 @@ pub(crate) enum Stepped {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Stepper {
     tuning: StepperTuning,
-    holds: Vec<Foothold>,
+    /// The places of the list.
+    pub(crate) holds: Vec<Footstep>,
     footsteps: Vec<Footstep>,
     list_from_map: PlanarPose,
     ground_m: f64,
@@ -48,13 +47,8 @@ impl Stepper {
         !self.footsteps.is_empty()
     }
 
-    /// The places of the list.
-    pub(crate) fn holds(&self) -> &[Foothold] {
-        &self.holds
-    }
-
     /// Begins a list; the robot stands at `pose` on ground of this height.
-    pub(crate) fn start(&mut self, holds: Vec<Foothold>, pose: &PlanarPose, ground_m: f64) {
+    pub(crate) fn start(&mut self, holds: Vec<Footstep>, pose: &PlanarPose, ground_m: f64) {
         self.list_from_map = pose.inverse();
         self.ground_m = ground_m;
         self.announced = false;
@@ -64,13 +58,12 @@ impl Stepper {
     }
 
     /// Changes places of the list that no foot is on its way to.
-    pub(crate) fn replace(&mut self, holds: Vec<Foothold>) {
+    pub(crate) fn replace(&mut self, holds: Vec<Footstep>) {
         self.footsteps.clear();
         self.footsteps.extend(holds.iter().map(|hold| Footstep {
-            side: hold.side,
             pose: self.list_from_map.compose(&hold.pose),
             height_m: hold.height_m - self.ground_m,
-            bearing_m: hold.bearing_m,
+            ..*hold
         }));
         self.holds = holds;
     }

@@ -3,7 +3,7 @@
 mod feet;
 mod steps;
 
-use settings::{Bounds, ConfigError, NOT_NEGATIVE, POSITIVE, above_to, require, settings, within};
+use settings::{Bounds, NOT_NEGATIVE, POSITIVE, above_to, settings, within};
 
 pub(super) use feet::{
     AlignTuning, ApproachLegTuning, ClearanceTuning, DropOffTuning, FinishTuning, FootstepsTuning,
@@ -63,15 +63,7 @@ settings! {
         /// The end of a climb.
         finish: FinishTuning;
     }
-    check StairClimbingTuning::is_ordered;
-}
-
-impl StairClimbingTuning {
-    fn is_ordered(&self, key: &str) -> Result<(), ConfigError> {
-        let (limit, after) = (self.blind_limit, self.blind_after);
-        let name = format!("{key}.blind_limit");
-        require(limit > after, &name, "above blind_after", limit)
-    }
+    require (blind_limit) > (blind_after);
 }
 
 settings! {
@@ -119,15 +111,7 @@ settings! {
         /// At the end of a climb the robot looks at the ground this far ahead.
         finish_ahead: f64 = 0.35, "m", POSITIVE;
     }
-    check HeadTuning::is_ordered;
-}
-
-impl HeadTuning {
-    fn is_ordered(&self, key: &str) -> Result<(), ConfigError> {
-        let name = format!("{key}.swing");
-        let holds = self.swing <= self.widest;
-        require(holds, &name, "no more than widest", self.swing)
-    }
+    require (swing) <= (widest);
 }
 
 settings! {

@@ -1,9 +1,8 @@
 //! What the states read at a tick.
 
-use geometry::PlanarPose;
+use geometry::{PlanarPose, distance_m};
 
 use crate::Situation;
-use crate::place::distance_m;
 
 /// A tick as the states read it: the situation, and what follows from it alone.
 #[derive(Clone, Copy)]

@@ -2,12 +2,8 @@
 
 use terrain::support::is_roomy;
 
-use super::WalkingBehaviour;
-use super::state::State;
-use super::tick::WayTick;
-use super::track::Track;
-use crate::machine::Tick;
-use crate::{Motion, Outcome};
+use super::{WalkingBehaviour, state::State, tick::WayTick, track::Track};
+use crate::{Motion, Outcome, machine::Tick};
 
 impl WalkingBehaviour {
     /// Whether the robot is on the goal's level, as far as one is told: below a platform it may stand in the disc and be nowhere near.

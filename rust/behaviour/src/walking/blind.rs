@@ -1,10 +1,7 @@
 //! The state `blind`: stands until something is seen again.
 
 use super::WalkingBehaviour;
-use crate::Motion;
-use crate::machine::SightAgain;
-use crate::walking::gaze::Sweep;
-use crate::walking::tick::WayTick;
+use crate::{Motion, machine::SightAgain, walking::gaze::Sweep, walking::tick::WayTick};
 
 impl WalkingBehaviour {
     /// One tick without sight.

@@ -1,8 +1,6 @@
 //! Settings of the behaviour `walking`.
 
-use settings::{
-    Bounds, ConfigError, NOT_NEGATIVE, POSITIVE, above_to, from_below, require, settings, within,
-};
+use settings::{Bounds, NOT_NEGATIVE, POSITIVE, above_to, from_below, settings, within};
 
 use super::tuning::WalkingTuning;
 
@@ -75,18 +73,8 @@ settings! {
         /// Numbers that few will want to turn.
         tuning: WalkingTuning;
     }
-    check WalkingConfig::is_ordered;
-}
-
-impl WalkingConfig {
-    fn is_ordered(&self, key: &str) -> Result<(), ConfigError> {
-        let (until, above) = (self.turn_until, self.turn_above);
-        let name = format!("{key}.turn_until");
-        require(until < above, &name, "below turn_above", until)?;
-        let (limit, after) = (self.blind_limit, self.blind_after);
-        let name = format!("{key}.blind_limit");
-        require(limit > after, &name, "above blind_after", limit)
-    }
+    require (turn_until) < (turn_above);
+    require (blind_limit) > (blind_after);
 }
 
 #[cfg(test)]

@@ -1,20 +1,15 @@
 //! Where the head looks: sweeps while standing, glances while walking.
 
-use crate::Gaze;
-use crate::walking::WalkingConfig;
+use crate::{Gaze, walking::WalkingConfig};
 
 /// Moves the gaze with a limited speed, so that every patch of ground is in several frames.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Gazer {
-    at: Gaze,
+    /// Where the head is told to look.
+    pub(crate) at: Gaze,
 }
 
 impl Gazer {
-    /// Where the head is told to look.
-    pub(crate) const fn at(&self) -> Gaze {
-        self.at
-    }
-
     /// Takes up from where the head is.
     pub(crate) const fn start(&mut self, gaze: Gaze) {
         self.at = gaze;
@@ -137,7 +132,7 @@ mod tests {
         let mut gazer = Gazer::default();
         let mut seen = Vec::new();
         for tick in 0..3000_usize {
-            seen.push(gazer.at());
+            seen.push(gazer.at);
             let frames = tick.checked_div(frame_every).unwrap_or(0);
             if sweep.advance(&mut gazer, frames as u64, 0.01, config.gaze_speed) {
                 return (tick, seen);

@@ -1,7 +1,6 @@
 //! Walking as a part of a longer way: another behaviour breaks it off, and hands the robot over again.
 
-use super::state::State;
-use super::{Progress, WalkingBehaviour, WayObstaclesTuning};
+use super::{Progress, WalkingBehaviour, WayObstaclesTuning, state::State};
 use crate::Situation;
 
 impl WalkingBehaviour {

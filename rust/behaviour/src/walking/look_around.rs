@@ -3,10 +3,7 @@
 use geometry::wrap_angle;
 
 use super::WalkingBehaviour;
-use crate::walking::gaze::Sweep;
-use crate::walking::state::State;
-use crate::walking::tick::WayTick;
-use crate::{Gaze, Motion};
+use crate::{Gaze, Motion, walking::gaze::Sweep, walking::state::State, walking::tick::WayTick};
 
 impl WalkingBehaviour {
     /// Stands and looks where the sweep leads.

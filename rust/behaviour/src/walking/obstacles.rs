@@ -1,12 +1,11 @@
 //! Obstacles: what was not on the way before and is now.
 
-use geometry::PlanarPose;
+use geometry::{PlanarPose, distance_m};
 use mapping::FloorView;
 use planning::Path;
 use stairs::Staircase;
 use terrain::support::{ObstacleCell, is_riser, obstacles_within};
 
-use crate::place::distance_m;
 use crate::walking::WalkingConfig;
 
 /// The way that was followed at the last frame: planned with room to all that was known then.

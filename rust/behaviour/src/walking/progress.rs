@@ -19,7 +19,8 @@ pub(crate) struct Progress {
     best_m: f64,
     waited_s: f64,
     best_ever_m: f64,
-    waited_ever_s: f64,
+    /// Since when the robot has not been nearer to the goal than ever, s.
+    pub(crate) waited_ever_s: f64,
     tries: u32,
 }
 
@@ -36,11 +37,6 @@ impl Default for Progress {
 }
 
 impl Progress {
-    /// Since when the robot has not been nearer to the goal than ever, s.
-    pub(crate) const fn without_headway_s(&self) -> f64 {
-        self.waited_ever_s
-    }
-
     /// One tick. `detour` says that the way was planned anew: it may be longer than the old one.
     pub(crate) fn watch(
         &mut self,

@@ -5,8 +5,7 @@ use super::side_leg::{OnLeg, next_sidle};
 use super::state::State;
 use super::tick::WayTick;
 use super::turn::turn_speed;
-use crate::walking::gaze::glance;
-use crate::{Motion, Velocity};
+use crate::{Motion, Velocity, walking::gaze::glance};
 
 impl WalkingBehaviour {
     /// Whether the robot is on a leg sideways, or where one begins.

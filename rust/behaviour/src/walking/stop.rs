@@ -1,10 +1,7 @@
 //! The state `stop`: stands and looks at what appeared on the way, and goes on when the way is free.
 
 use super::WalkingBehaviour;
-use crate::Motion;
-use crate::walking::gaze::Sweep;
-use crate::walking::state::State;
-use crate::walking::tick::WayTick;
+use crate::{Motion, walking::gaze::Sweep, walking::state::State, walking::tick::WayTick};
 
 impl WalkingBehaviour {
     /// One tick of standing.

@@ -1,10 +1,9 @@
 //! The path as seen from the robot: what remains, where it leads, how to walk along it.
 
-use geometry::PlanarPose;
+use geometry::{PlanarPose, distance_m};
 use planning::{Goal, Path};
 
 use crate::Velocity;
-use crate::place::distance_m;
 use crate::walking::WalkingConfig;
 use crate::walking::side_leg::next_sidle;
 use crate::walking::tuning::TrackTuning;

@@ -1,11 +1,10 @@
 //! Unknown ground ahead on the path: it is looked at before it is walked on.
 
-use geometry::PlanarPose;
+use geometry::{PlanarPose, distance_m};
 use mapping::FloorView;
 use planning::Path;
 use terrain::support::unknown_across;
 
-use crate::place::distance_m;
 use crate::walking::WalkingConfig;
 use crate::walking::track::{Track, length};
 use crate::walking::tuning::UnknownGroundTuning;

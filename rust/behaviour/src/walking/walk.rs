@@ -93,7 +93,7 @@ impl WalkingBehaviour {
             Headway::Fine => return None,
             Headway::Stuck => self.look(Sweep::around(&self.config)),
             Headway::Hopeless => {
-                let waited_s = self.progress.without_headway_s();
+                let waited_s = self.progress.waited_ever_s;
                 self.refuse(format!(
                     "blocked: no headway for {waited_s:.0} s, {remaining_m:.2} m before the goal"
                 ));

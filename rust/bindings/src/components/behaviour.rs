@@ -4,15 +4,13 @@ use behaviour::{
     Behaviour, BehaviourError, Command, Decision, Footstep, Gaze, Motion, Outcome, Situation,
     Velocity,
 };
-use geometry::PlanarPose;
 use pyo3::exceptions::PyValueError;
 use pyo3::intern;
 use pyo3::prelude::*;
-use robot::Side;
 
 use super::{check_within, sentence};
 use crate::situation::PySituation;
-use crate::stairs::FlatFootstep;
+use crate::stairs::{FlatFootstep, footstep};
 
 struct PythonBehaviour {
     object: Py<PyAny>,
@@ -98,7 +96,7 @@ fn read_motion(answer: &Bound<'_, PyAny>) -> PyResult<Motion> {
         return match velocity {
             None => listed
                 .into_iter()
-                .map(footstep)
+                .map(checked_footstep)
                 .collect::<PyResult<_>>()
                 .map(Motion::Footsteps),
             Some(_) => Err(PyValueError::new_err(
@@ -117,16 +115,9 @@ fn read_motion(answer: &Bound<'_, PyAny>) -> PyResult<Motion> {
     }))
 }
 
-fn footstep((side, x_m, y_m, yaw_rad, height_m, from_m, to_m): FlatFootstep) -> PyResult<Footstep> {
-    let side = match side.as_str() {
-        "left" => Side::Left,
-        "right" => Side::Right,
-        other => {
-            return Err(PyValueError::new_err(format!(
-                "a footstep's side must be left or right, got {other}"
-            )));
-        }
-    };
+fn checked_footstep(flat: FlatFootstep) -> PyResult<Footstep> {
+    let (_, x_m, y_m, yaw_rad, height_m, from_m, to_m) = flat;
+    let step = footstep(flat).map_err(PyValueError::new_err)?;
     let numbers = [x_m, y_m, yaw_rad, height_m, from_m, to_m];
     check_within("footsteps", numbers, LARGEST)?;
     if from_m >= to_m {
@@ -134,12 +125,7 @@ fn footstep((side, x_m, y_m, yaw_rad, height_m, from_m, to_m): FlatFootstep) -> 
             "a footstep's bearing_from must be below its bearing_to, got {from_m} and {to_m}"
         )));
     }
-    Ok(Footstep {
-        side,
-        pose: PlanarPose { x_m, y_m, yaw_rad },
-        height_m,
-        bearing_m: [from_m, to_m],
-    })
+    Ok(step)
 }
 
 impl Behaviour for PythonBehaviour {

@@ -42,9 +42,9 @@ impl PythonPlanner {
     ) -> PyResult<Plan> {
         let arguments = (
             PyFloorView(view.clone()),
-            PyStaircase(stairs.clone()),
+            PyStaircase::from(stairs),
             flat(start),
-            PyGoal(*goal),
+            PyGoal::from(goal),
         );
         let object = self.object.bind(py);
         forget_if(&mut self.elsewhere, object)?;

@@ -6,9 +6,7 @@
 use geometry::PlanarPose;
 use nalgebra::{Matrix3, Rotation2, Vector2, Vector3};
 
-use super::profile::UprightBeam;
-use super::surfaces::UprightSurfaces;
-use super::tuning::AlignmentTuning;
+use super::{profile::UprightBeam, surfaces::UprightSurfaces, tuning::AlignmentTuning};
 
 /// What is believed before.
 #[derive(Debug, Clone, Copy)]

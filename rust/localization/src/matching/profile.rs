@@ -3,8 +3,7 @@
 use nalgebra::{Matrix2, Vector2};
 use segmentation::Planes;
 
-use super::config::MatchingConfig;
-use super::tuning::ProfileTuning;
+use super::{config::MatchingConfig, tuning::ProfileTuning};
 
 /// A direction in which something stands out of the floor.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -128,50 +128,22 @@ settings! {
         /// Numbers that few will want to turn.
         tuning: MonteCarloTuning;
     }
+    require (resample_below) > (least_effective);
+    require (confirm_directions) <= (tuning.search.directions);
+    require (most_particles) >= (particles);
+    require (reach[0]) < (reach[1]);
     check MonteCarloConfig::fit_together;
 }
 
 impl MonteCarloConfig {
     fn fit_together(&self, key: &str) -> Result<(), ConfigError> {
-        let key = |name: &str| format!("{key}.{name}");
-        // Likelihoods are flattened until at least `least_effective` is left: less never is.
-        require(
-            self.resample_below > self.least_effective,
-            &key("resample_below"),
-            "above least_effective",
-            self.resample_below,
-        )?;
-        let (told_apart, directions) = (self.tuning.search.directions, self.confirm_directions);
-        require(
-            directions <= told_apart,
-            &key("confirm_directions"),
-            &format!("at most tuning.search.directions, {told_apart}"),
-            directions,
-        )?;
-        let most = self.most_particles;
-        require(
-            most >= self.particles,
-            &key("most_particles"),
-            "at least particles",
-            most,
-        )?;
-        let [near, far] = self.reach;
-        require(
-            near < far,
-            &key("reach"),
-            "ascending",
-            format!("{near}, {far}"),
-        )?;
+        let name = format!("{key}.mixture");
         let sum = self.mixture.iter().sum::<f64>();
-        require(
-            (sum - 1.0).abs() < 1e-6,
-            &key("mixture"),
-            "shares that sum to 1",
-            sum,
-        )?;
-        let (random, least) = (self.mixture[2], LEAST_DENSITY * far);
+        let whole = (sum - 1.0).abs() < 1e-6;
+        require(whole, &name, "shares that sum to 1", sum)?;
+        let (random, least) = (self.mixture[2], LEAST_DENSITY * self.reach[1]);
         let allowed = format!("shares of which the third is at least {least:e}");
-        require(random >= least, &key("mixture"), &allowed, random)
+        require(random >= least, &name, &allowed, random)
     }
 }
 
@@ -202,7 +174,7 @@ mod tests {
         };
         for (message, key) in [
             (refused(|c| c.range_noise = 0.0), "range_noise"),
-            (refused(|c| c.reach = [2.0, 1.0]), "reach"),
+            (refused(|c| c.reach = [2.0, 1.0]), "reach.0"),
             (refused(|c| c.place_noise[1] = f64::NAN), "place_noise.1"),
             (refused(|c| c.independence = 1.5), "independence"),
             (refused(|c| c.resample_below = 0.3), "resample_below"),

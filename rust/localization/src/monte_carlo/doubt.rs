@@ -3,8 +3,7 @@
 //! How well a frame fits is there the mean likelihood of all particles; here the share of beams that the best estimate explains, since what
 //! is not in the map makes frames as unlikely as a wrong place does.
 
-use super::config::MonteCarloConfig;
-use super::fit::FrameFit;
+use super::{config::MonteCarloConfig, fit::FrameFit};
 
 /// Means of how well frames fit.
 #[derive(Debug, Clone, Copy, Default)]

@@ -3,8 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use segmentation::Planes;
 
-use super::config::MonteCarloConfig;
-use super::random::Stream;
+use super::{config::MonteCarloConfig, random::Stream};
 
 /// A cross product of neighbours' distances that is shorter than this has no direction, m^2: a guard against division by nothing.
 const NO_NORMAL_M2: f64 = 1e-12;

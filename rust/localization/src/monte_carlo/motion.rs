@@ -3,9 +3,7 @@
 use geometry::wrap_angle;
 use nalgebra::{Isometry3, Rotation2, Vector2, Vector3};
 
-use super::config::MonteCarloConfig;
-use super::particle::TorsoPose;
-use super::random::Stream;
+use super::{config::MonteCarloConfig, particle::TorsoPose, random::Stream};
 use proprioception::BodyState;
 
 /// What the body says of itself at a frame.

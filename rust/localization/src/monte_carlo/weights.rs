@@ -1,8 +1,6 @@
 //! From likelihoods to weights: in log space, normalized, and no frame decides alone.
 
-use super::observation::LogLikelihood;
-use super::particle::Particle;
-use super::tuning::WeightsTuning;
+use super::{observation::LogLikelihood, particle::Particle, tuning::WeightsTuning};
 
 /// Number of particles that weigh as much as these, which sum to one: `1 / sum w^2`.
 pub(super) fn effective_number(particles: &[Particle]) -> f64 {

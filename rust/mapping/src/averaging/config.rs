@@ -2,8 +2,7 @@
 
 use settings::{NOT_NEGATIVE, POSITIVE, at_least, settings, within};
 
-use crate::FogConfig;
-use crate::surface::MatchingTuning;
+use crate::{FogConfig, surface::MatchingTuning};
 
 settings! {
     /// The averaged height map, after Kagami et al. 2003. A key that `[navigation.fog]` has as well means the same there and has the

@@ -62,11 +62,6 @@ impl Averaging {
         })
     }
 
-    /// Mean height of what was seen in a cell, m in the map frame; none where nothing was.
-    pub fn mean_height(&self, cell: Cell) -> Option<f64> {
-        self.means.height(cell)
-    }
-
     /// What a cell counts as: an obstacle where it lies too far above one beside it.
     fn surface(&self, cell: Cell) -> Surface {
         let Some(height_m) = self.means.height(cell) else {

@@ -28,7 +28,8 @@ fn holds_slope(
 #[derive(Debug, Clone, PartialEq)]
 pub struct FloorGrid {
     lattice: Lattice,
-    heights: Grid<f32>,
+    /// All heights; [`INVALID`] where there is none.
+    pub heights: Grid<f32>,
     /// Frames that saw the surface which the cell holds from within the sure range.
     sightings: Grid<u16>,
     tilts: Tilts,
@@ -91,11 +92,6 @@ impl FloorGrid {
         // Below every height there is INVALID.
         let highest = heights.copied().fold(INVALID, f32::max);
         (highest != INVALID).then_some(highest)
-    }
-
-    /// All heights; [`INVALID`] where there is none.
-    pub const fn heights(&self) -> &Grid<f32> {
-        &self.heights
     }
 
     /// Columns and rows.

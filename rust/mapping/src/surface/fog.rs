@@ -19,16 +19,20 @@ use volume::{Locator, OccupancyGrid, Placement, ProbabilityTable, Size};
 /// Keeps the occupancy grid, the floor grid and the view made of both.
 #[derive(Debug, Clone)]
 pub struct Fog {
-    config: FogConfig,
+    /// The parameters.
+    pub(crate) config: FogConfig,
     window: Window,
     layers: Layers,
-    occupancy: OccupancyGrid,
-    floor: FloorGrid,
+    /// The occupancy grid.
+    pub occupancy: OccupancyGrid,
+    /// The floor grid.
+    pub floor: FloorGrid,
     rough: Rough,
     underfoot: Underfoot,
     surroundings: Surroundings,
     view: FloorView,
-    frame: LabelledFrame,
+    /// The points of the last frame, as they were taken in.
+    pub(crate) frame: LabelledFrame,
 }
 
 impl Fog {
@@ -86,31 +90,11 @@ impl Fog {
         }
     }
 
-    /// The parameters.
-    pub(crate) const fn config(&self) -> &FogConfig {
-        &self.config
-    }
-
-    /// The points of the last frame, as they were taken in.
-    pub(crate) const fn frame(&self) -> &LabelledFrame {
-        &self.frame
-    }
-
     /// Height of the floor of the cell that is stored at an index: what was seen there, or else what the robot stood on.
     #[inline]
     pub(crate) fn floor_at(&self, index: usize) -> Option<f32> {
         let seen = self.floor.height_at(index);
         seen.or_else(|| self.underfoot.height_at(index))
-    }
-
-    /// The occupancy grid.
-    pub const fn occupancy(&self) -> &OccupancyGrid {
-        &self.occupancy
-    }
-
-    /// The floor grid.
-    pub const fn floor(&self) -> &FloorGrid {
-        &self.floor
     }
 
     /// Section VI: height of the centre of the lowest occupied voxel above a cell's floor, m. `None` where there is no such

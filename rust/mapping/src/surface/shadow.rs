@@ -107,7 +107,7 @@ impl<'a> Shadow<'a> {
 
     /// Whether a cell is occupied at a height, or so near that a layer's width may be the reason why it is not.
     fn is_barred(&self, cell: Cell, height_m: f64) -> bool {
-        let layer_m = self.occupancy.placement().layer_m;
+        let layer_m = self.occupancy.placement.layer_m;
         [-layer_m, 0.0, layer_m]
             .iter()
             .any(|above_m| self.occupancy.is_occupied_at(cell, height_m + above_m))

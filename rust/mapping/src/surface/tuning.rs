@@ -1,6 +1,6 @@
 //! Settings of the floor and obstacle grid that few will want to turn.
 
-use settings::{ConfigError, NOT_NEGATIVE, above, above_to, require, settings, within};
+use settings::{NOT_NEGATIVE, above, above_to, settings, within};
 use volume::OccupancyGrid;
 
 settings! {
@@ -35,18 +35,12 @@ settings! {
         /// Points agree on a shift when theirs differs from it by no more than this share of the gate.
         agreement: f64 = 0.25, "1", above_to(0.0, 2.0);
     }
-    check MatchingTuning::is_ordered;
+    require (window) <= (bins);
 }
 
 impl MatchingTuning {
     /// Room for the bins, which is kept on the stack.
     pub(super) const MOST_BINS: usize = 256;
-
-    fn is_ordered(&self, key: &str) -> Result<(), ConfigError> {
-        let allowed = format!("at most bins ({})", self.bins);
-        let name = format!("{key}.window");
-        require(self.window <= self.bins, &name, &allowed, self.window)
-    }
 }
 
 settings! {

@@ -38,14 +38,12 @@ settings! {
         /// Numbers that few will want to turn.
         tuning: TwoMapsTuning;
     }
-    check TwoMapsConfig::is_ordered;
+    require (p_occ) < (p_max);
+    check TwoMapsConfig::is_fine_enough;
 }
 
 impl TwoMapsConfig {
-    fn is_ordered(&self, key: &str) -> Result<(), ConfigError> {
-        let allowed = format!(">= 0.5 and < p_max ({})", self.p_max);
-        let holds = self.p_occ < self.p_max;
-        require(holds, &format!("{key}.p_occ"), &allowed, self.p_occ)?;
+    fn is_fine_enough(&self, key: &str) -> Result<(), ConfigError> {
         let finest = (self.height + 2.0 * self.tuning.levels) / f64::from(LAYERS);
         let allowed = format!(">= {finest:.4} for the robot's height");
         let name = format!("{key}.resolution");

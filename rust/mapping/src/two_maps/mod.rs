@@ -49,7 +49,8 @@ pub struct TwoMaps {
     /// As it was when nothing had been seen.
     fresh: Fog,
     floors: Fog,
-    local: Octree,
+    /// The local map.
+    pub local: Octree,
     known: Option<MapAround>,
     /// Height of the level on which the robot stands, m: where it stood when the maps were last projected anew.
     level_m: f64,
@@ -91,7 +92,7 @@ impl TwoMaps {
             None => Fog::new(floors)?,
         };
         let lattice = floors.view().lattice;
-        let cells = floors.config().cells;
+        let cells = floors.config.cells;
         let known = |map: &KnownMap| map.around(&config.octree(), "navigation.octree.resolution");
         let size = [cells; 2];
         let layers = ViewLayers::above(-config.below_m(), (lattice, size), config.resolution);
@@ -109,16 +110,11 @@ impl TwoMaps {
         })
     }
 
-    /// The local map.
-    pub const fn local(&self) -> &Octree {
-        &self.local
-    }
-
     /// The view made of both maps at once: what [`WorldModel::view`] is frame by frame.
     pub fn projected(&self) -> FloorView {
         let mut whole = self.clone();
         whole.seen = LocalColumns::default();
-        whole.view = self.unknown(*self.layers.lattice());
+        whole.view = self.unknown(self.layers.lattice);
         let all = whole.layers.all();
         let local = (&whole.local, whole.config.p_occ);
         whole.seen.read(local, &whole.layers, all);
@@ -139,7 +135,7 @@ impl TwoMaps {
         let lattice = self.floors.view().lattice;
         let same_level = (robot_m[2] - self.level_m).abs()
             <= self.config.tuning.same_level * self.config.resolution;
-        if same_level && lattice == *self.layers.lattice() {
+        if same_level && lattice == self.layers.lattice {
             return false;
         }
         self.level_m = robot_m[2];
@@ -151,7 +147,7 @@ impl TwoMaps {
             let limits = AroundLimits {
                 height_m: self.config.height,
                 rise_m: self.config.rise,
-                delta_m: self.floors.config().delta,
+                delta_m: self.floors.config.delta,
             };
             known.look(&self.layers, robot_m, limits);
         }
@@ -166,10 +162,10 @@ impl TwoMaps {
     ) -> Result<CellArea, MapError> {
         let mut rays = std::mem::take(&mut self.rays);
         rays.clear();
-        let frame = self.floors.frame();
+        let frame = &self.floors.frame;
         let ground = BeamGround {
             level_m: self.level_m,
-            delta_m: self.floors.config().delta,
+            delta_m: self.floors.config.delta,
             floor_at: |index| self.floor_at(index),
         };
         let tuning = &self.config.tuning;
@@ -194,7 +190,7 @@ impl TwoMaps {
             at += 1;
             at <= seen || !self.is_hidden(eye_m, ray)
         });
-        let lattice = self.layers.lattice();
+        let lattice = &self.layers.lattice;
         let mut touched = CellArea::of(lattice.cell_at(eye_m[0], eye_m[1]));
         for ray in &rays {
             touched.include(lattice.cell_at(ray.end_m[0], ray.end_m[1]));
@@ -237,7 +233,7 @@ impl TwoMaps {
             self.floors.floor_beside(cell)
         });
         let base_m = base_m.map_or(self.level_m, f64::from);
-        let (delta_m, height_m) = (self.floors.config().delta, self.config.height);
+        let (delta_m, height_m) = (self.floors.config.delta, self.config.height);
         let extent = self.layers.between(base_m + delta_m, base_m + height_m);
         match (self.solid(index) & extent).checked_ilog2() {
             Some(top) => Surface::Obstacle(self.layers.middle_m(top) as f32),
@@ -250,7 +246,7 @@ impl TwoMaps {
         for index in runs(area, self.layers.size()).flatten() {
             let surface = self.surface_at(index);
             self.view.cells.values_mut()[index] = surface;
-            let floors = self.floors.floor();
+            let floors = &self.floors.floor;
             self.view.sightings.values_mut()[index] = floors.all_sightings()[index];
             self.view.gradients.values_mut()[index] = match surface {
                 Surface::Floor(_) => floors.gradient_at(index),
@@ -326,7 +322,7 @@ impl WorldModel for TwoMaps {
         let mut ceilings = Grid::filled(cols, rows, f32::NAN);
         for (index, slot) in ceilings.values_mut().iter_mut().enumerate() {
             if let Some(floor) = self.floor_at(index) {
-                let above_m = f64::from(floor) + self.floors.config().delta;
+                let above_m = f64::from(floor) + self.floors.config.delta;
                 let above = self.solid(index) & self.layers.between(above_m, f64::INFINITY);
                 if above != 0 {
                     *slot = self.layers.middle_m(above.trailing_zeros()) as f32;

@@ -2,7 +2,7 @@
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its part")]
 
 use geometry::{Camera, Cell, Map, Pose, Robot};
-use mapping::{FloorView, Surface};
+use mapping::{FloorView, FogConfig, Surface};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use segmentation::Planes;
 use sensing::Intrinsics;
@@ -22,6 +22,18 @@ pub const DEPTH_CAMERA: Intrinsics = Intrinsics {
     focal_px: 288.7,
     baseline_m: 0.075,
 };
+
+/// The size of 000: 16 layers that stay where they are.
+pub fn paper() -> FogConfig {
+    FogConfig {
+        layers: 16,
+        follow_height: false,
+        floor_beside: 0.0,
+        shadow: 0.0,
+        rough: None,
+        ..FogConfig::default()
+    }
+}
 
 /// A block; its top is a floor to step on where `flat`.
 #[derive(Debug, Clone, Copy)]

@@ -108,9 +108,7 @@ impl ClimbLinks {
         after: After,
     ) -> Option<(Stair<Map>, Option<usize>, f64)> {
         match after {
-            After::Stair(next, depth_m) => {
-                Some((self.stairs.all()[next].stair, Some(next), depth_m))
-            }
+            After::Stair(next, depth_m) => Some((self.stairs.all[next].stair, Some(next), depth_m)),
             After::Ground(height_m, depth_m) => {
                 let ground_depth_m = scene.config.tuning.directed_stairs.ground_depth;
                 let ground = ground_behind(stair, height_m, ground_depth_m);
@@ -132,9 +130,7 @@ impl ClimbLinks {
         let line = stair.front.as_line();
         let rise_m = stair.height_m() - level_m;
         let next = match after {
-            After::Stair(next, depth_m) => {
-                Some((self.stairs.all()[next].stair.height_m(), depth_m))
-            }
+            After::Stair(next, depth_m) => Some((self.stairs.all[next].stair.height_m(), depth_m)),
             After::Ground(height_m, depth_m) => Some((height_m, depth_m)),
             After::Level | After::Wall | After::Unknown => None,
         };
@@ -273,8 +269,7 @@ fn doubt_of(scene: &Scene<'_>, entry: &Entry, stride: &Stride, level_known: bool
     };
     let near = |place_m| scene.terrain.nearest_m(place_m) <= scene.config.limit_range;
     // A tread may have been seen from its other side; wide floor has no other side that says anything of this one.
-    let behind = stair.back.middle().inner;
-    let other_side = stair.depth_m() <= scene.config.limit_range && near([behind.x, behind.y]);
+    let other_side = stair.depth_m() <= scene.config.limit_range && near(stair.back.middle_m());
     let looked_m = scene.config.tuning.climbs.looked;
     let mut looked = scene.looked_m.iter();
     if measured || near(stride.step.crossing_m) || other_side {

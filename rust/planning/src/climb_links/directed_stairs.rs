@@ -42,7 +42,7 @@ enum Seen {
 /// The stairs, each in both of its directions. Reused.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct DirectedStairs {
-    all: Vec<DirectedStair>,
+    pub(super) all: Vec<DirectedStair>,
 }
 
 impl DirectedStairs {
@@ -57,10 +57,6 @@ impl DirectedStairs {
                 });
             }
         }
-    }
-
-    pub(crate) fn all(&self) -> &[DirectedStair] {
-        &self.all
     }
 
     /// Whether a stair of another level than this begins between a place and an edge ahead of it.

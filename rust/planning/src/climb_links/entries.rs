@@ -14,7 +14,7 @@ impl ClimbLinks {
     pub(crate) fn read(&mut self, scene: &Scene<'_>, stairs: &Staircase) {
         self.clear(scene.terrain.weights.len());
         self.stairs.read(stairs);
-        for index in 0..self.stairs.all().len() {
+        for index in 0..self.stairs.all.len() {
             self.enter_from_floor(scene, index);
             self.leave_to_floor(scene, index);
         }
@@ -22,7 +22,7 @@ impl ClimbLinks {
 
     /// Onto a stair over its front edge, from what lies before it.
     fn enter_from_floor(&mut self, scene: &Scene<'_>, index: usize) {
-        let face = self.stairs.all()[index];
+        let face = self.stairs.all[index];
         let (range_m, tuning) = (range_m(scene, &face.front), &scene.config.tuning);
         for offset_m in lanes(range_m, scene.config.lane, tuning.room_at_edges.narrow) {
             let before = level_before(
@@ -38,7 +38,7 @@ impl ClimbLinks {
 
     /// Off a stair over its back edge, where the floor behind it has another height.
     fn leave_to_floor(&mut self, scene: &Scene<'_>, index: usize) {
-        let face = self.stairs.all()[index];
+        let face = self.stairs.all[index];
         let (range_m, tuning) = (range_m(scene, &face.back), &scene.config.tuning);
         let ground_at = |stairs: &DirectedStairs, offset_m: f64| {
             let crossing_m = face
@@ -139,7 +139,7 @@ impl ClimbLinks {
         let toes_m = scene.climbing.set_for(rise_m).approach_x;
         let place_m = line.at(clamped_m, toes_m - 0.5 * scene.feet.length_m);
         let away_m = distance_m(place_m, stand.at_m);
-        let aligned = angle_between(line.heading_rad(), stand.heading_rad).abs() <= entering.turn;
+        let aligned = angle_between(line.heading_rad, stand.heading_rad).abs() <= entering.turn;
         let on_tread = terrain.edge_clearance_m(cell) < terrain.needs.feet_m
             && before_m <= entering.reach
             && self.on_short_tread(scene);
@@ -165,7 +165,7 @@ impl ClimbLinks {
         let (stand, stride_m) = (&scene.stand, scene.config.stride);
         let tolerance_m = scene.config.tuning.room_at_edges.tolerance;
         let outside_m = scene.config.tuning.entries.outside;
-        let under = self.stairs.all().iter().step_by(2).find(|face| {
+        let under = self.stairs.all.iter().step_by(2).find(|face| {
             let outline = StairOutline::of(&face.stair);
             outline.outside_m(stand.at_m) <= outside_m
                 && same_level(face.stair.height_m(), stand.height_m, tolerance_m)

@@ -1,5 +1,6 @@
 //! Room at edges: where the robot lines up, where it may cross, where it walks on.
 
+pub(crate) use geometry::distance_m;
 use geometry::{Lattice, Map, same_level};
 use mapping::Surface;
 use stairs::{EdgeLine, Stair};
@@ -135,11 +136,6 @@ pub(crate) fn lanes(range_m: f64, lane_m: f64, narrow_m: f64) -> impl Iterator<I
             range_m * (2.0 * f64::from(piece) / f64::from(pieces) - 1.0)
         }
     })
-}
-
-/// Distance between two places, m.
-pub(crate) fn distance_m(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
 /// Length of a way on the grid, m: what the search's heuristic takes for the least.

@@ -4,8 +4,7 @@ use stairs::{ClimbingConfig, Feet, Unfit};
 use terrain::{StandingAt, Terrain};
 
 use super::directed_stairs::DirectedStairs;
-use crate::search::links::Links;
-use crate::{AStarConfig, Goal, Step};
+use crate::{AStarConfig, Goal, Step, search::links::Links};
 
 /// What the ways are made from.
 #[derive(Debug, Clone, Copy)]

@@ -32,7 +32,7 @@ const ABOVE: usize = 6;
 type TrackState = SVector<f64, STATES>;
 
 /// The filtered correction.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Correction {
     tuning: CorrectionTuning,
     state: TrackState,
@@ -40,14 +40,14 @@ pub(crate) struct Correction {
     // The direction that was looked in last, and the frames since it is that.
     axis: Vector3<f64>,
     alike: u32,
-    // What the last prediction added to the camera's height, m.
-    raised_m: f64,
+    /// What the last prediction added to the camera's height, m.
+    pub(crate) raised_m: f64,
     // Frames without any evidence, and frames without evidence of the height.
     missed: Option<u32>,
     missed_height: u32,
     found: u32,
-    // Whether what is near the feet told it, or bore it out.
-    near: bool,
+    /// Whether what is near the feet told the track, or bore it out.
+    pub(crate) near: bool,
 }
 
 impl Correction {
@@ -64,15 +64,8 @@ impl Correction {
         ]);
         Self {
             tuning,
-            state: TrackState::zeros(),
             covariance: SMatrix::from_diagonal(&sigmas.component_mul(&sigmas)),
-            axis: Vector3::zeros(),
-            alike: 0,
-            raised_m: 0.0,
-            missed: None,
-            missed_height: 0,
-            found: 0,
-            near: false,
+            ..Self::default()
         }
     }
 
@@ -96,11 +89,6 @@ impl Correction {
         self.is_settled()
             && self.missed.is_some_and(|missed| missed <= frames)
             && self.missed_height <= height_frames
-    }
-
-    /// What the last prediction added to the camera's height, m.
-    pub(crate) const fn height_m(&self) -> f64 {
-        self.raised_m
     }
 
     /// The camera's pose by the joints with what is known put right.
@@ -183,11 +171,6 @@ impl Correction {
         if !self.near {
             self.forget();
         }
-    }
-
-    /// Whether what is near the feet told the track, or bore it out.
-    pub(crate) const fn is_borne_out(&self) -> bool {
-        self.near
     }
 
     /// Takes in that surfaces were level as predicted, but of unknown height. Their tilt is not learned: low steps that

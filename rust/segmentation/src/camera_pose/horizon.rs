@@ -3,8 +3,7 @@
 use nalgebra::Vector2;
 use settings::{NOT_NEGATIVE, POSITIVE, settings, within};
 
-use crate::picture::pixels::Picture;
-use crate::picture::view::View;
+use crate::picture::{Picture, View};
 
 settings! {
     /// How the camera's tilt is guessed at the beginning of each frame: by the heights of all points, which pile up most sharply under

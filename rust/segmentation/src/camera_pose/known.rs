@@ -3,10 +3,9 @@
 use nalgebra::Vector3;
 use settings::{POSITIVE, SHARE, settings, within};
 
-use crate::picture::view::View;
+use crate::picture::View;
 use crate::planes::KnownFloor;
-use crate::regions::finder::Finder;
-use crate::regions::surfaces::FrameSurfaces;
+use crate::regions::{Finder, FrameSurfaces};
 
 settings! {
     /// How the camera's height is told by floor that is known from before.
@@ -71,7 +70,7 @@ impl KnownLevels {
         surfaces: &FrameSurfaces<impl Finder>,
         view: &View,
         camera_m: &Vector3<f64>,
-        known: &dyn KnownFloor,
+        known: &KnownFloor<'_>,
     ) {
         let (stride, near_m) = (self.tuning.stride, self.tuning.near);
         self.votes.clear();
@@ -92,7 +91,7 @@ impl KnownLevels {
                 continue;
             }
             self.near[region].0 += 1;
-            if let Some(height_m) = known.height_m(x_m, y_m) {
+            if let Some(height_m) = known(x_m, y_m) {
                 self.misses_m[region].push((height_m - (camera_m.z - below_m)) as f32);
             }
         }

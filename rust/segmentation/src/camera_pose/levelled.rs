@@ -4,7 +4,7 @@ use geometry::{Camera, Pose, Robot};
 use nalgebra::{Rotation3, Vector2, Vector3};
 use sensing::Intrinsics;
 
-use crate::picture::view::{View, levelling};
+use crate::picture::{View, levelling};
 
 /// A frame's camera: where it was predicted, and the tilt found on top.
 #[derive(Debug, Clone, Copy)]

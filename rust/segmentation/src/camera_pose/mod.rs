@@ -4,3 +4,8 @@ pub(crate) mod correction;
 pub(crate) mod horizon;
 pub(crate) mod known;
 pub(crate) mod levelled;
+
+pub(crate) use correction::Correction;
+pub(crate) use horizon::{HorizonSearch, SearchArea, TiltSearchTuning};
+pub(crate) use known::{KnownFloorTuning, KnownLevels};
+pub(crate) use levelled::Levelled;

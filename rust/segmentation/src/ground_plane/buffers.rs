@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::Point2;
 
-use crate::regions::steps::{StepMarks, StepTuning};
+use crate::regions::{StepMarks, StepTuning};
 
 /// Pixels of one region that lie side by side.
 #[derive(Debug, Clone)]

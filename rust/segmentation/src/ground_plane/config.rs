@@ -1,8 +1,6 @@
 //! Settings that all segmenters share: `[navigation.ground]`.
 
-use settings::{
-    ANY, ConfigError, NOT_NEGATIVE, POSITIVE, SHARE, at_least, between, require, settings,
-};
+use settings::{ANY, NOT_NEGATIVE, POSITIVE, SHARE, at_least, between, settings};
 
 use super::tuning::GroundTuning;
 
@@ -55,18 +53,7 @@ settings! {
         /// Numbers behind these that few will want to turn.
         tuning: GroundTuning;
     }
-    check GroundConfig::is_patient;
-}
-
-impl GroundConfig {
-    fn is_patient(&self, key: &str) -> Result<(), ConfigError> {
-        require(
-            self.forget_frames >= self.hold_frames,
-            &format!("{key}.forget_frames"),
-            &format!(">= {key}.hold_frames"),
-            self.forget_frames,
-        )
-    }
+    require (forget_frames) >= (hold_frames);
 }
 
 #[cfg(test)]

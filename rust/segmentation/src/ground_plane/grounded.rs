@@ -1,24 +1,17 @@
 //! A segmenter: a way to find surfaces, and all that is kept from frame to frame.
 
 use sensing::Intrinsics;
-use settings::{ConfigError, Table};
+use settings::{ConfigError, MakeError, Table, read};
 
 use super::buffers::ProductBuffers;
-use crate::camera_pose::correction::Correction;
-use crate::camera_pose::horizon::HorizonSearch;
-use crate::camera_pose::known::KnownLevels;
+use crate::camera_pose::{Correction, HorizonSearch, KnownLevels};
 use crate::ground_plane::config::GroundConfig;
-use crate::picture::median::Median;
-use crate::picture::noise::NoiseMap;
-use crate::picture::pixels::fineness;
-use crate::regions::cuts::Cuts;
-use crate::regions::finder::Finder;
-use crate::regions::roughness::Roughness;
-use crate::regions::slivers::Slivers;
-use crate::regions::slopes::SlopeSearch;
-use crate::regions::surface_parts::SurfaceParts;
-use crate::regions::surfaces::FrameSurfaces;
-use crate::regions::walls::Walls;
+use crate::part::SegmenterNeeds;
+use crate::picture::{Median, NoiseMap, fineness};
+use crate::planes::Segmenter;
+use crate::regions::{
+    Cuts, Finder, FrameSurfaces, Roughness, Slivers, SlopeSearch, SurfaceParts, Walls,
+};
 
 /// A segmenter with this way to find surfaces.
 #[derive(Debug, Clone)]
@@ -33,14 +26,25 @@ pub struct Grounded<F> {
     pub(super) product: ProductBuffers,
 }
 
-impl<F: Finder> Grounded<F> {
+/// A finder with a table of settings.
+pub trait Configured: Finder + 'static {
+    /// The table.
+    type Config: Table;
+
+    /// Nothing was looked at yet.
+    fn new(config: &Self::Config, ground: &GroundConfig, camera: &Intrinsics) -> Self;
+}
+
+impl<F: Configured> Grounded<F> {
     /// A segmenter for this camera that knows nothing of the camera's errors yet.
-    pub(crate) fn around(
-        finder: F,
+    pub fn new(
+        finder: &F::Config,
         config: GroundConfig,
         camera: Intrinsics,
     ) -> Result<Self, ConfigError> {
+        finder.check()?;
         config.check()?;
+        let finder = F::new(finder, &config, &camera);
         let tuning = config.tuning.clone();
         let pixels = camera.width * camera.height;
         let finer = fineness(pixels, tuning.enough_pixels);
@@ -57,6 +61,18 @@ impl<F: Finder> Grounded<F> {
         })
     }
 
+    /// A segmenter for a camera by the settings that a user wrote.
+    pub(crate) fn make(needs: &SegmenterNeeds<'_>) -> Result<Box<dyn Segmenter>, MakeError> {
+        let finder = read(
+            needs.tables,
+            F::Config::KEY.trim_start_matches("navigation."),
+        )?;
+        let ground = read(needs.tables, "ground")?;
+        Ok(Box::new(Self::new(&finder, ground, needs.camera)?))
+    }
+}
+
+impl<F> Grounded<F> {
     /// Whether the ground is searched from nothing, as at the start and after it was lost for long.
     pub(super) fn searching(&self) -> bool {
         !self.correction.is_settled()

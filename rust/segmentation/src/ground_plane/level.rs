@@ -3,12 +3,9 @@
 use geometry::{Camera, Pose, Robot};
 use nalgebra::Vector2;
 
-use crate::camera_pose::horizon::SearchArea;
-use crate::camera_pose::levelled::Levelled;
+use crate::camera_pose::{Levelled, SearchArea};
 use crate::ground_plane::grounded::Grounded;
-use crate::regions::cuts::TiltPrior;
-use crate::regions::finder::{Finder, Look};
-use crate::regions::fit::shared_tilt;
+use crate::regions::{Finder, Look, TiltPrior, shared_tilt};
 
 impl<F: Finder> Grounded<F> {
     /// Finds the camera's tilt against the prediction and the regions that are seen with it; `near`: whether nothing but what is

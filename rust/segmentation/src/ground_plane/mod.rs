@@ -10,6 +10,9 @@ mod level;
 mod product;
 mod reference;
 mod segmenter;
+
+pub(crate) use config::GroundConfig;
+pub(crate) use grounded::{Configured, Grounded};
 #[cfg(test)]
 mod tests;
 mod tuning;

@@ -4,12 +4,11 @@ use geometry::{Outline, Plane, Point, Pose, Robot};
 use nalgebra::{Isometry3, Point2, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::buffers::{LabelRun, ProductBuffers};
-use crate::camera_pose::levelled::Levelled;
+use crate::camera_pose::Levelled;
 use crate::ground_plane::grounded::Grounded;
-use crate::picture::view::{View, to_f32};
+use crate::picture::{View, to_f32};
 use crate::planes::{PlaneRegion, Planes};
-use crate::regions::finder::Finder;
-use crate::regions::tilted::{TiltedRecord, over_rays};
+use crate::regions::{Finder, TiltedRecord, over_rays};
 
 /// What a pixel without a region has.
 const NO_REGION: (u16, f32) = (0, f32::NAN);
@@ -47,7 +46,7 @@ impl<F: Finder> Grounded<F> {
         for (at_step, doubtful) in planes
             .at_step
             .iter_mut()
-            .zip(&self.surfaces.slopes.doubtful)
+            .zip(&self.surfaces.parts.slopes.doubtful)
         {
             *at_step |= doubtful;
         }
@@ -118,7 +117,7 @@ impl<F: Finder> Grounded<F> {
                 },
                 boundary: Outline::hull(&self.product.corners).ok(),
                 floor_height_m: Some(height_m),
-                roughness: self.surfaces.roughness.of(index),
+                roughness: self.surfaces.parts.roughness.of(index),
             });
         }
     }

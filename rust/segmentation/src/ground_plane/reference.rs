@@ -5,11 +5,11 @@ use nalgebra::Vector2;
 
 use super::tuning::ReferenceTuning;
 
-use crate::camera_pose::levelled::Levelled;
+use crate::camera_pose::Levelled;
 use crate::ground_plane::grounded::Grounded;
-use crate::picture::near::NearFeet;
+use crate::picture::NearFeet;
 use crate::planes::KnownFloor;
-use crate::regions::finder::Finder;
+use crate::regions::Finder;
 
 /// What a frame's level surfaces tell of the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,7 +38,7 @@ impl<F: Finder> Grounded<F> {
     pub(super) fn level_and_refer(
         &mut self,
         by_joints: &Pose<Robot, Camera>,
-        known: &dyn KnownFloor,
+        known: &KnownFloor<'_>,
     ) -> (Levelled, PoseReference) {
         let predicted = self.correction.predict(by_joints);
         if !self.correction.is_seasoned()
@@ -58,12 +58,12 @@ impl<F: Finder> Grounded<F> {
     fn refer(
         &mut self,
         predicted: Pose<Robot, Camera>,
-        known: &dyn KnownFloor,
+        known: &KnownFloor<'_>,
         near: bool,
     ) -> (Levelled, PoseReference) {
         let mut levelled = self.level(predicted, near);
         let mut reference = self.find_reference(&levelled, known);
-        if (!self.correction.is_seasoned() || !self.correction.is_borne_out())
+        if (!self.correction.is_seasoned() || !self.correction.near)
             && let PoseReference::Ground { region, .. } = reference
         {
             match self.slopes_near(&levelled, region) {
@@ -107,7 +107,7 @@ impl<F: Finder> Grounded<F> {
             .filter(|&i| {
                 let region = &surfaces.regions[i];
                 let height_m = camera_m - 1.0 / f64::from(region.q);
-                let off_the_joints_m = height_m - self.correction.height_m();
+                let off_the_joints_m = height_m - self.correction.raised_m;
                 region.support >= least
                     && core_part * region.core >= config.min_ground
                     && height_m.abs() < gate_m
@@ -164,7 +164,7 @@ impl<F: Finder> Grounded<F> {
         let below_m = |i: usize| 1.0 / f64::from(surfaces.regions[i].q);
         (0..surfaces.regions.len()).any(|i| {
             let apart_m = (below_m(i) - below_m(index)).abs();
-            let off_the_joints_m = camera_m - below_m(i) - self.correction.height_m();
+            let off_the_joints_m = camera_m - below_m(i) - self.correction.raised_m;
             let could_be_ground = off_the_joints_m.abs() < self.config.ground_height
                 || support(i) > as_large * support(index);
             core_part * surfaces.regions[i].core >= self.config.min_ground
@@ -176,7 +176,7 @@ impl<F: Finder> Grounded<F> {
     }
 
     /// What the frame says of the camera's height, and which region is the ground.
-    fn find_reference(&mut self, levelled: &Levelled, known: &dyn KnownFloor) -> PoseReference {
+    fn find_reference(&mut self, levelled: &Levelled, known: &KnownFloor<'_>) -> PoseReference {
         if !self.is_straight(levelled) {
             return PoseReference::None;
         }

@@ -4,10 +4,10 @@ use nalgebra::Vector2;
 use sensing::Scan;
 
 use super::reference::PoseReference;
-use crate::camera_pose::levelled::Levelled;
+use crate::camera_pose::Levelled;
 use crate::ground_plane::grounded::Grounded;
-use crate::planes::{KnownFloor, NothingKnown, Planes, SegmentError, Segmenter};
-use crate::regions::finder::{Finder, Look};
+use crate::planes::{KnownFloor, Planes, SegmentError, Segmenter};
+use crate::regions::{Finder, Look};
 
 impl<F: Finder> Grounded<F> {
     /// Shows the surfaces of the picture that was read as if the joints had the camera's pose right.
@@ -25,13 +25,13 @@ impl<F: Finder> Grounded<F> {
 
 impl<F: Finder> Segmenter for Grounded<F> {
     fn segment(&mut self, scan: &Scan, planes: &mut Planes) -> Result<(), SegmentError> {
-        self.segment_known(scan, &NothingKnown, planes)
+        self.segment_known(scan, &|_, _| None, planes)
     }
 
     fn segment_known(
         &mut self,
         scan: &Scan,
-        known: &dyn KnownFloor,
+        known: &KnownFloor<'_>,
         planes: &mut Planes,
     ) -> Result<(), SegmentError> {
         let expected = self.surfaces.labels.len();
@@ -55,7 +55,7 @@ impl<F: Finder> Segmenter for Grounded<F> {
                 rise_m: rise,
             } => {
                 (ground, rise_m) = (Some(region), rise);
-                self.surfaces.roughness.learn(region);
+                self.surfaces.parts.roughness.learn(region);
                 self.correction
                     .found(&predicted, &turn, rise_m, levelled.near);
             }

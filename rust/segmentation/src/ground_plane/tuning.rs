@@ -4,19 +4,13 @@
 use settings::{NOT_NEGATIVE, POSITIVE, SHARE, settings, within};
 
 use crate::camera_pose::correction::tuning::CorrectionTuning;
-use crate::camera_pose::horizon::TiltSearchTuning;
-use crate::camera_pose::known::KnownFloorTuning;
-use crate::picture::median::MedianTuning;
-use crate::picture::noise::NoiseTuning;
+use crate::camera_pose::{KnownFloorTuning, TiltSearchTuning};
+use crate::picture::{MedianTuning, NoiseTuning};
 use crate::regions::cuts::tuning::CutTuning;
-use crate::regions::fit::FitTuning;
-use crate::regions::roughness::RoughnessTuning;
-use crate::regions::slivers::SliverTuning;
 use crate::regions::slopes::tuning::SlopeTuning;
-use crate::regions::steps::StepTuning;
-use crate::regions::surface_parts::SurfaceTuning;
-use crate::regions::tilted::TiltedTuning;
-use crate::regions::walls::WallTuning;
+use crate::regions::{
+    FitTuning, RoughnessTuning, SliverTuning, StepTuning, SurfaceTuning, TiltedTuning, WallTuning,
+};
 
 settings! {
     /// Numbers behind the ground and the surfaces of a frame that few will want to turn.

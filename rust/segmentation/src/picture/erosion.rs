@@ -1,6 +1,6 @@
 //! Takes the border off regions: there the matching window saw two surfaces at once.
 
-use crate::picture::labels::MAX_REGIONS;
+use crate::{picture::labels::MAX_REGIONS, picture::pixels::Picture};
 
 /// Lowest and highest label of a pixel that stands for none: it was not seen, or is a hole inside one region.
 /// A byte holds every label, and processors compare many bytes at once.
@@ -61,18 +61,18 @@ impl Erosion {
     pub(crate) fn erode(
         &mut self,
         labels: &[u16],
-        disparity_px: &[f32],
-        width: usize,
+        picture: Picture<'_>,
         reach: [usize; 2],
         eroded: &mut [u16],
     ) {
+        let width = picture.width;
         let height = labels.len() / width;
         let margin = Margin {
             width,
             height,
             reach,
         };
-        self.mark(labels, disparity_px, margin);
+        self.mark(labels, picture.disparity_px, margin);
         self.lowest.spread(margin, u8::min);
         self.highest.spread(margin, u8::max);
         let [lowest, highest] =
@@ -201,12 +201,22 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    fn picture(disparity_px: &[f32]) -> Picture<'_> {
+        Picture {
+            width: 20,
+            disparity_px,
+            g: disparity_px,
+            sigma_px: disparity_px,
+            finer: 1,
+        }
+    }
+
     proptest! {
         #[test]
         fn what_is_left_has_only_its_own_label_around_it(labels in prop::collection::vec(1..3u16, 20 * 14)) {
             let disparity = vec![5.0; labels.len()];
             let mut eroded = vec![0; labels.len()];
-            Erosion::new(5).erode(&labels, &disparity, 20, [2, 3], &mut eroded);
+            Erosion::new(5).erode(&labels, picture(&disparity), [2, 3], &mut eroded);
             for row in 0..14_i32 {
                 for col in 0..20_i32 {
                     let own = labels[(row * 20 + col) as usize];
@@ -228,7 +238,7 @@ mod tests {
             .map(|&label| if label == 0 { f32::NAN } else { 4.0 })
             .collect();
         let mut eroded = vec![0; 200];
-        Erosion::new(5).erode(&labels, &disparity, 20, [2, 3], &mut eroded);
+        Erosion::new(5).erode(&labels, picture(&disparity), [2, 3], &mut eroded);
         assert_eq!(eroded, labels);
     }
 }

@@ -22,6 +22,19 @@ pub(crate) const fn fineness(pixels: usize, enough: usize) -> usize {
     if finer > 1 { finer } else { 1 }
 }
 
+/// The four pixels beside one.
+pub(crate) fn neighbours(at: usize, width: usize, pixels: usize) -> impl Iterator<Item = usize> {
+    let col = at % width;
+    [
+        (col > 0).then(|| at - 1),
+        (col + 1 < width).then_some(at + 1),
+        at.checked_sub(width),
+        (at + width < pixels).then_some(at + width),
+    ]
+    .into_iter()
+    .flatten()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

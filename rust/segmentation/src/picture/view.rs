@@ -43,6 +43,13 @@ impl Linear {
     pub fn at(&self, col: usize, row: usize) -> f32 {
         self.origin + self.per_col * to_f32(col) + self.per_row * to_f32(row)
     }
+
+    /// Whether a disparity is within `accept_px` of a plane's, where the plane is before the camera.
+    #[inline]
+    pub(crate) fn passes(&self, col: usize, row: usize, d: f32, accept_px: f32) -> bool {
+        let there = self.at(col, row);
+        there > 0.0 && (d - there).abs() < accept_px
+    }
 }
 
 /// The values of a [`Linear`] function along a row: the same bits, for less.

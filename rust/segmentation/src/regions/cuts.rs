@@ -12,12 +12,10 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector2;
 
-use crate::picture::labels::MAX_REGIONS;
-use crate::picture::pixels::Picture;
-use crate::picture::view::View;
+use crate::picture::{MAX_REGIONS, Picture, SeenPicture, View};
 use crate::regions::fit::{LevelStep, Lie};
 use crate::regions::region::Region;
-use parts::{CutPicture, PartSums, RegionPart, RegionParts};
+use parts::{PartSums, RegionPart, RegionParts};
 use tuning::CutTuning;
 
 /// Which lines are tried: directions, the angle between them, and the step in which lines are moved.
@@ -93,7 +91,7 @@ impl Cuts {
         regions: &mut Vec<Region>,
         labels: &mut [u16],
     ) -> bool {
-        let seen = CutPicture { picture, view };
+        let seen = SeenPicture { picture, view };
         let before = regions.len();
         let block = self.tuning.block * picture.finer;
         self.parts
@@ -193,7 +191,7 @@ impl Cuts {
     /// it is closer to the one height or to the other.
     fn part(
         &mut self,
-        seen: CutPicture<'_>,
+        seen: SeenPicture<'_>,
         index: usize,
         step: &LevelStep,
         regions: &mut Vec<Region>,
@@ -205,7 +203,7 @@ impl Cuts {
         let (rise, width) = (step.rise as f32, seen.picture.width);
         let middle = whole.q + change + 0.5 * rise;
         let nearer_px = |(at, &label): (usize, &u16)| {
-            let [g, x, y] = seen.gxy(at % width, at / width);
+            let [x, y, g] = seen.xyg(at);
             let between_px = middle * g - whole.q * (a * x + b * y);
             let off_px = (seen.picture.disparity_px[at] - between_px) * rise.signum();
             if label == own { off_px } else { 0.0 }

@@ -1,7 +1,6 @@
 //! What makes one segmenter differ from the others: how it finds surfaces in a picture.
 
-use crate::picture::pixels::Picture;
-use crate::picture::view::View;
+use crate::picture::{Picture, View};
 use crate::regions::region::Region;
 
 /// How often a picture was looked at.

@@ -7,8 +7,7 @@
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use settings::{POSITIVE, at_least, settings, within};
 
-use crate::picture::pixels::Picture;
-use crate::picture::view::{View, to_f32};
+use crate::picture::{Picture, View, to_f32};
 use crate::regions::region::Region;
 
 settings! {

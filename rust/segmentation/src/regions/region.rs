@@ -1,6 +1,6 @@
 //! One surface of a frame as it is known while the frame is looked at.
 
-use crate::picture::view::Linear;
+use crate::picture::Linear;
 
 /// A region of one surface.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

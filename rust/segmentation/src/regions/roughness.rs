@@ -6,8 +6,7 @@
 
 use settings::{POSITIVE, SHARE, settings};
 
-use crate::picture::labels::MAX_REGIONS;
-use crate::picture::pixels::Picture;
+use crate::picture::{MAX_REGIONS, Picture};
 use crate::regions::region::Region;
 
 settings! {
@@ -45,10 +44,7 @@ impl Roughness {
     /// Nothing is known of the ground, nor of the sensor but the noise that it has at least, px.
     pub(crate) fn new(noise_floor_px: f32, tuning: RoughnessTuning) -> Self {
         Self {
-            regions: [Deviation {
-                pixels: 0,
-                squares: 0.0,
-            }; MAX_REGIONS + 1],
+            regions: [Deviation::default(); MAX_REGIONS + 1],
             ground_px: None,
             least_px: tuning.least * noise_floor_px,
             tuning,

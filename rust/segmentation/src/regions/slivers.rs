@@ -3,8 +3,7 @@
 
 use settings::{POSITIVE, SHARE, settings, within};
 
-use crate::picture::view::View;
-use crate::regions::region::Region;
+use crate::{picture::View, regions::region::Region};
 
 settings! {
     /// When a thin surface at the edge of a step is none.

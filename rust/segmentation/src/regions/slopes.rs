@@ -7,21 +7,17 @@
 mod growth;
 mod memory;
 mod seeds;
-mod sums;
 mod treads;
 pub(crate) mod tuning;
 
 use nalgebra::Vector3;
 
-use crate::picture::labels::MAX_REGIONS;
-use crate::picture::pixels::Picture;
-use crate::picture::view::{Linear, View};
+use crate::picture::{Linear, MAX_REGIONS, Picture, SeenPicture, View};
 use crate::regions::finder::Look;
 use crate::regions::region::Region;
 use growth::{SlopeGrowth, StripReach};
 use memory::SlopeMemory;
 use seeds::seeds;
-use sums::SlopePicture;
 use treads::TreadFit;
 use tuning::SlopeTuning;
 
@@ -58,7 +54,7 @@ impl SlopeSearch {
         regions: &mut Vec<Region>,
         labels: &mut [u16],
     ) -> bool {
-        let seen = SlopePicture { picture, view };
+        let seen = SeenPicture { picture, view };
         let before = regions.len();
         let mut learned = self.memory.faded(&self.tuning.memory);
         self.doubtful.clear();
@@ -124,7 +120,7 @@ impl SlopeSearch {
     /// Grows a plane from a pixel on, and by how much it is better than treads; none where it is no slope.
     fn grow(
         &mut self,
-        seen: SlopePicture<'_>,
+        seen: SeenPicture<'_>,
         start: (usize, Vector3<f64>),
         look: Look,
         regions: &[Region],
@@ -144,7 +140,7 @@ impl SlopeSearch {
     /// Makes a region of the pixels that were grown, and of the rest of the strips that they were taken from.
     fn take(
         &self,
-        seen: SlopePicture<'_>,
+        seen: SeenPicture<'_>,
         plane: &Vector3<f64>,
         regions: &mut Vec<Region>,
         labels: &mut [u16],

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use settings::{ConfigError, POSITIVE, require, settings, within};
+use settings::{POSITIVE, settings, within};
 
 use crate::planes::Planes;
 
@@ -18,19 +18,7 @@ settings! {
         /// Surfaces that are further apart than this are no step.
         most: f32 = 0.15, "m", POSITIVE;
     }
-    check StepTuning::is_ordered;
-}
-
-impl StepTuning {
-    fn is_ordered(&self, key: &str) -> Result<(), ConfigError> {
-        let allowed = format!("greater than {key}.least");
-        require(
-            self.most > self.least,
-            &format!("{key}.most"),
-            &allowed,
-            self.most,
-        )
-    }
+    require (most) > (least);
 }
 
 /// Where a line of pixels last had a level surface, and how high, m.

@@ -2,14 +2,11 @@
 
 use nalgebra::{Vector2, Vector3};
 use sensing::{Intrinsics, Scan};
+use settings::{NOT_NEGATIVE, between, settings, within};
 
-use crate::picture::erosion::{Erosion, keep_where};
-use crate::picture::labels::{MAX_REGIONS, count_labels};
-use crate::picture::median::Median;
-use crate::picture::near::NearFeet;
-use crate::picture::noise::NoiseMap;
-use crate::picture::pixels::Picture;
-use crate::picture::view::View;
+use crate::picture::{
+    Erosion, MAX_REGIONS, Median, NearFeet, NoiseMap, Picture, View, count_labels, keep_where,
+};
 use crate::regions::cuts::{Cuts, TiltPrior};
 use crate::regions::finder::{Finder, Look};
 use crate::regions::fit::{FitTuning, RegionFit, fit_regions};
@@ -17,7 +14,45 @@ use crate::regions::region::Region;
 use crate::regions::roughness::Roughness;
 use crate::regions::slivers::Slivers;
 use crate::regions::slopes::SlopeSearch;
-use crate::regions::surface_parts::{SurfaceParts, SurfaceTuning};
+
+settings! {
+    /// How the surfaces of one frame are fitted, and which of them are level.
+    pub struct SurfaceTuning("navigation.ground.tuning.surfaces") {
+        /// Columns and rows to each side of a pixel that must be of its region for the pixel to take part in a fit: those that a
+        /// matching window of 5 reaches, and one more row.
+        border: [usize; 2] = [2, 3], "1", within(0.0, 50.0);
+        /// Columns and rows to each side of a pixel that must be of its region for the pixel to take part in the check whether the
+        /// region is a slice of a wall: slices are thin, and `border` leaves too little of them.
+        thin_border: [usize; 2] = [1, 1], "1", within(0.0, 50.0);
+        /// A pixel without a region is a hole in the region that so many of its eight neighbours or more belong to, and spoils none
+        /// of the pixels around it.
+        hole: usize = 5, "1", within(1.0, 8.0);
+        /// Pixels that must be left of a region when its border is taken off; of one with fewer all take part in the fit.
+        min_fit: u32 = 24, "1", NOT_NEGATIVE;
+        /// A region that is tilted by more than this is no level surface. Blending at the borders of a tread gives less than half
+        /// of it.
+        steep: f64 = 0.3, "rad", between(0.0, 1.6);
+        /// A region counts as steep, or as sloping near the feet, only when the squared distance of its tilt from none, in its own
+        /// errors, is above this.
+        steep_sure: f64 = 3.5, "1", NOT_NEGATIVE;
+    }
+}
+
+/// What surfaces are found with, beside the finder.
+#[derive(Debug, Clone)]
+pub(crate) struct SurfaceParts {
+    pub(crate) tuning: SurfaceTuning,
+    pub(crate) fit_tuning: FitTuning,
+    /// A surface tilted by more than this is no floor, rad.
+    pub(crate) floor_tilt_rad: f64,
+    pub(crate) median: Median,
+    pub(crate) noise: NoiseMap,
+    /// How rough the regions are, after `refit`.
+    pub(crate) roughness: Roughness,
+    pub(crate) slivers: Slivers,
+    pub(crate) cuts: Cuts,
+    pub(crate) slopes: SlopeSearch,
+}
 
 /// A frame and the view that it is read under, row by row.
 #[derive(Debug, Clone)]
@@ -32,6 +67,12 @@ pub(crate) struct Images {
 }
 
 impl Images {
+    /// What is seen, under a view.
+    fn under(&mut self, view: &View) -> Picture<'_> {
+        view.fill(self.width, &mut self.g);
+        self.picture()
+    }
+
     fn picture(&self) -> Picture<'_> {
         Picture {
             width: self.width,
@@ -47,11 +88,8 @@ impl Images {
 #[derive(Debug, Clone)]
 pub(crate) struct FrameSurfaces<F> {
     finder: F,
-    tuning: SurfaceTuning,
-    fit_tuning: FitTuning,
-    floor_tilt_rad: f64,
-    median: Median,
-    noise: NoiseMap,
+    /// What finds them beside it.
+    pub(crate) parts: SurfaceParts,
     seen_px: Vec<f32>,
     whole_px: Vec<f32>,
     /// What is seen, pixel by pixel.
@@ -62,16 +100,10 @@ pub(crate) struct FrameSurfaces<F> {
     pub(crate) regions: Vec<Region>,
     /// A fit for each region, away from its border.
     pub(crate) fits: Vec<RegionFit>,
-    /// How rough the regions are, after `refit`.
-    pub(crate) roughness: Roughness,
     eroded: Vec<u16>,
     checks: Vec<RegionFit>,
     shown: Vec<RegionFit>,
     erosion: Erosion,
-    slivers: Slivers,
-    cuts: Cuts,
-    /// Finds slopes.
-    pub(crate) slopes: SlopeSearch,
 }
 
 impl<F: Finder> FrameSurfaces<F> {
@@ -81,11 +113,7 @@ impl<F: Finder> FrameSurfaces<F> {
         Self {
             finder,
             erosion: Erosion::new(parts.tuning.hole),
-            tuning: parts.tuning,
-            fit_tuning: parts.fit_tuning,
-            floor_tilt_rad: parts.floor_tilt_rad,
-            median: parts.median,
-            noise: parts.noise,
+            parts,
             seen_px: Vec::new(),
             whole_px: Vec::new(),
             images: Images {
@@ -98,19 +126,15 @@ impl<F: Finder> FrameSurfaces<F> {
             labels: vec![0; pixels],
             regions: Vec::new(),
             fits: Vec::new(),
-            roughness: parts.roughness,
             eroded: vec![0; pixels],
             checks: Vec::new(),
             shown: Vec::new(),
-            slivers: parts.slivers,
-            cuts: parts.cuts,
-            slopes: parts.slopes,
         }
     }
 
     /// Takes in a scan: median and local noise.
     pub(crate) fn read(&mut self, scan: &Scan) {
-        self.slopes.doubtful.clear();
+        self.parts.slopes.doubtful.clear();
         self.seen_px.clear();
         self.seen_px.extend(scan.disparity_px.iter().map(|&d| {
             if d > 0.0 && d < f32::INFINITY {
@@ -119,13 +143,13 @@ impl<F: Finder> FrameSurfaces<F> {
                 f32::NAN
             }
         }));
-        self.median.filter(
+        self.parts.median.filter(
             &self.seen_px,
             self.images.width,
             &mut self.images.disparity_px,
         );
-        self.noise.measure(&self.images.disparity_px);
-        self.noise.fill(&mut self.images.sigma_px);
+        self.parts.noise.measure(&self.images.disparity_px);
+        self.parts.noise.fill(&mut self.images.sigma_px);
     }
 
     /// Leaves out what is further than `reach_m` from the robot, seen from `camera_m` (robot frame), until all is shown again;
@@ -157,10 +181,10 @@ impl<F: Finder> FrameSurfaces<F> {
     /// Whether what is shown of a region is no floor, by its slope; after `refit`.
     pub(crate) fn shown_slopes(&mut self, index: usize, view: &View) -> bool {
         let picture = self.images.picture();
-        let (tuning, shown) = (&self.fit_tuning, &mut self.shown);
+        let (tuning, shown) = (&self.parts.fit_tuning, &mut self.shown);
         fit_regions(picture, view, &self.regions, &self.eroded, tuning, shown);
         let (tilt, certainty) = shown[index].own_tilt();
-        tilt.norm() > self.floor_tilt_rad && certainty > self.tuning.steep_sure
+        tilt.norm() > self.parts.floor_tilt_rad && certainty > self.parts.tuning.steep_sure
     }
 
     /// Takes back what was left out.
@@ -170,14 +194,12 @@ impl<F: Finder> FrameSurfaces<F> {
 
     /// The picture under a view.
     pub(crate) fn picture(&mut self, view: &View) -> Picture<'_> {
-        view.fill(self.images.width, &mut self.images.g);
-        self.images.picture()
+        self.images.under(view)
     }
 
     /// Finds the regions in the view, and fits them.
     pub(crate) fn find(&mut self, view: &View, look: Look) {
-        view.fill(self.images.width, &mut self.images.g);
-        let picture = self.images.picture();
+        let picture = self.images.under(view);
         let (regions, labels) = (&mut self.regions, &mut self.labels);
         self.finder.find(picture, view, look, regions, labels);
         self.fit_inside(view);
@@ -185,10 +207,9 @@ impl<F: Finder> FrameSurfaces<F> {
 
     /// Makes regions of the slopes, and fits the others anew; says whether there were any.
     pub(crate) fn find_slopes(&mut self, view: &View, look: Look) -> bool {
-        view.fill(self.images.width, &mut self.images.g);
-        let picture = self.images.picture();
+        let picture = self.images.under(view);
         let (regions, labels) = (&mut self.regions, &mut self.labels);
-        let any = self.slopes.find(picture, view, look, regions, labels);
+        let any = self.parts.slopes.find(picture, view, look, regions, labels);
         if any {
             self.fit_inside(view);
         }
@@ -197,10 +218,9 @@ impl<F: Finder> FrameSurfaces<F> {
 
     /// Cuts the regions that hold two levels, and fits anew; says whether there were any.
     pub(crate) fn cut(&mut self, view: &View, tilt: TiltPrior) -> bool {
-        view.fill(self.images.width, &mut self.images.g);
-        let picture = self.images.picture();
+        let picture = self.images.under(view);
         let (regions, labels) = (&mut self.regions, &mut self.labels);
-        let any = self.cuts.cut(picture, view, tilt, regions, labels);
+        let any = self.parts.cuts.cut(picture, view, tilt, regions, labels);
         if any {
             self.fit_inside(view);
         }
@@ -210,48 +230,39 @@ impl<F: Finder> FrameSurfaces<F> {
     /// Fits the regions away from their borders, in the view that `g` is of.
     fn fit_inside(&mut self, view: &View) {
         let picture = self.images.picture();
-        let eroded = &mut self.eroded;
-        self.erosion.erode(
-            &self.labels,
-            picture.disparity_px,
-            self.images.width,
-            self.tuning.border,
-            eroded,
-        );
+        let (border, eroded) = (self.parts.tuning.border, &mut self.eroded);
+        self.erosion.erode(&self.labels, picture, border, eroded);
         let mut left = [0_u32; MAX_REGIONS + 1];
         count_labels(&self.eroded, |label, pixels| left[label] += pixels as u32);
         for (region, &left) in self.regions.iter_mut().zip(&left[1..]) {
             region.core = left as usize;
         }
-        let min_fit = self.tuning.min_fit;
+        let min_fit = self.parts.tuning.min_fit;
         let small = left.map(|left| left < min_fit);
         if small[1..=self.regions.len()].contains(&true) {
             keep_where(&self.labels, &mut self.eroded, &small);
         }
-        let (tuning, fits) = (&self.fit_tuning, &mut self.fits);
+        let (tuning, fits) = (&self.parts.fit_tuning, &mut self.fits);
         fit_regions(picture, view, &self.regions, &self.eroded, tuning, fits);
     }
 
     /// Fits the regions anew after a small turn of the view, and checks the thin ones over more of their pixels.
     pub(crate) fn refit(&mut self, view: &View) {
-        view.fill(self.images.width, &mut self.images.g);
-        let picture = self.images.picture();
-        let (tuning, fits) = (&self.fit_tuning, &mut self.fits);
+        let picture = self.images.under(view);
+        let (tuning, fits) = (&self.parts.fit_tuning, &mut self.fits);
         fit_regions(picture, view, &self.regions, &self.eroded, tuning, fits);
         for (region, fit) in self.regions.iter_mut().zip(&self.fits) {
             region.q = fit.q(&Vector2::zeros()) as f32;
         }
-        self.roughness.measure(picture, &self.regions, &self.eroded);
-        self.slivers
-            .find(&self.labels, self.images.width, view, &self.regions);
-        self.erosion.erode(
-            &self.labels,
-            picture.disparity_px,
-            self.images.width,
-            self.tuning.thin_border,
-            &mut self.eroded,
-        );
-        let (tuning, checks) = (&self.fit_tuning, &mut self.checks);
+        self.parts
+            .roughness
+            .measure(picture, &self.regions, &self.eroded);
+        self.parts
+            .slivers
+            .find(&self.labels, picture.width, view, &self.regions);
+        let (border, eroded) = (self.parts.tuning.thin_border, &mut self.eroded);
+        self.erosion.erode(&self.labels, picture, border, eroded);
+        let (tuning, checks) = (&self.parts.fit_tuning, &mut self.checks);
         fit_regions(picture, view, &self.regions, &self.eroded, tuning, checks);
     }
 
@@ -276,9 +287,10 @@ impl<F: Finder> FrameSurfaces<F> {
             return false;
         }
         let (tilt, certainty) = self.checks[index].own_tilt();
-        let steep = tilt.norm() > self.tuning.steep && certainty > self.tuning.steep_sure;
-        self.fits[index].is_level(self.floor_tilt_rad, self.fit_tuning.significant)
+        let steep =
+            tilt.norm() > self.parts.tuning.steep && certainty > self.parts.tuning.steep_sure;
+        self.fits[index].is_level(self.parts.floor_tilt_rad, self.parts.fit_tuning.significant)
             && !steep
-            && !self.slivers.contains(index)
+            && !self.parts.slivers.contains(index)
     }
 }

@@ -4,12 +4,11 @@
 //! normal in the camera's frame.
 
 use geometry::{Outline, Plane, Point};
-use nalgebra::{Isometry3, Matrix3, Point2, Point3, Unit, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point2, Point3, Unit, Vector2, Vector3};
 use sensing::Intrinsics;
 use settings::{SHARE, settings};
 
-use crate::picture::view::Linear;
-use crate::planes::PlaneRegion;
+use crate::{picture::Linear, planes::PlaneRegion};
 
 settings! {
     /// How planes in any direction are described.
@@ -28,7 +27,7 @@ pub(crate) struct PlaneSums {
 }
 
 impl PlaneSums {
-    /// Adds a disparity at a place `(x, y, 1)`, in rays or in columns and rows.
+    /// Adds a disparity at a place: `(x, y, 1)` in rays or in columns and rows, `(X, Y, g)` of a view in noises.
     pub(crate) fn add(&mut self, place: [f64; 3], d: f64) {
         let place = Vector3::from(place);
         self.moments += place * place.transpose();
@@ -57,6 +56,26 @@ impl PlaneSums {
     /// Root mean square distance from that plane, px.
     pub(crate) fn roughness_px(&self, plane: &Vector3<f64>) -> f64 {
         ((self.squares - self.products.dot(plane)).max(0.0) / self.count()).sqrt()
+    }
+
+    /// The best plane of this tilt.
+    pub(crate) fn tilted(&self, tilt: &Vector2<f64>) -> Option<Vector3<f64>> {
+        let direction = Vector3::new(tilt.x, tilt.y, 1.0);
+        let q = self.products.dot(&direction) / direction.dot(&(self.moments * direction));
+        q.is_finite().then(|| direction * q)
+    }
+
+    /// What a plane leaves over, in squared noise of independent pixels: so many are
+    /// `alike` that they tell as much as one.
+    pub(crate) fn cost(&self, plane: &Vector3<f64>, alike: f64) -> f64 {
+        let left = self.squares + plane.dot(&(self.moments * plane - 2.0 * self.products));
+        left.max(0.0) / alike
+    }
+
+    /// What the best level surface leaves over, in squared noise of independent pixels.
+    pub(crate) fn level_cost(&self, alike: f64) -> f64 {
+        let explained = self.products.z * self.products.z / self.moments[(2, 2)].max(1e-9);
+        (self.squares - explained).max(0.0) / alike
     }
 }
 

@@ -6,6 +6,7 @@ use nalgebra::{Point2, Vector3};
 use sensing::Intrinsics;
 use settings::{POSITIVE, settings, within};
 
+use crate::picture::neighbours;
 use crate::planes::{PlaneRegion, Planes};
 use crate::regions::tilted::{PlaneSums, TiltedRecord};
 
@@ -76,7 +77,7 @@ impl Walls {
             sigma_px,
             block,
             across: camera.width / block,
-            down: camera.height / block,
+            blocks: (camera.width / block) * (camera.height / block),
         };
         self.fit_blocks(&image, labels);
         for seed in 0..self.blocks.len() {
@@ -96,7 +97,7 @@ impl Walls {
     fn fit_blocks(&mut self, image: &WallImage<'_>, labels: &[u16]) {
         let (min_block, smooth) = (self.tuning.min_block, self.tuning.smooth);
         self.blocks.clear();
-        for block in 0..image.across * image.down {
+        for block in 0..image.blocks {
             let mut sums = PlaneSums::default();
             if image.free_pixels(block, labels) >= min_block {
                 for (col, row) in image.pixels(block) {
@@ -131,7 +132,7 @@ impl Walls {
         while next < self.members.len() {
             let at = self.members[next];
             next += 1;
-            for beside in image.neighbours(at) {
+            for beside in neighbours(at, image.across, image.blocks) {
                 let block = self.blocks[beside];
                 let Some(other) = block.plane.filter(|_| !block.taken) else {
                     continue;
@@ -181,70 +182,39 @@ struct WallImage<'a> {
     /// Side of a block, pixels.
     block: usize,
     across: usize,
-    down: usize,
+    blocks: usize,
 }
 
 impl WallImage<'_> {
+    /// First column and first row of a block.
+    const fn corner(&self, block: usize) -> (usize, usize) {
+        let (i, j) = (block % self.across, block / self.across);
+        (i * self.block, j * self.block)
+    }
+
     fn pixels(&self, block: usize) -> impl Iterator<Item = (usize, usize)> {
-        let (left, top) = (
-            block % self.across * self.block,
-            block / self.across * self.block,
-        );
+        let (left, top) = self.corner(block);
         let side = self.block;
         (top..top + side).flat_map(move |row| (left..left + side).map(move |col| (col, row)))
     }
 
     /// Seen pixels of a block that no region took.
     fn free_pixels(&self, block: usize, labels: &[u16]) -> usize {
-        let (left, top) = (
-            block % self.across * self.block,
-            block / self.across * self.block,
-        );
-        let mut free = 0;
-        for row in top..top + self.block {
-            let pixels =
-                row * self.camera.width + left..row * self.camera.width + left + self.block;
-            let pixels = labels[pixels.clone()]
-                .iter()
-                .zip(&self.disparity_px[pixels]);
-            free += pixels
-                .filter(|(label, d)| **label == 0 && !d.is_nan())
-                .count();
-        }
-        free
+        let free = |&(col, row): &(usize, usize)| {
+            let at = row * self.camera.width + col;
+            labels[at] == 0 && !self.disparity_px[at].is_nan()
+        };
+        self.pixels(block).filter(free).count()
     }
 
     fn block_sigma_px(&self, block: usize) -> f64 {
-        let (col, row) = (
-            block % self.across * self.block,
-            block / self.across * self.block,
-        );
+        let (col, row) = self.corner(block);
         f64::from(self.sigma_px[(row + self.block / 2) * self.camera.width + col + self.block / 2])
-    }
-
-    fn neighbours(&self, block: usize) -> impl Iterator<Item = usize> {
-        let (i, j, across, down) = (
-            block % self.across,
-            block / self.across,
-            self.across,
-            self.down,
-        );
-        [
-            (i > 0).then(|| block - 1),
-            (i + 1 < across).then(|| block + 1),
-            (j > 0).then(|| block - across),
-            (j + 1 < down).then(|| block + across),
-        ]
-        .into_iter()
-        .flatten()
     }
 
     /// Largest distance of two planes at the corners of a block, px.
     fn apart_px(&self, block: usize, a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
-        let (left, top) = (
-            block % self.across * self.block,
-            block / self.across * self.block,
-        );
+        let (left, top) = self.corner(block);
         let last = self.block - 1;
         [(0, 0), (last, 0), (0, last), (last, last)]
             .iter()

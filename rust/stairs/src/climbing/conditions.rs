@@ -48,23 +48,6 @@ pub enum Unready {
     Unfit(Unfit),
 }
 
-impl Unready {
-    /// The word of what fails.
-    pub const fn word(&self) -> &'static str {
-        match self {
-            Self::NotNear(..) => "not_near",
-            Self::NotAligned(_) => "not_aligned",
-            Self::NoRoomLeft(..) => "no_room_left",
-            Self::NoRoomRight(..) => "no_room_right",
-            Self::Unfit(Unfit::TooLow(_)) => "step_too_low",
-            Self::Unfit(Unfit::TooHigh(_)) => "step_too_high",
-            Self::Unfit(Unfit::TreadTooShort(..)) => "tread_too_short",
-            Self::Unfit(Unfit::GapTooShort(..)) => "gap_too_short",
-            Self::Unfit(Unfit::TooNarrow(..)) => "too_narrow",
-        }
-    }
-}
-
 /// Where the feet go if the stair can be stepped on as the robot stands now: a height within the limits, both feet placed
 /// within `front_x_limit` of the stair's own set and `back_x_limit` of the next one's, the front edge near and aligned, room
 /// on either side. What no other place would mend is told first.
@@ -111,7 +94,21 @@ mod tests {
 
     fn check(ahead: Ahead, stand: Stand) -> &'static str {
         let config = ClimbingConfig::default();
-        conditions(&config, &FEET, &ahead, &stand, &TOLERANCE).map_or_else(|e| e.word(), |_| "step")
+        conditions(&config, &FEET, &ahead, &stand, &TOLERANCE).map_or_else(word, |_| "step")
+    }
+
+    const fn word(unready: Unready) -> &'static str {
+        match unready {
+            Unready::NotNear(..) => "not_near",
+            Unready::NotAligned(_) => "not_aligned",
+            Unready::NoRoomLeft(..) => "no_room_left",
+            Unready::NoRoomRight(..) => "no_room_right",
+            Unready::Unfit(Unfit::TooLow(_)) => "step_too_low",
+            Unready::Unfit(Unfit::TooHigh(_)) => "step_too_high",
+            Unready::Unfit(Unfit::TreadTooShort(..)) => "tread_too_short",
+            Unready::Unfit(Unfit::GapTooShort(..)) => "gap_too_short",
+            Unready::Unfit(Unfit::TooNarrow(..)) => "too_narrow",
+        }
     }
 
     /// S-M12: the stance before the edge, the room beside it and the depth of the tread, three cases each, up and down.

@@ -32,8 +32,6 @@ pub enum Onward {
 pub struct Footing {
     /// The heels' place beyond the front edge, m.
     pub heel_m: f64,
-    /// Part of the sole that bears load, from and to, from its middle forward, m.
-    pub bearing_m: [f64; 2],
 }
 
 /// Why a stair is not stepped on.
@@ -100,20 +98,7 @@ impl Footing {
                 desired_m.max(least_heel_m)
             }
         };
-        Ok(Self {
-            heel_m,
-            bearing_m: Self::bearing(feet, heel_m, onward),
-        })
-    }
-
-    fn bearing(feet: &Feet, heel_m: f64, onward: Onward) -> [f64; 2] {
-        let half_m = 0.5 * feet.length_m;
-        let back_m = (-heel_m).max(0.0) - half_m;
-        let front_m = match onward {
-            Onward::Level => half_m,
-            Onward::Edge { depth_m, .. } => (depth_m - heel_m).min(feet.length_m) - half_m,
-        };
-        [back_m, front_m]
+        Ok(Self { heel_m })
     }
 }
 
@@ -142,7 +127,6 @@ mod tests {
         assert_relative_eq!(tread.heel_m, 0.0, epsilon = 1e-12);
         let sill = on_stair(0.038, edge(0.09, -0.038)).unwrap();
         assert_relative_eq!(sill.heel_m, 0.0, epsilon = 1e-12);
-        assert_relative_eq!(sill.bearing_m[1] - sill.bearing_m[0], 0.09, epsilon = 1e-12);
     }
 
     #[test]

@@ -84,7 +84,7 @@ impl Fits {
                 let same_levels = levels
                     .into_iter()
                     .all(|(a, b)| (a - b).abs() < fits.same_level);
-                same_levels && apart_m(known.edge(), &edge, joints).is_some()
+                same_levels && apart_m(&known.edge, &edge, joints).is_some()
             };
             if let Some(known) = self.edges.iter_mut().find(|known| same(known)) {
                 known.add(&fitted, &edge, &map_from_camera, fusion);
@@ -128,18 +128,15 @@ impl Fits {
         let sure = self
             .edges
             .iter()
-            .filter(|fused| is_sure(&fused.fit(), &tuning.fits));
+            .filter(|fused| is_sure(&fused.fit, &tuning.fits));
         let same = sure.filter_map(|fused| {
             let [one_way, other_way] = order(fused.heights_m);
-            let ways = [
-                (*fused.edge(), one_way),
-                (fused.edge().reversed(), other_way),
-            ];
+            let ways = [(fused.edge, one_way), (fused.edge.reversed(), other_way)];
             let (fitted, _) = ways.into_iter().find(|(fitted, level_m)| {
                 (level_m - height_m).abs() < tuning.fits.same_level
                     && apart_m(edge, fitted, &tuning.joints).is_some()
             })?;
-            Some((fitted.line()?, fused.fit()))
+            Some((fitted.line()?, fused.fit))
         });
         same.min_by(|(_, a), (_, b)| a.place_sigma_m.total_cmp(&b.place_sigma_m))
     }

@@ -6,8 +6,7 @@
 use geometry::{Camera, Map, Pose};
 use nalgebra::{Matrix2, Point2, Point3, Vector2, Vector3};
 
-use crate::lines::line::StraightLine;
-use crate::{Edge, EdgeFit, FittedEdge, FusionTuning};
+use crate::{Edge, EdgeFit, FittedEdge, FusionTuning, lines::line::StraightLine};
 
 /// What the frames from one place in one direction say.
 #[derive(Debug, Clone, Copy)]
@@ -76,9 +75,11 @@ pub(crate) struct FusedEdge {
     /// Steps since it was last fitted.
     pub(crate) steps_ago: u32,
     looks: Vec<EdgeLook>,
-    edge: Edge<Map>,
+    /// The edge by all looks, as long as in the last of them.
+    pub(super) edge: Edge<Map>,
     ends: Edge<Map>,
-    fit: EdgeFit,
+    /// How sure it is.
+    pub(super) fit: EdgeFit,
 }
 
 impl FusedEdge {
@@ -139,16 +140,6 @@ impl FusedEdge {
             look.moved_heading += tuning.step_heading.powi(2);
         }
         self.solve(tuning);
-    }
-
-    /// The edge by all looks, as long as in the last of them.
-    pub(crate) const fn edge(&self) -> &Edge<Map> {
-        &self.edge
-    }
-
-    /// How sure it is.
-    pub(crate) const fn fit(&self) -> EdgeFit {
-        self.fit
     }
 
     /// Least squares over the looks for the place at their common middle and the heading; looks that do not fit count less.

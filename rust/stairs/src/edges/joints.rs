@@ -3,8 +3,7 @@
 use geometry::{Map, Point};
 use nalgebra::Point2;
 
-use crate::lines::line::StraightLine;
-use crate::{Edge, JointsTuning, Stair, StairsConfig};
+use crate::{Edge, JointsTuning, Stair, StairsConfig, lines::line::StraightLine};
 
 /// Index of the stair that ends where another begins.
 pub(crate) fn before(stairs: &[Stair<Map>], index: usize, config: &StairsConfig) -> Option<usize> {
@@ -75,8 +74,7 @@ pub(crate) fn cut_off(stairs: &mut [Stair<Map>], config: &StairsConfig) {
 /// How far behind a stair's front an edge lies that crosses most of the stair, m.
 fn begins_at_m(stair: &Stair<Map>, edge: &Edge<Map>, tuning: &JointsTuning) -> Option<f64> {
     let part = part_beside(edge, &stair.back)?;
-    let middle = part.middle().inner;
-    let at = [middle.x, middle.y];
+    let at = part.middle_m();
     let depth_m = stair.front.beyond_m(at);
     let crosses = part.length_m() > tuning.wide * stair.back.length_m()
         && stair.back.across().dot(&edge.across()) > tuning.parallel;

@@ -2,8 +2,7 @@
 
 use geometry::Robot;
 
-use crate::frame::view::PlanesView;
-use crate::{Edge, Stair, StairsConfig};
+use crate::{Edge, Stair, StairsConfig, frame::view::PlanesView};
 
 /// Whether both edges and the depth between them are long enough for a stair (003, section IV.B).
 pub(crate) fn is_large_enough(stair: &Stair<Robot>, config: &StairsConfig) -> bool {

@@ -3,8 +3,7 @@
 use geometry::Outline;
 use nalgebra::{Point2, Vector2};
 
-use crate::LinesTuning;
-use crate::lines::line::LineSum;
+use crate::{LinesTuning, lines::line::LineSum};
 
 /// The side of a hull to which the piece from corner `edge` to the next belongs: neighbours are taken in while all stay
 /// within `fringe_m` of one line, so that fringes do not split it. Its ends, counter-clockwise.

@@ -49,7 +49,7 @@ fn edges_of_a_spiral_staircase_are_within_1_cm_and_3_degrees() {
     }
     prisms.push(ground());
     let recognizer = swing(&prisms, &Pose::identity());
-    let stairs = &recognizer.staircase().stairs;
+    let stairs = &recognizer.staircase.stairs;
     assert_eq!(stairs.len(), 4);
     for (stair, (middle, heading_rad)) in stairs.iter().zip(&fronts) {
         assert!(stair.front.beyond_m(*middle).abs() < 0.01, "{stair:?}");
@@ -82,7 +82,7 @@ fn of_four_steps_the_one_of_5_cm_is_no_stair() {
     ];
     let recognizer = swing(&prisms, &Pose::identity());
     let heights: Vec<_> = recognizer
-        .staircase()
+        .staircase
         .stairs
         .iter()
         .map(Stair::height_m)
@@ -109,7 +109,7 @@ fn a_head_swing_finds_nine_tenths_of_an_edge_and_no_more_than_2_cm_too_much() {
             .update(&scan, &planes, &Pose::identity(), 0)
             .unwrap();
     }
-    let first = &recognizer.staircase().stairs[0];
+    let first = &recognizer.staircase.stairs[0];
     for edge in [&first.front, &first.back] {
         assert!(
             (0.72..0.82).contains(&edge.length_m()),
@@ -125,7 +125,7 @@ fn ground_beyond_a_sill_is_a_stair_and_the_ground_before_it_is_not() {
     let before = Prism::new(&[[-1.0, -0.8], [0.4, -0.8], [0.4, 0.8], [-1.0, 0.8]], 0.0);
     let beyond = Prism::new(&[[0.49, -0.8], [2.0, -0.8], [2.0, 0.8], [0.49, 0.8]], 0.0);
     let recognizer = swing(&[sill, before, beyond], &Pose::identity());
-    let stairs = &recognizer.staircase().stairs;
+    let stairs = &recognizer.staircase.stairs;
     assert_eq!(stairs.len(), 2);
     let places = [(0.038, 0.4), (0.0, 0.49)];
     for (stair, (height_m, front_m)) in stairs.iter().zip(places) {
@@ -147,7 +147,7 @@ fn stairs_down_from_a_narrow_landing_are_found_though_the_floor_lies_around_them
     let prisms = [tread(0), tread(1), tread(2), landing, ground()];
     let recognizer = swing(&prisms, &Pose::from_yaw(0.0, 0.0, 0.12, 0.0));
     let ahead: Vec<_> = recognizer
-        .staircase()
+        .staircase
         .stairs
         .iter()
         .filter(|stair| stair.front.heading_rad().abs() < 0.5)

@@ -11,7 +11,7 @@ fn a_head_swing_over_four_steps_finds_four_with_their_heights() {
             let camera = camera_pose(0.05 * f64::from(i - 6), 0.75);
             let _ = looker.look(&scene, &camera, &Pose::identity(), 0);
         }
-        let stairs = &looker.recognizer.staircase().stairs;
+        let stairs = &looker.recognizer.staircase.stairs;
         assert_eq!(stairs.len(), 4, "seed {seed}");
         for (i, stair) in stairs.iter().enumerate() {
             let (rise_m, front_m) = (0.03 * (i + 1) as f64, 0.4 + 0.12 * i as f64);

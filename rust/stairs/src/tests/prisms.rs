@@ -82,7 +82,10 @@ pub(super) fn frame(
         planes.regions.push(PlaneRegion {
             support: points.len(),
             mean: Point::new(sum[0] / count, sum[1] / count, height_m),
-            plane: Plane::horizontal(height_m),
+            plane: Plane {
+                normal: Vector3::z_axis(),
+                distance_m: height_m,
+            },
             boundary: Outline::hull(&flat).ok().filter(|_| enough),
             floor_height_m: enough.then_some(height_m),
             roughness: None,

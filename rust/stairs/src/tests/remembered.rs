@@ -114,7 +114,7 @@ fn stairs_that_vanish_are_dropped_after_some_frames_and_not_at_once() {
             1,
         );
     }
-    let last = heights(looker.recognizer.staircase());
+    let last = heights(&looker.recognizer.staircase);
     assert!(!last.contains(&1) && !last.contains(&2), "{last:?}");
 }
 
@@ -154,7 +154,7 @@ fn two_steps_that_were_taken_for_one_do_not_stay_beside_them() {
             );
         }
     }
-    let mut found = heights(recognizer.staircase());
+    let mut found = heights(&recognizer.staircase);
     found.sort_unstable();
     assert_eq!(found, [1, 2, 3]);
 }
@@ -186,13 +186,13 @@ fn open_floor_and_boxes_are_no_stairs() {
 #[test]
 fn a_pose_that_is_no_number_is_refused_and_changes_nothing() {
     let (mut looker, _) = seen(1);
-    let before = looker.recognizer.staircase().clone();
+    let before = looker.recognizer.staircase.clone();
     let nowhere: Pose<Map, Robot> = Pose::from_yaw(f64::NAN, 0.0, 0.0, 0.0);
     let refused = looker
         .recognizer
         .update(&Scan::new(CAMERA), &looker.planes, &nowhere, 9);
     assert_eq!(refused.unwrap_err(), crate::StairsError::PoseNotFinite);
-    assert_eq!(looker.recognizer.staircase(), &before);
+    assert_eq!(&looker.recognizer.staircase, &before);
 }
 
 /// Edges leave the picture at its lower border, askew where the head is turned: what is left of a tread then ends there.
@@ -241,12 +241,12 @@ fn edges_that_were_fitted_stay_where_they_are_when_they_leave_the_view() {
 fn who_is_elsewhere_forgets_the_edges_that_were_fitted_too() {
     let (mut looker, scene) = seen(5);
     looker.recognizer.forget();
-    assert!(looker.recognizer.staircase().stairs.is_empty());
+    assert!(looker.recognizer.staircase.stairs.is_empty());
     let camera = camera_pose(0.0, 0.75);
     for _ in 0..2 {
         let _ = looker.look(&scene, &camera, &Pose::identity(), 0);
     }
-    let stairs = &looker.recognizer.staircase().stairs;
+    let stairs = &looker.recognizer.staircase.stairs;
     let frames = |stair: &Stair<Map>| stair.front_fit.map_or(0, |fit| fit.frames);
     assert!(!stairs.is_empty());
     assert!(stairs.iter().all(|stair| frames(stair) <= 2), "{stairs:?}");

@@ -3,8 +3,7 @@
 use geometry::Outline;
 use nalgebra::{Point2, Vector2};
 
-use crate::treads::border::Border;
-use crate::{SidesTuning, StairsTuning};
+use crate::{SidesTuning, StairsTuning, treads::border::Border};
 
 /// A front and a back, as seen from one side.
 #[derive(Debug, Clone)]

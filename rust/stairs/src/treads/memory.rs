@@ -114,7 +114,7 @@ impl TreadMemory {
     fn drop_contradicted(&mut self, config: &StairsConfig) {
         self.treads
             .retain(|tread| tread.contradicted < config.contradicted_frames);
-        self.treads.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
+        self.treads.sort_by(|a, b| b.worth.total_cmp(&a.worth));
         let mut index = 0;
         while index < self.treads.len() {
             let tread = &self.treads[index];

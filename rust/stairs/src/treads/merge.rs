@@ -2,8 +2,7 @@
 
 use geometry::Map;
 
-use crate::treads::tread::Tread;
-use crate::{Edge, MergingTuning, StairsConfig};
+use crate::{Edge, MergingTuning, StairsConfig, treads::tread::Tread};
 
 /// Whether two treads are the same: similar heights, and enough of the smaller one in both, or side by side.
 pub(crate) fn overlap(a: &Tread, b: &Tread, config: &StairsConfig) -> bool {

@@ -15,8 +15,8 @@ pub(crate) struct Tread {
     aspects: Aspects,
     weight: f64,
     reference: Vector3<f64>,
-    // Sightings, with those before a step worth less.
-    worth: f64,
+    /// Sightings that it is worth.
+    pub(crate) worth: f64,
     /// Sightings in all.
     pub(crate) sightings: u32,
     /// From how near it was seen, m.
@@ -115,11 +115,6 @@ impl Tread {
         if self.aspects.face(&self.hull, robot, tuning) {
             self.shape(tuning);
         }
-    }
-
-    /// Sightings that it is worth.
-    pub(crate) const fn worth(&self) -> f64 {
-        self.worth
     }
 
     /// Mean of all supporting points, m.

@@ -2,8 +2,7 @@
 
 use settings::{SHARE, settings};
 
-use crate::Terrain;
-use crate::rules::by_distance::Costs;
+use crate::{Terrain, rules::by_distance::Costs};
 
 settings! {
     /// What being near to an edge costs.
@@ -30,7 +29,7 @@ impl EdgeCosts {
         // An edge lies between the cells beside it.
         self.costs
             .fill(&settings, feet_m, soft_m, |cells| (cells + 0.5) * cell_m);
-        let squared = terrain.edge_distance.all_squared();
+        let squared = &terrain.edge_distance.squared;
         for (weight, &squared) in terrain.weights.iter_mut().zip(squared) {
             *weight += self.costs.at(squared) - 1.0;
         }

@@ -4,8 +4,7 @@
 use geometry::two_levels;
 use settings::{settings, within};
 
-use crate::cells::around;
-use crate::{Sight, Terrain};
+use crate::{Sight, Terrain, cells::around};
 
 settings! {
     /// Where stairs overwrite the heights that were seen.

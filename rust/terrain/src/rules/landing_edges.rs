@@ -3,8 +3,7 @@
 
 use geometry::{same_level, two_levels};
 
-use crate::cells::beside;
-use crate::{Sight, Terrain};
+use crate::{Sight, Terrain, cells::beside};
 
 /// The cells on the levels of stairs, with those stairs' heights. Reused.
 #[derive(Debug, Clone, Default)]

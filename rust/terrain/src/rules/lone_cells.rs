@@ -2,8 +2,7 @@
 //!
 //! What really stands there fills more cells when it is looked at again, as unknown ground on the way is.
 
-use crate::Terrain;
-use crate::cells::around;
+use crate::{Terrain, cells::around};
 
 /// Finds obstacles of a few cells. Keeps its buffers.
 #[derive(Debug, Clone, Default)]

@@ -1,8 +1,7 @@
 //! Rule: a metre costs more the nearer it is to an obstacle, may not be walked where the robot has no room, and costs more where nothing
 //! was seen yet.
 
-use crate::Terrain;
-use crate::rules::by_distance::Costs;
+use crate::{Terrain, rules::by_distance::Costs};
 
 /// What a length costs by its squared distance to what is blocked. Reused.
 #[derive(Debug, Clone, Default)]
@@ -20,7 +19,7 @@ impl ObstacleCosts {
             });
         let unseen = settings.unknown_cost as f32;
         terrain.weights.clear();
-        let squared = terrain.distance.all_squared();
+        let squared = &terrain.distance.squared;
         for (&squared, &unknown) in squared.iter().zip(&terrain.unknown) {
             let unseen = if unknown { unseen } else { 0.0 };
             (terrain.weights).push(self.costs.at(squared) + unseen);

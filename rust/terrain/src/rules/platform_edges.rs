@@ -4,8 +4,7 @@ use geometry::{Cell, same_level};
 use mapping::Surface;
 use settings::{NOT_NEGATIVE, settings, within};
 
-use crate::cells::around;
-use crate::{Sight, StandingAt, Terrain};
+use crate::{Sight, StandingAt, Terrain, cells::around};
 
 settings! {
     /// Where the level that the robot stands on ends.

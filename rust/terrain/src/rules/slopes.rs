@@ -2,8 +2,7 @@
 
 use settings::{settings, within};
 
-use crate::cells::around;
-use crate::{Sight, Terrain};
+use crate::{Sight, Terrain, cells::around};
 
 settings! {
     /// Which cells are tilted.

@@ -45,12 +45,9 @@ impl VoronoiField {
         let (cols, cell_m) = (terrain.cols, terrain.lattice.cell_m);
         let (weights, distance) = (&mut terrain.weights, &terrain.distance);
         let gap_cells = (self.config.gap / cell_m).max(1.0);
-        mark_lines(&mut self.lines, distance.all_squared(), cols, gap_cells);
+        mark_lines(&mut self.lines, &distance.squared, cols, gap_cells);
         self.to_lines.compute(&self.lines, cols);
-        let squared = distance
-            .all_squared()
-            .iter()
-            .zip(self.to_lines.all_squared());
+        let squared = distance.squared.iter().zip(&self.to_lines.squared);
         for (weight, (&to_obstacle, &to_line)) in weights.iter_mut().zip(squared) {
             let [to_obstacle_m, to_line_m] =
                 [to_obstacle, to_line].map(|squared| f64::from(squared).sqrt() * cell_m);
@@ -110,7 +107,7 @@ mod tests {
         let mut distance = CellDistances::default();
         distance.compute(&blocked, COLS);
         let mut lines = Vec::new();
-        mark_lines(&mut lines, distance.all_squared(), COLS, gap_cells);
+        mark_lines(&mut lines, &distance.squared, COLS, gap_cells);
         (lines, distance)
     }
 

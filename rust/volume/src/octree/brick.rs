@@ -11,8 +11,10 @@ const VOXELS: usize = EDGE * EDGE * EDGE;
 pub(super) struct Brick {
     /// 0 where nothing is known.
     values: [f32; VOXELS],
-    known: u64,
-    occupied: u64,
+    /// Voxels of which something is known, one bit each.
+    pub(super) known: u64,
+    /// The voxels that are rather occupied than not.
+    pub(super) occupied: u64,
     /// As free as can be: a miss changes nothing.
     settled: u64,
 }
@@ -89,16 +91,6 @@ impl Brick {
     #[inline]
     pub(super) fn value(&self, index: usize) -> Option<f32> {
         (self.known >> index & 1 == 1).then(|| self.values[index])
-    }
-
-    /// Voxels of which something is known, one bit each.
-    pub(super) const fn known(&self) -> u64 {
-        self.known
-    }
-
-    /// The voxels that are rather occupied than not.
-    pub(super) const fn occupied(&self) -> u64 {
-        self.occupied
     }
 
     /// The voxels of which the log-odds are so high; not less than 0, as of the occupied ones.

@@ -36,7 +36,7 @@ struct Cursor<'a> {
 
 impl<'a> Cursor<'a> {
     fn new(nodes: &'a Nodes) -> Self {
-        let links = [nodes.root(); BRICK_DEPTH as usize + 1];
+        let links = [nodes.root; BRICK_DEPTH as usize + 1];
         Self {
             nodes,
             key: [0; 3],
@@ -56,8 +56,8 @@ impl<'a> Cursor<'a> {
                 NodeLink::Leaf(value) => return Some(value >= 0.0),
                 NodeLink::Brick(at) => {
                     let (brick, voxel) = (self.nodes.brick(at), voxel_in_brick(key));
-                    let known = brick.known() >> voxel & 1 == 1;
-                    return known.then_some(brick.occupied() >> voxel & 1 == 1);
+                    let known = brick.known >> voxel & 1 == 1;
+                    return known.then_some(brick.occupied >> voxel & 1 == 1);
                 }
                 NodeLink::Branch(at) => {
                     let child = child_of(key, self.depth);
@@ -86,8 +86,8 @@ impl Octree {
         // A voxel's centre may be nearer than where the ray enters it, by half a diagonal.
         let reach = (max_range_m * per_m + 1.0).min(2.0 * f64::from(SPAN));
         let to = std::array::from_fn(|axis| from[axis] + reach * direction[axis] / length);
-        let resolution_m = self.config().resolution;
-        let mut cursor = Cursor::new(self.nodes());
+        let resolution_m = self.config.resolution;
+        let mut cursor = Cursor::new(&self.nodes);
         let walk = VoxelWalk::new(from, to, [SPAN; 3]).into_iter().flatten();
         for (passed, voxel) in walk.enumerate() {
             let key = voxel.map(|at| at as u16);

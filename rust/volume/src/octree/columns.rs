@@ -57,7 +57,7 @@ impl Octree {
                 mark(col as usize / per_cell, row as usize / per_cell, layers);
             },
         };
-        visit.link(self.nodes.root(), [0; 3], 0);
+        visit.link(self.nodes.root, [0; 3], 0);
     }
 }
 

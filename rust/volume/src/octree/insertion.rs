@@ -198,7 +198,7 @@ impl Octree {
             seen_from(tile.low, eye),
             ends,
             Clearing::Shared,
-            window.settled(),
+            &window.settled,
         );
         let cells = |low: i32, high: i32, count: usize| {
             let end = (i64::from(high) + 1).clamp(0, count as i64) as usize;
@@ -220,7 +220,7 @@ impl Octree {
         for (at, column) in columns.iter_mut().enumerate() {
             let cell = (row * EDGE + at / EDGE) * cols + col * EDGE + at % EDGE;
             let [hits, passed] = marks.take(cell);
-            *column = [hits, passed & !window.settled()[cell]];
+            *column = [hits, passed & !window.settled[cell]];
             touched |= column[0] | column[1];
         }
         let per_brick = EDGE as u32;
@@ -238,7 +238,7 @@ impl Octree {
             let at = at.unwrap_or_else(|| self.nodes.expand(key, &self.beam));
             let brick = self.nodes.brick_mut(at);
             brick.update(hits, misses, &self.beam);
-            if brick.known() == u64::MAX && brick.common(u64::MAX).is_some() {
+            if brick.known == u64::MAX && brick.common(u64::MAX).is_some() {
                 self.nodes.prune(key);
             }
         }

@@ -2,8 +2,7 @@
 
 use geometry::{Cell, CellArea, Lattice, runs};
 
-use super::key::SPAN;
-use super::{ColumnFootprint, Octree};
+use super::{ColumnFootprint, Octree, key::SPAN};
 
 /// Voxel of the map's origin, counted from the lowest that a tree can hold.
 const ORIGIN: i32 = SPAN / 2;
@@ -11,9 +10,11 @@ const ORIGIN: i32 = SPAN / 2;
 /// Cells of a view, and layers of voxels that cross them. A set of a cell's layers is one bit each, the lowest layer first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViewLayers {
-    lattice: Lattice,
+    /// Where the cells lie in the map frame.
+    pub lattice: Lattice,
     size: [usize; 2],
-    resolution_m: f64,
+    /// Side of a voxel, m.
+    pub resolution_m: f64,
     /// Number of the lowest layer, counted from the map's origin.
     lowest: i32,
 }
@@ -27,16 +28,6 @@ impl ViewLayers {
             resolution_m,
             lowest: (bottom_m / resolution_m).round() as i32,
         }
-    }
-
-    /// Where the cells lie in the map frame.
-    pub const fn lattice(&self) -> &Lattice {
-        &self.lattice
-    }
-
-    /// Side of a voxel, m.
-    pub const fn side_m(&self) -> f64 {
-        self.resolution_m
     }
 
     /// Columns and rows.

@@ -1,7 +1,7 @@
 //! The tree as it is seen from outside: nodes down to single voxels, and the leaves one after the other.
 
 use super::brick::{Brick, EDGE, cube};
-use super::key::{DEPTH, Key, SPAN, child_corner, edge};
+use super::key::{DEPTH, Key, child_corner, edge};
 use super::nodes::{BRICK_DEPTH, NodeLink, Nodes};
 
 /// A node of which something is known. Parts of bricks are nodes, too.
@@ -46,7 +46,7 @@ impl Nodes {
 
     /// Nodes, inner ones and leaves, of a pruned octree whose leaves may be single voxels.
     pub(super) fn count(&self) -> usize {
-        self.node(self.root())
+        self.node(self.root)
             .map_or(0, |root| self.count_below(root))
     }
 
@@ -60,7 +60,7 @@ impl Nodes {
 #[inline]
 fn part(brick: &Brick, place: [usize; 3], edge: usize) -> Option<LeafNode<'_>> {
     let voxels = cube(place, edge);
-    if brick.known() & voxels == 0 {
+    if brick.known & voxels == 0 {
         return None;
     }
     let whole = LeafNode::Part { brick, place, edge };
@@ -90,33 +90,21 @@ impl Leaf {
     }
 }
 
-/// Iterates over the leaves that meet a box, in the order of OctoMap's files.
+/// Iterates over the leaves, in the order of OctoMap's files.
 #[derive(Debug)]
 pub struct Leaves<'a> {
     nodes: &'a Nodes,
-    /// Lowest and highest voxel of the box.
-    bounds: [Key; 2],
     /// What is still to be visited, the next one last.
     stack: Vec<(LeafNode<'a>, Key, u32)>,
 }
 
 impl<'a> Leaves<'a> {
-    /// All leaves that have a voxel between two.
-    pub(super) fn within(nodes: &'a Nodes, bounds: [Key; 2]) -> Self {
-        let root = nodes.node(nodes.root()).map(|root| (root, [0; 3], 0));
+    pub(super) fn of(nodes: &'a Nodes) -> Self {
+        let root = nodes.node(nodes.root).map(|root| (root, [0; 3], 0));
         Self {
             nodes,
-            bounds,
             stack: root.into_iter().collect(),
         }
-    }
-
-    fn meets(&self, corner: Key, depth: u32) -> bool {
-        let [low, high] = self.bounds;
-        (0..3).all(|axis| {
-            let first = u32::from(corner[axis]);
-            first <= u32::from(high[axis]) && first + edge(depth) > u32::from(low[axis])
-        })
     }
 }
 
@@ -125,9 +113,6 @@ impl Iterator for Leaves<'_> {
 
     fn next(&mut self) -> Option<Leaf> {
         while let Some((node, corner, depth)) = self.stack.pop() {
-            if !self.meets(corner, depth) {
-                continue;
-            }
             if let LeafNode::Leaf(log_odds) = node {
                 return Some(Leaf {
                     corner,
@@ -145,8 +130,5 @@ impl Iterator for Leaves<'_> {
         None
     }
 }
-
-/// The box of all that a tree can hold.
-pub(super) const EVERYWHERE: [Key; 2] = [[0; 3], [(SPAN - 1) as u16; 3]];
 
 const _: () = assert!(EDGE == 1 << (DEPTH - BRICK_DEPTH));

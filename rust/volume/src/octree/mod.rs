@@ -29,13 +29,13 @@ pub use leaves::{Leaf, Leaves};
 
 use config::Beam;
 use insertion::Workspace;
-use leaves::EVERYWHERE;
 use nodes::Nodes;
 
 /// What is known of the space around the origin of the map frame: 2^16 voxels along each axis.
 #[derive(Debug, Clone)]
 pub struct Octree {
-    config: OctreeConfig,
+    /// The parameters.
+    pub config: OctreeConfig,
     beam: Beam,
     nodes: Nodes,
     workspace: Workspace,
@@ -58,11 +58,6 @@ impl Octree {
             nodes: Nodes::default(),
             workspace: Workspace::default(),
         })
-    }
-
-    /// The parameters.
-    pub const fn config(&self) -> &OctreeConfig {
-        &self.config
     }
 
     /// The voxel that holds a point of the map frame; none beyond what a tree can hold.
@@ -99,12 +94,7 @@ impl Octree {
 
     /// All leaves.
     pub fn leaves(&self) -> Leaves<'_> {
-        Leaves::within(&self.nodes, EVERYWHERE)
-    }
-
-    /// The leaves that have a voxel from one to another, both included.
-    pub fn leaves_within(&self, low: Key, high: Key) -> Leaves<'_> {
-        Leaves::within(&self.nodes, [low, high])
+        Leaves::of(&self.nodes)
     }
 
     /// The centre of a leaf in the map frame, m.
@@ -125,9 +115,5 @@ impl Octree {
     /// Voxels a metre.
     fn per_m(&self) -> f64 {
         1.0 / self.config.resolution
-    }
-
-    const fn nodes(&self) -> &Nodes {
-        &self.nodes
     }
 }

@@ -31,7 +31,7 @@ struct Slot {
 /// Always pruned: no branch has eight equal leaves, no brick is uniform or unknown.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Nodes {
-    root: NodeLink,
+    pub(super) root: NodeLink,
     branches: Vec<[NodeLink; 8]>,
     bricks: Vec<Brick>,
     free_branches: Vec<u32>,
@@ -39,10 +39,6 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
-    pub(super) const fn root(&self) -> NodeLink {
-        self.root
-    }
-
     #[inline]
     pub(super) fn branch(&self, at: u32) -> &[NodeLink; 8] {
         &self.branches[at as usize]

@@ -18,7 +18,7 @@ pub(super) struct OctreeWindow {
     bricks_along: [usize; 3],
     bricks: Vec<u32>,
     /// For each cell one bit a layer: a miss changes nothing.
-    settled: Vec<u64>,
+    pub(super) settled: Vec<u64>,
 }
 
 impl OctreeWindow {
@@ -32,12 +32,7 @@ impl OctreeWindow {
         self.bricks.resize(self.bricks_along.iter().product(), NONE);
         self.settled.clear();
         self.settled.resize(cols * rows, 0);
-        self.visit(nodes, beam, nodes.root(), [0; 3], 0);
-    }
-
-    /// For each cell the layers that a miss does not change, one bit each.
-    pub(super) fn settled(&self) -> &[u64] {
-        &self.settled
+        self.visit(nodes, beam, nodes.root, [0; 3], 0);
     }
 
     /// The brick at a place, counted in bricks, if there is one.

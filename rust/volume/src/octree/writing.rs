@@ -32,7 +32,7 @@ impl Octree {
     /// The content of a file. In `.bt` a leaf is free or occupied, and those that are the same then are one.
     pub fn to_bytes(&self, format: Format) -> Vec<u8> {
         let mut data = Vec::new();
-        let root = self.nodes.node(self.nodes.root());
+        let root = self.nodes.node(self.nodes.root);
         let nodes = match (format, root) {
             (_, None) => 0,
             (Format::Full, Some(root)) => {

@@ -2,8 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::SolidVoxels;
-use super::free_boxes::FreeBoxes;
+use super::{SolidVoxels, free_boxes::FreeBoxes};
 
 /// For each octant of directions, how much free space lies ahead of each voxel.
 ///

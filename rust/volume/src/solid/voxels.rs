@@ -26,7 +26,8 @@ pub enum SolidError {
 /// `i..i+1`, `j..j+1`, `k..k+1` times the resolution, as in OctoMap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolidVoxels {
-    pub(super) resolution_m: f64,
+    /// Side of a voxel, m.
+    pub resolution_m: f64,
     /// Voxel of the map's frame that is the first one here.
     pub(super) first: [i64; 3],
     pub(super) size: [usize; 3],
@@ -91,7 +92,7 @@ impl SolidVoxels {
 
     /// The occupied voxels of a tree.
     pub fn occupied(tree: &Octree) -> Result<Self, SolidError> {
-        let resolution_m = tree.config().resolution;
+        let resolution_m = tree.config.resolution;
         let cube = |leaf: Leaf| {
             let half_m = 0.5 * f64::from(leaf.edge()) * resolution_m;
             let centre_m = tree.centre_m(&leaf);
@@ -101,11 +102,6 @@ impl SolidVoxels {
             .map(cube)
             .collect();
         Self::of_boxes(&cubes, resolution_m)
-    }
-
-    /// Side of a voxel, m.
-    pub fn resolution_m(&self) -> f64 {
-        self.resolution_m
     }
 
     /// Voxels along x, y and z.

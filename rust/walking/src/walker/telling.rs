@@ -5,10 +5,7 @@ use nalgebra::Vector2;
 use robot::Side;
 
 use super::Walker;
-use crate::balance::Balance;
-use crate::phase::{FootPose, GaitPhase, GaitReference};
-use crate::support::Pressure;
-use crate::tuning::ReliefTuning;
+use crate::{phase::GaitPhase, tuning::ReliefTuning};
 
 impl Walker {
     /// Whether it stands still on both soles.
@@ -44,11 +41,6 @@ impl Walker {
         }
     }
 
-    /// Whether the list that was given last is behind the robot: all its steps landed, or it was given up.
-    pub fn list_is_over(&self) -> bool {
-        self.list.is_over(&self.gait)
-    }
-
     /// Whether each foot stands, or is to land, on a slope.
     pub fn on_slope(&self) -> [bool; 2] {
         let mut feet = self.gait.feet;
@@ -56,21 +48,6 @@ impl Walker {
             feet[swing.side.index()] = swing.to;
         }
         feet.map(|foot| foot.gradient != Vector2::zeros())
-    }
-
-    /// Where a foot stands, or left, in the walker's own frame, which drifts against the world's.
-    pub const fn foot_in_plan(&self, side: Side) -> &FootPose {
-        &self.gait.feet[side.index()]
-    }
-
-    /// What the feet do, for the recording.
-    pub const fn phase(&self) -> &GaitPhase {
-        &self.gait.phase
-    }
-
-    /// Where the robot should be, where it is, and how it pushes, for the recording.
-    pub const fn balance(&self) -> (&GaitReference, &Balance, &Pressure) {
-        (&self.reference, &self.balance, &self.pressure)
     }
 
     /// Where the head was told to look at the last tick.

@@ -1,11 +1,10 @@
 //! Finds steps among the stairs that are known.
 
-use geometry::{Map, PlanarPose, angle_between};
+use geometry::{Map, PlanarPose, angle_between, distance_m};
 use planning::Step;
 use stairs::{ClimbingConfig, Stair, Staircase};
 
 use crate::climbing::tuning::StepLookupTuning;
-use crate::place::distance_m;
 
 /// By what steps are found.
 #[derive(Debug, Clone, Copy)]
@@ -48,8 +47,7 @@ pub(crate) fn is_same(step: &Step, stair: &Stair<Map>, lookup: &StepLookupTuning
 /// The step behind another by the stairs alone: the nearest whose change of height a parameter set takes.
 pub(crate) fn following(last: &Step, stairs: &Staircase, rules: &StepRules<'_>) -> Option<Step> {
     let (least_m, joint_m) = (rules.lookup.least_tread, rules.lookup.joint);
-    let middle = last.stair.back.middle().inner;
-    let end_m = last.stair.front.beyond_m([middle.x, middle.y]) + joint_m;
+    let end_m = last.stair.front.beyond_m(last.stair.back.middle_m()) + joint_m;
     let way = (last.crossing_m, last.stair.front.heading_rad());
     let near = |depth_m| depth_m > least_m && depth_m < end_m;
     nearest_where(near, stairs, way, last.stair.height_m(), rules)
@@ -130,8 +128,7 @@ fn ahead(
     let away_m = -edge.beyond_m([x_m, y_m]) / towards;
     let (sin, cos) = heading_rad.sin_cos();
     let crossing_m = [x_m + cos * away_m, y_m + sin * away_m];
-    let middle = edge.middle().inner;
-    let aside_m = distance_m(crossing_m, [middle.x, middle.y]);
+    let aside_m = distance_m(crossing_m, edge.middle_m());
     (aside_m < 0.5 * edge.length_m()).then_some((away_m, crossing_m))
 }
 

@@ -38,8 +38,8 @@ fn a_plan_that_crosses_a_wide_edge_elsewhere_does_not_move_the_lane() {
     for aside_m in [-0.3, 0.25, 0.1] {
         let plan = plan(aside_m);
         flight.refresh(Some(&plan), &Staircase::default(), &pose, &config);
-        assert_eq!(flight.steps().len(), 2);
-        for step in flight.steps() {
+        assert_eq!(flight.steps.len(), 2);
+        for step in &flight.steps {
             assert!((step.crossing_m[1] - 0.1).abs() < 1e-9, "{step:?}");
         }
     }
@@ -59,7 +59,7 @@ fn the_lane_of_the_plan_is_taken_when_it_is_asked_for_and_is_another_one() {
         );
         assert_eq!(flight.change_lane(), planned_m == taken_m);
         assert!(!flight.change_lane());
-        for step in flight.steps() {
+        for step in &flight.steps {
             assert!((step.crossing_m[1] - taken_m).abs() < 1e-9, "{step:?}");
         }
     }
@@ -142,7 +142,7 @@ fn a_step_is_crossed_at_its_edge_wherever_that_is_measured() {
     let (pose, config) = (PlanarPose::default(), ClimbingConfig::default());
     for further_m in [0.07, 0.075, 0.08] {
         flight.refresh(None, &measured(&plan, further_m), &pose, &config);
-        let crossings_m = flight.steps().iter().map(|step| step.crossing_m);
+        let crossings_m = flight.steps.iter().map(|step| step.crossing_m);
         for ([x_m, y_m], was_m) in crossings_m.zip([0.5, 0.62]) {
             assert!((x_m - was_m - further_m).abs() < 1e-9, "{x_m} {further_m}");
             assert!((y_m - 0.1).abs() < 1e-9);
@@ -161,7 +161,7 @@ fn a_step_that_comes_to_be_seen_before_the_first_one_is_not_stepped_over() {
         flight.adopt(&steps[1..]);
         let pose = PlanarPose::new(x_m, 0.0, 0.0);
         flight.refresh(Some(&plan), &Staircase::default(), &pose, &config);
-        assert_eq!(flight.steps(), &steps[2 - ahead..], "{x_m}");
+        assert_eq!(&flight.steps, &steps[2 - ahead..], "{x_m}");
     }
 }
 
@@ -181,7 +181,7 @@ fn a_plan_that_begins_with_going_back_over_the_edge_is_not_followed_in_the_middl
     flight.adopt(&ahead);
     let pose = PlanarPose::new(0.57, 0.0, 0.0);
     flight.refresh(Some(&plan), &Staircase::default(), &pose, &config);
-    assert_eq!(flight.steps(), ahead);
+    assert_eq!(flight.steps, ahead);
 }
 
 #[test]
@@ -207,7 +207,7 @@ fn two_low_steps_that_were_one_from_far_away_are_two_once_the_plan_has_both_what
     flight.adopt(&[both_in_one]);
     let pose = PlanarPose::new(0.4, 0.0, 0.0);
     flight.refresh(Some(&plan), &Staircase::default(), &pose, &config);
-    assert_eq!(flight.steps(), steps);
+    assert_eq!(flight.steps, steps);
 }
 
 #[test]
@@ -227,7 +227,7 @@ fn a_step_that_a_plan_once_had_further_back_is_not_taken_behind_the_last_one() {
     let mut flight = Flight::default();
     flight.adopt(&[steps[0], steps[1], further_back]);
     flight.refresh(Some(&plan), &stairs, &PlanarPose::default(), &config);
-    assert_eq!(flight.steps(), steps);
+    assert_eq!(flight.steps, steps);
 }
 
 #[test]
@@ -245,7 +245,7 @@ fn without_a_plan_steps_rise_as_the_stairs_are_seen_by_now() {
     for heights_m in [[0.033, 0.061], [0.028, 0.064], [0.034, 0.06]] {
         flight.refresh(None, &seen(heights_m), &pose, &config);
         let rises_m = [heights_m[0], heights_m[1] - heights_m[0]];
-        for (step, rise_m) in flight.steps().iter().zip(rises_m) {
+        for (step, rise_m) in flight.steps.iter().zip(rises_m) {
             assert!(
                 (step.rise_m - rise_m).abs() < 1e-9,
                 "{heights_m:?} {step:?}"

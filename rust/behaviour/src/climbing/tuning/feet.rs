@@ -1,8 +1,6 @@
 //! Settings of how the feet are moved before, on and behind stairs.
 
-use settings::{
-    Bounds, ConfigError, NOT_NEGATIVE, POSITIVE, above_to, at_least, require, settings, within,
-};
+use settings::{Bounds, NOT_NEGATIVE, POSITIVE, above_to, at_least, settings, within};
 
 use super::{ANGLE, WAIT};
 
@@ -133,13 +131,5 @@ settings! {
         /// The robot waits no longer than this to come to stand.
         longest_stop: f64 = 3.0, "s", WAIT;
     }
-    check FinishTuning::is_ordered;
-}
-
-impl FinishTuning {
-    fn is_ordered(&self, key: &str) -> Result<(), ConfigError> {
-        let name = format!("{key}.slowest");
-        let holds = self.slowest <= self.fastest;
-        require(holds, &name, "no more than fastest", self.slowest)
-    }
+    require (slowest) <= (fastest);
 }

@@ -150,7 +150,7 @@ fn frames_of_one_gaze_that_err_alike_hardly_move_what_other_gazes_told() {
         for _ in 0..5 {
             let predicted = correction.predict(&looking(gaze.0, gaze.1));
             let turn = tilt_between(&predicted, &looking(gaze.0, gaze.1));
-            correction.found(&predicted, &turn, -correction.height_m(), false);
+            correction.found(&predicted, &turn, -correction.raised_m, false);
         }
     }
     let stairs = looking(0.0, 0.95);
@@ -158,7 +158,7 @@ fn frames_of_one_gaze_that_err_alike_hardly_move_what_other_gazes_told() {
     for _ in 0..60 {
         let predicted = correction.predict(&stairs);
         let turn = tilt_between(&predicted, &stairs) + slope;
-        correction.found(&predicted, &turn, -correction.height_m(), false);
+        correction.found(&predicted, &turn, -correction.raised_m, false);
     }
     for gaze in [(0.0, 0.6), (0.0, 1.1)] {
         let truth = looking(gaze.0, gaze.1);
@@ -209,5 +209,5 @@ fn it_forgets_after_so_many_frames_without_ground() {
     assert!(correction.is_settled() && !correction.holds(9, 20));
     correction.missed_one(10);
     assert!(!correction.is_settled());
-    assert_eq!(correction.height_m(), 0.0);
+    assert_eq!(correction.raised_m, 0.0);
 }

@@ -1,5 +1,7 @@
 //! Labels that spread from pixel to pixel.
 
+use crate::picture::neighbours;
+
 /// Gives each pixel without a label that of a neighbour, where `takes(label, pixel)` says so. Keeps its buffer in `queue`.
 pub(crate) fn flood(
     labels: &mut [u16],
@@ -20,19 +22,6 @@ pub(crate) fn flood(
             }
         }
     }
-}
-
-/// The four pixels beside one.
-pub(crate) fn neighbours(at: usize, width: usize, pixels: usize) -> impl Iterator<Item = usize> {
-    let col = at % width;
-    [
-        (col > 0).then(|| at - 1),
-        (col + 1 < width).then_some(at + 1),
-        at.checked_sub(width),
-        (at + width < pixels).then_some(at + width),
-    ]
-    .into_iter()
-    .flatten()
 }
 
 #[cfg(test)]

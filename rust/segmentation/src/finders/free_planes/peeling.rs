@@ -4,9 +4,8 @@ use super::draws::Draws;
 use super::planes::FreePlanes;
 use super::remaining::Remaining;
 use super::tuning::{FreePlaneTuning, PeelingTuning};
-use crate::picture::pixels::Picture;
-use crate::picture::view::{Linear, View};
-use crate::regions::region::Region;
+use crate::picture::{Linear, Picture, View};
+use crate::regions::Region;
 
 /// What is left of a picture, and the planes that were taken out of it. Keeps its buffers.
 #[derive(Debug, Clone)]

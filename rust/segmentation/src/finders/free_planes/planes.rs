@@ -1,12 +1,9 @@
 //! The planes that were found in one picture, and which of them are level.
 
-use crate::picture::labels::MAX_REGIONS;
-use crate::picture::pixels::Picture;
-use crate::picture::view::{Linear, View};
-use crate::regions::region::Region;
+use crate::picture::{Linear, MAX_REGIONS, Picture, View};
+use crate::regions::Region;
 
-use super::flood::flood;
-use super::tuning::FreePlaneTuning;
+use super::{flood::flood, tuning::FreePlaneTuning};
 
 /// The planes that were found in one picture.
 #[derive(Debug, Clone, Default)]
@@ -46,10 +43,10 @@ impl FreePlanes {
         labels: &mut [u16],
         queue: &mut Vec<usize>,
     ) {
-        flood(labels, picture.width, queue, |label, at| {
-            let there =
-                self.planes[usize::from(label) - 1].at(at % picture.width, at / picture.width);
-            there > 0.0 && (picture.disparity_px[at] - there).abs() < accept_px
+        let width = picture.width;
+        flood(labels, width, queue, |label, at| {
+            let plane = &self.planes[usize::from(label) - 1];
+            plane.passes(at % width, at / width, picture.disparity_px[at], accept_px)
         });
     }
 

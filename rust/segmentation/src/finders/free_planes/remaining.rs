@@ -3,9 +3,8 @@
 use nalgebra::Vector3;
 
 use super::draws::Draws;
-use crate::picture::pixels::Picture;
-use crate::picture::view::Linear;
-use crate::regions::tilted::PlaneSums;
+use crate::picture::{Linear, Picture};
+use crate::regions::PlaneSums;
 
 /// A pixel that was seen.
 #[derive(Debug, Clone, Copy)]
@@ -18,8 +17,7 @@ pub(crate) struct SeenPixel {
 impl SeenPixel {
     /// Whether a plane explains it to within `accept_px`.
     fn lies_on(&self, plane: &Linear, accept_px: f32) -> bool {
-        let there = plane.at(self.col, self.row);
-        there > 0.0 && (self.d - there).abs() < accept_px
+        plane.passes(self.col, self.row, self.d, accept_px)
     }
 
     const fn place(&self) -> [f64; 3] {

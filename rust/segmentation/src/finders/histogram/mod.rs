@@ -8,16 +8,11 @@ mod config;
 
 use crate::part::SegmenterPart;
 use sensing::Intrinsics;
-use settings::{ConfigError, Table};
-use settings::{Part, TableDescription, read};
+use settings::{Part, TableDescription};
 
-use crate::ground_plane::config::GroundConfig;
-use crate::ground_plane::grounded::Grounded;
-use crate::picture::labels::MAX_REGIONS;
-use crate::picture::pixels::Picture;
-use crate::picture::view::View;
-use crate::regions::finder::{Finder, Look};
-use crate::regions::region::Region;
+use crate::ground_plane::{Configured, GroundConfig, Grounded};
+use crate::picture::{MAX_REGIONS, Picture, View};
+use crate::regions::{Finder, Look, Region};
 pub use config::HistogramConfig;
 use config::HistogramTuning;
 
@@ -27,28 +22,18 @@ pub const PART: SegmenterPart = Part {
     about: "level surfaces by the peaks of a histogram of heights",
     source: None,
     tables: &[TableDescription::of::<HistogramConfig>()],
-    make: |needs| {
-        let (config, ground) = (
-            read(needs.tables, "histogram")?,
-            read(needs.tables, "ground")?,
-        );
-        Ok(Box::new(Histogram::new(&config, ground, needs.camera)?))
-    },
+    make: Histogram::make,
 };
 
 /// The segmenter of horizontal surfaces by heights.
 pub type Histogram = Grounded<Peaks>;
 
-impl Histogram {
-    /// A segmenter for this camera that knows nothing of the camera's errors yet.
-    pub fn new(
-        config: &HistogramConfig,
-        ground: GroundConfig,
-        camera: Intrinsics,
-    ) -> Result<Self, ConfigError> {
-        config.check()?;
+impl Configured for Peaks {
+    type Config = HistogramConfig;
+
+    fn new(config: &HistogramConfig, ground: &GroundConfig, _: &Intrinsics) -> Self {
         let bins = (f64::from(config.tuning.deepest) / config.bin).ceil() as usize;
-        let finder = Peaks {
+        Self {
             tuning: config.tuning.clone(),
             bin_m: config.bin as f32,
             apart: (config.apart / config.bin).ceil() as usize,
@@ -58,8 +43,7 @@ impl Histogram {
             smooth: vec![0.0; bins],
             order: Vec::with_capacity(bins),
             picked: Vec::with_capacity(bins),
-        };
-        Self::around(finder, ground, camera)
+        }
     }
 }
 

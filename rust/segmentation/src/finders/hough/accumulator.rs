@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector3;
 
-use crate::picture::view::Linear;
+use crate::picture::Linear;
 
 /// Votes for planes. Keeps its buffers.
 #[derive(Debug, Clone)]

@@ -10,18 +10,14 @@ mod config;
 use crate::part::SegmenterPart;
 use nalgebra::{Matrix3, Vector3};
 use sensing::Intrinsics;
-use settings::{ConfigError, Table};
-use settings::{Part, TableDescription, read};
+use settings::{Part, TableDescription};
 
 use crate::finders::free_planes::draws::Draws;
 use crate::finders::free_planes::peeling::Peeling;
 use crate::finders::free_planes::remaining::{Remaining, SeenPixel, through};
-use crate::ground_plane::config::GroundConfig;
-use crate::ground_plane::grounded::Grounded;
-use crate::picture::pixels::Picture;
-use crate::picture::view::{Linear, View};
-use crate::regions::finder::{Finder, Look};
-use crate::regions::region::Region;
+use crate::ground_plane::{Configured, GroundConfig, Grounded};
+use crate::picture::{Linear, Picture, View};
+use crate::regions::{Finder, Look, Region};
 use accumulator::Accumulator;
 pub use config::HoughConfig;
 
@@ -31,25 +27,18 @@ pub const PART: SegmenterPart = Part {
     about: "planes in any direction by a randomised Hough transform",
     source: Some("Xu, Oja and Kultanen 1990; Okada et al. 2001 (003, section I)"),
     tables: &[TableDescription::of::<HoughConfig>()],
-    make: |needs| {
-        let (config, ground) = (read(needs.tables, "hough")?, read(needs.tables, "ground")?);
-        Ok(Box::new(Hough::new(&config, ground, needs.camera)?))
-    },
+    make: Hough::make,
 };
 
 /// The segmenter of free planes by votes.
 pub type Hough = Grounded<Votes>;
 
-impl Hough {
-    /// A segmenter for this camera that knows nothing of the camera's errors yet.
-    pub fn new(
-        config: &HoughConfig,
-        ground: GroundConfig,
-        camera: Intrinsics,
-    ) -> Result<Self, ConfigError> {
-        config.check()?;
+impl Configured for Votes {
+    type Config = HoughConfig;
+
+    fn new(config: &HoughConfig, _: &GroundConfig, _: &Intrinsics) -> Self {
         let tuning = config.tuning.clone();
-        let finder = Votes {
+        Self {
             ballot: Ballot {
                 accumulator: Accumulator::new(config.angle, config.distance, tuning.farthest),
                 least_triangle: tuning.peeling.least_triangle,
@@ -62,8 +51,7 @@ impl Hough {
                 tuning.peeling,
                 tuning.free_planes,
             ),
-        };
-        Self::around(finder, ground, camera)
+        }
     }
 }
 

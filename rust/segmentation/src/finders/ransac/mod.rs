@@ -8,18 +8,14 @@ mod config;
 
 use crate::part::SegmenterPart;
 use sensing::Intrinsics;
-use settings::{ConfigError, Table};
-use settings::{Part, TableDescription, read};
+use settings::{Part, TableDescription};
 
 use crate::finders::free_planes::draws::Draws;
 use crate::finders::free_planes::peeling::Peeling;
 use crate::finders::free_planes::remaining::{Remaining, through};
-use crate::ground_plane::config::GroundConfig;
-use crate::ground_plane::grounded::Grounded;
-use crate::picture::pixels::Picture;
-use crate::picture::view::{Linear, View};
-use crate::regions::finder::{Finder, Look};
-use crate::regions::region::Region;
+use crate::ground_plane::{Configured, GroundConfig, Grounded};
+use crate::picture::{Linear, Picture, View};
+use crate::regions::{Finder, Look, Region};
 pub use config::RansacConfig;
 
 /// How it is listed and made.
@@ -28,25 +24,18 @@ pub const PART: SegmenterPart = Part {
     about: "planes in any direction by repeated random samples",
     source: Some("Fischler and Bolles 1981"),
     tables: &[TableDescription::of::<RansacConfig>()],
-    make: |needs| {
-        let (config, ground) = (read(needs.tables, "ransac")?, read(needs.tables, "ground")?);
-        Ok(Box::new(Ransac::new(&config, ground, needs.camera)?))
-    },
+    make: Ransac::make,
 };
 
 /// The segmenter of free planes by random samples.
 pub type Ransac = Grounded<Consensus>;
 
-impl Ransac {
-    /// A segmenter for this camera that knows nothing of the camera's errors yet.
-    pub fn new(
-        config: &RansacConfig,
-        ground: GroundConfig,
-        camera: Intrinsics,
-    ) -> Result<Self, ConfigError> {
-        config.check()?;
+impl Configured for Consensus {
+    type Config = RansacConfig;
+
+    fn new(config: &RansacConfig, _: &GroundConfig, _: &Intrinsics) -> Self {
         let (accept_px, tuning) = (config.accept as f32, config.tuning.clone());
-        let finder = Consensus {
+        Self {
             trials: Trials {
                 samples: config.samples,
                 accept_px,
@@ -59,8 +48,7 @@ impl Ransac {
                 tuning.peeling,
                 tuning.free_planes,
             ),
-        };
-        Self::around(finder, ground, camera)
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Where the pixels of two regions lie side by side.
 
-use crate::picture::pixels::Picture;
+use crate::picture::Picture;
 
 /// Pixels that are searched together for those that differ from their neighbours.
 const CHUNK: usize = 16;

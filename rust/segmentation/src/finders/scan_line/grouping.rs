@@ -1,15 +1,16 @@
 //! Region growing: segments of neighbouring strips that show one surface, then pixels, then regions of equal height.
 
+use super::config::ScanLineConfig;
 use super::contacts::{RegionContacts, places_of_some};
-use super::rules::GrowthRules;
 use super::strips::LevelSegment;
-use crate::picture::labels::{MAX_REGIONS, count_labels};
-use crate::picture::pixels::Picture;
-use crate::regions::region::Region;
+use crate::picture::{MAX_REGIONS, Picture, count_labels};
+use crate::regions::Region;
 
 /// Grows regions. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Grouping {
+    /// Smallest region, pixels.
+    min_region: usize,
     parent: Vec<usize>,
     region_of: Vec<u16>,
     queue: Vec<usize>,
@@ -27,14 +28,27 @@ fn root(parent: &[usize], mut at: usize) -> usize {
     at
 }
 
+/// Makes two groups one, under the lower of their roots.
+fn unite(parent: &mut [usize], a: usize, b: usize) {
+    let (a, b) = (root(parent, a), root(parent, b));
+    parent[a.max(b)] = a.min(b);
+}
+
 impl Grouping {
+    pub(super) fn new(min_region: usize) -> Self {
+        Self {
+            min_region,
+            ..Self::default()
+        }
+    }
+
     /// Joins the segments of neighbouring strips that overlap and agree; fills `regions` with the groups that are large
     /// enough and `labels` with their pixels (0: none, i + 1: region i).
     pub(super) fn group(
         &mut self,
         picture: Picture<'_>,
         segments: &[LevelSegment],
-        rules: GrowthRules,
+        config: &ScanLineConfig,
         regions: &mut Vec<Region>,
         labels: &mut [u16],
     ) {
@@ -47,23 +61,23 @@ impl Grouping {
             }
             let mut other = left;
             while segments[other].strip + 1 == segment.strip {
-                if alike(picture, rules, &segments[other], segment) {
-                    let (a, b) = (root(&self.parent, other), root(&self.parent, at));
-                    self.parent[a.max(b)] = a.min(b);
+                if alike(picture, config, &segments[other], segment) {
+                    unite(&mut self.parent, other, at);
                 }
                 other += 1;
             }
         }
-        self.collect(segments, rules, regions);
+        self.collect(segments, config.strip, regions);
         labels.fill(0);
+        let accept = config.accept as f32;
         for (at, segment) in segments.iter().enumerate() {
             let label = self.region_of[root(&self.parent, at)];
             if label == 0 {
                 continue;
             }
             let q = regions[usize::from(label) - 1].q;
-            let first = segment.strip * rules.strip;
-            let end = (first + rules.strip).min(picture.width);
+            let first = segment.strip * config.strip;
+            let end = (first + config.strip).min(picture.width);
             for row in segment.first..segment.end {
                 let line = row * picture.width + first..row * picture.width + end;
                 let pixels = picture.disparity_px[line.clone()]
@@ -71,7 +85,7 @@ impl Grouping {
                     .zip(&picture.g[line.clone()])
                     .zip(&picture.sigma_px[line.clone()]);
                 for (target, ((d, g), sigma)) in labels[line].iter_mut().zip(pixels) {
-                    let close = (d - q * g).abs() < rules.accept * sigma;
+                    let close = (d - q * g).abs() < accept * sigma;
                     *target = if close { label } else { *target };
                 }
             }
@@ -79,12 +93,7 @@ impl Grouping {
     }
 
     /// Numbers the groups that are large enough, in the order of their first segments.
-    fn collect(
-        &mut self,
-        segments: &[LevelSegment],
-        rules: GrowthRules,
-        regions: &mut Vec<Region>,
-    ) {
+    fn collect(&mut self, segments: &[LevelSegment], strip: usize, regions: &mut Vec<Region>) {
         regions.clear();
         self.groups.clear();
         self.groups.resize(segments.len(), (0, 0.0));
@@ -92,12 +101,12 @@ impl Grouping {
         self.region_of.resize(segments.len(), 0);
         for (at, segment) in segments.iter().enumerate() {
             let group = &mut self.groups[root(&self.parent, at)];
-            group.0 += ((segment.end - segment.first) * rules.strip) as u32;
+            group.0 += ((segment.end - segment.first) * strip) as u32;
             group.1 += segment.weight;
         }
         for at in 0..segments.len() {
             if self.parent[at] == at
-                && self.groups[at].0 as usize >= rules.min_region
+                && self.groups[at].0 as usize >= self.min_region
                 && regions.len() < MAX_REGIONS
             {
                 regions.push(Region::default());
@@ -109,7 +118,7 @@ impl Grouping {
             let label = usize::from(self.region_of[group]);
             if label > 0 {
                 regions[label - 1].q += segment.q * segment.weight / self.groups[group].1;
-                regions[label - 1].support += (segment.end - segment.first) * rules.strip;
+                regions[label - 1].support += (segment.end - segment.first) * strip;
             }
         }
     }
@@ -119,12 +128,13 @@ impl Grouping {
     pub(super) fn grow(
         &mut self,
         picture: Picture<'_>,
-        rules: GrowthRules,
+        config: &ScanLineConfig,
         regions: &[Region],
         labels: &mut [u16],
     ) {
         let width = picture.width;
         let pixels = labels.len();
+        let accept = config.accept as f32;
         let inner = |at: usize| {
             let col = at % width;
             col > 0 && col + 1 < width && at >= width && at + width < pixels
@@ -144,7 +154,7 @@ impl Grouping {
                 let sigma = picture.sigma_px[beside];
                 let miss = (d - q * picture.g[beside]).abs();
                 let beats = match labels[beside] {
-                    0 => miss < rules.accept * sigma,
+                    0 => miss < accept * sigma,
                     other => {
                         let rival = regions[usize::from(other) - 1].q;
                         miss + sigma < (d - rival * picture.g[beside]).abs()
@@ -185,28 +195,28 @@ impl Grouping {
     pub(super) fn merge(
         &mut self,
         picture: Picture<'_>,
-        rules: GrowthRules,
+        config: &ScanLineConfig,
         regions: &mut Vec<Region>,
         labels: &mut [u16],
     ) {
-        let count = regions.len();
+        let (count, tuning) = (regions.len(), &config.tuning);
+        let joins = [config.join, tuning.small_join * config.join].map(|join| join as f32);
         self.contacts
-            .count(picture, count, labels, rules.contact_reach);
+            .count(picture, count, labels, tuning.contact_reach);
         self.parent.clear();
         self.parent.extend(0..count);
         for i in 0..count {
             for j in i + 1..count {
                 let (times, limit) = self.contacts.between(i, j);
-                if times < rules.min_contacts {
+                if times < tuning.min_contacts {
                     continue;
                 }
                 // The mean of sigma / g at the border turns the noise into a difference of q.
                 let apart = (regions[i].q - regions[j].q).abs();
-                let small = regions[i].support.min(regions[j].support) < rules.small_region;
-                let join = if small { rules.join_small } else { rules.join };
+                let small = regions[i].support.min(regions[j].support) < tuning.small_region;
+                let join = joins[usize::from(small)];
                 if apart < join * limit / times as f32 {
-                    let (a, b) = (root(&self.parent, i), root(&self.parent, j));
-                    self.parent[a.max(b)] = a.min(b);
+                    unite(&mut self.parent, i, j);
                 }
             }
         }
@@ -234,7 +244,7 @@ impl Grouping {
         }
         let mut kept = 0;
         for i in 0..count {
-            if self.parent[i] == i && regions[i].support >= rules.min_region {
+            if self.parent[i] == i && regions[i].support >= self.min_region {
                 regions[kept] = regions[i];
                 kept += 1;
                 self.region_of[i] = kept as u16;
@@ -253,14 +263,19 @@ impl Grouping {
 }
 
 /// Whether two segments of neighbouring strips show one surface.
-fn alike(picture: Picture<'_>, rules: GrowthRules, a: &LevelSegment, b: &LevelSegment) -> bool {
+fn alike(
+    picture: Picture<'_>,
+    config: &ScanLineConfig,
+    a: &LevelSegment,
+    b: &LevelSegment,
+) -> bool {
     let (first, end) = (a.first.max(b.first), a.end.min(b.end));
     let shorter = (a.end - a.first).min(b.end - b.first) as f64;
-    if end < first || ((end - first) as f64) < rules.overlap * shorter {
+    if end < first || ((end - first) as f64) < config.tuning.overlap * shorter {
         return false;
     }
     let row = usize::midpoint(first, end);
-    let col = (b.strip * rules.strip).min(picture.width - 1);
+    let col = (b.strip * config.strip).min(picture.width - 1);
     let g = picture.g[row * picture.width + col];
-    (a.q - b.q).abs() * g < rules.join * picture.sigma_px[row * picture.width + col]
+    (a.q - b.q).abs() * g < config.join as f32 * picture.sigma_px[row * picture.width + col]
 }

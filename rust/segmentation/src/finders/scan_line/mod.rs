@@ -7,25 +7,19 @@ mod config;
 mod contacts;
 mod grouping;
 mod partition;
-mod rules;
 mod steep;
 mod strip_rows;
 mod strips;
 
 use crate::part::SegmenterPart;
 use sensing::Intrinsics;
-use settings::{ConfigError, Table};
-use settings::{Part, TableDescription, read};
+use settings::{Part, TableDescription};
 
-use crate::ground_plane::config::GroundConfig;
-use crate::ground_plane::grounded::Grounded;
-use crate::picture::pixels::Picture;
-use crate::picture::view::View;
-use crate::regions::finder::{Finder, Look};
-use crate::regions::region::Region;
+use crate::ground_plane::{Configured, GroundConfig, Grounded};
+use crate::picture::{Picture, View};
+use crate::regions::{Finder, Look, Region};
 pub use config::ScanLineConfig;
 use grouping::Grouping;
-use rules::{GrowthRules, StripRules};
 use strips::{LevelSegment, Strips};
 
 /// How it is listed and made.
@@ -34,49 +28,32 @@ pub const PART: SegmenterPart = Part {
     about: "planes by scan-line grouping, thresholds follow the local noise",
     source: Some("003, section III, after Jiang and Bunke 1994"),
     tables: &[TableDescription::of::<ScanLineConfig>()],
-    make: |needs| {
-        let (config, ground) = (
-            read(needs.tables, "scan_line")?,
-            read(needs.tables, "ground")?,
-        );
-        Ok(Box::new(ScanLine::new(&config, ground, needs.camera)?))
-    },
+    make: ScanLine::make,
 };
 
 /// The scan-line segmenter.
 pub type ScanLine = Grounded<ScanLines>;
 
-impl ScanLine {
-    /// A segmenter for this camera that knows nothing of the camera's errors yet.
-    pub fn new(
-        config: &ScanLineConfig,
-        ground: GroundConfig,
-        camera: Intrinsics,
-    ) -> Result<Self, ConfigError> {
-        config.check()?;
-        Self::around(ScanLines::new(config, &ground, &camera), ground, camera)
-    }
-}
-
 /// Finds surfaces by scan lines. Keeps its buffers.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct ScanLines {
-    strip_rules: StripRules,
-    growth_rules: GrowthRules,
+    config: ScanLineConfig,
+    /// Pixels times metres: depth times disparity.
+    scale: f32,
     segments: Vec<LevelSegment>,
     strips: Strips,
     grouping: Grouping,
 }
 
-impl ScanLines {
+impl Configured for ScanLines {
+    type Config = ScanLineConfig;
+
     fn new(config: &ScanLineConfig, ground: &GroundConfig, camera: &Intrinsics) -> Self {
-        let scale = (camera.focal_px * camera.baseline_m) as f32;
         Self {
-            strip_rules: StripRules::new(config, scale),
-            growth_rules: GrowthRules::new(config, ground.min_region),
-            segments: Vec::new(),
-            strips: Strips::default(),
-            grouping: Grouping::default(),
+            config: config.clone(),
+            scale: (camera.focal_px * camera.baseline_m) as f32,
+            grouping: Grouping::new(ground.min_region),
+            ..Self::default()
         }
     }
 }
@@ -93,15 +70,15 @@ impl Finder for ScanLines {
         regions: &mut Vec<Region>,
         labels: &mut [u16],
     ) {
-        let rules = self.growth_rules;
+        let config = &self.config;
         self.segments.clear();
         self.strips
-            .cut(picture, self.strip_rules, &mut self.segments);
+            .cut(picture, config, self.scale, &mut self.segments);
         self.grouping
-            .group(picture, &self.segments, rules, regions, labels);
+            .group(picture, &self.segments, config, regions, labels);
         if look == Look::Again {
-            self.grouping.grow(picture, rules, regions, labels);
-            self.grouping.merge(picture, rules, regions, labels);
+            self.grouping.grow(picture, config, regions, labels);
+            self.grouping.merge(picture, config, regions, labels);
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::rules::StripRules;
-use crate::picture::pixels::Picture;
+use super::config::ScanLineConfig;
+use crate::picture::Picture;
 
 /// The rows of one strip. The loops run over the rows, so that pixel `k` of every row is taken at once: *lanes*. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
@@ -25,13 +25,21 @@ pub(super) struct StripRows {
 
 impl StripRows {
     /// Takes in a strip of a picture that has these columns; the last strip may have fewer than others.
-    pub(super) fn read(&mut self, picture: Picture<'_>, cols: Range<usize>, rules: StripRules) {
+    pub(super) fn read(
+        &mut self,
+        picture: Picture<'_>,
+        cols: Range<usize>,
+        config: &ScanLineConfig,
+        scale: f32,
+    ) {
+        let (strip, tuning) = (config.strip, &config.tuning);
+        let least_fall = tuning.min_fall * scale;
         let lanes = picture.disparity_px.len() / picture.width;
-        let needed = (rules.agreeing * cols.len() as f64).ceil() as f32;
-        self.spread(picture, cols, rules.strip, lanes);
-        self.sort(rules, lanes);
-        self.find_middles(rules.strip, lanes);
-        self.average(rules, lanes, needed);
+        let needed = (tuning.agreeing * cols.len() as f64).ceil() as f32;
+        self.spread(picture, cols, strip, lanes);
+        self.sort(strip, least_fall, lanes);
+        self.find_middles(strip, lanes);
+        self.average(least_fall, tuning.agree, lanes, needed);
     }
 
     /// Brings the pictures into lanes; what the strip lacks is not seen.
@@ -52,8 +60,7 @@ impl StripRows {
     }
 
     /// Sorts the `q` of each lane, what was not seen at the end, and counts those that were.
-    fn sort(&mut self, rules: StripRules, lanes: usize) {
-        let least_fall = rules.least_fall;
+    fn sort(&mut self, strip: usize, least_fall: f32, lanes: usize) {
         self.seen.clear();
         self.seen.resize(lanes, 0.0);
         self.sorted.clear();
@@ -70,10 +77,10 @@ impl StripRows {
         }
         // By odd-even merging (Batcher 1968): the same steps in all lanes.
         let mut run = 1;
-        while run < rules.strip {
+        while run < strip {
             let mut apart = run;
             while apart > 0 {
-                for k in apart % run..rules.strip - apart {
+                for k in apart % run..strip - apart {
                     let starts = (k - apart % run) / apart % 2 == 0;
                     if starts && k / (2 * run) == (k + apart) / (2 * run) {
                         self.exchange(k, k + apart, lanes);
@@ -116,8 +123,7 @@ impl StripRows {
     }
 
     /// Least squares over the pixels that agree with the middle one.
-    fn average(&mut self, rules: StripRules, lanes: usize, needed: f32) {
-        let (least_fall, agree_within) = (rules.least_fall, rules.agree);
+    fn average(&mut self, least_fall: f32, agree_within: f32, lanes: usize, needed: f32) {
         for sums in [&mut self.q, &mut self.weight, &mut self.agree] {
             sums.clear();
             sums.resize(lanes, 0.0);
@@ -170,11 +176,10 @@ mod tests {
                 finer: 1,
             };
             let config = ScanLineConfig { strip, ..ScanLineConfig::default() };
-            let rules = StripRules::new(&config, 6.0);
             let mut rows = StripRows::default();
             let mut seen = 0;
             for first in (0..33).step_by(strip) {
-                rows.read(picture, first..(first + strip).min(33), rules);
+                rows.read(picture, first..(first + strip).min(33), &config, 6.0);
                 let lanes = rows.seen.len();
                 for lane in 0..lanes {
                     let sorted: Vec<_> = rows.sorted.iter().skip(lane).step_by(lanes).collect();

@@ -1,11 +1,11 @@
 //! Scan lines: strips of a few columns, cut into the pieces on which `q = d / g` is constant (Jiang and Bunke 1994, with
 //! one parameter a line instead of two, and the best partition instead of a recursive split).
 
+use super::config::{ScanLineConfig, ScanLineTuning};
 use super::partition::Partition;
-use super::rules::StripRules;
 use super::steep::LineSums;
 use super::strip_rows::StripRows;
-use crate::picture::pixels::Picture;
+use crate::picture::Picture;
 
 /// Mark of segments that are horizontal.
 const LEVEL: usize = usize::MAX;
@@ -46,15 +46,16 @@ impl Strips {
     pub(super) fn cut(
         &mut self,
         picture: Picture<'_>,
-        rules: StripRules,
+        config: &ScanLineConfig,
+        scale: f32,
         segments: &mut Vec<LevelSegment>,
     ) {
-        let strips = picture.width.div_ceil(rules.strip);
+        let strips = picture.width.div_ceil(config.strip);
         let height = picture.disparity_px.len() / picture.width;
         for strip in 0..strips {
-            let first = strip * rules.strip;
-            let cols = first..(first + rules.strip).min(picture.width);
-            self.strip_rows.read(picture, cols, rules);
+            let first = strip * config.strip;
+            let cols = first..(first + config.strip).min(picture.width);
+            self.strip_rows.read(picture, cols, config, scale);
             self.start_run();
             for row in 0..height {
                 let weight = f64::from(self.strip_rows.weight[row]);
@@ -62,9 +63,9 @@ impl Strips {
                     continue;
                 }
                 if let Some(&last) = self.rows.last()
-                    && row - last > rules.max_gap + 1
+                    && row - last > config.tuning.max_gap + 1
                 {
-                    self.cut_run(strip, rules, segments);
+                    self.cut_run(strip, config, segments);
                 }
                 let q = f64::from(self.strip_rows.q[row]);
                 self.rows.push(row);
@@ -76,16 +77,16 @@ impl Strips {
                 self.lines
                     .push(line.with(row as f64, q * g, g, 1.0 / (sigma * sigma)));
             }
-            self.cut_run(strip, rules, segments);
+            self.cut_run(strip, config, segments);
         }
     }
 
     /// Cuts the rows collected; empties the collection.
-    fn cut_run(&mut self, strip: usize, rules: StripRules, segments: &mut Vec<LevelSegment>) {
-        if self.rows.len() >= rules.min_segment {
-            let price = f64::from(rules.price);
-            self.partition.solve(price, rules.min_segment);
-            self.drop_walls(price, rules);
+    fn cut_run(&mut self, strip: usize, config: &ScanLineConfig, segments: &mut Vec<LevelSegment>) {
+        if self.rows.len() >= config.min_segment {
+            let price = f64::from(config.segment_price as f32);
+            self.partition.solve(price, config.min_segment);
+            self.drop_walls(price, &config.tuning);
             self.append(strip, segments);
         }
         self.start_run();
@@ -100,7 +101,7 @@ impl Strips {
 
     /// A wall is cut into slices, too. Drops the runs of segments that one steep line explains at a lower price, by dynamic
     /// programming over the segments.
-    fn drop_walls(&mut self, price: f64, rules: StripRules) {
+    fn drop_walls(&mut self, price: f64, tuning: &ScanLineTuning) {
         let cuts = &self.partition.cuts;
         self.best.clear();
         self.best.push(0.0);
@@ -111,8 +112,8 @@ impl Strips {
             let mut least = self.best[j - 1] + self.partition.cost(start, end) + price;
             let mut choice = LEVEL;
             for (i, (&cut, best)) in cuts[..j].iter().zip(&self.best).enumerate() {
-                let cost = self.lines[end].steep_cost(&self.lines[cut], rules.steep);
-                if let Some(cost) = cost.map(|cost| best + cost + rules.steep_price)
+                let cost = self.lines[end].steep_cost(&self.lines[cut], tuning.steep);
+                if let Some(cost) = cost.map(|cost| best + cost + tuning.steep_price)
                     && cost < least
                 {
                     least = cost;
@@ -154,7 +155,6 @@ impl Strips {
 
 #[cfg(test)]
 mod tests {
-    use super::super::config::ScanLineConfig;
     use super::*;
 
     fn cut(disparity_px: &[f32], g: &[f32], width: usize) -> Vec<LevelSegment> {
@@ -166,9 +166,8 @@ mod tests {
             sigma_px: &sigma_px,
             finer: 1,
         };
-        let rules = StripRules::new(&ScanLineConfig::default(), 6.0);
         let mut segments = Vec::new();
-        Strips::default().cut(picture, rules, &mut segments);
+        Strips::default().cut(picture, &ScanLineConfig::default(), 6.0, &mut segments);
         segments
     }
 

@@ -2,28 +2,16 @@
 
 use nalgebra::Vector3;
 
-use super::lines::StraightSegment;
+use super::{config::ScanLine1994Config, lines::StraightSegment};
 use crate::finders::free_planes::planes::FreePlanes;
-use crate::picture::pixels::Picture;
-use crate::picture::view::Linear;
-use crate::regions::tilted::PlaneSums;
-
-/// What a region must be.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct PlaneGrowthRules {
-    /// Columns of a scan line.
-    pub(super) strip: usize,
-    /// Largest distance of a segment's ends, and of a pixel, from the plane, px.
-    pub(super) accept_px: f32,
-    /// Smallest region, pixels.
-    pub(super) min_region: usize,
-    /// Share of the shorter one of two segments that must lie beside the other one.
-    pub(super) overlap: f64,
-}
+use crate::picture::{Linear, Picture};
+use crate::regions::PlaneSums;
 
 /// Grows regions. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PlaneGrowth {
+    /// Smallest region, pixels.
+    min_region: usize,
     /// Label of each segment; 0: none.
     label_of: Vec<u16>,
     /// Where each scan line's segments start.
@@ -35,12 +23,19 @@ pub(super) struct PlaneGrowth {
 }
 
 impl PlaneGrowth {
+    pub(super) fn new(min_region: usize) -> Self {
+        Self {
+            min_region,
+            ..Self::default()
+        }
+    }
+
     /// Finds the planes and the pixels of each.
     pub(super) fn grow(
         &mut self,
         picture: Picture<'_>,
         segments: &[StraightSegment],
-        rules: PlaneGrowthRules,
+        config: &ScanLine1994Config,
         planes: &mut FreePlanes,
         labels: &mut [u16],
     ) {
@@ -48,14 +43,14 @@ impl PlaneGrowth {
         labels.fill(0);
         self.label_of.clear();
         self.label_of.resize(segments.len(), 0);
-        self.index(segments, picture.width.div_ceil(rules.strip));
-        self.find_seeds(segments, rules.overlap);
+        self.index(segments, picture.width.div_ceil(config.strip));
+        self.find_seeds(segments, config.tuning.overlap);
         for at in 0..self.seeds.len() {
             let (_, seed) = self.seeds[at];
             if planes.is_full() || seed.iter().any(|&segment| self.label_of[segment] > 0) {
                 continue;
             }
-            let Some(plane) = self.grow_one(segments, seed, rules) else {
+            let Some(plane) = self.grow_one(segments, seed, config) else {
                 continue;
             };
             let label = planes.add(Linear::new(&plane));
@@ -65,13 +60,13 @@ impl PlaneGrowth {
                     picture,
                     &segments[member],
                     &Linear::new(&plane),
-                    rules,
+                    config,
                     label,
                     labels,
                 );
             }
         }
-        planes.spread(picture, rules.accept_px, labels, &mut self.queue);
+        planes.spread(picture, config.accept as f32, labels, &mut self.queue);
     }
 
     fn index(&mut self, segments: &[StraightSegment], strips: usize) {
@@ -115,14 +110,14 @@ impl PlaneGrowth {
         &mut self,
         segments: &[StraightSegment],
         seed: [usize; 3],
-        rules: PlaneGrowthRules,
+        config: &ScanLine1994Config,
     ) -> Option<Vector3<f64>> {
         let mut sums = PlaneSums::default();
         for segment in seed {
             sums.join(&segments[segment].sums);
         }
         let mut plane = sums.plane()?;
-        let accept_px = f64::from(rules.accept_px);
+        let accept_px = f64::from(config.accept as f32);
         if !seed
             .iter()
             .all(|&segment| lies_on(&segments[segment], &plane, accept_px))
@@ -139,7 +134,7 @@ impl PlaneGrowth {
                 for beside in self.of_strip(strip) {
                     let other = &segments[beside];
                     let free = self.label_of[beside] == 0 && !self.members.contains(&beside);
-                    let joins = free && other.overlaps(segment, rules.overlap);
+                    let joins = free && other.overlaps(segment, config.tuning.overlap);
                     if joins && lies_on(other, &plane, accept_px) {
                         self.members.push(beside);
                         self.queue.push(beside);
@@ -150,7 +145,7 @@ impl PlaneGrowth {
             }
         }
         let rows: usize = self.members.iter().map(|&at| segments[at].length()).sum();
-        (rows * rules.strip >= rules.min_region).then_some(plane)
+        (rows * config.strip >= self.min_region).then_some(plane)
     }
 }
 
@@ -167,32 +162,25 @@ fn paint(
     picture: Picture<'_>,
     segment: &StraightSegment,
     plane: &Linear,
-    rules: PlaneGrowthRules,
+    config: &ScanLine1994Config,
     label: u16,
     labels: &mut [u16],
 ) {
-    let left = segment.strip * rules.strip;
+    let left = segment.strip * config.strip;
+    let accept_px = config.accept as f32;
     for row in segment.first..segment.end {
-        for col in left..(left + rules.strip).min(picture.width) {
+        for col in left..(left + config.strip).min(picture.width) {
             let at = row * picture.width + col;
-            if lies_at(
-                picture.disparity_px[at],
-                plane.at(col, row),
-                rules.accept_px,
-            ) {
+            if plane.passes(col, row, picture.disparity_px[at], accept_px) {
                 labels[at] = label;
             }
         }
     }
 }
 
-fn lies_at(d: f32, there: f32, accept_px: f32) -> bool {
-    there > 0.0 && (d - there).abs() < accept_px
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::lines::{LineRules, Lines};
+    use super::super::lines::Lines;
     use super::*;
     use crate::picture::view::View;
     use testkit::synthetic::{CAMERA, camera_pose};
@@ -209,23 +197,16 @@ mod tests {
             sigma_px: &disparity_px,
             finer: 1,
         };
-        let line_rules = LineRules {
+        let config = ScanLine1994Config {
             strip: 4,
-            split_px: 0.3,
-            min_segment: 4,
-            max_gap: 3,
-            seen: 0.5,
-        };
-        let rules = PlaneGrowthRules {
-            strip: 4,
-            accept_px: 0.3,
-            min_region: 80,
-            overlap: 0.5,
+            split: 0.3,
+            accept: 0.3,
+            ..ScanLine1994Config::default()
         };
         let mut segments = Vec::new();
-        Lines::default().cut(picture, line_rules, &mut segments);
+        Lines::default().cut(picture, &config, &mut segments);
         let (mut planes, mut labels) = (FreePlanes::default(), vec![0; width * height]);
-        PlaneGrowth::default().grow(picture, &segments, rules, &mut planes, &mut labels);
+        PlaneGrowth::new(80).grow(picture, &segments, &config, &mut planes, &mut labels);
         (labels, planes)
     }
 

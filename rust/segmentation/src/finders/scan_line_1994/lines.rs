@@ -1,22 +1,7 @@
 //! Scan lines, split into pieces that are straight in disparity.
 
-use crate::picture::pixels::Picture;
-use crate::regions::tilted::PlaneSums;
-
-/// How scan lines are cut.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct LineRules {
-    /// Columns of a scan line.
-    pub(super) strip: usize,
-    /// Largest distance from the line between the ends, px.
-    pub(super) split_px: f32,
-    /// Shortest line, rows.
-    pub(super) min_segment: usize,
-    /// Rows without a measurement that a line may bridge.
-    pub(super) max_gap: usize,
-    /// Share of a row's pixels that must be seen.
-    pub(super) seen: f64,
-}
+use super::config::ScanLine1994Config;
+use crate::{picture::Picture, regions::PlaneSums};
 
 /// A straight piece of a scan line.
 #[derive(Debug, Clone, Copy)]
@@ -63,25 +48,25 @@ impl Lines {
     pub(super) fn cut(
         &mut self,
         picture: Picture<'_>,
-        rules: LineRules,
+        config: &ScanLine1994Config,
         segments: &mut Vec<StraightSegment>,
     ) {
         segments.clear();
         let height = picture.disparity_px.len() / picture.width;
-        for strip in 0..picture.width.div_ceil(rules.strip) {
+        for strip in 0..picture.width.div_ceil(config.strip) {
             self.run.clear();
             for row in 0..height {
-                let Some(d) = mean(picture, rules, strip, row) else {
+                let Some(d) = mean(picture, config, strip, row) else {
                     continue;
                 };
                 if let Some(&(last, _)) = self.run.last()
-                    && row - last > rules.max_gap + 1
+                    && row - last > config.tuning.max_gap + 1
                 {
-                    self.split_run(picture.width, rules, strip, segments);
+                    self.split_run(picture.width, config, strip, segments);
                 }
                 self.run.push((row, d));
             }
-            self.split_run(picture.width, rules, strip, segments);
+            self.split_run(picture.width, config, strip, segments);
         }
     }
 
@@ -90,21 +75,21 @@ impl Lines {
     fn split_run(
         &mut self,
         width: usize,
-        rules: LineRules,
+        config: &ScanLine1994Config,
         strip: usize,
         segments: &mut Vec<StraightSegment>,
     ) {
         self.pieces.clear();
         self.pieces.push((0, self.run.len()));
         while let Some((start, end)) = self.pieces.pop() {
-            if end - start < rules.min_segment {
+            if end - start < config.min_segment {
                 continue;
             }
             let piece = &self.run[start..end];
-            match furthest(piece).filter(|&(_, far)| far > rules.split_px) {
+            match furthest(piece).filter(|&(_, far)| far > config.split as f32) {
                 // The upper part is looked at first.
                 Some((at, _)) => self.pieces.extend([(start + at, end), (start, start + at)]),
-                None => segments.extend(segment(piece, width, rules, strip)),
+                None => segments.extend(segment(piece, width, config, strip)),
             }
         }
         self.run.clear();
@@ -112,16 +97,21 @@ impl Lines {
 }
 
 /// The mean disparity of a row of a scan line, where enough of it was seen.
-fn mean(picture: Picture<'_>, rules: LineRules, strip: usize, row: usize) -> Option<f32> {
-    let first = strip * rules.strip;
-    let end = (first + rules.strip).min(picture.width);
+fn mean(
+    picture: Picture<'_>,
+    config: &ScanLine1994Config,
+    strip: usize,
+    row: usize,
+) -> Option<f32> {
+    let first = strip * config.strip;
+    let end = (first + config.strip).min(picture.width);
     let pixels = &picture.disparity_px[row * picture.width + first..row * picture.width + end];
     let (mut count, mut sum) = (0_u32, 0.0);
     for d in pixels.iter().filter(|d| !d.is_nan()) {
         count += 1;
         sum += d;
     }
-    let enough = f64::from(count) >= rules.seen * (end - first) as f64;
+    let enough = f64::from(count) >= config.tuning.seen * (end - first) as f64;
     enough.then(|| sum / count as f32)
 }
 
@@ -139,11 +129,11 @@ fn furthest(piece: &[(usize, f32)]) -> Option<(usize, f32)> {
 fn segment(
     piece: &[(usize, f32)],
     width: usize,
-    rules: LineRules,
+    config: &ScanLine1994Config,
     strip: usize,
 ) -> Option<StraightSegment> {
-    let left = strip * rules.strip;
-    let right = (left + rules.strip).min(width) - 1;
+    let left = strip * config.strip;
+    let right = (left + config.strip).min(width) - 1;
     let col = f64::midpoint(left as f64, right as f64);
     let (first, end) = (piece.first()?.0, piece.last()?.0 + 1);
     let mut sums = PlaneSums::default();
@@ -173,14 +163,6 @@ fn segment(
 mod tests {
     use super::*;
 
-    const RULES: LineRules = LineRules {
-        strip: 4,
-        split_px: 0.3,
-        min_segment: 4,
-        max_gap: 3,
-        seen: 0.5,
-    };
-
     fn cut(disparity_px: &[f32]) -> Vec<(usize, usize, usize)> {
         let picture = Picture {
             width: 8,
@@ -189,8 +171,13 @@ mod tests {
             sigma_px: disparity_px,
             finer: 1,
         };
+        let config = ScanLine1994Config {
+            strip: 4,
+            split: 0.3,
+            ..ScanLine1994Config::default()
+        };
         let mut segments = Vec::new();
-        Lines::default().cut(picture, RULES, &mut segments);
+        Lines::default().cut(picture, &config, &mut segments);
         segments.iter().map(|s| (s.strip, s.first, s.end)).collect()
     }
 

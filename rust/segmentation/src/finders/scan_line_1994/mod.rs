@@ -11,19 +11,15 @@ mod lines;
 
 use crate::part::SegmenterPart;
 use sensing::Intrinsics;
-use settings::{ConfigError, Table};
-use settings::{Part, TableDescription, read};
+use settings::{Part, TableDescription};
 
 use crate::finders::free_planes::planes::FreePlanes;
-use crate::ground_plane::config::GroundConfig;
-use crate::ground_plane::grounded::Grounded;
-use crate::picture::pixels::Picture;
-use crate::picture::view::View;
-use crate::regions::finder::{Finder, Look};
-use crate::regions::region::Region;
+use crate::ground_plane::{Configured, GroundConfig, Grounded};
+use crate::picture::{Picture, View};
+use crate::regions::{Finder, Look, Region};
 pub use config::ScanLine1994Config;
-use growth::{PlaneGrowth, PlaneGrowthRules};
-use lines::{LineRules, Lines, StraightSegment};
+use growth::PlaneGrowth;
+use lines::{Lines, StraightSegment};
 
 /// How it is listed and made.
 pub const PART: SegmenterPart = Part {
@@ -31,58 +27,33 @@ pub const PART: SegmenterPart = Part {
     about: "scan-line grouping as published: straight lines, fixed thresholds",
     source: Some("Jiang and Bunke 1994 (000, reference 10)"),
     tables: &[TableDescription::of::<ScanLine1994Config>()],
-    make: |needs| {
-        let (config, ground) = (
-            read(needs.tables, "scan_line_1994")?,
-            read(needs.tables, "ground")?,
-        );
-        Ok(Box::new(ScanLine1994::new(&config, ground, needs.camera)?))
-    },
+    make: ScanLine1994::make,
 };
 
 /// The scan-line segmenter of 1994.
 pub type ScanLine1994 = Grounded<StraightLines>;
 
-impl ScanLine1994 {
-    /// A segmenter for this camera that knows nothing of the camera's errors yet.
-    pub fn new(
-        config: &ScanLine1994Config,
-        ground: GroundConfig,
-        camera: Intrinsics,
-    ) -> Result<Self, ConfigError> {
-        config.check()?;
-        let finder = StraightLines {
-            line_rules: LineRules {
-                strip: config.strip,
-                split_px: config.split as f32,
-                min_segment: config.min_segment,
-                max_gap: config.tuning.max_gap,
-                seen: config.tuning.seen,
-            },
-            growth_rules: PlaneGrowthRules {
-                strip: config.strip,
-                accept_px: config.accept as f32,
-                min_region: ground.min_region,
-                overlap: config.tuning.overlap,
-            },
-            segments: Vec::new(),
-            lines: Lines::default(),
-            growth: PlaneGrowth::default(),
-            planes: FreePlanes::new(config.tuning.free_planes.clone()),
-        };
-        Self::around(finder, ground, camera)
-    }
-}
-
 /// Finds planes by straight scan lines. Keeps its buffers.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct StraightLines {
-    line_rules: LineRules,
-    growth_rules: PlaneGrowthRules,
+    config: ScanLine1994Config,
     segments: Vec<StraightSegment>,
     lines: Lines,
     growth: PlaneGrowth,
     planes: FreePlanes,
+}
+
+impl Configured for StraightLines {
+    type Config = ScanLine1994Config;
+
+    fn new(config: &ScanLine1994Config, ground: &GroundConfig, _: &Intrinsics) -> Self {
+        Self {
+            config: config.clone(),
+            growth: PlaneGrowth::new(ground.min_region),
+            planes: FreePlanes::new(config.tuning.free_planes.clone()),
+            ..Self::default()
+        }
+    }
 }
 
 impl Finder for StraightLines {
@@ -97,10 +68,10 @@ impl Finder for StraightLines {
         labels: &mut [u16],
     ) {
         if look == Look::First {
-            self.lines.cut(picture, self.line_rules, &mut self.segments);
-            let (rules, planes) = (self.growth_rules, &mut self.planes);
+            let (config, planes) = (&self.config, &mut self.planes);
+            self.lines.cut(picture, config, &mut self.segments);
             self.growth
-                .grow(picture, &self.segments, rules, planes, labels);
+                .grow(picture, &self.segments, config, planes, labels);
         }
         self.planes.show(view, labels, regions);
     }

@@ -2,23 +2,14 @@
 
 use nalgebra::Vector3;
 
-use crate::finders::free_planes::flood::{flood, neighbours};
-use crate::picture::pixels::Picture;
-use crate::picture::view::Linear;
-
-/// How planes share the pixels at their borders.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct BorderRules {
-    /// Largest distance of a pixel from its plane, in the plane's noise.
-    pub(super) accept: f32,
-    /// How often the borders are looked over.
-    pub(super) rounds: usize,
-}
+use super::config::ScanLineAdaptiveConfig;
+use crate::finders::free_planes::flood::flood;
+use crate::picture::{Linear, Picture, neighbours};
 
 /// A plane with its own noise.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NoisyPlane {
-    plane: Linear,
+    pub(super) plane: Linear,
     /// Inverse of its noise, 1/px.
     precision: f32,
     /// Twice the logarithm of its noise.
@@ -34,10 +25,6 @@ impl NoisyPlane {
         }
     }
 
-    pub(super) const fn linear(&self) -> Linear {
-        self.plane
-    }
-
     /// How unlikely a disparity is; none when it is further away than `accept` noises.
     fn misfit(&self, col: usize, row: usize, d: f32, accept: f32) -> Option<f32> {
         let there = self.plane.at(col, row);
@@ -51,14 +38,14 @@ impl NoisyPlane {
 pub(super) fn settle_borders(
     picture: Picture<'_>,
     planes: &[NoisyPlane],
-    rules: BorderRules,
+    config: &ScanLineAdaptiveConfig,
     labels: &mut [u16],
     queue: &mut Vec<usize>,
 ) {
     let misfit = |label: u16, at: usize| {
         let plane = &planes[usize::from(label.checked_sub(1)?)];
         let (col, row) = (at % picture.width, at / picture.width);
-        plane.misfit(col, row, picture.disparity_px[at], rules.accept)
+        plane.misfit(col, row, picture.disparity_px[at], config.accept as f32)
     };
     for (at, label) in labels.iter_mut().enumerate() {
         if misfit(*label, at).is_none() {
@@ -68,7 +55,7 @@ pub(super) fn settle_borders(
     flood(labels, picture.width, queue, |label, at| {
         misfit(label, at).is_some()
     });
-    for _ in 0..rules.rounds {
+    for _ in 0..config.tuning.border_rounds {
         for at in 0..labels.len() {
             let Some(mut least) = misfit(labels[at], at) else {
                 continue;
@@ -108,11 +95,8 @@ mod tests {
             sigma_px: &disparity_px,
             finer: 1,
         };
-        let rules = BorderRules {
-            accept: 4.0,
-            rounds: 3,
-        };
-        settle_borders(picture, &planes, rules, &mut labels, &mut Vec::new());
+        let config = ScanLineAdaptiveConfig::default();
+        settle_borders(picture, &planes, &config, &mut labels, &mut Vec::new());
         for (at, label) in labels.iter().enumerate() {
             let row = at / width;
             assert!(row == 20 || *label == 1 + u16::from(row > 20), "{at}");

@@ -3,22 +3,8 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-use super::patch::{NoiseRange, PlanePatch};
+use super::patch::{PlanePatch, Rules};
 use super::pieces::Piece;
-
-/// When two patches are one plane.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct MergeRules {
-    /// What a plane costs.
-    pub(super) price: f64,
-    /// How far real surfaces are from planes: mean square, in noises.
-    pub(super) uneven: f64,
-    pub(super) noise: NoiseRange,
-    /// Pixels that err alike.
-    pub(super) alike: f64,
-    /// Fewest pixels of a patch that tell their noise.
-    pub(super) min_telling: f64,
-}
 
 /// What is asked of two patches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,7 +59,7 @@ pub(super) struct Merging {
 
 impl Merging {
     /// Joins the pieces; afterwards `root` says which belong together.
-    pub(super) fn merge(&mut self, pieces: &[Piece], rules: MergeRules) {
+    pub(super) fn merge(&mut self, pieces: &[Piece], rules: Rules<'_>) {
         self.start(pieces, rules);
         self.join_all(Question::OneSurface, rules);
         for a in 0..pieces.len() {
@@ -87,7 +73,7 @@ impl Merging {
         self.join_all(Question::OnePlane, rules);
     }
 
-    fn join_all(&mut self, question: Question, rules: MergeRules) {
+    fn join_all(&mut self, question: Question, rules: Rules<'_>) {
         while let Some(Reverse(pair)) = self.queue.pop() {
             let [a, b] = pair.patches;
             if pair.ages == [self.ages[a], self.ages[b]] {
@@ -109,7 +95,7 @@ impl Merging {
         &self.patches[root]
     }
 
-    fn start(&mut self, pieces: &[Piece], rules: MergeRules) {
+    fn start(&mut self, pieces: &[Piece], rules: Rules<'_>) {
         self.patches.clear();
         self.patches.extend(pieces.iter().map(|piece| piece.patch));
         self.costs.clear();
@@ -141,26 +127,26 @@ impl Merging {
         }
     }
 
-    fn put_beside(&mut self, a: usize, b: usize, rules: MergeRules) {
+    fn put_beside(&mut self, a: usize, b: usize, rules: Rules<'_>) {
         self.beside[a].push(b);
         self.beside[b].push(a);
         self.offer(a, b, Question::OneSurface, rules);
     }
 
     /// Puts a pair into the queue if it may be one plane.
-    fn offer(&mut self, a: usize, b: usize, question: Question, rules: MergeRules) {
+    fn offer(&mut self, a: usize, b: usize, question: Question, rules: Rules<'_>) {
         let (one, other) = (&self.patches[a], &self.patches[b]);
         let smaller = one.count().min(other.count());
         let cost = match question {
             Question::OneSurface => {
                 one.and(other).cost(rules.noise) - self.costs[a] - self.costs[b]
             }
-            Question::OnePlane if smaller >= rules.min_telling => {
+            Question::OnePlane if smaller >= rules.min_region => {
                 one.disagreement(other, rules.noise)
             }
             Question::OnePlane => return,
         };
-        if cost < rules.price * rules.alike + rules.uneven * smaller {
+        if cost < rules.config.price * rules.config.alike + rules.config.uneven * smaller {
             self.queue.push(Reverse(PatchPair {
                 cost,
                 patches: [a, b],
@@ -170,7 +156,7 @@ impl Merging {
     }
 
     /// Joins `b` to `a`.
-    fn join(&mut self, a: usize, b: usize, question: Question, rules: MergeRules) {
+    fn join(&mut self, a: usize, b: usize, question: Question, rules: Rules<'_>) {
         self.joined_to[b] = a;
         self.patches[a] = self.patches[a].and(&self.patches[b]);
         self.costs[a] = self.patches[a].cost(rules.noise);
@@ -193,7 +179,9 @@ impl Merging {
 
 #[cfg(test)]
 mod tests {
-    use super::super::pieces::{CutRules, Cutter};
+    use super::super::config::ScanLineAdaptiveConfig;
+    use super::super::patch::NoiseRange;
+    use super::super::pieces::Cutter;
     use super::*;
     use crate::picture::pixels::Picture;
     use testkit::synthetic::Noise;
@@ -219,25 +207,20 @@ mod tests {
             sigma_px: &disparity_px,
             finer: 1,
         };
-        let (price, alike) = (12.0, 4.0);
-        let cut_rules = CutRules {
+        let config = ScanLineAdaptiveConfig {
             strip: 4,
-            price,
-            min_segment: 3,
-            longest: 128,
-            seen: 0.5,
-            noise: NOISE,
-            alike,
-        };
-        let rules = MergeRules {
-            price,
+            price: 12.0,
+            alike: 4.0,
             uneven: 0.1,
+            ..ScanLineAdaptiveConfig::default()
+        };
+        let rules = Rules {
+            config: &config,
             noise: NOISE,
-            alike,
-            min_telling: 80.0,
+            min_region: 80.0,
         };
         let (mut pieces, mut merging) = (Vec::new(), Merging::default());
-        Cutter::default().cut(picture, cut_rules, &mut pieces);
+        Cutter::default().cut(picture, rules, &mut pieces);
         merging.merge(&pieces, rules);
         let roots = (0..pieces.len()).filter(|&at| merging.root(at) == at);
         let mut sizes: Vec<_> = roots

@@ -14,21 +14,17 @@ mod pieces;
 
 use crate::part::SegmenterPart;
 use sensing::Intrinsics;
-use settings::{ConfigError, Table};
-use settings::{Part, TableDescription, read};
+use settings::{Part, TableDescription};
 
 use crate::finders::free_planes::planes::FreePlanes;
-use crate::ground_plane::config::GroundConfig;
-use crate::ground_plane::grounded::Grounded;
-use crate::picture::pixels::Picture;
-use crate::picture::view::View;
-use crate::regions::finder::{Finder, Look};
-use crate::regions::region::Region;
-use borders::{BorderRules, NoisyPlane, settle_borders};
+use crate::ground_plane::{Configured, GroundConfig, Grounded};
+use crate::picture::{Picture, View};
+use crate::regions::{Finder, Look, Region};
+use borders::{NoisyPlane, settle_borders};
 pub use config::ScanLineAdaptiveConfig;
-use merging::{MergeRules, Merging};
-use patch::NoiseRange;
-use pieces::{CutRules, Cutter, Piece};
+use merging::Merging;
+use patch::{NoiseRange, Rules};
+use pieces::{Cutter, Piece};
 
 /// How it is listed and made.
 pub const PART: SegmenterPart = Part {
@@ -36,75 +32,17 @@ pub const PART: SegmenterPart = Part {
     about: "scan-line grouping of planes in any direction, each with a noise of its own",
     source: Some("000, section III, after Jiang and Bunke 1994"),
     tables: &[TableDescription::of::<ScanLineAdaptiveConfig>()],
-    make: |needs| {
-        let (config, ground) = (
-            read(needs.tables, "scan_line_adaptive")?,
-            read(needs.tables, "ground")?,
-        );
-        Ok(Box::new(ScanLineAdaptive::new(
-            &config,
-            ground,
-            needs.camera,
-        )?))
-    },
+    make: ScanLineAdaptive::make,
 };
 
 /// The scan-line segmenter of planes in any direction.
 pub type ScanLineAdaptive = Grounded<NoisyLines>;
 
-impl ScanLineAdaptive {
-    /// A segmenter for this camera that knows nothing of the camera's errors yet.
-    pub fn new(
-        config: &ScanLineAdaptiveConfig,
-        ground: GroundConfig,
-        camera: Intrinsics,
-    ) -> Result<Self, ConfigError> {
-        config.check()?;
-        let alike = config.alike;
-        let noise = NoiseRange {
-            least_px: ground.noise_floor,
-            most_px: ground.noise_floor * ground.noise_ceiling,
-        };
-        let finder = NoisyLines {
-            cut_rules: CutRules {
-                strip: config.strip,
-                price: config.price,
-                min_segment: config.min_segment,
-                longest: config.tuning.longest,
-                seen: config.tuning.seen,
-                noise,
-                alike,
-            },
-            merge_rules: MergeRules {
-                price: config.price,
-                uneven: config.uneven,
-                noise,
-                alike,
-                min_telling: ground.min_region as f64,
-            },
-            border_rules: BorderRules {
-                accept: config.accept as f32,
-                rounds: config.tuning.border_rounds,
-            },
-            min_region: ground.min_region as f64,
-            cutter: Cutter::default(),
-            merging: Merging::default(),
-            pieces: Vec::new(),
-            roots: Vec::new(),
-            noisy_planes: Vec::new(),
-            queue: Vec::new(),
-            planes: FreePlanes::new(config.tuning.free_planes.clone()),
-        };
-        Self::around(finder, ground, camera)
-    }
-}
-
 /// Finds planes by scan lines with a noise of their own. Keeps its buffers.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct NoisyLines {
-    cut_rules: CutRules,
-    merge_rules: MergeRules,
-    border_rules: BorderRules,
+    config: ScanLineAdaptiveConfig,
+    noise: NoiseRange,
     /// Smallest region, pixels.
     min_region: f64,
     cutter: Cutter,
@@ -115,6 +53,23 @@ pub struct NoisyLines {
     noisy_planes: Vec<NoisyPlane>,
     queue: Vec<usize>,
     planes: FreePlanes,
+}
+
+impl Configured for NoisyLines {
+    type Config = ScanLineAdaptiveConfig;
+
+    fn new(config: &ScanLineAdaptiveConfig, ground: &GroundConfig, _: &Intrinsics) -> Self {
+        Self {
+            config: config.clone(),
+            noise: NoiseRange {
+                least_px: ground.noise_floor,
+                most_px: ground.noise_floor * ground.noise_ceiling,
+            },
+            min_region: ground.min_region as f64,
+            planes: FreePlanes::new(config.tuning.free_planes.clone()),
+            ..Self::default()
+        }
+    }
 }
 
 impl NoisyLines {
@@ -130,16 +85,15 @@ impl NoisyLines {
             .sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
         self.planes.clear();
         self.noisy_planes.clear();
-        let noise = self.merge_rules.noise;
         let mut kept = 0;
         for &root in &self.roots {
             if self.planes.is_full() {
                 break;
             }
             let patch = merging.patch(root);
-            let plane = NoisyPlane::new(&patch.plane(), patch.scatter_px(noise));
+            let plane = NoisyPlane::new(&patch.plane(), patch.scatter_px(self.noise));
             self.noisy_planes.push(plane);
-            let _label = self.planes.add(plane.linear());
+            let _label = self.planes.add(plane.plane);
             kept += 1;
         }
         self.roots.truncate(kept);
@@ -152,8 +106,8 @@ impl NoisyLines {
             let Some(index) = self.roots.iter().position(|&other| other == root) else {
                 continue;
             };
-            let left = piece.strip * self.cut_rules.strip;
-            let right = (left + self.cut_rules.strip).min(width);
+            let left = piece.strip * self.config.strip;
+            let right = (left + self.config.strip).min(width);
             for row in piece.rows.clone() {
                 labels[row * width + left..row * width + right].fill(index as u16 + 1);
             }
@@ -173,12 +127,17 @@ impl Finder for NoisyLines {
         labels: &mut [u16],
     ) {
         if look == Look::First {
-            self.cutter.cut(picture, self.cut_rules, &mut self.pieces);
-            self.merging.merge(&self.pieces, self.merge_rules);
+            let rules = Rules {
+                config: &self.config,
+                noise: self.noise,
+                min_region: self.min_region,
+            };
+            self.cutter.cut(picture, rules, &mut self.pieces);
+            self.merging.merge(&self.pieces, rules);
             self.find_planes();
             self.paint(picture.width, labels);
             let (planes, queue) = (&self.noisy_planes, &mut self.queue);
-            settle_borders(picture, planes, self.border_rules, labels, queue);
+            settle_borders(picture, planes, &self.config, labels, queue);
         }
         self.planes.show(view, labels, regions);
     }

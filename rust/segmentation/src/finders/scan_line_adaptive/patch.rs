@@ -2,14 +2,25 @@
 
 use nalgebra::{Vector2, Vector3};
 
+use super::config::ScanLineAdaptiveConfig;
+
 /// What keeps the plane of a patch that is a line finite, pixels^2.
 const RIDGE: f64 = 1e-6;
 
 /// The smallest and the largest noise that is believed, px.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct NoiseRange {
     pub(super) least_px: f64,
     pub(super) most_px: f64,
+}
+
+/// What pieces are cut and joined by.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rules<'a> {
+    pub(super) config: &'a ScanLineAdaptiveConfig,
+    pub(super) noise: NoiseRange,
+    /// Smallest region, and the smallest patch that tells whether it lies on the plane of another, pixels.
+    pub(super) min_region: f64,
 }
 
 /// Sums over pixels: of one, of column, row and disparity, and of the products of any two of these.

@@ -2,26 +2,8 @@
 
 use std::ops::Range;
 
-use super::patch::{NoiseRange, PlanePatch};
-use crate::picture::pixels::Picture;
-
-/// How scan lines are cut.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct CutRules {
-    /// Columns of a scan line.
-    pub(super) strip: usize,
-    /// What a piece costs.
-    pub(super) price: f64,
-    /// Shortest piece, rows.
-    pub(super) min_segment: usize,
-    /// Longest piece, rows: what is longer is joined again.
-    pub(super) longest: usize,
-    /// Share of a piece's pixels that must be seen.
-    pub(super) seen: f64,
-    pub(super) noise: NoiseRange,
-    /// Pixels that err alike.
-    pub(super) alike: f64,
-}
+use super::patch::{PlanePatch, Rules};
+use crate::picture::Picture;
 
 /// A piece of a scan line.
 #[derive(Debug, Clone)]
@@ -45,9 +27,9 @@ pub(super) struct Cutter {
 
 impl Cutter {
     /// Fills `pieces`, scan line by scan line, each from the top down.
-    pub(super) fn cut(&mut self, picture: Picture<'_>, rules: CutRules, pieces: &mut Vec<Piece>) {
+    pub(super) fn cut(&mut self, picture: Picture<'_>, rules: Rules<'_>, pieces: &mut Vec<Piece>) {
         pieces.clear();
-        for strip in 0..picture.width.div_ceil(rules.strip) {
+        for strip in 0..picture.width.div_ceil(rules.config.strip) {
             self.sum_up(picture, rules, strip);
             self.find_cuts(rules);
             let start = pieces.len();
@@ -55,8 +37,9 @@ impl Cutter {
             while end > 0 {
                 let first = self.best[end].1;
                 let patch = self.before[end].without(&self.before[first]);
-                let seen = patch.count() >= rules.seen * ((end - first) * rules.strip) as f64;
-                if end - first >= rules.min_segment && seen {
+                let seen = patch.count()
+                    >= rules.config.tuning.seen * ((end - first) * rules.config.strip) as f64;
+                if end - first >= rules.config.min_segment && seen {
                     pieces.push(Piece {
                         strip,
                         rows: first..end,
@@ -69,8 +52,9 @@ impl Cutter {
         }
     }
 
-    fn sum_up(&mut self, picture: Picture<'_>, rules: CutRules, strip: usize) {
-        let cols = strip * rules.strip..((strip + 1) * rules.strip).min(picture.width);
+    fn sum_up(&mut self, picture: Picture<'_>, rules: Rules<'_>, strip: usize) {
+        let cols =
+            strip * rules.config.strip..((strip + 1) * rules.config.strip).min(picture.width);
         let mut sums = PlanePatch::default();
         self.before.clear();
         self.before.push(sums);
@@ -83,15 +67,17 @@ impl Cutter {
     }
 
     /// The optimal partition (Jackson et al. 2005): the best cut before a row ends with the best last piece.
-    fn find_cuts(&mut self, rules: CutRules) {
+    fn find_cuts(&mut self, rules: Rules<'_>) {
         self.best.clear();
         self.best.push((0.0, 0));
         for end in 1..self.before.len() {
             let cost = |start: usize| {
                 let patch = self.before[end].without(&self.before[start]);
-                self.best[start].0 + patch.cost(rules.noise) / rules.alike + rules.price
+                self.best[start].0
+                    + patch.cost(rules.noise) / rules.config.alike
+                    + rules.config.price
             };
-            let best = (end.saturating_sub(rules.longest)..end)
+            let best = (end.saturating_sub(rules.config.tuning.longest)..end)
                 .map(|start| (cost(start), start))
                 .min_by(|a, b| a.0.total_cmp(&b.0));
             self.best.extend(best);
@@ -101,21 +87,10 @@ impl Cutter {
 
 #[cfg(test)]
 mod tests {
+    use super::super::config::ScanLineAdaptiveConfig;
+    use super::super::patch::NoiseRange;
     use super::*;
     use testkit::synthetic::Noise;
-
-    const RULES: CutRules = CutRules {
-        strip: 4,
-        price: 20.0,
-        min_segment: 3,
-        longest: 128,
-        seen: 0.5,
-        noise: NoiseRange {
-            least_px: 0.02,
-            most_px: 0.5,
-        },
-        alike: 1.0,
-    };
 
     /// Rows of the first scan line's pieces.
     fn cut(sigma_px: impl Fn(usize) -> f64, d: impl Fn(usize, usize) -> f64) -> Vec<Range<usize>> {
@@ -133,8 +108,22 @@ mod tests {
             sigma_px: &disparity_px,
             finer: 1,
         };
+        let config = ScanLineAdaptiveConfig {
+            strip: 4,
+            price: 20.0,
+            alike: 1.0,
+            ..ScanLineAdaptiveConfig::default()
+        };
+        let rules = Rules {
+            config: &config,
+            noise: NoiseRange {
+                least_px: 0.02,
+                most_px: 0.5,
+            },
+            min_region: 80.0,
+        };
         let mut pieces = Vec::new();
-        Cutter::default().cut(picture, RULES, &mut pieces);
+        Cutter::default().cut(picture, rules, &mut pieces);
         let first = pieces.iter().filter(|piece| piece.strip == 0);
         first.map(|piece| piece.rows.clone()).collect()
     }

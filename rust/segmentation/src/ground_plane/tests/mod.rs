@@ -15,7 +15,7 @@ use sensing::Scan;
 use super::config::GroundConfig;
 use crate::arbitrary::blocks;
 use crate::finders::scan_line::{ScanLine, ScanLineConfig};
-use crate::planes::{KnownFloor, NothingKnown, Planes, SegmentError, Segmenter};
+use crate::planes::{KnownFloor, Planes, SegmentError, Segmenter};
 use testkit::synthetic::{Block, CAMERA, GROUND, NOTHING, Noise, Scene, camera_pose};
 
 /// The sensor's noise, px.

@@ -12,7 +12,10 @@ fn records_are_whole_planes_have_unit_normals_and_outlines_hold_their_points() {
     assert!(planes.regions.len() > 2);
     for (i, region) in planes.regions.iter().enumerate() {
         assert!((region.plane.normal.norm() - 1.0).abs() < 1e-9);
-        assert!(region.plane.signed_distance_m(&region.mean.inner).abs() < 1e-4);
+        assert!(
+            (region.plane.normal.dot(&region.mean.inner.coords) - region.plane.distance_m).abs()
+                < 1e-4
+        );
         let pixels: Vec<_> = (0..planes.labels.len())
             .filter(|&at| usize::from(planes.labels[at]) == i + 1)
             .collect();

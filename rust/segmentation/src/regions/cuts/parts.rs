@@ -5,25 +5,9 @@ use std::ops::Range;
 use nalgebra::Vector2;
 
 use super::tuning::CutTuning;
-use crate::picture::pixels::Picture;
-use crate::picture::view::{View, to_f32};
+use crate::picture::{SeenPicture, to_f32};
 use crate::regions::fit::{RegionFit, terms};
 use crate::regions::region::Region;
-
-/// A picture and the view that it was taken in.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct CutPicture<'a> {
-    pub(super) picture: Picture<'a>,
-    pub(super) view: &'a View,
-}
-
-impl CutPicture<'_> {
-    /// What the view has of a pixel: `g`, x and y.
-    pub(super) fn gxy(&self, col: usize, row: usize) -> [f32; 3] {
-        let g = self.picture.g[row * self.picture.width + col];
-        [g, self.view.x.at(col, row), self.view.y.at(col, row)]
-    }
-}
 
 /// Where a pixel of a surface lies, from below the camera, m.
 fn place_m(q: f32, [g, x, y]: [f32; 3]) -> Vector2<f64> {
@@ -77,7 +61,7 @@ impl RegionParts {
     /// Sums up the regions' pixels, one every few, by blocks of so many columns and rows.
     pub(super) fn collect(
         &mut self,
-        seen: CutPicture<'_>,
+        seen: SeenPicture<'_>,
         regions: &[Region],
         labels: &[u16],
         block: usize,
@@ -104,7 +88,7 @@ impl RegionParts {
     /// Adds what in a block belongs to the region of its first pixel.
     fn add_block(
         &mut self,
-        seen: CutPicture<'_>,
+        seen: SeenPicture<'_>,
         regions: &[Region],
         labels: &[u16],
         [cols, rows]: [Range<usize>; 2],

@@ -2,10 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::sums::{SlopePicture, SlopeSums};
 use super::tuning::{SlopeGradients, SlopeGrowthTuning};
-use crate::picture::labels::MAX_REGIONS;
+use crate::picture::{MAX_REGIONS, SeenPicture};
 use crate::regions::region::Region;
+use crate::regions::tilted::PlaneSums;
 
 /// What a level region is to a slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +45,7 @@ impl SlopeGrowth {
     /// Grows a plane from a pixel on; none where it is no slope. `is_found`: whether that is the plane of a slope, not of a window.
     pub(super) fn grow(
         &mut self,
-        seen: SlopePicture<'_>,
+        seen: SeenPicture<'_>,
         (start, mut plane): (usize, Vector3<f64>),
         is_found: bool,
         regions: &[Region],
@@ -78,9 +78,9 @@ impl SlopeGrowth {
     }
 
     /// The plane through what was grown, away from its border: there a window saw something else, too.
-    fn fit_inside(&self, seen: SlopePicture<'_>) -> Option<Vector3<f64>> {
+    fn fit_inside(&self, seen: SeenPicture<'_>) -> Option<Vector3<f64>> {
         let (width, border) = (seen.picture.width, self.tuning.border);
-        let mut sums = SlopeSums::default();
+        let mut sums = PlaneSums::default();
         for &at in &self.pixels {
             let col = at % width;
             let is_inside = col >= border
@@ -93,21 +93,15 @@ impl SlopeGrowth {
                 ]
                 .iter()
                 .all(|&beside| self.members.get(beside) == Some(&true));
-            if is_inside {
-                sums.add(seen.terms(at));
+            if is_inside && let Some([x, y, g, d]) = seen.terms(at) {
+                sums.add([x, y, g], d);
             }
         }
         sums.plane()
     }
 
     /// Collects what hangs together with a pixel and lies on the plane rather than on the level surfaces that were found.
-    fn flood(
-        &mut self,
-        seen: SlopePicture<'_>,
-        start: usize,
-        plane: &Vector3<f64>,
-        labels: &[u16],
-    ) {
+    fn flood(&mut self, seen: SeenPicture<'_>, start: usize, plane: &Vector3<f64>, labels: &[u16]) {
         let width = seen.picture.width;
         let count = seen.picture.disparity_px.len();
         let abq = [plane.x, plane.y, plane.z].map(|value| value as f32);
@@ -145,7 +139,7 @@ impl SlopeGrowth {
         }
     }
 
-    fn visit(&mut self, seen: SlopePicture<'_>, at: usize, abq: [f32; 3], labels: &[u16]) {
+    fn visit(&mut self, seen: SeenPicture<'_>, at: usize, abq: [f32; 3], labels: &[u16]) {
         let miss = seen.miss(at, abq).abs();
         let fits = match self.reaches[usize::from(labels[at])] {
             StripReach::Strip => self.better[at] > -self.tuning.worse,
@@ -163,7 +157,7 @@ impl SlopeGrowth {
     /// only behind the line where the two meet.
     fn find_reaches(
         &mut self,
-        seen: SlopePicture<'_>,
+        seen: SeenPicture<'_>,
         plane: &Vector3<f64>,
         regions: &[Region],
         labels: &[u16],

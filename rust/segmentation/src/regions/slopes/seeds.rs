@@ -2,14 +2,13 @@
 
 use nalgebra::Vector3;
 
-use super::memory::SlopeMemory;
-use super::sums::{SlopePicture, SlopeSums};
-use super::tuning::SlopeTuning;
+use super::{memory::SlopeMemory, tuning::SlopeTuning};
+use crate::{picture::SeenPicture, regions::tilted::PlaneSums};
 
 /// Pixels where slopes may be, and the planes there: windows that a tilted plane explains better than a level surface does, with the
 /// tilt that is remembered where there is one.
 pub(super) fn seeds(
-    seen: SlopePicture<'_>,
+    seen: SeenPicture<'_>,
     memory: &SlopeMemory,
     tuning: &SlopeTuning,
 ) -> Vec<(usize, Vector3<f64>)> {
@@ -18,10 +17,12 @@ pub(super) fn seeds(
     let height = seen.picture.disparity_px.len() / width;
     let half = (width / (2 * rules.across)).max(1);
     let (across, down) = (width / half, height / half);
-    let mut quarters = vec![SlopeSums::default(); across * down];
+    let mut quarters = vec![PlaneSums::default(); across * down];
     for row in (0..down * half).step_by(stride) {
         for col in (row / stride % stride..across * half).step_by(stride) {
-            quarters[row / half * across + col / half].add(seen.terms(row * width + col));
+            if let Some([x, y, g, d]) = seen.terms(row * width + col) {
+                quarters[row / half * across + col / half].add([x, y, g], d);
+            }
         }
     }
     // Each pixel that is looked at stands for so many.

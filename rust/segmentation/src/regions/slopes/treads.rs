@@ -2,8 +2,8 @@
 
 use nalgebra::{Rotation2, Vector2, Vector3};
 
-use super::sums::{SlopePicture, independent};
 use super::tuning::{SlopeTuning, TreadTuning};
+use crate::picture::SeenPicture;
 
 /// What a plane is against the best treads.
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +29,7 @@ impl TreadBin {
     fn tread(&self, before: &Self, alike: f64) -> f64 {
         let (weight, q) = (self.weight - before.weight, self.q - before.q);
         let level = self.qq - before.qq - q * q / weight;
-        independent(level - (self.plane - before.plane), alike)
+        (level - (self.plane - before.plane)) / alike
     }
 }
 
@@ -44,7 +44,7 @@ impl TreadFit {
     /// Compares a plane `(a, b, q)` with treads, over its pixels.
     pub(super) fn compare(
         &mut self,
-        seen: SlopePicture<'_>,
+        seen: SeenPicture<'_>,
         plane: &Vector3<f64>,
         pixels: &[usize],
         tuning: &SlopeTuning,
@@ -82,7 +82,7 @@ impl TreadFit {
     /// Adds up the pixels by where the plane has them in this direction, from the nearest on.
     fn fill(
         &mut self,
-        seen: SlopePicture<'_>,
+        seen: SeenPicture<'_>,
         plane: &Vector3<f64>,
         pixels: &[usize],
         across: &Vector2<f64>,

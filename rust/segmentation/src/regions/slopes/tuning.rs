@@ -1,7 +1,7 @@
 //! Settings of the search for slopes.
 
 use nalgebra::Vector3;
-use settings::{ConfigError, NOT_NEGATIVE, POSITIVE, SHARE, at_least, require, settings, within};
+use settings::{NOT_NEGATIVE, POSITIVE, SHARE, at_least, settings, within};
 
 settings! {
     /// How slopes are found among the level strips that they were cut into.
@@ -33,20 +33,10 @@ settings! {
         /// A slope's gradient is less than this: 22 degrees, for what is measured of one of 20 degrees.
         most: f64 = 0.4, "1", POSITIVE;
     }
-    check SlopeGradients::are_ordered;
+    require (most) > (least);
 }
 
 impl SlopeGradients {
-    fn are_ordered(&self, key: &str) -> Result<(), ConfigError> {
-        let allowed = format!("greater than {key}.least");
-        require(
-            self.most > self.least,
-            &format!("{key}.most"),
-            &allowed,
-            self.most,
-        )
-    }
-
     /// Whether a plane `(a, b, q)` is tilted like a slope.
     pub(super) fn hold(&self, plane: &Vector3<f64>) -> bool {
         let tilt = plane.xy().norm() / plane.z;

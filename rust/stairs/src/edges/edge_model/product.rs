@@ -20,30 +20,22 @@ pub struct FittedEdge {
 }
 
 /// Why an edge cannot be told from this frame.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Untrusted {
     /// The guess, the heights or the camera's pose are no numbers, or the edge has no length.
-    #[error("no usable guess")]
     BadGuess,
     /// The camera is behind the edge or below a surface.
-    #[error("the camera is not above the surface in front of the edge")]
     WrongSide,
     /// The heights differ too little for the edge to show, m.
-    #[error("a change of height of {0:.3} m does not show")]
     NoContrast(f64),
     /// The edge is outside the picture, or nothing was seen where it is.
-    #[error("the edge is out of view")]
     OutOfView,
     /// Too little of the surface in front of the edge is in view: share of the edge's columns that show enough of it.
-    #[error("the surface in front of the edge shows below {0:.2} of it only")]
     NearHidden(f64),
     /// Too little of the surface behind the edge is in view: share of the edge's columns that show enough of it.
-    #[error("the surface behind the edge shows above {0:.2} of it only")]
     FarHidden(f64),
     /// The fit ran away from the guess or did not come to rest.
-    #[error("the fit did not settle")]
     NotSettled,
     /// What is seen is no such step: mean size of the residuals, in the expected noise.
-    #[error("residuals of {0:.1} times the noise")]
     Rough(f64),
 }

@@ -8,8 +8,10 @@ use sensing::Intrinsics;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PixelLinear {
     origin: f64,
-    per_col: f64,
-    per_row: f64,
+    /// Change from column to column.
+    pub(super) per_col: f64,
+    /// Change from row to row.
+    pub(super) per_row: f64,
 }
 
 impl PixelLinear {
@@ -17,16 +19,6 @@ impl PixelLinear {
     #[inline]
     pub(super) fn at(&self, col: f64, row: f64) -> f64 {
         self.origin + self.per_col * col + self.per_row * row
-    }
-
-    /// Change from column to column.
-    pub(super) const fn per_col(&self) -> f64 {
-        self.per_col
-    }
-
-    /// Change from row to row.
-    pub(super) const fn per_row(&self) -> f64 {
-        self.per_row
     }
 
     /// Length of the gradient, per pixel.

@@ -32,8 +32,8 @@ impl WindowPlane {
     fn new(linear: &PixelLinear) -> Self {
         let (origin, per_col, per_row) = (
             linear.at(0.0, 0.0) as f32,
-            linear.per_col() as f32,
-            linear.per_row() as f32,
+            linear.per_col as f32,
+            linear.per_row as f32,
         );
         let offset = |i: usize| {
             let i = i.min(PIXELS - 1);
@@ -76,8 +76,7 @@ impl Matcher {
     pub(super) fn new(faces: &StepFaces, tuning: &WindowTuning) -> Self {
         let before = faces.near.mix(1.0, &faces.riser, -1.0);
         let behind = faces.riser.mix(1.0, &faces.far, -1.0);
-        let reach =
-            |gap: &PixelLinear| (REACH * (gap.per_col().abs() + gap.per_row().abs())) as f32;
+        let reach = |gap: &PixelLinear| (REACH * (gap.per_col.abs() + gap.per_row.abs())) as f32;
         let steepness = before.steepness().max(1e-6) as f32;
         Self {
             near: WindowPlane::new(&faces.near),
