@@ -8,7 +8,7 @@ use simulated_senses::{
 };
 
 use crate::depth_errors::{PyDepthErrors, by_row, pinhole, values, viewpoint};
-use crate::error::{bad_setting, failed, unpanicked};
+use crate::error::{bad_setting, run};
 
 /// Depths and which body was met, (h, w) each.
 type Cast<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i32>>);
@@ -155,8 +155,7 @@ impl PyDepthCamera {
             rotations: rotations.as_slice().map_err(|_| by_row("rotations"))?,
         };
         let Self { scene, raster, .. } = self;
-        py.detach(|| unpanicked(|| raster.draw(scene, &poses, view)))
-            .map_err(|error| failed(py, &error))?
+        run(py, || raster.draw(scene, &poses, view))?
             .map_err(|error| PyValueError::new_err(error.to_string()))?;
         let Some((depth, body)) = others else {
             return Ok(());
@@ -181,8 +180,7 @@ fn mesh(py: Python<'_>, index: usize, (vertices, faces): &MeshArrays<'_>) -> PyR
         .iter()
         .map(|face| face.map(|vertex| u32::try_from(vertex).unwrap_or(u32::MAX)))
         .collect();
-    let made = unpanicked(|| Mesh::new(index, vertices.as_chunks::<3>().0, &faces));
-    made.map_err(|error| failed(py, &error))?
+    run(py, || Mesh::new(index, vertices.as_chunks::<3>().0, &faces))?
         .map_err(|error| bad_setting(py, &error))
 }
 

@@ -8,7 +8,7 @@ use simulated_senses::{
     TruePicture,
 };
 
-use crate::error::{bad_setting, failed, unpanicked};
+use crate::error::{bad_setting, run};
 
 /// What turns exact depth into a camera's.
 #[pyclass(name = "DepthErrors", module = "treadwell._core")]
@@ -111,13 +111,10 @@ impl PyDepthErrors {
         let mut written = depth.readwrite();
         let depth_m = written.as_slice_mut().map_err(|_| by_row("depth"))?;
         let model = &mut self.model;
-        py.detach(|| {
-            unpanicked(|| match model {
-                Model::Stereo(errors) => errors.see(picture, view, depth_m),
-                Model::StructuredLight(errors) => errors.see(picture, depth_m),
-            })
-        })
-        .map_err(|error| failed(py, &error))?
+        run(py, || match model {
+            Model::Stereo(errors) => errors.see(picture, view, depth_m),
+            Model::StructuredLight(errors) => errors.see(picture, depth_m),
+        })?
         .map_err(|error| PyValueError::new_err(error.to_string()))?;
         drop(written);
         Ok(depth)

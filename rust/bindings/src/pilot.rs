@@ -139,7 +139,7 @@ impl PyPilot {
     /// What the map's view says: corner (2,) m, side of a cell m, and (rows, cols) kinds, heights and sightings, as those of
     /// `FloorView`; without a copy of the rest.
     fn floor<'py>(&self, py: Python<'py>) -> PyResult<Floor<'py>> {
-        floor(py, self.pilot.perception().view())
+        floor(py, self.pilot.perception.world_model.view())
     }
 
     /// The stairs that are seen or remembered; a copy.

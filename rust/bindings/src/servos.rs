@@ -1,7 +1,7 @@
 //! The simulator's servos, and the physics that they drive.
 
 use mujoco_step::{Physics, Wiring};
-use numpy::{PyArray1, PyArrayMethods, PyReadwriteArray1, PyReadwriteArray2, ToPyArray};
+use numpy::{PyArray1, PyArrayMethods, PyReadwriteArray2, ToPyArray};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use simulated_body::{Motor, ServoTuning, Servos, SimulatedBodyError};
