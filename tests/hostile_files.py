@@ -111,7 +111,7 @@ SCENARIOS: Final[dict[str, Make]] = NO_FILE | {
     "a name that is a number": element(BOX + 'name = "0"'),
     "a name with dots": element(BOX + 'name = "a.b"'),
     "a name with markup": element(BOX + 'name = "<img>"'),
-    "too many": toml(f"[[course]]\n{BOX}" * 501),
+    "too many": toml(f"[[course]]\n{BOX}" * 2001),
     "a million": text(HEAD + "course = [" + '{kind="box"},' * 60_000 + "]"),
     "endless steps": element('kind = "stairs"\nsteps = 1000000000'),
     "no steps": element('kind = "stairs"\nsteps = 0'),

@@ -171,6 +171,21 @@ def test_of_a_killed_run_the_ticks_that_were_written_can_be_replayed(
         join_parts(tmp_path)
 
 
+def test_a_run_that_goes_on_can_be_saved_again(
+    qrio: Robot, flat: mujoco.MjModel, tmp_path: Path
+) -> None:
+    for name in ("first", "second"):
+        (tmp_path / name).mkdir()
+    simulation = eventful(qrio, flat, tmp_path / "first")
+    simulation.save_audit(tmp_path / "first")
+    simulation.advance(standing(qrio))
+    simulation.save_audit(tmp_path / "second")
+    first, second = arrays(tmp_path / "first"), arrays(tmp_path / "second")
+    assert len(second["qpos"]) == len(first["qpos"]) + 1
+    assert np.array_equal(second["ctrl"][:800], first["ctrl"])
+    assert np.array_equal(second["xfrc_applied"], first["xfrc_applied"])
+
+
 def test_an_audit_that_was_dropped_keeps_nothing(
     qrio: Robot, flat: mujoco.MjModel, tmp_path: Path
 ) -> None:

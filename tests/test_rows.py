@@ -29,7 +29,7 @@ def test_single_rows_and_blocks_come_back_in_their_order(tmp_path: Path, named: 
     made.extend(given[50:])
     assert len(made) == 57
     assert np.array_equal(made.array(), given)
-    made.close()
+    made.flush()
     if named is not None:
         assert np.array_equal(np.load(tmp_path / "rows.npy"), given)
 

@@ -79,6 +79,7 @@ class Audit:
         """Each field as it is before the next step: as an event left it, or untouched."""
         self._now_step: int | None = None
         self._folder: Path | None = None
+        self._dropped = False
         self._steps_per_tick = steps_per_tick(model)
 
     def event(self, step: int, field: str, before: NDArray[Any], after: NDArray[Any]) -> None:
@@ -90,6 +91,8 @@ class Audit:
             before: the whole field as it was.
             after: the whole field as it is now.
         """
+        if self._dropped:
+            return
         if self._now_step != step:
             self._end_events()
             self._now_step = step
@@ -112,7 +115,7 @@ class Audit:
         """
         parts = folder / PARTS
         try:
-            parts.mkdir()
+            parts.mkdir(exist_ok=True)
             self._model.tofile(folder / "model.mjb")
         except OSError as error:
             raise RecordingError(f"{parts}: cannot be written: {error.strerror}") from error
@@ -122,6 +125,7 @@ class Audit:
 
     def drop(self) -> None:
         """Forget everything, and what is to come: of a run of which nothing will be written."""
+        self._dropped = True
         for rows in self._rows().values():
             rows.drop()
 
@@ -138,10 +142,10 @@ class Audit:
         if self._folder is None or self._folder.parent != folder:
             self.keep_in(folder)
         self._end_events()
-        rows = self._rows()
-        for each in rows.values():
-            each.close()
-        join(folder, rows, self._steps_per_tick)
+        self.flush()
+        join(folder, self._rows(), self._steps_per_tick)
+        # The deleted parts stay open: the run may go on, and be saved again elsewhere.
+        self._folder = None
 
     def _rows(self) -> dict[str, Rows]:
         """Return the arrays by their names in the file."""

@@ -89,7 +89,7 @@ class Rows:
 
     def drop(self) -> None:
         """Forget all rows, and those to come; to keep them then is an error."""
-        self.close()
+        self._release()
         self._waiting = self._written = 0
         self._dropped = True
 
@@ -111,15 +111,6 @@ class Rows:
         self._file.seek(0)
         kept: NDArray[Any] = np.lib.format.read_array(self._file)
         return np.concatenate([kept, waiting])
-
-    def close(self) -> None:
-        """Write what waits and close the file.
-
-        Raises:
-            RecordingError: it cannot be written.
-        """
-        self.flush()
-        self._release()
 
     def _release(self) -> None:
         if self._file is not None:
