@@ -1,6 +1,7 @@
 """Claims about `replay`: the same answers bit for bit, and a word where they part."""
 
 import json
+import os
 import subprocess
 import sys
 import time
@@ -56,6 +57,19 @@ def test_the_core_answers_the_same_bit_for_bit(
     assert done.passed
     for file in ("trajectory.tum",):
         assert (done.folder / file).read_bytes() == (runs[name] / file).read_bytes()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CASES)
+def test_on_a_processor_that_can_less_the_core_answers_the_same_bit_for_bit(
+    runs: dict[str, Path], name: str, tmp_path: Path
+) -> None:
+    command = [sys.executable, "-m", "treadwell.cli.app", "replay", str(runs[name])]
+    masked = {**os.environ, "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA"}
+    out = ["--out", str(tmp_path / "again")]
+    done = subprocess.run([*command, *out], env=masked, check=False, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "the same in all 200 ticks, bit for bit" in done.stdout + done.stderr
 
 
 def test_the_result_is_the_runs_without_what_only_the_simulator_knows(
