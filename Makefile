@@ -36,7 +36,7 @@ test: ## every check and every test: the core's and the package's side by side, 
 test-core: clippy
 	cargo fmt --check
 	$(CARGO_TEST)
-	cargo test --workspace --doc --quiet
+	MAKEFLAGS= cargo test --workspace --doc --quiet # it looks for make's jobs, and warns
 
 test-package: lint-package
 	$(PYTEST) --hypothesis-profile ci
@@ -67,7 +67,7 @@ lint-package: setup
 	$(RUN) ruff check
 	$(RUN) ruff format --check
 	$(RUN) mypy
-	$(RUN) python -m mypy.stubtest treadwell._core
+	$(RUN) python -m mypy.stubtest --mypy-config-file pyproject.toml treadwell._core
 
 clippy:
 	cargo clippy --workspace --all-targets --quiet -- -D warnings
