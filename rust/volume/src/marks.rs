@@ -105,8 +105,12 @@ impl Marks {
             }
             self.reaches.note(pixel, depth_m);
             if hit && let Some([col, row, layer]) = locator.voxel_at(end_m) {
-                self.hits[row as usize * self.size.cols + col as usize] |= 1 << layer;
-                area.include(Cell::new(col, row));
+                let hits = &mut self.hits[row as usize * self.size.cols + col as usize];
+                // Most pixels hit what the one before them hit.
+                if *hits >> layer & 1 == 0 {
+                    *hits |= 1 << layer;
+                    area.include(Cell::new(col, row));
+                }
             }
         }
         self.reaches.gather();
@@ -136,7 +140,7 @@ impl Marks {
         let (dx, dy, dz) = (end[0] - eye[0], end[1] - eye[1], end[2] - eye[2]);
         let along_x = dx.abs() >= dy.abs();
         let (ahead, across, axis) = if along_x { (dx, dy, 0) } else { (dy, dx, 1) };
-        let last = inside.map_or_else(|| end[axis].floor(), |voxel| f64::from(voxel[axis]));
+        let last = inside.map_or_else(|| floor(end[axis]), |voxel| f64::from(voxel[axis]));
         let slabs = (last - first[axis]).abs().min(FARTHEST) as u32;
         let per_slab = 1.0 / ahead.abs();
         let ray = self.ends.len() as u32;
@@ -184,6 +188,17 @@ impl Marks {
     pub(super) fn take(&mut self, cell: usize) -> [u64; 2] {
         let hits = std::mem::take(&mut self.hits[cell]);
         [hits, std::mem::take(&mut self.passed[cell]) & !hits]
+    }
+}
+
+/// Rounds down without the call that `f64::floor` is on the oldest processors; of what is beyond 63 bits nothing is left to round.
+#[inline]
+fn floor(value: f64) -> f64 {
+    let towards_zero = value as i64 as f64;
+    if towards_zero > value {
+        towards_zero - 1.0
+    } else {
+        towards_zero
     }
 }
 
@@ -309,6 +324,23 @@ mod tests {
                 prop_assert_eq!(hits, all_hits);
                 prop_assert_eq!(passed & !settled, all_passed & !settled);
             }
+        }
+    }
+
+    #[test]
+    fn rounding_down_is_that_of_the_library() {
+        for value in [
+            0.0,
+            0.5,
+            -0.5,
+            2.0,
+            -2.0,
+            -1e-300,
+            1e15 + 0.5,
+            -1e15 - 0.5,
+            1e300,
+        ] {
+            assert_eq!(floor(value).min(FARTHEST), value.floor().min(FARTHEST));
         }
     }
 
