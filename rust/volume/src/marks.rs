@@ -7,7 +7,7 @@ use super::fan::Fan;
 use super::locator::Locator;
 use super::picture::PictureSight;
 use super::placement::{Placement, Ray, Size};
-use super::projected::{LOOKS, Projector};
+use super::projected::{Looks, Projector};
 use super::ray::{Last, RayPart, Reach};
 use super::reaches::Reaches;
 use super::sweep::{Marked, RaySweep, SweepWay};
@@ -30,8 +30,7 @@ pub(super) struct Marks {
     fans: [Fan; 4],
     ends: Vec<[f64; 3]>,
     reaches: Reaches,
-    /// Lines of sight along columns, and as many along rows, that are looked at of what is likely to be occupied.
-    pub(super) looks: usize,
+    pub(super) looks: Looks,
 }
 
 impl Marks {
@@ -45,7 +44,7 @@ impl Marks {
             fans: Default::default(),
             ends: Vec::new(),
             reaches: Reaches::default(),
-            looks: LOOKS,
+            looks: Looks::USUAL,
         }
     }
 

@@ -27,8 +27,8 @@ pub enum Clearing {
     Shared,
     /// Each ray is followed by itself: what the others are compared with.
     EveryRay,
-    /// No ray is followed: every voxel in view is looked up in the picture. One whose middle no ray goes by may be left out, but none
-    /// is passed that `EveryRay` does not pass, and what is hit is the same. Frames that are no pictures are taken in as by `Shared`.
+    /// No ray is followed: every voxel in view is looked up in the picture. One that is passed beside the places that are looked at may
+    /// be left out, but none is passed that `EveryRay` does not pass, and what is hit is the same. Frames that are no pictures are taken in as by `Shared`.
     Projected,
 }
 

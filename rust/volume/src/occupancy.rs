@@ -5,7 +5,7 @@ use geometry::{Cell, CellArea, Lattice, runs};
 use super::marks::Marks;
 use super::picture::{Picture, PictureSight};
 use super::placement::{Placement, Ray, Size};
-use super::projected::LOOKS;
+use super::projected::Looks;
 use super::ray::RayPart;
 use super::voxels::{Voxels, bits};
 use super::{ProbabilityTable, VoxelWalk};
@@ -32,14 +32,17 @@ impl OccupancyGrid {
         }
     }
 
-    /// Lines of sight that are looked at along columns, and as many along rows, where nobody says another number.
-    pub const LOOKS: usize = LOOKS;
+    /// Lines of sight that are looked at along columns, and as many along rows, where nobody says another number: of what is likely
+    /// to be occupied.
+    pub const LOOKS: usize = Looks::USUAL.likely;
+    /// Lines of sight that are looked at along columns, and as many along rows, of what is not likely to be occupied.
+    pub const LOOKS_AT_OTHERS: usize = Looks::USUAL.others;
 
-    /// Looks at so many lines of sight along columns, and as many along rows, of a voxel that is likely to be occupied, before it
-    /// counts as not passed ([`Clearing::Projected`]).
+    /// Looks at so many lines of sight along columns, and as many along rows, of a voxel past whose middle none goes, before it counts
+    /// as not passed ([`Clearing::Projected`]): where it is `likely` to be occupied, and at `others`.
     #[must_use]
-    pub const fn with_looks(mut self, looks: usize) -> Self {
-        self.marks.looks = looks;
+    pub const fn with_looks(mut self, likely: usize, others: usize) -> Self {
+        self.marks.looks = Looks { likely, others };
         self
     }
 

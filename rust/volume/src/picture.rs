@@ -68,6 +68,8 @@ pub(super) struct PictureSight {
     from_eye: [f32; 3],
     /// How far a voxel reaches from its middle along columns and rows, times depth, pixels.
     pub(super) halves_px: [f32; 2],
+    /// How much deeper than its middle a voxel's furthest corner is, m.
+    pub(super) half_m: f32,
     /// The camera's axis in the map frame, and its depth at the map's origin, m.
     forward: [f64; 3],
     origin_m: f64,
@@ -125,6 +127,9 @@ impl PictureSight {
                         .sum::<f64>();
                 (picture.focal_px[way] * half_m) as f32
             }),
+            half_m: (0..3)
+                .map(|a| 0.5 * (forward[a] * voxel_m[a]).abs())
+                .sum::<f64>() as f32,
             forward,
             origin_m: -(0..3).map(|a| forward[a] * eye_m[a]).sum::<f64>(),
         }

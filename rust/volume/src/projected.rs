@@ -9,8 +9,22 @@ use super::placement::Size;
 use super::reaches::{LEVELS, Level, Reaches};
 use super::voxels::{Column, bits};
 
-/// Lines of sight along columns, and as many along rows, that are looked at where nobody says another number.
-pub(super) const LOOKS: usize = 6;
+/// Lines of sight along columns, and as many along rows, that are looked at of a voxel past whose middle none goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Looks {
+    /// Of what is likely to be occupied.
+    pub(super) likely: usize,
+    /// Of what is not, where lines of sight nearby reach as deep.
+    pub(super) others: usize,
+}
+
+impl Looks {
+    /// Where nobody says other numbers.
+    pub(super) const USUAL: Self = Self {
+        likely: 6,
+        others: 2,
+    };
+}
 
 /// A level of the picture as it is looked up.
 struct Lens<'a> {
@@ -57,16 +71,15 @@ pub(super) struct Projector<'a> {
     lenses: [Lens<'a>; LEVELS],
     frustum: Frustum,
     size: Size,
-    looks: usize,
+    looks: Looks,
 }
 
 impl<'a> Projector<'a> {
-    /// A projector of lines of sight that reach `farthest_m` deep at most. Of what is likely to be occupied, at most `looks` of them
-    /// along columns, and as many along rows, are looked at.
+    /// A projector of lines of sight that reach `farthest_m` deep at most.
     pub(super) fn new(
         sight: &'a PictureSight,
         reaches: &'a Reaches,
-        (farthest_m, looks): (f32, usize),
+        (farthest_m, looks): (f32, Looks),
         size: Size,
     ) -> Self {
         let levels = reaches.levels().each_ref();
@@ -135,10 +148,40 @@ impl<'a> Projector<'a> {
             }
         }
         passed |= layers(open & !nearby, |layer| self.goes_by(place(layer)));
+        let Looks {
+            likely: closely,
+            others,
+        } = self.looks;
+        passed |= layers(open & likely & !passed, |layer| {
+            self.is_crossed([col, row, layer], place(layer), closely)
+        });
+        let left = open & !likely & !passed;
+        if others == 0 || left == 0 {
+            return passed;
+        }
+        let around = self.around([place(part[0])[0], place(part[1])[0]]);
         passed
-            | layers(open & likely & !passed, |layer| {
-                self.is_crossed([col, row, layer], place(layer))
+            | layers(left, |layer| {
+                let middle = place(layer);
+                middle[0] > 0.0
+                    && middle[0] - self.sight.half_m <= around.reach(middle).0
+                    && self.is_crossed([col, row, layer], middle, others)
             })
+    }
+
+    /// The neighbourhoods in which voxels at such depths show as a whole, as far as any are so large.
+    #[inline]
+    fn around(&self, [one_m, other_m]: [f32; 2]) -> &Lens<'_> {
+        let nearest_m = if one_m < other_m { one_m } else { other_m };
+        let [across_px, down_px] = self.sight.halves_px;
+        let half_px = if across_px > down_px {
+            across_px
+        } else {
+            down_px
+        };
+        let covers = |lens: &&Lens<'_>| lens.level.covers_px * nearest_m >= half_px;
+        let widest = &self.lenses[LEVELS - 1];
+        self.lenses.iter().find(covers).unwrap_or(widest)
     }
 
     /// Whether the line of sight next to the middle of a voxel reaches as deep and goes through the voxel.
@@ -149,7 +192,7 @@ impl<'a> Projector<'a> {
     }
 
     /// Whether one of some lines of sight spread over a voxel goes into it.
-    fn is_crossed(&self, voxel: [usize; 3], [depth_m, across, down]: Shown) -> bool {
+    fn is_crossed(&self, voxel: [usize; 3], [depth_m, across, down]: Shown, looks: usize) -> bool {
         if depth_m <= 0.0 {
             return false;
         }
@@ -158,15 +201,17 @@ impl<'a> Projector<'a> {
             let (middle_px, end) = (from_corner / depth_m, self.sight.size_px[way] as f32);
             let first = (middle_px - half_px).clamp(0.0, end) as usize;
             let last = (middle_px + half_px + 1.0).clamp(0.0, end) as usize;
-            (first..last).step_by((last - first).div_ceil(self.looks).max(1))
+            let step = (last - first).div_ceil(looks).max(1);
+            (first + (step - 1) / 2..last).step_by(step)
         };
         let middle = self.sight.beyond_eye(voxel);
+        let nearest_m = (depth_m - self.sight.half_m).max(0.0);
         let Level { size, depths_m, .. } = self.lenses[0].level;
         let (cols, rows) = (spread(across, 0), spread(down, 1));
         rows.into_iter().any(|row| {
             cols.clone().any(|col| {
                 let reach_m = depths_m[row * size[0] + col];
-                reach_m > 0.0 && self.sight.enters(middle, [col, row], reach_m)
+                reach_m > nearest_m && self.sight.enters(middle, [col, row], reach_m)
             })
         })
     }

@@ -11,6 +11,8 @@ pub(super) struct Level {
     pub(super) tile_px: f32,
     /// How far a line of sight of the neighbourhood may be from a place in its tile, along columns or rows, pixels.
     pub(super) apart_px: f32,
+    /// Lines of sight that are nearer to any place in a tile than this, along columns and rows, are of its neighbourhood, pixels.
+    pub(super) covers_px: f32,
 }
 
 impl Level {
@@ -18,7 +20,7 @@ impl Level {
         self.size = size;
         self.depths_m.clear();
         self.depths_m.resize(size[0] * size[1], 0.0);
-        (self.tile_px, self.apart_px) = (1.0, 0.5);
+        (self.tile_px, self.apart_px, self.covers_px) = (1.0, 0.5, 0.5);
     }
 
     /// Takes the deepest of tiles of 2 x 2.
@@ -48,6 +50,7 @@ impl Level {
         self.depths_m.resize(width * height, 0.0);
         self.tile_px = narrower.tile_px;
         self.apart_px = narrower.apart_px + narrower.tile_px;
+        self.covers_px = narrower.covers_px + narrower.tile_px;
         let row = |index: usize| &narrower.depths_m[index * width..][..width];
         // A place more at both ends, of no depth.
         line.clear();

@@ -74,7 +74,8 @@ impl Fog {
             layers: config.layers,
         };
         Self {
-            occupancy: OccupancyGrid::new(size, placement, table).with_looks(config.tuning.looks),
+            occupancy: OccupancyGrid::new(size, placement, table)
+                .with_looks(config.tuning.looks, config.tuning.looks_at_others),
             floor: FloorGrid::new(lattice, &config),
             rough: Rough::new(n, config.tuning.rough_lead),
             underfoot: Underfoot::new(n, config.footprint),

@@ -16,6 +16,10 @@ settings! {
         /// With `clearing = "projected"` a voxel that is likely to be occupied is asked so many lines of sight along columns, and as
         /// many along rows.
         looks: usize = OccupancyGrid::LOOKS, "1", within(1.0, 1000.0);
+        /// With `clearing = "projected"` a voxel that is not likely to be occupied is asked so many lines of sight along columns, and as
+        /// many along rows, where those nearby reach as deep. 0: only the one next to its middle, which is faster and frees less at the
+        /// rims of shadows.
+        looks_at_others: usize = OccupancyGrid::LOOKS_AT_OTHERS, "1", within(0.0, 1000.0);
         /// How a frame's height is fitted to the floor that is known.
         matching: MatchingTuning;
         /// How the heights of floors are kept.
