@@ -63,12 +63,7 @@ impl StairClimbing {
         let first_look = looking && !self.ahead.looked_around;
         if tick.new_frame {
             self.ahead.inspection = if leg.is_none() && !self.is_at_the_goal(tick) {
-                Inspection::find(
-                    tick,
-                    &self.before(tick),
-                    self.walking.radius_m(),
-                    &self.ahead.inspected,
-                )
+                self.next_inspection(tick)
             } else {
                 None
             };
@@ -96,11 +91,7 @@ impl StairClimbing {
                 return Ok(self.decision(tick, Motion::Stand));
             }
             if tick.new_frame || self.ahead.plan.is_none() {
-                self.ahead.plan = Some(inspection.plan(
-                    &tick.pose,
-                    self.walking.radius_m(),
-                    &self.config.tuning.inspection,
-                ));
+                self.ahead.plan = Some(self.way_to(tick, &inspection));
             }
         } else if self.is_at_the_goal(tick) && !tick.has_level_way() {
             return self.walk_at_the_goal(tick);
@@ -122,6 +113,18 @@ impl StairClimbing {
             decision.state = State::Search.name();
         }
         Ok(decision)
+    }
+
+    /// The next stairs that need a closer look.
+    fn next_inspection(&self, tick: &Tick<'_>) -> Option<Inspection> {
+        let (before, room_m) = (self.before(tick), self.walking.radius_m());
+        Inspection::find(tick, &before, room_m, &self.ahead.inspected)
+    }
+
+    /// The plan that leads to them.
+    fn way_to(&self, tick: &Tick<'_>, inspection: &Inspection) -> Plan {
+        let (room_m, tuning) = (self.walking.radius_m(), &self.config.tuning.inspection);
+        inspection.plan(&tick.pose, room_m, tuning)
     }
 
     /// A tick of `walking` at the goal: the robot stands there already, whatever the planner makes of the surface under its feet.
