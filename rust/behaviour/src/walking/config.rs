@@ -59,8 +59,7 @@ settings! {
         via_margin: f64 = 0.03, "m", NOT_NEGATIVE;
         /// The robot declares that it has arrived after standing this long.
         arrive_time: f64 = 0.5, "s", STAND;
-        /// The robot stands and waits when no frame has come for longer than this: a step or two on the level, and a step onto a stair,
-        /// in which no frame may be used.
+        /// The robot stands and waits when no frame has come for longer than this.
         blind_after: f64 = 2.0, "s", PATIENCE;
         /// The robot gives up when it has waited for a frame for this long.
         blind_limit: f64 = 12.0, "s", PATIENCE;
