@@ -25,6 +25,7 @@ KEYS = [
     "robot",
     "seed",
     "version",
+    "processor",
     "configuration",
     "ablation",
     "outcome",

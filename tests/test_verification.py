@@ -11,6 +11,7 @@ from test_cdr import observation
 
 from treadwell.judging.result import Result, read_result
 from treadwell.poses import pose_matrix
+from treadwell.processor import processor
 from treadwell.recording.map_file import write_map
 from treadwell.recording.map_picture import draw_map
 from treadwell.recording.observation_log import ObservationLog
@@ -43,7 +44,8 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     trajectory.write(folder / "trajectory.tum")
     trajectory.write(folder / "trajectory_truth.tum")
     made.simulation.save_audit(folder)
-    told = result(made.scenario, simulated_seconds=0.01 * TICKS, version=version())
+    facts = {"version": version(), "processor": processor()}
+    told = result(made.scenario, simulated_seconds=0.01 * TICKS, **facts)
     draw_map(folder / "map.png", made.course, told, grid(), trajectory, trajectory, StairMemory())
     write_map(folder / "map.npz", grid(), np.empty((0, 4), np.float32))
     write_scenario(folder / "scenario.toml", made.scenario)
@@ -113,6 +115,46 @@ def test_the_first_step_that_differs_is_told(copy: Path) -> None:
     found = verify_run(copy)
     assert found.first_difference == 84
     assert any("step 84" in problem for problem in found.problems)
+
+
+@pytest.mark.parametrize(
+    ("changes", "named"),
+    [
+        ({"processor": "x86_64, Old Chip, avx"}, True),
+        ({}, False),
+        ({"processor": None}, False),
+        ({"processor": "x86_64, Old Chip, avx", "version": "9.9.9"}, False),
+    ],
+)
+def test_another_processor_is_named_as_the_reason_where_only_it_differs(
+    copy: Path, changes: dict[str, object], named: bool
+) -> None:
+    with np.load(copy / "physics.npz") as file:
+        arrays = dict(file)
+    arrays["qpos"][20, 9] += 1e-12
+    np.savez(copy / "physics.npz", **arrays)
+    changed(copy, **changes)
+    (physics,) = [each for each in verify_run(copy).problems if "physics.npz" in each]
+    assert ("another processor: x86_64, Old Chip, avx; here: " in physics) == named
+    assert "\n" not in physics
+
+
+def test_another_processor_alone_is_no_fault(copy: Path) -> None:
+    for name in ("recording.rrd", "observations.mcap"):
+        (copy / name).unlink()
+    changed(copy, processor="x86_64, Old Chip, avx")
+    assert verify_run(copy).passed
+
+
+def test_a_run_of_before_the_processor_was_told_passes(copy: Path) -> None:
+    for name in ("recording.rrd", "observations.mcap"):
+        (copy / name).unlink()
+    text = (copy / "result.json").read_text()
+    lines = [line for line in text.splitlines() if '"processor"' not in line]
+    assert len(lines) < len(text.splitlines())
+    (copy / "result.json").write_text("\n".join(lines))
+    assert read_result(copy / "result.json").processor is None
+    assert verify_run(copy).passed
 
 
 def changed(folder: Path, **changes: object) -> None:

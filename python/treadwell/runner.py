@@ -20,6 +20,7 @@ from treadwell.measuring.score import map_counts, surfaces, true_cells
 from treadwell.measuring.step_watch import KnownTop, StepError, StepWatch
 from treadwell.measuring.watch import Watch
 from treadwell.physics.simulation import TICK_NS
+from treadwell.processor import processor
 from treadwell.progress import Progress
 from treadwell.recording.run_folder import make_run_folder
 from treadwell.recording.stair_memory import StairMemory
@@ -264,6 +265,7 @@ def _result(episode: Episode, scores: Scores, verdict: Verdict, wall_seconds: fl
         robot=episode.robot.name,
         seed=made.seed,
         version=__version__,
+        processor=processor(),
         configuration=made.configuration(),
         ablation=episode.ablation,
         outcome=verdict.outcome,

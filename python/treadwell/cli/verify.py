@@ -6,6 +6,7 @@ from typing import Any
 
 from treadwell.cli.output import FAILED, PASSED, write_json
 from treadwell.errors import InputError
+from treadwell.processor import likely_reason
 from treadwell.recording.observation_log import NAME, read_header
 from treadwell.recording.verification import verify as verify_runs
 from treadwell.replaying.difference import between_logs
@@ -39,12 +40,17 @@ def _found(run_dir: Path, against: Path | None) -> dict[str, Any]:
     (seen,) = verify_runs([run_dir])
     table: dict[str, Any] = {"whole": seen.passed, "faults": list(seen.problems)}
     if against is not None:
-        joints = read_header(against / NAME).get("joints", "").split(",")
+        first, other = read_header(against / NAME), read_header(run_dir / NAME)
+        joints = first.get("joints", "").split(",")
         difference = between_logs(against / NAME, run_dir / NAME, joints)
         table["first_difference"] = None
         if difference is not None:
             what = {"tick": difference.tick, "time": difference.time_s, "what": difference.what}
-            table |= {"first_difference": what, "sentence": difference.sentence()}
+            sentence = difference.sentence()
+            if first.get("version") == other.get("version") and "processor" in other:
+                reason = likely_reason(first.get("processor"), other["processor"])
+                sentence += reason and ", " + reason
+            table |= {"first_difference": what, "sentence": sentence}
     return table
 
 

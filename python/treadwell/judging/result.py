@@ -154,6 +154,8 @@ class Result(Table):
     """The seed."""
     version: str
     """The version of treadwell."""
+    processor: str | None = None
+    """What the physics ran on: another may differ in the last bits. None in runs of before."""
     configuration: dict[str, Any]
     """The whole scenario as it was run: overrides and draws applied."""
     ablation: bool = False

@@ -24,6 +24,7 @@ from treadwell._core import Octree
 from treadwell._core import version as core_version
 from treadwell.errors import InputError, RecordingError
 from treadwell.observation import Observation
+from treadwell.processor import processor
 from treadwell.recording import cdr, messages
 from treadwell.recording.log_file import BrokenLogError, Front, read_front, read_messages
 from treadwell.recording.log_writer import Entry, LogWriter
@@ -76,6 +77,7 @@ class ObservationLog:
             words = {
                 "version": __version__,
                 "core_version": core_version(),
+                "processor": processor(),
                 "scenario_hash": hash_of(scenario.configuration()),
                 "scenario": scenario.name,
                 "seed": str(scenario.seed),

@@ -10,6 +10,7 @@ from treadwell.errors import InputError
 from treadwell.files import read_content
 from treadwell.judging.result import Result, read_result
 from treadwell.physics.audit import TICK_SECONDS, replay_limited
+from treadwell.processor import likely_reason
 from treadwell.recording.file import whole_length
 from treadwell.recording.log_file import read_front, read_messages
 from treadwell.recording.map_file import NAME as MAP
@@ -21,6 +22,7 @@ from treadwell.recording.scenario_file import NAME as SCENARIO
 from treadwell.recording.scenario_file import without_nothing
 from treadwell.recording.trajectory import ESTIMATE, TRUTH, read_trajectory
 from treadwell.scenario.loading import read_toml
+from treadwell.version import __version__
 
 RESULT: Final = "result.json"
 _PNG: Final = b"\x89PNG\r\n\x1a\n"
@@ -65,7 +67,7 @@ def verify_run(folder: Path) -> Verification:
     problems: list[str] = []
     result = _result(folder, problems)
     rows = _trajectories(folder, problems)
-    ticks, difference, steps_a_tick = _audit(folder, problems)
+    ticks, difference, steps_a_tick = _audit(folder, result, problems)
     if result is not None and ticks is not None:
         simulated = round(result.simulated_seconds / _TICK)
         if simulated != ticks:
@@ -109,7 +111,9 @@ def _trajectories(folder: Path, problems: list[str]) -> list[float]:
     return times.get(ESTIMATE, [])
 
 
-def _audit(folder: Path, problems: list[str]) -> tuple[int | None, int | None, int]:
+def _audit(
+    folder: Path, result: Result | None, problems: list[str]
+) -> tuple[int | None, int | None, int]:
     """Return the control ticks in the audit, the first step that differs, and a tick's steps."""
     try:
         ticks, row, steps = replay_limited(folder)
@@ -119,9 +123,11 @@ def _audit(folder: Path, problems: list[str]) -> tuple[int | None, int | None, i
     if row is None:
         return ticks, None, steps
     step = (row + 1) * steps
+    same_version = result is not None and result.version == __version__
+    reason = likely_reason(result.processor) if result is not None and same_version else ""
     problems.append(
         f"physics.npz: plain MuJoCo comes to another state; the first that differs is after "
-        f"step {step} ({(row + 1) * _TICK:.2f} s)"
+        f"step {step} ({(row + 1) * _TICK:.2f} s){reason and ', ' + reason}"
     )
     return ticks, step, steps
 
@@ -197,6 +203,7 @@ def _observations(
             "robot": result.robot,
             "seed": str(result.seed),
             "version": result.version,
+            "processor": result.processor,
         }
         wrong = [key for key, value in of_result.items() if header.get(key) != value]
         if wrong:

@@ -39,7 +39,7 @@ mod tests;
 use settings::{ConfigError, MakeError, Part, Table, TableDescription, read};
 use stairs::{ClimbingConfig, Feet};
 
-use crate::machine::{Interruption, Limits, Machine, State as _, Tick};
+use crate::machine::{Interruption, Machine, State as _, Tick};
 use crate::part::{BehaviourNeeds, BehaviourPart};
 use crate::{
     Arms, Behaviour, BehaviourError, Command, Decision, Motion, Outcome, Situation,
@@ -153,19 +153,11 @@ impl StairClimbing {
         config.check_as(pace.key())?;
         climbing.check()?;
         let tuning = &config.tuning;
-        let limits = Limits {
-            blind_after_s: tuning.blind_after,
-            patience: 1.0,
-            blind_limit_s: tuning.blind_limit,
-            blind_from_the_start: false,
-            idle_limit_s: tuning.idle_limit,
-            idle_words: "no step could be taken",
-            place_words: ", before or on stairs",
-        };
+        let limits = (walking.config()).limits("no step could be taken", ", before or on stairs");
         Ok(Self {
-            head: ClimbingHead::new(&config, eyes),
+            head: ClimbingHead::new(&config, walking.config(), eyes),
             machine: Machine::new(State::Walk, limits),
-            flight: Flight::new(tuning),
+            flight: Flight::new(tuning, &climbing.levels),
             stepper: Stepper::new(tuning.stepper.clone()),
             config,
             climbing,
@@ -232,7 +224,7 @@ impl StairClimbing {
     const fn rules(&self) -> StepRules<'_> {
         StepRules {
             climbing: &self.climbing,
-            lookup: &self.config.tuning.lookup,
+            lookup: self.flight.lookup(),
         }
     }
 

@@ -28,8 +28,6 @@ pub(crate) struct Limits {
     pub(crate) patience: f64,
     /// Being blind for this long is hopeless.
     pub(crate) blind_limit_s: f64,
-    /// Whether a robot that never saw anything has been without sight since it began.
-    pub(crate) blind_from_the_start: bool,
     /// Nothing has been done for the goal for this long: the robot gives up.
     pub(crate) idle_limit_s: f64,
     /// What could not be done then.

@@ -30,8 +30,9 @@ mod tests;
 use planning::Goal;
 use robot::Extent;
 use settings::{ConfigError, MakeError, Part, Table, TableDescription, read};
+use stairs::{ClimbingConfig, LevelsConfig};
 
-use crate::machine::{Interruption, Limits, Machine, State as _, Stopwatch};
+use crate::machine::{Interruption, Machine, State as _, Stopwatch};
 use crate::part::{BehaviourNeeds, BehaviourPart};
 use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Situation};
 pub use config::WalkingConfig;
@@ -41,7 +42,6 @@ use progress::Progress;
 pub(crate) use state::State;
 use tick::WayTick;
 use track::Track;
-pub(crate) use tuning::WayObstaclesTuning;
 use unknown::Looked;
 
 /// How it is listed and made.
@@ -59,6 +59,9 @@ pub struct WalkingBehaviour {
     config: WalkingConfig,
     /// Half the distance between the outer edges of the feet, as far as the ground matters to them, m.
     foot_side_m: f64,
+    /// Radius of the upright cylinder that holds the robot, m.
+    radius_m: f64,
+    levels: LevelsConfig,
     machine: Machine<State>,
     /// How long the robot stands.
     standing: Stopwatch,
@@ -87,25 +90,29 @@ impl WalkingBehaviour {
     /// The behaviour that `[navigation.walking]` describes.
     pub(crate) fn of(needs: &BehaviourNeeds<'_>) -> Result<Self, MakeError> {
         let size = &needs.body.description().body;
-        Ok(Self::new(read(needs.tables, "walking")?, size)?)
+        let climbing: ClimbingConfig = read(needs.tables, "climbing")?;
+        Ok(Self::new(
+            read(needs.tables, "walking")?,
+            climbing.levels,
+            size,
+        )?)
     }
 
     /// Refuses settings that cannot be used.
-    pub fn new(config: WalkingConfig, size: &Extent) -> Result<Self, ConfigError> {
+    pub fn new(
+        config: WalkingConfig,
+        levels: LevelsConfig,
+        size: &Extent,
+    ) -> Result<Self, ConfigError> {
         config.check()?;
-        let limits = Limits {
-            blind_after_s: config.blind_after,
-            patience: config.tuning.look_around.patience,
-            blind_limit_s: config.blind_limit,
-            blind_from_the_start: true,
-            idle_limit_s: config.tuning.idle_limit,
-            idle_words: "no step towards the goal could be taken",
-            place_words: "",
-        };
+        levels.check()?;
+        let limits = config.limits("no step towards the goal could be taken", "");
         Ok(Self {
             machine: Machine::new(State::LookAround(Sweep::around(&config)), limits),
             config,
             foot_side_m: size.foot_side,
+            radius_m: size.radius,
+            levels,
             standing: Stopwatch::default(),
             no_way: Stopwatch::default(),
             way: Stopwatch::default(),

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use geometry::{Camera, Grid, Lattice, Pose, Robot};
-use known_map::KnownMap;
+use known_map::{KnownMap, StandingRoom};
 use localization::{Localizer, MonteCarloConfig, MonteCarloLocalizer, RangeModel, StaticMap};
 use mapping::{FloorView, Surface};
 use nalgebra::{
@@ -109,6 +109,10 @@ fn steps(criterion: &mut Criterion) {
     // To and fro, so that every frame is due.
     let places = [place(3.0), place(3.03)];
     let frames = places.map(|robot| (robot, frame(field, &robot)));
+    let room = StandingRoom {
+        radius_m: 0.1,
+        height_m: 0.55,
+    };
     for (name, range_model) in [
         ("step, ray casting", RangeModel::RayCast),
         ("step, likelihood field", RangeModel::LikelihoodField),
@@ -118,7 +122,7 @@ fn steps(criterion: &mut Criterion) {
             most_particles: 500,
             ..MonteCarloConfig::default()
         };
-        let Ok(map) = StaticMap::new(&known, &config) else {
+        let Ok(map) = StaticMap::new(&known, room, &config) else {
             return;
         };
         let start = Some(Pose::wrap(places[1]));

@@ -2,6 +2,7 @@
 
 use geometry::{Map, Pose, Robot};
 use known_map::KnownMap;
+use robot::Body;
 use settings::{MakeError, Part, Tables};
 
 use crate::Localizer;
@@ -13,6 +14,10 @@ pub struct LocalizerNeeds<'a> {
     pub tables: &'a Tables,
     /// The robot's frame in the map at the start, where somebody says it.
     pub start: Option<Pose<Map, Robot>>,
+    /// The robot's body.
+    pub body: &'a Body,
+    /// Distance between the middles of its soles as the walker stands on them, m.
+    pub stance_m: f64,
     /// The map that the robot was told, if any.
     pub known_map: Option<&'a KnownMap>,
 }

@@ -68,6 +68,8 @@ impl Making<'_> {
         let needs = LocalizerNeeds {
             tables: &self.settings.navigation.tables,
             start: self.settings.start.map(Pose::from),
+            body: self.body,
+            stance_m: self.feet.stance_m,
             known_map: self.known_map,
         };
         Ok(LOCALIZERS.find(&self.settings.navigation.localizer)?(

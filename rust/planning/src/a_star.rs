@@ -141,7 +141,9 @@ impl Planner for AStar {
             heading_rad: start.yaw_rad,
             gradient: view.gradient_at(start.x_m, start.y_m),
         };
-        let mut levelled = (self.goal_level).of(goal, view, &stand, &self.rules.config.goal_level);
+        let levels = &self.climbing.levels;
+        let mut levelled =
+            (self.goal_level).of(goal, view, &stand, (&self.rules.config.goal_level, levels));
         self.viewpoints.begin(&levelled);
         self.look(view, stairs, stand, &levelled);
         self.outside.look(&self.terrain, stand.at_m, &levelled);
@@ -179,7 +181,7 @@ impl AStar {
     fn look(&mut self, view: &FloorView, stairs: &Staircase, stand: StandingAt, goal: &Goal) {
         let sightings = self.config.step_sightings;
         let seen = (&stand, goal);
-        let landings = &self.rules.config.longer_landings;
+        let landings = (&self.rules.config.longer_landings, &self.climbing.levels);
         let stairs = (self.landings).read(stairs, view, seen, sightings, landings);
         let sight = Sight {
             view,

@@ -67,7 +67,7 @@ impl Guided {
             let [from, to] = [pair[0], pair[1]].map(|place| self.floors.at_m(place));
             let step_m = geometry::hypot(to[0] - from[0], to[1] - from[1]);
             walked_m += step_m;
-            if (to[2] - from[2]).abs() > self.tuning.level {
+            if (to[2] - from[2]).abs() > self.near.climbing.levels.told {
                 climbs = true;
                 level_m = 0.0;
             } else {
@@ -96,7 +96,8 @@ impl Guided {
     /// the window, on another level, and at steps.
     fn spare_m(&self, place: u32, robot_m: [f64; 3]) -> Option<f64> {
         let [x, y, z] = self.floors.at_m(place);
-        if (z - robot_m[2]).abs() > self.tuning.level || self.floors.is_at_step(place) {
+        if (z - robot_m[2]).abs() > self.near.climbing.levels.told || self.floors.is_at_step(place)
+        {
             return None;
         }
         let near = geometry::hypot(x - robot_m[0], y - robot_m[1]) < self.tuning.own;
@@ -137,7 +138,7 @@ impl Guided {
             let far = geometry::hypot(sent.x_m - at_m[0], sent.y_m - at_m[1]) > self.tuning.send_on;
             let below = sent
                 .height_m
-                .is_some_and(|h| (h - at_m[2]).abs() > self.tuning.level);
+                .is_some_and(|h| (h - at_m[2]).abs() > self.near.climbing.levels.told);
             (far || below) && way.contains(&place)
         });
         if !stays {

@@ -65,8 +65,6 @@ settings! {
     pub struct RoomAtEdgesTuning("navigation.a_star.tuning.room_at_edges") {
         /// How far from an edge the robot lines up, or walks on as it came, at most.
         run: f64 = 0.35, "m", within(0.0, 10.0);
-        /// Heights that differ by no more than this are one level.
-        tolerance: f64 = 0.012, "m", within(0.0, 1.0);
         /// An edge that is no wider than this, beyond what the feet need, is crossed near its middle.
         narrow: f64 = 0.3, "m", within(0.0, 10.0);
         /// The share of the room beside its middle in which such a narrow edge is crossed.
@@ -132,8 +130,6 @@ settings! {
         /// How much worse a place off the goal's middle is than walking there: above 1.09, so that the octile distance to the middle stays
         /// below the cost.
         pull: f64 = 2.0, "1", at_least(1.09);
-        /// Heights that differ from the goal's by no more than this are on its level.
-        tolerance: f64 = 0.02, "m", within(0.0, 1.0);
         /// What is paid for a goal on another level that nothing known leads to.
         blind: f64 = 1.0, "m", NOT_NEGATIVE;
         /// What is missing of the height of such a goal is paid for as so many steps of this height.
@@ -193,12 +189,8 @@ settings! {
         moved: f64 = 0.03, "m", within(0.0, 1.0);
         /// An edge that turned by more than this is another one.
         turned: f64 = 0.25, "rad", within(0.0, 3.2);
-        /// An edge is another one, too, when the height of its stair, or its rise, differs by more than this.
-        lifted: f64 = 0.012, "m", within(0.0, 1.0);
         /// The lane over stairs is chosen anew when another one saves so much by what stands beside it.
         roomier: f64 = 0.25, "m", NOT_NEGATIVE;
-        /// Heights that differ by no more than this are one level.
-        tolerance: f64 = 0.012, "m", within(0.0, 1.0);
         /// A step is taken once the robot has made this share of its way.
         taken: f64 = 0.5, "1", within(0.0, 1.0);
     }

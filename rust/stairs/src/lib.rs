@@ -29,7 +29,7 @@ mod treads;
 mod tests;
 
 pub use climbing::conditions::{Ahead, Stand, Tolerance, Unready, conditions};
-pub use climbing::config::{ClimbingConfig, ClimbingTuning, ParameterSet};
+pub use climbing::config::{ClimbingConfig, ClimbingTuning, LevelsConfig, ParameterSet};
 pub use climbing::footing::{Feet, Footing, Onward, Unfit};
 pub use config::{
     BorderTuning, CoarseTuning, EdgeModelTuning, EdgesTuning, ExcerptTuning, FitsTuning,

@@ -3,6 +3,7 @@
 use geometry::{Goal, same_level};
 use mapping::{FloorView, Surface};
 use settings::{settings, within};
+use stairs::LevelsConfig;
 
 use crate::StandingAt;
 
@@ -14,8 +15,6 @@ settings! {
     pub struct GoalLevelConfig("navigation.terrain.goal_level") {
         /// The goal's middle is looked at in places that lie this far apart.
         spacing: f64 = 0.06, "m", within(0.0, 1.0);
-        /// Heights that differ by no more than this are one level.
-        tolerance: f64 = 0.02, "m", within(0.0, 1.0);
     }
 }
 
@@ -36,7 +35,7 @@ impl GoalLevel {
         goal: &Goal,
         view: &FloorView,
         stand: &StandingAt,
-        config: &GoalLevelConfig,
+        (config, levels): (&GoalLevelConfig, &LevelsConfig),
     ) -> Goal {
         if self.told != Some(*goal) {
             *self = Self {
@@ -48,7 +47,7 @@ impl GoalLevel {
             return *goal;
         }
         if let Some(seen_m) = seen_m(goal, view, config.spacing) {
-            let is_at = |height_m: f64| same_level(seen_m, height_m, config.tolerance);
+            let is_at = |height_m: f64| same_level(seen_m, height_m, levels.told);
             if !self.height_m.is_some_and(is_at) {
                 self.height_m = (!is_at(stand.height_m)).then_some(seen_m);
             }
@@ -97,7 +96,7 @@ mod tests {
 
     #[test]
     fn a_goal_has_the_level_that_it_is_seen_on_until_no_way_leads_there() {
-        let config = GoalLevelConfig::default();
+        let config = (&GoalLevelConfig::default(), &LevelsConfig::default());
         let goal = Goal {
             x_m: 0.5,
             y_m: 0.0,
@@ -106,14 +105,14 @@ mod tests {
         };
         let mut floor = Floor::new();
         let mut level = GoalLevel::default();
-        let same = level.of(&goal, &floor.view, &stand(), &config);
+        let same = level.of(&goal, &floor.view, &stand(), config);
         assert_eq!((same.height_m, level.is_seen()), (None, false));
         floor.paint([0.3, -0.3], [0.8, 0.3], Surface::Floor(0.125));
-        let above = level.of(&goal, &floor.view, &stand(), &config);
+        let above = level.of(&goal, &floor.view, &stand(), config);
         assert_eq!((above.height_m, level.is_seen()), (Some(0.125), true));
         floor.paint([0.3, -0.3], [0.8, 0.3], Surface::Unknown);
-        assert_eq!(level.of(&goal, &floor.view, &stand(), &config), above);
+        assert_eq!(level.of(&goal, &floor.view, &stand(), config), above);
         assert_eq!(level.give_up(&goal), goal);
-        assert_eq!(level.of(&goal, &floor.view, &stand(), &config), goal);
+        assert_eq!(level.of(&goal, &floor.view, &stand(), config), goal);
     }
 }

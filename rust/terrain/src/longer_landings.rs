@@ -6,7 +6,7 @@
 use geometry::{Goal, Map, Point, same_level};
 use mapping::{FloorView, Surface};
 use settings::{settings, within};
-use stairs::{Edge, Stair, Staircase};
+use stairs::{Edge, LevelsConfig, Stair, Staircase};
 
 use crate::StandingAt;
 
@@ -15,10 +15,6 @@ settings! {
     pub struct LongerLandingsConfig("navigation.terrain.longer_landings") {
         /// No landing is taken to go on further than this.
         farthest: f64 = 1.5, "m", within(0.0, 10.0);
-        /// A landing, the goal and the robot whose heights differ by no more than this are on one level.
-        tolerance: f64 = 0.02, "m", within(0.0, 1.0);
-        /// Floor whose height differs from the landing's by more than this speaks against the landing going on there.
-        floor_tolerance: f64 = 0.012, "m", within(0.0, 1.0);
     }
 }
 
@@ -36,20 +32,20 @@ impl LongerLandings {
         view: &FloorView,
         (stand, goal): (&StandingAt, &Goal),
         sightings: u16,
-        config: &LongerLandingsConfig,
+        (config, levels): (&LongerLandingsConfig, &LevelsConfig),
     ) -> &Staircase {
         self.stairs.clone_from(stairs);
         let Some(goal_m) = goal.height_m else {
             return &self.stairs;
         };
-        let same = |a_m: f64, b_m: f64| same_level(a_m, b_m, config.tolerance);
+        let same = |a_m: f64, b_m: f64| same_level(a_m, b_m, levels.told);
         // On the goal's own level the floor is no landing, but what the robot climbed to is.
         let climbs = !same(goal_m, stand.height_m);
         for stair in &mut self.stairs.stairs {
             if same(stair.height_m(), goal_m)
                 && (climbs || is_on(stair, stand.at_m))
                 && let Some(missing_m) = missing_m(stair, goal, config.farthest)
-                && goes_on(stair, missing_m, view, sightings, config.floor_tolerance)
+                && goes_on(stair, missing_m, view, sightings, levels.same)
             {
                 lengthen(stair, missing_m);
             }
@@ -121,7 +117,7 @@ mod tests {
 
     #[test]
     fn a_landing_goes_on_to_the_goal_on_it_unless_other_floor_was_seen_there() {
-        let config = LongerLandingsConfig::default();
+        let config = (&LongerLandingsConfig::default(), &LevelsConfig::default());
         let goal = Goal {
             x_m: 1.0,
             y_m: 0.0,
@@ -135,7 +131,7 @@ mod tests {
             };
             let mut landings = LongerLandings::default();
             let seen = (&stand(), goal);
-            landings.read(&stairs, &floor.view, seen, 3, &config).stairs[0].depth_m()
+            landings.read(&stairs, &floor.view, seen, 3, config).stairs[0].depth_m()
         };
         let mut floor = Floor::new();
         assert!(

@@ -41,7 +41,7 @@ impl Gait {
         let share = elapsed_s / swing.in_air_s(&self.config);
         let above_m = felt.soles_m[index].z - swing.to.z_m;
         swing.manner == Manner::Walk
-            && share > self.config.tuning.stumble.left_share
+            && share > self.config.tuning.landing.left_share
             && felt.loads_n[index] > self.config.landing_load
             && above_m > self.config.stumble_height
     }

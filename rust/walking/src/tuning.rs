@@ -180,8 +180,6 @@ settings! {
     pub struct StumbleTuning("gait.tuning.stumble") {
         /// Share of the swing after which a load on the foot is a landing.
         landing_share: f64 = 0.6, "1", SHARE;
-        /// Share of its time after which a walking foot has left the ground for sure.
-        left_share: f64 = 0.25, "1", SHARE;
         /// How far off the edge that it met a foot goes back.
         clear: f64 = 0.025, "m", NOT_NEGATIVE;
         /// A foot of which more than this share lies beyond the edge that it met stands well there.
@@ -192,7 +190,7 @@ settings! {
 settings! {
     /// How a foot of a listed step lands.
     pub struct LandingTuning("gait.tuning.landing") {
-        /// Share of the time after which a careful foot has left the ground for sure.
+        /// Share of the time after which a foot has left the ground for sure.
         left_share: f64 = 0.25, "1", SHARE;
         /// How far a foot may be behind its path.
         lag: f64 = 0.02, "s", NOT_NEGATIVE;

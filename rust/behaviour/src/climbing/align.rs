@@ -21,14 +21,15 @@ impl StairClimbing {
         let goal = align_pose(&first, &self.config, &self.climbing, &self.feet);
         let way = tick.pose.relative(&goal);
         let turned_rad = angle_between(tick.pose.yaw_rad, goal.yaw_rad);
-        let tuning = &self.config.tuning.align;
+        let (tuning, walking) = (&self.config.tuning.align, self.walking.config());
         let there = way.x_m.abs() < tuning.along
             && way.y_m.abs() < tuning.across
             && turned_rad.abs() < tuning.turned;
         let velocity = Velocity {
-            x_mps: (tuning.gain * way.x_m).clamp(-tuning.backward_speed, tuning.forward_speed),
-            y_mps: (tuning.gain * way.y_m).clamp(-tuning.side_speed, tuning.side_speed),
-            yaw_radps: (tuning.turn_gain * turned_rad).clamp(-tuning.turn_speed, tuning.turn_speed),
+            x_mps: (tuning.gain * way.x_m).clamp(-tuning.backward_speed, walking.forward_speed),
+            y_mps: (tuning.gain * way.y_m).clamp(-walking.side_speed, walking.side_speed),
+            yaw_radps: (walking.tuning.turn.gain * turned_rad)
+                .clamp(-walking.turn_speed, walking.turn_speed),
         };
         let longest_s = tuning.longest;
         // From before the edge the plan may know better where to cross it than when the robot set off.
@@ -52,6 +53,8 @@ impl StairClimbing {
             view: tick.situation.view,
             feet: &self.feet,
             level_m: tick.ground_m,
+            same_level_m: self.climbing.levels.same,
+            raster: self.config.tuning.raster,
             tuning: &self.config.tuning.drop_off,
         }
     }

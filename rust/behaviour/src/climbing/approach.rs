@@ -45,11 +45,11 @@ impl StairClimbing {
             self.begin_search(tick);
             return;
         }
-        let looked = self.memory.tries.looks >= self.config.tries;
+        let looked = self.memory.tries.looks >= self.walking.config().tries;
         if !(self.is_measured(first) || looked && self.is_usable(first)) {
             self.memory.tries.looks += 1;
             self.head.look_at(self.crossed_at_m(tick, first));
-            if self.memory.tries.looks > self.config.tries {
+            if self.memory.tries.looks > self.walking.config().tries {
                 self.retreat(tick, NOT_MEASURED.to_owned());
             }
             return;
@@ -69,7 +69,8 @@ impl StairClimbing {
     pub(super) fn retreat(&mut self, tick: &Tick<'_>, reason: String) {
         self.memory.tries.looks = 0;
         self.memory.tries.searches += 1;
-        if self.memory.tries.searches.max(self.memory.tries.missteps) > self.config.tries {
+        if self.memory.tries.searches.max(self.memory.tries.missteps) > self.walking.config().tries
+        {
             self.refuse(reason);
             return;
         }

@@ -39,7 +39,7 @@ mod tests {
 
     use crate::climbing::simulation::TICK_NS;
     use crate::climbing::tests::up;
-    use crate::{Outcome, StairClimbingConfig};
+    use crate::{Outcome, WalkingConfig};
 
     #[test]
     fn who_sees_nothing_on_the_stairs_for_a_while_is_not_idle_meanwhile() {
@@ -59,7 +59,7 @@ mod tests {
     /// The walk goes on from where the head is by now, not from where it was when the walk was broken off.
     #[test]
     fn who_loses_its_place_before_the_stairs_walks_on_without_a_jerk_of_the_head() {
-        let config = StairClimbingConfig::default();
+        let config = WalkingConfig::default();
         let fastest_rad = config.gaze_speed * TICK_NS as f64 * 1e-9 + 1e-9;
         let mut simulation = up(PlanarPose::default());
         simulation.run_until(60.0, |simulation| simulation.was_in("approach"));

@@ -63,12 +63,13 @@ impl StairClimbing {
         let Situation { view, stairs, .. } = *tick.situation;
         let soles = SolesOnGround {
             half_m: [0.5 * self.feet.length_m, 0.5 * self.feet.pair_width_m],
-            raster: tuning.raster,
+            raster: self.config.tuning.raster,
         };
+        let walking = &self.walking.config().tuning.obstacles;
         let top_m = stance.height_m as f32 + tuning.stands_on;
-        let edges = self.walking.obstacles().edges();
+        let edges = walking.edges();
         let counts = |cell: &ObstacleCell| !is_riser(stairs, cell, edges);
-        cells_under(view, soles, &stance.pose, top_m, counts) >= tuning.cells
+        cells_under(view, soles, &stance.pose, top_m, counts) >= walking.cells
     }
 
     /// Whether what the robot stands on, as it is known by now, has room to turn and to walk.
@@ -76,7 +77,7 @@ impl StairClimbing {
         let at = [tick.pose.x_m, tick.pose.y_m];
         let tuning = &self.config.tuning;
         let roomy = |stair: &stairs::Stair<geometry::Map>| stair.depth_m() >= tuning.flight.roomy;
-        let level_m = (tick.ground_m, tuning.lookup.same_height);
+        let level_m = (tick.ground_m, self.climbing.levels.same);
         let mut known_now = stairs_under(tick.situation.stairs, at, level_m);
         self.memory.on.is_none_or(|step| roomy(&step.stair)) || known_now.any(roomy)
     }

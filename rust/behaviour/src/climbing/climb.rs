@@ -121,7 +121,7 @@ impl StairClimbing {
             }
             Verdict::Move(stance) => {
                 self.memory.tries.moves += 1;
-                if self.memory.tries.moves > self.config.tries {
+                if self.memory.tries.moves > self.walking.config().tries {
                     self.refuse(
                         "lost: the robot could not get in place for the next step".to_owned(),
                     );
@@ -145,7 +145,7 @@ impl StairClimbing {
     /// the robot gives up for this reason.
     pub(super) fn look_again(&mut self, tick: &Tick<'_>, reason: impl FnOnce() -> String) {
         self.memory.tries.looks += 1;
-        if self.memory.tries.looks > self.config.tries {
+        if self.memory.tries.looks > self.walking.config().tries {
             if self.memory.on.is_some() && (self.has_room(tick) || self.is_in_the_goal(tick)) {
                 self.enter(State::FINISH);
                 return;
@@ -226,7 +226,7 @@ impl StairClimbing {
 
     /// Whether a step is in the present view.
     fn is_seen_now(&self, tick: &Tick<'_>, step: &Step) -> bool {
-        let lookup = &self.config.tuning.lookup;
+        let lookup = self.flight.lookup();
         let stairs = &tick.situation.stairs.stairs;
         stairs
             .iter()

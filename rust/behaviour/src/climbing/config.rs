@@ -1,6 +1,6 @@
 //! Settings of the behaviours `stair_climbing` and `continuous`.
 
-use settings::{Bounds, POSITIVE, above_to, at_least, from_below, settings, within};
+use settings::{Bounds, POSITIVE, above_to, at_least, settings, within};
 
 use super::tuning::StairClimbingTuning;
 
@@ -14,10 +14,6 @@ settings! {
         /// The first edge is measured with the robot's middle at least this far before it: nearer, the camera sees too little of the
         /// ground in front of it.
         look_distance: f64 = 0.22, "m", above_to(0.0, 2.0);
-        /// Steepest look below the horizon.
-        gaze_steep: f64 = 1.1, "rad", from_below(0.5, 1.5);
-        /// Speed of the gaze.
-        gaze_speed: f64 = 0.9, "rad/s", POSITIVE;
         /// An edge is stepped by when this many frames fitted it.
         edge_frames: u32 = 4, "1", within(0.0, 1000.0);
         /// An edge is stepped by when its place is as sure as this.
@@ -41,15 +37,11 @@ settings! {
         step_turn: f64 = 0.2, "rad", STEP;
         /// The robot waits for this long for what stands on the next step to go away; without a step for longer it would give up anyway.
         wait: f64 = 10.0, "s", within(0.0, 60.0);
-        /// Looks, corrections and new tries of one kind before the robot gives up. More would tell nothing new, and between two searches
-        /// the robot walks, so that no clock ends them.
-        tries: u32 = 3, "1", within(1.0, 100.0);
         /// The arms stay up for this long at the end.
         cheer: f64 = 1.0, "s", within(0.0, 30.0);
         /// Numbers that few will want to turn.
         tuning: StairClimbingTuning;
     }
-    require (gaze_steep) >= (tuning.head.flattest);
 }
 
 #[cfg(test)]
@@ -103,14 +95,12 @@ mod tests {
             assert_refused(&config, told);
         }
         let shipped = StairClimbingConfig::default();
-        let (edge_frames, tries) = (u32::MAX, u32::MAX);
+        let edge_frames = u32::MAX;
         let looks_on = StairClimbingConfig {
             edge_frames,
-            ..shipped.clone()
+            ..shipped
         };
         assert_refused(&looks_on, "edge_frames must be from 0 to 1000");
-        let tries_on = StairClimbingConfig { tries, ..shipped };
-        assert_refused(&tries_on, "tries must be from 1 to 100");
     }
 
     fn assert_refused(config: &StairClimbingConfig, told: &str) {

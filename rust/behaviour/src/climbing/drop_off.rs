@@ -16,6 +16,10 @@ pub(super) struct DropOff<'a> {
     pub(super) feet: &'a Feet,
     /// Height of the floor that the robot stands on, m.
     pub(super) level_m: f64,
+    /// Floor that is lower by more than this is another level, m.
+    pub(super) same_level_m: f64,
+    /// The map is asked at so many places under the soles to each side of their middle.
+    pub(super) raster: i32,
     pub(super) tuning: &'a DropOffTuning,
 }
 
@@ -39,9 +43,9 @@ impl DropOff<'_> {
     /// around them, m.
     fn lower_places(&self, pose: &PlanarPose, front: f64, margin_m: f64) -> usize {
         let half_m = [self.feet.length_m, self.feet.pair_width_m].map(|size| 0.5 * size + margin_m);
-        let raster = self.tuning.raster;
+        let raster = self.raster;
         let soles = SolesOnGround { half_m, raster };
-        let levels_m = (self.level_m, self.tuning.lower);
+        let levels_m = (self.level_m, self.same_level_m);
         lower_places(self.view, soles, (pose, front), levels_m)
     }
 }
@@ -80,6 +84,8 @@ mod tests {
             view,
             feet: &FEET,
             level_m: 0.05,
+            same_level_m: 0.012,
+            raster: 5,
             tuning,
         }
     }

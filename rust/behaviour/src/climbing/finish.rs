@@ -39,6 +39,7 @@ impl StairClimbing {
         self.head.turn_to([ahead_m, 0.0], tick.passed_s);
         let stays = self.stays_here(tick);
         let tuning = &self.config.tuning.finish;
+        let slowest_mps = self.walking.config().tuning.track.slowest;
         let remaining_m = self.memory.on.filter(|_| !stays).map_or(0.0, |step| {
             let beyond_m = step.stair.front.beyond_m([tick.pose.x_m, tick.pose.y_m]);
             (0.5 * step.stair.depth_m()).min(tuning.farthest) - beyond_m
@@ -46,7 +47,7 @@ impl StairClimbing {
         let next = match part {
             Finish::Leave if remaining_m > tuning.there && lasted_s < tuning.longest_walk => {
                 let speed_mps = tuning.gain * remaining_m;
-                let x_mps = speed_mps.clamp(tuning.slowest, tuning.fastest);
+                let x_mps = speed_mps.clamp(slowest_mps, tuning.fastest.max(slowest_mps));
                 self.machine.go_on(State::Finish { part, lasted_s });
                 return Motion::Walk(Velocity {
                     x_mps,

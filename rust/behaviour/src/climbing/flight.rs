@@ -4,15 +4,15 @@ mod lookup;
 
 use std::f64::consts::FRAC_PI_2;
 
-use geometry::{PlanarPose, angle_between};
+use geometry::{PlanarPose, angle_between, same_level};
 use planning::{Plan, Step};
-use stairs::{ClimbingConfig, Staircase};
+use stairs::{ClimbingConfig, LevelsConfig, Staircase};
 
-use crate::climbing::tuning::{FlightTuning, StairClimbingTuning, StepLookupTuning};
+use crate::climbing::tuning::{FlightTuning, StairClimbingTuning};
+use lookup::{Lookup, following, is_same};
 pub(crate) use lookup::{
     StepRules, covers, crosses_another, depth_m, is_step, nearest, settled_rise_m,
 };
-use lookup::{following, is_same};
 
 /// The steps ahead, in their order. In the map, so that the robot's own motion moves none of them.
 #[derive(Debug, Clone, Default)]
@@ -26,17 +26,25 @@ pub(crate) struct Flight {
     /// How far to the left of the lane the plan now crosses the first step, m.
     elsewhere_m: f64,
     tuning: FlightTuning,
-    lookup: StepLookupTuning,
+    lookup: Lookup,
 }
 
 impl Flight {
     /// No step is known yet.
-    pub(crate) fn new(tuning: &StairClimbingTuning) -> Self {
+    pub(crate) fn new(tuning: &StairClimbingTuning, levels: &LevelsConfig) -> Self {
         Self {
             tuning: tuning.flight.clone(),
-            lookup: tuning.lookup.clone(),
+            lookup: Lookup {
+                tuning: tuning.lookup.clone(),
+                levels: levels.clone(),
+            },
             ..Self::default()
         }
+    }
+
+    /// Which sights are of the same step.
+    pub(crate) const fn lookup(&self) -> &Lookup {
+        &self.lookup
     }
 
     /// The memorised step, *step₁* of 003.
@@ -77,7 +85,7 @@ impl Flight {
                     .any(|stair| covers(stair, old, &self.lookup))
             };
             for old in &before[last + 1..] {
-                let behind = |last: &Step| depth_m(last, old) > self.lookup.least_tread;
+                let behind = |last: &Step| depth_m(last, old) > self.lookup.tuning.least_tread;
                 if !(there(old) && self.steps.last().is_some_and(behind)) {
                     break;
                 }
@@ -193,7 +201,7 @@ impl Flight {
         let to_come = steps[..at].iter().rev().copied().take_while(is_to_come);
         let follows = |pair: &&[&Step]| {
             let depth_m = depth_m(pair[0], pair[1]);
-            depth_m > self.lookup.least_tread && depth_m < self.tuning.roomy
+            depth_m > self.lookup.tuning.least_tread && depth_m < self.tuning.roomy
         };
         let following = steps[at..].windows(2).take_while(follows);
         let range = at - to_come.count()..=at + following.count();
@@ -207,7 +215,7 @@ fn look_up(
     steps: &mut [Step],
     stairs: &Staircase,
     pose: &PlanarPose,
-    tuning: (&FlightTuning, &StepLookupTuning),
+    tuning: (&FlightTuning, &Lookup),
 ) {
     let mut before_higher_m = 0.0;
     for step in steps {
@@ -256,7 +264,7 @@ fn keep_better_edge(
     step: &mut Step,
     old: &Step,
     pose: &PlanarPose,
-    (tuning, lookup): (&FlightTuning, &StepLookupTuning),
+    (tuning, lookup): (&FlightTuning, &Lookup),
 ) {
     let worse = tuning.worse;
     let away_m = -old.stair.front.beyond_m([pose.x_m, pose.y_m]);
@@ -274,7 +282,7 @@ fn keep_better_edge(
         step.stair.left_margin_m = old.stair.left_margin_m;
         step.stair.right_margin_m = old.stair.right_margin_m;
         step.crossing_m = old.crossing_m;
-        if (step.rise_m - old.rise_m).abs() < lookup.same_height {
+        if same_level(step.rise_m, old.rise_m, lookup.levels.same) {
             step.rise_m = old.rise_m;
         }
     }

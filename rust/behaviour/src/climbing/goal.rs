@@ -9,7 +9,7 @@ use crate::machine::Tick;
 impl StairClimbing {
     /// Whether the robot stands in the disc of the last goal, at its height where it has one.
     pub(super) fn is_in_the_goal(&self, tick: &Tick<'_>) -> bool {
-        tick.is_in_the_goal(self.config.tuning.goal_level)
+        tick.is_in_the_goal(self.climbing.levels.told)
     }
 
     /// Whether the robot stands in the disc of the last goal, which has a height, at that height.

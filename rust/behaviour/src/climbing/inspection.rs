@@ -26,6 +26,7 @@ impl Inspection {
     pub(crate) fn find(
         tick: &Tick<'_>,
         before: &Before<'_>,
+        room_m: f64,
         inspected: &[[f64; 2]],
     ) -> Option<Self> {
         let situation = tick.situation;
@@ -46,7 +47,7 @@ impl Inspection {
                     .iter()
                     .any(|place| away_m(place) < tuning.inspected)
             })
-            .filter(|found| found.is_free(situation.view, &tick.pose, tick.ground_m, tuning))
+            .filter(|found| found.is_free(situation.view, tick, room_m, before))
             .min_by(|a, b| a.away_m(&tick.pose).total_cmp(&b.away_m(&tick.pose)))
     }
 
@@ -81,22 +82,18 @@ impl Inspection {
     }
 
     /// Whether nothing is known to stand on the straight way there, and no other level.
-    fn is_free(
-        &self,
-        view: &FloorView,
-        from: &PlanarPose,
-        ground_m: f64,
-        tuning: &InspectionTuning,
-    ) -> bool {
-        places(from, [self.pose.x_m, self.pose.y_m], tuning.spacing).all(|place_m| {
-            is_roomy(view, place_m, tuning.room)
-                && may_be_level_floor(view, place_m, ground_m, tuning.level)
+    fn is_free(&self, view: &FloorView, tick: &Tick<'_>, room_m: f64, before: &Before<'_>) -> bool {
+        let spacing_m = before.config.tuning.inspection.spacing;
+        let level_m = before.climbing.levels.same;
+        places(&tick.pose, [self.pose.x_m, self.pose.y_m], spacing_m).all(|place_m| {
+            is_roomy(view, place_m, room_m)
+                && may_be_level_floor(view, place_m, tick.ground_m, level_m)
         })
     }
 
     /// A plan that leads there.
-    pub(crate) fn plan(&self, from: &PlanarPose, tuning: &InspectionTuning) -> Plan {
-        straight_plan(from, [self.pose.x_m, self.pose.y_m], tuning)
+    pub(crate) fn plan(&self, from: &PlanarPose, room_m: f64, tuning: &InspectionTuning) -> Plan {
+        straight_plan(from, [self.pose.x_m, self.pose.y_m], room_m, tuning)
     }
 }
 
@@ -109,13 +106,18 @@ fn is_inviting(stair: &Stair<Map>, before: &Before<'_>) -> bool {
     is_step(rise_m, before.climbing) && (!ends || stair.front.length_m() >= needed_m)
 }
 
-/// A plan that leads straight to a place.
-pub(crate) fn straight_plan(from: &PlanarPose, to_m: [f64; 2], tuning: &InspectionTuning) -> Plan {
+/// A plan that leads straight to a place, with so much room on the way, m.
+pub(crate) fn straight_plan(
+    from: &PlanarPose,
+    to_m: [f64; 2],
+    room_m: f64,
+    tuning: &InspectionTuning,
+) -> Plan {
     let points_m: Vec<_> = places(from, to_m, tuning.spacing).collect();
     Plan {
         way: Ok(Path {
             unknown: vec![false; points_m.len()],
-            clearance_m: vec![tuning.room; points_m.len()],
+            clearance_m: vec![room_m; points_m.len()],
             cost_m: distance_m([from.x_m, from.y_m], to_m),
             points_m,
             ..Path::default()
@@ -174,7 +176,7 @@ mod tests {
         let mut simulation = up(PlanarPose::new(-0.3, 0.0, 0.0));
         simulation.goal.height_m = Some(0.12);
         simulation.planned_within_m = 0.0;
-        let allowed = simulation.behaviour.config.tries;
+        let allowed = simulation.behaviour.walking.config().tries;
         simulation.behaviour.memory.tries.searches = allowed;
         simulation.run_until(60.0, |simulation| {
             !simulation.behaviour.ahead.inspected.is_empty()

@@ -72,7 +72,8 @@ impl StairClimbing {
     pub(super) fn behind(&self, tick: &Tick<'_>, first: &Step) -> Behind<'_> {
         match self.flight.second() {
             Some(second)
-                if self.is_measured(second) || self.memory.tries.looks >= self.config.tries =>
+                if self.is_measured(second)
+                    || self.memory.tries.looks >= self.walking.config().tries =>
             {
                 Behind::Step(second)
             }

@@ -25,12 +25,16 @@ impl StairClimbing {
     pub(super) fn search(&mut self, tick: &Tick<'_>) -> Motion {
         let climbs = self.leg(tick).is_some();
         self.ahead.climb.count(climbs, tick.passed_s);
-        let found = self.ahead.is_sure(&self.config.tuning.walk);
+        let found = self
+            .ahead
+            .is_sure(self.walking.config().tuning.look_around.sure_after);
         let seen = self.look(tick, false);
         if (!found && !seen) || self.had_stumbled {
             return Motion::Stand;
         }
-        if self.memory.tries.searches > self.config.tries || (!found && tick.breaks_a_limit()) {
+        if self.memory.tries.searches > self.walking.config().tries
+            || (!found && tick.breaks_a_limit())
+        {
             let reason = tick.no_way_reason().unwrap_or_else(|| {
                 "lost: the stairs were seen and could not be found again".to_owned()
             });

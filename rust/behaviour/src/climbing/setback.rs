@@ -31,7 +31,7 @@ impl StairClimbing {
             self.stepper.start(vec![beside], &tick.pose, tick.ground_m);
             self.move_feet(Vec::new());
         } else if landed == 0 {
-            if self.memory.tries.missteps >= self.config.tries {
+            if self.memory.tries.missteps >= self.walking.config().tries {
                 self.refuse(format!("blocked: {what}"));
             } else {
                 self.memory.pauses = true;
@@ -56,7 +56,7 @@ impl StairClimbing {
     /// Looks for stairs from here, or gives up: a walking foot came upon a level that was not seen.
     pub(super) fn after_stumble(&mut self, tick: &Tick<'_>) {
         self.memory.tries.stumbles += 1;
-        if self.memory.tries.stumbles > self.config.tries {
+        if self.memory.tries.stumbles > self.walking.config().tries {
             self.refuse(format!("blocked: {}", told(Misstep::Obstructed)));
         } else if self.machine.state().may_become(&State::Search) {
             self.memory.on = None;

@@ -13,10 +13,10 @@ use stairs::{ClimbingConfig, Feet, Stair, Staircase};
 
 use crate::{
     Behaviour, Decision, Footstep, Gaze, Motion, Outcome, Pace, Situation, StairClimbing,
-    StairClimbingConfig, Stepping, WalkingBehaviour, WalkingConfig,
+    StairClimbingConfig, Stepping, WalkingConfig,
 };
 
-use crate::walking::simulation::EXTENT;
+use crate::walking::simulation::walking;
 pub(crate) use course::{stair, straight};
 
 pub(crate) const TICK_NS: u64 = 10_000_000;
@@ -102,7 +102,7 @@ impl Simulation {
             )),
             height_m: 0.0,
         };
-        let walking = WalkingBehaviour::new(WalkingConfig::default(), &EXTENT).unwrap();
+        let walking = walking(WalkingConfig::default());
         let count = steps.len();
         let mut simulation = Self {
             sunk_m: vec![0.0; count],

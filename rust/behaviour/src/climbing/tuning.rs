@@ -22,14 +22,8 @@ const ANGLE: Bounds = within(0.0, 3.2);
 settings! {
     /// Numbers behind the behaviours `stair_climbing` and `continuous`.
     pub struct StairClimbingTuning("navigation.stair_climbing.tuning") {
-        /// The robot before or on stairs is blind when no frame has come for longer than this.
-        blind_after: f64 = 2.0, "s", WAIT;
-        /// The robot before or on stairs gives up when it has been blind for this long.
-        blind_limit: f64 = 12.0, "s", WAIT;
-        /// The robot before or on stairs gives up after this time without a step.
-        idle_limit: f64 = 60.0, "s", WAIT;
-        /// A goal is on the robot's level when its height differs by less than this from that of the ground under the robot.
-        goal_level: f64 = 0.02, "m", POSITIVE;
+        /// The map is asked at so many places under the soles to each side of their middle, along and across.
+        raster: i32 = 5, "1", within(1.0, 100.0);
         /// Where the head looks before and on stairs.
         head: HeadTuning;
         /// The walk to the next climb.
@@ -63,16 +57,11 @@ settings! {
         /// The end of a climb.
         finish: FinishTuning;
     }
-    require (blind_limit) > (blind_after);
 }
 
 settings! {
     /// Where the head looks while the robot stands before a step or on one.
     pub struct HeadTuning("navigation.stair_climbing.tuning.head") {
-        /// The head is panned no further than this to each side.
-        widest: f64 = 1.1, "rad", ANGLE;
-        /// Flattest look below the horizon at a place of the ground.
-        flattest: f64 = 0.5, "rad", ANGLE;
         /// A place nearer to the eyes than this, on the ground, is looked at as if it were this far away.
         nearest: f64 = 0.05, "m", POSITIVE;
         /// A look at a place swings so far to its left and to its right: the noise of the depth image is mostly a fixed pattern, so
@@ -82,24 +71,8 @@ settings! {
         flatter: f64 = 0.25, "rad", ANGLE;
         /// A search swings the head so far to each side.
         swing: f64 = 0.5, "rad", ANGLE, "003, section V.A";
-        /// Look below the horizon at the ground near by, during a search.
-        search_near: f64 = 0.85, "rad", ANGLE;
-        /// Look below the horizon at the ground further away, during a search.
-        search_far: f64 = 0.55, "rad", ANGLE;
-        /// Look below the horizon at the end of a search.
-        search_end: f64 = 0.7, "rad", ANGLE;
         /// An inspection of stairs swings the head so far to each side.
         inspect_aside: f64 = 0.15, "rad", ANGLE;
-        /// Look below the horizon at the steps behind the first edge, during an inspection.
-        inspect_near: f64 = 0.8, "rad", ANGLE;
-        /// Look below the horizon at the middle of the stairs, during an inspection.
-        inspect_middle: f64 = 0.7, "rad", ANGLE;
-        /// Look below the horizon at the far steps, during an inspection.
-        inspect_far: f64 = 0.55, "rad", ANGLE;
-        /// A look before or on stairs ends after this time, whatever the frames do.
-        longest_look: f64 = 8.0, "s", WAIT;
-        /// A look before or on stairs ends once so many frames were taken into the map after its last place was reached.
-        last_frames: u64 = 2, "1", within(0.0, 100.0);
         /// Where enough is known already, a look ends after so many frames.
         glance_frames: u64 = 3, "1", within(0.0, 100.0);
         /// Before the robot has stairs in mind it looks at the ground this far ahead.
@@ -111,7 +84,6 @@ settings! {
         /// At the end of a climb the robot looks at the ground this far ahead.
         finish_ahead: f64 = 0.35, "m", POSITIVE;
     }
-    require (swing) <= (widest);
 }
 
 settings! {
@@ -123,7 +95,5 @@ settings! {
         /// The first look around may end after this time when stairs lie on the way and are climbed without stops: by then the ground
         /// on the way was looked at.
         first_glance: f64 = 1.8, "s", NOT_NEGATIVE;
-        /// A climb, or stairs that need a closer look, must be ahead for this long to be counted on.
-        sure_after: f64 = 0.4, "s", NOT_NEGATIVE;
     }
 }

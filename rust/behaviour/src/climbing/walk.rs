@@ -4,7 +4,6 @@ use planning::Plan;
 
 use super::{ApproachLeg, Pace, StairClimbing, State};
 use crate::climbing::inspection::{self, Inspection};
-use crate::climbing::tuning::ClimbAheadTuning;
 use crate::machine::{State as _, Stopwatch, Tick};
 use crate::{Behaviour, BehaviourError, Decision, Motion, Outcome, Situation};
 
@@ -24,8 +23,8 @@ pub(super) struct ClimbAhead {
 
 impl ClimbAhead {
     /// Whether a climb can be counted on.
-    pub(super) fn is_sure(&self, tuning: &ClimbAheadTuning) -> bool {
-        self.climb.s() > tuning.sure_after
+    pub(super) fn is_sure(&self, sure_after_s: f64) -> bool {
+        self.climb.s() > sure_after_s
     }
 }
 
@@ -64,14 +63,16 @@ impl StairClimbing {
         let first_look = looking && !self.ahead.looked_around;
         if tick.new_frame {
             self.ahead.inspection = if leg.is_none() && !self.is_at_the_goal(tick) {
-                Inspection::find(tick, &self.before(tick), &self.ahead.inspected)
+                self.next_inspection(tick)
             } else {
                 None
             };
         }
         let climbs = leg.is_some() || self.ahead.inspection.is_some();
         self.ahead.climb.count(climbs, tick.passed_s);
-        let sure = self.ahead.is_sure(&self.config.tuning.walk);
+        let sure = self
+            .ahead
+            .is_sure(self.walking.config().tuning.look_around.sure_after);
         if let Some(leg) = &leg {
             if sure && leg.is_reached(&tick.pose, &self.config.tuning.leg) && !looking {
                 self.flight.adopt(leg.steps);
@@ -90,7 +91,7 @@ impl StairClimbing {
                 return Ok(self.decision(tick, Motion::Stand));
             }
             if tick.new_frame || self.ahead.plan.is_none() {
-                self.ahead.plan = Some(inspection.plan(&tick.pose, &self.config.tuning.inspection));
+                self.ahead.plan = Some(self.way_to(tick, &inspection));
             }
         } else if self.is_at_the_goal(tick) && !tick.has_level_way() {
             return self.walk_at_the_goal(tick);
@@ -114,10 +115,23 @@ impl StairClimbing {
         Ok(decision)
     }
 
+    /// The next stairs that need a closer look.
+    fn next_inspection(&self, tick: &Tick<'_>) -> Option<Inspection> {
+        let (before, room_m) = (self.before(tick), self.walking.radius_m());
+        Inspection::find(tick, &before, room_m, &self.ahead.inspected)
+    }
+
+    /// The plan that leads to them.
+    fn way_to(&self, tick: &Tick<'_>, inspection: &Inspection) -> Plan {
+        let (room_m, tuning) = (self.walking.radius_m(), &self.config.tuning.inspection);
+        inspection.plan(&tick.pose, room_m, tuning)
+    }
+
     /// A tick of `walking` at the goal: the robot stands there already, whatever the planner makes of the surface under its feet.
     fn walk_at_the_goal(&mut self, tick: &Tick<'_>) -> Result<Decision, BehaviourError> {
         let tuning = &self.config.tuning.inspection;
-        let plan = inspection::straight_plan(&tick.pose, tick.goal_m(), tuning);
+        let room_m = self.walking.radius_m();
+        let plan = inspection::straight_plan(&tick.pose, tick.goal_m(), room_m, tuning);
         self.walking.next(&Situation {
             plan: Some(&plan),
             ..*tick.situation

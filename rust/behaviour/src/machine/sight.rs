@@ -14,16 +14,6 @@ pub(crate) enum SightAgain {
 }
 
 impl<S: State> Machine<S> {
-    /// Time without sight, s.
-    fn unseen_s(&self, tick: &Tick<'_>) -> f64 {
-        let never_s = if self.limits.blind_from_the_start {
-            tick.elapsed_s
-        } else {
-            0.0
-        };
-        tick.unseen_s().unwrap_or(never_s)
-    }
-
     /// Whether the robot sees nothing, by the patience of its state.
     pub(super) fn is_blind(&self, tick: &Tick<'_>) -> bool {
         let patience = if self.state.is_patient() {
@@ -31,7 +21,7 @@ impl<S: State> Machine<S> {
         } else {
             1.0
         };
-        self.unseen_s(tick) > patience * self.limits.blind_after_s
+        tick.unseen_s() > patience * self.limits.blind_after_s
     }
 
     /// Whether a robot sees again that stands for want of sight, since it entered its state.
@@ -48,7 +38,7 @@ impl<S: State> Machine<S> {
             let lasted_s = self.lasted_s();
             format!("lost: the robot has not known where it is for {lasted_s:.0} s{place}")
         } else {
-            let unseen_s = self.unseen_s(tick);
+            let unseen_s = tick.unseen_s();
             format!("lost: nothing has been seen for {unseen_s:.0} s{place}")
         })
     }

@@ -14,7 +14,6 @@ const LIMITS: Limits = Limits {
     blind_after_s: 1.0,
     patience: 4.0,
     blind_limit_s: 4.05,
-    blind_from_the_start: true,
     idle_limit_s: 9.0,
     idle_words: "nothing could be done",
     place_words: ", here",

@@ -61,9 +61,9 @@ impl Tick<'_> {
         Some((height_m - self.ground_m).abs())
     }
 
-    /// Time since a frame was last taken into the map, s; `None` before the first.
-    pub(crate) fn unseen_s(&self) -> Option<f64> {
-        let last_ns = self.situation.last_frame_ns?;
-        Some(self.situation.time_ns.saturating_sub(last_ns) as f64 * 1e-9)
+    /// Time since a frame was last taken into the map, s; before the first since the behaviour began.
+    pub(crate) fn unseen_s(&self) -> f64 {
+        let since_s = |last_ns| self.situation.time_ns.saturating_sub(last_ns) as f64 * 1e-9;
+        self.situation.last_frame_ns.map_or(self.elapsed_s, since_s)
     }
 }

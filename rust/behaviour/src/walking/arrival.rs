@@ -5,11 +5,15 @@ use terrain::support::is_roomy;
 use super::{WalkingBehaviour, state::State, tick::WayTick, track::Track};
 use crate::{Motion, Outcome, machine::Tick};
 
+/// Both the goal's height and the robot's own may be off by what told heights may: a robot that has walked and climbed for long knows
+/// its height no better.
+const OWN_AND_TOLD: f64 = 2.0;
+
 impl WalkingBehaviour {
     /// Whether the robot is on the goal's level, as far as one is told: below a platform it may stand in the disc and be nowhere near.
     fn is_on_the_goals_level(&self, tick: &Tick<'_>) -> bool {
         tick.goal_off_level_m()
-            .is_none_or(|off_m| off_m <= self.config.tuning.arrival.same_level)
+            .is_none_or(|off_m| off_m <= OWN_AND_TOLD * self.levels.told)
     }
 
     /// Whether the robot is no further from the goal's middle than this, m, and on its level.

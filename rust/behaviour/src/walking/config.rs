@@ -3,6 +3,7 @@
 use settings::{Bounds, NOT_NEGATIVE, POSITIVE, above_to, from_below, settings, within};
 
 use super::tuning::WalkingTuning;
+use crate::machine::Limits;
 
 /// The robot stands no longer than this at one place, however it is told to.
 const STAND: Bounds = within(0.0, 60.0);
@@ -43,7 +44,7 @@ settings! {
         /// Ground nearer than this lies below the camera's view.
         unseen_radius: f64 = 0.2, "m", NOT_NEGATIVE;
         /// Steepest look below the horizon, to the ground before the feet.
-        gaze_steep: f64 = 1.0, "rad", DOWN;
+        gaze_steep: f64 = 1.1, "rad", DOWN;
         /// Look below the horizon at the ground near by.
         gaze_near: f64 = 0.85, "rad", DOWN;
         /// Look below the horizon at the ground further away.
@@ -59,22 +60,42 @@ settings! {
         /// The robot declares that it has arrived after standing this long.
         arrive_time: f64 = 0.5, "s", STAND;
         /// The robot stands and waits when no frame has come for longer than this.
-        blind_after: f64 = 1.0, "s", PATIENCE;
+        blind_after: f64 = 2.0, "s", PATIENCE;
         /// The robot gives up when it has waited for a frame for this long.
-        blind_limit: f64 = 10.0, "s", PATIENCE;
+        blind_limit: f64 = 12.0, "s", PATIENCE;
         /// A robot that does not know where it is gives up after this time.
         locate_limit: f64 = 60.0, "s", PATIENCE;
         /// The planner must find no way for this long, and in all directions looked at, before the robot gives up.
         refuse_time: f64 = 3.0, "s", STAND;
         /// The robot looks around when it has made no headway for this long.
         patience: f64 = 15.0, "s", PATIENCE;
-        /// The robot gives up after more looks around without headway than this.
-        tries: u32 = 3, "1", POSITIVE;
+        /// Looks without headway, stumbles, corrections and new tries of one kind before the robot gives up. More would tell nothing
+        /// new, and between two searches the robot walks, so that no clock ends them.
+        tries: u32 = 3, "1", within(1.0, 100.0);
         /// Numbers that few will want to turn.
         tuning: WalkingTuning;
     }
     require (turn_until) < (turn_above);
     require (blind_limit) > (blind_after);
+    require (gaze_steep) >= (gaze_far);
+}
+
+impl WalkingConfig {
+    /// The limits of a behaviour that walks: what could not be done when it is idle, and where it was blind, as the end of a sentence.
+    pub(crate) const fn limits(
+        &self,
+        idle_words: &'static str,
+        place_words: &'static str,
+    ) -> Limits {
+        Limits {
+            blind_after_s: self.blind_after,
+            patience: self.tuning.look_around.patience,
+            blind_limit_s: self.blind_limit,
+            idle_limit_s: self.tuning.idle_limit,
+            idle_words,
+            place_words,
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Walking as a part of a longer way: another behaviour breaks it off, and hands the robot over again.
 
-use super::{Progress, WalkingBehaviour, WayObstaclesTuning, state::State};
+use super::{Progress, WalkingBehaviour, WalkingConfig, state::State};
 use crate::Situation;
 
 impl WalkingBehaviour {
@@ -16,9 +16,14 @@ impl WalkingBehaviour {
         self.watched_m = None;
     }
 
-    /// What counts as an obstacle on the way, and as the edge of a stair.
-    pub(crate) const fn obstacles(&self) -> &WayObstaclesTuning {
-        &self.config.tuning.obstacles
+    /// By what it walks, and by what whoever breaks it off does the same.
+    pub(crate) const fn config(&self) -> &WalkingConfig {
+        &self.config
+    }
+
+    /// Radius of the upright cylinder that holds the robot, m.
+    pub(crate) const fn radius_m(&self) -> f64 {
+        self.radius_m
     }
 
     /// Whether it stands and looks around.

@@ -47,7 +47,7 @@ impl WalkingBehaviour {
                 return Motion::Stand;
             };
             let seen = sweep.advance(&mut self.gazer, frames, tick.passed_s, speed_radps);
-            if seen || lasted_s > self.config.tuning.locate.longest_look {
+            if seen || lasted_s > self.config.tuning.look_around.longest {
                 self.looked_round_s = Some(tick.elapsed_s);
             }
             return Motion::Stand;
@@ -58,7 +58,8 @@ impl WalkingBehaviour {
         self.gaze_at(tick, pan_rad, self.config.gaze_far);
         let tuning = &self.config.tuning.locate;
         let turn_radps = self.config.turn_speed;
-        let circles = turned_s * turn_radps > tuning.turned && is_free_ahead(tick, tuning);
+        let circles =
+            turned_s * turn_radps > tuning.turned && is_free_ahead(tick, tuning, self.levels.same);
         Motion::Walk(if circles {
             Velocity {
                 x_mps: self.config.creep_speed,
@@ -97,12 +98,12 @@ fn odometry_in_map(tick: &WayTick<'_>) -> PlanarPose {
 }
 
 /// Whether the floor before the feet is known, level and free.
-fn is_free_ahead(tick: &WayTick<'_>, tuning: &LocateTuning) -> bool {
+fn is_free_ahead(tick: &WayTick<'_>, tuning: &LocateTuning, level_m: f64) -> bool {
     let (view, ground_m) = (tick.situation.view, tick.ground_m);
     tuning.ahead.iter().all(|&ahead_m| {
         tuning.aside.iter().all(|&aside_m| {
             let (x_m, y_m) = tick.pose.apply(ahead_m, aside_m);
-            is_level_floor(view, [x_m, y_m], ground_m, tuning.level)
+            is_level_floor(view, [x_m, y_m], ground_m, level_m)
         })
     })
 }
@@ -110,7 +111,7 @@ fn is_free_ahead(tick: &WayTick<'_>, tuning: &LocateTuning) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::walking::simulation::{EXTENT, Simulation};
+    use crate::walking::simulation::{Simulation, walking};
     use crate::{Outcome, WalkingConfig};
 
     #[test]
@@ -120,7 +121,7 @@ mod tests {
             locate_limit: 120.0,
             ..WalkingConfig::default()
         };
-        simulation.behaviour = WalkingBehaviour::new(config, &EXTENT).unwrap();
+        simulation.behaviour = walking(config);
         simulation.lost_until_s = 90.0;
         let (outcome, _) = simulation.run(180.0);
         let states = &simulation.states;
@@ -134,7 +135,7 @@ mod tests {
             blind_limit: 120.0,
             ..WalkingConfig::default()
         };
-        simulation.behaviour = WalkingBehaviour::new(config, &EXTENT).unwrap();
+        simulation.behaviour = walking(config);
         simulation.blind = true;
         let _ = simulation.run(90.0);
         simulation.blind = false;

@@ -26,12 +26,12 @@ impl Followed {
         self.points_m.clear();
     }
 
-    /// A place within the stopping distance where an obstacle now stands on the way of a robot on this ground, m.
+    /// A place within the stopping distance where an obstacle that reaches above `above_m` now stands on the robot's way, m.
     pub(crate) fn obstacle_m(
         &self,
         view: &FloorView,
         stairs: &Staircase,
-        (robot, ground_m): (&PlanarPose, f64),
+        (robot, above_m): (&PlanarPose, f64),
         config: &WalkingConfig,
     ) -> Option<[f64; 2]> {
         let tuning = &config.tuning.obstacles;
@@ -44,7 +44,7 @@ impl Followed {
             .filter(near)
             .find(|place| {
                 let cells = obstacles_within(view, **place, config.corridor);
-                let above = |cell: &ObstacleCell| f64::from(cell.1) > ground_m - tuning.below;
+                let above = |cell: &ObstacleCell| f64::from(cell.1) > above_m;
                 cells
                     .filter(|cell| above(cell) && !is_riser(stairs, cell, edges))
                     .count()
@@ -93,7 +93,7 @@ mod tests {
         let mut view = view(Surface::Floor(0.03));
         paint(&mut view, 0.2, 0.3, Surface::Obstacle(0.0));
         for (ground_m, stands) in [(0.03, false), (0.0, true), (-0.03, true)] {
-            let found = followed.obstacle_m(&view, &stairs, (&robot, ground_m), &config);
+            let found = followed.obstacle_m(&view, &stairs, (&robot, ground_m - 0.012), &config);
             assert_eq!(found.is_some(), stands, "{ground_m}");
         }
     }

@@ -7,7 +7,7 @@ use localization::Estimate;
 use mapping::{FloorView, Surface};
 use planning::{AStar, Goal, NoWay, Path, Plan, Planner, Refusal};
 use robot::Extent;
-use stairs::Staircase;
+use stairs::{LevelsConfig, Staircase};
 
 use crate::{
     Behaviour, Decision, Gaze, Motion, Outcome, Situation, WalkingBehaviour, WalkingConfig,
@@ -21,6 +21,11 @@ pub(crate) const EXTENT: Extent = Extent {
     width: None,
     foot_side: 0.06,
 };
+
+/// The behaviour on a body of this extent.
+pub(crate) fn walking(config: WalkingConfig) -> WalkingBehaviour {
+    WalkingBehaviour::new(config, LevelsConfig::default(), &EXTENT).unwrap()
+}
 
 pub(crate) const TICK_NS: u64 = 10_000_000;
 const EYE_HEIGHT_M: f64 = 0.46;
@@ -96,7 +101,7 @@ impl Simulation {
                 0,
             ),
             plan: None,
-            behaviour: WalkingBehaviour::new(WalkingConfig::default(), &EXTENT).unwrap(),
+            behaviour: walking(WalkingConfig::default()),
             states: Vec::new(),
             gaze: Gaze::default(),
             stumbled: false,

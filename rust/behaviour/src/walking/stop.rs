@@ -24,7 +24,7 @@ impl WalkingBehaviour {
     /// Stands and looks, or gives up: the feet came upon a step that nobody saw.
     pub(super) fn stumble(&mut self) {
         self.stumbles += 1;
-        if self.stumbles > self.config.tuning.stop.stumbles {
+        if self.stumbles > self.config.tries {
             self.refuse("blocked: the feet come upon a step that cannot be seen".to_owned());
         } else {
             self.watched_m = None;

@@ -6,7 +6,7 @@ use mapping::Surface;
 use planning::{Goal, NoWay, Plan, Refusal};
 use proptest::prelude::*;
 
-use super::simulation::{EXTENT, Simulation, TICK_NS};
+use super::simulation::{Simulation, TICK_NS, walking};
 use super::state::State;
 use super::track::tests::straight;
 use crate::machine::State as _;
@@ -334,7 +334,7 @@ proptest! {
     fn whatever_happens_only_legal_states_follow_and_the_feet_obey_them(
         events in prop::collection::vec((0..3u8, any::<bool>(), any::<bool>(), prop::bool::weighted(0.05), -2.0..2.0f64), 1..150)
     ) {
-        let mut behaviour = WalkingBehaviour::new(WalkingConfig::default(), &EXTENT).unwrap();
+        let mut behaviour = walking(WalkingConfig::default());
         let by_name = |name: &str| State::all().into_iter().find(|state| state.name() == name).unwrap();
         let (mut before, mut frames) = (by_name("look_around"), 0);
         for (tick, event) in events.into_iter().enumerate() {

@@ -118,7 +118,7 @@ impl Track {
         Velocity {
             x_mps: top_mps * ahead,
             y_mps: side_mps.clamp(-config.side_speed, config.side_speed),
-            yaw_radps: (tuning.turn_gain * bearing_rad)
+            yaw_radps: (config.tuning.turn.gain * bearing_rad)
                 .clamp(-config.turn_speed, config.turn_speed),
         }
     }

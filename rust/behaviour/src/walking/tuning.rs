@@ -22,8 +22,6 @@ settings! {
         look_around: LookAroundTuning;
         /// The turn on the spot.
         turn: TurnTuning;
-        /// What a stumble leads to.
-        stop: StopTuning;
         /// How the robot finds out where it is.
         locate: LocateTuning;
         /// Unknown ground ahead on the path.
@@ -42,7 +40,7 @@ settings! {
 settings! {
     /// Where the head looks while the robot stands and while it walks.
     pub struct GazeTuning("navigation.walking.tuning.gaze") {
-        /// A look around ends once so many frames were taken into the map after its last place was reached.
+        /// A look ends once so many frames were taken into the map after its last place was reached.
         last_frames: u64 = 2, "1", within(0.0, 100.0);
         /// A look at a place on the path reaches this far to its left and to its right.
         aside: f64 = 0.3, "rad", ANGLE;
@@ -68,11 +66,9 @@ settings! {
         straight: f64 = 0.35, "rad", ANGLE;
         /// Speed of the side steps for each metre between the robot and its path.
         side_gain: f64 = 0.5, "1/s", NOT_NEGATIVE;
-        /// Turning speed, on the way, for each radian of the bearing of the path.
-        turn_gain: f64 = 1.5, "1/s", POSITIVE;
         /// Near its end the path is walked at such a speed that what is left of it would take this long.
         end_time: f64 = 1.0, "s", POSITIVE;
-        /// The robot walks no slower than this towards the end of its path.
+        /// The robot walks no slower than this towards the end of its path, or of a climb.
         slowest: f64 = 0.02, "m/s", POSITIVE;
     }
 }
@@ -80,18 +76,19 @@ settings! {
 settings! {
     /// The look around of a robot that stands, and what follows when it shows no way.
     pub struct LookAroundTuning("navigation.walking.tuning.look_around") {
-        /// A way must have been there for this long to end a look around, or a turn to the next one, before its end.
+        /// A way, or a climb, must have been there for this long to be counted on: to end a look around, or a turn to the next one,
+        /// before its end.
         sure_after: f64 = 0.5, "s", NOT_NEGATIVE;
         /// After looks in so many directions all around was seen: one sweep covers about 3 rad with the camera's width, and the head
         /// looks on while the robot turns.
         directions: u32 = 2, "1", within(1.0, 100.0);
         /// The directions of two looks differ by this.
         apart: f64 = 3.1, "rad", ANGLE;
-        /// A look around ends after this time, whatever the frames do.
-        longest: f64 = 20.0, "s", WAIT;
+        /// A look, of whatever kind, ends after this time, whatever the frames do: all around takes some 9 s.
+        longest: f64 = 12.0, "s", WAIT;
         /// A robot that looks around may see nothing for so many times as long as one that does not: it may look where there is no
         /// ground.
-        patience: f64 = 4.0, "1", within(1.0, 100.0);
+        patience: f64 = 2.0, "1", within(1.0, 100.0);
     }
 }
 
@@ -105,18 +102,10 @@ settings! {
         look_near: f64 = 1.0, "rad", ANGLE;
         /// A turn of more than this, nearly half a circle, keeps the side to which it turns.
         keeps_side: f64 = 2.4, "rad", ANGLE;
-        /// Turning speed on the spot for each radian that is left to turn.
+        /// Turning speed, on the spot and on the way, for each radian that is left to turn.
         gain: f64 = 1.5, "1/s", POSITIVE;
         /// The robot turns no slower than this on the spot, so that no turn creeps to its end.
         slowest: f64 = 0.1, "rad/s", POSITIVE;
-    }
-}
-
-settings! {
-    /// What a stumble of a walking robot leads to.
-    pub struct StopTuning("navigation.walking.tuning.stop") {
-        /// A robot whose feet have come upon unseen steps more often than this gives up.
-        stumbles: u32 = 3, "1", within(0.0, 100.0);
     }
 }
 
@@ -127,8 +116,6 @@ settings! {
         sway: f64 = 0.6, "rad", ANGLE;
         /// The head sways to and fro once in this time.
         sway_period: f64 = 4.0, "s", POSITIVE;
-        /// The look around at the start ends after this time, whatever the frames do.
-        longest_look: f64 = 12.0, "s", WAIT;
         /// A robot that loses its place again within this time does not begin with a look around.
         look_holds: f64 = 30.0, "s", NOT_NEGATIVE;
         /// After turning so far on the spot the robot goes in small circles, which then tell more.
@@ -141,8 +128,6 @@ settings! {
         ahead: [f64; 3] = [0.15, 0.25, 0.35], "m", NOT_NEGATIVE;
         /// Floor is needed so far to the left at each distance ahead.
         aside: [f64; 3] = [-0.12, 0.0, 0.12], "m", within(-10.0, 10.0);
-        /// Floor to go on in circles is as level as this with the ground under the robot.
-        level: f64 = 0.012, "m", NOT_NEGATIVE;
     }
 }
 
@@ -166,9 +151,7 @@ settings! {
         riser: f64 = 0.06, "m", NOT_NEGATIVE;
         /// An obstacle is the edge of a stair when it is no further from it than this.
         beside: f64 = 0.06, "m", NOT_NEGATIVE;
-        /// What ends further than this below the ground on which the robot walks does not stand in its way.
-        below: f64 = 0.015, "m", NOT_NEGATIVE;
-        /// So many cells of obstacles at a place of the path stand in the way.
+        /// So many cells of obstacles at a place of the path, or where the feet shall go, stand in the way.
         cells: usize = 2, "1", at_least(1.0);
     }
 }
@@ -214,9 +197,6 @@ settings! {
     pub struct ArrivalTuning("navigation.walking.tuning.arrival") {
         /// A path is done when less than this is left of it.
         path_end: f64 = 0.04, "m", NOT_NEGATIVE;
-        /// A goal whose height differs by more than this from that of the ground under the robot is on another level: a robot that has
-        /// walked and climbed for long knows its height no better.
-        same_level: f64 = 0.04, "m", NOT_NEGATIVE;
         /// A via point is passed no deeper inside its disc than this share of the disc's radius, however large the margin is.
         via_share: f64 = 0.5, "1", within(0.0, 1.0);
     }

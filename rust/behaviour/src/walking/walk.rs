@@ -73,8 +73,7 @@ impl WalkingBehaviour {
         let (path, track) = tick.track.as_ref()?;
         if tick.new_frame {
             let (view, stairs) = (tick.situation.view, tick.situation.stairs);
-            let ground_m = tick.ground_m;
-            let robot = (&tick.pose, ground_m);
+            let robot = (&tick.pose, tick.ground_m - self.levels.same);
             let obstacle_m = self.followed.obstacle_m(view, stairs, robot, &self.config);
             self.followed.keep(path, track.nearest);
             if obstacle_m.is_some() {

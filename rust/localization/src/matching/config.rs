@@ -41,18 +41,10 @@ settings! {
         gate: f64 = 3.5, "1", POSITIVE;
         /// A keyframe that was not believed so often in a row is forgotten: what it shows has moved.
         refusals: u32 = 12, "1", POSITIVE;
-        /// Standard deviation of the gyroscope's bias about the vertical before the robot stood still.
-        bias: f64 = 0.0015, "rad/s", POSITIVE;
-        /// The robot stands still while it turns by less than this about every axis.
-        rest_rate: f64 = 0.01, "rad/s", POSITIVE;
-        /// Time for which the robot must have stood still until its bias is learned.
-        rest_time: f64 = 0.2, "s", POSITIVE;
         /// Standard deviation of a bias that was learned in a second of standing still; it falls with the root of the time.
         rest_noise: f64 = 5e-4, "rad/s", POSITIVE;
         /// Standard deviation that is left of a bias, however long it was learned: soles creep.
         bias_creep: f64 = 2e-4, "rad/s", POSITIVE;
-        /// Random walk of the gyroscope's bias, per square root of a second.
-        bias_drift: f64 = 1e-5, "rad/s/sqrt(s)", POSITIVE;
         /// Random walk of the odometry's heading, per square root of a second.
         heading_drift: f64 = 1e-4, "rad/sqrt(s)", POSITIVE;
         /// Until this time nothing is matched: the robot is put down and settles.

@@ -11,7 +11,7 @@ mod tests;
 mod tuning;
 
 use crate::part::LocalizerPart;
-use geometry::{Map, PlanarPose, Pose, Robot};
+use geometry::PlanarPose;
 use mapping::FloorView;
 use segmentation::Planes;
 use settings::{ConfigError, Table};
@@ -23,8 +23,8 @@ use keyframe::{Keyframe, Viewpoint};
 use profile::UprightBeam;
 
 use crate::localizer::{Estimate, Localizer, LocalizerError};
-use crate::odometry::{OdometryLocalizer, OdometryLocalizerConfig};
-use proprioception::BodyState;
+use crate::odometry::OdometryLocalizer;
+use proprioception::{BodyState, ProprioceptionConfig};
 
 /// How it is listed and made.
 pub(crate) const PART: LocalizerPart = Part {
@@ -33,14 +33,12 @@ pub(crate) const PART: LocalizerPart = Part {
     source: None,
     tables: &[TableDescription::of::<MatchingConfig>()],
     make: |needs| {
-        let (odometry, config) = (
-            read(needs.tables, "odometry")?,
-            read(needs.tables, "matching")?,
-        );
+        let odometry = read(needs.tables, "odometry")?;
+        let (start, stance_m) = (needs.start_or_origin(), needs.stance_m);
         Ok(Box::new(MatchingLocalizer::new(
-            needs.start_or_origin(),
-            odometry,
-            config,
+            OdometryLocalizer::new(start, stance_m, odometry)?,
+            read(needs.tables, "proprioception")?,
+            read(needs.tables, "matching")?,
         )?))
     },
 };
@@ -52,6 +50,8 @@ pub(crate) const PART: LocalizerPart = Part {
 #[derive(Debug, Clone)]
 pub struct MatchingLocalizer {
     config: MatchingConfig,
+    /// What the gyroscope is like, and when the robot stands still.
+    senses: ProprioceptionConfig,
     odometry: OdometryLocalizer,
     memory: Option<HeadingMemory>,
 }
@@ -70,16 +70,18 @@ struct HeadingMemory {
 }
 
 impl MatchingLocalizer {
-    /// Starts at a pose that is told.
+    /// Keeps the heading of an odometry by senses like these.
     pub fn new(
-        map_from_robot_at_start: Pose<Map, Robot>,
-        odometry: OdometryLocalizerConfig,
+        odometry: OdometryLocalizer,
+        senses: ProprioceptionConfig,
         config: MatchingConfig,
     ) -> Result<Self, ConfigError> {
         config.check()?;
+        senses.check()?;
         Ok(Self {
             config,
-            odometry: OdometryLocalizer::new(map_from_robot_at_start, odometry)?,
+            senses,
+            odometry,
             memory: None,
         })
     }
@@ -95,9 +97,9 @@ impl MatchingLocalizer {
 }
 
 impl HeadingMemory {
-    fn new(body: &BodyState, config: &MatchingConfig) -> Self {
+    fn new(body: &BodyState, senses: &ProprioceptionConfig) -> Self {
         Self {
-            filter: HeadingFilter::new(config.bias),
+            filter: HeadingFilter::new(senses.gyro_bias),
             keyframes: Vec::new(),
             begin_ns: body.time_ns,
             last_ns: body.time_ns,
@@ -107,14 +109,19 @@ impl HeadingMemory {
     }
 
     /// Goes on to the time of a frame. While the robot rests, proprioception learns the gyroscope's bias.
-    fn advance(&mut self, body: &BodyState, config: &MatchingConfig) {
+    fn advance(
+        &mut self,
+        body: &BodyState,
+        senses: &ProprioceptionConfig,
+        config: &MatchingConfig,
+    ) {
         let passed_s = body.time_ns.saturating_sub(self.last_ns) as f64 * 1e-9;
         self.last_ns = self.last_ns.max(body.time_ns);
         self.filter
-            .predict(passed_s, config.heading_drift, config.bias_drift);
-        let still = body.stands_level && body.angular_velocity_radps.amax() < config.rest_rate;
+            .predict(passed_s, config.heading_drift, senses.gyro_bias_drift);
+        let still = body.stands_level && body.angular_velocity_radps.amax() < senses.still_rate;
         self.still_s = if still { self.still_s + passed_s } else { 0.0 };
-        if self.still_s > config.rest_time {
+        if self.still_s > senses.still_time {
             self.rested_s += passed_s;
             let noise_radps = config.rest_noise / self.rested_s.sqrt();
             self.filter
@@ -196,12 +203,12 @@ impl Localizer for MatchingLocalizer {
     ) -> Result<(), LocalizerError> {
         self.odometry.correct(body, planes, view)?;
         let stand = self.stand(body)?;
-        let config = &self.config;
+        let (config, senses) = (&self.config, &self.senses);
         let memory = self
             .memory
-            .get_or_insert_with(|| HeadingMemory::new(body, config));
+            .get_or_insert_with(|| HeadingMemory::new(body, senses));
         let before_rad = memory.filter.error_rad();
-        memory.advance(body, config);
+        memory.advance(body, senses, config);
         if body.time_ns.saturating_sub(memory.begin_ns) as f64 * 1e-9 > config.settling {
             let beams = profile::beams(planes, config);
             let known = if beams.len() < config.least_beams {

@@ -10,6 +10,7 @@ use segmentation::Planes;
 use sensing::Intrinsics;
 
 use super::*;
+use crate::odometry::OdometryLocalizerConfig;
 use testkit::state_at;
 
 const FRAME_NS: u64 = 80_000_000;
@@ -114,15 +115,19 @@ struct Drive {
     rate_radps: f64,
 }
 
+fn odometry(start: Pose<Map, Robot>) -> OdometryLocalizer {
+    OdometryLocalizer::new(start, 0.08, OdometryLocalizerConfig::default()).unwrap()
+}
+
+fn matching(start: Pose<Map, Robot>) -> MatchingLocalizer {
+    let senses = ProprioceptionConfig::default();
+    MatchingLocalizer::new(odometry(start), senses, MatchingConfig::default()).unwrap()
+}
+
 impl Drive {
     fn new(sides: &[Side], drift_radps: f64) -> Self {
         Self {
-            localizer: MatchingLocalizer::new(
-                Pose::identity(),
-                OdometryLocalizerConfig::default(),
-                MatchingConfig::default(),
-            )
-            .unwrap(),
+            localizer: matching(Pose::identity()),
             sides: sides.to_vec(),
             number: 0,
             error_rad: 0.0,
@@ -238,11 +243,9 @@ fn a_wall_that_moves_is_not_followed() {
 #[test]
 fn empty_or_broken_frames_change_nothing() {
     let pose = Pose::from_yaw(0.3, -0.2, 0.0, 0.5);
-    let mut plain = OdometryLocalizer::new(pose, OdometryLocalizerConfig::default()).unwrap();
+    let mut plain = odometry(pose);
     let mut drive = Drive::new(&[], 0.0);
-    let config = MatchingConfig::default();
-    drive.localizer =
-        MatchingLocalizer::new(pose, OdometryLocalizerConfig::default(), config).unwrap();
+    drive.localizer = matching(pose);
     let mut broken = frame(&CORNER, &Pose::identity(), 1);
     for (index, point) in broken.points_in_robot_m.iter_mut().enumerate() {
         point[index % 3] = [f32::NAN, f32::INFINITY][index % 2];

@@ -6,7 +6,6 @@ use nalgebra::{Matrix4, Vector3, Vector4};
 use super::config::MonteCarloConfig;
 use super::motion::TorsoMotion;
 use super::particle::{Particle, PoseBins, TorsoPose};
-use super::tuning::BeliefTuning;
 
 /// Where the torso is believed to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,13 +56,13 @@ impl Belief {
         &self,
         before: &Self,
         motion: Option<&TorsoMotion>,
-        tuning: &BeliefTuning,
+        one_place: [f64; 2],
     ) -> bool {
         let mut expected = before.torso;
         if let Some(motion) = motion {
             motion.apply(&mut expected, &[0.0; 6]);
         }
-        self.holds(&expected, tuning.same)
+        self.holds(&expected, one_place)
     }
 
     /// Whether a pose is within so many m and rad of this.

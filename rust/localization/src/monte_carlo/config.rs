@@ -90,7 +90,7 @@ settings! {
         bins: [f64; 2] = [0.2, 0.26], "m, rad", POSITIVE;
         /// How far what is sampled may be from the distribution over those cells (Kullback-Leibler), and the quantile that holds with.
         kld: [f64; 2] = [0.05, 2.33], "1", POSITIVE, "Fox 2003, equation (7)";
-        /// Guesses nearer to each other than this are one cluster: m, rad.
+        /// Guesses nearer to each other than this are one place: a cluster, a belief that goes on, an estimate that follows: m, rad.
         cluster: [f64; 2] = [0.3, 0.35], "m, rad", POSITIVE;
         /// Jitter of drawn guesses while the robot is searching: m, rad.
         search_jitter: [f64; 2] = [0.03, 0.04], "m, rad", POSITIVE;
@@ -121,10 +121,6 @@ settings! {
         /// The estimate follows only what is off by more than this: in the plane, m, in height, m, in heading, rad. In height it is less
         /// than what is climbed as a step, or level floor would become one.
         follow_bands: [f64; 3] = [0.02, 0.004, 0.02], "m, m, rad", POSITIVE;
-        /// The estimate follows all at once where it is off by more than this: m, rad.
-        follow_within: [f64; 2] = [0.3, 0.35], "m, rad", POSITIVE;
-        /// Radius and height of what the robot needs to stand somewhere: asked voxel by voxel of it.
-        body: [f64; 2] = [0.1, 0.55], "m", above_to(0.0, 5.0);
         /// Numbers that few will want to turn.
         tuning: MonteCarloTuning;
     }
@@ -187,7 +183,6 @@ mod tests {
             ),
             (refused(|c| c.confirm_directions = 13), "confirm_directions"),
             (refused(|c| c.recovery_rates[1] = 2.5), "recovery_rates.1"),
-            (refused(|c| c.body[0] = 1e6), "body.0"),
             (refused(|c| c.mixture = [0.5, 0.1, 0.1]), "mixture"),
             (refused(|c| c.mixture = [0.9, 0.1, 1e-12]), "mixture"),
             (refused(|c| c.reach[1] = 1e9), "mixture"),

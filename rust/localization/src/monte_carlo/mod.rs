@@ -31,8 +31,10 @@ use settings::{MakeError, Part, TableDescription, read};
 use std::sync::Arc;
 
 use geometry::{Map, Odometry, Pose, Robot};
+use known_map::StandingRoom;
 use mapping::FloorView;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use robot::Extent;
 use segmentation::Planes;
 use settings::{ConfigError, Table};
 
@@ -62,7 +64,11 @@ pub(crate) const PART: LocalizerPart = Part {
                 "navigation.localizer: monte_carlo has to be told a static map".to_owned(),
             )
         })?;
-        let map = Arc::new(StaticMap::new(told, &config)?);
+        let map = Arc::new(StaticMap::new(
+            told,
+            room(&needs.body.description().body),
+            &config,
+        )?);
         Ok(Box::new(MonteCarloLocalizer::new(
             map,
             needs.start,
@@ -70,6 +76,16 @@ pub(crate) const PART: LocalizerPart = Part {
         )?))
     },
 };
+
+/// What the robot needs to stand somewhere, asked voxel by voxel of the map: it may stand beside a wall, turned as its body is narrowest.
+fn room(body: &Extent) -> StandingRoom {
+    let sides_m = [body.depth, body.width].into_iter().flatten();
+    let radius_m = sides_m.map(|side_m| 0.5 * side_m);
+    StandingRoom {
+        radius_m: radius_m.fold(body.radius, f64::min),
+        height_m: body.height,
+    }
+}
 
 /// Monte Carlo localization in a static map: tracks from a start that is told, finds the place where none is, and finds it again
 /// where frames stop to fit.
@@ -257,7 +273,7 @@ fn follow(
     let [from, to] = [before, found].map(|frame| *frame * *odometry_from_robot);
     let off_m = to.origin().inner - from.origin().inner;
     let turn_rad = geometry::wrap_angle(to.yaw_rad() - from.yaw_rad());
-    let [far_m, far_rad] = config.follow_within;
+    let [far_m, far_rad] = config.cluster;
     if off_m.norm() > far_m || turn_rad.abs() > far_rad {
         return *found;
     }

@@ -76,8 +76,7 @@ impl PlaceSearch {
         let stays = |found: &Belief| {
             let before = self.best.as_ref();
             found.share >= self.config.least_share
-                && before
-                    .is_some_and(|before| found.goes_on(before, motion, &self.config.tuning.belief))
+                && before.is_some_and(|before| found.goes_on(before, motion, self.config.cluster))
         };
         if !found.as_ref().is_some_and(stays) {
             self.advantage = Directions::new(self.config.tuning.search.directions);

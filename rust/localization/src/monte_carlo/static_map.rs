@@ -18,16 +18,19 @@ pub struct StaticMap {
 }
 
 impl StaticMap {
-    /// What the localizer needs of a map, the ground among it.
-    pub fn new(map: &KnownMap, config: &MonteCarloConfig) -> Result<Self, ConfigError> {
+    /// What the localizer needs of a map, the ground among it, where a robot has room to stand that needs so much.
+    pub fn new(
+        map: &KnownMap,
+        room: StandingRoom,
+        config: &MonteCarloConfig,
+    ) -> Result<Self, ConfigError> {
         config.check()?;
         let by_field = config.range_model == RangeModel::LikelihoodField;
-        let [radius_m, height_m] = config.body;
         let distances = || map.distances().map(Arc::clone);
         Ok(Self {
             ranges: Arc::clone(map.ranges()?),
             distances: by_field.then(distances).transpose()?,
-            places: map.standing(StandingRoom { radius_m, height_m })?,
+            places: map.standing(room)?,
         })
     }
 
@@ -45,11 +48,15 @@ mod tests {
     fn settings_are_looked_at_before_the_map_is_made_with_them() {
         let ground = [[[0.0, 0.0, -0.04], [0.4, 0.4, 0.0]]];
         let map = KnownMap::of_boxes(&ground, 0.04).unwrap();
+        let room = StandingRoom {
+            radius_m: 0.1,
+            height_m: 0.55,
+        };
         let config = MonteCarloConfig {
-            body: [-0.1, 0.55],
+            beams: 0,
             ..MonteCarloConfig::default()
         };
-        let error = StaticMap::new(&map, &config).unwrap_err();
-        assert_eq!(error.key, "navigation.monte_carlo.body.0");
+        let error = StaticMap::new(&map, room, &config).unwrap_err();
+        assert_eq!(error.key, "navigation.monte_carlo.beams");
     }
 }

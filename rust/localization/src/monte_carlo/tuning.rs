@@ -118,8 +118,6 @@ settings! {
         seed_cell: f64 = 0.5, "1", POSITIVE;
         /// Steps of the mean's way to the middle of its cluster.
         shifts: usize = 4, "1", within(1.0, 1000.0);
-        /// A belief that is off by less than this, m and rad, from where the last one moved to goes on.
-        same: [f64; 2] = [0.3, 0.35], "m, rad", POSITIVE;
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use geometry::{Camera, Grid, Lattice, PlanarPose, Pose, Robot};
-use known_map::KnownMap;
+use known_map::{KnownMap, StandingRoom};
 use mapping::{FloorView, Surface};
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use segmentation::Planes;
@@ -113,7 +113,11 @@ impl World {
 
     pub(super) fn map(&self, config: &MonteCarloConfig) -> Arc<StaticMap> {
         let known = KnownMap::of_boxes(&self.mapped, SIDE_M).unwrap();
-        Arc::new(StaticMap::new(&known, config).unwrap())
+        let room = StandingRoom {
+            radius_m: 0.1,
+            height_m: 0.55,
+        };
+        Arc::new(StaticMap::new(&known, room, config).unwrap())
     }
 
     /// Distance along a ray, and whether its end is ground: the top of something that is no higher.

@@ -9,15 +9,5 @@ settings! {
         height_gain: f64 = 0.1, "1", SHARE, "000, section IV";
         /// A floor further above or below the robot than this is another level, and does not draw the height.
         height_gate: f64 = 0.012, "m", POSITIVE;
-        /// Numbers that few will want to turn.
-        tuning: OdometryTuning;
-    }
-}
-
-settings! {
-    /// Where the localizer `odometry` looks at the floor.
-    pub struct OdometryTuning("navigation.odometry.tuning") {
-        /// Distance from the middle between the feet, to each side, of the places under the soles at which the floor is looked up.
-        sole_aside: f64 = 0.04, "m", POSITIVE;
     }
 }

@@ -25,6 +25,7 @@ pub(crate) const PART: LocalizerPart = Part {
         let config = read(needs.tables, "odometry")?;
         Ok(Box::new(OdometryLocalizer::new(
             needs.start_or_origin(),
+            needs.stance_m,
             config,
         )?))
     },
@@ -34,19 +35,23 @@ pub(crate) const PART: LocalizerPart = Part {
 #[derive(Debug, Clone)]
 pub struct OdometryLocalizer {
     config: OdometryLocalizerConfig,
+    /// Distance from the middle between the feet, to each side, of the middles of the soles, m.
+    sole_aside_m: f64,
     map_from_robot_at_start: Pose<Map, Robot>,
     map_from_odometry: Option<Pose<Map, Odometry>>,
 }
 
 impl OdometryLocalizer {
-    /// Starts at a pose that is told.
+    /// Starts at a pose that is told, for a robot whose soles stand so far apart, m.
     pub fn new(
         map_from_robot_at_start: Pose<Map, Robot>,
+        stance_m: f64,
         config: OdometryLocalizerConfig,
     ) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self {
             config,
+            sole_aside_m: 0.5 * stance_m,
             map_from_robot_at_start,
             map_from_odometry: None,
         })
@@ -77,7 +82,7 @@ impl OdometryLocalizer {
     /// another: then nothing is sure.
     fn floor_above_m(&self, map_from_robot: &Pose<Map, Robot>, view: &FloorView) -> Option<f64> {
         let (mut sum_m, mut count) = (0.0, 0.0);
-        let aside_m = self.config.tuning.sole_aside;
+        let aside_m = self.sole_aside_m;
         for y_m in [-aside_m, 0.0, aside_m] {
             let place = map_from_robot.inner * Point3::new(0.0, y_m, 0.0);
             if let Surface::Floor(floor_m) = view.at(place.x, place.y) {
@@ -142,8 +147,10 @@ mod tests {
         )
     }
 
+    const STANCE_M: f64 = 0.08;
+
     fn localizer(start: Pose<Map, Robot>) -> OdometryLocalizer {
-        OdometryLocalizer::new(start, OdometryLocalizerConfig::default()).unwrap()
+        OdometryLocalizer::new(start, STANCE_M, OdometryLocalizerConfig::default()).unwrap()
     }
 
     proptest! {
@@ -208,7 +215,7 @@ mod tests {
             height_gain: 1.5,
             ..OdometryLocalizerConfig::default()
         };
-        let message = OdometryLocalizer::new(Pose::identity(), config)
+        let message = OdometryLocalizer::new(Pose::identity(), STANCE_M, config)
             .unwrap_err()
             .to_string();
         assert_eq!(

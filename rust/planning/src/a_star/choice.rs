@@ -18,7 +18,8 @@ impl AStar {
         if followed.end == PathEnd::Border && !self.goal_inside && self.is_inside(goal) {
             return None;
         }
-        let mut rest = followed.rest(&self.terrain, &self.links, stand, &self.config)?;
+        let by = (&self.config, &self.climbing.levels);
+        let mut rest = followed.rest(&self.terrain, &self.links, stand, by)?;
         rest.annotate(&self.terrain, &self.config);
         Some(rest)
     }

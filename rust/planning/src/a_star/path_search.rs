@@ -40,9 +40,10 @@ impl AStar {
     fn known(&mut self, stand: &StandingAt, start: usize, goal: &Goal) -> (Option<Route>, bool) {
         let (terrain, links) = (&self.terrain, &self.links);
         let (height_m, config) = (stand.height_m, &self.config);
+        let by = (config, &self.climbing.levels);
         let tuning = &config.tuning.path_search;
         let search = &mut self.search;
-        let ends = PathEnds::new(terrain, &self.outside, goal, height_m, config);
+        let ends = PathEnds::new(terrain, &self.outside, goal, height_m, by);
         let known = run(search, terrain, links, &ends, start, Fit::Holds);
         let straight = ends.away(start) + tuning.far_more / terrain.lattice.cell_m;
         let is_around =
@@ -54,7 +55,7 @@ impl AStar {
             return (known, false);
         }
         self.outside.look_around(terrain, goal);
-        let mut ends = PathEnds::new(terrain, &self.outside, goal, height_m, config);
+        let mut ends = PathEnds::new(terrain, &self.outside, goal, height_m, by);
         ends.around = true;
         (run(search, terrain, links, &ends, start, Fit::Holds), true)
     }
@@ -71,7 +72,8 @@ impl AStar {
         let (terrain, links) = (&self.terrain, &self.links);
         let config = &self.config;
         let (guess_m, refusal) = (config.tuning.path_search.guess, &config.tuning.refusal);
-        let mut ends = PathEnds::new(terrain, &self.outside, goal, stand.height_m, config);
+        let by = (config, &self.climbing.levels);
+        let mut ends = PathEnds::new(terrain, &self.outside, goal, stand.height_m, by);
         ends.around = around;
         let search = &mut self.search;
         let hoped = |route: &Route| {

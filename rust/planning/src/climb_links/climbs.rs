@@ -162,7 +162,7 @@ impl ClimbLinks {
     fn end(&mut self, scene: &Scene<'_>, entry: &Entry, way: Way, on: &Landing, cost_m: f64) {
         let (goal, stair) = (&scene.goal, &on.stair);
         let tuning = &scene.config.tuning;
-        let tolerance_m = tuning.room_at_edges.tolerance;
+        let tolerance_m = scene.climbing.levels.same;
         let line = stair.front.as_line();
         let Some(at_m) = self.strides.last().map(|stride| stride.to_m) else {
             return;
@@ -185,7 +185,7 @@ impl ClimbLinks {
         } else {
             let away_m = distance_m(at_m, [goal.x_m, goal.y_m]);
             let on_goals_level = goal.height_m.is_none_or(|height_m| {
-                same_level(height_m, stair.height_m(), tuning.ends.tolerance)
+                same_level(height_m, stair.height_m(), scene.climbing.levels.told)
             });
             if away_m <= goal.radius_m && on_goals_level {
                 let way = Way {

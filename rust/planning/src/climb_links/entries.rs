@@ -88,7 +88,7 @@ impl ClimbLinks {
         let line = stair.front.as_line();
         let toes_m = scene.climbing.set_for(rise_m).approach_x;
         let before_m = toes_m - 0.5 * scene.feet.length_m;
-        let tolerance_m = scene.config.tuning.room_at_edges.tolerance;
+        let tolerance_m = scene.climbing.levels.same;
         // Unseen ground may be of the robot's own level: it is no way up to another one.
         let own = same_level(level_m, scene.stand.height_m, tolerance_m);
         let run = run_to_cell(scene, &line, offset_m, before_m, -1.0, |height| {
@@ -131,7 +131,7 @@ impl ClimbLinks {
         }
         let clamped_m = offset_m.clamp(-range_m, range_m);
         if let Some(level_m) = level_before(terrain, &tuning.directed_stairs, &line, clamped_m)
-            && two_levels(level_m, stand.height_m, tuning.room_at_edges.tolerance)
+            && two_levels(level_m, stand.height_m, scene.climbing.levels.same)
             && before_m > entering.reach
         {
             return;
@@ -163,7 +163,7 @@ impl ClimbLinks {
     /// Whether the robot stands on something too short to walk on: a stair that is known, or nothing that is known.
     fn on_short_tread(&self, scene: &Scene<'_>) -> bool {
         let (stand, stride_m) = (&scene.stand, scene.config.stride);
-        let tolerance_m = scene.config.tuning.room_at_edges.tolerance;
+        let tolerance_m = scene.climbing.levels.same;
         let outside_m = scene.config.tuning.entries.outside;
         let under = self.stairs.all.iter().step_by(2).find(|face| {
             let outline = StairOutline::of(&face.stair);

@@ -63,7 +63,7 @@ pub(crate) fn inside_m(terrain: &Terrain, from_m: [f64; 2], towards_m: [f64; 2])
 pub(crate) fn walkable(scene: &Scene<'_>, from_m: [f64; 2], to_m: [f64; 2], level_m: f64) -> bool {
     let terrain = scene.terrain;
     let tuning = &scene.config.tuning.room_at_edges;
-    let tolerance_m = tuning.tolerance;
+    let tolerance_m = scene.climbing.levels.same;
     let stride_m = terrain.room.stride * terrain.lattice.cell_m;
     let pieces = (distance_m(from_m, to_m) / stride_m).ceil();
     (0..=pieces as usize).all(|piece| {

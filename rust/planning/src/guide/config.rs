@@ -21,8 +21,6 @@ settings! {
         radius: f64 = 0.2, "m", POSITIVE;
         /// Beyond stairs the planner is sent to where the way has been level for this long.
         landing: f64 = 0.3, "m", NOT_NEGATIVE;
-        /// Heights of places, or of the robot and a place, that differ by more than this are two levels.
-        level: f64 = 0.02, "m", NOT_NEGATIVE;
         /// Obstacles bar no place that is nearer to the robot than this: it may stand beside obstacle cells of its own.
         own: f64 = 0.3, "m", NOT_NEGATIVE;
     }

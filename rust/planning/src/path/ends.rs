@@ -1,6 +1,7 @@
 //! Routes to the goal: where they may end, in the goal's disc, or at the window's border when the goal lies outside.
 
 use geometry::{same_level, two_levels};
+use stairs::LevelsConfig;
 use terrain::Terrain;
 
 use crate::climb_links::{ClimbLinks, Fit};
@@ -35,13 +36,13 @@ impl<'a> PathEnds<'a> {
         outside: &'a OutsideWindow,
         goal: &Goal,
         height_m: f64,
-        config: &AStarConfig,
+        (config, levels): (&AStarConfig, &LevelsConfig),
     ) -> Self {
         let tuning = &config.tuning.ends;
         let missing_m = goal
             .height_m
             .map_or(0.0, |goal_m| (goal_m - height_m).abs());
-        let blind_m = if two_levels(missing_m, 0.0, tuning.tolerance) {
+        let blind_m = if two_levels(missing_m, 0.0, levels.told) {
             tuning.blind + config.climb_cost * missing_m / tuning.rise
         } else {
             0.0
@@ -53,7 +54,7 @@ impl<'a> PathEnds<'a> {
             blind: blind_m / terrain.lattice.cell_m,
             goal: *goal,
             pull: tuning.pull,
-            tolerance_m: tuning.tolerance,
+            tolerance_m: levels.told,
             middle,
             inside: middle.is_some(),
             around: false,

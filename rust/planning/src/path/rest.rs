@@ -1,12 +1,16 @@
 //! What is left of the path that is being followed, where it holds: its passed part cut off, its steps as the stairs are seen now.
 
 use geometry::same_level;
+use stairs::LevelsConfig;
 use terrain::{StandingAt, Terrain};
 
 use crate::climb_links::room_at_edges::distance_m;
 use crate::climb_links::{ClimbLinks, Fit, Stride};
 use crate::tuning::FollowedPathTuning;
 use crate::{AStarConfig, Climb, Path, PathEnd, Sidle};
+
+/// By what an edge is the one that it was.
+type Edges<'a> = (&'a FollowedPathTuning, &'a LevelsConfig);
 
 impl Path {
     /// What is left of it where it holds.
@@ -15,9 +19,10 @@ impl Path {
         terrain: &Terrain,
         links: &ClimbLinks,
         stand: &StandingAt,
-        config: &AStarConfig,
+        (config, levels): (&AStarConfig, &LevelsConfig),
     ) -> Option<Self> {
         let tuning = &config.tuning.followed_path;
+        let edges = (tuning, levels);
         let mut rest = rest_of(self, stand.at_m, (config.stray, tuning))?;
         let left_m = rest.points_m.len() as f64 * terrain.lattice.cell_m;
         if self.end == PathEnd::Border && left_m < tuning.horizon {
@@ -27,13 +32,13 @@ impl Path {
             let tread = rest.tread_before(index);
             let climb = &mut rest.climbs[index];
             let level_m = (climb.from_point == 0).then_some(stand.height_m);
-            refresh(climb, (level_m, tread), &mut rest.points_m, (links, tuning))?;
+            refresh(climb, (level_m, tread), &mut rest.points_m, (links, edges))?;
         }
-        if another_lane_is_roomier(&rest, (links, tuning), config.climb_cost) {
+        if another_lane_is_roomier(&rest, (links, edges), config.climb_cost) {
             return None;
         }
         let holds = holds(&rest, terrain) && passages_hold(&rest, terrain);
-        (holds && walks_on_level(&rest, terrain, tuning.tolerance)).then_some(rest)
+        (holds && walks_on_level(&rest, terrain, levels.same)).then_some(rest)
     }
 
     /// The point at which the robot stands on a tread before a climb: where it is, or where the climb before ended at these
@@ -107,11 +112,11 @@ fn refresh(
     climb: &mut Climb,
     (mut level_m, tread): (Option<f64>, Option<usize>),
     points_m: &mut [[f64; 2]],
-    (links, tuning): (&ClimbLinks, &FollowedPathTuning),
+    (links, edges): (&ClimbLinks, Edges<'_>),
 ) -> Option<()> {
     let first = climb.from_point;
     for (i, step) in climb.steps.iter_mut().enumerate() {
-        let now = seen_now(step, level_m, (links, tuning))?;
+        let now = seen_now(step, level_m, (links, edges))?;
         level_m = Some(now.step.stair.height_m());
         let line = now.step.stair.front.as_line();
         let tread = if i == 0 { tread } else { Some(first + i) };
@@ -142,7 +147,7 @@ fn refresh(
 fn seen_now<'a>(
     step: &crate::Step,
     level_m: Option<f64>,
-    (links, tuning): (&'a ClimbLinks, &FollowedPathTuning),
+    (links, (tuning, levels)): (&'a ClimbLinks, Edges<'_>),
 ) -> Option<&'a Stride> {
     let before = step.stair.front.as_line();
     let rises_m = |stride: &Stride| (stride.step.rise_m - step.rise_m).abs();
@@ -151,12 +156,12 @@ fn seen_now<'a>(
         let line = now.stair.front.as_line();
         let from_m = now.stair.height_m() - now.rise_m;
         stride.limit.is_none()
-            && level_m.is_none_or(|level_m| same_level(from_m, level_m, tuning.tolerance))
+            && level_m.is_none_or(|level_m| same_level(from_m, level_m, levels.same))
             && line.askew_rad(&before) <= tuning.turned
             && line.beyond_m(step.crossing_m).abs() <= tuning.moved
             && line.offset_m(step.crossing_m).abs() <= line.half_m()
-            && same_level(now.stair.height_m(), step.stair.height_m(), tuning.lifted)
-            && rises_m(stride) <= tuning.lifted
+            && same_level(now.stair.height_m(), step.stair.height_m(), levels.same)
+            && rises_m(stride) <= levels.same
     };
     let unlike_m =
         |stride: &Stride| distance_m(stride.step.crossing_m, step.crossing_m) + rises_m(stride);
@@ -168,13 +173,13 @@ fn seen_now<'a>(
 /// beside the stairs: when the path was found but a piece of it may have been seen. `climb_cost` as configured.
 fn another_lane_is_roomier(
     rest: &Path,
-    (links, tuning): (&ClimbLinks, &FollowedPathTuning),
+    (links, edges): (&ClimbLinks, Edges<'_>),
     climb_cost: f64,
 ) -> bool {
     let Some(climb) = rest.climbs.first().filter(|climb| climb.from_point > 0) else {
         return false;
     };
-    let Some(kept) = (climb.steps.first()).and_then(|step| seen_now(step, None, (links, tuning)))
+    let Some(kept) = (climb.steps.first()).and_then(|step| seen_now(step, None, (links, edges)))
     else {
         return false;
     };
@@ -189,7 +194,7 @@ fn another_lane_is_roomier(
         .filter(|lane| lane.step.stair == kept.step.stair);
     lanes.any(|lane| {
         let aside_m = distance_m(lane.step.crossing_m, crossed_m);
-        (kept.beside - lane.beside) * climb_m > aside_m + tuning.roomier
+        (kept.beside - lane.beside) * climb_m > aside_m + edges.0.roomier
     })
 }
 

@@ -196,7 +196,13 @@ fn house() -> impl Strategy<Value = FloorView> {
 /// Cost of the cheapest route over what a planner has just read.
 fn cost(planner: &mut AStar, start: [f64; 2]) -> f64 {
     let (terrain, links) = (&planner.terrain, &planner.links);
-    let ends = PathEnds::new(terrain, &planner.outside, &GOAL, 0.0, &planner.config);
+    let ends = PathEnds::new(
+        terrain,
+        &planner.outside,
+        &GOAL,
+        0.0,
+        (&planner.config, &planner.climbing.levels),
+    );
     let start = terrain.index_at(start).unwrap();
     let route = run(
         &mut planner.search,

@@ -59,6 +59,8 @@ settings! {
         /// Place of the heels past the front edge of what goes on level, unless `front_x_limit` asks for more; on the way down
         /// they come down farther by `tuning.spare_below`.
         level_x: f64 = 0.015, "m", ANY;
+        /// Which heights are one level.
+        levels: LevelsConfig;
         /// Parameters of a step up.
         ascend: ParameterSet = ParameterSet::ascend(), "-", ANY;
         /// Parameters of a step down.
@@ -67,6 +69,18 @@ settings! {
         tuning: ClimbingTuning;
     }
     check ClimbingConfig::goes_up_and_down;
+}
+
+settings! {
+    /// Which heights are one level, for terrain, planner and behaviour alike.
+    pub struct LevelsConfig("navigation.climbing.levels") {
+        /// Heights that differ by no more than this are one level: some four times what two measured heights differ by (standard
+        /// deviation of both: 1.1 mm each, and what the robot's own height is off), and less than the least step, with its error.
+        same: f64 = 0.012, "m", NOT_NEGATIVE, "docs/results/stairs.md, docs/results/floor_map.md";
+        /// A height that is told from outside, such as a goal's, is a level when they differ by no more than this: over a long way the
+        /// robot's own height drifts.
+        told: f64 = 0.02, "m", NOT_NEGATIVE, "docs/results/odometry.md; the judge allows a goal as much";
+    }
 }
 
 settings! {

@@ -5,8 +5,8 @@ use settings::{ConfigError, NOT_NEGATIVE, POSITIVE, SHARE, at_least, require, se
 settings! {
     /// How straight lines are laid through segments, through points of which some lie anywhere, and along the sides of a hull.
     pub struct LinesTuning("navigation.stairs.tuning.lines") {
-        /// Cosine of the largest angle between a line and the mean of its segments; beyond, the segments lie beside each other
-        /// and the line has their mean direction.
+        /// Cosine of the largest angle between a line and the mean of its segments, and between a long piece of a hull and its side;
+        /// beyond, the segments lie beside each other and the line has their mean direction.
         agreement: f64 = 0.9, "1", SHARE;
         /// Least number of points through which a line is laid.
         fewest_points: usize = 6, "1", at_least(1.0);
@@ -18,8 +18,6 @@ settings! {
         spanned: f64 = 0.5, "1", SHARE;
         /// Pieces of a hull that are longer must point along the side to which they belong.
         long_piece: f64 = 0.025, "m", NOT_NEGATIVE;
-        /// Cosine of the largest angle between a long piece of a hull and its side.
-        piece_parallel: f64 = 0.9, "1", SHARE;
     }
 }
 
@@ -85,13 +83,12 @@ settings! {
         overlap: f64 = 0.05, "m", NOT_NEGATIVE;
         /// Surfaces whose middle lies nearer to the robot's origin have no front, as no way leads to them.
         nearest: f64 = 0.001, "m", POSITIVE;
-        /// Share of `min_depth` that a surface must be deep to lie between the robot and its own level.
-        between_depth: f64 = 0.5, "1", NOT_NEGATIVE;
         /// How many fringes a point may lie off the side of a hull and still belong to it.
         side_window: f64 = 3.0, "1", POSITIVE;
         /// Share of the places beyond a side that must show that the surface ends there.
         side_ends: f64 = 0.5, "1", SHARE;
-        /// Share of `min_depth` that a side must be deep; where the picture cuts a surface to a corner, that is no side.
+        /// Share of `min_depth` that a surface must be deep to lie between the robot and its own level, and that a side must be deep;
+        /// where the picture cuts a surface to a corner, that is no side.
         side_depth: f64 = 0.5, "1", NOT_NEGATIVE;
         /// Share of a stair's places that must show the surface, of those that show anything.
         solid: f64 = 0.6, "1", SHARE;

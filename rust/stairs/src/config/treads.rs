@@ -68,10 +68,9 @@ settings! {
         looked_at: usize = 11, "1", at_least(1.0);
         /// Share of the places that are seen which must show something lower.
         seen_through: f64 = 0.6, "1", SHARE;
-        /// Share of a stair's places from which on it lies on a slope of the map, and is no stair.
+        /// Share of a stair's places from which on it lies on a slope of the map, and is no stair; and share of the places along its
+        /// front beyond which it lies along a slope, which leads to it.
         on_slope: f64 = 0.5, "1", SHARE;
-        /// Share of the places along a front beyond which it lies along a slope of the map, which leads to it.
-        along_slope: f64 = 0.5, "1", SHARE;
         /// Places along a front that are looked at for a slope before it, as shares of its length.
         front_places: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9], "1", SHARE;
         /// How far before and behind a front the map is asked for a slope, besides on it.

@@ -240,7 +240,7 @@ fn is_own_level(found: &[StairSighting], index: usize, config: &StairsConfig) ->
     let reach_m = cuts_m(&found[index].hull).map_or(0.0, |[enters_m, _]| enters_m);
     let between = |other: &StairSighting| {
         cuts_m(&other.hull).is_some_and(|[enters_m, leaves_m]| {
-            let deep = leaves_m - enters_m > config.min_depth * tuning.between_depth;
+            let deep = leaves_m - enters_m > config.min_depth * tuning.side_depth;
             let before = enters_m > 0.0 && leaves_m < reach_m + tuning.overlap;
             deep && before && !own(&other.stair)
         })

@@ -65,6 +65,6 @@ fn is_straight(
         let piece: Vector2<f64> = b - a;
         let near = [a, b].iter().all(|p| line.offset_m(p).abs() <= fringe_m);
         near && (piece.norm() < tuning.long_piece
-            || piece.dot(&line.along) > tuning.piece_parallel * piece.norm())
+            || piece.dot(&line.along) > tuning.agreement * piece.norm())
     })
 }

@@ -157,7 +157,7 @@ fn is_of_slope(stair: &Stair<Map>, floor: &FloorView, tuning: &StairsTuning) -> 
     });
     let (all, all_along) = (stair.places(&tuning.places).count(), front_places.len());
     on as f64 >= memory.on_slope * all as f64
-        || along.count() as f64 > memory.along_slope * all_along as f64
+        || along.count() as f64 > memory.on_slope * all_along as f64
 }
 
 /// Whether a tread lies under the robot.

@@ -1,10 +1,18 @@
 //! Finds steps among the stairs that are known.
 
-use geometry::{Map, PlanarPose, angle_between, distance_m};
+use geometry::{Map, PlanarPose, angle_between, distance_m, same_level};
 use planning::Step;
-use stairs::{ClimbingConfig, Stair, Staircase};
+use stairs::{ClimbingConfig, LevelsConfig, Stair, Staircase};
 
 use crate::climbing::tuning::StepLookupTuning;
+
+/// Which sights are of the same step.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Lookup {
+    pub(crate) tuning: StepLookupTuning,
+    /// Which heights are one level.
+    pub(crate) levels: LevelsConfig,
+}
 
 /// By what steps are found.
 #[derive(Debug, Clone, Copy)]
@@ -12,7 +20,7 @@ pub(crate) struct StepRules<'a> {
     /// Which changes of height are steps.
     pub(crate) climbing: &'a ClimbingConfig,
     /// Which sights are of the same step.
-    pub(crate) lookup: &'a StepLookupTuning,
+    pub(crate) lookup: &'a Lookup,
 }
 
 /// From the front edge of a step to that of the next one, along the way, m.
@@ -21,32 +29,32 @@ pub(crate) fn depth_m(next: &Step, after: &Step) -> f64 {
 }
 
 /// Whether a stair is where the feet would come to stand on a step.
-pub(crate) fn covers(stair: &Stair<Map>, step: &Step, lookup: &StepLookupTuning) -> bool {
-    let (on_it_m, margin_m) = (lookup.on_it, lookup.margin);
+pub(crate) fn covers(stair: &Stair<Map>, step: &Step, lookup: &Lookup) -> bool {
+    let (on_it_m, margin_m) = (lookup.tuning.on_it, lookup.tuning.margin);
     let (sin, cos) = libm::sincos(step.stair.front.heading_rad());
     let [x_m, y_m] = step.crossing_m;
     let place_m = [x_m + cos * on_it_m, y_m + sin * on_it_m];
-    (step.stair.height_m() - stair.height_m()).abs() < lookup.same_height
+    same_level(step.stair.height_m(), stair.height_m(), lookup.levels.same)
         && stair.front.beyond_m(place_m) > -margin_m
         && stair.back.beyond_m(place_m) < margin_m
 }
 
 /// Whether a stair is the one of a step.
-pub(crate) fn is_same(step: &Step, stair: &Stair<Map>, lookup: &StepLookupTuning) -> bool {
+pub(crate) fn is_same(step: &Step, stair: &Stair<Map>, lookup: &Lookup) -> bool {
     let turned_rad = angle_between(step.stair.front.heading_rad(), stair.front.heading_rad());
     let same_place_m = if step.stair.front_fit.is_some() {
-        lookup.same_place
+        lookup.tuning.same_place
     } else {
-        lookup.vague_place
+        lookup.tuning.vague_place
     };
-    (step.stair.height_m() - stair.height_m()).abs() < lookup.same_height
+    same_level(step.stair.height_m(), stair.height_m(), lookup.levels.same)
         && stair.front.beyond_m(step.crossing_m).abs() < same_place_m
-        && turned_rad.abs() < lookup.same_heading
+        && turned_rad.abs() < lookup.tuning.same_heading
 }
 
 /// The step behind another by the stairs alone: the nearest whose change of height a parameter set takes.
 pub(crate) fn following(last: &Step, stairs: &Staircase, rules: &StepRules<'_>) -> Option<Step> {
-    let (least_m, joint_m) = (rules.lookup.least_tread, rules.lookup.joint);
+    let (least_m, joint_m) = (rules.lookup.tuning.least_tread, rules.lookup.tuning.joint);
     let end_m = last.stair.front.beyond_m(last.stair.back.middle_m()) + joint_m;
     let way = (last.crossing_m, last.stair.front.heading_rad());
     let near = |depth_m| depth_m > least_m && depth_m < end_m;
@@ -75,7 +83,7 @@ fn nearest_where(
     rules: &StepRules<'_>,
 ) -> Option<Step> {
     let step = |stair: &Stair<Map>| {
-        let (away_m, crossing_m) = ahead(stair, from_m, heading_rad, rules.lookup)?;
+        let (away_m, crossing_m) = ahead(stair, from_m, heading_rad, &rules.lookup.tuning)?;
         let step = Step {
             stair: *stair,
             rise_m: stair.height_m() - level_m,
@@ -151,7 +159,11 @@ mod tests {
 
     #[test]
     fn the_way_to_a_step_may_cross_its_own_edge_but_no_other_one() {
-        let (climbing, lookup) = (ClimbingConfig::default(), StepLookupTuning::default());
+        let climbing = ClimbingConfig::default();
+        let lookup = Lookup {
+            tuning: StepLookupTuning::default(),
+            levels: climbing.levels.clone(),
+        };
         let rules = StepRules {
             climbing: &climbing,
             lookup: &lookup,

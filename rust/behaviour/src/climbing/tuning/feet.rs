@@ -1,11 +1,8 @@
 //! Settings of how the feet are moved before, on and behind stairs.
 
-use settings::{Bounds, NOT_NEGATIVE, POSITIVE, above_to, at_least, settings, within};
+use settings::{NOT_NEGATIVE, POSITIVE, above_to, at_least, settings, within};
 
 use super::{ANGLE, WAIT};
-
-/// Places along a side at which the map is asked: each side squared.
-const RASTER: Bounds = within(1.0, 100.0);
 
 settings! {
     /// Where the walk to stairs ends and the climb's own states begin.
@@ -37,16 +34,8 @@ settings! {
         turned: f64 = 0.08, "rad", ANGLE;
         /// Walking speed for each metre that is left.
         gain: f64 = 1.2, "1/s", POSITIVE;
-        /// Turning speed for each radian that is left.
-        turn_gain: f64 = 1.5, "1/s", POSITIVE;
-        /// Largest speed ahead.
-        forward_speed: f64 = 0.1, "m/s", POSITIVE;
         /// Largest speed backwards.
         backward_speed: f64 = 0.05, "m/s", POSITIVE;
-        /// Largest speed of side steps.
-        side_speed: f64 = 0.04, "m/s", POSITIVE;
-        /// Largest turning speed.
-        turn_speed: f64 = 0.4, "rad/s", POSITIVE;
     }
 }
 
@@ -90,10 +79,6 @@ settings! {
         heels: f64 = 0.01, "m", NOT_NEGATIVE;
         /// A sole that is already beyond the side of the stair may be moved this much further out.
         aside: f64 = 0.005, "m", NOT_NEGATIVE;
-        /// The map is asked at so many places under the soles to each side of their middle, along and across.
-        raster: i32 = 4, "1", RASTER;
-        /// So many cells of obstacles where the feet shall go make a step occupied.
-        cells: usize = 2, "1", at_least(1.0);
     }
 }
 
@@ -104,10 +89,6 @@ settings! {
         ahead: f64 = 0.6, "s", NOT_NEGATIVE;
         /// A walk keeps this much room around the soles.
         margin: f64 = 0.03, "m", NOT_NEGATIVE;
-        /// Floor that is lower by more than this is another level.
-        lower: f64 = 0.02, "m", NOT_NEGATIVE;
-        /// The map is asked at so many places under the soles to each side of their middle, along and across.
-        raster: i32 = 5, "1", RASTER;
         /// Lower floor at fewer places than this is a corner of a cell that may be of either level.
         few: usize = 2, "1", at_least(1.0);
     }
@@ -122,8 +103,6 @@ settings! {
         there: f64 = 0.02, "m", NOT_NEGATIVE;
         /// Walking speed for each metre that is left.
         gain: f64 = 1.5, "1/s", POSITIVE;
-        /// Smallest walking speed.
-        slowest: f64 = 0.02, "m/s", POSITIVE;
         /// Largest walking speed.
         fastest: f64 = 0.08, "m/s", POSITIVE;
         /// The walk away from the edge ends after this time.
@@ -131,5 +110,4 @@ settings! {
         /// The robot waits no longer than this to come to stand.
         longest_stop: f64 = 3.0, "s", WAIT;
     }
-    require (slowest) <= (fastest);
 }

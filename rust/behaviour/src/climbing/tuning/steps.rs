@@ -42,8 +42,6 @@ settings! {
 settings! {
     /// How steps are found again among the stairs that are known.
     pub struct StepLookupTuning("navigation.stair_climbing.tuning.lookup") {
-        /// Two sights of one stair differ by less than this in height.
-        same_height: f64 = 0.012, "m", POSITIVE;
         /// Two sights of a front edge that was measured differ by less than this in its place.
         same_place: f64 = 0.05, "m", POSITIVE;
         /// Two sights of a front edge that was not measured differ by less than this in its place.
@@ -106,11 +104,7 @@ settings! {
         inspected: f64 = 0.3, "m", NOT_NEGATIVE;
         /// The place from which stairs are looked at counts as reached within this distance.
         near: f64 = 0.1, "m", POSITIVE;
-        /// The robot needs this much room on the way there, from its middle.
-        room: f64 = 0.14, "m", NOT_NEGATIVE;
         /// Places on the way there are this far apart.
         spacing: f64 = 0.04, "m", at_least(0.005);
-        /// Floor on the way there is as level as this with the ground under the robot.
-        level: f64 = 0.012, "m", NOT_NEGATIVE;
     }
 }

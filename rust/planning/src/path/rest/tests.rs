@@ -48,7 +48,14 @@ fn a_step_is_taken_from_the_level_before_it_whatever_other_way_leads_over_its_ed
     };
     let step = stride(1.0, 0.0, 0.02).step;
     let rise_mm = |level_m: Option<f64>| {
-        let now = seen_now(&step, level_m, (&links, &FollowedPathTuning::default()))?;
+        let now = seen_now(
+            &step,
+            level_m,
+            (
+                &links,
+                (&FollowedPathTuning::default(), &LevelsConfig::default()),
+            ),
+        )?;
         Some((1e3 * now.step.rise_m).round())
     };
     assert_eq!(rise_mm(Some(0.017)), Some(-18.0));
@@ -101,7 +108,7 @@ fn what_is_walked_behind_the_last_step_lies_as_high_as_that() {
         climb,
     );
     path.spans = vec![[0, 3]];
-    let tolerance_m = FollowedPathTuning::default().tolerance;
+    let tolerance_m = LevelsConfig::default().same;
     assert!(walks_on_level(&path, &terrain(0.017), tolerance_m));
     assert!(!walks_on_level(&path, &terrain(0.03), tolerance_m));
     assert!(!walks_on_level(&path, &terrain(0.0), tolerance_m));
@@ -137,18 +144,18 @@ fn a_lane_is_left_only_ahead_and_where_another_one_saves_more_than_the_way_there
         steps: vec![step],
     };
     let ahead = path(vec![[0.4, -0.2], [0.9, -0.2], [1.4, -0.2]], climb);
-    let tuning = FollowedPathTuning::default();
+    let edges = (&FollowedPathTuning::default(), &LevelsConfig::default());
     let by_a_wall = lanes(&[(-0.2, 2.5), (0.0, 1.0)]);
-    assert!(another_lane_is_roomier(&ahead, (&by_a_wall, &tuning), 0.0));
+    assert!(another_lane_is_roomier(&ahead, (&by_a_wall, edges), 0.0));
     let hardly_better = lanes(&[(-0.2, 1.5), (0.0, 1.0)]);
     assert!(!another_lane_is_roomier(
         &ahead,
-        (&hardly_better, &tuning),
+        (&hardly_better, edges),
         0.0
     ));
     let mut begun = ahead;
     drop(begun.points_m.drain(..1));
     begun.climbs[0].from_point = 0;
     begun.climbs[0].to_point = 1;
-    assert!(!another_lane_is_roomier(&begun, (&by_a_wall, &tuning), 0.0));
+    assert!(!another_lane_is_roomier(&begun, (&by_a_wall, edges), 0.0));
 }
