@@ -163,14 +163,13 @@ impl<F: Finder> FrameSurfaces<F> {
     ) -> bool {
         let near = NearFeet::new(view, camera_m, reach_m);
         let mut left = 0;
-        self.whole_px.clear();
-        let lines = self.images.disparity_px.chunks_exact(self.images.width);
-        for (row, line) in lines.enumerate() {
-            let near = line.iter().zip(near.along(row, line));
-            self.whole_px.extend(near.map(|(&d, near)| {
-                left += usize::from(near);
-                if near { d } else { f32::NAN }
-            }));
+        let width = self.images.width;
+        self.whole_px
+            .resize(self.images.disparity_px.len(), f32::NAN);
+        let lines = self.images.disparity_px.chunks_exact(width);
+        let kept = self.whole_px.chunks_exact_mut(width);
+        for (row, (line, kept)) in lines.zip(kept).enumerate() {
+            left += near.keep(row, line, kept);
         }
         if left >= least {
             std::mem::swap(&mut self.images.disparity_px, &mut self.whole_px);
