@@ -256,13 +256,21 @@ impl<F: Finder> FrameSurfaces<F> {
         self.parts
             .roughness
             .measure(picture, &self.regions, &self.eroded);
-        self.parts
-            .slivers
-            .find(&self.labels, picture.width, view, &self.regions);
+        self.parts.slivers.find(
+            &self.labels,
+            [picture.width, picture.finer],
+            view,
+            &self.regions,
+        );
         let (border, eroded) = (self.parts.tuning.thin_border, &mut self.eroded);
         self.erosion.erode(&self.labels, picture, border, eroded);
         let (tuning, checks) = (&self.parts.fit_tuning, &mut self.checks);
         fit_regions(picture, view, &self.regions, &self.eroded, tuning, checks);
+    }
+
+    /// How many times finer the image is than is needed, each way.
+    pub(crate) const fn finer(&self) -> usize {
+        self.images.finer
     }
 
     /// Row, column and label of pixels away from the regions' borders, every `stride`-th each way; after `refit`.
