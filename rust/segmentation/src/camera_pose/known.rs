@@ -10,7 +10,8 @@ use crate::regions::{Finder, FrameSurfaces};
 settings! {
     /// How the camera's height is told by floor that is known from before.
     pub struct KnownFloorTuning("navigation.ground.tuning.known_floor") {
-        /// Every so many columns and rows a pixel is looked up: neighbours lie in the same cells of a map.
+        /// Every so many columns and rows a pixel is looked up: neighbours lie in the same cells of a map. Of finer images as many
+        /// pixels as of coarse ones.
         stride: usize = 2, "1", within(1.0, 100.0);
         /// Fewest pixels of a region of which the floor's height must be known.
         min_looked_up: usize = 12, "1", POSITIVE;
@@ -49,6 +50,8 @@ impl Vote {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct KnownLevels {
     tuning: KnownFloorTuning,
+    // Of so many pixels one is looked up.
+    looked_up_of: usize,
     votes: Vec<Vote>,
     misses_m: Vec<Vec<f32>>,
     /// Pixels of each region that are near, and all of them.
@@ -72,7 +75,8 @@ impl KnownLevels {
         camera_m: &Vector3<f64>,
         known: &KnownFloor<'_>,
     ) {
-        let (stride, near_m) = (self.tuning.stride, self.tuning.near);
+        let (stride, near_m) = (self.tuning.stride * surfaces.finer(), self.tuning.near);
+        self.looked_up_of = stride * stride;
         self.votes.clear();
         let count = surfaces.regions.len();
         self.misses_m
@@ -121,7 +125,6 @@ impl KnownLevels {
         let KnownFloorTuning {
             agreeing,
             one_surface,
-            stride,
             ..
         } = self.tuning;
         self.votes.retain(|vote| vote.is_clear(agreeing));
@@ -140,7 +143,7 @@ impl KnownLevels {
             }
         }
         let rise_m = sum_m / agree.max(1) as f64;
-        let enough = agree * stride * stride >= least && agree as f64 > agreeing * all as f64;
+        let enough = agree * self.looked_up_of >= least && agree as f64 > agreeing * all as f64;
         (enough && rise_m.abs() < gate_m).then_some(rise_m)
     }
 }

@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Point2, Point3, Translation3, Unit, UnitQuaternion, Ve
 use super::buffers::{LabelRun, ProductBuffers};
 use crate::camera_pose::Levelled;
 use crate::ground_plane::grounded::Grounded;
-use crate::picture::{View, to_f32};
+use crate::picture::{View, label_runs, to_f32};
 use crate::planes::{PlaneRegion, Planes};
 use crate::regions::{Finder, TiltedRecord, over_rays};
 
@@ -27,9 +27,13 @@ impl<F: Finder> Grounded<F> {
         planes.camera = Some(self.camera);
         self.place_points(levelled, &position, planes);
         self.describe_regions(levelled, &position, planes);
-        let pixels = self.surfaces.labels.iter_mut();
-        for (label, height_m) in pixels.zip(&mut planes.floor_height_m) {
-            (*label, *height_m) = self.product.floors[usize::from(*label)];
+        planes.floor_height_m.fill(f32::NAN);
+        for run in &self.product.runs {
+            let first = run.row * self.camera.width;
+            let pixels = first + run.cols.start..first + run.cols.end;
+            let (label, height_m) = self.product.floors[usize::from(run.label)];
+            self.surfaces.labels[pixels.clone()].fill(label);
+            planes.floor_height_m[pixels].fill(height_m);
         }
         self.fill_slopes(&levelled.view, position.z, planes);
         if !F::ANY_DIRECTION {
@@ -143,18 +147,7 @@ impl<F: Finder> Grounded<F> {
         runs.clear();
         let lines = self.surfaces.labels.chunks_exact(self.camera.width);
         for (row, line) in lines.enumerate() {
-            let mut first = 0;
-            for run in line.chunk_by(|a, b| a == b) {
-                let cols = first..first + run.len();
-                first = cols.end;
-                if run[0] > 0 {
-                    runs.push(LabelRun {
-                        label: run[0],
-                        row,
-                        cols,
-                    });
-                }
-            }
+            runs.extend(label_runs(line).map(|(label, cols)| LabelRun { label, row, cols }));
         }
     }
 

@@ -109,6 +109,10 @@ impl Erosion {
                 *low = if label > 0 { own } else { none.0 };
                 *high = if label > 0 { own } else { none.1 };
             }
+            if row == 0 || row + 1 == margin.height {
+                continue; // no hole lies at the image's border
+            }
+            let around = &labels[(row - 1) * width..(row + 2) * width];
             let chunks = lowest.chunks_mut(CHUNK).zip(highest.chunks_mut(CHUNK));
             for (index, (lowest, highest)) in chunks.enumerate() {
                 // No mark is lower, so that most chunks are seen to have none.
@@ -116,8 +120,7 @@ impl Erosion {
                     continue;
                 }
                 for (i, (low, high)) in lowest.iter_mut().zip(highest).enumerate() {
-                    let at = row * width + index * CHUNK + i;
-                    if *low == MIXED.0 && is_hole(labels, width, at, self.hole) {
+                    if *low == MIXED.0 && is_hole(around, width, index * CHUNK + i, self.hole) {
                         (*low, *high) = NEUTRAL;
                     }
                 }
@@ -167,24 +170,18 @@ fn pick_among(
     }
 }
 
-/// Whether a pixel without a region is a lone miss: `most` of its eight neighbours or more have one and the same region.
-fn is_hole(labels: &[u16], width: usize, at: usize, most: usize) -> bool {
-    let col = at % width;
-    if col == 0 || col + 1 == width || at < width || at + width >= labels.len() {
+/// Whether the pixel without a region in this column of the middle one of three rows is a lone miss: `most` of its eight neighbours
+/// or more have one and the same region.
+fn is_hole(rows: &[u16], width: usize, col: usize, most: usize) -> bool {
+    if col == 0 || col + 1 >= width {
         return false;
     }
-    let label = labels[at - 1].max(labels[at + 1]);
+    let [above, here, below] = [0, width, 2 * width].map(|row| &rows[row + col - 1..row + col + 2]);
+    let label = here[0].max(here[2]);
     let neighbours = [
-        at - width - 1,
-        at - width,
-        at - width + 1,
-        at - 1,
-        at + 1,
-        at + width - 1,
-        at + width,
-        at + width + 1,
+        above[0], above[1], above[2], here[0], here[2], below[0], below[1], below[2],
     ];
-    label > 0 && neighbours.iter().filter(|&&n| labels[n] == label).count() >= most
+    label > 0 && neighbours.iter().filter(|&&n| n == label).count() >= most
 }
 
 /// Gives back to `eroded` the whole of those regions whose labels are wanted.

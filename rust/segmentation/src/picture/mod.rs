@@ -10,7 +10,7 @@ pub(crate) mod seen;
 pub(crate) mod view;
 
 pub(crate) use erosion::{Erosion, keep_where};
-pub(crate) use labels::{MAX_REGIONS, count_labels};
+pub(crate) use labels::{MAX_REGIONS, count_labels, label_runs};
 pub(crate) use median::{Median, MedianTuning};
 pub(crate) use near::NearFeet;
 pub(crate) use noise::{NoiseMap, NoiseTuning};

@@ -30,6 +30,37 @@ impl<'a> NearFeet<'a> {
         }
     }
 
+    /// Keeps what shows such a place of a row and leaves out the rest; how many pixels are kept.
+    pub(crate) fn keep(&self, row: usize, disparity_px: &[f32], kept_px: &mut [f32]) -> usize {
+        let (x, y) = (self.view.x.along(row), self.view.y.along(row));
+        let (mut surely, mut possibly) = (0_u32, 0_u32);
+        // No branch, so that many are looked at at once.
+        for ((col, &d), kept) in (0_i32..).zip(disparity_px).zip(kept_px.iter_mut()) {
+            let square = self.square(x.at(col as f32), y.at(col as f32), d);
+            let near = square < self.surely;
+            surely += u32::from(near);
+            possibly += u32::from(square < self.possibly);
+            *kept = if near { d } else { f32::NAN };
+        }
+        if possibly == surely {
+            return surely as usize;
+        }
+        let mut count = 0;
+        let near = self.along(row, disparity_px);
+        for ((near, &d), kept) in near.zip(disparity_px).zip(kept_px) {
+            count += usize::from(near);
+            *kept = if near { d } else { f32::NAN };
+        }
+        count
+    }
+
+    /// Square of the distance from the robot, m2, of what a pixel shows.
+    fn square(&self, x: f32, y: f32, d: f32) -> f64 {
+        let x_m = self.camera_m.x + f64::from(x / d);
+        let y_m = self.camera_m.y + f64::from(y / d);
+        x_m * x_m + y_m * y_m
+    }
+
     /// Whether each pixel of a row shows such a place; what was not seen does not.
     pub(crate) fn along(&self, row: usize, disparity_px: &[f32]) -> impl Iterator<Item = bool> {
         let (x, y) = (self.view.x.along(row), self.view.y.along(row));
@@ -67,9 +98,15 @@ mod tests {
             // As far as one of the pixels, or nearly so.
             let reach_m = (distance_m(CAMERA.width / 2) + off).max(0.0);
             let near = NearFeet::new(&view, &camera_m, reach_m);
-            for (col, found) in near.along(row, &[d; CAMERA.width]).enumerate() {
+            let line = [d; CAMERA.width];
+            for (col, found) in near.along(row, &line).enumerate() {
                 prop_assert_eq!(found, distance_m(col) < reach_m);
             }
+            let mut kept_px = [0.0; CAMERA.width];
+            let count = near.keep(row, &line, &mut kept_px);
+            let kept: Vec<bool> = kept_px.iter().map(|kept| *kept == d).collect();
+            prop_assert_eq!(&kept, &near.along(row, &line).collect::<Vec<_>>());
+            prop_assert_eq!(count, kept.iter().filter(|kept| **kept).count());
         }
     }
 

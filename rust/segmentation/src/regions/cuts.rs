@@ -95,7 +95,7 @@ impl Cuts {
         let before = regions.len();
         let block = self.tuning.block * picture.finer;
         self.parts
-            .collect(seen, regions, labels, block, &self.tuning);
+            .collect(seen, regions, labels, [block, picture.finer], &self.tuning);
         let mut cuts = [None; MAX_REGIONS];
         for (region, cut) in cuts.iter_mut().enumerate().take(before) {
             *cut = self.best(region, &regions[region], tilt, self.coarse(), PI / 2.0);
@@ -103,7 +103,8 @@ impl Cuts {
         if cuts.iter().all(Option::is_none) {
             return false;
         }
-        self.parts.collect(seen, regions, labels, 1, &self.tuning);
+        self.parts
+            .collect(seen, regions, labels, [1, 1], &self.tuning);
         for (region, cut) in cuts.iter().enumerate() {
             let Some(cut) = cut else { continue };
             let around = cut.across_rad;

@@ -13,7 +13,8 @@ use crate::regions::region::Region;
 settings! {
     /// How regions are fitted: the height of each, and its tilt.
     pub struct FitTuning("navigation.ground.tuning.fits") {
-        /// Every so many columns a pixel takes part in a fit: neighbours tell nearly alike.
+        /// Every so many columns a pixel takes part in a fit: neighbours tell nearly alike. Of finer images as many pixels as of coarse
+        /// ones.
         step: usize = 2, "1", within(1.0, 100.0);
         /// Pixels that tell as much as one independent one, because matching windows overlap: as many as a window of 5x5 has.
         alike: f64 = 25.0, "1", at_least(1.0);
@@ -22,13 +23,6 @@ settings! {
         /// A region counts as tilted when the squared distance of its tilt from none, in its own errors, is above this. By chance one
         /// level region in a thousand is above 13.8 (two degrees of freedom).
         significant: f64 = 13.8, "1", POSITIVE;
-    }
-}
-
-impl FitTuning {
-    /// How many of the pixels looked at tell as much as one independent one, where every row is looked at.
-    pub(crate) fn shared_by(&self) -> f64 {
-        self.alike / self.step as f64
     }
 }
 
@@ -85,16 +79,15 @@ impl RegionFit {
         }
     }
 
-    /// Adds `count` pixels of a row from a column on, one every [`FitTuning::step`] columns.
+    /// Adds `count` pixels of a row from a column on, one every `step` columns.
     fn add_run(
         &mut self,
         picture: Picture<'_>,
         view: &View,
         [col, row]: [usize; 2],
-        count: usize,
-        tuning: &FitTuning,
+        [count, step]: [usize; 2],
+        outlier: f32,
     ) {
-        let (step, outlier) = (tuning.step, tuning.outlier);
         // Summed up in registers.
         let mut sums = *self;
         let q = sums.q as f32;
@@ -247,9 +240,9 @@ pub(crate) fn fit_regions(
     tuning: &FitTuning,
     fits: &mut Vec<RegionFit>,
 ) {
-    // Of so many rows one is looked at: those between tell nearly the same.
-    let (rows, step) = (picture.finer, tuning.step);
-    let shared_by = tuning.shared_by() / rows as f64;
+    // Of so many rows one is looked at, and of so many columns: those between tell nearly the same.
+    let (rows, step) = (picture.finer, tuning.step * picture.finer);
+    let shared_by = (tuning.alike / (step * rows) as f64).max(1.0);
     fits.clear();
     fits.extend(
         regions
@@ -257,13 +250,14 @@ pub(crate) fn fit_regions(
             .map(|region| RegionFit::at(region.q, shared_by)),
     );
     for (row, line) in labels.chunks_exact(picture.width).enumerate().step_by(rows) {
-        let mut col = row / rows % step;
+        let mut col = row % step;
         while col < line.len() {
             let label = line[col];
             let same = |other: &&u16| **other == label;
             let count = line[col..].iter().step_by(step).take_while(same).count();
             if label > 0 {
-                fits[usize::from(label) - 1].add_run(picture, view, [col, row], count, tuning);
+                let fit = &mut fits[usize::from(label) - 1];
+                fit.add_run(picture, view, [col, row], [count, step], tuning.outlier);
             }
             col += count * step;
         }

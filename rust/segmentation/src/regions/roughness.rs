@@ -6,7 +6,7 @@
 
 use settings::{POSITIVE, SHARE, settings};
 
-use crate::picture::{MAX_REGIONS, Picture};
+use crate::picture::{MAX_REGIONS, Picture, label_runs};
 use crate::regions::region::Region;
 
 settings! {
@@ -55,17 +55,20 @@ impl Roughness {
     pub(crate) fn measure(&mut self, picture: Picture<'_>, regions: &[Region], inner: &[u16]) {
         let (fewest, largest_px) = (self.tuning.fewest, self.tuning.largest);
         self.regions = [Deviation::default(); MAX_REGIONS + 1];
-        let mut first = 0;
-        for run in inner.chunk_by(|a, b| a == b) {
-            let pixels = first..first + run.len();
-            first = pixels.end;
+        // Of finer images some rows tell it.
+        let lines = inner.chunks_exact(picture.width).enumerate();
+        let runs = lines.step_by(picture.finer).flat_map(|(row, line)| {
+            let first = row * picture.width;
+            label_runs(line).map(move |(label, cols)| (label, first + cols.start..first + cols.end))
+        });
+        for (label, pixels) in runs {
             // Of thin regions all pixels are left, which the window blends with what borders on them.
-            let region = usize::from(run[0]).checked_sub(1);
+            let region = usize::from(label).checked_sub(1);
             let region = region.and_then(|index| regions.get(index));
             let Some(region) = region.filter(|region| region.core >= fewest) else {
                 continue;
             };
-            let sums = &mut self.regions[usize::from(run[0])];
+            let sums = &mut self.regions[usize::from(label)];
             let mut sum = *sums;
             for (&d, &g) in picture.disparity_px[pixels.clone()]
                 .iter()

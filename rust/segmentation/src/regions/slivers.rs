@@ -51,11 +51,17 @@ impl Slivers {
         }
     }
 
-    /// Looks down one column every few for what lies between what.
-    pub(crate) fn find(&mut self, labels: &[u16], width: usize, view: &View, regions: &[Region]) {
+    /// Looks down one column every few for what lies between what; of an image so many times `finer` down fewer.
+    pub(crate) fn find(
+        &mut self,
+        labels: &[u16],
+        [width, finer]: [usize; 2],
+        view: &View,
+        regions: &[Region],
+    ) {
         self.columns.clear();
         self.columns.resize(regions.len(), SliverColumns::default());
-        for col in (0..width).step_by(self.tuning.stride) {
+        for col in (0..width).step_by(self.tuning.stride * finer) {
             let (mut above, mut here): (Option<ColumnRun>, Option<ColumnRun>) = (None, None);
             for (row, &label) in labels.iter().skip(col).step_by(width).enumerate() {
                 let Some(region) = usize::from(label).checked_sub(1) else {
@@ -142,7 +148,7 @@ mod tests {
             })
             .collect();
         let mut slivers = Slivers::default();
-        slivers.find(&labels, CAMERA.width, &view, &regions);
+        slivers.find(&labels, [CAMERA.width, 1], &view, &regions);
         assert!(!slivers.contains(0) && !slivers.contains(2));
         slivers.contains(1)
     }

@@ -47,12 +47,16 @@ impl LastLevel {
     }
 }
 
-/// Marks pixels beside edges. Keeps its buffer.
+/// Pixels that are passed over together where no edge is near.
+const CHUNK: usize = 16;
+
+/// Marks pixels beside edges. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct StepMarks {
     tuning: StepTuning,
-    // The last level pixel of each column.
-    above: Vec<LastLevel>,
+    // The last level pixel of each column: its row, and its height, m.
+    above: Vec<u32>,
+    above_m: Vec<f32>,
 }
 
 impl StepMarks {
@@ -66,37 +70,74 @@ impl StepMarks {
 
     /// Marks in `planes.at_step` the pixels beside edges, down the columns and along the rows.
     pub(crate) fn mark(&mut self, width: usize, planes: &mut Planes) {
-        let tuning = &self.tuning;
-        let [spoiled_cols, spoiled_rows] = tuning.spoiled;
         planes.at_step.fill(false);
-        let height = planes.floor_height_m.len() / width.max(1);
         self.above.clear();
-        self.above.resize(width, LastLevel::NONE);
-        for (row, heights_m) in planes.floor_height_m.chunks_exact(width).enumerate() {
+        self.above.resize(width, 0);
+        // Nothing yet: from no height is it a step to another.
+        self.above_m.clear();
+        self.above_m.resize(width, f32::NAN);
+        let Planes {
+            floor_height_m,
+            at_step,
+            ..
+        } = planes;
+        for (row, heights_m) in floor_height_m.chunks_exact(width).enumerate() {
             let mut left = LastLevel::NONE;
-            for ((col, &height_m), above) in heights_m.iter().enumerate().zip(&mut self.above) {
-                if height_m.is_nan() {
+            for (chunk, heights_m) in heights_m.chunks(CHUNK).enumerate() {
+                let first = chunk * CHUNK;
+                let cols = first..first + heights_m.len();
+                let above_m = &self.above_m[cols.clone()];
+                // All bits where the height is not the one to the left and above: no branch, so that many are looked at at once.
+                let differs = heights_m.iter().zip(above_m).fold(0, |all, (here, above)| {
+                    let [here, above, left] = [here, above, &left.height_m].map(|m| m.to_bits());
+                    all | (here ^ above) | (here ^ left)
+                });
+                if differs == 0 && !left.height_m.is_nan() {
+                    left.at = cols.end - 1;
+                    self.above[cols].fill(row as u32);
                     continue;
                 }
-                let from_left = LastLevel { at: col, height_m };
-                let from_above = LastLevel { at: row, height_m };
-                if left.height_m == height_m && above.height_m == height_m {
-                    (left.at, above.at) = (col, row);
+                if !heights_m.iter().fold(false, |any, m| any | !m.is_nan()) {
                     continue;
                 }
-                if left.is_step(from_left, tuning) {
-                    let cols = left.spoiled(from_left, spoiled_cols, width);
-                    planes.at_step[row * width..][cols].fill(true);
-                }
-                left = from_left;
-                if above.is_step(from_above, tuning) {
-                    for row in above.spoiled(from_above, spoiled_rows, height) {
-                        planes.at_step[row * width + col] = true;
+                for (col, &height_m) in cols.zip(heights_m) {
+                    if !height_m.is_nan() {
+                        self.mark_beside([col, row], height_m, &mut left, width, at_step);
                     }
                 }
-                *above = from_above;
             }
         }
+    }
+
+    /// Marks what the edges to the left of a level pixel and above it spoil.
+    fn mark_beside(
+        &mut self,
+        [col, row]: [usize; 2],
+        height_m: f32,
+        left: &mut LastLevel,
+        width: usize,
+        at_step: &mut [bool],
+    ) {
+        let tuning = &self.tuning;
+        let [spoiled_cols, spoiled_rows] = tuning.spoiled;
+        let height = at_step.len() / width;
+        let from_left = LastLevel { at: col, height_m };
+        let from_above = LastLevel { at: row, height_m };
+        let above = LastLevel {
+            at: self.above[col] as usize,
+            height_m: self.above_m[col],
+        };
+        if left.is_step(from_left, tuning) {
+            let cols = left.spoiled(from_left, spoiled_cols, width);
+            at_step[row * width..][cols].fill(true);
+        }
+        *left = from_left;
+        if above.is_step(from_above, tuning) {
+            for row in above.spoiled(from_above, spoiled_rows, height) {
+                at_step[row * width + col] = true;
+            }
+        }
+        (self.above[col], self.above_m[col]) = (row as u32, height_m);
     }
 }
 

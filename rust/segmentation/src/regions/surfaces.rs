@@ -163,14 +163,13 @@ impl<F: Finder> FrameSurfaces<F> {
     ) -> bool {
         let near = NearFeet::new(view, camera_m, reach_m);
         let mut left = 0;
-        self.whole_px.clear();
-        let lines = self.images.disparity_px.chunks_exact(self.images.width);
-        for (row, line) in lines.enumerate() {
-            let near = line.iter().zip(near.along(row, line));
-            self.whole_px.extend(near.map(|(&d, near)| {
-                left += usize::from(near);
-                if near { d } else { f32::NAN }
-            }));
+        let width = self.images.width;
+        self.whole_px
+            .resize(self.images.disparity_px.len(), f32::NAN);
+        let lines = self.images.disparity_px.chunks_exact(width);
+        let kept = self.whole_px.chunks_exact_mut(width);
+        for (row, (line, kept)) in lines.zip(kept).enumerate() {
+            left += near.keep(row, line, kept);
         }
         if left >= least {
             std::mem::swap(&mut self.images.disparity_px, &mut self.whole_px);
@@ -257,13 +256,21 @@ impl<F: Finder> FrameSurfaces<F> {
         self.parts
             .roughness
             .measure(picture, &self.regions, &self.eroded);
-        self.parts
-            .slivers
-            .find(&self.labels, picture.width, view, &self.regions);
+        self.parts.slivers.find(
+            &self.labels,
+            [picture.width, picture.finer],
+            view,
+            &self.regions,
+        );
         let (border, eroded) = (self.parts.tuning.thin_border, &mut self.eroded);
         self.erosion.erode(&self.labels, picture, border, eroded);
         let (tuning, checks) = (&self.parts.fit_tuning, &mut self.checks);
         fit_regions(picture, view, &self.regions, &self.eroded, tuning, checks);
+    }
+
+    /// How many times finer the image is than is needed, each way.
+    pub(crate) const fn finer(&self) -> usize {
+        self.images.finer
     }
 
     /// Row, column and label of pixels away from the regions' borders, every `stride`-th each way; after `refit`.

@@ -2,7 +2,7 @@
 
 use super::config::ScanLineConfig;
 use super::contacts::{RegionContacts, places_of_some};
-use super::strips::LevelSegment;
+use super::strips::{LevelSegment, columns_of};
 use crate::picture::{MAX_REGIONS, Picture, count_labels};
 use crate::regions::Region;
 
@@ -67,7 +67,8 @@ impl Grouping {
                 other += 1;
             }
         }
-        self.collect(segments, config.strip, regions);
+        let columns = columns_of(picture, config);
+        self.collect(segments, columns, regions);
         labels.fill(0);
         let accept = config.accept as f32;
         for (at, segment) in segments.iter().enumerate() {
@@ -76,8 +77,8 @@ impl Grouping {
                 continue;
             }
             let q = regions[usize::from(label) - 1].q;
-            let first = segment.strip * config.strip;
-            let end = (first + config.strip).min(picture.width);
+            let first = segment.strip * columns;
+            let end = (first + columns).min(picture.width);
             for row in segment.first..segment.end {
                 let line = row * picture.width + first..row * picture.width + end;
                 let pixels = picture.disparity_px[line.clone()]
@@ -93,7 +94,7 @@ impl Grouping {
     }
 
     /// Numbers the groups that are large enough, in the order of their first segments.
-    fn collect(&mut self, segments: &[LevelSegment], strip: usize, regions: &mut Vec<Region>) {
+    fn collect(&mut self, segments: &[LevelSegment], columns: usize, regions: &mut Vec<Region>) {
         regions.clear();
         self.groups.clear();
         self.groups.resize(segments.len(), (0, 0.0));
@@ -101,7 +102,7 @@ impl Grouping {
         self.region_of.resize(segments.len(), 0);
         for (at, segment) in segments.iter().enumerate() {
             let group = &mut self.groups[root(&self.parent, at)];
-            group.0 += ((segment.end - segment.first) * strip) as u32;
+            group.0 += ((segment.end - segment.first) * columns) as u32;
             group.1 += segment.weight;
         }
         for at in 0..segments.len() {
@@ -118,7 +119,7 @@ impl Grouping {
             let label = usize::from(self.region_of[group]);
             if label > 0 {
                 regions[label - 1].q += segment.q * segment.weight / self.groups[group].1;
-                regions[label - 1].support += (segment.end - segment.first) * strip;
+                regions[label - 1].support += (segment.end - segment.first) * columns;
             }
         }
     }
@@ -275,7 +276,7 @@ fn alike(
         return false;
     }
     let row = usize::midpoint(first, end);
-    let col = (b.strip * config.strip).min(picture.width - 1);
+    let col = (b.strip * columns_of(picture, config)).min(picture.width - 1);
     let g = picture.g[row * picture.width + col];
     (a.q - b.q).abs() * g < config.join as f32 * picture.sigma_px[row * picture.width + col]
 }

@@ -24,7 +24,8 @@ pub(super) struct StripRows {
 }
 
 impl StripRows {
-    /// Takes in a strip of a picture that has these columns; the last strip may have fewer than others.
+    /// Takes in a strip of a picture that has these columns; the last strip may have fewer than others. Of a finer picture as many of
+    /// its pixels are looked at as of a coarse one's.
     pub(super) fn read(
         &mut self,
         picture: Picture<'_>,
@@ -34,8 +35,8 @@ impl StripRows {
     ) {
         let (strip, tuning) = (config.strip, &config.tuning);
         let least_fall = tuning.min_fall * scale;
-        let lanes = picture.disparity_px.len() / picture.width;
-        let needed = (tuning.agreeing * cols.len() as f64).ceil() as f32;
+        let lanes = (picture.disparity_px.len() / picture.width).div_ceil(picture.finer);
+        let needed = (tuning.agreeing * cols.len().div_ceil(picture.finer) as f64).ceil() as f32;
         self.spread(picture, cols, strip, lanes);
         self.sort(strip, least_fall, lanes);
         self.find_middles(strip, lanes);
@@ -44,10 +45,10 @@ impl StripRows {
 
     /// Brings the pictures into lanes; what the strip lacks is not seen.
     fn spread(&mut self, picture: Picture<'_>, cols: Range<usize>, strip: usize, lanes: usize) {
-        let column_of = |image, col| column(picture.width, col, image);
+        let column_of = |image, col| column(picture, col, image);
         self.disparity_px.clear();
         self.g.clear();
-        for col in cols.clone() {
+        for col in cols.clone().step_by(picture.finer) {
             self.disparity_px
                 .extend(column_of(picture.disparity_px, col));
             self.g.extend(column_of(picture.g, col));
@@ -152,9 +153,10 @@ impl StripRows {
     }
 }
 
-/// A column of an image.
-fn column(width: usize, col: usize, image: &[f32]) -> impl Iterator<Item = f32> {
-    image.chunks_exact(width).map(move |row| row[col])
+/// A column of one of the picture's images, of finer ones some rows.
+fn column(picture: Picture<'_>, col: usize, image: &[f32]) -> impl Iterator<Item = f32> {
+    let rows = image.chunks_exact(picture.width).step_by(picture.finer);
+    rows.map(move |row| row[col])
 }
 
 #[cfg(test)]

@@ -12,6 +12,11 @@ const LEVEL: usize = usize::MAX;
 /// Mark of segments that are part of something steep.
 const DROPPED: usize = usize::MAX - 1;
 
+/// Columns of the picture that are one strip.
+pub(super) const fn columns_of(picture: Picture<'_>, config: &ScanLineConfig) -> usize {
+    config.strip * picture.finer
+}
+
 /// A piece of a strip that lies on one horizontal surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct LevelSegment {
@@ -50,14 +55,14 @@ impl Strips {
         scale: f32,
         segments: &mut Vec<LevelSegment>,
     ) {
-        let strips = picture.width.div_ceil(config.strip);
-        let height = picture.disparity_px.len() / picture.width;
+        let (finer, columns) = (picture.finer, columns_of(picture, config));
+        let strips = picture.width.div_ceil(columns);
         for strip in 0..strips {
-            let first = strip * config.strip;
-            let cols = first..(first + config.strip).min(picture.width);
+            let first = strip * columns;
+            let cols = first..(first + columns).min(picture.width);
             self.strip_rows.read(picture, cols, config, scale);
             self.start_run();
-            for row in 0..height {
+            for row in 0..self.strip_rows.weight.len() {
                 let weight = f64::from(self.strip_rows.weight[row]);
                 if weight == 0.0 {
                     continue;
@@ -71,13 +76,19 @@ impl Strips {
                 self.rows.push(row);
                 self.partition.push(q, weight);
                 let line = self.lines[self.lines.len() - 1];
-                let at = row * picture.width + first;
+                let at = row * finer * picture.width + first;
                 let sigma = f64::from(picture.sigma_px[at]);
                 let g = weight.sqrt() * sigma;
                 self.lines
                     .push(line.with(row as f64, q * g, g, 1.0 / (sigma * sigma)));
             }
             self.cut_run(strip, config, segments);
+        }
+        // Up to here a row is one of those that were looked at.
+        let height = picture.disparity_px.len() / picture.width;
+        for segment in segments {
+            segment.first *= finer;
+            segment.end = (segment.end * finer).min(height);
         }
     }
 

@@ -58,18 +58,19 @@ impl RegionParts {
         &self.totals[region]
     }
 
-    /// Sums up the regions' pixels, one every few, by blocks of so many columns and rows.
+    /// Sums up the regions' pixels, one every few, by blocks of so many columns and rows, of which one in so many each way is looked
+    /// at.
     pub(super) fn collect(
         &mut self,
         seen: SeenPicture<'_>,
         regions: &[Region],
         labels: &[u16],
-        block: usize,
+        [block, apart]: [usize; 2],
         tuning: &CutTuning,
     ) {
         self.all.clear();
         self.totals.clear();
-        let shared_by = tuning.alike / tuning.stride as f64;
+        let shared_by = (tuning.alike / (tuning.stride * apart * apart) as f64).max(1.0);
         let fits = regions
             .iter()
             .map(|region| RegionFit::at(region.q, shared_by));
@@ -80,7 +81,7 @@ impl RegionParts {
             for left in (0..width).step_by(block) {
                 let rows = top..(top + block).min(height);
                 let cols = left..(left + block).min(width);
-                self.add_block(seen, regions, labels, [cols, rows], tuning);
+                self.add_block(seen, regions, labels, [cols, rows], (apart, tuning));
             }
         }
     }
@@ -92,18 +93,20 @@ impl RegionParts {
         regions: &[Region],
         labels: &[u16],
         [cols, rows]: [Range<usize>; 2],
-        tuning: &CutTuning,
+        (apart, tuning): (usize, &CutTuning),
     ) {
         let (stride, outlier) = (tuning.stride, tuning.outlier);
         let picture = seen.picture;
         let mut part: Option<RegionPart> = None;
-        for row in rows {
+        // Which one of the pixels of a row is looked at first: row by row the next one.
+        let mut phase = (cols.start + rows.start) / apart % stride;
+        for row in rows.step_by(apart) {
             let (x, y) = (seen.view.x.along(row), seen.view.y.along(row));
             let line = row * picture.width + cols.start..row * picture.width + cols.end;
             let [disparity_px, g, sigma_px] = [picture.disparity_px, picture.g, picture.sigma_px]
                 .map(|image| &image[line.clone()]);
             let labels = &labels[line];
-            for i in ((cols.start + row) % stride..labels.len()).step_by(stride) {
+            for i in (phase * apart..labels.len()).step_by(stride * apart) {
                 let Some(region) = usize::from(labels[i]).checked_sub(1) else {
                     continue;
                 };
@@ -127,10 +130,11 @@ impl RegionParts {
                 let values = terms(q, gxy, precision, miss);
                 self.totals[region].add(values);
                 part.sums.add(&PartSums {
-                    pixels: stride as f64,
+                    pixels: (stride * apart * apart) as f64,
                     by_g: values.map(|value| values[0] * value),
                 });
             }
+            phase = if phase + 1 == stride { 0 } else { phase + 1 };
         }
         self.all.extend(part);
     }
