@@ -5,6 +5,8 @@ pub const NOTHING_NEAR: u32 = 1 << 29;
 
 /// No blocked cell in the column.
 const FAR: i16 = 1 << 14;
+/// Squares of up to twice this fit into 16 bits.
+const FURTHEST_REACH: usize = 90;
 /// So many columns to each side tell which ones can be left out.
 const BESIDE: usize = 3;
 
@@ -31,6 +33,23 @@ impl CellDistances {
         let rows = self.along_column.chunks_exact(cols);
         for (heights, squared) in rows.zip(self.squared.chunks_exact_mut(cols)) {
             self.envelope.transform(heights, squared);
+        }
+    }
+
+    /// Fills the field as [`Self::compute`] does where something is blocked within so many cells; elsewhere nothing counts as near.
+    pub fn compute_within(&mut self, blocked: &[bool], cols: usize, reach: usize) {
+        if reach > FURTHEST_REACH || blocked.is_empty() {
+            self.compute(blocked, cols);
+            return;
+        }
+        self.squared.resize(blocked.len(), 0);
+        self.along_column.resize(blocked.len(), 0);
+        self.columns(blocked, cols);
+        self.envelope.resize(cols + 2 * reach);
+        let rows = self.along_column.chunks_exact(cols);
+        for (heights, squared) in rows.zip(self.squared.chunks_exact_mut(cols)) {
+            self.envelope
+                .transform_within(heights, squared, reach as i16);
         }
     }
 
@@ -71,6 +90,8 @@ struct Envelope {
     counts: Vec<u16>,
     columns: Vec<u16>,
     arcs: Vec<Arc>,
+    /// The least squares of a row.
+    least: Vec<i16>,
 }
 
 /// A parabola where it is the lowest.
@@ -127,6 +148,36 @@ impl Envelope {
                 *squared = (off * off + height) as u32;
             }
             end = arc.begin as usize;
+        }
+    }
+
+    /// Squared distances of a row up to a reach, which is so short that to compare with every column within it is the fastest.
+    fn transform_within(&mut self, heights: &[i16], squared: &mut [u32], reach: i16) {
+        let (cols, beyond) = (heights.len(), reach + 1);
+        let nearest = heights.iter().fold(FAR, |least, &height| least.min(height));
+        if nearest > reach {
+            squared.fill(NOTHING_NEAR);
+            return;
+        }
+        let width = reach as usize;
+        self.padded[..width].fill(beyond * beyond);
+        self.padded[width + cols..][..width].fill(beyond * beyond);
+        let middle = &mut self.padded[width..][..cols];
+        for (square, &height) in middle.iter_mut().zip(heights) {
+            let height = height.min(beyond);
+            *square = height * height;
+        }
+        self.least.clear();
+        self.least.resize(cols, i16::MAX);
+        for (from, off) in (-reach..=reach).enumerate() {
+            let columns = &self.padded[from..][..cols];
+            for (least, &square) in self.least.iter_mut().zip(columns) {
+                *least = (*least).min(square + off * off);
+            }
+        }
+        for (squared, &least) in squared.iter_mut().zip(&self.least) {
+            let near = least <= reach * reach;
+            *squared = if near { least as u32 } else { NOTHING_NEAR };
         }
     }
 
@@ -193,6 +244,16 @@ mod tests {
             }
             let mut field = CellDistances::default();
             field.compute(&blocked, cols);
+            let within = |reach: usize| {
+                let near = |&squared: &u32| squared <= (reach * reach) as u32;
+                let squared = field.squared.iter();
+                squared.map(|squared| Some(*squared).filter(near).unwrap_or(NOTHING_NEAR)).collect::<Vec<_>>()
+            };
+            let mut bounded = CellDistances::default();
+            for reach in [0, 1, 5, 90] {
+                bounded.compute_within(&blocked, cols, reach);
+                prop_assert_eq!(&bounded.squared, &within(reach));
+            }
             for i in 0..cols * rows {
                 let nearest = (0..cols * rows)
                     .filter(|&j| blocked[j])

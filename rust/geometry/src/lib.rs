@@ -48,4 +48,4 @@ pub use planar::{PlanarPose, distance_m, hypot};
 pub use plane::Plane;
 pub use pose::{Point, Pose, Vector};
 pub use random::{GOLDEN, SplitMix64, mix};
-pub use storage::runs;
+pub use storage::{in_step, runs};

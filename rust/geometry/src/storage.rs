@@ -16,6 +16,28 @@ pub fn runs(area: CellArea, size: [usize; 2]) -> impl Iterator<Item = Range<usiz
     down.map(move |row| row * cols + across.start..row * cols + across.end)
 }
 
+/// Cells in a row that lie side by side in another row, too: which, and where the first of them lies there. `there`: where a cell lies in the
+/// other row, if it does.
+pub fn in_step(
+    cells: Range<usize>,
+    there: impl Fn(usize) -> Option<usize>,
+) -> impl Iterator<Item = (Range<usize>, usize)> {
+    let (mut at, end) = (cells.start, cells.end);
+    std::iter::from_fn(move || {
+        while at < end {
+            let begin = at;
+            at += 1;
+            if let Some(first) = there(begin) {
+                while at < end && there(at) == Some(first + at - begin) {
+                    at += 1;
+                }
+                return Some((begin..at, first));
+            }
+        }
+        None
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use crate::{Cell, Grid};
@@ -42,5 +64,12 @@ mod tests {
     #[test]
     fn no_cells_have_no_runs() {
         assert_eq!(runs(CellArea::EMPTY, [6, 5]).count(), 0);
+    }
+
+    #[test]
+    fn what_lies_side_by_side_in_both_rows_is_one_piece() {
+        let there = |cell: usize| [None, Some(4), Some(5), Some(5), None, Some(9)][cell];
+        let pieces: Vec<_> = in_step(0..6, there).collect();
+        assert_eq!(pieces, [(1..3, 4), (3..4, 5), (5..6, 9)]);
     }
 }

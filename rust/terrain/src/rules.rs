@@ -111,7 +111,7 @@ pub const RULES: [Rule; 19] = [
     // Decides how far each cell is from obstacles and from edges.
     Rule {
         name: "clearance",
-        apply: |_, terrain, _| clearance::apply(terrain),
+        apply: |rules, terrain, _| clearance::apply(terrain, &rules.config.edge_costs),
     },
     // Decides what a metre costs near to obstacles and in the unknown, and where there is no room.
     Rule {

@@ -58,7 +58,7 @@ pub struct Terrain {
     pub slopes: SlopeCells,
     /// Distance to obstacles.
     pub distance: CellDistances,
-    /// Distance to edges.
+    /// Distance to edges, where it is so short that it matters.
     pub(crate) edge_distance: CellDistances,
     /// Distance to the nearest obstacle where the robot stands, m: there it is.
     pub clearance_at_start_m: f64,
@@ -100,7 +100,8 @@ impl Terrain {
         self.mark_edge(index);
     }
 
-    /// Distance from a cell's centre to the nearest edge of a level, m: the edge lies between the cells beside it.
+    /// Distance from a cell's centre to the nearest edge of a level, m, far away where feet have room to spare: the edge lies between the
+    /// cells beside it.
     pub fn edge_clearance_m(&self, index: usize) -> f64 {
         if !self.any_edge || self.edge_distance.squared(index) == NOTHING_NEAR {
             return f64::from(FAR_AWAY_M);

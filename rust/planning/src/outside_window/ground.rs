@@ -1,7 +1,8 @@
 //! Where something stood when it was seen last, in a square that moves along with the window.
 
-use geometry::Lattice;
+use std::ops::Range;
 
+use geometry::{Cell, Lattice, in_step};
 use terrain::Terrain;
 
 /// Cells of the ground around the window, as large as its own, on a side: what lies further off than half of them is forgotten. A size of
@@ -15,19 +16,54 @@ pub(super) struct GroundOutside {
     pub(super) lattice: Option<Lattice>,
     /// Row by row, `SIDE` in each.
     pub(super) blocked: Vec<bool>,
+    /// How far aside of the robot each column of the window is, m.
+    aside_m: Vec<f64>,
+    /// Columns of the window that lie side by side here, too, and where their first one lies.
+    columns: Vec<(Range<usize>, usize)>,
 }
 
 impl GroundOutside {
+    #[expect(
+        clippy::needless_bitwise_bool,
+        reason = "without a branch, several cells at a time"
+    )]
     /// Takes in what the window shows to a robot that stands at a place, m, who believes nearer than `near_m` that something has gone; says
     /// whether the cells have moved.
     pub(super) fn take_in(&mut self, terrain: &Terrain, robot_m: [f64; 2], near_m: f64) -> bool {
         let (lattice, has_moved) = self.follow(terrain);
-        for (index, &unknown) in terrain.unknown.iter().enumerate() {
-            let at_m = terrain.center_m(index);
-            let near = geometry::hypot(at_m[0] - robot_m[0], at_m[1] - robot_m[1]) < near_m;
-            if let Some([col, row]) = cell_at(&lattice, at_m).filter(|_| !unknown) {
-                let known = &mut self.blocked[row * SIDE + col];
-                *known = terrain.blocked[index] || *known && !near;
+        let window = &terrain.lattice;
+        let place_m = |axis: usize, at: usize| {
+            window.center_of(Cell::new(at as i32, at as i32))[axis] - robot_m[axis]
+        };
+        self.aside_m.clear();
+        self.aside_m
+            .extend((0..terrain.cols).map(|col| place_m(0, col)));
+        let there = |axis, at| {
+            let at_m = window.center_of(Cell::new(at as i32, at as i32))[axis];
+            place_along(&lattice, axis, at_m)
+        };
+        self.columns.clear();
+        (self.columns).extend(in_step(0..terrain.cols, |col| there(0, col)));
+        for row in 0..terrain.rows {
+            let Some(row_there) = there(1, row) else {
+                continue;
+            };
+            let ahead_m = place_m(1, row);
+            let ground = &mut self.blocked[row_there * SIDE..][..SIDE];
+            let first = row * terrain.cols;
+            for (cols, first_there) in &self.columns {
+                let cells = first + cols.start..first + cols.end;
+                let seen = terrain.unknown[cells.clone()]
+                    .iter()
+                    .zip(&terrain.blocked[cells]);
+                let ground = &mut ground[*first_there..][..cols.len()];
+                let aside_m = &self.aside_m[cols.clone()];
+                for ((known, (&unknown, &blocked)), aside_m) in
+                    ground.iter_mut().zip(seen).zip(aside_m)
+                {
+                    let near = geometry::hypot(*aside_m, ahead_m) < near_m;
+                    *known = (*known & (unknown | !near)) | (blocked & !unknown);
+                }
             }
         }
         has_moved
@@ -95,11 +131,12 @@ fn moved_by(blocked: &[bool], [cols, rows]: [isize; 2]) -> Vec<bool> {
 
 /// Column and row of a place among the cells.
 pub(super) fn cell_at(lattice: &Lattice, at_m: [f64; 2]) -> Option<[usize; 2]> {
-    let at = |axis: usize| ((at_m[axis] - lattice.origin_m[axis]) / lattice.cell_m).floor();
-    let inside = |at: &f64| (0.0..SIDE as f64).contains(at);
-    let place = [at(0), at(1)];
-    place
-        .iter()
-        .all(inside)
-        .then(|| place.map(|at| at as usize))
+    let at = |axis: usize| place_along(lattice, axis, at_m[axis]);
+    Some([at(0)?, at(1)?])
+}
+
+/// Column or row, by the axis, of a place that lies so far along it, m.
+fn place_along(lattice: &Lattice, axis: usize, at_m: f64) -> Option<usize> {
+    let at = ((at_m - lattice.origin_m[axis]) / lattice.cell_m).floor();
+    (0.0..SIDE as f64).contains(&at).then_some(at as usize)
 }

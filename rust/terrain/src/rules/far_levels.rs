@@ -1,7 +1,9 @@
 //! Rule: from afar the steps of a staircase run into each other, so what is seen there on a higher level is not believed before it was
 //! seen from near by. Drops are believed from anywhere.
 
-use geometry::{Cell, Lattice};
+use std::ops::Range;
+
+use geometry::{Cell, Lattice, in_step};
 use mapping::{FloorView, Surface};
 use settings::{settings, within};
 
@@ -21,8 +23,10 @@ pub(super) struct FarLevels {
     lattice: Option<Lattice>,
     cols: usize,
     before_m: Vec<f32>,
-    /// Of each column: how far aside of the robot it is, m, and which column of `before_m` it is.
-    columns: Vec<(f64, usize)>,
+    /// How far aside of the robot each column is, m.
+    aside_m: Vec<f64>,
+    /// Columns that lie side by side in `before_m`, too, and where their first one lies.
+    columns: Vec<(Range<usize>, usize)>,
 }
 
 impl FarLevels {
@@ -42,27 +46,39 @@ impl FarLevels {
         std::mem::swap(nearest_m, &mut self.before_m);
         nearest_m.clear();
         let before = self.lattice.unwrap_or(view.lattice);
+        let center_m =
+            |axis: usize, at: usize| view.lattice.center_of(Cell::new(at as i32, at as i32))[axis];
+        let then = |cell: i32, count: usize| usize::try_from(cell).ok().filter(|&at| at < count);
+        self.aside_m.clear();
+        (self.aside_m).extend((0..cols).map(|col| center_m(0, col) - at_m[0]));
         self.columns.clear();
-        self.columns.extend((0..cols).map(|col| {
-            let [x, y] = view.lattice.center_of(Cell::new(col as i32, 0));
-            let then = usize::try_from(before.cell_at(x, y).col).ok();
-            (x - at_m[0], then.unwrap_or(usize::MAX))
+        (self.columns).extend(in_step(0..cols, |col| {
+            then(before.cell_at(center_m(0, col), 0.0).col, self.cols)
         }));
+        let rows_before = self.before_m.len() / self.cols.max(1);
         for row in 0..rows {
-            let [x, y] = view.lattice.center_of(Cell::new(0, row as i32));
-            let then = usize::try_from(before.cell_at(x, y).row).ok();
-            let known = then.and_then(|row| {
-                let first = row * self.cols;
-                self.before_m.get(first..first + self.cols)
-            });
-            let known = known.unwrap_or_default();
-            let ahead_m = y - at_m[1];
-            nearest_m.extend(self.columns.iter().map(|&(aside_m, col)| {
-                let away_m = (aside_m * aside_m + ahead_m * ahead_m).sqrt() as f32;
-                known
-                    .get(col)
-                    .map_or(away_m, |&before_m| away_m.min(before_m))
-            }));
+            let ahead_m = center_m(1, row) - at_m[1];
+            nearest_m.extend(
+                (self.aside_m.iter())
+                    .map(|aside_m| (aside_m * aside_m + ahead_m * ahead_m).sqrt() as f32),
+            );
+            let Some(row_then) = then(before.cell_at(0.0, center_m(1, row)).row, rows_before)
+            else {
+                continue;
+            };
+            let here_m = &mut nearest_m[row * cols..];
+            let before_m = &self.before_m[row_then * self.cols..];
+            for (columns, first) in &self.columns {
+                let before_m = &before_m[*first..][..columns.len()];
+                for (here_m, &before_m) in here_m[columns.clone()].iter_mut().zip(before_m) {
+                    // No distance is no number.
+                    *here_m = if before_m < *here_m {
+                        before_m
+                    } else {
+                        *here_m
+                    };
+                }
+            }
         }
         self.lattice = Some(view.lattice);
         self.cols = cols;
@@ -74,18 +90,18 @@ impl FarLevels {
 fn doubt(terrain: &mut Terrain, sight: &Sight<'_>, low_m: f64) {
     let range_m = terrain.settings.judge_range;
     let (floor_m, ground_m) = (terrain.needs.limits.floor_m, sight.stand.height_m);
-    for (index, surface) in sight.view.cells.values().iter().enumerate() {
-        let sloped = sight.view.gradients.values()[index] != [0.0; 2];
-        let was_near = f64::from(terrain.nearest_m[index]) <= range_m;
-        if was_near || terrain.stairs.covers(index) || sloped {
-            continue;
-        }
+    let surfaces = sight.view.cells.values().iter();
+    for (index, (surface, &nearest_m)) in surfaces.zip(&terrain.nearest_m).enumerate() {
         let doubtful = match *surface {
             Surface::Floor(height) => f64::from(height) - ground_m > floor_m,
             Surface::Obstacle(top) => f64::from(top) - ground_m < low_m,
             Surface::Unknown => false,
         };
-        if doubtful {
+        if !doubtful || f64::from(nearest_m) <= range_m {
+            continue;
+        }
+        let sloped = sight.view.gradients.values()[index] != [0.0; 2];
+        if !(sloped || terrain.stairs.covers(index)) {
             terrain.blocked[index] = false;
             terrain.unknown[index] = true;
         }

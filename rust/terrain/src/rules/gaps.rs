@@ -25,7 +25,10 @@ impl Gaps {
             let [below, here, above] =
                 [first - cols, first, first + cols].map(|first| &heights_m[first..first + cols]);
             for col in 1..cols.saturating_sub(1) {
-                if !here[col].is_nan() {
+                let known = |a: f32, b: f32| !a.is_nan() & !b.is_nan();
+                // Without a branch: most of what is unknown lies among its like.
+                let beside = known(here[col - 1], here[col + 1]) | known(below[col], above[col]);
+                if !(here[col].is_nan() & beside) {
                     continue;
                 }
                 let closed = between(here[col - 1], here[col + 1]);

@@ -4,31 +4,57 @@ use geometry::two_levels;
 
 use crate::Terrain;
 
+/// So many cells of a row are looked at together first.
+const TOGETHER: usize = 32;
+
 pub(super) fn apply(terrain: &mut Terrain) {
     let (cols, floor) = (terrain.cols, terrain.needs.limits.floor_m as f32);
-    for index in 0..terrain.height_m.len() {
-        let here = terrain.height_m[index];
-        if here.is_nan() {
+    for first in (0..terrain.height_m.len()).step_by(TOGETHER) {
+        let end = (first + TOGETHER).min(terrain.height_m.len());
+        if differs(&terrain.height_m[first..], end - first, cols, floor) {
+            for index in first..end {
+                mark(terrain, index, floor);
+            }
+        }
+    }
+}
+
+/// Whether some of the first cells may differ from a neighbour by more than floor does: where one ends a row, the next row's first one is taken
+/// for its neighbour.
+fn differs(heights_m: &[f32], count: usize, cols: usize, floor: f32) -> bool {
+    let here = &heights_m[..count];
+    // Without a branch, several cells at a time. Not a number: unknown, no difference.
+    let beside = |next: usize| {
+        let there = heights_m.get(next..).unwrap_or_default();
+        let differs = |(here, there): (&f32, &f32)| (there - here).abs() > floor;
+        (here.iter().zip(there)).fold(false, |any, pair| any | differs(pair))
+    };
+    beside(1) | beside(cols) | beside(cols + 1) | beside(cols.saturating_sub(1))
+}
+
+/// Marks a cell, and those of its neighbours to the right and above that differ from it.
+fn mark(terrain: &mut Terrain, index: usize, floor: f32) {
+    let (cols, here) = (terrain.cols, terrain.height_m[index]);
+    if here.is_nan() {
+        return;
+    }
+    let col = index % cols;
+    let neighbours = [
+        (col + 1 < cols, index + 1),
+        (true, index + cols),
+        (col + 1 < cols, index + cols + 1),
+        (col > 0, index + cols - 1),
+    ];
+    for (inside, next) in neighbours {
+        // Not a number: unknown, no difference.
+        let there = terrain.height_m.get(next).copied().unwrap_or(f32::NAN);
+        if !(inside && two_levels(there, here, floor)) {
             continue;
         }
-        let col = index % cols;
-        let neighbours = [
-            (col + 1 < cols, index + 1),
-            (true, index + cols),
-            (col + 1 < cols, index + cols + 1),
-            (col > 0, index + cols - 1),
-        ];
-        for (inside, next) in neighbours {
-            // Not a number: unknown, no difference.
-            let there = terrain.height_m.get(next).copied().unwrap_or(f32::NAN);
-            if !(inside && two_levels(there, here, floor)) {
-                continue;
-            }
-            let rise = terrain.slopes.step_m(index, next, there - here);
-            if rise > floor {
-                terrain.mark_step(index, rise);
-                terrain.mark_step(next, rise);
-            }
+        let rise = terrain.slopes.step_m(index, next, there - here);
+        if rise > floor {
+            terrain.mark_step(index, rise);
+            terrain.mark_step(next, rise);
         }
     }
 }

@@ -29,6 +29,11 @@ impl LoneCells {
             if !blocked[seed] || self.visited[seed] {
                 continue;
             }
+            let size = [cols, blocked.len() / cols];
+            let together = around(seed, 1, size).filter(|&cell| blocked[cell]);
+            if together.count() > most {
+                continue; // whatever else belongs to its patch
+            }
             self.grow(seed, blocked, cols);
             if self.patch.len() <= most {
                 for &cell in &self.patch {

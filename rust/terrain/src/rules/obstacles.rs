@@ -15,19 +15,27 @@ settings! {
 
 pub(super) fn apply(terrain: &mut Terrain, sight: &Sight<'_>, config: &ObstaclesConfig) {
     let riser_m = config.riser;
-    terrain.blocked.clear();
-    terrain.unknown.clear();
-    for (index, surface) in sight.view.cells.values().iter().enumerate() {
-        let (stands, riser) = match *surface {
-            Surface::Obstacle(top) => {
-                let stands = terrain.stairs.is_obstacle(index, top, riser_m);
-                (stands, !stands)
-            }
-            Surface::Unknown => (false, true),
-            Surface::Floor(_) => (false, false),
-        };
-        terrain.blocked.push(stands);
-        (terrain.unknown).push(riser && !terrain.stairs.covers(index));
+    let Terrain {
+        blocked,
+        unknown,
+        stairs,
+        ..
+    } = terrain;
+    let surfaces = sight.view.cells.values();
+    blocked.clear();
+    blocked.extend((surfaces.iter()).map(|surface| matches!(surface, Surface::Obstacle(_))));
+    unknown.clear();
+    unknown.extend((surfaces.iter()).map(|surface| *surface == Surface::Unknown));
+    if !stairs.any {
+        return;
+    }
+    let cells = blocked.iter_mut().zip(unknown).zip(surfaces).enumerate();
+    for (index, ((blocked, unknown), surface)) in cells {
+        if let Surface::Obstacle(top_m) = *surface {
+            *blocked = stairs.is_obstacle(index, top_m, riser_m);
+            *unknown = !*blocked;
+        }
+        *unknown &= !stairs.covers(index);
     }
 }
 

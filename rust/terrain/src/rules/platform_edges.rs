@@ -53,15 +53,10 @@ impl PlatformEdges {
         self.close_gaps(terrain, stand, config.gap);
         let size = [terrain.cols, self.ground.len() / terrain.cols.max(1)];
         for (index, &ground) in self.ground.iter().enumerate() {
-            if !ground {
-                continue;
-            }
-            for next in around(index, 1, size) {
-                let unseen = terrain.height_m[next].is_nan() && !terrain.blocked[next];
-                if unseen && !self.ground[next] {
-                    terrain.mark_edge(next);
-                    terrain.open[next] = true;
-                }
+            let unseen = !ground && terrain.height_m[index].is_nan() && !terrain.blocked[index];
+            if unseen && around(index, 1, size).any(|next| self.ground[next]) {
+                terrain.mark_edge(index);
+                terrain.open[index] = true;
             }
         }
     }
@@ -75,44 +70,61 @@ impl PlatformEdges {
         let (view, stand) = (sight.view, &sight.stand);
         let on_level = |height_m: f32| same_level(f64::from(height_m), stand.height_m, tolerance_m);
         let (lattice, cols) = (&view.lattice, view.cells.cols());
-        self.ground.clear();
-        for (index, surface) in view.cells.values().iter().enumerate() {
-            let height = &mut terrain.height_m[index];
-            if height.is_nan() && terrain.unknown[index] && !terrain.edge[index] {
-                let cell = Cell::new((index % cols) as i32, (index / cols) as i32);
-                let [x, y] = lattice.center_of(cell);
-                let (dx, dy) = (x - stand.at_m[0], y - stand.at_m[1]);
-                if dx.abs() <= blind_m && dy.abs() <= blind_m && geometry::hypot(dx, dy) <= blind_m
-                {
-                    *height = stand.ground_m([dx, dy]) as f32;
+        for row in 0..view.cells.rows() {
+            let away_m = |axis: usize, at: usize| {
+                let center_m = lattice.center_of(Cell::new(at as i32, at as i32));
+                center_m[axis] - stand.at_m[axis]
+            };
+            let dy = away_m(1, row);
+            if dy.abs() > blind_m {
+                continue;
+            }
+            for col in 0..cols {
+                let index = row * cols + col;
+                let height = &mut terrain.height_m[index];
+                if height.is_nan() && terrain.unknown[index] && !terrain.edge[index] {
+                    let dx = away_m(0, col);
+                    if dx.abs() <= blind_m && geometry::hypot(dx, dy) <= blind_m {
+                        *height = stand.ground_m([dx, dy]) as f32;
+                    }
                 }
             }
-            // Floor that was seen too rarely to be an edge is ground all the same.
-            let rarely = height.is_nan()
-                && !terrain.unknown[index]
-                && matches!(*surface, Surface::Floor(height_m) if on_level(height_m));
-            self.ground.push(rarely || on_level(*height));
         }
+        let cells = view.cells.values().iter();
+        let cells = cells.zip(&terrain.height_m).zip(&terrain.unknown);
+        self.ground.clear();
+        self.ground
+            .extend(cells.map(|((surface, height), &unknown)| {
+                // Floor that was seen too rarely to be an edge is ground all the same.
+                let rarely = height.is_nan()
+                    && !unknown
+                    && matches!(*surface, Surface::Floor(height_m) if on_level(height_m));
+                rarely || on_level(*height)
+            }));
     }
 
     fn close_gaps(&mut self, terrain: &mut Terrain, stand: &StandingAt, widest: usize) {
         let cols = terrain.cols;
         let rows = self.ground.len() / cols.max(1);
         self.gaps.clear();
-        for index in 0..self.ground.len() {
-            let seen = !terrain.unknown[index] || !terrain.height_m[index].is_nan();
-            if self.ground[index] || seen {
-                continue;
-            }
-            let lines = [(1, index % cols, cols), (cols, index / cols, rows)];
-            let closed = lines.into_iter().any(|(stride, at, count)| {
-                let before = (1..=widest.min(at)).find(|n| self.ground[index - n * stride]);
-                let most = widest.min(count - 1 - at);
-                let after = (1..=most).find(|n| self.ground[index + n * stride]);
-                before.zip(after).is_some_and(|(a, b)| a + b <= widest + 1)
-            });
-            if closed {
-                self.gaps.push(index);
+        for row in 0..rows {
+            for col in 0..cols {
+                let index = row * cols + col;
+                if !self.ground[index] {
+                    continue;
+                }
+                for (stride, at) in [(1, col), (cols, row)] {
+                    if at == 0 || self.ground[index - stride] {
+                        continue;
+                    }
+                    // A gap ends here.
+                    let most = (widest + 1).min(at);
+                    let before = (2..=most).find(|n| self.ground[index - n * stride]);
+                    let gap = (1..before.unwrap_or(1)).map(|n| index - n * stride);
+                    let unseen =
+                        |&cell: &usize| terrain.unknown[cell] && terrain.height_m[cell].is_nan();
+                    self.gaps.extend(gap.filter(unseen));
+                }
             }
         }
         for &index in &self.gaps {

@@ -1,5 +1,7 @@
 //! Rule: what lies between two levels across a few cells of which nothing is known is the shadow below an edge, and an edge.
 
+use std::ops::Range;
+
 use geometry::two_levels;
 use settings::{settings, within};
 
@@ -13,15 +15,48 @@ settings! {
     }
 }
 
+/// So many rows or columns are looked at together first.
+const TOGETHER: usize = 8;
+
 pub(super) fn apply(terrain: &mut Terrain, config: &ShadowsConfig) {
     let (cols, widest) = (terrain.cols, config.widest);
     let rows = terrain.height_m.len() / cols.max(1);
     for row in 0..rows {
-        mark_line(terrain, row * cols, 1, cols, widest);
+        if has_two_levels(terrain, row..row + 1, 0..cols) {
+            mark_line(terrain, row * cols, 1, cols, widest);
+        }
     }
-    for col in 0..cols {
-        mark_line(terrain, col, cols, rows, widest);
+    for first in (0..cols).step_by(TOGETHER) {
+        let together = first..(first + TOGETHER).min(cols);
+        if has_two_levels(terrain, 0..rows, together.clone()) {
+            for col in together {
+                mark_line(terrain, col, cols, rows, widest);
+            }
+        }
     }
+}
+
+/// Whether there may be two levels among some cells: not where all of their heights lie within what is floor, on level ground.
+fn has_two_levels(terrain: &Terrain, rows: Range<usize>, cols: Range<usize>) -> bool {
+    if !terrain.slopes.near.is_empty() {
+        return true;
+    }
+    let (mut least, mut most) = ([f32::INFINITY; TOGETHER], [f32::NEG_INFINITY; TOGETHER]);
+    for row in rows {
+        let first = row * terrain.cols;
+        for heights_m in terrain.height_m[first + cols.start..first + cols.end].chunks(TOGETHER) {
+            // Not a number: unknown, neither more nor less.
+            for ((least, most), &height_m) in least.iter_mut().zip(&mut most).zip(heights_m) {
+                *least = if height_m < *least { height_m } else { *least };
+                *most = if height_m > *most { height_m } else { *most };
+            }
+        }
+    }
+    let [low, high] = [
+        least.into_iter().fold(f32::INFINITY, f32::min),
+        most.into_iter().fold(f32::NEG_INFINITY, f32::max),
+    ];
+    high > low && two_levels(f64::from(high - low), 0.0, terrain.needs.limits.floor_m)
 }
 
 fn mark_line(terrain: &mut Terrain, first: usize, stride: usize, count: usize, widest: usize) {

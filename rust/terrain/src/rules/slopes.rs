@@ -21,7 +21,12 @@ pub(super) fn apply(terrain: &mut Terrain, sight: &Sight<'_>, config: &SlopesCon
     slopes.gradients.clear();
     slopes.near.clear();
     let gradients = sight.view.gradients.values();
-    if gradients.iter().all(|gradient| *gradient == [0.0; 2]) {
+    // Counted, not looked for: several cells at a time.
+    let is_level = |gradients: &[[f32; 2]]| {
+        let tilted = gradients.as_flattened().iter().filter(|rise| **rise != 0.0);
+        tilted.count() == 0
+    };
+    if gradients.chunks(terrain.cols.max(1)).all(is_level) {
         return;
     }
     slopes.gradients.extend_from_slice(gradients);
