@@ -22,7 +22,7 @@ from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
 
 ROBOT = load_robot("qrio")
-TICK_STEPS = 4
+TICK_STEPS = 5
 
 
 @dataclass
@@ -68,7 +68,7 @@ def test_a_push_gives_its_impulse_in_a_tenth_of_a_second() -> None:
         physics.steps += TICK_STEPS
     np.testing.assert_allclose(impulse, [0.3, -0.4, 0.1])
     assert [name for _, name in physics.written] == ["xfrc_applied"] * 2
-    assert [step for step, _ in physics.written] == [200, 200 + round(PUSH_SECONDS / 0.0025)]
+    assert [step for step, _ in physics.written] == [250, 250 + round(PUSH_SECONDS / 0.002)]
     assert not physics.data.xfrc_applied.any()
 
 
@@ -176,7 +176,7 @@ def test_a_kidnapped_robot_keeps_its_height_above_the_surface() -> None:
     np.testing.assert_allclose(after[:3], [2.5, 0.0, before[2] + 0.03])
     np.testing.assert_allclose(after[3:7], [np.cos(0.5), 0.0, 0.0, np.sin(0.5)], atol=1e-12)
     np.testing.assert_array_equal(after[7:], before[7:])
-    assert physics.written == [(40, "qpos")]
+    assert physics.written == [(50, "qpos")]
 
 
 def test_encoder_offsets_add_up() -> None:

@@ -34,7 +34,7 @@ def test_a_run_leaves_all_its_files_and_they_belong_together(recorded: Run) -> N
     assert {path.name for path in recorded.folder.iterdir()} == ALWAYS | RECORDED
     found = verify_run(recorded.folder)
     assert found.problems == ()
-    assert found.steps == 800
+    assert found.steps == 1000
 
 
 def test_without_recording_the_rest_stays(tmp_path: Path) -> None:

@@ -84,7 +84,7 @@ def test_each_torque_that_reaches_mujoco_is_within_peak_and_line_but_for_frictio
         wild = JointTargets(rng.normal(0, 2, 26), rng.normal(0, 9, 26), rng.normal(0, 9, 26))
         velocity = simulation.joint_velocities.copy()
         simulation.advance(wild)
-        first = simulation.audit.ctrl.array()[-4]
+        first = simulation.audit.ctrl.array()[-5]
         assert (np.abs(first) <= limits.peak_torque + limits.friction).all()
         line = limits.stall_torque * (1.0 - np.abs(velocity) / limits.no_load_speed)
         driving = first * velocity > 0.0

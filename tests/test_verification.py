@@ -68,7 +68,7 @@ def test_a_whole_run_passes(run: Path) -> None:
     (found,) = verify([run])
     assert found.problems == ()
     assert found.passed
-    assert found.steps == 4 * TICKS
+    assert found.steps == 5 * TICKS
     assert found.first_difference is None
 
 
@@ -113,8 +113,8 @@ def test_the_first_step_that_differs_is_told(copy: Path) -> None:
     arrays["qpos"][20, 9] += 1e-12
     np.savez(copy / "physics.npz", **arrays)
     found = verify_run(copy)
-    assert found.first_difference == 84
-    assert any("step 84" in problem for problem in found.problems)
+    assert found.first_difference == 105
+    assert any("step 105" in problem for problem in found.problems)
 
 
 @pytest.mark.parametrize(

@@ -19,8 +19,8 @@ STAND = "stand"
 """Name of the keyframe in which the robot stands upright."""
 BASE = "base"
 """Name that a free joint without one gets."""
-PHYSICS_STEP = 0.0025
-"""Of every simulation, s, whatever a model says: four steps are a control tick."""
+PHYSICS_STEP = 0.002
+"""Of every simulation, s, whatever a model says: five steps are a control tick."""
 SEEN_GROUPS = 3
 """Geoms of the groups below this are what a camera sees."""
 
