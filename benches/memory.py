@@ -3,9 +3,9 @@
     python benches/memory.py --minutes 60
     python benches/memory.py --minutes 10 --no-record
 
-The robot goes to and fro on the course of `slalom` with all that a run does; its folder is
-temporary. Prints the resident memory after each simulated minute, and by how much it grew from the
-first to the last; ends with 1 where that is more than is allowed.
+The robot goes to and fro on an open floor with all that a run does; its folder is temporary. Prints
+the resident memory after each simulated minute, and by how much it grew from the first to the last;
+ends with 1 where that is more than is allowed.
 """
 
 import argparse
@@ -21,7 +21,7 @@ from soak import resident_mb
 from treadwell.errors import InputError
 from treadwell.runner import run
 
-PLACES = ((2.8, 0.0), (0.0, 0.0))
+PLACES = ((3.5, 0.0), (0.0, 0.0))
 LEGS = 100
 """As many as a scenario may have; each takes more than half a minute."""
 
@@ -59,7 +59,7 @@ def main() -> int:
     looks, begin, record = Looks(), time.perf_counter(), not arguments.no_record
     with tempfile.TemporaryDirectory() as folder:
         done = run(
-            "slalom",
+            "open_floor",
             seed=arguments.seed,
             overrides=overrides,
             record=record,
