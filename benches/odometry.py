@@ -51,14 +51,14 @@ TASKS = {
 }
 
 
-def run(job: tuple[str, int]) -> tuple[float, float]:
+def run(job: tuple[str, int, float]) -> tuple[float, float]:
     """Return the errors of one run: metres and radians."""
-    task, seed = job
+    task, seed, seconds = job
     rng = RandomStreams(seed)("odometry bench")
     settings = (
         f"physics.friction={rng.uniform(0.6, 1.0)}",
         f"physics.mass_scale={rng.uniform(0.9, 1.1)}",
-        "time_limit=200",
+        f"time_limit={seconds}",
         "goal.position=[9.0, 9.0]",
     )
     behaviour = Walk(*TASKS[task])
@@ -76,12 +76,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seeds", type=seeds, default=list(range(20)))
     parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--seconds", type=float, default=200.0, help="simulated, of a run at most")
     add_options(parser)
     options = parser.parse_args()
     rows: list[dict[str, object]] = []
     with ProcessPoolExecutor(options.workers) as pool:
         for task in TASKS:
-            errors = np.array(list(pool.map(run, [(task, seed) for seed in options.seeds])))
+            jobs = [(task, seed, options.seconds) for seed in options.seeds]
+            errors = np.array(list(pool.map(run, jobs)))
             metres, degrees = 100 * errors[:, 0], np.degrees(errors[:, 1])
             sys.stdout.write(
                 f"{task:<13} {len(errors)} runs: median and 95 %: "

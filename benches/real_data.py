@@ -11,6 +11,7 @@ import os
 import time
 from collections.abc import Iterator
 from dataclasses import asdict, replace
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -286,6 +287,7 @@ def fit_of(frame: RealFrame, planes: Planes) -> dict[str, float]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--data", type=Path, default=os.environ.get("TREADWELL_DATA"))
+    parser.add_argument("--rows", type=int, help="of each table, at most; nothing is written then")
     add_options(parser, table=False)
     options = parser.parse_args()
     data = options.data
@@ -293,10 +295,12 @@ def main() -> None:
         parser.error("say where the data are: --data FOLDER or TREADWELL_DATA")
     for rows in (table_rows, scan_rows, room_rows):
         found = []
-        for row in rows(Path(data)):
+        for row in islice(rows(Path(data)), options.rows):
             shown = {k: round(v, 3) if isinstance(v, float) else v for k, v in row.items()}
             print(json.dumps(shown), flush=True)
             found.append(row)
+        if options.rows is not None:
+            continue
         title, table = results_table(found)
         write(options, title, None, table, "TREADWELL_DATA=FOLDER python benches/real_data.py")
 

@@ -139,7 +139,7 @@ class Trial:
         self.rng = np.random.default_rng(seed)
         self.options = options
         sensor = self.episode.sensors._depth
-        real = sensor._camera
+        real = sensor.camera
         model = self.episode.course.model
         self.camera = PosedCamera(model, model.camera(real._camera).name, real.pinhole)
         self.real = real

@@ -17,7 +17,7 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -193,11 +193,15 @@ def main() -> int:
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--only", default="", help="part of a name")
     parser.add_argument("--replay-only", action="store_true")
+    parser.add_argument("--seconds", type=float, help="of each run that is recorded, at most")
     options = parser.parse_args()
     folder: Path = options.folder
     folder.mkdir(parents=True, exist_ok=True)
     every = [*_long(), *_short()] if options.verb == "record" else recorded(folder)
     cases = [case for case in every if options.only in case.name]
+    if options.seconds is not None and options.verb == "record":
+        limit = f"time_limit={options.seconds}"
+        cases = [replace(case, overrides=(*case.overrides, limit)) for case in cases]
     if not cases:
         print(f"{folder}: no recording whose name has {options.only!r} in it", file=sys.stderr)
         return 2

@@ -58,7 +58,8 @@ class LogWriter:
         self._channels: list[Channel] = []
         self._attachments: list[AttachmentIndex] = []
         self._metadata: list[MetadataIndex] = []
-        self._chunks: list[ChunkIndex] = []
+        self._chunks: list[bytes] = []
+        """Their records in the summary: an object of each would take eight times as much."""
         self._counts: dict[int, int] = {}
         self._first_ns, self._last_ns = 0, 0
         self._begin_chunk()
@@ -142,16 +143,16 @@ class LogWriter:
         self._end_chunk()
         self._file.write(_record(DataEnd(data_section_crc=0)))
         begin, summary, offsets = self._file.tell(), b"", b""
-        groups: list[tuple[int, Iterable[McapRecord]]] = [
-            (Opcode.SCHEMA, self._schemas),
-            (Opcode.CHANNEL, self._channels),
-            (Opcode.STATISTICS, [self._statistics()]),
+        groups: list[tuple[int, Iterable[bytes]]] = [
+            (Opcode.SCHEMA, map(_record, self._schemas)),
+            (Opcode.CHANNEL, map(_record, self._channels)),
+            (Opcode.STATISTICS, [_record(self._statistics())]),
             (Opcode.CHUNK_INDEX, self._chunks),
-            (Opcode.ATTACHMENT_INDEX, self._attachments),
-            (Opcode.METADATA_INDEX, self._metadata),
+            (Opcode.ATTACHMENT_INDEX, map(_record, self._attachments)),
+            (Opcode.METADATA_INDEX, map(_record, self._metadata)),
         ]
         for opcode, records in groups:
-            group = b"".join(_record(record) for record in records)
+            group = b"".join(records)
             offsets += _record(
                 SummaryOffset(
                     group_opcode=opcode,
@@ -200,19 +201,18 @@ class LogWriter:
                 "<BQHI", Opcode.MESSAGE_INDEX, 6 + len(entries), channel, len(entries)
             )
             indexes += head + entries
-        self._chunks.append(
-            ChunkIndex(
-                chunk_length=len(chunk),
-                chunk_start_offset=begin,
-                compression="zstd",
-                compressed_size=len(packed),
-                message_end_time=last,
-                message_index_length=len(indexes),
-                message_index_offsets=offsets,
-                message_start_time=first,
-                uncompressed_size=len(content),
-            )
+        indexed = ChunkIndex(
+            chunk_length=len(chunk),
+            chunk_start_offset=begin,
+            compression="zstd",
+            compressed_size=len(packed),
+            message_end_time=last,
+            message_index_length=len(indexes),
+            message_index_offsets=offsets,
+            message_start_time=first,
+            uncompressed_size=len(content),
         )
+        self._chunks.append(_record(indexed))
         self._begin_chunk()
         self._file.write(chunk + indexes)
 

@@ -1,0 +1,76 @@
+"""Every script of `benches/` runs to its end on its least task; its figures are not looked at."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.slow
+
+BENCHES = Path(__file__).resolve().parents[1] / "benches"
+SHORT = """
+schema = 1
+name = "short"
+time_limit = 0.6
+[start]
+position = [0.0, 0.0]
+[goal]
+position = [1.0, 0.0]
+"""
+LEAST: dict[str, list[str]] = {
+    "episodes.py": ["SHORT", "--seeds", "0", "--workers", "1", "--audit"],
+    "fuzz_files.py": ["--count", "3"],
+    "kill_sweep.py": ["--kills", "1", "--episodes", "2"],
+    "memory.py": ["--minutes", "0.02"],
+    "odometry.py": ["--seeds", "0", "--workers", "1", "--seconds", "0.3"],
+    "peers/distance.py": ["--side", "60"],
+    "peers/occupancy.py": ["--frames", "1"],
+    "peers/octree.py": ["--frames", "1", "--cells", "0.04"],
+    "peers/rays.py": ["--cells", "0.04"],
+    "real_data.py": ["--rows", "1"],
+    "replay_runs.py": ["--count", "1", "--seconds", "0.5"],
+    "seam.py": ["--seconds", "0.3"],
+    "soak.py": ["--hours", "0.0001", "--scenarios", "SHORT"],
+    "speed.py": ["--scenario", "SHORT", "--seeds", "0"],
+    "stairs_seen.py": ["up", "--seeds", "0"],
+    "treads_seen.py": ["--before", "0.5", "--seconds", "0.5", "--steps", "1"],
+    "unchanged.py": ["record", "FOLDER", "--only", "slalom-qrio-0", "--seconds", "0.5"],
+    "walking_trials.py": ["stop", "--trials", "1"],
+}
+"""What each is given, so that it takes a second or two."""
+NEEDS = {
+    "peers/distance.py": "cv2",
+    "peers/occupancy.py": "pyoctomap",
+    "peers/octree.py": "pyoctomap",
+    "peers/rays.py": "pyoctomap",
+}
+
+
+def scripts() -> list[str]:
+    """Return those that are run by themselves."""
+    found = [path for folder in (BENCHES, BENCHES / "peers") for path in folder.glob("*.py")]
+    mains = [path for path in found if "__main__" in path.read_text(encoding="utf-8")]
+    return sorted(path.relative_to(BENCHES).as_posix() for path in mains)
+
+
+@pytest.mark.parametrize("script", scripts())
+def test_a_bench_runs_to_its_end(script: str, tmp_path: Path) -> None:
+    if script in NEEDS:
+        pytest.importorskip(NEEDS[script], reason=f"{script} is measured against a peer")
+    if script == "real_data.py" and not os.environ.get("TREADWELL_DATA"):
+        pytest.skip("TREADWELL_DATA does not say where data are")
+    short = tmp_path / "short.toml"
+    short.write_text(SHORT, encoding="utf-8")
+    places = {"SHORT": str(short), "FOLDER": str(tmp_path / "folder")}
+    words = [places.get(word, word) for word in LEAST[script]]
+    done = subprocess.run(
+        [sys.executable, str(BENCHES / script), *words],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.stdout.strip()
