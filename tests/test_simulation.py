@@ -6,6 +6,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+from robot_builders import qrio_copy
 
 from treadwell._core import Physics, Servos
 from treadwell.errors import SimulationError
@@ -105,14 +106,17 @@ def test_friction_is_the_servos_and_a_control_beyond_the_peak_by_it_is_not_clipp
     assert (flat.opt.noslip_iterations, flat.opt.noslip_tolerance) == (6, 0.0)
 
 
-def test_a_tick_is_four_steps_whatever_the_robots_model_says(
-    qrio: Robot, flat: mujoco.MjModel
-) -> None:
-    assert (qrio.nominal.opt.timestep, flat.opt.timestep) == (0.002, 0.0025)
-    simulation = Simulation(flat, qrio)
+def test_a_tick_is_five_steps_whatever_the_robots_model_says(tmp_path: Path) -> None:
+    folder = qrio_copy(tmp_path)
+    mjcf = folder / "qrio.xml"
+    mjcf.write_text(mjcf.read_text().replace('timestep="0.002"', 'timestep="0.005"'))
+    robot = load_robot(str(folder))
+    model = robot.spec().compile()
+    assert (robot.nominal.opt.timestep, model.opt.timestep) == (0.005, 0.002)
+    simulation = Simulation(model, robot)
     for _ in range(3):
-        simulation.advance(standing(qrio))
-    assert simulation.steps == len(simulation.audit.ctrl.array()) == 12
+        simulation.advance(standing(robot))
+    assert simulation.steps == len(simulation.audit.ctrl.array()) == 15
     assert len(simulation.audit.qpos.array()) == 3
     assert simulation.data.time == pytest.approx(0.03)
 
@@ -134,7 +138,7 @@ def test_after_a_tick_the_sensors_say_what_they_do_in_plain_mujoco(
     mujoco.mj_step1(flat, plain)
     for tick in range(30):
         simulation.advance(standing(qrio))
-        for ctrl in simulation.audit.ctrl.array()[4 * tick :]:
+        for ctrl in simulation.audit.ctrl.array()[5 * tick :]:
             plain.ctrl[:] = ctrl
             mujoco.mj_step2(flat, plain)
             mujoco.mj_step1(flat, plain)
@@ -162,6 +166,26 @@ def test_physics_that_diverge_are_an_error_with_the_time(
     with pytest.raises(SimulationError, match=r"diverged at 0\.02 s"):
         simulation.advance(standing(qrio))
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("kilobytes", [16, 56])
+def test_a_model_with_too_little_memory_is_an_error_and_not_the_end_of_the_process(
+    qrio: Robot, kilobytes: int
+) -> None:
+    spec = qrio.spec()
+    spec.worldbody.add_geom(name="ground", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1])
+    spec.memory = 1024 * kilobytes
+    model = spec.compile()
+
+    def fall() -> None:
+        simulation = Simulation(model, qrio)
+        for _ in range(150):
+            simulation.advance(JointTargets(np.zeros(26), np.zeros(26), np.zeros(26)))
+
+    with pytest.raises(SimulationError, match=r"^the physics failed at .* memory.*\)$") as raised:
+        fall()
+    assert "\n" not in str(raised.value)
+    assert not model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_SENSOR
 
 
 def test_a_model_and_data_that_do_not_belong_together_are_not_stepped(

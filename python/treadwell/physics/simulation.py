@@ -91,7 +91,7 @@ class Simulation:
         )
         self.place(start or Start())
         self.steps = 0
-        mujoco.mj_step1(model, self.data)
+        self._follow()
         self.audit = Audit(model, self.data)
 
     @property
@@ -115,16 +115,20 @@ class Simulation:
         """Advance by one control tick: some physics steps, with the servos at each.
 
         Raises:
-            SimulationError: the targets or the state are not finite.
+            SimulationError: the targets or the state are not finite, or MuJoCo cannot step.
         """
         if not self.motors.command(targets.position, targets.velocity, targets.torque):
             self._refuse(targets)
         options, controls = self.model.opt, self._controls
         # Nobody reads MuJoCo's sensors between two ticks, and nothing that moves depends on them.
         options.disableflags |= _SENSORS
-        self._physics.step(self.motors, controls[:-1])
-        options.disableflags &= ~_SENSORS
-        healthy = self._physics.step(self.motors, controls[-1:])
+        try:
+            self._physics.step(self.motors, controls[:-1])
+            options.disableflags &= ~_SENSORS
+            healthy = self._physics.step(self.motors, controls[-1:])
+        except mujoco.FatalError as error:
+            options.disableflags &= ~_SENSORS
+            raise self._failed(error) from None
         self.steps += self._steps_per_tick
         self.audit.ctrl.extend(controls)
         self.audit.qpos.append(self.data.qpos)
@@ -138,13 +142,16 @@ class Simulation:
             field: `xfrc_applied`, `qpos`, `qvel`, `mocap_pos`, `mocap_quat`, or a field of the
                 model that MuJoCo lets change between steps, such as `geom_friction`.
             value: the whole field.
+
+        Raises:
+            SimulationError: MuJoCo cannot compute what follows.
         """
         owner = self.data if field in DATA_FIELDS else self.model
         array: NDArray[Any] = getattr(owner, field)
         before = array.copy()
         array[:] = value
         self.audit.event(self.steps, field, before, array)
-        mujoco.mj_step1(self.model, self.data)
+        self._follow()
 
     def standing_qpos(self, start: Start) -> NDArray[np.float64]:
         """Return (nq,): all positions as they are, but the robot standing as in its keyframe."""
@@ -183,6 +190,17 @@ class Simulation:
             RecordingError: they cannot be written.
         """
         self.audit.save(folder)
+
+    def _follow(self) -> None:
+        """Bring up to date all that follows from positions and velocities."""
+        try:
+            mujoco.mj_step1(self.model, self.data)
+        except mujoco.FatalError as error:
+            raise self._failed(error) from None
+
+    def _failed(self, error: Exception) -> SimulationError:
+        time, words = 1e-9 * self.time_ns, " ".join(str(error).split())
+        return SimulationError(f"the physics failed at {time:.2f} s (MuJoCo: {words})")
 
     def _refuse(self, targets: JointTargets) -> NoReturn:
         shape = (len(self.robot.joints),)

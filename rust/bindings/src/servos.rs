@@ -145,7 +145,7 @@ impl PyPhysics {
     }
 
     /// Steps once for each row of `controls` (steps, nu), which gets what the motors were told. False where the state is no longer
-    /// finite, or MuJoCo warned.
+    /// finite, or MuJoCo warned. Raises `mujoco.FatalError` where it cannot step.
     fn step(
         &mut self,
         py: Python<'_>,
@@ -156,8 +156,7 @@ impl PyPhysics {
         if controls.as_array().ncols() != width {
             return Err(PyValueError::new_err(format!("controls: {width} columns")));
         }
-        let (physics, servos, controls) =
-            (&mut self.0, &mut servos.servos, controls.as_slice_mut()?);
-        Ok(py.detach(|| physics.step(servos, controls)))
+        self.0
+            .step(py, &mut servos.servos, controls.as_slice_mut()?)
     }
 }

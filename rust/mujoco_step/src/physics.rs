@@ -1,12 +1,10 @@
 //! One episode's physics.
 
-use std::ffi::c_void;
-
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use simulated_body::Servos;
 
-use crate::library::Library;
 use crate::memory::LiveArray;
 
 /// Where the robot's joints and motors are in MuJoCo's arrays.
@@ -22,9 +20,12 @@ pub struct Wiring {
 
 /// A model and its state, stepped.
 pub struct Physics {
-    library: Library,
-    model: *const c_void,
-    data: *mut c_void,
+    /// From positions and velocities to all that follows from them: the package's `mj_step1`.
+    step1: Py<PyAny>,
+    /// From controls to the next positions and velocities: its `mj_step2`.
+    step2: Py<PyAny>,
+    /// What both are called with, model and data of Python's: as long as they live, what is pointed at does.
+    owners: Py<PyTuple>,
     wiring: Wiring,
     positions: LiveArray<f64>,
     velocities: LiveArray<f64>,
@@ -32,8 +33,6 @@ pub struct Physics {
     warnings: LiveArray<i32>,
     angles_rad: Vec<f64>,
     speeds_radps: Vec<f64>,
-    /// Model and data of Python's: as long as they live, what is pointed at does.
-    _owners: [Py<PyAny>; 2],
 }
 
 // SAFETY: the pointers are to memory of the two owners, which any thread may use as long as one alone does; `step` borrows mutably.
@@ -50,10 +49,19 @@ impl Physics {
         joints: usize,
     ) -> PyResult<Self> {
         let py = model.py();
+        let package = py.import("mujoco")?;
+        for (object, class) in [(model, "MjModel"), (data, "MjData")] {
+            if !object.is_instance(&package.getattr(class)?)? {
+                let found = object.get_type();
+                return Err(PyTypeError::new_err(format!(
+                    "must be a {class}, got {found}"
+                )));
+            }
+        }
         let physics = Self {
-            library: Library::of_package(py)?,
-            model: address(model, "MjModel")? as *const c_void,
-            data: address(data, "MjData")? as *mut c_void,
+            step1: package.getattr("mj_step1")?.unbind(),
+            step2: package.getattr("mj_step2")?.unbind(),
+            owners: PyTuple::new(py, [model, data])?.unbind(),
             positions: LiveArray::of(data, "qpos")?,
             velocities: LiveArray::of(data, "qvel")?,
             controls: LiveArray::of(data, "ctrl")?,
@@ -61,7 +69,6 @@ impl Physics {
             angles_rad: vec![0.0; joints],
             speeds_radps: vec![0.0; joints],
             wiring,
-            _owners: [model.clone().unbind(), data.clone().unbind()],
         };
         let lengths = ["nq", "nv", "nu"].map(|name| model.getattr(name)?.extract::<usize>());
         let [positions, velocities, controls] = lengths;
@@ -106,19 +113,24 @@ impl Physics {
 
     /// Steps once for each row of `controls`, which gets what the motors were told; `false` where a state is not finite, or MuJoCo warned.
     ///
-    /// Each step is `mj_step2` and `mj_step1`: before and after, all that follows from positions and velocities is up to date.
-    pub fn step(&mut self, servos: &mut Servos, controls: &mut [f64]) -> bool {
+    /// Each step is `mj_step2` and `mj_step1`: before and after, all that follows from positions and velocities is up to date. A fatal
+    /// error of MuJoCo's is the exception that its package raises, `mujoco.FatalError`; nothing can be stepped on from there.
+    pub fn step(
+        &mut self,
+        py: Python<'_>,
+        servos: &mut Servos,
+        controls: &mut [f64],
+    ) -> PyResult<bool> {
         let width = self.controls.len().max(1);
         for row in controls.chunks_exact_mut(width) {
             self.drive(servos);
             self.controls.copy_to(row);
-            // SAFETY: model and data are alive and made for each other, as `new` has looked; nobody else uses them meanwhile, and no
-            // reference into their memory exists.
-            unsafe { (self.library.step2)(self.model, self.data) };
-            // SAFETY: as above.
-            unsafe { (self.library.step1)(self.model, self.data) };
+            for half in [&self.step2, &self.step1] {
+                let _none = half.bind(py).call1(self.owners.bind(py))?;
+            }
         }
-        self.positions.iter().all(f64::is_finite) && self.warnings.iter().all(|count| count == 0)
+        let finite = self.positions.iter().all(f64::is_finite);
+        Ok(finite && self.warnings.iter().all(|count| count == 0))
     }
 
     /// Sets the controls to what the servos give.
@@ -143,20 +155,4 @@ impl Physics {
             }
         }
     }
-}
-
-/// The address of the C structure behind an object of Python's MuJoCo.
-fn address(object: &Bound<'_, PyAny>, class: &str) -> PyResult<usize> {
-    let class = object.py().import("mujoco")?.getattr(class)?;
-    if !object.is_instance(&class)? {
-        return Err(PyTypeError::new_err(format!(
-            "must be a {class}, got {}",
-            object.get_type()
-        )));
-    }
-    let address: usize = object.getattr("_address")?.extract()?;
-    if address == 0 {
-        return Err(PyValueError::new_err("there is nothing behind the object"));
-    }
-    Ok(address)
 }
