@@ -50,9 +50,9 @@ pub(super) struct Fan {
     /// By reach, and where the rays of each reach begin.
     places: Vec<Place>,
     starts: Vec<u32>,
-    /// Bins of the rays that have been let in.
+    /// Bins of the rays that are shown.
     pub(super) raster: Raster,
-    /// The rays that have been let in, by block: the first, and by ray its bin and the next.
+    /// The rays that are listed, by block: the first, and by ray its bin and the next.
     heads: Vec<u32>,
     links: Vec<Place>,
 }
@@ -80,7 +80,7 @@ impl Fan {
         reach.map(|beam| beam.ray as usize)
     }
 
-    /// Sorts the rays by reach, up to a slab; none is let in yet. `rays` are there in all.
+    /// Sorts the rays by reach, up to a slab; none is shown or listed yet. `rays` are there in all.
     pub(super) fn sort(&mut self, farthest: u32, rays: usize) {
         self.grain = Grain::of(&self.beams);
         let Grain {
@@ -117,13 +117,31 @@ impl Fan {
         self.links.resize(rays, Place::default());
     }
 
-    /// Lets in the rays that end in a slab.
-    pub(super) fn let_in(&mut self, slab: u32) {
-        let blocks = self.grain.size[1].div_ceil(BLOCK);
+    /// Where the rays that end in a slab are, by reach.
+    fn places(&self, slab: u32) -> Range<usize> {
         let [from, to] = [slab, slab + 1].map(|slab| self.starts[slab as usize] as usize);
-        for place in &self.places[from..to] {
+        from..to
+    }
+
+    /// The rays that end in a slab.
+    pub(super) fn ending(&self, slab: u32) -> impl Iterator<Item = usize> {
+        let places = &self.places[self.places(slab)];
+        places.iter().map(|place| place.ray as usize)
+    }
+
+    /// Shows the rays that end in a slab in the raster.
+    pub(super) fn show(&mut self, slab: u32) {
+        for place in &self.places[self.places(slab)] {
+            self.raster
+                .set(usize::from(place.col), usize::from(place.row));
+        }
+    }
+
+    /// Lists the rays that end in a slab: they are asked from now on.
+    pub(super) fn list(&mut self, slab: u32) {
+        let blocks = self.grain.size[1].div_ceil(BLOCK);
+        for place in &self.places[self.places(slab)] {
             let (col, row) = (usize::from(place.col), usize::from(place.row));
-            self.raster.set(col, row);
             let head = &mut self.heads[col / BLOCK * blocks + row / BLOCK];
             self.links[place.ray as usize] = Place {
                 ray: *head,
@@ -133,7 +151,7 @@ impl Fan {
         }
     }
 
-    /// Whether it holds for a ray that was let in, of those in some columns and rows.
+    /// Whether it holds for a ray that is listed, of those in some columns and rows.
     pub(super) fn any(
         &self,
         cols: &Range<usize>,

@@ -7,7 +7,7 @@ use super::placement::{Placement, Size};
 /// Nearer to a border than this, in voxels, a product with one over the voxel's size does not tell on which side of it a place is.
 const AT_BORDER: f64 = 1e-9;
 /// Added to a number far below it, it leaves no room for a fraction: the sum is rounded, and its lowest bits are the whole number.
-const NO_FRACTION: f64 = 6_755_399_441_055_744.0;
+pub(super) const NO_FRACTION: f64 = 6_755_399_441_055_744.0;
 
 /// Finds the voxels of places, or their cells, without a division, but for places at borders: the same as by
 /// [`Placement::in_voxels`] and [`Lattice::cell_at`].

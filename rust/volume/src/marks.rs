@@ -23,7 +23,7 @@ const FARTHEST: f64 = 1e6;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Marks {
     size: Size,
-    /// One bit a layer: hit, or passed, by a ray.
+    /// One bit a layer: hit, or passed, by a ray; what is hit may count as passed, too.
     hits: Vec<u64>,
     passed: Vec<u64>,
     /// Rays along x and along y, towards more and towards less, and the ends of all of them.
@@ -74,7 +74,9 @@ impl Marks {
                 return;
             };
             if let (Some([col, row, layer]), true) = (inside, hit) {
-                self.hits[row as usize * self.size.cols + col as usize] |= 1 << layer;
+                let cell = row as usize * self.size.cols + col as usize;
+                self.hits[cell] |= 1 << layer;
+                self.passed[cell] |= 1 << layer;
             }
             if !(shared && self.gather([eye, first], end, inside)) {
                 self.walk(eye, end);
@@ -159,7 +161,6 @@ impl Marks {
                 forward: number % 2 == 0,
             };
             let mut marked = Marked {
-                hits: &self.hits,
                 passed: &mut self.passed,
                 settled,
             };

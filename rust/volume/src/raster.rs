@@ -14,6 +14,8 @@ pub(super) struct Raster {
     /// The lowest rows of all columns, then the next ones.
     blocks: Vec<[u64; BLOCK]>,
     cols: usize,
+    /// Words that hold all rows.
+    used: usize,
 }
 
 /// Rows of a raster, one bit each.
@@ -21,6 +23,8 @@ pub(super) struct Raster {
 pub(super) struct Rows {
     /// One more than is needed.
     words: [u64; BLOCK * BLOCKS + 1],
+    /// Those that may have one.
+    used: usize,
 }
 
 /// Rows from one to before another: what a layer covers.
@@ -36,6 +40,7 @@ impl Raster {
     /// Makes it empty, of so many columns and rows.
     pub(super) fn resize(&mut self, [cols, rows]: [usize; 2]) {
         self.cols = cols;
+        self.used = rows.div_ceil(64);
         self.blocks.clear();
         self.blocks
             .resize(cols * rows.div_ceil(64 * BLOCK), [0; BLOCK]);
@@ -67,7 +72,10 @@ impl Raster {
             }
             *all = [a, b, c, d];
         }
-        Rows { words }
+        Rows {
+            words,
+            used: self.used,
+        }
     }
 }
 
@@ -75,8 +83,9 @@ impl Rows {
     /// The lowest and the highest.
     #[inline]
     pub(super) fn ends(&self) -> Option<[usize; 2]> {
-        let low = self.words.iter().position(|&word| word != 0)?;
-        let high = self.words.iter().rposition(|&word| word != 0)?;
+        let words = self.words.get(..self.used)?;
+        let low = words.iter().position(|&word| word != 0)?;
+        let high = words.iter().rposition(|&word| word != 0)?;
         let highest = 63 - self.words[high].leading_zeros() as usize;
         Some([
             64 * low + self.words[low].trailing_zeros() as usize,

@@ -3,21 +3,16 @@
 
 use std::ops::Range;
 
-use super::columns::{Slabs, run};
+use super::bins::{NEAR, around, one_each, spread, units, within};
+use super::columns::Slabs;
 use super::fan::{Fan, Grain};
 use super::placement::Size;
 use super::raster::Band;
 use super::ray::RayPart;
 use super::voxels::bits;
 
-/// Part of a bin that is more than what 32 bits may lose: a rounding guard.
-const MARGIN: f64 = 1e-3;
-/// Part of a voxel that is far more than the rounding of a ray: a rounding guard, behind which every ray is followed exactly.
-const NEAR: f64 = 1e-4;
 /// Nearer to the eye, in voxels, bins are too small for their margin.
 const NEAREST: f64 = 0.01;
-/// What is nearer is taken to be so far: by then no ray that is not steep has left [`NEAR`].
-const TOUCHED: f64 = 1e-5;
 /// Layers at most: one bit each of a word.
 const LAYERS: usize = 64;
 
@@ -30,7 +25,7 @@ pub(super) struct SweepWay {
 
 /// What is marked.
 pub(super) struct Marked<'a> {
-    pub(super) hits: &'a [u64],
+    /// Passed or hit.
     pub(super) passed: &'a mut [u64],
     pub(super) settled: &'a [u64],
 }
@@ -39,7 +34,7 @@ impl Marked<'_> {
     /// Layers of which nothing is to be found out.
     #[inline]
     fn known(&self, cell: usize) -> u64 {
-        self.hits[cell] | self.passed[cell] | self.settled[cell]
+        self.passed[cell] | self.settled[cell]
     }
 }
 
@@ -96,10 +91,22 @@ impl<'a> RaySweep<'a> {
         // Further away a voxel need not hold a whole bin.
         let seen = (0.5 * fan.grain.per_slope - self.to_border) as i32;
         for slab in (0..=farthest).rev() {
-            fan.let_in(slab as u32);
-            if slab <= seen && slab >= nearest {
+            fan.show(slab as u32);
+            let within = slab <= seen && slab >= nearest;
+            // Those of the farthest slab may go on beyond the grid.
+            let ends = within && slab < farthest;
+            if !ends {
+                fan.list(slab as u32);
+            }
+            if within {
                 self.cross(fan, slab, marked);
                 self.look(fan, slab, marked);
+            }
+            if ends {
+                for ray in fan.ending(slab as u32) {
+                    self.end(ray, slab, marked);
+                }
+                fan.list(slab as u32);
             }
         }
         if seen < farthest {
@@ -115,14 +122,29 @@ impl<'a> RaySweep<'a> {
         if slab == 0 || enter < NEAREST {
             return;
         }
-        let bands = self.bands(|low| within(&fan.grain, 1, low, enter));
         let last = self.size.voxels()[self.axes[0]] - 1;
         let both = [slab - 1, slab].map(|slab| (self.ahead(slab)).clamp(0, last));
-        for line in self.lines(&fan.grain, [enter; 2]) {
-            let cells = [self.cell(both[0], line), self.cell(both[1], line)];
-            let open = !(marked.known(cells[0]) & marked.known(cells[1]));
+        let lines = self.lines(&fan.grain, [enter; 2]);
+        let cells = |line: usize| both.map(|ahead| self.cell(ahead, line));
+        let open = |marked: &Marked<'_>, cells: [usize; 2]| {
+            !(marked.known(cells[0]) & marked.known(cells[1]))
+        };
+        let any = lines
+            .clone()
+            .fold(0, |any, line| any | open(marked, cells(line)));
+        let any = any & self.all_layers(&fan.grain, [enter; 2]);
+        if any == 0 {
+            return;
+        }
+        let bands = self.bands(any, |low| within(&fan.grain, 1, low, enter));
+        for line in lines {
+            let cells = cells(line);
+            let open = any & open(marked, cells);
+            if open == 0 {
+                continue;
+            }
             let cols = within(&fan.grain, 0, self.beside(line), enter);
-            if cols.is_empty() || open == 0 {
+            if cols.is_empty() {
                 continue;
             }
             let rows = fan.raster.rows(cols);
@@ -140,11 +162,17 @@ impl<'a> RaySweep<'a> {
     fn look(&self, fan: &Fan, slab: i32, marked: &mut Marked<'_>) {
         let Depth { enter, leave } = self.depth(slab);
         let grain = &fan.grain;
-        let bands = self.bands(|low| around(grain, 1, low, [enter, leave]));
         let ahead = self.ahead(slab);
-        for line in self.lines(grain, [enter, leave]) {
+        let lines = self.lines(grain, [enter, leave]);
+        let any = (lines.clone()).fold(0, |any, line| any | !marked.known(self.cell(ahead, line)));
+        let any = any & self.all_layers(grain, [enter, leave]);
+        if any == 0 {
+            return;
+        }
+        let bands = self.bands(any, |low| around(grain, 1, low, [enter, leave]));
+        for line in lines {
             let cell = self.cell(ahead, line);
-            let open = !marked.known(cell);
+            let open = any & !marked.known(cell);
             if open == 0 {
                 continue;
             }
@@ -166,27 +194,43 @@ impl<'a> RaySweep<'a> {
         }
     }
 
+    /// Marks what a ray passes in the slab in which it ends, unless all that may be is known: what it ends before, under a floor
+    /// above all, is in nobody's way, so that these rays need not be asked about it.
+    #[inline]
+    fn end(&self, ray: usize, slab: i32, marked: &mut Marked<'_>) {
+        let (eye, end) = (self.eye, self.ends[ray]);
+        let Depth { enter, .. } = self.depth(slab);
+        let ahead = (end[self.axes[0]] - eye[self.axes[0]]).abs();
+        let part = if ahead > enter { enter / ahead } else { 0.0 };
+        let [lines, layers] = [self.axes[1], 2].map(|axis| {
+            let (from, to) = ((end[axis] - eye[axis]) * part, end[axis] - eye[axis]);
+            let ends = if from < to { [from, to] } else { [to, from] };
+            units(eye[axis], ends, self.size.voxels()[axis])
+        });
+        let (layers, ahead) = (one_each(layers), self.ahead(slab));
+        let open = lines.fold(0, |open, line| open | !marked.known(self.cell(ahead, line)));
+        if open & layers != 0 {
+            self.walk(ray, slab..slab + 1, marked);
+        }
+    }
+
     /// Whether a ray passes a voxel, or almost: by its place across and its layer, within a slab.
     #[inline]
     fn goes_by(&self, ray: usize, voxel: [usize; 2], Depth { enter, leave }: Depth) -> bool {
         let (eye, end) = (self.eye, self.ends[ray]);
         let ahead = (end[self.axes[0]] - eye[self.axes[0]]).abs();
-        let (mut from, mut to) = (enter - NEAR, leave.min(ahead) + NEAR);
-        for way in 0..2 {
-            let axis = [self.axes[1], 2][way];
-            let low = voxel[way] as f64 - eye[axis];
-            let beside = end[axis] - eye[axis];
-            let (low, high) = ((low - NEAR) * ahead, (low + 1.0 + NEAR) * ahead);
-            let (a, b) = (beside * from, beside * to);
-            if a < low && b < low || a > high && b > high {
-                return false;
-            }
-            if beside != 0.0 {
-                let (a, b) = (low / beside, high / beside);
-                (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
-            }
-        }
-        from <= to
+        let (from, to) = (enter - NEAR, leave.min(ahead) + NEAR);
+        // Where it enters and leaves, from the voxel's middle, and half of the voxel; all as long as the ray goes ahead.
+        let half = (0.5 + NEAR) * ahead;
+        let [across, up] = [self.axes[1], 2].map(|axis| end[axis] - eye[axis]);
+        let middle = |way: usize, axis: usize| (voxel[way] as f64 + 0.5 - eye[axis]) * ahead;
+        let [line, layer] = [middle(0, self.axes[1]), middle(1, 2)];
+        let [v0, v1] = [across * from - line, across * to - line];
+        let [z0, z1] = [up * from - layer, up * to - layer];
+        let beside = |a: f64, b: f64| a.min(b) > half || a.max(b) < -half;
+        // Apart along across or up, or else by a line along the ray (separating axes).
+        !(beside(v0, v1) || beside(z0, z1))
+            && (up * v0 - across * z0).abs() <= (up.abs() + across.abs()) * half
     }
 
     /// Marks what a ray passes in some slabs, counted from the eye's.
@@ -224,12 +268,12 @@ impl<'a> RaySweep<'a> {
         line as f64 - self.eye[self.axes[1]]
     }
 
-    /// For each layer its rows.
+    /// For each of some layers its rows.
     #[inline]
-    fn bands(&self, rows: impl Fn(f64) -> Range<usize>) -> [Band; LAYERS] {
+    fn bands(&self, layers: u64, rows: impl Fn(f64) -> Range<usize>) -> [Band; LAYERS] {
         let mut bands = [Band::default(); LAYERS];
-        for (layer, band) in bands[..self.size.layers].iter_mut().enumerate() {
-            *band = Band::new(rows(layer as f64 - self.eye[2]));
+        for layer in bits(layers) {
+            bands[layer] = Band::new(rows(layer as f64 - self.eye[2]));
         }
         bands
     }
@@ -242,58 +286,15 @@ impl<'a> RaySweep<'a> {
         units(self.eye[across], [low, high], count)
     }
 
+    /// Layers that may show between two distances.
+    fn all_layers(&self, grain: &Grain, depths: [f64; 2]) -> u64 {
+        self.layers(grain, [0, grain.size[1] - 1], depths)
+    }
+
     /// Layers that may show in some rows between two distances.
     #[inline]
     fn layers(&self, grain: &Grain, [low, high]: [usize; 2], depths: [f64; 2]) -> u64 {
         let ends = spread(grain, 1, [low, high + 1], depths);
-        let layers = units(self.eye[2], ends, self.size.layers as i32);
-        if layers.is_empty() {
-            0
-        } else {
-            run(layers.start as i64, layers.end as i64 - 1)
-        }
+        one_each(units(self.eye[2], ends, self.size.layers as i32))
     }
-}
-
-/// The voxels that hold what lies between two distances from the eye, and what almost does.
-#[inline]
-fn units(eye: f64, [low, high]: [f64; 2], count: i32) -> Range<usize> {
-    let last = f64::from(count);
-    let (low, high) = (eye + low - NEAR, eye + high + NEAR);
-    low.clamp(0.0, last) as usize..(high + 1.0).clamp(0.0, last) as usize
-}
-
-/// How far some bins are from the eye's axis between two depths.
-#[inline]
-fn spread(grain: &Grain, way: usize, bins: [usize; 2], depths: [f64; 2]) -> [f64; 2] {
-    let slope = |bin: usize| grain.lowest[way] + bin as f64 / grain.per_slope;
-    let [low, high] = [slope(bins[0]), slope(bins[1])];
-    let [near, far] = depths;
-    [(low * near).min(low * far), (high * near).max(high * far)]
-}
-
-/// The bins that lie as a whole between `low` and `low + 1` voxels beside the eye's axis.
-#[inline]
-fn within(grain: &Grain, way: usize, low: f64, depth: f64) -> Range<usize> {
-    let per_voxel = grain.per_slope / depth;
-    let start = low * per_voxel - grain.lowest[way] * grain.per_slope;
-    let end = start + per_voxel;
-    let first = start + MARGIN;
-    let first = if first > 0.0 { first as usize + 1 } else { 0 };
-    let count = grain.size[way];
-    first.min(count)..(((end - MARGIN).max(0.0)) as usize).min(count)
-}
-
-/// The bins of which a part lies, or almost does, between `low` and `low + 1` voxels beside the eye's axis, between two depths.
-#[inline]
-fn around(grain: &Grain, way: usize, low: f64, [near, far]: [f64; 2]) -> Range<usize> {
-    let per_voxel = |depth: f64| grain.per_slope / depth.max(TOUCHED);
-    let (near, far) = (per_voxel(near), per_voxel(far));
-    let (low, high) = (low - NEAR, low + 1.0 + NEAR);
-    let origin = grain.lowest[way] * grain.per_slope;
-    let start = (low * near).min(low * far) - origin - MARGIN;
-    let end = (high * near).max(high * far) - origin + MARGIN;
-    let count = grain.size[way];
-    let end = ((end + 1.0).max(0.0) as usize).min(count);
-    (start.max(0.0) as usize).min(end)..end
 }

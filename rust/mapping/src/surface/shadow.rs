@@ -1,12 +1,14 @@
 //! What lies behind an obstacle is not seen: a wall rises through every height, so that a strip of it passes for a continuation
 //! of whatever floor or lid borders on it, and with its height seems to lie behind the wall.
 
+use std::ops::Range;
+
 use geometry::Cell;
 
 use crate::{FloorView, Surface};
-use volume::OccupancyGrid;
+use volume::{Locator, OccupancyGrid};
 
-/// Which cells have an obstacle near them: most points lie far from all, and need no closer look. Keeps its buffers.
+/// Which cells have an obstacle near them, on the eye's side: most points lie far from all, and need no closer look. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Surroundings {
     near: Vec<bool>,
@@ -14,31 +16,47 @@ pub(crate) struct Surroundings {
 }
 
 impl Surroundings {
-    /// Finds the cells of a view that are at most so many columns and rows from an obstacle.
-    pub(crate) fn find(&mut self, view: &FloorView, cells: usize) {
+    /// Finds the cells of a view that lie at most so many columns and rows behind an obstacle, seen from the cell of the eye.
+    fn find(&mut self, view: &FloorView, cells: usize, eye: Cell) {
         let [cols, rows] = view.size();
         self.near.clear();
         self.near.resize(cols * rows, false);
         for (row, line) in view.cells.values().chunks_exact(cols).enumerate() {
+            let is_obstacle = |surface: &Surface| matches!(surface, Surface::Obstacle(_));
+            // Without a way out, many at a time.
+            if !line
+                .iter()
+                .fold(false, |any, surface| any | is_obstacle(surface))
+            {
+                continue;
+            }
             self.line.clear();
             self.line.resize(cols, false);
-            let mut any = false;
-            for (col, surface) in line.iter().enumerate() {
-                if let Surface::Obstacle(_) = surface {
-                    any = true;
-                    self.line[col.saturating_sub(cells)..(col + cells + 1).min(cols)].fill(true);
-                }
+            for (col, _) in line
+                .iter()
+                .enumerate()
+                .filter(|(_, surface)| is_obstacle(surface))
+            {
+                self.line[behind(col, eye.col, cells, cols)].fill(true);
             }
-            if any {
-                let beside = row.saturating_sub(cells)..(row + cells + 1).min(rows);
-                for near in self.near[beside.start * cols..beside.end * cols].chunks_exact_mut(cols)
-                {
-                    for (near, line) in near.iter_mut().zip(&self.line) {
-                        *near |= line;
-                    }
+            let beside = behind(row, eye.row, cells, rows);
+            for near in self.near[beside.start * cols..beside.end * cols].chunks_exact_mut(cols) {
+                for (near, line) in near.iter_mut().zip(&self.line) {
+                    *near |= line;
                 }
             }
         }
+    }
+}
+
+/// From where one may come by a column or row within so many, of `count`, while going towards the eye's, and half a cell beyond it at
+/// most.
+fn behind(at: usize, eye: i32, cells: usize, count: usize) -> Range<usize> {
+    let (low, high) = (at.saturating_sub(cells), (at + cells + 1).min(count));
+    match at as i64 - i64::from(eye) {
+        2.. => at..high,
+        ..=-2 => low..at + 1,
+        _ => low..high,
     }
 }
 
@@ -55,6 +73,8 @@ pub(crate) struct Shadow<'a> {
     occupancy: &'a OccupancyGrid,
     /// Where a closer look is needed.
     surroundings: &'a Surroundings,
+    /// Where the view's cells are.
+    locator: Locator<2>,
 }
 
 impl<'a> Shadow<'a> {
@@ -67,8 +87,10 @@ impl<'a> Shadow<'a> {
     ) -> Self {
         // A cell more for what rounding may add.
         let cells = (reach_m / view.lattice.cell_m).round() as usize + 1;
-        surroundings.find(view, cells);
+        let eye = view.lattice.cell_at(eye_m[0], eye_m[1]);
+        surroundings.find(view, cells, eye);
         Self {
+            locator: Locator::of_cells(&view.lattice, view.size()),
             eye_m,
             reach_m,
             view,
@@ -96,12 +118,14 @@ impl<'a> Shadow<'a> {
         let cells = (self.reach_m.min(distance_m) / cell_m).round() as i32;
         (1..=cells).any(|cell| {
             let part = f64::from(cell) * cell_m / distance_m;
-            let at = self
-                .view
-                .lattice
-                .cell_at(x_m + part * back[0], y_m + part * back[1]);
-            matches!(self.view.cell(at), Surface::Obstacle(_))
-                && self.is_barred(at, z_m + part * back[2])
+            let at_m = [x_m + part * back[0], y_m + part * back[1]];
+            let surface = |index: usize| self.view.cells.values()[index];
+            let index = self.locator.index_at(at_m);
+            index.is_some_and(|index| matches!(surface(index), Surface::Obstacle(_)))
+                && self.is_barred(
+                    self.view.lattice.cell_at(at_m[0], at_m[1]),
+                    z_m + part * back[2],
+                )
         })
     }
 
