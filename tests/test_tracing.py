@@ -31,18 +31,6 @@ def test_estimate_and_truth_are_near_each_other_and_not_the_same(
     assert (trace_of(episode, step).truth_from_robot == episode.judge.frame.matrix()).all()
 
 
-def test_what_only_a_recording_shows_can_be_left_out(
-    traced: tuple[treadwell.Episode, Trace],
-) -> None:
-    episode, _ = traced
-    step = episode.tick()
-    whole, part = trace_of(episode, step), trace_of(episode, step, pictures=False)
-    assert (part.points, part.labels, part.clearance, part.ground) == (None, None, None, 0)
-    for field in fields(Trace):
-        if field.name not in ("points", "labels", "clearance", "ground"):
-            np.testing.assert_equal(getattr(part, field.name), getattr(whole, field.name))
-
-
 def test_points_that_are_ground_lie_on_the_floor_of_the_map(
     traced: tuple[treadwell.Episode, Trace],
 ) -> None:

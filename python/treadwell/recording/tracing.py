@@ -12,20 +12,18 @@ _MOST_GUESSES = 1000
 """So many guesses of a localizer are shown, about, evenly out of all."""
 
 
-def trace_of(episode: Episode, step: Step, *, pictures: bool = True) -> Trace:
+def trace_of(episode: Episode, step: Step) -> Trace:
     """Return one camera frame's trace.
 
     Args:
         episode: right after `step`.
         step: a tick, with or without a depth frame.
-        pictures: False leaves out what only a recording shows and the core would have to hand
-            over: points, labels, clearance, voxels, guesses.
     """
     pilot, data = episode.pilot, episode.simulation.data
     map_from_robot = pose_matrix(*step.estimate.pose)
     origin, cell, kind, height, sightings = pilot.floor()
     frame = step.observation.depth
-    planes = pilot.planes() if pictures else None
+    planes = pilot.planes()
     path = pilot.path()
     return Trace(
         time_ns=step.time_ns,
@@ -34,20 +32,20 @@ def trace_of(episode: Episode, step: Step, *, pictures: bool = True) -> Trace:
         truth_from_robot=episode.judge.frame.matrix(),
         map_from_camera=map_from_robot @ pilot.robot_from_camera(),
         depth=None if frame is None else frame.depth,
-        points=None if planes is None else transformed(map_from_robot, planes.points_in_robot),
-        labels=None if planes is None else planes.labels,
-        ground=0 if planes is None or planes.ground is None else planes.ground + 1,
+        points=transformed(map_from_robot, planes.points_in_robot),
+        labels=planes.labels,
+        ground=0 if planes.ground is None else planes.ground + 1,
         view_origin=origin,
         view_cell=cell,
         view_kind=kind,
         view_height=height,
         sightings=sightings,
-        clearance=pilot.clearance() if pictures else None,
-        occupied=_occupied(pilot) if pictures else np.empty((0, 4), np.float32),
-        guesses=_guesses(pilot) if pictures else np.empty((0, 4), np.float32),
+        clearance=pilot.clearance(),
+        occupied=_occupied(pilot),
+        guesses=_guesses(pilot),
         path=np.empty((0, 2)) if path is None else path,
         climbs=tuple(climb.span for climb in pilot.climbs() or ()),
-        stairs=tuple(_stair(stair) for stair in pilot.staircase().stairs),
+        stairs=stairs_of(pilot),
         soles=episode.judge.soles,
         touch=(episode.judge.touch.left, episode.judge.touch.right),
         footsteps=step.footsteps,
@@ -59,6 +57,11 @@ def trace_of(episode: Episode, step: Step, *, pictures: bool = True) -> Trace:
         body_orientations=data.xquat.copy(),
         timing=dict(zip(pilot.stages, pilot.timing, strict=True)),
     )
+
+
+def stairs_of(pilot: Pilot) -> tuple[StairTrace, ...]:
+    """Return the stairs that are seen or remembered."""
+    return tuple([_stair(stair) for stair in pilot.staircase().stairs])
 
 
 def _stair(stair: Stair) -> StairTrace:
