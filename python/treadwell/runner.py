@@ -21,6 +21,7 @@ from treadwell.measuring.watch import Watch
 from treadwell.physics.simulation import TICK_NS
 from treadwell.processor import processor
 from treadwell.progress import Progress
+from treadwell.recording.rhythm import Rhythm
 from treadwell.recording.run_folder import make_run_folder
 from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.tracing import stairs_of, trace_of
@@ -228,7 +229,7 @@ def _loop(
     interruption: Interruption,
 ) -> None:
     """Go on until there is a verdict."""
-    pictures = writers.records or scores.watch is not None
+    pictures, rhythm = writers.records or scores.watch is not None, Rhythm()
     while episode.verdict is None:
         interruption.check()
         step = episode.tick()
@@ -236,7 +237,7 @@ def _loop(
         if step.observation.depth is not None or step.time_ns == 0 or episode.verdict is not None:
             scores.frame(step)
             if pictures:
-                trace = trace_of(episode, step)
+                trace = trace_of(episode, step, rhythm)
                 if scores.watch is not None:
                     scores.watch.frame(trace)
                 writers.frame(trace)

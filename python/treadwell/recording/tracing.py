@@ -6,20 +6,28 @@ from numpy.typing import NDArray
 from treadwell._core import Pilot, Stair
 from treadwell.episode import Episode, Step
 from treadwell.poses import pose_matrix
+from treadwell.recording.rhythm import Rhythm
 from treadwell.trace import StairTrace, Trace
 
 _MOST_GUESSES = 1000
 """So many guesses of a localizer are shown, about, evenly out of all."""
+_NOTHING = np.empty((0, 4), np.float32)
 
 
-def trace_of(episode: Episode, step: Step) -> Trace:
+def trace_of(episode: Episode, step: Step, rhythm: Rhythm | None = None) -> Trace:
     """Return one camera frame's trace.
 
     Args:
         episode: right after `step`.
         step: a tick, with or without a depth frame.
+        rhythm: what is due of clearance, voxels and guesses, which then goes on; None: all.
     """
     pilot, data = episode.pilot, episode.simulation.data
+    if rhythm is not None:
+        rhythm.frame(step.time_ns)
+    occupied = _occupied(pilot) if rhythm is None or rhythm.voxels else _NOTHING
+    if rhythm is not None and len(occupied):
+        rhythm.voxels_taken()
     map_from_robot = pose_matrix(*step.estimate.pose)
     origin, cell, kind, height, sightings = pilot.floor()
     frame = step.observation.depth
@@ -32,7 +40,7 @@ def trace_of(episode: Episode, step: Step) -> Trace:
         truth_from_robot=episode.judge.frame.matrix(),
         map_from_camera=map_from_robot @ pilot.robot_from_camera(),
         depth=None if frame is None else frame.depth,
-        points=transformed(map_from_robot, planes.points_in_robot),
+        points_in_robot=planes.points_in_robot,
         labels=planes.labels,
         ground=0 if planes.ground is None else planes.ground + 1,
         view_origin=origin,
@@ -40,9 +48,10 @@ def trace_of(episode: Episode, step: Step) -> Trace:
         view_kind=kind,
         view_height=height,
         sightings=sightings,
-        clearance=pilot.clearance(),
-        occupied=_occupied(pilot),
-        guesses=_guesses(pilot),
+        map_due=rhythm is None or rhythm.map,
+        clearance=pilot.clearance() if rhythm is None or rhythm.map else None,
+        occupied=occupied,
+        guesses=_guesses(pilot) if rhythm is None or rhythm.guesses else _NOTHING,
         path=np.empty((0, 2)) if path is None else path,
         climbs=tuple(climb.span for climb in pilot.climbs() or ()),
         stairs=stairs_of(pilot),
@@ -84,13 +93,3 @@ def _guesses(pilot: Pilot) -> NDArray[np.float32]:
     places, headings, _ = pilot.guesses()
     stride = 1 + len(headings) // _MOST_GUESSES
     return np.column_stack([places, headings])[::stride].astype(np.float32)
-
-
-def transformed(
-    target_from_source: NDArray[np.float64], points: NDArray[np.float32]
-) -> NDArray[np.float32]:
-    """Return points (n, 3) float32 in the target frame."""
-    rotation = target_from_source[:3, :3].astype(np.float32)
-    moved: NDArray[np.float32] = points @ rotation.T
-    moved += target_from_source[:3, 3].astype(np.float32)
-    return moved
