@@ -4,14 +4,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from episode_builders import BOX, STEP, flight, grid, result, trace, world
+from episode_builders import BOX, STEP, flight, grid, result, world
 from matplotlib.colors import to_rgb
 from matplotlib.image import imread
 
 from treadwell.judging.result import CollisionEntry
 from treadwell.map_memory import FLOOR, OBSTACLE
 from treadwell.poses import pose_matrix
-from treadwell.protocols import Footstep
 from treadwell.recording.map_picture import draw_map
 from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.trajectory import Trajectory
@@ -34,10 +33,8 @@ def way(offset: float) -> Trajectory:
 def climbs() -> StairMemory:
     """Stairs ahead, of which the robot is on the way up in the second half of `way`."""
     memory = StairMemory()
-    made = world()
-    step = Footstep("left", 0.1, 0.04, 0.0, 0.03, -0.05, 0.05)
     for i in range(20):
-        memory.update(trace(made, i, stairs=flight(), footsteps=(step,) if i > 9 else ()))
+        memory.update(flight(), climbing=i > 9)
     return memory
 
 

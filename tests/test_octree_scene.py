@@ -33,12 +33,18 @@ def test_furniture_walls_and_railings_are_in_the_octree_and_little_else() -> Non
     made, seen, images = Octree(RESOLUTION), [], 0
     for step in episode:
         trace = trace_of(episode, step)
-        if trace.points is None or trace.map_from_camera is None or step.observation.depth is None:
+        if (
+            trace.points_in_robot is None
+            or trace.map_from_camera is None
+            or step.observation.depth is None
+        ):
             continue
         if not episode.pilot.planes().reliable:
             continue
         eye = trace.map_from_camera[:3, 3]
-        points = trace.points[np.isfinite(trace.points[:, 0])].astype(np.float64)
+        points = trace.points()
+        assert points is not None
+        points = points[np.isfinite(points[:, 0])].astype(np.float64)
         points = points[np.linalg.norm(points - eye, axis=1) < REACH]
         made.insert(np.ascontiguousarray(points), (eye[0], eye[1], eye[2]))
         # Where the same lines of sight end in the map that was told.

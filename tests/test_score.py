@@ -199,6 +199,16 @@ def test_pose_errors_are_distances_and_angles() -> None:
     assert found.odometry_translation_error.max == pytest.approx(0.1)
 
 
+def test_errors_of_level_poses_are_those_of_their_matrices() -> None:
+    flat, general = PoseErrors(), PoseErrors()
+    rng = np.random.default_rng(0)
+    for _ in range(100):
+        believed, counted, true = ((*row,) for row in rng.uniform(-4.0, 4.0, (3, 4)).tolist())
+        flat.add_level(believed, counted, true)
+        general.add(pose_matrix(*believed), pose_matrix(*counted), pose_matrix(*true))
+    assert flat.errors() == general.errors()
+
+
 def test_stages_that_did_not_run_have_no_time() -> None:
     assert timing([]).count == 0
     table = timing([0.001, float("nan"), 0.003])

@@ -1,16 +1,16 @@
 """Claims about what a run knew of stairs in the end."""
 
 import numpy as np
-from episode_builders import flight, trace, world
+from episode_builders import flight
 
 from treadwell.recording.stair_memory import StairMemory, outline
 from treadwell.trace import StairTrace
 
 
 def remembered(*frames: tuple[StairTrace, ...]) -> list[StairTrace]:
-    memory, made = StairMemory(), world()
-    for i, stairs in enumerate(frames):
-        memory.update(trace(made, i, stairs=stairs))
+    memory = StairMemory()
+    for stairs in frames:
+        memory.update(stairs, climbing=False)
     return memory.stairs
 
 

@@ -7,8 +7,9 @@ import pytest
 
 import treadwell
 from treadwell.poses import pose_matrix
-from treadwell.recording.tracing import trace_of, transformed
-from treadwell.trace import Trace
+from treadwell.recording.rhythm import Rhythm
+from treadwell.recording.tracing import trace_of
+from treadwell.trace import Trace, transformed
 
 
 @pytest.fixture(scope="module")
@@ -31,29 +32,30 @@ def test_estimate_and_truth_are_near_each_other_and_not_the_same(
     assert (trace_of(episode, step).truth_from_robot == episode.judge.frame.matrix()).all()
 
 
-def test_what_only_a_recording_shows_can_be_left_out(
+def test_what_is_not_due_is_not_asked_of_the_core(
     traced: tuple[treadwell.Episode, Trace],
 ) -> None:
     episode, _ = traced
-    step = episode.tick()
-    whole, part = trace_of(episode, step), trace_of(episode, step, pictures=False)
-    assert (part.points, part.labels, part.clearance, part.ground) == (None, None, None, 0)
+    step, rhythm = episode.tick(), Rhythm()
+    whole, first = trace_of(episode, step), trace_of(episode, step, rhythm)
     for field in fields(Trace):
-        if field.name not in ("points", "labels", "clearance", "ground"):
-            np.testing.assert_equal(getattr(part, field.name), getattr(whole, field.name))
+        np.testing.assert_equal(getattr(first, field.name), getattr(whole, field.name))
+    second = trace_of(episode, step, rhythm)
+    assert (second.map_due, second.clearance) == (False, None)
 
 
 def test_points_that_are_ground_lie_on_the_floor_of_the_map(
     traced: tuple[treadwell.Episode, Trace],
 ) -> None:
     _, trace = traced
-    assert trace.points is not None
+    points = trace.points()
+    assert points is not None
     assert trace.labels is not None
     assert trace.ground > 0
-    ground = trace.points[trace.labels == trace.ground]
+    ground = points[trace.labels == trace.ground]
     assert len(ground) > 500
     assert np.nanmedian(ground[:, 2]) == pytest.approx(0.0, abs=0.01)
-    seen = trace.points[np.isfinite(trace.points[:, 0])]
+    seen = points[np.isfinite(points[:, 0])]
     assert np.median(seen[:, 0]) > 0.3  # ahead of the robot
 
 
@@ -71,8 +73,8 @@ def test_arrays_of_one_grid_have_one_shape(traced: tuple[treadwell.Episode, Trac
     assert trace.view_height.shape == trace.sightings.shape == shape
     assert trace.clearance is None or trace.clearance.shape == shape
     assert trace.depth is not None
-    assert trace.points is not None
-    assert trace.points.shape == (trace.depth.size, 3)
+    assert trace.points_in_robot is not None
+    assert trace.points_in_robot.shape == (trace.depth.size, 3)
     assert trace.path.shape[1] == 2
 
 

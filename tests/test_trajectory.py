@@ -5,7 +5,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from treadwell.errors import InputError
@@ -55,6 +55,18 @@ def test_a_broken_line_is_named(tmp_path: Path, text: str) -> None:
     path.write_text(text)
     with pytest.raises(InputError, match="line"):
         read_trajectory(path)
+
+
+@given(st.tuples(*[st.floats(-10.0, 10.0)] * 4))
+@example((0.0, 0.0, 0.0, 0.0))
+@example((0.0, 0.0, 0.0, np.pi))
+def test_a_level_pose_is_kept_to_the_bit_as_its_matrix_is(
+    pose: tuple[float, float, float, float],
+) -> None:
+    level, general = Trajectory(), Trajectory()
+    level.add_level(10, pose)
+    general.add(10, pose_matrix(*pose))
+    assert level.rows.tobytes() == general.rows.tobytes()
 
 
 @given(st.lists(st.floats(-1.0, 1.0), min_size=4, max_size=4))

@@ -57,7 +57,7 @@ class Scene:
                 WORLD,
                 time_ns,
                 path=path + np.array([0.0, 0.5]) if len(path) else path,
-                points=cloud,
+                points_in_robot=cloud - np.float32([0.0, 0.5, 0.0]),
                 map_from_robot=beside,
                 truth_from_robot=truth,
             )

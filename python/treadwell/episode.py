@@ -1,8 +1,6 @@
 """One episode: observe, tick, act, advance, judge. What is written of it: `run.py`."""
 
-import math
-from array import array
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
@@ -33,6 +31,7 @@ from treadwell.robot.load import load_robot
 from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
 from treadwell.senses.sensors import Sensors
+from treadwell.stage_times import StageTimes
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,8 +87,7 @@ class Episode:
         core_input: what the core was made of.
         ablation: whether anything in the core was given the truth.
         verdict: how it ended, None while it goes on.
-        seconds: stage -> seconds that it took, one a tick at which it ran; 4 bytes each, since
-            nothing else of an episode grows with every tick.
+        times: how long each stage took.
     """
 
     def __init__(
@@ -133,9 +131,7 @@ class Episode:
         self.judge = Judge(self.course.model, self.course, scenario, self.robot)
         self.referee = Referee(self.judge, scenario.time_limit)
         self.verdict: Verdict | None = None
-        stages = ("physics", "depth", *Pilot.stages)
-        self.seconds = {name: array("f") for name in stages}
-        self._core_seconds = [self.seconds[name] for name in Pilot.stages]
+        self.times = StageTimes(("physics", "depth"), Pilot.stages)
         brought = {slot: class_path(component) for slot, component in components.items()}
         given = user_components(scenario, dict(components))
         self.guards = guards(scenario, given, set(components))
@@ -155,39 +151,45 @@ class Episode:
             CoreError: a stage of the core or a component of the user's failed.
             SimulationError: the physics diverged.
         """
-        simulation = self.simulation
+        simulation, times = self.simulation, self.times
+        data = simulation.data
         time_ns = simulation.time_ns
         begin = perf_counter()
-        observation = self.sensors.observe(simulation.data, time_ns, simulation.motors)
+        observation = self.sensors.observe(data, time_ns, simulation.motors)
         if observation.depth is not None:
-            self.seconds["depth"].append(perf_counter() - begin)
+            times.add("depth", perf_counter() - begin)
         try:
             tick = self.pilot.tick(observation)
         except CoreError as error:
             named = blamed(error, self.guards)
             raise named from named.__cause__
-        for times, seconds in zip(self._core_seconds, self.pilot.timing, strict=True):
-            if not math.isnan(seconds):
-                times.append(seconds)
+        times.add_row(self.pilot.timing)
         command = JointTargets(tick.positions, tick.velocities, tick.torques)
-        self.events.before_tick(simulation)
-        self._tell_senses(time_ns)
+        outcome, reason, footsteps = tick.outcome, tick.reason, tick.footsteps
+        if self.scenario.event:
+            self.events.before_tick(simulation)
+            self._tell_senses(time_ns)
         begin = perf_counter()
         simulation.advance(command)
-        self.seconds["physics"].append(perf_counter() - begin)
+        times.add("physics", perf_counter() - begin)
         now = 1e-9 * simulation.time_ns
-        self.judge.watch(simulation.data, now)
-        self.verdict = self.referee.decide(simulation.data, now, tick.outcome, tick.reason)
+        self.judge.watch(data, now)
+        self.verdict = self.referee.decide(data, now, outcome, reason)
         return Step(
             time_ns,
             observation,
             Estimate(tick.estimate, tick.odometry),
             command,
             tick.state,
-            tuple([Footstep(*listed) for listed in tick.footsteps]),
-            tick.outcome,
-            tick.reason,
+            tuple([Footstep(*listed) for listed in footsteps]) if footsteps else (),
+            outcome,
+            reason,
         )
+
+    @property
+    def seconds(self) -> dict[str, Sequence[float]]:
+        """Stage -> seconds that it took, one a tick at which it ran."""
+        return self.times.seconds()
 
     @property
     def static_map(self) -> Octree | None:

@@ -1,12 +1,11 @@
 """A whole run: one episode from start to verdict, and everything that is written of it."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 from typing import Any
-
-import numpy as np
 
 from treadwell.episode import Episode, Step
 from treadwell.errors import CoreError, SimulationError, TreadwellError
@@ -22,12 +21,12 @@ from treadwell.measuring.watch import Watch
 from treadwell.physics.simulation import TICK_NS
 from treadwell.processor import processor
 from treadwell.progress import Progress
+from treadwell.recording.rhythm import Rhythm
 from treadwell.recording.run_folder import make_run_folder
 from treadwell.recording.stair_memory import StairMemory
-from treadwell.recording.tracing import trace_of
+from treadwell.recording.tracing import stairs_of, trace_of
 from treadwell.recording.trajectory import Trajectory
 from treadwell.recording.writers import NoWriters, Writers, open_viewer
-from treadwell.trace import Trace
 from treadwell.version import __version__
 
 
@@ -75,6 +74,7 @@ class Scores:
 
     def __init__(self, episode: Episode, watch: type[Watch] | None = None) -> None:
         """Begin with nothing."""
+        self._episode = episode
         self.steps = StepWatch(episode)
         self.watch = None if watch is None else watch(episode)
         self.poses = PoseErrors()
@@ -82,24 +82,23 @@ class Scores:
         self.memory = MapMemory()
         self.stairs = StairMemory()
         self.states: list[StateEntry] = []
+        self._state: str | None = None
 
     def tick(self, step: Step) -> None:
         """Take in a control tick."""
         self.steps.tick(step)
-        if not self.states or self.states[-1].state != step.state:
+        if step.state != self._state:
+            self._state = step.state
             self.states.append(StateEntry(time=1e-9 * step.time_ns, state=step.state))
 
-    def frame(self, trace: Trace) -> None:
-        """Take in a camera frame."""
-        self.poses.add(trace.map_from_robot, trace.odometry_from_robot, trace.truth_from_robot)
-        self.estimate.add(trace.time_ns, trace.map_from_robot)
-        self.truth.add(trace.time_ns, trace.truth_from_robot)
-        self.stairs.update(trace)
-        self.memory.update(
-            trace.view_origin, trace.view_cell, trace.view_kind, trace.view_height, trace.sightings
-        )
-        if self.watch is not None:
-            self.watch.frame(trace)
+    def frame(self, step: Step) -> None:
+        """Take in a camera frame, right after its tick."""
+        pilot, believed, truth = self._episode.pilot, step.estimate, self._episode.judge.frame
+        self.poses.add_level(believed.pose, believed.odometry, truth)
+        self.estimate.add_level(step.time_ns, believed.pose)
+        self.truth.add_level(step.time_ns, truth)
+        self.stairs.update(stairs_of(pilot), climbing=bool(step.footsteps))
+        self.memory.update(*pilot.floor())
 
 
 def run(
@@ -230,20 +229,23 @@ def _loop(
     interruption: Interruption,
 ) -> None:
     """Go on until there is a verdict."""
-    pictures = writers.records or scores.watch is not None
+    pictures, rhythm = writers.records or scores.watch is not None, Rhythm()
     while episode.verdict is None:
         interruption.check()
         step = episode.tick()
         scores.tick(step)
         if step.observation.depth is not None or step.time_ns == 0 or episode.verdict is not None:
-            trace = trace_of(episode, step, pictures=pictures)
-            scores.frame(trace)
-            writers.frame(trace)
+            scores.frame(step)
+            if pictures:
+                trace = trace_of(episode, step, rhythm)
+                if scores.watch is not None:
+                    scores.watch.frame(trace)
+                writers.frame(trace)
             if progress is not None:
                 simulated = 1e-9 * step.time_ns
                 factor = simulated / max(perf_counter() - begin, 1e-9)
-                x, y = np.array(episode.goal) - trace.map_from_robot[:2, 3]
-                progress.update(simulated, step.state, float(np.hypot(x, y)), factor)
+                away = math.dist(episode.goal, step.estimate.pose[:2])
+                progress.update(simulated, step.state, away, factor)
         writers.tick(step)
 
 
@@ -259,7 +261,8 @@ def _result(episode: Episode, scores: Scores, verdict: Verdict, wall_seconds: fl
     passed = scores.truth.positions()[:, :2]
     headroom = episode.robot.file.body.height
     seen = remembered.kind.size > 0
-    physics = sum(episode.seconds["physics"])
+    seconds = episode.seconds
+    physics = sum(seconds["physics"])
     result = Result(
         scenario=made.name,
         robot=episode.robot.name,
@@ -289,7 +292,7 @@ def _result(episode: Episode, scores: Scores, verdict: Verdict, wall_seconds: fl
         localization=scores.poses.errors(),
         surfaces=surfaces(course, remembered, passed, places) if seen else [],
         behaviour=scores.states,
-        timing_ms={stage: timing(values) for stage, values in episode.seconds.items()},
+        timing_ms={stage: timing(values) for stage, values in seconds.items()},
     )
     if seen:
         result.map = map_counts(remembered, true_cells(course, remembered, headroom, places))

@@ -71,7 +71,7 @@ class Trace:
         truth_from_robot: (4, 4) where it is.
         map_from_camera: (4, 4) the camera as the core has it; None before the first frame.
         depth: (h, w) float32, NaN where nothing was seen; None without a frame.
-        points: (n, 3) float32, map frame; NaN where nothing was seen.
+        points_in_robot: (n, 3) float32, robot frame; NaN where nothing was seen.
         labels: (n,) uint16, plane of each point plus one, 0 for none.
         ground: label of the ground's plane, 0 where it was not found.
         view_origin: (x, y) lower-left corner of the map's window, map frame.
@@ -79,11 +79,13 @@ class Trace:
         view_kind: (rows, cols) uint8: 0 unknown, 1 floor, 2 obstacle; rows along +y.
         view_height: (rows, cols) float32, NaN where unknown.
         sightings: (rows, cols) uint16, frames that saw the cell as floor.
-        clearance: (rows, cols) float32, distance to the nearest obstacle; None without one.
+        map_due: whether the map's window is to be recorded at this frame.
+        clearance: (rows, cols) float32, distance to the nearest obstacle; None without one, or
+            where the map is not due.
         occupied: (n, 4) float32, middle and side of each cube that was seen to be occupied; empty
-            without a map in three dimensions, or without pictures.
+            without a map in three dimensions, or where it is not due.
         guesses: (n, 4) float32, where the torso may be, some of many, and its heading, rad; empty
-            of a localizer that keeps no guesses, or without pictures.
+            of a localizer that keeps no guesses, or where they are not due.
         path: (n, 2) the path in the map frame; empty without one.
         climbs: for each leg of the path that is climbed the indices of its first and last point.
         stairs: the stairs that are seen or remembered.
@@ -107,7 +109,7 @@ class Trace:
     truth_from_robot: Floats
     map_from_camera: Floats | None = None
     depth: NDArray[np.float32] | None = None
-    points: NDArray[np.float32] | None = None
+    points_in_robot: NDArray[np.float32] | None = None
     labels: NDArray[np.uint16] | None = None
     ground: int = 0
     view_origin: tuple[float, float]
@@ -115,6 +117,7 @@ class Trace:
     view_kind: NDArray[np.uint8]
     view_height: NDArray[np.float32]
     sightings: NDArray[np.uint16]
+    map_due: bool = True
     clearance: NDArray[np.float32] | None = None
     occupied: NDArray[np.float32] = field(default_factory=lambda: np.empty((0, 4), np.float32))
     guesses: NDArray[np.float32] = field(default_factory=lambda: np.empty((0, 4), np.float32))
@@ -131,3 +134,17 @@ class Trace:
     body_positions: Floats
     body_orientations: Floats
     timing: Mapping[str, float] = field(default_factory=dict)
+
+    def points(self, stride: int = 1) -> NDArray[np.float32] | None:
+        """Return every so manieth of the points in the map frame, (m, 3) float32."""
+        if self.points_in_robot is None:
+            return None
+        return transformed(self.map_from_robot, self.points_in_robot[::stride])
+
+
+def transformed(target_from_source: Floats, points: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return points (n, 3) float32 in the target frame."""
+    rotation = target_from_source[:3, :3].astype(np.float32)
+    moved: NDArray[np.float32] = points @ rotation.T
+    moved += target_from_source[:3, 3].astype(np.float32)
+    return moved

@@ -61,6 +61,10 @@ class Touch(NamedTuple):
     fallen_part: str | None
 
 
+_STANCES = [[Touch(left, right, None) for right in (False, True)] for left in (False, True)]
+"""What is found but for falls, by left and right."""
+
+
 class Contacts:
     """Sorts MuJoCo's contacts, as often as it is asked to look."""
 
@@ -106,7 +110,9 @@ class Contacts:
         left, right, lying, hits = self._surfaces.sort(contact.geom, contact.frame)
         if hits:
             self._add(data, hits, time, interval)
-        return Touch(left, right, None if lying is None else self._part[lying])
+        if lying is None:
+            return _STANCES[left][right]
+        return Touch(left, right, self._part[lying])
 
     def collisions(self) -> list[Collision]:
         """Return the collisions so far that count, in the order of time."""

@@ -57,7 +57,8 @@ class GroundTruth:
     def look(self, data: mujoco.MjData) -> tuple[tuple[Sole, Sole], float]:
         """Return the left and the right sole, and by how much the torso leans from upright, rad."""
         left, right, tilt = self._stance.look(data)
-        return (Sole._make(left), Sole._make(right)), tilt
+        # What `Sole._make` does, in a third of its time.
+        return (tuple.__new__(Sole, left), tuple.__new__(Sole, right)), tilt
 
     def soles(self, data: mujoco.MjData) -> tuple[Sole, Sole]:
         """Return the left and the right sole."""
@@ -72,15 +73,16 @@ class GroundTruth:
             soles: left and right.
             touching: which soles stand on something; the height is theirs, or the lower one's.
         """
-        left, right = soles
+        (left_x, left_y, left_z, left), (right_x, right_y, right_z, right) = soles
         if touching[0] == touching[1]:
-            z = (left.z + right.z) / 2 if touching[0] else min(left.z, right.z)
+            z = (left_z + right_z) / 2 if touching[0] else min(left_z, right_z)
         else:
-            z = left.z if touching[0] else right.z
-        first = math.atan2(left.forward[1], left.forward[0])
-        second = math.atan2(right.forward[1], right.forward[0])
-        yaw = first + 0.5 * wrapped(second - first)
-        return GroundFrame((left.x + right.x) / 2, (left.y + right.y) / 2, z, wrapped(yaw))
+            z = left_z if touching[0] else right_z
+        first = math.atan2(left[1], left[0])
+        second = math.atan2(right[1], right[0])
+        yaw = wrapped(first + 0.5 * wrapped(second - first))
+        middle = ((left_x + right_x) / 2, (left_y + right_y) / 2, z, yaw)
+        return tuple.__new__(GroundFrame, middle)
 
     def tilt(self, data: mujoco.MjData) -> float:
         """Return by how much the torso leans from upright, rad."""
@@ -89,7 +91,7 @@ class GroundTruth:
 
 def wrapped(angle: float) -> float:
     """Return the same angle within (-pi, pi]."""
-    return math.pi - (math.pi - angle) % (2 * math.pi)
+    return math.pi - (math.pi - angle) % math.tau
 
 
 def _upright_axis(robot: Robot) -> Floats:

@@ -81,15 +81,21 @@ class Judge:
         """
         interval, self._time = max(0.0, time_s - self._time), time_s
         touch = self.touch = self._contacts.look(data, time_s, interval)
+        on_left, on_right, fallen_part = touch
         soles, tilt = self.truth.look(data)
         self.soles = soles
-        frame = self.frame = self.truth.frame(soles, (touch.left, touch.right))
-        self._watch_fall(tilt, time_s, touch)
-        self._watch_stillness(time_s, touch, soles, frame)
+        frame = self.frame = self.truth.frame(soles, (on_left, on_right))
+        upright = tilt <= FALLEN_TILT and fallen_part is None
+        if not upright:
+            self._note_fall(tilt, time_s, fallen_part)
+        if on_left and on_right:
+            self._watch_stillness(time_s, soles, frame)
+        else:
+            self._still = None
         self._watch_progress(time_s, frame)
-        (left, right), (left_foot, right_foot) = soles, self._levels.feet
-        left_foot.look(left.x, left.y, left.z, touching=touch.left)
-        right_foot.look(right.x, right.y, right.z, touching=touch.right)
+        left_foot, right_foot = self._levels.feet
+        left_foot.look(*soles[0][:3], touching=on_left)
+        right_foot.look(*soles[1][:3], touching=on_right)
 
     @property
     def fallen(self) -> bool:
@@ -145,34 +151,30 @@ class Judge:
         inside = self.distance_to_goal <= self._goal.radius
         return inside and level and self.standing_still and not self.fallen
 
-    def _watch_fall(self, tilt: float, time: float, touch: Touch) -> None:
-        if tilt <= FALLEN_TILT and touch.fallen_part is None:
-            return
+    def _note_fall(self, tilt: float, time: float, fallen_part: str | None) -> None:
         if time - self._last_fallen > UPRIGHT_SECONDS:
             self.falls += 1
             self.fall = (
                 f"the torso leaned by {tilt:.2f} rad at {time:.2f} s"
-                if touch.fallen_part is None
-                else f"{touch.fallen_part} touched the floor at {time:.2f} s"
+                if fallen_part is None
+                else f"{fallen_part} touched the floor at {time:.2f} s"
             )
         self._last_fallen = time
 
-    def _watch_stillness(
-        self, time: float, touch: Touch, soles: tuple[Sole, Sole], frame: GroundFrame
-    ) -> None:
-        if not (touch.left and touch.right):
-            self._still = None
-            return
+    def _watch_stillness(self, time: float, soles: tuple[Sole, Sole], frame: GroundFrame) -> None:
+        """Look at a robot that stands on both soles."""
         if self._still is not None:
-            _, before, yaw = self._still
-            drift = max(math.dist(before[i][:3], soles[i][:3]) for i in (0, 1))
-            turn = abs(math.remainder(frame.yaw - yaw, 2 * math.pi))
-            if drift <= STILL_DRIFT and turn <= STILL_TURN:
+            _, (left, right), yaw = self._still
+            if (
+                math.dist(left[:3], soles[0][:3]) <= STILL_DRIFT
+                and math.dist(right[:3], soles[1][:3]) <= STILL_DRIFT
+                and abs(math.remainder(frame[3] - yaw, math.tau)) <= STILL_TURN
+            ):
                 return
         self._still = (time, soles, frame.yaw)
 
     def _watch_progress(self, time: float, frame: GroundFrame) -> None:
-        here = (frame.x, frame.y)
+        here = frame[:2]
         if self._place is None or _has_moved(self._place[1], frame):
             self._place = (time, frame)
         if self._path_point is None:
@@ -186,6 +188,6 @@ class Judge:
 
 def _has_moved(before: GroundFrame, now: GroundFrame) -> bool:
     """Say whether the robot has come away from its place, or turned to look around."""
-    distance = math.dist((before.x, before.y), (now.x, now.y))
-    turn = abs(math.remainder(now.yaw - before.yaw, 2 * math.pi))
-    return distance > STUCK_RADIUS or turn > STUCK_TURN
+    if math.dist(before[:2], now[:2]) > STUCK_RADIUS:
+        return True
+    return abs(math.remainder(now[3] - before[3], math.tau)) > STUCK_TURN

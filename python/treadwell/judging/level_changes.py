@@ -44,7 +44,10 @@ class FootTrack:
 
     def look(self, x: float, y: float, z: float, *, touching: bool) -> None:
         """Take in where the sole's centre is, m, and whether it touches a floor."""
-        self._looks = self._looks + 1 if touching else 0
+        if not touching:
+            self._looks = 0
+            return
+        self._looks += 1
         if self._looks == LOOKS_A_FOOTPRINT:
             self._step_to((x, y, z))
 

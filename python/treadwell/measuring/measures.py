@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.judging.result import LocalizationErrors, Spread, Timing
+from treadwell.protocols import Pose
 
 Floats = NDArray[np.float64]
 
@@ -37,6 +38,19 @@ class PoseErrors:
                 math.dist(estimate[:3, 3].tolist(), place),
                 abs(math.atan2(aside, ahead)),
                 math.dist(odometry[:3, 3].tolist(), place),
+            )
+        )
+
+    def add_level(self, estimate: Pose, odometry: Pose, truth: Pose) -> None:
+        """Do what `add` does with poses (x m, y m, z m, yaw rad): the same to the bit."""
+        c, s = math.cos(truth[3]), math.sin(truth[3])
+        ahead_c, ahead_s = math.cos(estimate[3]), math.sin(estimate[3])
+        place = truth[:3]
+        self._numbers.extend(
+            (
+                math.dist(estimate[:3], place),
+                abs(math.atan2(c * ahead_s - s * ahead_c, c * ahead_c + s * ahead_s)),
+                math.dist(odometry[:3], place),
             )
         )
 

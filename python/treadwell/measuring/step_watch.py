@@ -93,9 +93,9 @@ class StepWatch:
 
     def tick(self, step: Step) -> None:
         """Take in a control tick, after the judge has."""
-        judge, pilot = self._episode.judge, self._episode.pilot
-        touching = (judge.touch.left, judge.touch.right)
+        judge = self._episode.judge
         if step.observation.depth is not None:
+            pilot = self._episode.pilot
             climbs = pilot.climbs() or []
             self.planned = max(self.planned, sum(len(climb.steps) for climb in climbs))
             stairs = pilot.staircase().stairs
@@ -108,10 +108,13 @@ class StepWatch:
                 self.tops = tuple(KnownTop(*stair.reference, stair.depth) for stair in stairs)
         if judge.soles is None:
             return
-        for side, (sole, touches) in enumerate(zip(judge.soles, touching, strict=True)):
-            self._looks[side] = self._looks[side] + 1 if touches else 0
-            if self._looks[side] == LOOKS_A_FOOTPRINT:
-                self._footprint(side, sole, 1e-9 * step.time_ns)
+        looks, touch = self._looks, judge.touch
+        looks[0] = looks[0] + 1 if touch.left else 0
+        if looks[0] == LOOKS_A_FOOTPRINT:
+            self._footprint(0, judge.soles[0], 1e-9 * step.time_ns)
+        looks[1] = looks[1] + 1 if touch.right else 0
+        if looks[1] == LOOKS_A_FOOTPRINT:
+            self._footprint(1, judge.soles[1], 1e-9 * step.time_ns)
 
     def _remember(self, stairs: Sequence[Stair]) -> None:
         """Keep stairs with a fitted front edge: from near by, that edge is out of view."""

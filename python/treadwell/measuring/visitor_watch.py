@@ -114,9 +114,10 @@ class VisitorWatch:
 
 def _points_on(visitor: CourseElement, trace: Trace, offset: Floats) -> int:
     """Count a frame's points on an element, by where the camera truly was."""
-    if trace.points is None:
+    points_in_map = trace.points()
+    if points_in_map is None:
         return 0
-    points = trace.points[np.isfinite(trace.points[:, 0])].astype(np.float64)
+    points = points_in_map[np.isfinite(points_in_map[:, 0])].astype(np.float64)
     places = _in_world(points, trace)
     high = points[:, 2] - trace.map_from_robot[2, 3] > _FLOOR_M
     inside = np.zeros(len(points), dtype=bool)

@@ -82,6 +82,12 @@ class Audit:
         self._dropped = False
         self._steps_per_tick = steps_per_tick(model)
 
+    def tick(self, controls: NDArray[np.float64], positions: NDArray[np.float64]) -> None:
+        """Keep a control tick: the steps' controls (n, nu), and all positions (nq,) after them."""
+        if not self._dropped:
+            self.ctrl.extend(controls)
+            self.qpos.append(positions)
+
     def event(self, step: int, field: str, before: NDArray[Any], after: NDArray[Any]) -> None:
         """Keep what an event set.
 

@@ -61,6 +61,11 @@ class Rows:
         Raises:
             RecordingError: they cannot be written.
         """
+        end = self._waiting + len(rows)
+        if end < len(self._block):
+            self._block[self._waiting : end] = rows
+            self._waiting = end
+            return
         while len(rows):
             taken = rows[: len(self._block) - self._waiting]
             self._block[self._waiting : self._waiting + len(taken)] = taken

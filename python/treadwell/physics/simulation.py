@@ -69,6 +69,9 @@ class Simulation:
         self.model = model
         self._steps_per_tick = steps_per_tick(model)
         self._controls = np.empty((self._steps_per_tick, model.nu))
+        # Each would be made anew at every tick.
+        self._but_last, self._last = self._controls[:-1], self._controls[-1:]
+        self._options = model.opt
         self.data = mujoco.MjData(model)
         self.robot = robot
         joints = [model.joint(name) for name in robot.joints]
@@ -119,19 +122,19 @@ class Simulation:
         """
         if not self.motors.command(targets.position, targets.velocity, targets.torque):
             self._refuse(targets)
-        options, controls = self.model.opt, self._controls
+        options, step = self._options, self._physics.step
         # Nobody reads MuJoCo's sensors between two ticks, and nothing that moves depends on them.
-        options.disableflags |= _SENSORS
+        flags = options.disableflags
+        options.disableflags = flags | _SENSORS
         try:
-            self._physics.step(self.motors, controls[:-1])
-            options.disableflags &= ~_SENSORS
-            healthy = self._physics.step(self.motors, controls[-1:])
+            step(self.motors, self._but_last)
+            options.disableflags = flags & ~_SENSORS
+            healthy = step(self.motors, self._last)
         except mujoco.FatalError as error:
-            options.disableflags &= ~_SENSORS
+            options.disableflags = flags & ~_SENSORS
             raise self._failed(error) from None
         self.steps += self._steps_per_tick
-        self.audit.ctrl.extend(controls)
-        self.audit.qpos.append(self.data.qpos)
+        self.audit.tick(self._controls, self.data.qpos)
         if not healthy:
             self._tell_divergence()
 

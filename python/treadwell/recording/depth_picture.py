@@ -19,8 +19,9 @@ _LEFT: Final = 1
 
 def depth_png(depth: NDArray[np.float32]) -> bytes:
     """Return a picture of depths (h, w) m in units of `UNIT_M`; 0 where nothing was seen."""
-    greys = np.nan_to_num(depth / UNIT_M, nan=0.0, posinf=0.0, neginf=0.0)
-    return png(np.clip(greys + 0.5, 0.0, 65535.0).astype(np.uint16))
+    greys = np.where(np.isfinite(depth), depth, np.float32(0.0)) / UNIT_M
+    greys += 0.5
+    return png(greys.clip(0.0, 65535.0, out=greys).astype(np.uint16))
 
 
 def png(greys: NDArray[np.uint16]) -> bytes:

@@ -71,7 +71,7 @@ def plane_colours(labels: NDArray[np.uint16], ground: int) -> NDArray[np.uint8]:
     table[0] = UNSEEN
     if 0 < ground < len(table):
         table[ground] = GROUND_PLANE
-    return table[labels]
+    return table.take(labels, axis=0)
 
 
 def blueprint(

@@ -6,6 +6,7 @@ are packed as they come; what is rare is left to the package's own records.
 
 import struct
 import zlib
+from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from typing import BinaryIO, Final
 
@@ -35,7 +36,7 @@ _MAGIC: Final = b"\x89MCAP0\r\n"
 _MESSAGE: Final = struct.Struct("<BQHIQQ")
 _MESSAGE_BYTES: Final = 22
 """Of a message's record, beside what it says."""
-_INDEXED: Final = struct.Struct("<QQ")
+_MESSAGE_KIND: Final = int(Opcode.MESSAGE)
 
 
 class LogWriter:
@@ -122,15 +123,15 @@ class LogWriter:
         Raises:
             OSError: the file cannot be written.
         """
+        pack, head_bytes = _MESSAGE.pack, _MESSAGE.size
         for channel, log_ns, publish_ns, data in entries:
-            index = self._indexes.setdefault(channel, [])
-            index.append(_INDEXED.pack(log_ns, self._size))
-            self._times.append(log_ns)
-            head = _MESSAGE.pack(
-                Opcode.MESSAGE, _MESSAGE_BYTES + len(data), channel, 0, log_ns, publish_ns
+            content = len(data)
+            self._indexes[channel] += (log_ns, self._size)
+            self._parts += (
+                pack(_MESSAGE_KIND, _MESSAGE_BYTES + content, channel, 0, log_ns, publish_ns),
+                data,
             )
-            self._parts += (head, data)
-            self._size += len(head) + len(data)
+            self._size += head_bytes + content
             if self._size > self._chunk_bytes:
                 self._end_chunk()
 
@@ -170,15 +171,16 @@ class LogWriter:
     def _begin_chunk(self) -> None:
         self._parts: list[bytes] = []
         self._size = 0
-        self._times: list[int] = []
-        self._indexes: dict[int, list[bytes]] = {}
+        self._indexes: defaultdict[int, list[int]] = defaultdict(list)
+        """Of each channel log time and place of its messages, one after the other."""
 
     def _end_chunk(self) -> None:
-        if not self._times:
+        if not self._indexes:
             return
         content = b"".join(self._parts)
         packed = zstandard.compress(content)
-        first, last = min(self._times), max(self._times)
+        first = min(min(index[::2]) for index in self._indexes.values())
+        last = max(max(index[::2]) for index in self._indexes.values())
         self._first_ns = first if not self._chunks else min(self._first_ns, first)
         self._last_ns = max(self._last_ns, last)
         chunk = _record(
@@ -194,9 +196,9 @@ class LogWriter:
         begin = self._file.tell()
         offsets, indexes = {}, b""
         for channel, index in self._indexes.items():
-            self._counts[channel] = self._counts.get(channel, 0) + len(index)
+            self._counts[channel] = self._counts.get(channel, 0) + len(index) // 2
             offsets[channel] = begin + len(chunk) + len(indexes)
-            entries = b"".join(index)
+            entries = struct.pack(f"<{len(index)}Q", *index)
             head = struct.pack(
                 "<BQHI", Opcode.MESSAGE_INDEX, 6 + len(entries), channel, len(entries)
             )

@@ -28,8 +28,6 @@ _MOST_POINTS = 2200
 """So many pixels of a frame become points, about: a third of the small camera's 88x72."""
 _POINT_STRIDES = (3, 7, 11, 13, 17, 23, 31, 37, 47)
 """Of so many pixels one is taken. Of a number that divides a picture's width columns would come."""
-_MAP_NS = 300_000_000
-"""Nanoseconds from one recorded map to the next: the robot walks less than a cell meanwhile."""
 
 
 class Products:
@@ -50,7 +48,6 @@ class Products:
         self._map = MapShapes(rows, low, high)
         self._stair_shapes = StairShapes(rows, sole)
         self._tracks = Tracks(rows)
-        self._mapped_ns = -_MAP_NS
         self._state = ""
         self._states: list[str] = []
         names = ["estimate", "odometry", "heading"]
@@ -71,8 +68,7 @@ class Products:
     def log(self, trace: Trace) -> None:
         """Write everything of a camera frame; the time is set."""
         self._log_camera(trace)
-        if trace.time_ns - self._mapped_ns >= _MAP_NS:
-            self._mapped_ns = trace.time_ns
+        if trace.map_due:
             self._map.log(trace)
         self._stair_shapes.log(trace)
         self._tracks.log(trace)
@@ -83,9 +79,10 @@ class Products:
     def _log_camera(self, trace: Trace) -> None:
         if trace.depth is not None:
             self._rows.log("camera/depth", rr.EncodedDepthImage, blob=[depth_png(trace.depth)])
-        if trace.points is not None and trace.labels is not None:
-            stride = point_stride(len(trace.points))
-            points, labels = trace.points[::stride], trace.labels[::stride]
+        if trace.points_in_robot is not None and trace.labels is not None:
+            stride = point_stride(len(trace.labels))
+            points, labels = trace.points(stride), trace.labels[::stride]
+            assert points is not None
             seen = np.isfinite(points[:, 0])
             colours = plane_colours(labels[seen], trace.ground)
             self._rows.log("world/points", rr.Points3D, positions=points[seen], colors=colours)

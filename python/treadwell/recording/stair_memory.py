@@ -1,11 +1,12 @@
 """What a run knew of stairs, for `map.png`: each stair as it was seen best."""
 
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.trace import FLOOR_DEPTH, StairTrace, Trace
+from treadwell.trace import FLOOR_DEPTH, StairTrace
 
 _SAME_HEIGHT: Final = 0.012
 """Metres by which two sightings of one stair may differ."""
@@ -24,10 +25,10 @@ class StairMemory:
         self.stairs: list[StairTrace] = []
         self.climbing: list[bool] = []
 
-    def update(self, trace: Trace) -> None:
-        """Take in a camera frame."""
-        self.climbing.append(bool(trace.footsteps))
-        for new in trace.stairs:
+    def update(self, stairs: Sequence[StairTrace], *, climbing: bool) -> None:
+        """Take in the stairs of a camera frame, and whether the feet took listed steps."""
+        self.climbing.append(climbing)
+        for new in stairs:
             if new.steps_ago or new.depth() >= FLOOR_DEPTH:
                 continue
             same = [old for old in self.stairs if _is_same(old, new)]

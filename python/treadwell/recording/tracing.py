@@ -6,26 +6,32 @@ from numpy.typing import NDArray
 from treadwell._core import Pilot, Stair
 from treadwell.episode import Episode, Step
 from treadwell.poses import pose_matrix
+from treadwell.recording.rhythm import Rhythm
 from treadwell.trace import StairTrace, Trace
 
 _MOST_GUESSES = 1000
 """So many guesses of a localizer are shown, about, evenly out of all."""
+_NOTHING = np.empty((0, 4), np.float32)
 
 
-def trace_of(episode: Episode, step: Step, *, pictures: bool = True) -> Trace:
+def trace_of(episode: Episode, step: Step, rhythm: Rhythm | None = None) -> Trace:
     """Return one camera frame's trace.
 
     Args:
         episode: right after `step`.
         step: a tick, with or without a depth frame.
-        pictures: False leaves out what only a recording shows and the core would have to hand
-            over: points, labels, clearance, voxels, guesses.
+        rhythm: what is due of clearance, voxels and guesses, which then goes on; None: all.
     """
     pilot, data = episode.pilot, episode.simulation.data
+    if rhythm is not None:
+        rhythm.frame(step.time_ns)
+    occupied = _occupied(pilot) if rhythm is None or rhythm.voxels else _NOTHING
+    if rhythm is not None and len(occupied):
+        rhythm.voxels_taken()
     map_from_robot = pose_matrix(*step.estimate.pose)
     origin, cell, kind, height, sightings = pilot.floor()
     frame = step.observation.depth
-    planes = pilot.planes() if pictures else None
+    planes = pilot.planes()
     path = pilot.path()
     return Trace(
         time_ns=step.time_ns,
@@ -34,20 +40,21 @@ def trace_of(episode: Episode, step: Step, *, pictures: bool = True) -> Trace:
         truth_from_robot=episode.judge.frame.matrix(),
         map_from_camera=map_from_robot @ pilot.robot_from_camera(),
         depth=None if frame is None else frame.depth,
-        points=None if planes is None else transformed(map_from_robot, planes.points_in_robot),
-        labels=None if planes is None else planes.labels,
-        ground=0 if planes is None or planes.ground is None else planes.ground + 1,
+        points_in_robot=planes.points_in_robot,
+        labels=planes.labels,
+        ground=0 if planes.ground is None else planes.ground + 1,
         view_origin=origin,
         view_cell=cell,
         view_kind=kind,
         view_height=height,
         sightings=sightings,
-        clearance=pilot.clearance() if pictures else None,
-        occupied=_occupied(pilot) if pictures else np.empty((0, 4), np.float32),
-        guesses=_guesses(pilot) if pictures else np.empty((0, 4), np.float32),
+        map_due=rhythm is None or rhythm.map,
+        clearance=pilot.clearance() if rhythm is None or rhythm.map else None,
+        occupied=occupied,
+        guesses=_guesses(pilot) if rhythm is None or rhythm.guesses else _NOTHING,
         path=np.empty((0, 2)) if path is None else path,
         climbs=tuple(climb.span for climb in pilot.climbs() or ()),
-        stairs=tuple(_stair(stair) for stair in pilot.staircase().stairs),
+        stairs=stairs_of(pilot),
         soles=episode.judge.soles,
         touch=(episode.judge.touch.left, episode.judge.touch.right),
         footsteps=step.footsteps,
@@ -59,6 +66,11 @@ def trace_of(episode: Episode, step: Step, *, pictures: bool = True) -> Trace:
         body_orientations=data.xquat.copy(),
         timing=dict(zip(pilot.stages, pilot.timing, strict=True)),
     )
+
+
+def stairs_of(pilot: Pilot) -> tuple[StairTrace, ...]:
+    """Return the stairs that are seen or remembered."""
+    return tuple([_stair(stair) for stair in pilot.staircase().stairs])
 
 
 def _stair(stair: Stair) -> StairTrace:
@@ -81,13 +93,3 @@ def _guesses(pilot: Pilot) -> NDArray[np.float32]:
     places, headings, _ = pilot.guesses()
     stride = 1 + len(headings) // _MOST_GUESSES
     return np.column_stack([places, headings])[::stride].astype(np.float32)
-
-
-def transformed(
-    target_from_source: NDArray[np.float64], points: NDArray[np.float32]
-) -> NDArray[np.float32]:
-    """Return points (n, 3) float32 in the target frame."""
-    rotation = target_from_source[:3, :3].astype(np.float32)
-    moved: NDArray[np.float32] = points @ rotation.T
-    moved += target_from_source[:3, 3].astype(np.float32)
-    return moved

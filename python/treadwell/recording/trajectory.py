@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from treadwell.errors import InputError
 from treadwell.files import read_text
 from treadwell.judging.result import write_whole
+from treadwell.protocols import Pose
 
 LARGEST_FILE = 100_000_000
 """Bytes."""
@@ -39,6 +40,10 @@ class Trajectory:
             pose: map_from_robot, (4, 4).
         """
         self._numbers.extend((1e-9 * time_ns, *pose[:3, 3].tolist(), *quaternion(pose[:3, :3])))
+
+    def add_level(self, time_ns: int, pose: Pose) -> None:
+        """Append a pose (x m, y m, z m, yaw rad): to the bit what `add` does of its matrix."""
+        self._numbers.extend((1e-9 * time_ns, *pose[:3], *turned(pose[3])))
 
     def positions(self) -> NDArray[np.float64]:
         """Return the positions, (n, 3) m."""
@@ -88,6 +93,16 @@ def headings(rows: NDArray[np.float64]) -> NDArray[np.float64]:
     x, y, z, w = rows[:, 4:8].T
     angle: NDArray[np.float64] = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
     return angle
+
+
+def turned(yaw: float) -> tuple[float, float, float, float]:
+    """Return x, y, z, w of a turn about z, rad: to the bit that of its matrix."""
+    c, s = math.cos(yaw), math.sin(yaw)
+    trace = c + c + 1.0
+    z, w = (s + s, 1.0 + trace) if trace > 1.0 else (1.0 + 1.0 - c - c, s + s)
+    length = math.hypot(0.0, 0.0, z, w) * (1.0 if w >= 0.0 else -1.0)
+    none = 0.0 / length
+    return none, none, z / length, w / length
 
 
 def quaternion(rotation: NDArray[np.float64]) -> tuple[float, float, float, float]:

@@ -11,10 +11,6 @@ from treadwell.trace import Trace
 
 Floats = NDArray[np.floating]
 
-_LOCAL_STRIDE = 12
-"""Of so many camera frames, about two seconds, one has its local map recorded."""
-_GUESSES_STRIDE = 2
-"""Of so many camera frames one has its guesses recorded."""
 _FAINT = 90
 """Opacity, of 255, of the static map: what was seen shows in it."""
 _LOCAL = (215, 60, 40)
@@ -34,7 +30,7 @@ class Volumes:
             static_map: what the robot knows of the place beforehand.
             height: m, what has the darkest and the brightest colour.
         """
-        self._rows, self._until_local, self._frames = rows, 0, 0
+        self._rows = rows
         if static_map is not None:
             centres, halves = bars(*static_map.occupied())
             shades = height_colours(centres[:, 2].astype(np.float32), *height)
@@ -49,9 +45,7 @@ class Volumes:
 
     def log(self, trace: Trace) -> None:
         """Write a camera frame's; the time is set."""
-        self._until_local -= 1
-        if self._until_local < 0 and len(trace.occupied):
-            self._until_local = _LOCAL_STRIDE - 1
+        if len(trace.occupied):
             centres, halves = bars(trace.occupied[:, :3], trace.occupied[:, 3])
             self._rows.style(
                 "world/maps/local",
@@ -60,8 +54,7 @@ class Volumes:
                 fill_mode=[rr.components.FillMode.Solid],
             )
             self._rows.log("world/maps/local", rr.Boxes3D, centers=centres, half_sizes=halves)
-        self._frames += 1
-        if len(trace.guesses) and self._frames % _GUESSES_STRIDE == 1:
+        if len(trace.guesses):
             entity = "world/maps/guesses"
             self._rows.style(entity, rr.Arrows3D, colors=[ESTIMATE], radii=[0.004])
             self._rows.log(

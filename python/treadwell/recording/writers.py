@@ -18,7 +18,7 @@ from treadwell.recording.messages import encode_command, encode_estimate
 from treadwell.recording.scenario_file import NAME as SCENARIO
 from treadwell.recording.scenario_file import write_scenario
 from treadwell.recording.stair_memory import StairMemory
-from treadwell.recording.trajectory import ESTIMATE, TRUTH, Trajectory, quaternion
+from treadwell.recording.trajectory import ESTIMATE, TRUTH, Trajectory, turned
 from treadwell.recording.writing_thread import WritingThread
 from treadwell.trace import Trace
 
@@ -117,12 +117,11 @@ class Writers:
         believed = encode_estimate(
             now, belief.pose, belief.odometry, step.state, step.outcome, step.reason
         )
-        truth = self._episode.judge.frame.matrix()
-        place = tuple(truth[:3, 3].tolist())
+        truth = self._episode.judge.frame
         stood_ns = self._episode.simulation.time_ns
         self._messages += log.observed(step.observation)
         self._messages += log.answered(now, told, believed)
-        self._messages += log.stood(stood_ns, place, quaternion(truth[:3, :3]))
+        self._messages += log.stood(stood_ns, truth[:3], turned(truth[3]))
 
     def frame(self, trace: Trace) -> None:
         """Take in a camera frame, which nobody changes afterwards."""

@@ -78,6 +78,25 @@ class Cast:
     rotation: Floats
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Views:
+    """What a camera reads of MuJoCo's data, as views, which cost at each frame.
+
+    Attributes:
+        data: whose they are.
+        position: (3,) of the model's camera, world.
+        rotation: (3, 3) of the same, as MuJoCo has cameras.
+        geom_positions: (ngeom, 3).
+        geom_rotations: (ngeom, 9).
+    """
+
+    data: mujoco.MjData
+    position: Floats
+    rotation: Floats
+    geom_positions: Floats
+    geom_rotations: Floats
+
+
 class DepthCamera:
     """Looks through every pixel.
 
@@ -105,14 +124,16 @@ class DepthCamera:
         carrier = int(model.cam_bodyid[self._camera])
         self._rays = depth_camera(model, carrier, pinhole.width, pinhole.height, pinhole.focal)
         self._elsewhere: CastElsewhere | None = None
+        self._views: _Views | None = None
         if self._rays.unknown:
             shape = (pinhole.height, pinhole.width)
             self._elsewhere = CastElsewhere(model, self._rays.unknown, pinhole.directions(), shape)
 
     def pose(self, data: mujoco.MjData) -> tuple[Floats, Floats]:
         """Return the real camera's position (3,) and rotation (3, 3), world from optical frame."""
-        nominal = data.cam_xmat[self._camera].reshape(3, 3) @ MUJOCO_FROM_OPTICAL
-        position = data.cam_xpos[self._camera] + nominal @ self._mount.translation
+        views = self._of(data)
+        nominal = views.rotation @ MUJOCO_FROM_OPTICAL
+        position = views.position + nominal @ self._mount.translation
         return position, nominal @ self._mount.rotation
 
     def cast(self, data: mujoco.MjData) -> Cast:
@@ -130,14 +151,27 @@ class DepthCamera:
     def see(self, data: mujoco.MjData, errors: _core.DepthErrors) -> NDArray[np.float32]:
         """Return the depth (h, w) that a camera with these errors measures, m, NaN for none."""
         position, rotation = self.pose(data)
+        views = self._of(data)
         return self._rays.see(
-            data.geom_xpos,
-            data.geom_xmat,
+            views.geom_positions,
+            views.geom_rotations,
             place(position),
             rotation,
             errors,
             others=self._others(data, position, rotation),
         )
+
+    def _of(self, data: mujoco.MjData) -> "_Views":
+        """Return the views of what was looked at last, made anew where that is something else."""
+        if self._views is None or self._views.data is not data:
+            self._views = _Views(
+                data,
+                data.cam_xpos[self._camera],
+                data.cam_xmat[self._camera].reshape(3, 3),
+                data.geom_xpos,
+                data.geom_xmat,
+            )
+        return self._views
 
     def _others(
         self, data: mujoco.MjData, position: Floats, rotation: Floats

@@ -60,6 +60,8 @@ class DepthSensor:
             self._next_ns = (time_ns // self._period_ns + 1) * self._period_ns
             if time_ns >= self._blind_until_ns:
                 self._under_way.append((time_ns, self._expose(data)))
+        if not self._under_way:
+            return None
         arrived = None
         while self._under_way and self._under_way[0][0] + self._latency_ns <= time_ns:
             exposure_ns, depth = self._under_way.popleft()

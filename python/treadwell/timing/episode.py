@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from treadwell.episode import Episode
 from treadwell.errors import InputError, TreadwellError
 from treadwell.physics.audit import STATE
-from treadwell.recording.tracing import trace_of
 from treadwell.runner import Scores
 
 FROZEN: Final = Path(__file__).resolve().parent / "frozen" / "slalom.npz"
@@ -126,4 +125,4 @@ def _go_on(running: Episode, until: float) -> None:
         step = running.tick()
         scores.tick(step)
         if step.observation.depth is not None:
-            scores.frame(trace_of(running, step, pictures=False))
+            scores.frame(step)
