@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from treadwell._core import squared_distances
+from treadwell._core import distances, squared_distances
 
 
 def test_distances_are_those_of_brute_force() -> None:
@@ -12,6 +12,7 @@ def test_distances_are_those_of_brute_force() -> None:
     at = np.argwhere(blocked)
     expected = ((rows[..., None] - at[:, 0]) ** 2 + (cols[..., None] - at[:, 1]) ** 2).min(axis=-1)
     assert np.array_equal(squared_distances(blocked), expected)
+    assert np.array_equal(distances(blocked), np.sqrt(expected.astype(np.float32)))
     assert np.all(squared_distances(np.zeros((2, 3), bool)) == 2**29)
 
 

@@ -40,6 +40,7 @@ __all__ = [
     "Walker",
     "WorldModel",
     "components",
+    "distances",
     "parameters",
     "squared_distances",
     "swept_clearance",
@@ -55,6 +56,7 @@ _Fit = tuple[int, float, float]
 _Footstep = tuple[str, float, float, float, float, float, float]
 
 def components() -> list[tuple[str, str, str, str | None]]: ...
+def distances(blocked: NDArray[np.bool_], /) -> NDArray[np.float32]: ...
 def parameters() -> str: ...
 def squared_distances(blocked: NDArray[np.bool_], /) -> NDArray[np.uint32]: ...
 def swept_clearance(

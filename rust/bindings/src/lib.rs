@@ -28,6 +28,7 @@ use pyo3::prelude::*;
 /// Puts everything into a module. A core of the user's own calls it for its `_core`, after it added its components.
 pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(clearance::swept_clearance, module)?)?;
+    module.add_function(wrap_pyfunction!(distance::distances, module)?)?;
     module.add_function(wrap_pyfunction!(distance::squared_distances, module)?)?;
     module.add_function(wrap_pyfunction!(version, module)?)?;
     module.add_function(wrap_pyfunction!(lists::components, module)?)?;

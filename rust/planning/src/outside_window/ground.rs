@@ -44,6 +44,10 @@ impl GroundOutside {
         };
         self.columns.clear();
         (self.columns).extend(in_step(0..terrain.cols, |col| there(0, col)));
+        // Columns further aside than that are not near in any row.
+        let is_aside = |aside_m: &f64| aside_m.abs() < near_m;
+        let first_near = self.aside_m.iter().position(is_aside).unwrap_or(0);
+        let end_near = (self.aside_m.iter().rposition(is_aside)).map_or(0, |last| last + 1);
         for row in 0..terrain.rows {
             let Some(row_there) = there(1, row) else {
                 continue;
@@ -51,18 +55,34 @@ impl GroundOutside {
             let ahead_m = place_m(1, row);
             let ground = &mut self.blocked[row_there * SIDE..][..SIDE];
             let first = row * terrain.cols;
-            for (cols, first_there) in &self.columns {
-                let cells = first + cols.start..first + cols.end;
-                let seen = terrain.unknown[cells.clone()]
-                    .iter()
-                    .zip(&terrain.blocked[cells]);
-                let ground = &mut ground[*first_there..][..cols.len()];
-                let aside_m = &self.aside_m[cols.clone()];
-                for ((known, (&unknown, &blocked)), aside_m) in
-                    ground.iter_mut().zip(seen).zip(aside_m)
+            for (all, first_there) in &self.columns {
+                let ground = &mut ground[*first_there..][..all.len()];
+                let end = end_near.clamp(all.start, all.end);
+                let begin = first_near.clamp(all.start, end);
+                let is_row_near = ahead_m.abs() < near_m;
+                let near = if is_row_near { begin..end } else { end..end };
+                let far = [all.start..near.start, near.end..all.end];
+                for (cols, is_far) in far
+                    .into_iter()
+                    .map(|far| (far, true))
+                    .chain([(near, false)])
                 {
-                    let near = geometry::hypot(*aside_m, ahead_m) < near_m;
-                    *known = (*known & (unknown | !near)) | (blocked & !unknown);
+                    let ground = &mut ground[cols.start - all.start..][..cols.len()];
+                    let cells = first + cols.start..first + cols.end;
+                    let seen = (terrain.unknown[cells.clone()].iter()).zip(&terrain.blocked[cells]);
+                    if is_far {
+                        for (known, (&unknown, &blocked)) in ground.iter_mut().zip(seen) {
+                            *known |= blocked & !unknown;
+                        }
+                        continue;
+                    }
+                    let aside_m = &self.aside_m[cols];
+                    for ((known, (&unknown, &blocked)), aside_m) in
+                        ground.iter_mut().zip(seen).zip(aside_m)
+                    {
+                        let near = geometry::hypot(*aside_m, ahead_m) < near_m;
+                        *known = (*known & (unknown | !near)) | (blocked & !unknown);
+                    }
                 }
             }
         }

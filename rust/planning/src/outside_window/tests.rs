@@ -133,7 +133,7 @@ fn what_stands_near_is_remembered_however_far_the_robot_has_come() {
         let lattice = ground.lattice.unwrap();
         let known = |x_m: f64| {
             let [col, row] = super::cell_at(&lattice, [x_m, 0.02])?;
-            Some(ground.blocked[row * super::SIDE + col])
+            Some(ground.blocked[row * super::ground::SIDE + col])
         };
         assert_eq!(known(x_m + 0.02), Some(true), "{x_m}");
         assert!(step < 2 || known(x_m - 5.98) == Some(true), "{x_m}");

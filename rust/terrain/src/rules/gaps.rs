@@ -5,6 +5,9 @@ use geometry::same_level;
 
 use crate::Terrain;
 
+/// So many cells of a row are looked at together first.
+const TOGETHER: usize = 16;
+
 /// Keeps its buffer.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Gaps {
@@ -24,16 +27,23 @@ impl Gaps {
         for first in (cols..end).step_by(cols.max(1)) {
             let [below, here, above] =
                 [first - cols, first, first + cols].map(|first| &heights_m[first..first + cols]);
-            for col in 1..cols.saturating_sub(1) {
-                let known = |a: f32, b: f32| !a.is_nan() & !b.is_nan();
-                // Without a branch: most of what is unknown lies among its like.
+            // Not short-circuited: most of what is unknown lies among its like.
+            let known = |a: f32, b: f32| !a.is_nan() & !b.is_nan();
+            let is_gap = |col: usize| {
                 let beside = known(here[col - 1], here[col + 1]) | known(below[col], above[col]);
-                if !(here[col].is_nan() & beside) {
+                here[col].is_nan() & beside
+            };
+            let last = cols.saturating_sub(1);
+            for begin in (1..last).step_by(TOGETHER) {
+                let together = begin..(begin + TOGETHER).min(last);
+                if !together.clone().fold(false, |any, col| any | is_gap(col)) {
                     continue;
                 }
-                let closed = between(here[col - 1], here[col + 1]);
-                if let Some(height) = closed.or_else(|| between(below[col], above[col])) {
-                    self.closed.push((first + col, height));
+                for col in together.filter(|&col| is_gap(col)) {
+                    let closed = between(here[col - 1], here[col + 1]);
+                    if let Some(height) = closed.or_else(|| between(below[col], above[col])) {
+                        self.closed.push((first + col, height));
+                    }
                 }
             }
         }

@@ -20,10 +20,12 @@ impl ObstacleCosts {
         let unseen = settings.unknown_cost as f32;
         terrain.weights.clear();
         let squared = &terrain.distance.squared;
-        for (&squared, &unknown) in squared.iter().zip(&terrain.unknown) {
+        let cells = squared.iter().zip(&terrain.unknown);
+        let weights = cells.map(|(&squared, &unknown)| {
             let unseen = if unknown { unseen } else { 0.0 };
-            (terrain.weights).push(self.costs.at(squared) + unseen);
-        }
+            self.costs.at(squared) + unseen
+        });
+        terrain.weights.extend(weights);
     }
 }
 

@@ -4,6 +4,9 @@
 use crate::{Sight, Terrain};
 
 pub(super) fn apply(terrain: &mut Terrain, sight: &Sight<'_>) {
+    if !terrain.any_edge {
+        return;
+    }
     let highest_m = sight.stand.height_m + terrain.needs.limits.step_m;
     for (index, &edge) in terrain.edge.iter().enumerate() {
         let tall = f64::from(terrain.height_m[index]) > highest_m;
