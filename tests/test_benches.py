@@ -25,6 +25,7 @@ LEAST: dict[str, list[str]] = {
     "kill_sweep.py": ["--kills", "1", "--episodes", "2"],
     "memory.py": ["--minutes", "0.02"],
     "odometry.py": ["--seeds", "0", "--workers", "1", "--seconds", "0.3"],
+    "peers/bonxai.py": ["SOURCES", "--frames", "1"],
     "peers/distance.py": ["--side", "60"],
     "peers/occupancy.py": ["--frames", "1"],
     "peers/octree.py": ["--frames", "1", "--cells", "0.04"],
@@ -59,11 +60,14 @@ def scripts() -> list[str]:
 def test_a_bench_runs_to_its_end(script: str, tmp_path: Path) -> None:
     if script in NEEDS:
         pytest.importorskip(NEEDS[script], reason=f"{script} is measured against a peer")
+    sources = os.environ.get("BONXAI_SOURCES", "")
+    if script == "peers/bonxai.py" and not sources:
+        pytest.skip("BONXAI_SOURCES does not say where Bonxai's sources are")
     if script == "real_data.py" and not os.environ.get("TREADWELL_DATA"):
         pytest.skip("TREADWELL_DATA does not say where data are")
     short = tmp_path / "short.toml"
     short.write_text(SHORT, encoding="utf-8")
-    places = {"SHORT": str(short), "FOLDER": str(tmp_path / "folder")}
+    places = {"SHORT": str(short), "SOURCES": sources, "FOLDER": str(tmp_path / "folder")}
     words = [places.get(word, word) for word in LEAST[script]]
     done = subprocess.run(
         [sys.executable, str(BENCHES / script), *words],

@@ -128,7 +128,9 @@ def test_a_scenario_ends_as_it_expects_without_a_fall_or_a_collision(
     assert result.falls == 0
     assert result.collisions == []
     assert result.localization is not None
-    assert result.localization.translation_error.max < 0.15
+    # Where nothing corrects the heading, a place is wrong by more the longer the way.
+    off = max(0.15, 0.02 * result.path_length)
+    assert result.localization.translation_error.max < off
     assert not result.ablation
 
 
