@@ -24,8 +24,8 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 from into_results import add_options, write
 
 from treadwell.timing.benches import CLEARING, grids
-from treadwell.timing.frames import Frames, read_frames, write_frames
-from treadwell.timing.room import CAMERAS, room
+from treadwell.timing.frames import Frames, write_frames
+from treadwell.timing.room import workloads
 
 CELL: Final = 0.04
 RANGE: Final = 4.0
@@ -148,16 +148,10 @@ def main() -> None:
     parser.add_argument("--flags", default="-O3", help="of the compiler")
     add_options(parser)
     options = parser.parse_args()
-    given = options.frames
-    workloads = (
-        [room(camera, int(given)) for camera in CAMERAS]
-        if given.isdecimal()
-        else [read_frames(Path(given))]
-    )
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         program = built(options.sources, options.flags, Path(folder))
-        for frames in workloads:
+        for frames in workloads(options.frames):
             file = Path(folder) / "frames.dfr"
             write_frames(frames, file)
             bonxai = Bonxai(program, file)

@@ -18,8 +18,8 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 from into_results import add_options, write
 
 from treadwell.timing.benches import CLEARING, grids
-from treadwell.timing.frames import Frames, read_frames
-from treadwell.timing.room import CAMERAS, room
+from treadwell.timing.frames import Frames
+from treadwell.timing.room import workloads
 
 CELL = 0.04
 RANGE = 4.0
@@ -107,13 +107,7 @@ def main() -> None:
     parser.add_argument("--frames", default="40")
     add_options(parser)
     options = parser.parse_args()
-    given = options.frames
-    workloads = (
-        [room(camera, int(given)) for camera in CAMERAS]
-        if given.isdecimal()
-        else [read_frames(Path(given))]
-    )
-    rows = [row for frames in workloads for row in compare(frames)]
+    rows = [row for frames in workloads(options.frames) for row in compare(frames)]
     title = "Occupancy update alone, 4 cm, against OctoMap in one run"
     write(options, title, None, rows)
 

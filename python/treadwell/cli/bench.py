@@ -1,15 +1,13 @@
 """The verb `bench`: times of the core on a fixed workload, and of an episode."""
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any, Final
 
 from treadwell.cli.output import write_message, write_table
 from treadwell.errors import InputError
 from treadwell.timing.benches import BENCHES
 from treadwell.timing.episode import episode
-from treadwell.timing.frames import Frames, read_frames
-from treadwell.timing.room import CAMERAS, room
+from treadwell.timing.room import workloads
 
 _COUNT: Final = 40
 _EPISODE: Final = "episode"
@@ -31,7 +29,7 @@ def bench(names: Sequence[str], frames: str | None) -> dict[str, Any]:
             raise InputError(f"there is no bench {name!r}; there are {', '.join(known)}")
     chosen = [name for name in BENCHES if not names or name in names]
     rows = []
-    for workload in _workloads(frames) if chosen else []:
+    for workload in workloads(str(_COUNT) if frames is None else frames) if chosen else []:
         for name in chosen:
             write_message(f"{name}: {workload.name} {workload.shape}")
             rows.append(BENCHES[name](workload))
@@ -40,15 +38,6 @@ def bench(names: Sequence[str], frames: str | None) -> dict[str, Any]:
         write_message(_EPISODE)
         document[_EPISODE] = episode()
     return document
-
-
-def _workloads(frames: str | None) -> list[Frames]:
-    if frames is None or frames.isdecimal():
-        count = _COUNT if frames is None else int(frames)
-        if count < 1:
-            raise InputError(f"--frames must be 1 or more, or a file, got {frames}")
-        return [room(camera, count) for camera in CAMERAS]
-    return [read_frames(Path(frames))]
 
 
 def show(document: Mapping[str, Any]) -> None:

@@ -1,11 +1,13 @@
 """The fixed workload: a room with a sill, steps and boxes, seen on a walk through it."""
 
+from pathlib import Path
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.timing.frames import Frames
+from treadwell.errors import InputError
+from treadwell.timing.frames import Frames, read_frames
 
 CAMERAS: Final = {"88x72": (88, 72, 47.0), "320x240": (320, 240, 58.0)}
 """Width, height, and degrees across: a small stereo camera, and what a Kinect gives."""
@@ -33,6 +35,22 @@ def _boxes() -> NDArray[np.float64]:
         size, height = rng.uniform(0.04, 0.18, 2), rng.uniform(0.08, 0.8)
         things.append([[x - size[0], y - size[1], 0.0], [x + size[0], y + size[1], height]])
     return np.array(walls + sill + steps + things)
+
+
+def workloads(given: str) -> list[Frames]:
+    """Return the frames of a file, or of each camera so many of the walk's.
+
+    Args:
+        given: a path, or how many, in digits.
+
+    Raises:
+        InputError: none are asked for, or the file holds no frames.
+    """
+    if not given.isdecimal():
+        return [read_frames(Path(given))]
+    if int(given) < 1:
+        raise InputError(f"--frames must be 1 or more, or a file, got {given}")
+    return [room(camera, int(given)) for camera in CAMERAS]
 
 
 def room(camera: str, count: int) -> Frames:
