@@ -32,11 +32,15 @@ settings! {
         joint_rest: f64 = 0.0035, "rad", POSITIVE;
         /// Time over which the turn by the gyroscope is held against the turn by the leg that carries, in roll and pitch.
         tilt_time: f64 = 0.3, "s", POSITIVE;
-        /// Roll or pitch by which the two may differ in that time.
-        tilt: f64 = 0.06, "rad", POSITIVE;
+        /// A sole each of whose cells bears more than this share of the robot's weight does not rock: its leg tells roll and pitch.
+        firm: f64 = 0.02, "1", above_to(0.0, 1.0);
+        /// Roll or pitch by which the two may differ in that time: whole ones differ by 0.02.
+        tilt: f64 = 0.045, "rad", POSITIVE;
         /// Time over which the heading by the gyroscope is held against that by the legs.
         heading_time: f64 = 2.0, "s", POSITIVE;
-        /// Heading by which the two may differ in that time: a foot slips as it turns.
+        /// The heading of a foot that lies more aslant is left out: it slips.
+        slope: f64 = 0.03, "rad", POSITIVE;
+        /// Heading by which the two may differ in that time: twice what a foot slips by on level ground.
         heading: f64 = 0.03, "rad", POSITIVE;
     }
 }

@@ -93,7 +93,17 @@ impl Check for Turning {
             let up = torso_from_sole * Vector3::z();
             let turned_rad = off_rad.dot(&up);
             self.heading_rad += turned_rad;
-            self.tilt_rad += off_rad - up * turned_rad;
+            // A sole that rests on some of its cells alone rocks.
+            let cells_n = &moment.observation.foot_forces_n[side.index()];
+            let least_n = config.firm * moment.weight_n;
+            if cells_n.iter().all(|&force_n| force_n > least_n) {
+                self.tilt_rad += off_rad - up * turned_rad;
+            }
+        }
+        // A sole that lies aslant slips: its leg does not tell the heading.
+        let sole_up = state.odometry_from_torso_rotation * torso_from_sole * Vector3::z();
+        if sole_up.angle(&Vector3::z()) > config.slope {
+            self.heading_rad = 0.0;
         }
         let (tilt_rad, heading_rad) = (self.tilt_rad.norm(), self.heading_rad.abs());
         let what = if tilt_rad > config.tilt {
