@@ -7,6 +7,8 @@ import argparse
 import json
 from concurrent.futures import ProcessPoolExecutor
 
+from episodes import seeds
+
 from treadwell.episode import Episode
 from treadwell.errors import TreadwellError
 
@@ -88,19 +90,11 @@ def play(job: tuple[str, str, int]) -> dict[str, object]:
     }
 
 
-def _seeds(words: list[str]) -> list[int]:
-    found: list[int] = []
-    for word in words:
-        first, _, last = word.partition("-")
-        found += range(int(first), int(last or first) + 1)
-    return found
-
-
 def main() -> None:
     """Print a line of JSON an episode, and the sums."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--scenarios", nargs="+", default=["slalom", "stairs_up"])
-    parser.add_argument("--seeds", nargs="+", default=["0-1"])
+    parser.add_argument("--seeds", type=seeds, default=[0, 1])
     parser.add_argument("--faults", nargs="+", choices=FAULTS, default=list(FAULTS))
     parser.add_argument("--workers", type=int, default=1)
     options = parser.parse_args()
@@ -108,7 +102,7 @@ def main() -> None:
         (fault, scenario, seed)
         for fault in options.faults
         for scenario in options.scenarios
-        for seed in _seeds(options.seeds)
+        for seed in options.seeds
     ]
     rows = []
     with ProcessPoolExecutor(options.workers) as pool:

@@ -212,9 +212,9 @@ class Episode:
             self.sensors.set_encoder_shifts(self.events.encoder_offsets)
         if self.events.is_blind(1e-9 * (time_ns + TICK_NS)):
             self.sensors.blind(time_ns + TICK_NS + 1)
-        while self.events.knocks:
-            knock = self.events.knocks.pop()
+        for knock in self.events.knocks:
             self.sensors.knock(knock.roll, knock.pitch, knock.yaw)
+        self.events.knocks.clear()
         broken = self.events.broken(1e-9 * time_ns)
         if broken == self._broken:
             return

@@ -64,7 +64,7 @@ class Events:
         encoder_offsets: joint -> radians that its encoder reads wrong by.
         present: names of the elements that are there now.
         faults: what has broken, each with the time in seconds at which it is whole again.
-        knocks: how the camera was turned.
+        knocks: how the camera was turned since somebody took them out, in order.
         fired: (time in seconds, `do`) of what has happened, in order, for the record.
     """
 

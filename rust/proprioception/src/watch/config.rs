@@ -24,23 +24,26 @@ settings! {
         weak: f64 = 0.1, "rad", POSITIVE;
         /// Time for which a joint may be so far from its target.
         weak_time: f64 = 0.04, "s", POSITIVE;
-        /// A gyroscope that tells this turn of a robot whose joints and feet rest is wrong: forty standard deviations of its bias.
+        /// A gyroscope that tells this turn of a robot whose joints and feet rest is wrong: more than twenty standard
+        /// deviations of the bias of those that come along.
         resting: f64 = 0.02, "rad/s", POSITIVE;
         /// Time over which a resting gyroscope is averaged.
-        resting_time: f64 = 0.5, "s", POSITIVE;
+        resting_time: f64 = 0.9, "s", POSITIVE;
         /// Joints rest while none of the legs' encoders moves by more than this in that time.
         joint_rest: f64 = 0.0035, "rad", POSITIVE;
         /// Time over which the turn by the gyroscope is held against the turn by the leg that carries, in roll and pitch.
         tilt_time: f64 = 0.3, "s", POSITIVE;
         /// A sole each of whose cells bears more than this share of the robot's weight does not rock: its leg tells roll and pitch.
         firm: f64 = 0.02, "1", above_to(0.0, 1.0);
-        /// Roll or pitch by which the two may differ in that time: whole ones differ by 0.02.
+        /// Roll or pitch by which the two may differ in that time: whole ones differ by less than 0.03.
         tilt: f64 = 0.045, "rad", POSITIVE;
         /// Time over which the heading by the gyroscope is held against that by the legs.
         heading_time: f64 = 2.0, "s", POSITIVE;
+        /// A difference between the two that is faster counts as if it were so fast: a sole that slips turns fast and for a moment.
+        slip: f64 = 0.06, "rad/s", POSITIVE;
         /// The heading of a foot that lies more aslant is left out: it slips.
         slope: f64 = 0.03, "rad", POSITIVE;
-        /// Heading by which the two may differ in that time: twice what a foot slips by on level ground.
+        /// Heading by which the two may differ in that time: twice what whole ones differ by on slippery slopes.
         heading: f64 = 0.03, "rad", POSITIVE;
     }
 }

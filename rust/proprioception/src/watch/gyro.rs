@@ -92,7 +92,9 @@ impl Check for Turning {
             let off_rad = by_gyro_rad - by_legs_rad;
             let up = torso_from_sole * Vector3::z();
             let turned_rad = off_rad.dot(&up);
-            self.heading_rad += turned_rad;
+            // A sole slips for a moment and fast; a gyroscope errs slowly and for long.
+            let fastest_rad = config.slip * passed_s;
+            self.heading_rad += turned_rad.clamp(-fastest_rad, fastest_rad);
             // A sole that rests on some of its cells alone rocks.
             let cells_n = &moment.observation.foot_forces_n[side.index()];
             let least_n = config.firm * moment.weight_n;

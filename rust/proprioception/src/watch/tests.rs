@@ -138,6 +138,18 @@ fn a_gyroscope_that_turns_a_robot_at_rest_is_named_before_it_walks() {
     );
 }
 
+/// The body turns with the sole, and the legs know nothing of it.
+#[test]
+fn a_sole_that_slips_is_no_fault_of_the_gyroscope() {
+    let slip = FROM..FROM + 8;
+    let found = found(&noisy_walk(3), |tick, observation| {
+        if slip.contains(&tick) {
+            observation.angular_velocity_radps[2] += 0.6;
+        }
+    });
+    assert_eq!(found, None);
+}
+
 #[test]
 fn an_encoder_that_does_not_move_with_its_target_is_named() {
     let walk = noisy_walk(3);
