@@ -20,10 +20,6 @@ settings! {
         stuck: f64 = 0.08, "rad", POSITIVE;
         /// Time for which an encoder may stay the same whatever its target does: the joint follows late.
         stuck_time: f64 = 0.1, "s", POSITIVE;
-        /// A leg's joint this far from its target is too weak: whole ones stay within 0.08 on stairs.
-        weak: f64 = 0.1, "rad", POSITIVE;
-        /// Time for which a joint may be so far from its target.
-        weak_time: f64 = 0.04, "s", POSITIVE;
         /// A gyroscope that tells this turn of a robot whose joints and feet rest is wrong: more than twenty standard
         /// deviations of the bias of those that come along.
         resting: f64 = 0.02, "rad/s", POSITIVE;

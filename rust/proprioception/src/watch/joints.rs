@@ -1,6 +1,6 @@
-//! Claims: an encoder moves when its joint's target does; and a joint is near its target.
+//! Claim: an encoder moves when its joint's target does.
 
-use robot::{Body, Side};
+use robot::Body;
 use sensing::SenseFault;
 
 use super::repair::Repair;
@@ -49,48 +49,6 @@ impl Check for Stuck {
                     fault: SenseFault::new(
                         format!("the encoder of {}", name(moment.body, joint)),
                         format!("is stuck at {now_rad:.3} rad"),
-                    ),
-                    repair: Repair::Nothing,
-                });
-            }
-        }
-        found
-    }
-}
-
-/// How long each leg joint has been far from its target.
-#[derive(Debug, Clone)]
-pub(super) struct Weak {
-    joints: Vec<(usize, Lasting)>,
-}
-
-impl Weak {
-    pub(super) fn new(body: &Body) -> Self {
-        let legs = Side::BOTH.map(|side| *body.leg_joints(side));
-        let joints = legs.as_flattened().iter();
-        Self {
-            joints: joints.map(|&joint| (joint, Lasting::default())).collect(),
-        }
-    }
-}
-
-impl Check for Weak {
-    fn look(&mut self, moment: &Moment<'_>) -> Option<Finding> {
-        let mut found = None;
-        for (joint, far) in &mut self.joints {
-            let (Some(told_rad), Some(read_rad)) = (
-                moment.told_rad.get(*joint),
-                moment.observation.joint_positions_rad.get(*joint),
-            ) else {
-                continue;
-            };
-            let off_rad = (told_rad - read_rad).abs();
-            let lasted_s = far.count(off_rad > moment.config.weak, moment.passed_s);
-            if lasted_s > moment.config.weak_time && found.is_none() {
-                found = Some(Finding {
-                    fault: SenseFault::new(
-                        format!("the motor of {}", name(moment.body, *joint)),
-                        format!("is too weak: the joint is {off_rad:.2} rad from its target"),
                     ),
                     repair: Repair::Nothing,
                 });

@@ -73,7 +73,6 @@ impl SenseWatch {
                 Box::new(cells::ConstantCell::default()),
                 Box::new(load::Missing::default()),
                 Box::new(joints::Stuck::new(body)),
-                Box::new(joints::Weak::new(body)),
                 Box::new(gyro::Resting::new(body)),
                 Box::new(gyro::Turning::default()),
             ],

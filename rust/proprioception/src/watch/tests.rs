@@ -161,26 +161,6 @@ fn an_encoder_that_does_not_move_with_its_target_is_named() {
 }
 
 #[test]
-fn a_joint_far_from_its_target_is_weak() {
-    let walk = noisy_walk(3);
-    let joint = walk.body.leg_joints(Side::Right)[3];
-    let mut proprioception =
-        Proprioception::new(&walk.body, ProprioceptionConfig::default()).unwrap();
-    let mut watch = SenseWatch::new(&walk.body, SenseWatchConfig::default()).unwrap();
-    let mut reason = None;
-    for (tick, observation) in walk.observations.iter().enumerate().take(FROM + 50) {
-        let state = proprioception.update(observation).unwrap();
-        let found = watch.look(observation, state).map(ToString::to_string);
-        assert!(tick >= FROM || found.is_none());
-        reason = reason.or(found);
-        let mut told_rad = observation.joint_positions_rad.clone();
-        told_rad[joint] += if tick < FROM { 0.0 } else { 0.3 };
-        watch.note_command(&told_rad);
-    }
-    assert!(reason.unwrap().contains("is too weak"));
-}
-
-#[test]
 fn what_is_made_up_for_a_cell_and_a_foot_carries_the_weight() {
     let body = biped();
     let weight_n = body.mass_kg() * GRAVITY_MPS2;
