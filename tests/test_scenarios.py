@@ -28,6 +28,7 @@ WALKED = {
     "beam_low": "refused",
     "slope_up": "goal_reached",
     "slope_down": "goal_reached",
+    "slope_across": "goal_reached",
     "narrow_passage": "goal_reached",
 }
 CLIMBED = (

@@ -58,7 +58,7 @@ def slopes_walked(results: Results) -> Table:
         ("degrees", "up: goal / refused / falls / of", "down: the same"),
         tuple(rows),
         (
-            "With navigation.ground.slopes. The paper: only horizontal planes. Wanted: up to 10 "
+            "The paper: only horizontal planes. Wanted: up to 10 "
             "degrees walked; 15 degrees refused.",
         ),
     )

@@ -146,7 +146,9 @@ impl Pilot {
         observation.check(self.body.joint_count(), &self.camera, self.time_ns)?;
         self.time_ns = Some(observation.time_ns);
         self.timing = Timing::default();
-        self.proprioception.note_slopes(self.walker.on_slope());
+        let on_slope = self.walker.on_slope();
+        self.proprioception.note_slopes(on_slope);
+        self.senses.note_slopes(on_slope);
         let measured = observation;
         let repaired = self.senses.repaired(measured);
         let observation = repaired.as_ref().unwrap_or(measured);

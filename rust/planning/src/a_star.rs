@@ -18,7 +18,8 @@ use crate::path::viewpoints::Viewpoints;
 use crate::plan::place_of;
 use crate::search::Search;
 use crate::{
-    AStarConfig, Footprint, Goal, Path, Plan, PlanError, Planner, TerrainConfig, VoronoiConfig,
+    AStarConfig, Footprint, Goal, NoWay, Path, Plan, PlanError, Planner, Refusal, TerrainConfig,
+    VoronoiConfig,
 };
 
 /// Plans by A* on the floor and obstacle grid, and over the stairs that join its levels.
@@ -156,7 +157,8 @@ impl Planner for AStar {
             other => other,
         };
         let mut found = self.find(&stand, &levelled);
-        if found.is_err() && self.goal_level.is_seen() {
+        let elsewhere = |no_way: &NoWay| no_way.refusal != Refusal::TooSteep;
+        if found.as_ref().is_err_and(elsewhere) && self.goal_level.is_seen() {
             levelled = self.goal_level.give_up(goal);
             found = self.find(&stand, &levelled);
         }

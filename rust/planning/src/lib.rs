@@ -36,6 +36,7 @@ mod plan;
 mod refusal;
 pub mod search;
 mod sideways_passages;
+mod steep_slopes;
 mod tuning;
 
 pub use a_star::AStar;

@@ -120,6 +120,8 @@ pub enum Refusal {
     TreadTooShort,
     /// The ground between a way down and a way up is too short for a sole.
     GapTooShort,
+    /// A slope leads there, but it is too steep to be walked on.
+    TooSteep,
     /// A drop.
     Drop,
     /// No other word holds.
@@ -135,6 +137,7 @@ impl Refusal {
             Self::StepTooHigh => "step_too_high",
             Self::TreadTooShort => "tread_too_short",
             Self::GapTooShort => "gap_too_short",
+            Self::TooSteep => "too_steep",
             Self::Drop => "drop",
             Self::NoPath => "no_path",
         }

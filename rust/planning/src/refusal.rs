@@ -12,6 +12,7 @@ use crate::path::ends::PathEnds;
 use crate::search::neighbours::Cells;
 use crate::search::steps::ANYWHERE;
 use crate::search::{Route, Search};
+use crate::steep_slopes::{first_too_steep, steep_way, too_steep};
 use crate::tuning::RefusalTuning;
 use crate::{Goal, NoWay, Refusal};
 
@@ -112,9 +113,12 @@ pub(crate) fn explain(
             sentence: format!("the widest gap is {gap_m:.2} m, {needed:.2} m are needed"),
         };
     }
+    if let Some(way) = steep_way(terrain, ends, start) {
+        return way.refused(terrain);
+    }
     if let Some(route) = way_over_levels(terrain, ends, start) {
         if let Some(rise_per_m) = first_too_steep(terrain, &route) {
-            return too_steep(rise_per_m, terrain.slopes.steepest_walked());
+            return too_steep(terrain, rise_per_m);
         }
         if let Some(rise_m) = first_rise(terrain, &route) {
             return unjoined(words, rise_m);
@@ -156,26 +160,6 @@ fn way_over_levels(terrain: &Terrain, ends: &PathEnds<'_>, start: usize) -> Opti
     let ending = |cell: usize| ends.cost(cell);
     let remaining = |cell: usize| ends.remaining(cell);
     Search::default().run(&open, terrain.cols, start, ending, remaining)
-}
-
-/// How steep the first slope on a way is that is too steep, rise per metre.
-fn first_too_steep(terrain: &Terrain, route: &Route) -> Option<f64> {
-    let slopes = &terrain.slopes;
-    let mut cells = route.cells.iter();
-    cells.find_map(|&cell| slopes.too_steep_at(cell as usize))
-}
-
-/// The word and sentence for a slope that is too steep, both in rise per metre.
-fn too_steep(rise_per_m: f64, limit: f64) -> NoWay {
-    let degrees = |rise_per_m: f64| libm::atan(rise_per_m).to_degrees().round();
-    NoWay {
-        refusal: Refusal::Blocked,
-        sentence: format!(
-            "the slope is {} degrees steep, {} degrees is the limit",
-            degrees(rise_per_m),
-            degrees(limit)
-        ),
-    }
 }
 
 /// The first change of level on a way, m.

@@ -24,7 +24,7 @@ impl StairClimbing {
 }
 
 impl Tick<'_> {
-    /// Whether the planner finds no way because of what stairs are like.
+    /// Whether the planner finds no way because of what stairs or slopes are like.
     pub(super) fn breaks_a_limit(&self) -> bool {
         let way = self.situation.plan.map(|plan| &plan.way);
         matches!(way, Some(Err(no_way)) if matches!(
@@ -32,6 +32,7 @@ impl Tick<'_> {
             Refusal::StepTooHigh
                 | Refusal::TreadTooShort
                 | Refusal::GapTooShort
+                | Refusal::TooSteep
                 | Refusal::Drop
         ))
     }

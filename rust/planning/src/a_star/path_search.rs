@@ -6,6 +6,7 @@ use crate::climb_links::Fit;
 use crate::path::ends::{PathEnds, end_of, run};
 use crate::refusal::{explain, first_limit};
 use crate::search::Route;
+use crate::steep_slopes::steep_way;
 use crate::{AStar, Goal, NoWay, Path, PathEnd, Refusal};
 
 impl AStar {
@@ -95,6 +96,15 @@ impl AStar {
                 return Ok((route, Fit::Doubtful, PathEnd::Look));
             }
             let lifted = search_with(Fit::Broken);
+            let steep = steep_way(terrain, &ends, start).filter(|way| {
+                let seen = (self.climbing.levels.told, guess_m);
+                way.leads_to(terrain, (goal, stand), seen)
+                    && (known.as_ref().is_none_or(|known| way.cost() < known.cost))
+                    && (lifted.as_ref()).is_none_or(|lifted| way.cost() < lifted.cost)
+            });
+            if let Some(way) = steep {
+                return Err(way.refused(terrain));
+            }
             limit = lifted
                 .and_then(|route| first_limit(terrain, links, (&self.climbing, refusal), &route));
         }

@@ -33,6 +33,8 @@ pub(crate) struct Moment<'a> {
     body: &'a Body,
     weight_n: f64,
     passed_s: f64,
+    /// Feet that stand, or are to land, on a slope.
+    on_slope: [bool; 2],
     config: &'a SenseWatchConfig,
 }
 
@@ -58,6 +60,7 @@ pub struct SenseWatch {
     checks: Vec<Box<dyn Check>>,
     told_rad: Vec<f64>,
     before_ns: Option<u64>,
+    on_slope: [bool; 2],
     found: Option<Finding>,
     standing: repair::LegTurn,
 }
@@ -80,6 +83,7 @@ impl SenseWatch {
             told_rad: Vec::with_capacity(body.joint_count()),
             body: body.clone(),
             before_ns: None,
+            on_slope: [false; 2],
             found: None,
             standing: repair::LegTurn::default(),
             config,
@@ -116,6 +120,7 @@ impl SenseWatch {
                 body: &self.body,
                 weight_n: self.weight_n,
                 passed_s,
+                on_slope: self.on_slope,
                 config: &self.config,
             };
             for check in &mut self.checks {
@@ -126,6 +131,11 @@ impl SenseWatch {
             }
         }
         self.found.as_ref().map(|found| &found.fault)
+    }
+
+    /// Takes note of which feet stand, or are to land, on a slope: such a sole turns until it lies on it.
+    pub const fn note_slopes(&mut self, on_slope: [bool; 2]) {
+        self.on_slope = on_slope;
     }
 
     /// Takes note of what the joints are told, rad.

@@ -29,10 +29,20 @@ fn noisy_walk(seed: u64) -> Walk {
 }
 
 /// Walks with senses that `spoil` spoils, by the number of the tick; what was found, and at which tick.
-fn found(walk: &Walk, mut spoil: impl FnMut(usize, &mut Observation)) -> Option<(usize, String)> {
+fn found(walk: &Walk, spoil: impl FnMut(usize, &mut Observation)) -> Option<(usize, String)> {
+    found_on(walk, false, spoil)
+}
+
+/// The same on ground that is known to slope, or not.
+fn found_on(
+    walk: &Walk,
+    slopes: bool,
+    mut spoil: impl FnMut(usize, &mut Observation),
+) -> Option<(usize, String)> {
     let body = &walk.body;
     let mut proprioception = Proprioception::new(body, ProprioceptionConfig::default()).unwrap();
     let mut watch = SenseWatch::new(body, SenseWatchConfig::default()).unwrap();
+    watch.note_slopes([slopes; 2]);
     for (tick, observation) in walk.observations.iter().enumerate() {
         let mut observation = observation.clone();
         spoil(tick, &mut observation);
@@ -179,4 +189,19 @@ fn what_is_made_up_for_a_cell_and_a_foot_carries_the_weight() {
     Repair::Foot(Side::Right).apply(&mut observation, weight_n, &standing);
     let total_n: f64 = observation.foot_forces_n.as_flattened().iter().sum();
     assert!((total_n - weight_n).abs() < 1e-9);
+}
+
+/// The body turns with the sole, and the legs know nothing of it.
+#[test]
+fn a_sole_that_turns_onto_a_slope_is_no_fault_of_the_gyroscope() {
+    let settling = FROM..FROM + 10;
+    let found = |slopes| {
+        found_on(&noisy_walk(3), slopes, |tick, observation| {
+            if settling.contains(&tick) {
+                observation.angular_velocity_radps[1] += 0.8;
+            }
+        })
+    };
+    assert!(found(false).is_some_and(|(_, reason)| reason.contains("another tilt")));
+    assert_eq!(found(true), None);
 }

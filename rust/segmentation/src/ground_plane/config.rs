@@ -47,9 +47,9 @@ settings! {
         /// A surface tilted by more than this against the ground is no floor: steps of 15 mm laid together, treads of 20 cm apart,
         /// slope by 0.075.
         floor_tilt: f64 = 0.03, "rad", between(0.0, 0.5);
-        /// Whether surfaces that are tilted by 3 to 10 degrees and are no stairs are kept as one, with their height at each pixel; false:
-        /// they fall into level strips. What looks like one and is not yet sure is left out of maps.
-        slopes: bool = false, "-", ANY;
+        /// Whether surfaces that are tilted and are no stairs are kept as one, with their height at each pixel; false, to compare: they
+        /// fall into level strips. What looks like one and is not yet sure is left out of maps.
+        slopes: bool = true, "-", ANY;
         /// Numbers behind these that few will want to turn.
         tuning: GroundTuning;
     }
