@@ -10,6 +10,7 @@ mod handover;
 mod locate;
 mod look_around;
 mod obstacles;
+pub(crate) mod overhead;
 mod progress;
 mod side_leg;
 mod sidle;
@@ -38,6 +39,7 @@ use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Situation};
 pub use config::WalkingConfig;
 use gaze::{Gazer, Sweep};
 use obstacles::Followed;
+use overhead::Eyes;
 use progress::Progress;
 pub(crate) use state::State;
 use tick::WayTick;
@@ -74,6 +76,9 @@ pub struct WalkingBehaviour {
     goal: Option<Goal>,
     gazer: Gazer,
     looked: Looked,
+    /// Where the eyes are, and where they looked up; without eyes nothing is looked up at.
+    eyes: Option<Eyes>,
+    looked_up: Looked,
     followed: Followed,
     progress: Progress,
     /// Directions looked at in vain, one after the other.
@@ -91,11 +96,8 @@ impl WalkingBehaviour {
     pub(crate) fn of(needs: &BehaviourNeeds<'_>) -> Result<Self, MakeError> {
         let size = &needs.body.description().body;
         let climbing: ClimbingConfig = read(needs.tables, "climbing")?;
-        Ok(Self::new(
-            read(needs.tables, "walking")?,
-            climbing.levels,
-            size,
-        )?)
+        let walking = Self::new(read(needs.tables, "walking")?, climbing.levels, size)?;
+        Ok(walking.with_eyes(Eyes::of(needs.body.description())))
     }
 
     /// Refuses settings that cannot be used.
@@ -120,6 +122,8 @@ impl WalkingBehaviour {
             goal: None,
             gazer: Gazer::default(),
             looked: Looked::default(),
+            eyes: None,
+            looked_up: Looked::default(),
             followed: Followed::default(),
             progress: Progress::default(),
             looks: 0,

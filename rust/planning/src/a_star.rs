@@ -1,6 +1,7 @@
 //! The planner: a path by A*, kept as long as it holds.
 
 mod choice;
+mod ceilings;
 mod path_search;
 
 use geometry::{Map, Pose, Robot};
@@ -18,7 +19,7 @@ use crate::path::viewpoints::Viewpoints;
 use crate::plan::place_of;
 use crate::search::Search;
 use crate::{
-    AStarConfig, Footprint, Goal, Path, Plan, PlanError, Planner, TerrainConfig, VoronoiConfig,
+    AStarConfig, Footprint, Goal, Path, PathEnd, Plan, PlanError, Planner, TerrainConfig, VoronoiConfig,
 };
 
 /// Plans by A* on the floor and obstacle grid, and over the stairs that join its levels.
@@ -159,6 +160,10 @@ impl Planner for AStar {
         if found.is_err() && self.goal_level.is_seen() {
             levelled = self.goal_level.give_up(goal);
             found = self.find(&stand, &levelled);
+        }
+        let barred = (found.as_ref()).map_or(true, |path| path.end == PathEnd::Look);
+        if barred && let Some(no_way) = self.under_ceilings((view, stairs), &stand, &levelled) {
+            found = Err(no_way);
         }
         Ok(self.choose(rest, found, &levelled, &start))
     }

@@ -33,6 +33,7 @@ impl Tick<'_> {
                 | Refusal::TreadTooShort
                 | Refusal::GapTooShort
                 | Refusal::Drop
+                | Refusal::TooLow
         ))
     }
 

@@ -29,7 +29,7 @@ impl Gazer {
 }
 
 /// Most places in a list: an array's size, no list here is longer.
-const LONGEST_SWEEP: usize = 6;
+const LONGEST_SWEEP: usize = 8;
 
 /// A list of places to look at, one after the other.
 #[derive(Debug, Clone, Copy)]
@@ -43,7 +43,7 @@ pub(crate) struct Sweep {
 }
 
 impl Sweep {
-    /// Places as pan and down, rad, no more than six; so many frames must be used after the last one was reached.
+    /// Places as pan and down, rad, no more than eight; so many frames must be used after the last one was reached.
     pub(crate) fn through(places: &[(f64, f64)], last_frames: u64) -> Self {
         let mut sweep = Self {
             places: [Gaze::default(); LONGEST_SWEEP],
@@ -68,6 +68,37 @@ impl Sweep {
             (-side, far),
             (side, far),
             (0.0, far),
+        ];
+        Self::through(&places, config.tuning.gaze.last_frames)
+    }
+
+    /// All that can be seen from here, and the room for the head with a gaze so far below the horizon.
+    pub(crate) fn around_and_up(config: &WalkingConfig, up_rad: Option<f64>) -> Self {
+        let Some(up_rad) = up_rad else {
+            return Self::around(config);
+        };
+        let (side, near, far) = (config.sweep, config.gaze_near, config.gaze_far);
+        let aside = config.tuning.gaze.up_aside.min(side);
+        let places = [
+            (0.0, config.gaze_steep),
+            (side, near),
+            (-side, near),
+            (-side, far),
+            (side, far),
+            (aside, up_rad),
+            (-aside, up_rad),
+            (0.0, far),
+        ];
+        Self::through(&places, config.tuning.gaze.last_frames)
+    }
+
+    /// The room for the head at `bearing_rad` and beside it, with a gaze so far below the horizon, and then the floor there.
+    pub(crate) fn up(bearing_rad: f64, up_rad: f64, config: &WalkingConfig) -> Self {
+        let bearing_rad = bearing_rad.clamp(-config.sweep, config.sweep);
+        let aside_rad = config.tuning.gaze.aside;
+        let places = [
+            (bearing_rad + aside_rad, up_rad),
+            (bearing_rad - aside_rad, up_rad),
         ];
         Self::through(&places, config.tuning.gaze.last_frames)
     }

@@ -42,6 +42,12 @@ settings! {
     pub struct GazeTuning("navigation.walking.tuning.gaze") {
         /// A look ends once so many frames were taken into the map after its last place was reached.
         last_frames: u64 = 2, "1", within(0.0, 100.0);
+        /// A look up shows so much more above what the robot's head would meet, by which the body sways and the camera is off.
+        above_head: f64 = 0.04, "rad", ANGLE;
+        /// The look around looks up so far to each side.
+        up_aside: f64 = 0.5, "rad", ANGLE;
+        /// The look around looks up at the room for the head from this distance on.
+        up_from: f64 = 0.5, "m", NOT_NEGATIVE;
         /// A look at a place on the path reaches this far to its left and to its right.
         aside: f64 = 0.3, "rad", ANGLE;
         /// While the robot walks it looks far ahead and near by in turns that repeat after this time.

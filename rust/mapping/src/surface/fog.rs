@@ -5,6 +5,7 @@ use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use segmentation::Planes;
 use settings::{ConfigError, Table};
 
+use super::overhead::{Heights, Overhead};
 use super::rough::Rough;
 use super::shadow::{Shadow, Surroundings};
 use super::underfoot::Underfoot;
@@ -12,9 +13,12 @@ use super::window::{Layers, Window};
 use super::{
     FloorGrid, FogConfig, LabelledFrame, LabelledPoint, Pair, Reading, check_poses, height_shift,
 };
-use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
+use crate::{FloorView, Head, Insertion, MapError, Surface, WorldModel};
 use geometry::runs;
 use volume::{Locator, OccupancyGrid, Placement, ProbabilityTable, Size};
+
+/// Heights that differ by less are the same, m: a rounding guard.
+const ROUNDING_M: f64 = 1e-6;
 
 /// Keeps the occupancy grid, the floor grid and the view made of both.
 #[derive(Debug, Clone)]
@@ -29,6 +33,9 @@ pub struct Fog {
     pub floor: FloorGrid,
     rough: Rough,
     underfoot: Underfoot,
+    overhead: Overhead,
+    /// Height of the ground that the robot stands on, m.
+    level_m: f64,
     surroundings: Surroundings,
     view: FloorView,
     /// The points of the last frame, as they were taken in.
@@ -79,6 +86,8 @@ impl Fog {
             floor: FloorGrid::new(lattice, &config),
             rough: Rough::new(n, config.tuning.rough_lead),
             underfoot: Underfoot::new(n, config.footprint),
+            overhead: Overhead::new(n, config.tuning.overhead.clone()),
+            level_m: 0.0,
             surroundings: Surroundings::default(),
             view: FloorView {
                 least_gradient: config.tuning.slopes.least,
@@ -106,15 +115,77 @@ impl Fog {
             .lowest_above_m(cell, floor_m + self.config.delta)
     }
 
+    /// Room above a cell's floor, m, as far as it matters: to the lowest layer that something is in, and within that layer to where
+    /// points were seen. `None` where nothing is above it, or no floor is known.
+    fn room_m(&self, cell: Cell, headroom_m: f64) -> Option<f64> {
+        let floor_m = f64::from(self.floor.height(cell)?);
+        let layer_m = self.config.layer;
+        let bottom_m = self.ceiling_m(cell)? - 0.5 * layer_m;
+        let needed_m = floor_m + headroom_m;
+        let index = self.view.cells.index(cell)?;
+        let is_in_doubt = bottom_m < needed_m && needed_m <= bottom_m + layer_m + ROUNDING_M;
+        let seen_m = self.overhead.lowest_m(index).filter(|_| is_in_doubt);
+        let seen_m = seen_m.map(|seen_m| seen_m.clamp(bottom_m, bottom_m + 2.0 * layer_m));
+        Some(seen_m.unwrap_or(bottom_m) - floor_m)
+    }
+
     /// Whether all that is above a cell's floor begins so high that the robot passes under it.
     fn is_passed_under(&self, cell: Cell) -> bool {
-        let (Some(headroom_m), Some(floor_m)) = (self.config.headroom, self.floor.height(cell))
-        else {
+        let Some(headroom_m) = self.config.headroom else {
             return false;
         };
-        let half_layer_m = 0.5 * self.config.layer;
-        self.ceiling_m(cell)
-            .is_some_and(|center_m| center_m - half_layer_m >= f64::from(floor_m) + headroom_m)
+        let room_m = self.room_m(cell, headroom_m);
+        room_m.is_some_and(|room_m| room_m + ROUNDING_M >= headroom_m)
+    }
+
+    /// What is known of the room above the floor of the cell that is stored at an index, which shows this surface.
+    fn head_at(&self, index: usize, surface: Surface) -> Head {
+        let Some(headroom_m) = self.config.headroom else {
+            return Head::Free;
+        };
+        match surface {
+            Surface::Unknown => Head::Free,
+            Surface::Floor(floor_m) => {
+                let heights = self.heights();
+                if self
+                    .overhead
+                    .is_seen(index, &heights, f64::from(floor_m), headroom_m)
+                {
+                    Head::Free
+                } else {
+                    Head::Unseen
+                }
+            }
+            Surface::Obstacle(_) => {
+                let cols = self.view.cells.cols();
+                let cell = Cell::new((index % cols) as i32, (index / cols) as i32);
+                let hangs_m = self.config.tuning.overhead.hangs * headroom_m;
+                let floor = self.floor.height_at(index);
+                let room_m = if floor.is_some() {
+                    self.room_m(cell, headroom_m)
+                } else {
+                    let above_m = self.level_m + self.config.delta;
+                    let lowest_m = self.occupancy.lowest_above_m(cell, above_m);
+                    lowest_m.map(|lowest_m| lowest_m - 0.5 * self.config.layer - self.level_m)
+                };
+                match room_m {
+                    Some(room_m) if room_m >= hangs_m => Head::Low {
+                        floor_m: floor.unwrap_or(f32::NAN),
+                        room_m: room_m as f32,
+                    },
+                    _ => Head::Free,
+                }
+            }
+        }
+    }
+
+    /// The layers as heights.
+    fn heights(&self) -> Heights {
+        Heights {
+            bottom_m: self.layers.bottom_m(),
+            layer_m: self.config.layer,
+            layers: self.config.layers,
+        }
     }
 
     /// Equation (11) of a cell, but that a ceiling which is high enough is no obstacle, and nor is what does not stand out of the
@@ -171,6 +242,7 @@ impl Fog {
         self.floor.shift(cols, rows, lattice);
         self.rough.shift(cols, rows);
         self.underfoot.shift(cols, rows);
+        self.overhead.shift(cols, rows, layers);
         self.view.shift(cols, rows, lattice);
         let all = self.view.cells.area();
         if layers != 0 {
@@ -197,7 +269,8 @@ impl Fog {
     }
 
     /// Takes in the frame that was read, in the paper's order (section III.A): rays, equations (8) and (9); the cells that this touched.
-    fn take_in(&mut self) -> CellArea {
+    fn take_in(&mut self, planes: &Planes, map_from_robot: &Pose<Map, Robot>) -> CellArea {
+        let heights = self.heights();
         let config = &self.config;
         let size = self.view.size();
         self.frame.locate(&self.view.lattice, size);
@@ -213,6 +286,21 @@ impl Fog {
         let judged = self.rough.take(&self.frame);
         self.floor.forget(judged, |cell| self.rough.is_rough(cell));
         touched.join(judged);
+        if let Some(headroom_m) = config.headroom {
+            let hangs_m = config.tuning.overhead.hangs * headroom_m;
+            let level_m = map_from_robot.origin().inner.z;
+            self.overhead.note_points(&self.frame, level_m + hangs_m);
+            let (floor, underfoot) = (&self.floor, &self.underfoot);
+            let floor_at =
+                |index| (floor.height_at(index)).or_else(|| underfoot.height_at(index));
+            let looked = self.overhead.look(
+                (planes, &self.frame),
+                map_from_robot,
+                (&self.view.lattice, &heights, headroom_m),
+                floor_at,
+            );
+            touched.join(looked);
+        }
         touched
     }
 
@@ -222,7 +310,9 @@ impl Fog {
         let reached = area.grown(self.cells_beside()).within(all);
         let size = self.view.size();
         for index in runs(reached, size).flatten() {
-            self.view.cells.values_mut()[index] = self.surface_at(index);
+            let surface = self.surface_at(index);
+            self.view.cells.values_mut()[index] = surface;
+            self.view.head.values_mut()[index] = self.head_at(index, surface);
             self.view.sightings.values_mut()[index] = self.floor.all_sightings()[index];
             self.view.gradients.values_mut()[index] = match self.view.cells.values()[index] {
                 Surface::Floor(_) => self.floor.gradient_at(index),
@@ -259,8 +349,13 @@ impl WorldModel for Fog {
         check_poses(planes, map_from_robot)?;
         let at = map_from_robot.inner.translation.vector;
         let robot_m = [at.x, at.y, at.z];
+        self.level_m = robot_m[2];
         let moved = self.follow(robot_m);
         let mut changed = self.underfoot.stand(robot_m, &self.view.lattice);
+        if let Some(headroom_m) = self.config.headroom {
+            let heights = self.heights();
+            (self.overhead).stand(changed, &heights, robot_m[2], headroom_m);
+        }
 
         let config = &self.config;
         let reading = Reading {
@@ -293,7 +388,7 @@ impl WorldModel for Fog {
             if let Some(shift_m) = shift {
                 self.frame.raise(shift_m);
             }
-            changed.join(self.take_in());
+            changed.join(self.take_in(planes, map_from_robot));
         }
         changed = self.refresh(changed);
         changed.join(moved);

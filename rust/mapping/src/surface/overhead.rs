@@ -1,0 +1,330 @@
+//! What is above each cell's floor, up to the robot's head: where lines of sight went through, and where what hangs begins.
+//!
+//! The occupancy grid knows what was met, by layers. It does not know what was looked through, where a line of sight ends at nothing
+//! that the camera can measure, and a layer is coarser than the room that decides whether the robot fits.
+
+use geometry::{Cell, CellArea, Grid, Lattice, Map, Pose, Robot};
+use segmentation::Planes;
+use settings::{NOT_NEGATIVE, POSITIVE, above_to, settings, within};
+use volume::Picture;
+
+use super::LabelledFrame;
+
+settings! {
+    /// What is above the floor, up to the robot's head.
+    pub struct OverheadTuning("navigation.fog.tuning.overhead") {
+        /// What hangs begins above this share of the room that the robot needs; what is lower stands there, and is seen as the robot
+        /// looks at the floor.
+        hangs: f64 = 0.5, "1", above_to(0.0, 1.0);
+        /// A line of sight that ends at nothing is free up to this distance: things nearer show in the camera's picture.
+        empty_range: f64 = 2.0, "m", POSITIVE;
+        /// Nearer than this the camera sees nothing, so that an empty picture tells nothing.
+        blind_range: f64 = 0.3, "m", NOT_NEGATIVE;
+        /// So many pixels around one without depth must be without depth or deeper before the way there counts as free.
+        beside: usize = 1, "1", within(0.0, 8.0);
+        /// Weight of a frame's lowest point of what hangs above a cell, beside those of the frames before.
+        newer: f32 = 0.2, "1", above_to(0.0, 1.0);
+    }
+}
+
+/// What was seen above the floors. Bits are layers of the occupancy grid.
+#[derive(Debug, Clone)]
+pub(super) struct Overhead {
+    /// Layers of each cell in which lines of sight went through the middle.
+    through: Grid<u64>,
+    /// Height of the lowest points above each cell, m; NaN where there was none.
+    lowest_m: Grid<f32>,
+    /// Of the frame that is read.
+    frame_lowest_m: Vec<(u32, f32)>,
+    config: OverheadTuning,
+}
+
+/// Layers of the occupancy grid as heights.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Heights {
+    pub(super) bottom_m: f64,
+    pub(super) layer_m: f64,
+    pub(super) layers: usize,
+}
+
+impl Heights {
+    /// The layers whose middles lie between two heights, a bit each.
+    fn between(&self, low_m: f64, high_m: f64) -> u64 {
+        let first = ((low_m - self.bottom_m) / self.layer_m - 0.5)
+            .ceil()
+            .max(0.0) as u64;
+        let end = ((high_m - self.bottom_m) / self.layer_m - 0.5).ceil();
+        let end = end.clamp(0.0, self.layers as f64) as u64;
+        let below = |bits: u64| u64::MAX.checked_shr(64 - bits as u32).unwrap_or(0);
+        if first >= end {
+            0
+        } else {
+            below(end) & !below(first)
+        }
+    }
+
+    fn middle_m(&self, layer: u32) -> f64 {
+        self.bottom_m + (f64::from(layer) + 0.5) * self.layer_m
+    }
+}
+
+/// The picture that a frame is.
+struct Eye<'a> {
+    planes: &'a Planes,
+    picture: Picture,
+    eye_m: [f64; 3],
+    /// Of the camera in the robot's frame: where it is, and its axis.
+    robot_eye_m: [f64; 3],
+    robot_axis: [f64; 3],
+}
+
+impl Eye<'_> {
+    /// How deep the camera saw in a pixel, m; NaN where it saw nothing.
+    fn depth_m(&self, pixel: usize) -> f64 {
+        let Some(point) = self.planes.points_in_robot_m.get(pixel) else {
+            return f64::NAN;
+        };
+        (0..3)
+            .map(|axis| (f64::from(point[axis]) - self.robot_eye_m[axis]) * self.robot_axis[axis])
+            .sum()
+    }
+
+    /// Whether the line of sight to a place goes through it, and on.
+    fn goes_through(&self, at_m: [f64; 3], behind_m: f64, config: &OverheadTuning) -> bool {
+        let picture = &self.picture;
+        let from_eye: [f64; 3] = std::array::from_fn(|axis| at_m[axis] - self.eye_m[axis]);
+        let along = |axis: usize| -> f64 {
+            let axis = &picture.axes[axis];
+            axis.iter().zip(&from_eye).map(|(a, b)| a * b).sum()
+        };
+        let depth_m = along(2);
+        if depth_m < config.blind_range || depth_m > config.empty_range {
+            return false;
+        }
+        let place = |axis: usize| {
+            picture.centre_px[axis] + picture.focal_px[axis] * along(axis) / depth_m
+        };
+        let [width, height] = picture.size_px;
+        let inside = |at: f64, size: usize| {
+            let border = config.beside as f64;
+            (at >= border && at + border <= size as f64 - 1.0).then(|| at.round() as usize)
+        };
+        let (Some(col), Some(row)) = (inside(place(0), width), inside(place(1), height)) else {
+            return false;
+        };
+        let deeper_m = depth_m + behind_m;
+        let seen_m = self.depth_m(row * width + col);
+        if !seen_m.is_nan() {
+            return seen_m > deeper_m;
+        }
+        // A pixel here and there has no depth for no reason; those around it tell.
+        let reach = config.beside;
+        let rows = row.saturating_sub(reach)..=(row + reach).min(height - 1);
+        rows.flat_map(|row| {
+            let cols = col.saturating_sub(reach)..=(col + reach).min(width - 1);
+            cols.map(move |col| row * width + col)
+        })
+        .all(|pixel| {
+            let seen_m = self.depth_m(pixel);
+            seen_m.is_nan() || seen_m > deeper_m
+        })
+    }
+}
+
+impl Overhead {
+    pub(super) fn new(cells: usize, config: OverheadTuning) -> Self {
+        Self {
+            through: Grid::filled(cells, cells, 0),
+            lowest_m: Grid::filled(cells, cells, f32::NAN),
+            frame_lowest_m: Vec::new(),
+            config,
+        }
+    }
+
+    /// Moves the window by whole cells and layers.
+    pub(super) fn shift(&mut self, cols: i32, rows: i32, layers: i32) {
+        self.through.shift(cols, rows, &0);
+        self.lowest_m.shift(cols, rows, &f32::NAN);
+        if layers == 0 {
+            return;
+        }
+        let by = layers.unsigned_abs();
+        for through in self.through.values_mut() {
+            let moved = if layers > 0 {
+                through.checked_shr(by)
+            } else {
+                through.checked_shl(by)
+            };
+            *through = moved.unwrap_or(0);
+        }
+    }
+
+    /// The layers between where things may hang above a floor and the robot's head.
+    fn band(&self, heights: &Heights, floor_m: f64, headroom_m: f64) -> u64 {
+        heights.between(
+            floor_m + self.config.hangs * headroom_m,
+            floor_m + headroom_m,
+        )
+    }
+
+    /// Whether all of the room above a floor that the robot's head needs was looked through.
+    pub(super) fn is_seen(
+        &self,
+        index: usize,
+        heights: &Heights,
+        floor_m: f64,
+        headroom_m: f64,
+    ) -> bool {
+        let band = self.band(heights, floor_m, headroom_m);
+        band & !self.through.values()[index] == 0
+    }
+
+    /// The robot stands here: up to its head nothing else does.
+    pub(super) fn stand(
+        &mut self,
+        area: CellArea,
+        heights: &Heights,
+        floor_m: f64,
+        headroom_m: f64,
+    ) {
+        let band = self.band(heights, floor_m, headroom_m);
+        for cell in area.cells() {
+            if let Some(through) = self.through.get_mut(cell) {
+                *through |= band;
+            }
+        }
+    }
+
+    /// Where what hangs above a cell begins, m, where that was seen.
+    pub(super) fn lowest_m(&self, index: usize) -> Option<f64> {
+        let lowest_m = self.lowest_m.values()[index];
+        (!lowest_m.is_nan()).then(|| f64::from(lowest_m))
+    }
+
+    /// Takes in where the points of a frame that belong to no floor hang, above `above_m`.
+    pub(super) fn note_points(&mut self, frame: &LabelledFrame, above_m: f64) {
+        let lowest = &mut self.frame_lowest_m;
+        lowest.clear();
+        let hanging = frame.located().filter_map(|(point, cell)| {
+            let height_m = point.position_m[2];
+            let hangs = point.hit && point.floor_height_m.is_nan() && height_m > above_m;
+            Some((cell.filter(|_| hangs)? as u32, height_m as f32))
+        });
+        lowest.extend(hanging);
+        lowest.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        lowest.dedup_by_key(|(cell, _)| *cell);
+        for &(cell, height_m) in lowest.iter() {
+            let known_m = &mut self.lowest_m.values_mut()[cell as usize];
+            if known_m.is_nan() {
+                *known_m = height_m;
+            } else {
+                *known_m += self.config.newer * (height_m - *known_m);
+            }
+        }
+    }
+
+    /// Takes in what a frame that is a picture looks through, above floors as `floor_at` says; the cells that it changed.
+    pub(super) fn look(
+        &mut self,
+        (planes, frame): (&Planes, &LabelledFrame),
+        map_from_robot: &Pose<Map, Robot>,
+        (lattice, heights, headroom_m): (&Lattice, &Heights, f64),
+        floor_at: impl Fn(usize) -> Option<f32>,
+    ) -> CellArea {
+        let mut changed = CellArea::EMPTY;
+        let Some(picture) = frame.picture else {
+            return changed;
+        };
+        let [width, height] = picture.size_px;
+        if width * height != planes.points_in_robot_m.len() || width * height == 0 {
+            return changed;
+        }
+        let camera = planes.robot_from_camera.inner;
+        let axis = camera.rotation * nalgebra::Vector3::z();
+        let eye = Eye {
+            planes,
+            picture,
+            eye_m: frame.eye_m,
+            robot_eye_m: camera.translation.vector.into(),
+            robot_axis: axis.into(),
+        };
+        let level_m = map_from_robot.origin().inner.z;
+        let reach_m = self.config.empty_range;
+        let [eye_x, eye_y, _] = frame.eye_m;
+        let [ahead_x, ahead_y, _] = picture.axes[2];
+        let window = CellArea {
+            min: lattice.cell_at(eye_x - reach_m, eye_y - reach_m),
+            max: lattice.cell_at(eye_x + reach_m, eye_y + reach_m),
+        };
+        let half_cell_m = 0.5 * lattice.cell_m;
+        let size = [self.through.cols(), self.through.rows()];
+        for cell in window.within(self.through.area()).cells() {
+            let [x_m, y_m] = lattice.center_of(cell);
+            if (x_m - eye_x) * ahead_x + (y_m - eye_y) * ahead_y <= 0.0 {
+                continue;
+            }
+            let index = cell.row as usize * size[0] + cell.col as usize;
+            let floor_m = floor_at(index).map_or(level_m, f64::from);
+            let mut wanted =
+                self.band(heights, floor_m, headroom_m) & !self.through.values()[index];
+            let mut seen = 0;
+            while wanted != 0 {
+                let layer = wanted.trailing_zeros();
+                wanted &= wanted - 1;
+                let at_m = [x_m, y_m, heights.middle_m(layer)];
+                if eye.goes_through(at_m, half_cell_m, &self.config) {
+                    seen |= 1 << layer;
+                }
+            }
+            if seen != 0 {
+                self.through.values_mut()[index] |= seen;
+                changed.include(Cell::new(cell.col, cell.row));
+            }
+        }
+        changed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surface::OverheadTuning;
+    use proptest::prelude::*;
+    use settings::Table;
+
+    const HEIGHTS: Heights = Heights {
+        bottom_m: -0.34,
+        layer_m: 0.04,
+        layers: 32,
+    };
+
+    #[test]
+    fn the_shipped_settings_are_allowed() {
+        assert_eq!(OverheadTuning::default().check(), Ok(()));
+    }
+
+    proptest! {
+        #[test]
+        fn a_layer_is_between_two_heights_when_its_middle_is(low_m in -0.6..1.2f64, room_m in 0.0..0.8f64) {
+            let bits = HEIGHTS.between(low_m, low_m + room_m);
+            for layer in 0..64_u32 {
+                let middle_m = HEIGHTS.middle_m(layer);
+                let near = [low_m, low_m + room_m].iter().any(|at| (at - middle_m).abs() < 1e-9);
+                let holds = layer < 32 && middle_m >= low_m && middle_m < low_m + room_m;
+                prop_assert!(near || (bits >> layer & 1 == 1) == holds, "{}", layer);
+            }
+        }
+
+        #[test]
+        fn what_was_looked_through_stays_so_as_the_layers_follow_the_robot(layers in -6..6_i32) {
+            let mut overhead = Overhead::new(4, OverheadTuning::default());
+            let area = overhead.through.area();
+            overhead.stand(area, &HEIGHTS, 0.0, 0.58);
+            overhead.shift(0, 0, layers);
+            let bottom_m = HEIGHTS.bottom_m + f64::from(layers) * HEIGHTS.layer_m;
+            let moved = Heights { bottom_m, ..HEIGHTS };
+            prop_assert!(overhead.is_seen(0, &moved, 0.0, 0.58));
+            prop_assert!(!overhead.is_seen(0, &moved, 0.12, 0.58));
+        }
+    }
+}
