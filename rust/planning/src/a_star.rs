@@ -19,7 +19,7 @@ use crate::path::viewpoints::Viewpoints;
 use crate::plan::place_of;
 use crate::search::Search;
 use crate::{
-    AStarConfig, Footprint, Goal, Path, PathEnd, Plan, PlanError, Planner, TerrainConfig, VoronoiConfig,
+    AStarConfig, Footprint, Goal, Path, Plan, PlanError, Planner, TerrainConfig, VoronoiConfig,
 };
 
 /// Plans by A* on the floor and obstacle grid, and over the stairs that join its levels.
@@ -161,7 +161,7 @@ impl Planner for AStar {
             levelled = self.goal_level.give_up(goal);
             found = self.find(&stand, &levelled);
         }
-        let barred = (found.as_ref()).map_or(true, |path| path.end == PathEnd::Look);
+        let barred = (found.as_ref()).map_or(true, |path| !path.end.is_certain());
         if barred && let Some(no_way) = self.under_ceilings((view, stairs), &stand, &levelled) {
             found = Err(no_way);
         }

@@ -54,7 +54,7 @@ settings! {
         /// Room for the head that was not seen is looked at while walking where it is nearer than this on the path.
         look_up: f64 = 1.2, "m", NOT_NEGATIVE;
         /// Room for the head that was not seen is looked at before the robot goes on where it is nearer than this on the path.
-        look_up_distance: f64 = 0.6, "m", NOT_NEGATIVE;
+        look_up_distance: f64 = 0.5, "m", NOT_NEGATIVE;
         /// Speed of the gaze.
         gaze_speed: f64 = 0.9, "rad/s", POSITIVE;
         /// The robot looks around so far to each side.
