@@ -1,7 +1,7 @@
 //! The planner: a path by A*, kept as long as it holds.
 
-mod choice;
 mod ceilings;
+mod choice;
 mod path_search;
 
 use geometry::{Map, Pose, Robot};

@@ -179,3 +179,73 @@ impl WalkingBehaviour {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::walking::simulation::{Simulation, walking};
+
+    const EYES: Eyes = Eyes {
+        height_m: 0.46,
+        ahead_m: 0.04,
+        half_view_rad: 0.34,
+        headroom_m: 0.58,
+    };
+
+    proptest! {
+        #[test]
+        fn the_look_shows_all_that_the_head_would_meet_and_rises_as_the_robot_comes_near(
+            away_m in 0.1..3.0_f64,
+            rise_m in -0.2..0.2_f64,
+        ) {
+            let config = WalkingConfig::default();
+            if let Some(down_rad) = EYES.look_rad(away_m, rise_m, &config) {
+                let upper_rad = EYES.half_view_rad - down_rad;
+                let seen_m = EYES.height_m + (away_m - EYES.ahead_m) * libm::tan(upper_rad);
+                prop_assert!(seen_m >= EYES.headroom_m + rise_m, "{}", seen_m);
+                let nearer = EYES.look_rad(0.9 * away_m, rise_m, &config);
+                let above = EYES.headroom_m + rise_m > EYES.height_m;
+                prop_assert!(!above || nearer.is_none_or(|nearer| nearer <= down_rad));
+            }
+        }
+    }
+
+    /// Floor whose room for the head from 0.8 m on is seen once the robot looks up.
+    fn unseen(simulation: &mut Simulation) {
+        for cell in simulation.view.cells.area().cells() {
+            let [x_m, _] = simulation.view.lattice.center_of(cell);
+            if let Some(head) = simulation.view.head.get_mut(cell).filter(|_| x_m > 0.8) {
+                *head = Head::Unseen;
+            }
+        }
+    }
+
+    #[test]
+    fn the_gaze_rises_before_the_robot_walks_where_it_has_only_seen_the_floor() {
+        let mut simulation = Simulation::new(PlanarPose::default(), [1.6, 0.0]);
+        simulation.behaviour = walking(WalkingConfig::default()).with_eyes(EYES);
+        unseen(&mut simulation);
+        let mut looked_at_m = None;
+        for _ in 0..6000 {
+            let decision = simulation.tick();
+            if decision.state == "walk" && decision.command.gaze.down_rad < 0.25 {
+                let _ = looked_at_m.get_or_insert(simulation.pose.x_m);
+            }
+            if decision.outcome.is_some() {
+                break;
+            }
+        }
+        assert!(looked_at_m.is_some_and(|x_m| x_m < 0.5), "{looked_at_m:?}");
+        assert!(
+            simulation.pose.x_m > 1.4,
+            "what stays unseen is crept through"
+        );
+        let looks = simulation
+            .states
+            .iter()
+            .filter(|(name, pose)| *name == "look_around" && pose.x_m > 0.2 && pose.x_m < 0.5);
+        assert!(looks.count() >= 1, "{:?}", simulation.states);
+    }
+}

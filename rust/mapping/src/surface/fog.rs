@@ -1,11 +1,13 @@
 //! The floor and obstacle grid of Gutmann, Fukuchi and Fujita 2005 (000): equations (5), (10), (11), the order of an update, and
 //! the ceiling map that its section VI proposes.
 
+mod head_room;
+
 use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use segmentation::Planes;
 use settings::{ConfigError, Table};
 
-use super::overhead::{Heights, Overhead};
+use super::overhead::Overhead;
 use super::rough::Rough;
 use super::shadow::{Shadow, Surroundings};
 use super::underfoot::Underfoot;
@@ -13,12 +15,9 @@ use super::window::{Layers, Window};
 use super::{
     FloorGrid, FogConfig, LabelledFrame, LabelledPoint, Pair, Reading, check_poses, height_shift,
 };
-use crate::{FloorView, Head, Insertion, MapError, Surface, WorldModel};
+use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
 use geometry::runs;
 use volume::{Locator, OccupancyGrid, Placement, ProbabilityTable, Size};
-
-/// Heights that differ by less are the same, m: a rounding guard.
-const ROUNDING_M: f64 = 1e-6;
 
 /// Keeps the occupancy grid, the floor grid and the view made of both.
 #[derive(Debug, Clone)]
@@ -115,79 +114,6 @@ impl Fog {
             .lowest_above_m(cell, floor_m + self.config.delta)
     }
 
-    /// Room above a cell's floor, m, as far as it matters: to the lowest layer that something is in, and within that layer to where
-    /// points were seen. `None` where nothing is above it, or no floor is known.
-    fn room_m(&self, cell: Cell, headroom_m: f64) -> Option<f64> {
-        let floor_m = f64::from(self.floor.height(cell)?);
-        let layer_m = self.config.layer;
-        let bottom_m = self.ceiling_m(cell)? - 0.5 * layer_m;
-        let needed_m = floor_m + headroom_m;
-        let index = self.view.cells.index(cell)?;
-        let is_in_doubt = bottom_m < needed_m && needed_m <= bottom_m + layer_m + ROUNDING_M;
-        let seen_m = self.overhead.lowest_m(index).filter(|_| is_in_doubt);
-        let seen_m = seen_m.map(|seen_m| seen_m.clamp(bottom_m, bottom_m + 2.0 * layer_m));
-        Some(seen_m.unwrap_or(bottom_m) - floor_m)
-    }
-
-    /// Whether all that is above a cell's floor begins so high that the robot passes under it.
-    fn is_passed_under(&self, cell: Cell) -> bool {
-        let Some(headroom_m) = self.config.headroom else {
-            return false;
-        };
-        let room_m = self.room_m(cell, headroom_m);
-        room_m.is_some_and(|room_m| room_m + ROUNDING_M >= headroom_m)
-    }
-
-    /// What is known of the room above the floor of the cell that is stored at an index, which shows this surface.
-    fn head_at(&self, index: usize, surface: Surface) -> Head {
-        let Some(headroom_m) = self.config.headroom else {
-            return Head::Free;
-        };
-        match surface {
-            Surface::Unknown => Head::Free,
-            Surface::Floor(floor_m) => {
-                let heights = self.heights();
-                if self
-                    .overhead
-                    .is_seen(index, &heights, f64::from(floor_m), headroom_m)
-                {
-                    Head::Free
-                } else {
-                    Head::Unseen
-                }
-            }
-            Surface::Obstacle(_) => {
-                let cols = self.view.cells.cols();
-                let cell = Cell::new((index % cols) as i32, (index / cols) as i32);
-                let hangs_m = self.config.tuning.overhead.hangs * headroom_m;
-                let floor = self.floor.height_at(index);
-                let room_m = if floor.is_some() {
-                    self.room_m(cell, headroom_m)
-                } else {
-                    let above_m = self.level_m + self.config.delta;
-                    let lowest_m = self.occupancy.lowest_above_m(cell, above_m);
-                    lowest_m.map(|lowest_m| lowest_m - 0.5 * self.config.layer - self.level_m)
-                };
-                match room_m {
-                    Some(room_m) if room_m >= hangs_m => Head::Low {
-                        floor_m: floor.unwrap_or(f32::NAN),
-                        room_m: room_m as f32,
-                    },
-                    _ => Head::Free,
-                }
-            }
-        }
-    }
-
-    /// The layers as heights.
-    fn heights(&self) -> Heights {
-        Heights {
-            bottom_m: self.layers.bottom_m(),
-            layer_m: self.config.layer,
-            layers: self.config.layers,
-        }
-    }
-
     /// Equation (11) of a cell, but that a ceiling which is high enough is no obstacle, and nor is what does not stand out of the
     /// floor beside it where the cell's own is not known: the border of a tread, or floor that was only seen from far away. Where
     /// it is unknown and the robot stood there, the floor that it stood on.
@@ -270,7 +196,6 @@ impl Fog {
 
     /// Takes in the frame that was read, in the paper's order (section III.A): rays, equations (8) and (9); the cells that this touched.
     fn take_in(&mut self, planes: &Planes, map_from_robot: &Pose<Map, Robot>) -> CellArea {
-        let heights = self.heights();
         let config = &self.config;
         let size = self.view.size();
         self.frame.locate(&self.view.lattice, size);
@@ -286,21 +211,7 @@ impl Fog {
         let judged = self.rough.take(&self.frame);
         self.floor.forget(judged, |cell| self.rough.is_rough(cell));
         touched.join(judged);
-        if let Some(headroom_m) = config.headroom {
-            let hangs_m = config.tuning.overhead.hangs * headroom_m;
-            let level_m = map_from_robot.origin().inner.z;
-            self.overhead.note_points(&self.frame, level_m + hangs_m);
-            let (floor, underfoot) = (&self.floor, &self.underfoot);
-            let floor_at =
-                |index| (floor.height_at(index)).or_else(|| underfoot.height_at(index));
-            let looked = self.overhead.look(
-                (planes, &self.frame),
-                map_from_robot,
-                (&self.view.lattice, &heights, headroom_m),
-                floor_at,
-            );
-            touched.join(looked);
-        }
+        touched.join(self.look_overhead(planes, map_from_robot));
         touched
     }
 

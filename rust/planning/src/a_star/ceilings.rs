@@ -37,9 +37,7 @@ impl AStar {
 fn lowest(path: &Path, view: &FloorView, reach_m: f64) -> Option<([f64; 2], f64)> {
     let cells = view.head.area().cells();
     let low = cells.filter_map(|cell| match view.head.get(cell) {
-        Some(Head::Low { room_m, .. }) => {
-            Some((view.lattice.center_of(cell), f64::from(*room_m)))
-        }
+        Some(Head::Low { room_m, .. }) => Some((view.lattice.center_of(cell), f64::from(*room_m))),
         _ => None,
     });
     let near = low.filter(|&(at_m, _)| {
