@@ -29,7 +29,7 @@ impl Gazer {
 }
 
 /// Most places in a list: an array's size, no list here is longer.
-const LONGEST_SWEEP: usize = 7;
+const LONGEST_SWEEP: usize = 8;
 
 /// A list of places to look at, one after the other.
 #[derive(Debug, Clone, Copy)]
@@ -43,7 +43,7 @@ pub(crate) struct Sweep {
 }
 
 impl Sweep {
-    /// Places as pan and down, rad, no more than seven; so many frames must be used after the last one was reached.
+    /// Places as pan and down, rad, no more than eight; so many frames must be used after the last one was reached.
     pub(crate) fn through(places: &[(f64, f64)], last_frames: u64) -> Self {
         let mut sweep = Self {
             places: [Gaze::default(); LONGEST_SWEEP],
@@ -87,6 +87,8 @@ impl Sweep {
             (side, far),
             (aside, up_rad),
             (-aside, up_rad),
+            // Where walls are near, neither look up nor far shows the ground, without which no frame is used for long.
+            (0.0, near),
         ];
         Self::through(&places, config.tuning.gaze.last_frames)
     }
@@ -98,6 +100,7 @@ impl Sweep {
         let places = [
             (bearing_rad + aside_rad, up_rad),
             (bearing_rad - aside_rad, up_rad),
+            (bearing_rad, config.gaze_far),
         ];
         Self::through(&places, config.tuning.gaze.last_frames)
     }

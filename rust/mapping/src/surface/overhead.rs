@@ -69,7 +69,7 @@ impl Heights {
 }
 
 /// The picture that a frame is.
-struct Eye<'a> {
+struct InView<'a> {
     planes: &'a Planes,
     picture: Picture,
     eye_m: [f64; 3],
@@ -78,7 +78,7 @@ struct Eye<'a> {
     robot_axis: [f64; 3],
 }
 
-impl Eye<'_> {
+impl InView<'_> {
     /// How deep the camera saw in a pixel, m; NaN where it saw nothing.
     fn depth_m(&self, pixel: usize) -> f64 {
         let Some(point) = self.planes.points_in_robot_m.get(pixel) else {
@@ -240,7 +240,7 @@ impl Overhead {
         }
         let camera = planes.robot_from_camera.inner;
         let axis = camera.rotation * nalgebra::Vector3::z();
-        let eye = Eye {
+        let eye = InView {
             planes,
             picture,
             eye_m: frame.eye_m,
