@@ -6,7 +6,10 @@
 use geometry::{Cell, CellArea, Grid, Lattice, Map, Pose, Robot};
 use segmentation::Planes;
 use settings::{NOT_NEGATIVE, POSITIVE, above_to, settings, within};
-use volume::Picture;
+
+mod in_view;
+
+use in_view::InView;
 
 use super::LabelledFrame;
 
@@ -65,68 +68,6 @@ impl Heights {
 
     fn middle_m(&self, layer: u32) -> f64 {
         self.bottom_m + (f64::from(layer) + 0.5) * self.layer_m
-    }
-}
-
-/// The picture that a frame is.
-struct InView<'a> {
-    planes: &'a Planes,
-    picture: Picture,
-    eye_m: [f64; 3],
-    /// Of the camera in the robot's frame: where it is, and its axis.
-    robot_eye_m: [f64; 3],
-    robot_axis: [f64; 3],
-}
-
-impl InView<'_> {
-    /// How deep the camera saw in a pixel, m; NaN where it saw nothing.
-    fn depth_m(&self, pixel: usize) -> f64 {
-        let Some(point) = self.planes.points_in_robot_m.get(pixel) else {
-            return f64::NAN;
-        };
-        (0..3)
-            .map(|axis| (f64::from(point[axis]) - self.robot_eye_m[axis]) * self.robot_axis[axis])
-            .sum()
-    }
-
-    /// Whether the line of sight to a place goes through it, and on.
-    fn goes_through(&self, at_m: [f64; 3], behind_m: f64, config: &OverheadTuning) -> bool {
-        let picture = &self.picture;
-        let from_eye: [f64; 3] = std::array::from_fn(|axis| at_m[axis] - self.eye_m[axis]);
-        let along = |axis: usize| -> f64 {
-            let axis = &picture.axes[axis];
-            axis.iter().zip(&from_eye).map(|(a, b)| a * b).sum()
-        };
-        let depth_m = along(2);
-        if depth_m < config.blind_range || depth_m > config.empty_range {
-            return false;
-        }
-        let place =
-            |axis: usize| picture.centre_px[axis] + picture.focal_px[axis] * along(axis) / depth_m;
-        let [width, height] = picture.size_px;
-        let inside = |at: f64, size: usize| {
-            let border = config.beside as f64;
-            (at >= border && at + border <= size as f64 - 1.0).then(|| at.round() as usize)
-        };
-        let (Some(col), Some(row)) = (inside(place(0), width), inside(place(1), height)) else {
-            return false;
-        };
-        let deeper_m = depth_m + behind_m;
-        let seen_m = self.depth_m(row * width + col);
-        if !seen_m.is_nan() {
-            return seen_m > deeper_m;
-        }
-        // A pixel here and there has no depth for no reason; those around it tell.
-        let reach = config.beside;
-        let rows = row.saturating_sub(reach)..=(row + reach).min(height - 1);
-        rows.flat_map(|row| {
-            let cols = col.saturating_sub(reach)..=(col + reach).min(width - 1);
-            cols.map(move |col| row * width + col)
-        })
-        .all(|pixel| {
-            let seen_m = self.depth_m(pixel);
-            seen_m.is_nan() || seen_m > deeper_m
-        })
     }
 }
 
@@ -249,8 +190,7 @@ impl Overhead {
         };
         let level_m = map_from_robot.origin().inner.z;
         let reach_m = self.config.empty_range;
-        let [eye_x, eye_y, _] = frame.eye_m;
-        let [ahead_x, ahead_y, _] = picture.axes[2];
+        let [eye_x, eye_y, eye_z] = frame.eye_m;
         let window = CellArea {
             min: lattice.cell_at(eye_x - reach_m, eye_y - reach_m),
             max: lattice.cell_at(eye_x + reach_m, eye_y + reach_m),
@@ -258,20 +198,25 @@ impl Overhead {
         let half_cell_m = 0.5 * lattice.cell_m;
         let size = [self.through.cols(), self.through.rows()];
         for cell in window.within(self.through.area()).cells() {
-            let [x_m, y_m] = lattice.center_of(cell);
-            if (x_m - eye_x) * ahead_x + (y_m - eye_y) * ahead_y <= 0.0 {
-                continue;
-            }
             let index = cell.row as usize * size[0] + cell.col as usize;
             let floor_m = floor_at(index).map_or(level_m, f64::from);
             let mut wanted =
                 self.band(heights, floor_m, headroom_m) & !self.through.values()[index];
+            let column = eye.column(lattice.center_of(cell));
             let mut seen = 0;
+            if wanted != 0 {
+                let lowest_m = heights.middle_m(wanted.trailing_zeros());
+                let highest_m = heights.middle_m(wanted.ilog2());
+                let reach_m = (lowest_m - eye_z).abs().max((highest_m - eye_z).abs());
+                if !eye.may_see(&column, reach_m, &self.config) {
+                    continue;
+                }
+            }
             while wanted != 0 {
                 let layer = wanted.trailing_zeros();
                 wanted &= wanted - 1;
-                let at_m = [x_m, y_m, heights.middle_m(layer)];
-                if eye.goes_through(at_m, half_cell_m, &self.config) {
+                let height_m = heights.middle_m(layer);
+                if eye.goes_through(&column, height_m, half_cell_m, &self.config) {
                     seen |= 1 << layer;
                 }
             }
