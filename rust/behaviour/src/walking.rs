@@ -36,6 +36,7 @@ use stairs::{ClimbingConfig, LevelsConfig};
 use crate::machine::{Interruption, Machine, State as _, Stopwatch};
 use crate::part::{BehaviourNeeds, BehaviourPart};
 use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Situation};
+use blind::{CameBy, Tried};
 pub use config::WalkingConfig;
 use gaze::{Gazer, Sweep};
 use obstacles::Followed;
@@ -81,6 +82,11 @@ pub struct WalkingBehaviour {
     looked_up: Looked,
     followed: Followed,
     progress: Progress,
+    /// What was tried against seeing nothing since the robot last walked.
+    tried: Tried,
+    came_by: CameBy,
+    /// How often the pictures went dark while it walked.
+    darks: u32,
     /// Directions looked at in vain, one after the other.
     looks: u32,
     /// The place at which something stood on the way when the robot last stopped for that.
@@ -126,6 +132,9 @@ impl WalkingBehaviour {
             looked_up: Looked::default(),
             followed: Followed::default(),
             progress: Progress::default(),
+            tried: Tried::default(),
+            came_by: CameBy::default(),
+            darks: 0,
             looks: 0,
             watched_m: None,
             stumbles: 0,
@@ -186,7 +195,7 @@ impl WalkingBehaviour {
             Some(Interruption::Arrival) => self.enter(State::Arrive),
             // A robot that has just found its place first looks around.
             Some(Interruption::Blind) if locates => {}
-            Some(Interruption::Blind) => self.enter(State::Blind),
+            Some(Interruption::Blind) => self.begin_blind(tick),
             Some(Interruption::Idle(reason)) => self.refuse(reason),
         }
     }
@@ -201,7 +210,7 @@ impl WalkingBehaviour {
             State::Stop => self.stop(tick),
             State::Arrive => self.arrive(tick),
             State::Refuse { .. } => self.stand(tick),
-            State::Blind => self.wait_for_sight(tick),
+            State::Blind(blind) => self.wait_for_sight(tick, *blind),
             State::Locate(_) => self.locate(tick),
         }
     }

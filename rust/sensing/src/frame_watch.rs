@@ -32,6 +32,7 @@ pub struct FrameWatch {
     /// Where the camera was when the last new picture was taken.
     taken: Option<Pose<Robot, Camera>>,
     wrong: Option<Wrong>,
+    measured_share: Option<f64>,
     good_ns: Option<u64>,
     begin_ns: Option<u64>,
 }
@@ -44,6 +45,7 @@ impl FrameWatch {
             last_m: Vec::new(),
             taken: None,
             wrong: None,
+            measured_share: None,
             good_ns: None,
             begin_ns: None,
         }
@@ -54,13 +56,15 @@ impl FrameWatch {
         let _ = self.begin_ns.get_or_insert(time_ns);
     }
 
-    /// Takes in a picture and where the joints say that the camera was. Whether it can be used: a frozen one tells nothing.
+    /// Takes in a picture and where the joints say that the camera was. Whether it can be used: one that is frozen, or without depth, tells nothing.
     pub fn is_new(&mut self, frame: &Frame, robot_from_camera: &Pose<Robot, Camera>) -> bool {
         let same = self.last_m.len() == frame.depth_m.len()
             && (self.last_m.iter())
                 .zip(&frame.depth_m)
                 .all(|(before_m, now_m)| before_m.to_bits() == now_m.to_bits());
-        let empty = !frame.depth_m.iter().any(|depth_m| depth_m.is_finite());
+        let measured = (frame.depth_m.iter())
+            .filter(|depth_m| depth_m.is_finite())
+            .count();
         if !same || self.taken.is_none() {
             self.last_m.clone_from(&frame.depth_m);
             self.taken = Some(*robot_from_camera);
@@ -70,7 +74,7 @@ impl FrameWatch {
             motion.translation.vector.norm() > self.config.moved
                 || motion.rotation.angle() > self.config.turned
         });
-        self.wrong = if empty {
+        self.wrong = if measured == 0 {
             Some(Wrong::Empty)
         } else if same && moved {
             Some(Wrong::Frozen)
@@ -80,7 +84,14 @@ impl FrameWatch {
         if self.wrong.is_none() {
             self.good_ns = Some(frame.arrival_ns);
         }
-        self.wrong != Some(Wrong::Frozen)
+        let share = measured as f64 / frame.depth_m.len().max(1) as f64;
+        self.measured_share = self.wrong.is_none().then_some(share);
+        self.wrong.is_none()
+    }
+
+    /// Share of the newest picture's pixels that were measured; `None` where it was not taken anew, or is empty.
+    pub const fn measured_share(&self) -> Option<f64> {
+        self.measured_share
     }
 
     /// What is wrong with the camera, where it has given no good picture for long.
@@ -159,7 +170,7 @@ mod tests {
     fn a_camera_that_sees_nothing_or_is_silent_is_told() {
         let mut watch = watch();
         for number in 0..100 {
-            let _ = watch.is_new(&frame(number, f32::NAN), &turned(number));
+            assert!(!watch.is_new(&frame(number, f32::NAN), &turned(number)));
         }
         let reason = watch.fault(100 * PERIOD_NS).unwrap().to_string();
         assert!(reason.contains("no depth in any pixel"), "{reason}");

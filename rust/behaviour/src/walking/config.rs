@@ -99,6 +99,7 @@ impl WalkingConfig {
             blind_after_s: self.blind_after,
             patience: self.tuning.look_around.patience,
             blind_limit_s: self.blind_limit,
+            dark: (self.tuning.blind.dark_share, self.tuning.blind.dark_after),
             idle_limit_s: self.tuning.idle_limit,
             idle_words,
             place_words,

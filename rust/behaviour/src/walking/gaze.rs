@@ -58,6 +58,12 @@ impl Sweep {
         sweep
     }
 
+    /// The same places, where no frame can be waited for.
+    pub(crate) const fn without_frames(mut self) -> Self {
+        self.last_frames = 0;
+        self
+    }
+
     /// All that can be seen from here: near from left to right, then far from right to left.
     pub(crate) fn around(config: &WalkingConfig) -> Self {
         let (side, near, far) = (config.sweep, config.gaze_near, config.gaze_far);

@@ -15,6 +15,7 @@ impl WalkingBehaviour {
         if matches!(self.machine.state(), State::Locate(_)) {
             return;
         }
+        self.came_by.forget();
         // A robot that has just looked round turns on.
         let holds_s = self.config.tuning.locate.look_holds;
         self.looked_round_s =

@@ -42,6 +42,12 @@ pub(crate) struct Simulation {
     /// Patches that stereo never sees.
     pub(crate) holes: Vec<[f64; 3]>,
     pub(crate) blind: bool,
+    /// Nothing is seen where the camera looks further than this, rad, from a heading, rad: a wall is too near.
+    pub(crate) sees_only: Option<(f64, f64)>,
+    /// Nothing is seen beyond this, m: a wall is too near.
+    pub(crate) sees_before_x_m: f64,
+    /// Beyond this, m, the picture is filled by what is too near.
+    pub(crate) dark_beyond_x_m: f64,
     /// Where feet come upon an edge across the way that nobody sees, m.
     pub(crate) unseen_edge_m: Option<f64>,
     /// Whether the planner's path ends where it meets the goal's disc.
@@ -78,6 +84,9 @@ impl Simulation {
             obstacles: Vec::new(),
             holes: Vec::new(),
             blind: false,
+            sees_only: None,
+            sees_before_x_m: f64::INFINITY,
+            dark_beyond_x_m: f64::INFINITY,
             unseen_edge_m: None,
             ends_at_the_rim: false,
             closed: false,
@@ -115,7 +124,7 @@ impl Simulation {
 
     /// One tick of 10 ms.
     pub(crate) fn tick(&mut self) -> Decision {
-        if self.time_ns.is_multiple_of(8 * TICK_NS) && !self.blind {
+        if self.time_ns.is_multiple_of(8 * TICK_NS) && !self.sees_nothing() {
             self.see();
             self.make_plan();
         }
@@ -144,6 +153,7 @@ impl Simulation {
                 gaze: self.gaze,
                 frames_used: self.frames,
                 last_frame_ns: self.last_frame_ns,
+                measured_share: (self.pose.x_m < self.dark_beyond_x_m).then_some(1.0),
             })
             .unwrap();
         self.obey(&decision);
@@ -196,6 +206,14 @@ impl Simulation {
                 self.stumbled &= self.standing_ticks <= 60;
             }
         }
+    }
+
+    fn sees_nothing(&self) -> bool {
+        let looks_rad = self.pose.yaw_rad + self.gaze.pan_rad;
+        let away = |(heading_rad, most_rad): (f64, f64)| {
+            geometry::angle_between(heading_rad, looks_rad).abs() > most_rad
+        };
+        self.blind || self.sees_only.is_some_and(away) || self.pose.x_m > self.sees_before_x_m
     }
 
     fn truth(&self, [x, y]: [f64; 2]) -> Surface {

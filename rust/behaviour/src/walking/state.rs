@@ -2,6 +2,7 @@
 
 use geometry::PlanarPose;
 
+use super::blind::Blind;
 use super::gaze::Sweep;
 use crate::machine::{self, Idling};
 
@@ -31,8 +32,8 @@ pub(crate) enum State {
     Arrive,
     /// Stands, having given up.
     Refuse { reason: String },
-    /// Stands because nothing is seen.
-    Blind,
+    /// Sees nothing, and tries what may change that.
+    Blind(Blind),
     /// Turns and circles to find out where it is.
     Locate(Locating),
 }
@@ -53,7 +54,7 @@ impl State {
             Self::Refuse {
                 reason: String::new(),
             },
-            Self::Blind,
+            Self::Blind(Blind::Look(sweep)),
             Self::Locate(Locating { sweep, lost_at }),
         ]
     }
@@ -62,7 +63,7 @@ impl State {
     pub(crate) const fn moves(&self) -> bool {
         matches!(
             self,
-            Self::Walk | Self::Turn { .. } | Self::Sidle | Self::Locate(_)
+            Self::Walk | Self::Turn { .. } | Self::Sidle | Self::Locate(_) | Self::Blind(_)
         )
     }
 }
@@ -77,7 +78,7 @@ impl machine::State for State {
             Self::Stop => "stop",
             Self::Arrive => "arrive",
             Self::Refuse { .. } => "refuse",
-            Self::Blind => "blind",
+            Self::Blind(_) => "blind",
             Self::Locate(_) => "locate",
         }
     }
@@ -88,11 +89,15 @@ impl machine::State for State {
             Self::LookAround(_) => !matches!(next, Self::Stop),
             Self::Walk | Self::Turn { .. } | Self::Sidle | Self::Stop => true,
             Self::Arrive => matches!(next, Self::Stop),
-            Self::Blind => matches!(
+            Self::Blind(_) => matches!(
                 next,
-                Self::LookAround(_) | Self::Refuse { .. } | Self::Arrive | Self::Locate(_)
+                Self::LookAround(_)
+                    | Self::Refuse { .. }
+                    | Self::Arrive
+                    | Self::Locate(_)
+                    | Self::Stop
             ),
-            Self::Locate(_) => !matches!(next, Self::Arrive | Self::Blind),
+            Self::Locate(_) => !matches!(next, Self::Arrive | Self::Blind(_)),
             Self::Refuse { .. } => false,
         }
     }
@@ -111,7 +116,7 @@ impl machine::State for State {
     /// A robot that cannot tell where it is or what is around has limits of its own for that.
     fn idling(&self) -> Idling {
         match self {
-            Self::Locate(_) | Self::Blind => Idling::Pauses,
+            Self::Locate(_) | Self::Blind(_) => Idling::Pauses,
             Self::Walk => Idling::Ends,
             _ => Idling::Counts,
         }
@@ -123,6 +128,10 @@ impl machine::State for State {
 
     fn is_interruptible(&self) -> bool {
         !matches!(self, Self::Refuse { .. } | Self::Arrive)
+    }
+
+    fn walks(&self) -> bool {
+        matches!(self, Self::Walk | Self::Sidle)
     }
 
     /// A robot that stands and looks around may look where there is no ground for a while.

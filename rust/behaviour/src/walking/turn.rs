@@ -50,7 +50,7 @@ impl WalkingBehaviour {
     }
 
     /// A turn that is nearly half a circle does not change its mind about the side.
-    fn turn_velocity(&self, error_rad: f64) -> f64 {
+    pub(super) fn turn_velocity(&self, error_rad: f64) -> f64 {
         let speed_radps = turn_speed(error_rad, &self.config);
         match &self.motion {
             Motion::Walk(before)

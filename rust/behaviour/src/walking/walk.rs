@@ -1,6 +1,7 @@
 //! The state `walk`: follows the path, and what every state that moves along it looks out for.
 
 use super::WalkingBehaviour;
+use super::blind::Tried;
 use crate::Motion;
 use crate::walking::gaze::{Sweep, glance};
 use crate::walking::progress::Headway;
@@ -62,6 +63,8 @@ impl WalkingBehaviour {
             self.enter(State::Turn { to_rad: None });
         }
         self.machine.gets_on();
+        self.tried = Tried::default();
+        (self.came_by).note([tick.pose.x_m, tick.pose.y_m], &self.config.tuning.blind);
         let mut gaze = glance(tick.elapsed_s, self.bearing_rad(track), &self.config);
         if let Some(place) = overhead.unlooked
             && gaze.down_rad == self.config.gaze_far
