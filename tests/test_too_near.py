@@ -1,4 +1,4 @@
-"""What is too near to be seen: a robot that sees nothing looks elsewhere, steps back and turns before it gives up."""
+"""What is too near to be seen: who sees nothing looks elsewhere and turns before it gives up."""
 
 from pathlib import Path
 
