@@ -72,6 +72,21 @@ impl ClimbingHead {
         ]);
     }
 
+    /// Begins to look for what the feet stand on: down before them, far to both sides, and down again, where it waits for frames.
+    pub(crate) fn look_down(&mut self) {
+        let aside_rad = self.walking.tuning.gaze.aside;
+        let swing_rad = self.tuning.swing.min(self.walking.sweep);
+        let (steep, near) = (self.walking.gaze_steep, self.walking.gaze_near);
+        self.begin(&[
+            (0.0, steep),
+            (swing_rad, near),
+            (-swing_rad, near),
+            (-aside_rad, steep),
+            (aside_rad, steep),
+            (0.0, steep),
+        ]);
+    }
+
     /// Begins to look at stairs from near by: at their first edge and up or down all of them.
     pub(crate) fn inspect(&mut self, place_m: [f64; 2]) {
         let Gaze { pan_rad, down_rad } = self.towards(place_m);

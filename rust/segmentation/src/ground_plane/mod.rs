@@ -16,3 +16,4 @@ pub(crate) use grounded::{Configured, Grounded};
 #[cfg(test)]
 mod tests;
 mod tuning;
+mod underfoot;
