@@ -33,6 +33,7 @@ LEAST: dict[str, list[str]] = {
     "real_data.py": ["--rows", "1"],
     "replay_runs.py": ["--count", "1", "--seconds", "0.5"],
     "seam.py": ["--seconds", "0.3"],
+    "sense_faults.py": ["--scenarios", "SHORT", "--seeds", "0", "--faults", "imu zero"],
     "soak.py": ["--hours", "0.0001", "--scenarios", "SHORT"],
     "speed.py": ["--scenario", "SHORT", "--seeds", "0"],
     "stairs_seen.py": ["up", "--seeds", "0"],

@@ -28,7 +28,7 @@ REFUSED = {
     "basin_narrow": {"gap_too_short"},
     "stairs_too_high": {"step_too_high"},
     "stair_removed": {"blocked", "drop"},
-    "stair_blind_long": {"lost"},
+    "stair_blind_long": {"sensor"},
     "stairs_blank": {"blocked"},
 }
 """Name -> words with which it may be refused."""

@@ -197,11 +197,15 @@ def test_every_kind_of_event_is_handled() -> None:
         "blind": {"duration": 1},
         "friction": {"value": 1},
         "encoder_offset": {"joint": "neck_pan", "value": 0.1},
+        "fault": {"part": "imu", "kind": "zero", "duration": 0.02},
+        "knock": {"pitch": 0.1},
     }
     assert set(tables) == set(EVENTS)
     events, physics, _ = prepared(*({"at": 0, "do": do, **t} for do, t in tables.items()))
     advance(events, physics, 0.05)
     assert [do for _, do in events.fired] == list(tables)
+    assert [broken.kind for broken in events.broken(0.01)] == ["zero"]
+    assert not events.broken(0.02)
 
 
 def test_plain_mujoco_repeats_a_run_with_every_event_that_touches_the_physics(

@@ -22,12 +22,13 @@ from treadwell.judging.judge import Judge
 from treadwell.judging.truth_localizer import TruthLocalizer
 from treadwell.judging.verdict import Referee, Verdict
 from treadwell.observation import Observation
-from treadwell.physics.motors import JointTargets
+from treadwell.physics.motors import JointTargets, LateTargets, strengths
 from treadwell.physics.simulation import TICK_NS, Simulation, Start
 from treadwell.plugins import class_path
 from treadwell.protocols import Footstep, Pose
 from treadwell.random_streams import RandomStreams
 from treadwell.robot.load import load_robot
+from treadwell.scenario.faults import Fault
 from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
 from treadwell.senses.sensors import Sensors
@@ -128,6 +129,8 @@ class Episode:
         )
         self.simulation.motors.encoder_offsets = self.sensors.encoder_offsets
         self.events = Events(scenario, self.course, self.robot)
+        self._broken: list[Fault] = []
+        self._late = LateTargets()
         self.judge = Judge(self.course.model, self.course, scenario, self.robot)
         self.referee = Referee(self.judge, scenario.time_limit)
         self.verdict: Verdict | None = None
@@ -169,8 +172,9 @@ class Episode:
         if self.scenario.event:
             self.events.before_tick(simulation)
             self._tell_senses(time_ns)
+        told = self._told(command, time_ns) if self.scenario.event else command
         begin = perf_counter()
-        simulation.advance(command)
+        simulation.advance(told)
         times.add("physics", perf_counter() - begin)
         now = 1e-9 * simulation.time_ns
         self.judge.watch(data, now)
@@ -208,6 +212,22 @@ class Episode:
             self.sensors.set_encoder_shifts(self.events.encoder_offsets)
         if self.events.is_blind(1e-9 * (time_ns + TICK_NS)):
             self.sensors.blind(time_ns + TICK_NS + 1)
+        for knock in self.events.knocks:
+            self.sensors.knock(knock.roll, knock.pitch, knock.yaw)
+        self.events.knocks.clear()
+        broken = self.events.broken(1e-9 * time_ns)
+        if broken == self._broken:
+            return
+        self._broken = broken
+        self.sensors.set_faults(broken)
+        joints = {name: i for i, name in enumerate(self.robot.joints)}
+        weak = [(f.joint or "all", f.value or 0.0) for f in broken if f.part == "motors"]
+        self.simulation.motors.weaken(strengths(joints, weak))
+
+    def _told(self, command: JointTargets, time_ns: int) -> JointTargets:
+        """Return what reaches the motors of what they are told."""
+        late = [f.value or 0.0 for f in self._broken if (f.part, f.kind) == ("latency", "motors")]
+        return self._late.told(command, time_ns, max(late, default=0.0))
 
     def __iter__(self) -> Iterator[Step]:
         """Yield the ticks at which a depth frame arrives, until the episode is over."""

@@ -7,7 +7,7 @@ from treadwell.cli.output import write_table
 from treadwell.course.build import build_course
 from treadwell.course.course import Course
 from treadwell.robot.load import load_robot
-from treadwell.scenario.events import EventTable
+from treadwell.scenario.event_table import EventTable
 from treadwell.scenario.loading import load_scenario
 from treadwell.scenario.model import Scenario
 

@@ -11,6 +11,7 @@ from treadwell.course.outlines import signed_distance
 from treadwell.errors import InputError
 from treadwell.robot.load import Robot
 from treadwell.scenario.events import EncoderOffset
+from treadwell.scenario.faults import Fault
 from treadwell.scenario.messages import nearest
 from treadwell.scenario.model import Scenario
 
@@ -38,11 +39,15 @@ def check_start(scenario: Scenario, robot: Robot, course: Course) -> None:
         )
     _check_ground(course, robot, data, where)
     for i, event in enumerate(scenario.event):
-        if isinstance(event, EncoderOffset) and event.joint not in robot.joints:
-            raise InputError(
-                f"{where}: event.{i}.joint: found '{event.joint}'; must be one of "
-                f"{', '.join(robot.joints)}{nearest(event.joint, robot.joints)}"
-            )
+        allowed: tuple[str, ...] = robot.joints
+        if isinstance(event, Fault) and event.part == "motors":
+            allowed = ("all", *robot.joints)
+        if not isinstance(event, EncoderOffset | Fault) or event.joint in (None, *allowed):
+            continue
+        raise InputError(
+            f"{where}: event.{i}.joint: found '{event.joint}'; must be one of "
+            f"{', '.join(allowed)}{nearest(str(event.joint), allowed)}"
+        )
 
 
 def _inside(course: Course, robot: Robot) -> str:

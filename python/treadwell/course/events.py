@@ -21,10 +21,12 @@ from treadwell.scenario.events import (
     EncoderOffset,
     Event,
     Kidnap,
+    Knock,
     Move,
     Push,
     Remove,
 )
+from treadwell.scenario.faults import Fault
 from treadwell.scenario.model import Scenario
 from treadwell.scenario.values import element_names
 
@@ -55,12 +57,14 @@ class Motion:
 class Events:
     """Applies each event of a scenario once, when its time or place has come.
 
-    Call `before_tick` before every control tick. What events do to the senses is read from
-    `is_blind` and `encoder_offsets`.
+    Call `before_tick` before every control tick. What events do to senses and motors is read from
+    `is_blind`, `encoder_offsets`, `broken` and `knocks`.
 
     Attributes:
         encoder_offsets: joint -> radians that its encoder reads wrong by.
         present: names of the elements that are there now.
+        faults: what has broken, each with the time in seconds at which it is whole again.
+        knocks: how the camera was turned since somebody took them out, in order.
         fired: (time in seconds, `do`) of what has happened, in order, for the record.
     """
 
@@ -74,6 +78,8 @@ class Events:
         """
         self.encoder_offsets: dict[str, float] = {}
         self.present = {element.name for element in course.elements if element.present}
+        self.faults: list[tuple[Fault, float]] = []
+        self.knocks: list[Knock] = []
         self.fired: list[tuple[float, str]] = []
         self._course = course
         self._pending: list[tuple[int, Event]] = list(enumerate(scenario.event))
@@ -100,6 +106,10 @@ class Events:
     def is_blind(self, time: float) -> bool:
         """Say whether the depth camera sees nothing at a simulated time, seconds."""
         return time < self._blind_until - 1e-9
+
+    def broken(self, time: float) -> list[Fault]:
+        """Return what is broken at a simulated time, seconds, in the order in which it broke."""
+        return [fault for fault, until in self.faults if time < until - 1e-9]
 
     def place(self, element: CourseElement, data: mujoco.MjData) -> Floats:
         """Return by how much an element now stands away from where its pieces are, (3,) metres."""
@@ -137,6 +147,11 @@ class Events:
             case EncoderOffset():
                 before = self.encoder_offsets.get(event.joint, 0.0)
                 self.encoder_offsets[event.joint] = before + event.value
+            case Fault():
+                lasts = math.inf if event.duration is None else event.duration
+                self.faults.append((event, time + lasts))
+            case Knock():
+                self.knocks.append(event)
 
     def _put(self, name: str, physics: Physics, *, there: bool) -> None:
         """Let an element appear where the scenario has it, or vanish."""

@@ -1,47 +1,16 @@
 """What can happen on the way, as it stands in a scenario file: one model per `do`."""
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import Field
 
 from treadwell.scenario.elements import MovableElement
-from treadwell.scenario.types import (
-    Angle,
-    ElementName,
-    Friction,
-    Height,
-    Length,
-    Point2,
-    Seconds,
-    Table,
-)
+from treadwell.scenario.event_table import EventTable
+from treadwell.scenario.faults import Fault
+from treadwell.scenario.types import Angle, ElementName, Friction, Height, Point2, Seconds
 
 Impulse = Annotated[float, Field(ge=-100.0, le=100.0)]
 """One component of a push, N·s."""
-
-
-class EventTable(Table):
-    """When it happens: `at` a time, or when the robot comes `near` a point."""
-
-    at: Seconds | None = None
-    """Time at which it happens, simulated seconds."""
-    near: Point2 | None = None
-    """World x, y, m: it happens once, when the robot comes as near to it as `within` says."""
-    within: Length | None = None
-    """Distance from `near`, m."""
-
-    @model_validator(mode="after")
-    def _has_one_trigger(self) -> Self:
-        if (self.at is None) == (self.near is None):
-            raise PydanticCustomError(
-                "trigger", "must have either 'at' or 'near' with 'within'", {"key": None}
-            )
-        if (self.near is None) != (self.within is None):
-            raise PydanticCustomError(
-                "trigger", "'near' and 'within' belong together", {"key": "within"}
-            )
-        return self
 
 
 class Add(EventTable):
@@ -126,8 +95,21 @@ class EncoderOffset(EventTable):
     """What is added to the angle that it reads, rad."""
 
 
+class Knock(EventTable):
+    """The camera turns against the head that carries it, and stays so; nobody tells the robot."""
+
+    do: Literal["knock"]
+    """What happens."""
+    roll: Angle = 0.0
+    """About its line of sight, rad; positive: clockwise."""
+    pitch: Angle = 0.0
+    """Down, rad."""
+    yaw: Angle = 0.0
+    """To the left, rad."""
+
+
 Event = Annotated[
-    Add | Remove | Move | Push | Kidnap | Blind | ChangeFriction | EncoderOffset,
+    Add | Remove | Move | Push | Kidnap | Blind | ChangeFriction | EncoderOffset | Fault | Knock,
     Field(discriminator="do"),
 ]
 """Any entry of `[[event]]`."""
@@ -141,5 +123,7 @@ EVENTS: dict[str, type[EventTable]] = {
     "blind": Blind,
     "friction": ChangeFriction,
     "encoder_offset": EncoderOffset,
+    "fault": Fault,
+    "knock": Knock,
 }
 """`do` -> model."""

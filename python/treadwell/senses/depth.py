@@ -14,6 +14,8 @@ Floats = NDArray[np.float64]
 
 # MuJoCo's camera looks along -z with y up, the optical frame along z with y down.
 MUJOCO_FROM_OPTICAL = np.diag([1.0, -1.0, -1.0])
+# Forward, left and up as the optical frame has them.
+OPTICAL_FROM_AHEAD = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0]])
 
 
 @dataclass(frozen=True)
@@ -135,6 +137,15 @@ class DepthCamera:
         nominal = views.rotation @ MUJOCO_FROM_OPTICAL
         position = views.position + nominal @ self._mount.translation
         return position, nominal @ self._mount.rotation
+
+    def knock(self, turn: Floats) -> None:
+        """Turn the real camera where it sits.
+
+        Args:
+            turn: (3, 3), in the axes forward, left, up of the model's camera.
+        """
+        turned = OPTICAL_FROM_AHEAD @ turn @ OPTICAL_FROM_AHEAD.T @ self._mount.rotation
+        self._mount = Mount(turned, self._mount.translation)
 
     def cast(self, data: mujoco.MjData) -> Cast:
         """Return what each pixel's ray meets, by the poses that `data` holds."""

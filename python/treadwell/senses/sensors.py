@@ -1,6 +1,6 @@
 """The senses of the harness: from the simulator's state to the Observation that the core gets."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 
 import mujoco
@@ -20,9 +20,15 @@ from treadwell.senses.body import (
     SensedSole,
     body_senses,
 )
-from treadwell.senses.camera_error import CameraError, CameraErrorBounds, draw_camera_error
+from treadwell.senses.camera_error import (
+    CameraError,
+    CameraErrorBounds,
+    draw_camera_error,
+    rotation_of,
+)
 from treadwell.senses.depth import DepthCamera, Mount, Pinhole
 from treadwell.senses.depth_sensor import DepthSensor
+from treadwell.senses.faults import SenseFault, SenseFaults
 from treadwell.senses.stereo import StereoConfig, StereoModel
 from treadwell.senses.structured_light import StructuredLightConfig, StructuredLightModel
 
@@ -127,6 +133,9 @@ class Sensors:
         )
         self._drawn_offsets = self._body.encoder_offsets.copy()
         self._depth = _depth(model, file, settings, streams, error.mount, texture)
+        self._shifts: dict[str, float] = {}
+        self._faults: SenseFaults | None = None
+        self._streams = streams
 
     @property
     def encoder_offsets(self) -> Floats:
@@ -152,11 +161,29 @@ class Sensors:
             time_ns: now, nanoseconds since the start.
             motors: whose angles the encoders read; None: the joints' own.
         """
-        return Observation(
+        seen = Observation(
             time_ns,
             *self._body.read(data, time_ns, motors),
             self._depth.observe(data, time_ns),
         )
+        if self._faults is None:
+            return seen
+        told = self._faults.apply(seen)
+        # A servo goes by its encoder, so a stuck one misleads it as well.
+        for joint, error in self._faults.encoder_errors(seen).items():
+            self._body.encoder_offsets[joint] += error
+        return told
+
+    def set_faults(self, active: Sequence[SenseFault]) -> None:
+        """Let senses be broken from now on; those that are not named are whole."""
+        if self._faults is None:
+            self._faults = SenseFaults(self._joint_order, self._streams("events.fault"))
+        self._shift_encoders()
+        self._faults.set(list(active))
+
+    def knock(self, roll: float, pitch: float, yaw: float) -> None:
+        """Turn the camera against the head: about its line of sight, down, to the left, rad."""
+        self._depth.camera.knock(rotation_of(roll, pitch, yaw))
 
     def blind(self, until_ns: int) -> None:
         """Let the camera expose nothing before this time."""
@@ -168,9 +195,15 @@ class Sensors:
         Args:
             shifts: rad, by the joint's name.
         """
+        if self._shifts == shifts:
+            return
+        self._shifts = dict(shifts)
+        self._shift_encoders()
+
+    def _shift_encoders(self) -> None:
         offsets = self._body.encoder_offsets
         offsets[:] = self._drawn_offsets
-        for joint, shift in shifts.items():
+        for joint, shift in self._shifts.items():
             offsets[self._joint_order[joint]] += shift
 
     def _encoders(

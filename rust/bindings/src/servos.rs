@@ -92,6 +92,12 @@ impl PyServos {
         Ok(true)
     }
 
+    /// Lets the motors be weak, or whole again: (n,) what share is left of the torque that each can give.
+    fn weaken(&mut self, shares: &Bound<'_, PyArray1<f64>>) -> PyResult<()> {
+        let weakened = self.servos.weaken(&numbers(shares));
+        weakened.map_err(|error| unfit(&error))
+    }
+
     /// The torques (n,) N m for the coming physics step at these true joint angles (n,) rad and velocities (n,) rad/s.
     fn torques<'py>(
         &mut self,

@@ -9,6 +9,7 @@ mod settings;
 mod tables;
 mod tick;
 mod timing;
+mod watch;
 
 pub use error::PilotError;
 pub use parts::{

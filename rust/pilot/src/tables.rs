@@ -7,6 +7,8 @@ use crate::parts::components;
 /// The tables of the stages that every pilot has.
 const STAGES: &[TableDescription] = &[
     TableDescription::of::<proprioception::ProprioceptionConfig>(),
+    TableDescription::of::<proprioception::SenseWatchConfig>(),
+    TableDescription::of::<sensing::FrameWatchConfig>(),
     TableDescription::of::<sensing::ScanConfig>(),
     TableDescription::of::<sensing::SelfFilterConfig>(),
     TableDescription::of::<crate::PerceptionConfig>(),

@@ -5,19 +5,25 @@ use std::sync::Arc;
 use behaviour::{Behaviour, Decision, Situation};
 use geometry::{Map, Odometry, Pose, Robot};
 use localization::{Estimate, Localizer};
+use mapping::FloorView;
 use planning::{Plan, Planner};
-use proprioception::{BodyStateHistory, Proprioception, ProprioceptionConfig};
+use proprioception::{
+    BodyState, BodyStateHistory, Proprioception, ProprioceptionConfig, SenseWatch, SenseWatchConfig,
+};
 use robot::Body;
-use sensing::{Frame, Intrinsics, Observation, Scan, ScanConfig, SelfFilter};
+use sensing::{
+    Frame, FrameWatch, FrameWatchConfig, Intrinsics, Observation, Scan, ScanConfig, SelfFilter,
+};
 use settings::{Table as _, read};
 use volume::octree::Octree;
 use walking::relief::{Mapped, Slopes};
-use walking::{JointTargets, Walker};
+use walking::{JointTargets, WalkError, Walker};
 
 use crate::goals::Goals;
 use crate::perception::{Perception, PerceptionConfig};
 use crate::registry::{self, Components, Making};
 use crate::timing::{Stage, Timing};
+use crate::watch;
 use crate::{PilotError, Settings};
 
 /// The whole core: the same on a real robot.
@@ -26,6 +32,8 @@ pub struct Pilot {
     camera: Intrinsics,
     map_from_odometry_at_start: Pose<Map, Odometry>,
     proprioception: Proprioception,
+    senses: SenseWatch,
+    frames: FrameWatch,
     history: BodyStateHistory,
     /// The stages from the depth image to the map, with their products.
     pub perception: Perception,
@@ -59,6 +67,19 @@ pub struct Tick<'a> {
     pub dead_reckoning: Pose<Map, Robot>,
 }
 
+/// Moves the legs, on ground with the slopes that the map has where the robot believes to be.
+fn walk<'a>(
+    walker: &'a mut Walker,
+    decision: &Decision,
+    observation: &Observation,
+    state: &BodyState,
+    (view, estimate): (&FloorView, &Estimate),
+) -> Result<&'a JointTargets, WalkError> {
+    let slopes = Mapped::around(view, &estimate.map_from_robot, walker.relief_tuning());
+    let slopes = slopes.as_ref().map(|slopes| slopes as &dyn Slopes);
+    walker.step(&decision.command, observation, state, slopes)
+}
+
 impl Pilot {
     /// Builds the core. A component that is given takes the place of the named one; `static_map` is what is known of the place
     /// beforehand.
@@ -84,6 +105,9 @@ impl Pilot {
             known_map: known_map.as_ref(),
         };
         let senses: ProprioceptionConfig = read(tables, "proprioception")?;
+        let frames: FrameWatchConfig = read(tables, "frame_watch")?;
+        frames.check()?;
+        let watch: SenseWatchConfig = read(tables, "sense_watch")?;
         let segmenter = given.segmenter.map_or_else(|| making.segmenter(), Ok)?;
         let self_filter = SelfFilter::new(&body, &read(tables, "self_filter")?)?;
         let perception: PerceptionConfig = read(tables, "perception")?;
@@ -92,6 +116,8 @@ impl Pilot {
         Ok(Self {
             map_from_odometry_at_start: Pose::wrap(settings.start_or_origin().inner),
             proprioception: Proprioception::new(&body, senses.clone())?,
+            senses: SenseWatch::new(&body, watch)?,
+            frames: FrameWatch::new(frames),
             history: BodyStateHistory::for_pictures(&senses.tuning.history),
             perception: Perception::new(
                 segmenter,
@@ -121,11 +147,16 @@ impl Pilot {
         self.time_ns = Some(observation.time_ns);
         self.timing = Timing::default();
         self.proprioception.note_slopes(self.walker.on_slope());
+        let measured = observation;
+        let repaired = self.senses.repaired(measured);
+        let observation = repaired.as_ref().unwrap_or(measured);
         let state = self
             .timing
             .measure(Stage::Localize, || self.proprioception.update(observation))?;
         self.history.push(state);
-        if let Some(frame) = &observation.depth {
+        let fault = self.senses.look(measured, state).cloned();
+        self.frames.pass(measured.time_ns);
+        if let Some(frame) = measured.depth.as_ref().filter(|_| fault.is_none()) {
             self.see_and_plan(frame)?;
         }
         let state = self.proprioception.state();
@@ -146,24 +177,21 @@ impl Pilot {
             frames_used: self.perception.frames_used,
             last_frame_ns: self.perception.last_frame_ns,
         };
-        let decision = self
-            .timing
-            .measure(Stage::Behave, || self.behaviour.next(&situation))?;
+        let camera = self.frames.fault(situation.time_ns);
+        let behaviour = self.behaviour.as_mut();
+        let decision = self.timing.measure(Stage::Behave, || {
+            watch::decide(behaviour, &situation, fault.as_ref(), camera)
+        })?;
         if decision.goal_passed {
             self.goals.advance();
             self.plan = None;
         }
+        let (walker, view) = (&mut self.walker, self.perception.world_model.view());
         let targets = self.timing.measure(Stage::Walk, || {
-            let (view, tuning) = (
-                self.perception.world_model.view(),
-                self.walker.relief_tuning(),
-            );
-            let slopes = Mapped::around(view, &estimate.map_from_robot, tuning);
-            let slopes = slopes.as_ref().map(|slopes| slopes as &dyn Slopes);
-            self.walker
-                .step(&decision.command, observation, state, slopes)
+            walk(walker, &decision, observation, state, (view, &estimate))
         })?;
         let dead_reckoning = self.map_from_odometry_at_start * state.odometry_from_robot;
+        self.senses.note_command(&targets.positions_rad);
         self.proprioception.note_command(
             &targets.positions_rad,
             &targets.velocities_radps,
@@ -182,6 +210,11 @@ impl Pilot {
             return Ok(());
         };
         let (localizer, timing) = (self.localizer.as_mut(), &mut self.timing);
+        let robot_from_camera =
+            body_then.robot_from_torso * self.body.torso_from_camera(&body_then.links);
+        if !self.frames.is_new(frame, &robot_from_camera) {
+            return Ok(());
+        }
         let (body, steps) = ((&self.body, body_then), self.walker.steps_taken());
         if (self.perception).see(frame, body, steps, localizer, timing)? {
             self.planner.forget();

@@ -11,9 +11,11 @@ mod play;
 mod proprioception;
 mod trunk;
 mod tuning;
+mod watch;
 
 pub use body_state::{BodyState, ProprioceptionError};
 pub use config::ProprioceptionConfig;
 pub use history::BodyStateHistory;
 pub use proprioception::Proprioception;
 pub use tuning::HistoryTuning;
+pub use watch::{SenseWatch, SenseWatchConfig};

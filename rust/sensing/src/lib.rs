@@ -1,11 +1,15 @@
 //! What the robot senses, and nothing else: no pose, no truth.
 
 mod camera;
+mod frame_watch;
 mod observation;
 mod scan;
 mod self_filter;
+mod sense_fault;
 
 pub use camera::Intrinsics;
+pub use frame_watch::{FrameWatch, FrameWatchConfig};
 pub use observation::{Frame, Observation, ObservationError, TICK_NS, TICK_S};
 pub use scan::{Scan, ScanConfig, ScanError, ScanTuning};
 pub use self_filter::{SelfFilter, SelfFilterConfig, SelfFilterTuning};
+pub use sense_fault::SenseFault;

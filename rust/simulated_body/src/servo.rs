@@ -46,6 +46,8 @@ struct DrivenJoint {
     stopping: f64,
     /// All that the targets contribute to the torque, N m.
     asked_nm: f64,
+    /// Share that is left of the torque that the motor can give: 1 for a whole one.
+    strength: f64,
 }
 
 /// A proportional-derivative servo with feed-forward on each joint, and the play in its gear.
@@ -88,6 +90,7 @@ impl Servos {
                 lead_per_torque: half_play_rad / takes_up_nm,
                 stopping: motor.inertia_kgm2 / timestep_s,
                 asked_nm: 0.0,
+                strength: 1.0,
             }
         };
         Ok(Self {
@@ -106,6 +109,15 @@ impl Servos {
     /// How far each motor, where the encoder sits, leads its joint, rad.
     pub fn lead_rad(&self) -> &[f64] {
         &self.lead_rad
+    }
+
+    /// Lets the motors be weak, or whole again: what share is left of the torque that each can give, in the joint order.
+    pub fn weaken(&mut self, shares: &[f64]) -> Result<(), SimulatedBodyError> {
+        check_length("strength", shares.len(), self.joints())?;
+        for (joint, &share) in self.joints.iter_mut().zip(shares) {
+            joint.strength = share;
+        }
+        Ok(())
     }
 
     /// Takes what is asked for from now on: angles (rad), velocities (rad/s) and torques (N m) by the joint order. Each servo goes by
@@ -168,9 +180,9 @@ impl DrivenJoint {
         let motor = &self.motor;
         let wanted_nm = self.asked_nm - angle_rad * motor.kp - speed_radps * motor.kv;
         let lost_nm = self.slope * speed_radps;
-        let most_nm = (motor.stall_torque_nm - lost_nm).max(0.0);
-        let least_nm = (-motor.stall_torque_nm - lost_nm).min(0.0);
-        let peak_nm = motor.peak_torque_nm;
+        let most_nm = (motor.stall_torque_nm - lost_nm).max(0.0) * self.strength;
+        let least_nm = (-motor.stall_torque_nm - lost_nm).min(0.0) * self.strength;
+        let peak_nm = motor.peak_torque_nm * self.strength;
         wanted_nm
             .min(most_nm)
             .max(least_nm)

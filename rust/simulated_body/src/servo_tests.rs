@@ -155,3 +155,18 @@ fn targets_of_another_robot_are_refused() {
         "velocity has 2 values, the robot has 1 joints"
     );
 }
+
+#[test]
+fn a_weak_motor_gives_a_share_of_what_it_can_and_a_whole_one_all_again() {
+    let mut servo = servo(motor(150.0, 3.0), 0.0);
+    let gives = |servo: &mut Servos, asked_nm: f64| {
+        ask(servo, 0.0, 0.0, asked_nm);
+        torque_nm(servo, 0.0, 0.0)
+    };
+    servo.weaken(&[0.4]).unwrap();
+    assert_relative_eq!(gives(&mut servo, 20.0), 2.4, epsilon = 1e-12);
+    assert_relative_eq!(gives(&mut servo, -1.5), -1.5, epsilon = 1e-12);
+    servo.weaken(&[1.0]).unwrap();
+    assert_relative_eq!(gives(&mut servo, 20.0), 6.0, epsilon = 1e-12);
+    assert!(servo.weaken(&[1.0, 1.0]).is_err());
+}

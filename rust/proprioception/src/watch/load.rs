@@ -1,0 +1,58 @@
+//! Claim: both feet together carry the robot's weight, whatever it does.
+
+use robot::Side;
+use sensing::SenseFault;
+
+use super::repair::Repair;
+use super::{Check, Finding, Lasting, Moment, foot_name};
+
+/// How long the feet have carried too little.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Missing {
+    smooth_n: Option<f64>,
+    too_little: Lasting,
+    /// How long each foot has carried nothing at all.
+    nothing: [Lasting; 2],
+}
+
+impl Check for Missing {
+    fn look(&mut self, moment: &Moment<'_>) -> Option<Finding> {
+        let (config, passed_s) = (moment.config, moment.passed_s);
+        let loads_n = (moment.observation.foot_forces_n).map(|cells| cells.iter().sum::<f64>());
+        let total_n = loads_n[0] + loads_n[1];
+        let smooth_n = self.smooth_n.get_or_insert(total_n);
+        *smooth_n += (total_n - *smooth_n) * passed_s / (passed_s + config.smooth);
+        for (nothing, load_n) in self.nothing.iter_mut().zip(loads_n) {
+            let _ = nothing.count(load_n <= 0.0, passed_s);
+        }
+        let holds = *smooth_n < config.least_load * moment.weight_n;
+        if self.too_little.count(holds, passed_s) <= config.load_time {
+            return None;
+        }
+        let share = 100.0 * *smooth_n / moment.weight_n;
+        let nothing = self.nothing.map(|lasting| lasting.0 > config.constant);
+        let dead = match nothing {
+            [true, true] => None,
+            [true, false] => Some(Side::Left),
+            [false, true] => Some(Side::Right),
+            _ if loads_n[0] < loads_n[1] => Some(Side::Left),
+            _ => Some(Side::Right),
+        };
+        let which = dead.map_or_else(
+            || "the feet".to_owned(),
+            |side| format!("the {} foot's force cells", foot_name(side)),
+        );
+        let what = match dead {
+            Some(_) => {
+                format!("do not tell what it carries: both feet bear {share:.0} % of the weight")
+            }
+            None => {
+                "tell that nothing carries the robot: it was lifted, or they are dead".to_owned()
+            }
+        };
+        Some(Finding {
+            fault: SenseFault::new(which, what),
+            repair: Repair::Foot(dead.unwrap_or(moment.state.support)),
+        })
+    }
+}
