@@ -4,7 +4,7 @@ use sensing::Intrinsics;
 use settings::{ConfigError, MakeError, Table, read};
 
 use super::buffers::ProductBuffers;
-use super::underfoot::Nearness;
+use super::nearness::Nearness;
 use crate::camera_pose::{Correction, HorizonSearch, KnownLevels};
 use crate::ground_plane::config::GroundConfig;
 use crate::part::SegmenterNeeds;

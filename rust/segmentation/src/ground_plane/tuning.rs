@@ -89,12 +89,13 @@ settings! {
         underfoot: f64 = 0.5, "1", SHARE;
         /// While the ground is searched, a level that lies less than this above or below another one could be taken for it.
         rival: f64 = 0.06, "m", POSITIVE;
-        /// Such a level counts where it is seen as near to the feet as this: what is further away errs by as much.
+        /// Such a level counts where it is seen as near to the feet as this, and is `as_large`: what is further away errs by as much.
         rival_reach: f64 = 0.6, "m", POSITIVE;
         /// A region could be taken for another one when they are less than so many times `track_height` apart.
         beside: f64 = 2.0, "1", NOT_NEGATIVE;
         /// A region that lies farther from where the joints have the ground than the ground can be may be a part of it all the same
-        /// when it has more than this share of the pixels of the other one: in a view that is off by degrees.
+        /// when it has more than this share of the pixels of the other one: in a view that is off by degrees. So large must a level be that
+        /// keeps another from being the ground.
         as_large: f64 = 0.5, "1", NOT_NEGATIVE;
     }
 }

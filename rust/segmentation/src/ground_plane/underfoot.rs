@@ -4,50 +4,7 @@
 use crate::camera_pose::Levelled;
 use crate::ground_plane::grounded::Grounded;
 use crate::picture::NearFeet;
-use crate::regions::{Finder, FrameSurfaces};
-
-/// How near to the feet each region of a frame is seen. Keeps its buffers.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Nearness {
-    squares: Vec<Vec<f32>>,
-    nearest_m: Vec<f32>,
-}
-
-impl Nearness {
-    /// Measures the level regions of `surfaces`, of whose pixels every `stride`-th each way is looked at. A region is as near as `enough`
-    /// of its pixels are, away from its border: fewer may be mismatched.
-    fn measure(
-        &mut self,
-        surfaces: &FrameSurfaces<impl Finder>,
-        levelled: &Levelled,
-        [stride, enough]: [usize; 2],
-    ) {
-        let count = surfaces.regions.len();
-        self.squares
-            .resize_with(self.squares.len().max(count), Vec::new);
-        self.squares.iter_mut().for_each(Vec::clear);
-        let camera_m = levelled.predicted.inner.translation.vector.cast::<f32>();
-        let view = &levelled.view;
-        for (row, col, label) in surfaces.inner_pixels(stride) {
-            let region = usize::from(label) - 1;
-            let per_g = 1.0 / (surfaces.regions[region].q * view.g.at(col, row));
-            let x_m = camera_m.x + view.x.at(col, row) * per_g;
-            let y_m = camera_m.y + view.y.at(col, row) * per_g;
-            self.squares[region].push(x_m * x_m + y_m * y_m);
-        }
-        let rank = enough / (stride * stride);
-        self.nearest_m.clear();
-        let squares = &mut self.squares[..count];
-        self.nearest_m.extend(squares.iter_mut().map(|squares| {
-            let rank = rank.min(squares.len().saturating_sub(1));
-            if squares.is_empty() {
-                return f32::INFINITY;
-            }
-            let (_, square, _) = squares.select_nth_unstable_by(rank, f32::total_cmp);
-            square.sqrt()
-        }));
-    }
-}
+use crate::regions::Finder;
 
 impl<F: Finder> Grounded<F> {
     /// The region that the feet stand on: of those that may be the ground, the level of the one that is seen nearest to the feet, and of
@@ -99,12 +56,14 @@ impl<F: Finder> Grounded<F> {
             && self.surfaces.regions[index].support as f64 >= open
     }
 
-    /// Whether another level surface nearby lies a low step above or below a region.
+    /// Whether another level surface nearby, about as large, lies a low step above or below a region.
     fn has_rival(&self, index: usize) -> bool {
         let reference = &self.config.tuning.reference;
+        let support = |i: usize| self.surfaces.regions[i].support as f64;
         (0..self.surfaces.regions.len()).any(|i| {
             let apart_m = self.apart_m(i, index);
             reference.core_part * self.surfaces.regions[i].core >= self.config.min_ground
+                && support(i) > reference.as_large * support(index)
                 && apart_m > self.config.known_height
                 && apart_m < reference.rival
                 && f64::from(self.nearness.nearest_m[i]) < reference.rival_reach
