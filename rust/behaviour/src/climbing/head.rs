@@ -76,14 +76,14 @@ impl ClimbingHead {
     pub(crate) fn look_down(&mut self) {
         let aside_rad = self.walking.tuning.gaze.aside;
         let swing_rad = self.tuning.swing.min(self.walking.sweep);
-        let (steep, near) = (self.walking.gaze_steep, self.walking.gaze_near);
+        let (feet, near) = (self.walking.gaze_feet, self.walking.gaze_near);
         self.begin(&[
-            (0.0, steep),
+            (0.0, feet),
             (swing_rad, near),
             (-swing_rad, near),
-            (-aside_rad, steep),
-            (aside_rad, steep),
-            (0.0, steep),
+            (-aside_rad, feet),
+            (aside_rad, feet),
+            (0.0, feet),
         ]);
     }
 

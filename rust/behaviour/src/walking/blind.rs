@@ -9,7 +9,7 @@ impl WalkingBehaviour {
         // What it stands on may be out of view: it looks there, too.
         let phase = (self.machine.lasted_s() / self.config.tuning.gaze.period).fract();
         let down_rad = if phase < self.config.tuning.gaze.far_share {
-            self.config.gaze_steep
+            self.config.gaze_feet
         } else {
             self.config.gaze_near
         };

@@ -151,7 +151,7 @@ mod tests {
             (-1.1, 0.85),
             (1.1, 0.5),
             (-1.1, 0.5),
-            (0.0, config.gaze_steep),
+            (0.0, 1.0),
         ] {
             let reached = |gaze: &Gaze| {
                 (gaze.pan_rad - pan).abs() < 0.02 && (gaze.down_rad - down).abs() < 0.02
