@@ -94,7 +94,7 @@ impl WalkingBehaviour {
 
     /// The look of a robot that sees nothing, from its beginning.
     pub(super) fn blind_look(&self) -> Blind {
-        Blind::Look(self.around().without_frames())
+        Blind::Look(Sweep::in_the_dark(&self.config))
     }
 
     fn look_blindly(&mut self, tick: &WayTick<'_>, mut sweep: Sweep) -> Motion {
@@ -105,12 +105,24 @@ impl WalkingBehaviour {
         } else if !sweep.advance(&mut self.gazer, frames, tick.passed_s, speed_radps) {
             self.machine.go_on(State::Blind(Blind::Look(sweep)));
         } else if !self.tries_elsewhere(tick) {
-            self.gaze_at(tick, 0.0, self.config.gaze_near);
+            self.look_down(tick);
             if let SightAgain::Hopeless(reason) = sight {
                 self.refuse(reason);
             }
         }
         Motion::Stand
+    }
+
+    /// Looks to the feet and near by in turns: what it stands on may be out of view.
+    fn look_down(&mut self, tick: &WayTick<'_>) {
+        let gaze = &self.config.tuning.gaze;
+        let phase = (self.machine.lasted_s() / gaze.period).fract();
+        let down_rad = if phase < gaze.far_share {
+            self.config.gaze_feet
+        } else {
+            self.config.gaze_near
+        };
+        self.gaze_at(tick, 0.0, down_rad);
     }
 
     /// Begins what was not tried yet; false where all was.

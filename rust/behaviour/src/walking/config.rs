@@ -45,6 +45,8 @@ settings! {
         unseen_radius: f64 = 0.2, "m", NOT_NEGATIVE;
         /// Steepest look below the horizon, to the ground before the feet.
         gaze_steep: f64 = 1.1, "rad", DOWN;
+        /// Look below the horizon of a robot that sees no ground: what it stands on may show nowhere but right before its feet.
+        gaze_feet: f64 = 1.2, "rad", DOWN;
         /// Look below the horizon at the ground near by.
         gaze_near: f64 = 0.85, "rad", DOWN;
         /// Look below the horizon at the ground further away.

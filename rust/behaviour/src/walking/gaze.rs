@@ -58,10 +58,22 @@ impl Sweep {
         sweep
     }
 
-    /// The same places, where no frame can be waited for.
-    pub(crate) const fn without_frames(mut self) -> Self {
-        self.last_frames = 0;
-        self
+    /// All that may be seen by who sees nothing: what it stands on first, which may show nowhere but right before the feet. No frame
+    /// is waited for.
+    pub(crate) fn in_the_dark(config: &WalkingConfig) -> Self {
+        let (side, aside) = (config.sweep, config.tuning.gaze.aside);
+        let (feet, near, far) = (config.gaze_feet, config.gaze_near, config.gaze_far);
+        let places = [
+            (0.0, feet),
+            (aside, feet),
+            (-aside, feet),
+            (aside, feet),
+            (side, near),
+            (-side, near),
+            (-side, far),
+            (side, far),
+        ];
+        Self::through(&places, 0)
     }
 
     /// All that can be seen from here: near from left to right, then far from right to left.
