@@ -7,7 +7,7 @@ pub mod surface;
 mod two_maps;
 
 pub use averaging::{Averaging, AveragingConfig, AveragingTuning};
-pub use model::{FloorView, Head, Insertion, MapError, Surface, Voxel, WorldModel};
+pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};
 pub use part::{WorldModelNeeds, WorldModelPart};
 pub use surface::{Fog, FogConfig, FogTuning, OverheadTuning};
 pub use two_maps::{

@@ -28,7 +28,7 @@ pub enum Surface {
 
 /// What is known of the room above a cell's floor, up to the robot's head.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Head {
+pub enum HeadRoom {
     /// There is room, or nobody asks.
     #[default]
     Free,
@@ -58,7 +58,7 @@ pub struct FloorView {
     /// Floor that rises by less per metre is level ground seen a little wrong.
     pub least_gradient: f64,
     /// What is known of the room above each cell's floor.
-    pub head: Grid<Head>,
+    pub head: Grid<HeadRoom>,
 }
 
 impl FloorView {
@@ -71,7 +71,7 @@ impl FloorView {
             sightings: Grid::filled(cols, rows, sightings),
             gradients: Grid::filled(cols, rows, [0.0; 2]),
             least_gradient: 0.0,
-            head: Grid::filled(cols, rows, Head::Free),
+            head: Grid::filled(cols, rows, HeadRoom::Free),
         }
     }
 
@@ -85,7 +85,7 @@ impl FloorView {
         self.cells.shift(cols, rows, &Surface::Unknown);
         self.sightings.shift(cols, rows, &0);
         self.gradients.shift(cols, rows, &[0.0; 2]);
-        self.head.shift(cols, rows, &Head::Free);
+        self.head.shift(cols, rows, &HeadRoom::Free);
         self.lattice = lattice;
     }
 
@@ -124,24 +124,24 @@ impl FloorView {
     }
 
     /// What is known of the room above the floor at a point of the map frame.
-    pub fn head_at(&self, x_m: f64, y_m: f64) -> Head {
+    pub fn head_at(&self, x_m: f64, y_m: f64) -> HeadRoom {
         let cell = self.lattice.cell_at(x_m, y_m);
         self.head.get(cell).copied().unwrap_or_default()
     }
 
     /// The view as it were for a robot that needs no room for its head; `None` where that is no other.
     pub fn without_ceilings(&self) -> Option<Self> {
-        let low = |head: &Head| matches!(head, Head::Low { .. });
+        let low = |head: &HeadRoom| matches!(head, HeadRoom::Low { .. });
         if !self.head.values().iter().any(low) {
             return None;
         }
         let mut view = self.clone();
         let cells = view.cells.values_mut().iter_mut();
         for (surface, head) in cells.zip(view.head.values_mut()) {
-            if let Head::Low { floor_m, .. } = *head {
+            if let HeadRoom::Low { floor_m, .. } = *head {
                 let floor = Some(floor_m).filter(|floor_m| !floor_m.is_nan());
                 *surface = floor.map_or(Surface::Unknown, Surface::Floor);
-                *head = Head::Free;
+                *head = HeadRoom::Free;
             }
         }
         Some(view)

@@ -6,7 +6,7 @@ mod common;
 
 use common::{Block, camera, is_obstacle, look};
 use geometry::{Map, Pose, Robot};
-use mapping::{Fog, FogConfig, Head, Surface, WorldModel};
+use mapping::{Fog, FogConfig, HeadRoom, Surface, WorldModel};
 use proptest::prelude::*;
 
 /// What the robot needs to walk upright, m.
@@ -98,14 +98,14 @@ fn the_room_above_a_floor_is_unseen_until_the_gaze_rises_even_where_nothing_ends
     let mut fog = fog(Some(HEADROOM_M));
     let head = |fog: &Fog| fog.view().head_at(UNDER[0], UNDER[1]);
     look_down(&mut fog, &[]);
-    assert_eq!(head(&fog), Head::Unseen);
+    assert_eq!(head(&fog), HeadRoom::Unseen);
     assert_eq!(
         fog.view().head_at(0.02, 0.02),
-        Head::Free,
+        HeadRoom::Free,
         "it stands there"
     );
     look_ahead(&mut fog, &[], &at(0.0));
-    assert_eq!(head(&fog), Head::Free);
+    assert_eq!(head(&fog), HeadRoom::Free);
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn what_hangs_too_low_is_an_obstacle_for_the_head_alone_and_what_stands_is_one_f
     let stands = Block::new([0.6, 0.15, 0.0], [0.65, 0.22, 0.8], false);
     look_ahead(&mut fog, &[bar(0.5), stands], &at(0.0));
     let view = fog.view();
-    let Head::Low { floor_m, room_m } = view.head_at(UNDER[0], UNDER[1]) else {
+    let HeadRoom::Low { floor_m, room_m } = view.head_at(UNDER[0], UNDER[1]) else {
         panic!("{:?}", view.head_at(UNDER[0], UNDER[1]));
     };
     assert!(
@@ -141,7 +141,7 @@ fn without_a_headroom_nobody_asks_for_room() {
             .head
             .values()
             .iter()
-            .all(|head| *head == Head::Free)
+            .all(|head| *head == HeadRoom::Free)
     );
 }
 

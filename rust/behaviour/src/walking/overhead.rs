@@ -1,7 +1,7 @@
 //! Room for the head that was not seen yet: the gaze rises before the robot walks into what it has only seen the floor of.
 
 use geometry::PlanarPose;
-use mapping::{FloorView, Head, Surface};
+use mapping::{FloorView, HeadRoom, Surface};
 use planning::Path;
 use robot::Description;
 
@@ -175,7 +175,7 @@ impl WalkingBehaviour {
         let heading = PlanarPose::new(x, y, libm::atan2(y - y0, x - x0));
         [-self.radius_m, 0.0, self.radius_m].iter().any(|&aside_m| {
             let (x_m, y_m) = heading.apply(0.0, aside_m);
-            view.head_at(x_m, y_m) == Head::Unseen
+            view.head_at(x_m, y_m) == HeadRoom::Unseen
         })
     }
 }
@@ -217,7 +217,7 @@ mod tests {
         for cell in simulation.view.cells.area().cells() {
             let [x_m, _] = simulation.view.lattice.center_of(cell);
             if let Some(head) = simulation.view.head.get_mut(cell).filter(|_| x_m > 0.8) {
-                *head = Head::Unseen;
+                *head = HeadRoom::Unseen;
             }
         }
     }

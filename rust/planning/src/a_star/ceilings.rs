@@ -1,6 +1,6 @@
 //! Whether all that bars the way is what hangs too low for the robot's head.
 
-use mapping::{FloorView, Head};
+use mapping::{FloorView, HeadRoom};
 use stairs::Staircase;
 use terrain::StandingAt;
 
@@ -37,7 +37,9 @@ impl AStar {
 fn lowest(path: &Path, view: &FloorView, reach_m: f64) -> Option<([f64; 2], f64)> {
     let cells = view.head.area().cells();
     let low = cells.filter_map(|cell| match view.head.get(cell) {
-        Some(Head::Low { room_m, .. }) => Some((view.lattice.center_of(cell), f64::from(*room_m))),
+        Some(HeadRoom::Low { room_m, .. }) => {
+            Some((view.lattice.center_of(cell), f64::from(*room_m)))
+        }
         _ => None,
     });
     let near = low.filter(|&(at_m, _)| {

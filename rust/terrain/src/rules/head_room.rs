@@ -2,7 +2,7 @@
 //! robot cannot look up so steeply; it stands there, and asks no more for it.
 
 use geometry::distance_m;
-use mapping::Head;
+use mapping::HeadRoom;
 use settings::{NOT_NEGATIVE, settings, within};
 
 use crate::{Sight, Terrain};
@@ -20,7 +20,7 @@ settings! {
 pub(super) fn apply(terrain: &mut Terrain, sight: &Sight<'_>, config: &HeadRoomConfig) {
     let heads = sight.view.head.values();
     for (index, head) in heads.iter().enumerate() {
-        let unseen = *head == Head::Unseen && !terrain.unknown[index];
+        let unseen = *head == HeadRoom::Unseen && !terrain.unknown[index];
         if unseen && distance_m(terrain.center_m(index), sight.stand.at_m) > config.near {
             terrain.weights[index] += config.unseen_cost;
         }
@@ -29,7 +29,7 @@ pub(super) fn apply(terrain: &mut Terrain, sight: &Sight<'_>, config: &HeadRoomC
 
 #[cfg(test)]
 mod tests {
-    use mapping::Head;
+    use mapping::HeadRoom;
 
     use crate::testing::{Floor, cell};
 
@@ -37,7 +37,7 @@ mod tests {
     fn a_metre_costs_more_where_nobody_looked_up_but_not_beside_the_robot() {
         let mut floor = Floor::new();
         for head in floor.view.head.values_mut() {
-            *head = Head::Unseen;
+            *head = HeadRoom::Unseen;
         }
         let terrain = floor.after("head_room");
         let cost = |x_m: f64| terrain.weights[cell(&terrain, x_m, 0.025)];

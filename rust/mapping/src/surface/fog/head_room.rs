@@ -5,7 +5,7 @@ use segmentation::Planes;
 
 use super::Fog;
 use crate::surface::overhead::Heights;
-use crate::{Head, Surface};
+use crate::{HeadRoom, Surface};
 
 /// Heights that differ by less are the same, m: a rounding guard.
 const ROUNDING_M: f64 = 1e-6;
@@ -35,21 +35,21 @@ impl Fog {
     }
 
     /// What is known of the room above the floor of the cell that is stored at an index, which shows this surface.
-    pub(super) fn head_at(&self, index: usize, surface: Surface) -> Head {
+    pub(super) fn head_at(&self, index: usize, surface: Surface) -> HeadRoom {
         let Some(headroom_m) = self.config.headroom else {
-            return Head::Free;
+            return HeadRoom::Free;
         };
         match surface {
-            Surface::Unknown => Head::Free,
+            Surface::Unknown => HeadRoom::Free,
             Surface::Floor(floor_m) => {
                 let heights = self.heights();
                 if self
                     .overhead
                     .is_seen(index, &heights, f64::from(floor_m), headroom_m)
                 {
-                    Head::Free
+                    HeadRoom::Free
                 } else {
-                    Head::Unseen
+                    HeadRoom::Unseen
                 }
             }
             Surface::Obstacle(_) => {
@@ -72,12 +72,12 @@ impl Fog {
                         let told_m = seen_m.map_or(room_m, |seen_m| {
                             seen_m.clamp(room_m, room_m + self.config.layer)
                         });
-                        Head::Low {
+                        HeadRoom::Low {
                             floor_m: floor.unwrap_or(f32::NAN),
                             room_m: told_m.min(headroom_m) as f32,
                         }
                     }
-                    _ => Head::Free,
+                    _ => HeadRoom::Free,
                 }
             }
         }
