@@ -231,7 +231,7 @@ def test_a_named_height_chooses_between_levels() -> None:
         ([], {"event": [{"at": 1, "do": "encoder_offset", "joint": "left_kne", "value": 0.1}]},
          "did you mean 'left_knee_pitch'"),
         ([{"kind": "scatter", "name": "s"}],
-         {"event": [{"at": 1, "do": "remove", "name": "s"}]}, "neither scatter nor mjcf"),
+         {"event": [{"at": 1, "do": "remove", "name": "s"}]}, "an element of one body, neither"),
         ([{"kind": "scatter", "count": 200, "area": [[0, 0], [1, 1]]}], {}, "no layout"),
     ],
 )  # fmt: skip
