@@ -13,9 +13,12 @@ from treadwell.course.outlines import Floats
 from treadwell.course.pieces import Piece, Top, simple_pieces
 from treadwell.course.scatter import scattered
 from treadwell.course.stairs import stairs_pieces
+from treadwell.course.worlds.drawing import Drawn
+from treadwell.course.worlds.house import drawn_house
+from treadwell.course.worlds.yard import drawn_yard
 from treadwell.errors import InputError
 from treadwell.robot.load import Robot
-from treadwell.scenario.drawn_elements import Scatter
+from treadwell.scenario.drawn_elements import House, Scatter, Yard
 from treadwell.scenario.element_table import ElementTable
 from treadwell.scenario.elements import ELEMENTS, MOVABLE, Door, Mesh, Mjcf, Stairs, Wall
 from treadwell.scenario.events import Add, Event, Move, Remove, SetDoor
@@ -57,19 +60,6 @@ class PlannedElement:
 
 
 @dataclass(frozen=True)
-class Drawn:
-    """What an element that draws itself consists of.
-
-    Attributes:
-        elements: each with a name that no element of a file can have.
-        events: what happens on the way.
-    """
-
-    elements: list[ElementTable]
-    events: list[Event]
-
-
-@dataclass(frozen=True)
 class Plan:
     """A course before it is built.
 
@@ -101,7 +91,7 @@ def plan_course(scenario: Scenario, robot: Robot) -> Plan:
     moved = _moved(scenario.event)
     fixed = [
         None
-        if isinstance(element, Scatter)
+        if isinstance(element, Scatter | House | Yard)
         else _planned(scenario, name, element, moved, present=event is None)
         for name, element, event in elements
     ]
@@ -137,6 +127,10 @@ def _drawn(
     stops = [np.array(stop) for stop in (scenario.start.position, *goal.via, goal.position)]
     width = 2 * robot.file.body.radius
     try:
+        if isinstance(element, House):
+            return drawn_house(element, name, seed=scenario.seed, stops=stops, width=width)
+        if isinstance(element, Yard):
+            return drawn_yard(element, name, seed=scenario.seed, stops=stops, width=width)
         assert isinstance(element, Scatter)
         items = scattered(
             element,

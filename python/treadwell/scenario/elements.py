@@ -5,7 +5,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from treadwell.scenario.drawn_elements import Scatter
+from treadwell.scenario.drawn_elements import House, Scatter, Yard
 from treadwell.scenario.element_table import ElementTable
 from treadwell.scenario.types import (
     MOST_STEPS,
@@ -237,7 +237,20 @@ MovableElement = Annotated[
 """What an event can add, move or remove: one body whose place is known beforehand."""
 
 Element = Annotated[
-    Stairs | Sill | Platform | Box | Cylinder | Wall | Door | Ramp | Rubble | Mesh | Scatter | Mjcf,
+    Stairs
+    | Sill
+    | Platform
+    | Box
+    | Cylinder
+    | Wall
+    | Door
+    | Ramp
+    | Rubble
+    | Mesh
+    | Scatter
+    | House
+    | Yard
+    | Mjcf,
     Field(discriminator="kind"),
 ]
 """Any element of `[[course]]`."""
@@ -259,6 +272,8 @@ ELEMENTS: dict[str, type[ElementTable]] = {
     **MOVABLE,
     "door": Door,
     "scatter": Scatter,
+    "house": House,
+    "yard": Yard,
     "mjcf": Mjcf,
 }
 """Kind -> model."""
