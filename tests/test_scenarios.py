@@ -72,7 +72,7 @@ IN_A_KNOWN_HOUSE = (
     "kidnapped",
     "underpass",
 )
-DRAWN = ("random_flat", "random_stairs")
+DRAWN = ("random_flat", "random_house", "random_stairs", "random_yard")
 """Too many courses for a test: `treadwell sweep` runs them."""
 EXPECTED = {
     **WALKED,
