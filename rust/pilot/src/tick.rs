@@ -176,7 +176,7 @@ impl Pilot {
             gaze: self.walker.gaze(),
             frames_used: self.perception.frames_used,
             last_frame_ns: self.perception.last_frame_ns,
-            measured_share: self.frames.measured_share(),
+            measured_share: self.frames.measured_share(observation.time_ns),
         };
         let behaviour = self.behaviour.as_mut();
         let decision = self.timing.measure(Stage::Behave, || {

@@ -33,6 +33,7 @@ pub struct FrameWatch {
     taken: Option<Pose<Robot, Camera>>,
     wrong: Option<Wrong>,
     measured_share: Option<f64>,
+    arrived_ns: Option<u64>,
     good_ns: Option<u64>,
     begin_ns: Option<u64>,
 }
@@ -46,6 +47,7 @@ impl FrameWatch {
             taken: None,
             wrong: None,
             measured_share: None,
+            arrived_ns: None,
             good_ns: None,
             begin_ns: None,
         }
@@ -85,13 +87,16 @@ impl FrameWatch {
             self.good_ns = Some(frame.arrival_ns);
         }
         let share = measured as f64 / frame.depth_m.len().max(1) as f64;
-        self.measured_share = self.wrong.is_none().then_some(share);
+        self.measured_share = (self.wrong != Some(Wrong::Frozen)).then_some(share);
+        self.arrived_ns = Some(frame.arrival_ns);
         self.wrong.is_none()
     }
 
-    /// Share of the newest picture's pixels that were measured; `None` where it was not taken anew, or is empty.
-    pub const fn measured_share(&self) -> Option<f64> {
+    /// Share of the newest picture's pixels that were measured; `None` where it was not taken anew, or has been missing for long.
+    pub fn measured_share(&self, time_ns: u64) -> Option<f64> {
+        let silent_s = time_ns.saturating_sub(self.arrived_ns?) as f64 * 1e-9;
         self.measured_share
+            .filter(|_| silent_s < self.config.silent)
     }
 
     /// What is wrong with the camera, where it has given no good picture for long.

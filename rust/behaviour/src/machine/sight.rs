@@ -45,7 +45,10 @@ impl<S: State> Machine<S> {
             format!("lost: the robot has not known where it is for {lasted_s:.0} s{place}")
         } else {
             let (unseen_s, share) = (tick.unseen_s(), tick.situation.measured_share);
-            match share.map(|share| 100.0 * share) {
+            match share
+                .filter(|&share| share > 0.0)
+                .map(|share| 100.0 * share)
+            {
                 Some(percent) => format!(
                     "lost: no ground has been seen for {unseen_s:.0} s, in pictures with {percent:.0} % of their pixels{place}"
                 ),

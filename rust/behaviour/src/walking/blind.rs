@@ -125,8 +125,11 @@ impl WalkingBehaviour {
         self.gaze_at(tick, 0.0, down_rad);
     }
 
-    /// Begins what was not tried yet; false where all was.
+    /// Begins what was not tried yet; false where all was, and where it is the camera that gives no picture: then no place is better.
     fn tries_elsewhere(&mut self, tick: &WayTick<'_>) -> bool {
+        if tick.situation.measured_share.is_none() {
+            return false;
+        }
         let here_m = [tick.pose.x_m, tick.pose.y_m];
         let back_m = (self.came_by.back_from(here_m, &self.config.tuning.blind))
             .filter(|_| !self.tried.stepped_back);
@@ -262,6 +265,18 @@ mod tests {
         assert!(matches!(outcome, Some(Outcome::Refused(_))), "{outcome:?}");
         assert!(after_s < 60.0, "{after_s}");
         assert!(angle_between(0.0, simulation.pose.yaw_rad).abs() > 2.5);
+    }
+
+    #[test]
+    fn who_has_no_picture_stays_where_it_is_and_gives_up_soon() {
+        let mut simulation = Simulation::new(PlanarPose::default(), [1.0, 0.0]);
+        (simulation.blind, simulation.frozen) = (true, true);
+        let (outcome, after_s) = simulation.run(120.0);
+        assert!(matches!(outcome, Some(Outcome::Refused(_))), "{outcome:?}");
+        assert!(
+            after_s < 20.0 && simulation.pose == PlanarPose::default(),
+            "{after_s}"
+        );
     }
 
     /// A box within the robot's reach, at its left: by a hand's breadth, to the right.

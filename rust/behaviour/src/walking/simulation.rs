@@ -42,6 +42,8 @@ pub(crate) struct Simulation {
     /// Patches that stereo never sees.
     pub(crate) holes: Vec<[f64; 3]>,
     pub(crate) blind: bool,
+    /// The camera gives no picture that was taken anew.
+    pub(crate) frozen: bool,
     /// Nothing is seen where the camera looks further than this, rad, from a heading, rad: a wall is too near.
     pub(crate) sees_only: Option<(f64, f64)>,
     /// Nothing is seen beyond this, m: a wall is too near.
@@ -84,6 +86,7 @@ impl Simulation {
             obstacles: Vec::new(),
             holes: Vec::new(),
             blind: false,
+            frozen: false,
             sees_only: None,
             sees_before_x_m: f64::INFINITY,
             dark_beyond_x_m: f64::INFINITY,
@@ -153,7 +156,8 @@ impl Simulation {
                 gaze: self.gaze,
                 frames_used: self.frames,
                 last_frame_ns: self.last_frame_ns,
-                measured_share: (self.pose.x_m < self.dark_beyond_x_m).then_some(1.0),
+                measured_share: (!self.frozen)
+                    .then(|| f64::from(u8::from(self.pose.x_m < self.dark_beyond_x_m))),
             })
             .unwrap();
         self.obey(&decision);
