@@ -10,7 +10,16 @@ import numpy.typing as npt
 from treadwell.course.course import Course
 from treadwell.course.outlines import Floats, near, signed_distance
 from treadwell.course.pieces import Top, bounds
-from treadwell.solving.true_solids import BARELY, FOOT_ROOM, LEG_ROOM, bury, lasting, solids_of
+from treadwell.solving.true_solids import (
+    BARELY,
+    FOOT_ROOM,
+    LEG_ROOM,
+    Boxes,
+    bury,
+    lasting,
+    solids_of,
+    with_own_surfaces,
+)
 
 CELL: Final = 0.03
 """Metres; more on courses that are very large."""
@@ -57,6 +66,9 @@ class TrueGround:
         self._radius, self._tall = radius, tall
         self._solids = [solids_of(element) for element in self._elements]
         self.tops = [top for element in self._elements for top in element.tops]
+        self._every = with_own_surfaces(self._elements, self._solids)
+        self._top_boxes = Boxes([top.polygon[:, :2] for top in self.tops])
+        self._solid_boxes = Boxes([solid.outline for solid, _ in self._every])
         planes = np.array([slope_of(top) for top in self.tops]).reshape(-1, 2)
         self._slopes = np.vstack([np.zeros(2), planes])
         self._climb = math.tan(steepest)
@@ -81,15 +93,12 @@ class TrueGround:
         """
         found = np.full((len(self.tops) + 1, len(points)), np.nan)
         found[0] = 0.0
-        for number, top in enumerate(self.tops, start=1):
+        for number in self._top_boxes.near(points):
+            top = self.tops[number]
             over = np.flatnonzero(top.contains(points))
-            found[number, over] = top.height_at(points[over])
-        first = 1
-        for element, solids in zip(self._elements, self._solids, strict=True):
-            own = range(first, first + len(element.tops))
-            first += len(element.tops)
-            for solid in solids:
-                bury(found, points, solid, own)
+            found[number + 1, over] = top.height_at(points[over])
+        for number in self._solid_boxes.near(points):
+            bury(found, points, *self._every[number])
         return found
 
     def index(self, x: float, y: float) -> tuple[int, int]:
@@ -181,12 +190,12 @@ class TrueGround:
                 the robot's whole radius has to have room.
         """
         found = np.zeros(len(points), dtype=bool)
-        for solids in self._solids:
-            for solid in solids:
-                if solid.bars(level, self._tall):
-                    reach = self._radius if solid.low > level + LEG_ROOM else beside
-                    close = near(solid.outline, points, reach)
-                    found[close[signed_distance(solid.outline, points[close]) < reach]] = True
+        for number in self._solid_boxes.near(points, max(beside, self._radius)):
+            solid, _ = self._every[number]
+            if solid.bars(level, self._tall):
+                reach = self._radius if solid.low > level + LEG_ROOM else beside
+                close = near(solid.outline, points, reach)
+                found[close[signed_distance(solid.outline, points[close]) < reach]] = True
         return found
 
     def _room(self, points: Floats) -> Mask:

@@ -1,6 +1,6 @@
 """What is solid on a true course: where it stands, and what it lies on and keeps from passing."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -68,6 +68,35 @@ def solids_of(element: CourseElement) -> list[Solid]:
         )
         for piece in element.pieces
     ]
+
+
+def with_own_surfaces(
+    elements: Sequence[CourseElement], solids: Sequence[Sequence[Solid]]
+) -> list[tuple[Solid, range]]:
+    """Return every solid with the numbers of its element's surfaces; surface 0 is the ground."""
+    every, first = [], 1
+    for element, ones in zip(elements, solids, strict=True):
+        own = range(first, first + len(element.tops))
+        first += len(element.tops)
+        every += [(solid, own) for solid in ones]
+    return every
+
+
+class Boxes:
+    """The boxes around many outlines: which of these points can touch, at one look."""
+
+    def __init__(self, outlines: Sequence[Floats]) -> None:
+        """Measure the outlines, (n, 2) each, metres."""
+        self._low = np.array([each.min(axis=0) for each in outlines]).reshape(-1, 2)
+        self._high = np.array([each.max(axis=0) for each in outlines]).reshape(-1, 2)
+
+    def near(self, points: Floats, margin: float = 1e-6) -> list[int]:
+        """Return the outlines whose box, grown by a margin, meets the box around points (n, 2)."""
+        low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
+        found: list[int] = np.flatnonzero(
+            ((self._low <= high) & (self._high >= low)).all(axis=1)
+        ).tolist()
+        return found
 
 
 def bury(found: Floats, points: Floats, solid: Solid, own: range) -> None:

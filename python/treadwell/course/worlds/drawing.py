@@ -9,6 +9,7 @@ import numpy as np
 
 from treadwell.course.outlines import Floats, convex_outline, rectangle, signed_distance
 from treadwell.course.scatter import Ground, overlap
+from treadwell.random_streams import stream
 from treadwell.scenario.element_table import ElementTable
 from treadwell.scenario.elements import Box, Cylinder, Door, Platform, Ramp, Stairs, Wall
 from treadwell.scenario.events import Event, Move, SetDoor
@@ -26,6 +27,17 @@ STOP: Final = 0.4
 """Metres around start, points to pass and goal in which nothing stands."""
 CORNERS: Final = 16
 Choice = TypeVar("Choice")
+
+
+def is_closed(name: str, *, seed: int, share: float) -> bool:
+    """Say whether a world leaves no way: in this share of seeds, whatever else is drawn.
+
+    Args:
+        name: the element's.
+        seed: the episode's.
+        share: 0 to 1.
+    """
+    return bool(stream(seed, f"course.{name}.closed").random() < share)
 
 
 @dataclass(frozen=True)

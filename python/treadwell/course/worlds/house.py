@@ -18,6 +18,7 @@ from treadwell.course.worlds.drawing import (
     World,
     away,
     disc,
+    is_closed,
 )
 from treadwell.course.worlds.furniture import furnish
 from treadwell.course.worlds.raised_floor import raise_floor
@@ -58,7 +59,7 @@ def drawn_house(
             f"the points to pass must lie inside, {STOP} m from the outer walls"
         )
     generator = stream(seed, f"course.{name}")
-    closed = bool(generator.random() < house.closed)
+    closed = is_closed(name, seed=seed, share=house.closed)
     passage = max(PASSAGE, width + SPARE)
     ways_up = [thing for thing in ("flight", "ramp") if thing in house.things]
     way_up = str(generator.choice(ways_up)) if ways_up and generator.random() < RAISED else ""

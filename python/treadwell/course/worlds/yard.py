@@ -24,6 +24,7 @@ from treadwell.course.worlds.drawing import (
     World,
     away,
     disc,
+    is_closed,
 )
 from treadwell.errors import InputError
 from treadwell.random_streams import stream
@@ -59,7 +60,7 @@ def drawn_yard(yard: Yard, name: str, *, seed: int, stops: Sequence[Floats], wid
             f"the points to pass must lie inside, {STOP} m from the fences"
         )
     generator = stream(seed, f"course.{name}")
-    closed = bool(generator.random() < yard.closed)
+    closed = is_closed(name, seed=seed, share=yard.closed)
     budget = Budget()
     for _ in range(LAYOUTS):
         world = World(yard, name, generator, budget)
