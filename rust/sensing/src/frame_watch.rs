@@ -78,7 +78,7 @@ impl FrameWatch {
         });
         self.wrong = if measured == 0 {
             Some(Wrong::Empty)
-        } else if same && moved {
+        } else if same && (moved || self.wrong == Some(Wrong::Frozen)) {
             Some(Wrong::Frozen)
         } else {
             None
@@ -162,6 +162,8 @@ mod tests {
         for number in 100..140 {
             assert!(!watch.is_new(&frame(number, 1.0), &turned(number - 99)));
         }
+        // Nor is it taken anew where the camera comes back to where the picture was taken.
+        assert!(!watch.is_new(&frame(140, 1.0), &turned(0)));
         let reason = watch.fault(140 * PERIOD_NS).unwrap().to_string();
         assert!(
             reason.starts_with("sensor: the depth camera gives the same picture"),
