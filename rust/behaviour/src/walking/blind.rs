@@ -7,23 +7,13 @@ use std::f64::consts::PI;
 use geometry::{angle_between, distance_m, wrap_angle};
 use terrain::support::{is_roomy, obstacles_within};
 
-use super::{State, WalkingBehaviour};
+use super::WalkingBehaviour;
 use crate::machine::SightAgain;
 use crate::walking::gaze::Sweep;
+use crate::walking::state::{Blind, State};
 use crate::walking::tick::WayTick;
 use crate::walking::tuning::BlindTuning;
 use crate::{Motion, Velocity};
-
-/// What a robot does that sees nothing.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Blind {
-    /// Stands and turns the head.
-    Look(Sweep),
-    /// Steps back to a place from which it came, m.
-    StepBack { to_m: [f64; 2] },
-    /// Turns on the spot to a heading, rad.
-    Turn { to_rad: f64 },
-}
 
 /// What was tried since the robot last walked.
 #[derive(Debug, Clone, Copy, Default)]

@@ -2,7 +2,6 @@
 
 use geometry::PlanarPose;
 
-use super::blind::Blind;
 use super::gaze::Sweep;
 use crate::machine::{self, Idling};
 
@@ -13,6 +12,17 @@ pub(crate) struct Locating {
     pub(super) sweep: Sweep,
     /// The odometry frame in the map when the robot lost its place.
     pub(super) lost_at: PlanarPose,
+}
+
+/// What a robot does that sees nothing.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Blind {
+    /// Stands and turns the head.
+    Look(Sweep),
+    /// Steps back to a place from which it came, m.
+    StepBack { to_m: [f64; 2] },
+    /// Turns on the spot to a heading, rad.
+    Turn { to_rad: f64 },
 }
 
 /// What the robot is doing, and what it knows only while it does.
