@@ -19,6 +19,8 @@ settings! {
         /// What hangs begins above this share of the room that the robot needs; what is lower stands there, and is seen as the robot
         /// looks at the floor.
         hangs: f64 = 0.5, "1", above_to(0.0, 1.0);
+        /// From this share of the room on it is kept where lines of sight went through: what hangs was looked under there.
+        under: f64 = 0.3, "1", above_to(0.0, 1.0);
         /// A line of sight that ends at nothing is free up to this distance: things nearer show in the camera's picture.
         empty_range: f64 = 2.0, "m", POSITIVE;
         /// Nearer than this the camera sees nothing, so that an empty picture tells nothing.
@@ -119,6 +121,18 @@ impl Overhead {
         band & !self.through.values()[index] == 0
     }
 
+    /// Whether a line of sight went through between a floor and what begins above it at a height, m.
+    pub(super) fn is_looked_under(
+        &self,
+        index: usize,
+        heights: &Heights,
+        (floor_m, headroom_m): (f64, f64),
+        begins_m: f64,
+    ) -> bool {
+        let under = heights.between(floor_m + self.config.under * headroom_m, begins_m);
+        under & self.through.values()[index] != 0
+    }
+
     /// The robot stands here: up to its head nothing else does.
     pub(super) fn stand(
         &mut self,
@@ -200,8 +214,11 @@ impl Overhead {
         for cell in window.within(self.through.area()).cells() {
             let index = cell.row as usize * size[0] + cell.col as usize;
             let floor_m = floor_at(index).map_or(level_m, f64::from);
-            let mut wanted =
-                self.band(heights, floor_m, headroom_m) & !self.through.values()[index];
+            let (from_m, to_m) = (
+                floor_m + self.config.under * headroom_m,
+                floor_m + headroom_m,
+            );
+            let mut wanted = heights.between(from_m, to_m) & !self.through.values()[index];
             let column = eye.column(lattice.center_of(cell));
             let mut seen = 0;
             if wanted != 0 {

@@ -65,7 +65,9 @@ impl Fog {
                     lowest_m.map(|lowest_m| lowest_m - 0.5 * self.config.layer - self.level_m)
                 };
                 match room_m {
-                    Some(room_m) if room_m >= hangs_m && self.is_looked_under(cell) => {
+                    Some(room_m)
+                        if room_m >= hangs_m && self.is_looked_under(cell, index, headroom_m) =>
+                    {
                         let base_m = floor.map_or(self.level_m, f64::from);
                         let seen_m = self.overhead.lowest_m(index).map(|at_m| at_m - base_m);
                         // Within the layer, for who is told how much there is.
@@ -85,16 +87,15 @@ impl Fog {
 
     /// Whether the lowest of what is above a cell's floor, or the robot's own, was looked under: what stands on the floor may be known
     /// from its upper part alone.
-    fn is_looked_under(&self, cell: Cell) -> bool {
+    fn is_looked_under(&self, cell: Cell, index: usize, headroom_m: f64) -> bool {
         let floor_m = self.floor.height(cell).map_or(self.level_m, f64::from);
         let above_m = floor_m + self.config.delta;
         let Some(lowest_m) = self.occupancy.lowest_above_m(cell, above_m) else {
             return false;
         };
-        let [x_m, y_m] = self.view.lattice.center_of(cell);
-        let layers = 1..=((lowest_m - above_m) / self.config.layer) as usize;
-        let mut below_m = layers.map(|down| lowest_m - down as f64 * self.config.layer);
-        below_m.any(|z_m| self.occupancy.probability([x_m, y_m, z_m]) < 0.5)
+        let begins_m = lowest_m - 0.5 * self.config.layer;
+        let (heights, room) = (self.heights(), (floor_m, headroom_m));
+        (self.overhead).is_looked_under(index, &heights, room, begins_m)
     }
 
     /// The layers as heights.
