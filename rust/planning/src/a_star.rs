@@ -9,6 +9,7 @@ use mapping::FloorView;
 use settings::{ConfigError, Table, require};
 use stairs::{ClimbingConfig, Feet, Staircase};
 use terrain::rules::escape;
+use terrain::support::stood_on_m;
 use terrain::{
     GoalLevel, HeightLimits, LongerLandings, Needs, Rectangle, Rules, Sight, StandingAt, Terrain,
 };
@@ -135,7 +136,9 @@ impl Planner for AStar {
         start: &Pose<Map, Robot>,
         goal: &Goal,
     ) -> Result<Plan, PlanError> {
-        let (start, height_m) = place_of(start, goal)?;
+        let (start, by_legs_m) = place_of(start, goal)?;
+        let told_m = self.climbing.levels.told;
+        let height_m = stood_on_m(stairs, [start.x_m, start.y_m], by_legs_m, told_m);
         let stand = StandingAt {
             at_m: [start.x_m, start.y_m],
             height_m,
