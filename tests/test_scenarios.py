@@ -84,7 +84,7 @@ EXPECTED = {
 }
 SEEDS = (0, 1)
 SCUFFS = pytest.mark.xfail(
-    reason="a foot touches the slope on its way: 1 of 9 seeds, and 1 of 9 refused (before: 0 and 1)",
+    reason="a foot touches the slope: 1 of 9 seeds, and 1 of 9 refused (before: 0 and 1)",
     strict=False,
 )
 """Known since the robot looks up: to be mended with slopes that are floor by default."""
