@@ -1,12 +1,12 @@
 """A house that draws itself: rooms, doors between them, and what stands in the rooms."""
 
-import math
 from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 
 from treadwell.course.outlines import Floats
+from treadwell.course.worlds.border import check_inside, enclose
 from treadwell.course.worlds.doorways import WIDTHS, Doorways
 from treadwell.course.worlds.drawing import (
     LAYOUTS,
@@ -51,13 +51,8 @@ def drawn_house(
     Raises:
         InputError: no layout has room for what it is to hold.
     """
-    low, high = np.array(house.area)
     places = np.array(stops)
-    if not ((places >= low + STOP) & (places <= high - STOP)).all():
-        raise InputError(
-            f"course.{name}.area: found {[list(corner) for corner in house.area]}; start, goal and "
-            f"the points to pass must lie inside, {STOP} m from the outer walls"
-        )
+    check_inside(name, house.area, places, border="outer walls")
     generator = stream(seed, f"course.{name}")
     closed = is_closed(name, seed=seed, share=house.closed)
     passage = max(PASSAGE, width + SPARE)
@@ -91,7 +86,7 @@ def _layout(
     if first == last or doors is None:
         return False
     world.kept += [disc(stop, STOP) for stop in stops]
-    _outer_walls(world, house.area)
+    enclose(world, house.area, "wall", height=WALL_HEIGHT, thickness=WALL)
     doorways = Doorways(world, house.things, rooms, cuts, doors, WALL, WALL_HEIGHT)
     goal_doors = [i for i, door in enumerate(doors) if last in door.rooms]
     points = [doorways.point(i) for i in goal_doors]
@@ -111,11 +106,3 @@ def _layout(
 
 def _room_of(rooms: Sequence[Room], place: Floats) -> int:
     return next(i for i, room in enumerate(rooms) if room.holds(place))
-
-
-def _outer_walls(world: World, area: Sequence[Sequence[float]]) -> None:
-    (x0, y0), (x1, y1) = area
-    corners = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
-    for begin, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        along = (end - begin) / math.dist(begin, end) * WALL / 2
-        world.wall(world.called("wall"), begin - along, end + along, WALL_HEIGHT, WALL)

@@ -1,11 +1,11 @@
 """A yard that draws itself: fences, what lies across it, and what lies about."""
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from treadwell.course.outlines import Floats
+from treadwell.course.worlds.border import check_inside, enclose
 from treadwell.course.worlds.clutter import lay_about
 from treadwell.course.worlds.crossings import (
     cross,
@@ -52,13 +52,8 @@ def drawn_yard(yard: Yard, name: str, *, seed: int, stops: Sequence[Floats], wid
     Raises:
         InputError: no layout has room for what it is to hold.
     """
-    low, high = np.array(yard.area)
     places = np.array(stops)
-    if not ((places >= low + STOP) & (places <= high - STOP)).all():
-        raise InputError(
-            f"course.{name}.area: found {[list(corner) for corner in yard.area]}; start, goal and "
-            f"the points to pass must lie inside, {STOP} m from the fences"
-        )
+    check_inside(name, yard.area, places, border="fences")
     generator = stream(seed, f"course.{name}")
     closed = is_closed(name, seed=seed, share=yard.closed)
     budget = Budget()
@@ -76,13 +71,8 @@ def drawn_yard(yard: Yard, name: str, *, seed: int, stops: Sequence[Floats], wid
 
 def _layout(world: World, yard: Yard, stops: Floats, passage: float, *, closed: bool) -> bool:
     """Draw one yard; return whether it is one."""
-    low, high = np.array(yard.area)
     world.kept += [disc(stop, STOP) for stop in stops]
-    corners = np.array([low, (high[0], low[1]), high, (low[0], high[1])])
-    for begin, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        along = (end - begin) / math.dist(begin, end) * FENCE / 2
-        name = world.called("fence")
-        world.wall(name, begin - along, end + along, FENCE_HEIGHT, FENCE)
+    enclose(world, yard.area, "fence", height=FENCE_HEIGHT, thickness=FENCE)
     if not _lay_across(world, yard, stops, closed=closed):
         return False
     if not lay_about(world, yard):
