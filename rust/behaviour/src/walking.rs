@@ -116,7 +116,7 @@ impl WalkingBehaviour {
         levels.check()?;
         let limits = config.limits("no step towards the goal could be taken", "");
         Ok(Self {
-            machine: Machine::new(State::LookAround(Sweep::around(&config)), limits),
+            machine: Machine::new(State::LookAround(Sweep::around(&config, None)), limits),
             config,
             foot_side_m: size.foot_side,
             radius_m: size.radius,

@@ -8,7 +8,7 @@ use geometry::{angle_between, distance_m, wrap_angle};
 use terrain::support::{is_roomy, obstacles_within};
 
 use super::WalkingBehaviour;
-use crate::machine::SightAgain;
+use crate::machine::{SightAgain, State as _};
 use crate::walking::gaze::Sweep;
 use crate::walking::state::{Blind, State};
 use crate::walking::tick::WayTick;
@@ -29,15 +29,15 @@ pub(super) struct CameBy {
 }
 
 impl CameBy {
-    /// Notes a place.
+    /// Notes a place, and forgets those that lie further back than one would step.
     pub(super) fn note(&mut self, place_m: [f64; 2], tuning: &BlindTuning) {
-        let apart_m = tuning.back / PLACES as f64;
-        if (self.places_m.last()).is_none_or(|&last_m| distance_m(last_m, place_m) > apart_m) {
-            if self.places_m.len() > PLACES {
-                let _ = self.places_m.remove(0);
-            }
+        let is_new = |&last_m: &[f64; 2]| distance_m(last_m, place_m) > tuning.reached;
+        if self.places_m.last().is_none_or(is_new) {
             self.places_m.push(place_m);
         }
+        let too_far = |&&back_m: &&[f64; 2]| distance_m(back_m, place_m) > tuning.back;
+        let gone = self.places_m.iter().take_while(too_far).count();
+        self.places_m.drain(..gone).for_each(drop);
     }
 
     /// The map moved, or another behaviour carried the robot on.
@@ -52,9 +52,6 @@ impl CameBy {
     }
 }
 
-/// The way back is remembered in so many pieces.
-const PLACES: usize = 8;
-
 impl WalkingBehaviour {
     /// One tick without sight. A turn and steps back are done to their end: what is seen on the way is seen from there, too, or it was
     /// seen by chance.
@@ -68,16 +65,14 @@ impl WalkingBehaviour {
 
     /// Begins to look for sight. Who walked into the dark first steps back: what it cannot see may stand right before it.
     pub(super) fn begin_blind(&mut self, tick: &WayTick<'_>) {
-        let walked = matches!(self.machine.state(), State::Walk | State::Sidle);
-        if walked && self.machine.is_dark() {
-            self.darks += 1;
-        }
+        let walked_into_it = self.machine.state().walks() && self.machine.is_dark();
+        self.darks += u32::from(walked_into_it);
         if self.darks > self.config.tries {
             self.refuse("blocked: nothing can be seen ahead, time after time".to_owned());
             return;
         }
         self.enter(State::Blind(self.blind_look()));
-        if walked && self.machine.is_dark() && matches!(self.machine.state(), State::Blind(_)) {
+        if walked_into_it {
             let _ = self.tries_elsewhere(tick);
         }
     }

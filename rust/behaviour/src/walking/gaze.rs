@@ -76,39 +76,36 @@ impl Sweep {
         Self::through(&places, 0)
     }
 
-    /// All that can be seen from here: near from left to right, then far from right to left.
-    pub(crate) fn around(config: &WalkingConfig) -> Self {
+    /// All that can be seen from here: near from left to right, then far from right to left; and the room for the head, with a gaze so
+    /// far below the horizon, where one looks up.
+    pub(crate) fn around(config: &WalkingConfig, up_rad: Option<f64>) -> Self {
         let (side, near, far) = (config.sweep, config.gaze_near, config.gaze_far);
-        let places = [
+        let on_the_floor = [
             (0.0, config.gaze_steep),
             (side, near),
             (-side, near),
             (-side, far),
             (side, far),
-            (0.0, far),
         ];
-        Self::through(&places, config.tuning.gaze.last_frames)
+        let last_frames = config.tuning.gaze.last_frames;
+        let Some(up_rad) = up_rad else {
+            return Self::through(&on_the_floor, last_frames).and((0.0, far));
+        };
+        let aside = config.tuning.gaze.up_aside.min(side);
+        // Where walls are near, neither look up nor far shows the ground, without which no frame is used for long.
+        Self::through(&on_the_floor, last_frames)
+            .and((aside, up_rad))
+            .and((-aside, up_rad))
+            .and((0.0, near))
     }
 
-    /// All that can be seen from here, and the room for the head with a gaze so far below the horizon.
-    pub(crate) fn around_and_up(config: &WalkingConfig, up_rad: Option<f64>) -> Self {
-        let Some(up_rad) = up_rad else {
-            return Self::around(config);
-        };
-        let (side, near, far) = (config.sweep, config.gaze_near, config.gaze_far);
-        let aside = config.tuning.gaze.up_aside.min(side);
-        let places = [
-            (0.0, config.gaze_steep),
-            (side, near),
-            (-side, near),
-            (-side, far),
-            (side, far),
-            (aside, up_rad),
-            (-aside, up_rad),
-            // Where walls are near, neither look up nor far shows the ground, without which no frame is used for long.
-            (0.0, near),
-        ];
-        Self::through(&places, config.tuning.gaze.last_frames)
+    /// The same places and one more, as pan and down, rad.
+    fn and(mut self, (pan_rad, down_rad): (f64, f64)) -> Self {
+        if let Some(slot) = self.places.get_mut(self.count) {
+            *slot = Gaze { pan_rad, down_rad };
+            self.count += 1;
+        }
+        self
     }
 
     /// The room for the head at `bearing_rad` and beside it, with a gaze so far below the horizon, and then the floor there.
@@ -195,7 +192,7 @@ mod tests {
     #[test]
     fn a_look_around_reaches_both_sides_near_and_far_and_ends() {
         let config = WalkingConfig::default();
-        let (ticks, seen) = run(Sweep::around(&config), 8);
+        let (ticks, seen) = run(Sweep::around(&config, None), 8);
         assert!(ticks < 1200, "{ticks}");
         for (pan, down) in [
             (1.1, 0.85),

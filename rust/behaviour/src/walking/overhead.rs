@@ -90,7 +90,7 @@ impl WalkingBehaviour {
 
     /// A look all around.
     pub(super) fn around(&self) -> Sweep {
-        Sweep::around_and_up(&self.config, self.up_rad())
+        Sweep::around(&self.config, self.up_rad())
     }
 
     /// Stands and looks up, where the room for the head ahead on the path was not seen, and was not looked at, up to a distance along
