@@ -12,10 +12,20 @@ from test_course import course_of, scenario_of
 from treadwell.course.build import build_course
 from treadwell.course.course import Course
 from treadwell.course.outlines import signed_distance
+from treadwell.course.worlds.border import check_inside, enclose
 from treadwell.course.worlds.clutter import KINDS
 from treadwell.course.worlds.crossings import HIGH, KERBS, crossing_kinds, shutting_kinds
 from treadwell.course.worlds.doorways import AJAR, BARELY, LINTELS, LOW, WIDTHS
-from treadwell.course.worlds.drawing import PASSAGE, STOP, away, disc, is_closed, strip
+from treadwell.course.worlds.drawing import (
+    PASSAGE,
+    STOP,
+    Budget,
+    World,
+    away,
+    disc,
+    is_closed,
+    strip,
+)
 from treadwell.course.worlds.furniture import PERSON
 from treadwell.course.worlds.house import drawn_house
 from treadwell.course.worlds.raised_floor import RISES
@@ -254,3 +264,18 @@ def test_outlines_of_discs_lie_around_them_and_strips_are_as_wide_as_asked() -> 
     line = strip(np.array([0.0, 0.0]), np.array([0.0, 2.0]), 0.2)
     assert float(np.ptp(line[:, 0])) == pytest.approx(0.2)
     assert float(np.ptp(line[:, 1])) == pytest.approx(2.0)
+
+
+def test_a_border_leaves_no_gap_and_no_stop_lies_too_near_to_it() -> None:
+    area = ((0.0, 0.0), (3.0, 2.0))
+    world = World(Yard(kind="yard", area=area), "yard", np.random.default_rng(0), Budget())
+    enclose(world, area, "fence", height=0.5, thickness=0.1)
+    assert [wall.name for wall in world.drawn().elements] == [
+        f"yard.fence {i}" for i in range(1, 5)
+    ]
+    for corner in ((0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (0.0, 2.0)):
+        assert away(world.solid, np.array([corner])) <= 0.0
+    assert away(world.solid, np.array([[1.5, 1.0]])) == pytest.approx(0.95)
+    check_inside("yard", area, np.array([[STOP, STOP]]), border="fences")
+    with pytest.raises(InputError, match=r"course\.yard\.area: .* m from the fences"):
+        check_inside("yard", area, np.array([[STOP - 0.01, STOP]]), border="fences")

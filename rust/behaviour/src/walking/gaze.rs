@@ -99,7 +99,7 @@ impl Sweep {
             .and((0.0, near))
     }
 
-    /// The same places and one more, as pan and down, rad.
+    /// Looks at one more place at its end, given as pan and down, rad.
     fn and(mut self, (pan_rad, down_rad): (f64, f64)) -> Self {
         if let Some(slot) = self.places.get_mut(self.count) {
             *slot = Gaze { pan_rad, down_rad };
