@@ -124,6 +124,17 @@ SCENARIOS: Final[dict[str, Make]] = NO_FILE | {
     "scatter without a way": element(
         'kind = "scatter"\ncount = 100\narea = [[0.3,-0.3],[0.9,0.3]]'
     ),
+    "a house of no rooms": element('kind = "house"\nrooms = 0'),
+    "a house without a place": element('kind = "house"\nrooms = 12'),
+    "a house elsewhere": element('kind = "house"\narea = [[9.0, 9.0], [12.0, 12.0]]'),
+    "a house of dragons": element('kind = "house"\nthings = ["dragon"]'),
+    "a yard of clutter": element('kind = "yard"\nclutter = 60\narea = [[-0.5,-0.5],[2.5,0.5]]'),
+    "a yard inside out": element('kind = "yard"\narea = [[1.0, 1.0], [-1.0, -1.0]]'),
+    "a door of no width": element('kind = "door"\nwidth = 0.0'),
+    "a door more than open": element('kind = "door"\nopen = 1.5'),
+    "a door that is not": toml('[[event]]\nat = 1.0\ndo = "set_door"\nname = "a"\nopen = 1.0'),
+    "a path of nothing": toml('[[event]]\nat = 1.0\ndo = "move"\nname = "a"\npath = []'),
+    "a move to nowhere": toml('[[event]]\nat = 1.0\ndo = "move"\nname = "a"'),
     "rubble of mountains": element('kind = "rubble"\namplitude = 1e6'),
     "a wall of no length": element('kind = "wall"\nfrom = [1.0, 1.0]\nto = [1.0, 1.0]'),
     "an event of no kind": toml("[[event]]\nat = 1.0"),

@@ -192,6 +192,7 @@ def test_every_kind_of_event_is_handled() -> None:
         "add": {"element": {"kind": "box"}},
         "remove": {"name": "a"},
         "move": {"name": "a", "to": [0, 0]},
+        "set_door": {"name": "door", "open": 0.0},
         "push": {"impulse": [0, 0, 0]},
         "kidnap": {"position": [1, 1]},
         "blind": {"duration": 1},
@@ -201,7 +202,8 @@ def test_every_kind_of_event_is_handled() -> None:
         "knock": {"pitch": 0.1},
     }
     assert set(tables) == set(EVENTS)
-    events, physics, _ = prepared(*({"at": 0, "do": do, **t} for do, t in tables.items()))
+    happens = ({"at": 0, "do": do, **t} for do, t in tables.items())
+    events, physics, _ = prepared(*happens, course=({"kind": "door"},))
     advance(events, physics, 0.05)
     assert [do for _, do in events.fired] == list(tables)
     assert [broken.kind for broken in events.broken(0.01)] == ["zero"]
@@ -217,11 +219,12 @@ def test_plain_mujoco_repeats_a_run_with_every_event_that_touches_the_physics(
             "name": "x",
             "start": {},
             "goal": {},
-            "course": [{"kind": "cylinder", "name": "post"}],
+            "course": [{"kind": "cylinder", "name": "post"}, {"kind": "door", "name": "door"}],
             "event": [
                 {"at": 0.1, "do": "add", "element": {"kind": "box", "position": [0.3, 0.0]}},
                 {"at": 0.1, "do": "push", "impulse": [0.3, 0.2, 0.0]},
                 {"at": 0.15, "do": "move", "name": "post", "to": [0.2, 0.0], "speed": 5.0},
+                {"at": 0.2, "do": "set_door", "name": "door", "open": 0.2},
                 {"at": 0.3, "do": "friction", "value": 0.3},
                 {"at": 0.4, "do": "kidnap", "position": [-1.0, 0.0], "yaw": 0.5},
                 {"at": 0.5, "do": "remove", "name": "post"},
@@ -235,7 +238,7 @@ def test_plain_mujoco_repeats_a_run_with_every_event_that_touches_the_physics(
     for _ in range(70):
         events.before_tick(simulation)
         simulation.advance(JointTargets(ROBOT.stand, still, still))
-    assert len(events.fired) == 6
+    assert len(events.fired) == 7
     simulation.save_audit(tmp_path)
     assert replay_audit(tmp_path) is None
 

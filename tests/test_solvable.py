@@ -1,5 +1,6 @@
 """Whether there is a way: the true course, the robot's published limits."""
 
+import math
 import re
 from pathlib import Path
 
@@ -67,6 +68,99 @@ def test_a_beam_above_the_head_is_a_way_and_one_below_is_none() -> None:
     beam = '[[course]]\nkind = "box"\nposition = [1.0, 0.0]\nsize = [0.1, 1.0, 0.1]\nbase = {}\n'
     assert solvable(beam.format(0.62))
     assert not solvable(beam.format(0.5))
+
+
+def test_a_ceiling_over_a_landing_or_over_the_steps_leaves_a_way_or_none() -> None:
+    """The robot's 0.58 m above the landing at 0.09 m, or above the second of three steps."""
+    over = '[[course]]\nkind = "box"\nposition = [{x}, 0.0]\n'
+    over += "size = [{long}, 1.0, 0.1]\nbase = {base}\n"
+    goal = "position = [1.9, 0.0]"
+    for x, long, clear, barred in [(1.9, 1.0, 0.70, 0.65), (0.9, 0.1, 0.69, 0.62)]:
+        assert solvable(stairs() + over.format(x=x, long=long, base=clear), goal)
+        assert not solvable(stairs() + over.format(x=x, long=long, base=barred), goal)
+
+
+def test_a_post_before_the_steps_bars_those_it_stands_before() -> None:
+    post = '[[course]]\nkind = "cylinder"\nposition = [0.55, {y}]\nradius = 0.03\nheight = 0.3\n'
+    for y, way in [((0.0,), True), ((-0.3, -0.15, 0.0, 0.15, 0.3), False)]:
+        posts = "".join(post.format(y=each) for each in y)
+        assert solvable(stairs() + posts, "position = [1.9, 0.0]") is way
+
+
+def slope(degrees: float, rise: float, *, width: float = 1.1) -> str:
+    """A ramp across the corridor up to a floor that is as high, which ends in a drop to neither."""
+    length = rise / math.tan(math.radians(degrees))
+    keys = f"length = {length}\nwidth = {width}\nrise = {rise}\n"
+    top = f"position = [{2.0 + length}, 0.0]\nsize = [2.0, 1.1, {rise}]\n"
+    ramp = f'[[course]]\nkind = "ramp"\nposition = [1.0, 0.0]\n{keys}'
+    return f'{ramp}[[course]]\nkind = "platform"\n{top}'
+
+
+@pytest.mark.parametrize("robot", ["qrio", "nao"])
+@pytest.mark.parametrize(
+    ("degrees", "rise", "way"),
+    [(3.0, 0.06, True), (10.0, 0.2, True), (10.0, 0.06, True), (13.0, 0.2, False),
+     (12.5, 0.06, False), (20.0, 0.06, False)],
+)  # fmt: skip
+def test_a_slope_of_10_degrees_is_a_way_and_one_of_more_than_12_is_none(
+    robot: str, degrees: float, rise: float, way: bool
+) -> None:
+    """A top 60 mm high has no edge that could be climbed instead."""
+    body = load_robot(robot)
+    made = scenario(WALLS.format(y=0.5) + slope(degrees, rise), "position = [2.7, 0.0]")
+    assert is_solvable(made, build_course(made, body), body) is way
+
+
+def test_the_floor_beside_a_high_slope_is_a_way() -> None:
+    """The box around the slope is 15 cm high; the slope itself is not, where it begins."""
+    assert solvable(slope(9.0, 0.15, width=0.5), "position = [1.3, -0.34]", walls=0.7)
+
+
+@pytest.mark.parametrize("rise", [0.008, 0.016])
+@pytest.mark.parametrize("robot", ["qrio", "nao"])
+def test_a_threshold_with_bevels_is_a_way_though_no_sole_finds_a_level_place(
+    robot: str, rise: float
+) -> None:
+    body, length = load_robot(robot), rise / math.tan(math.radians(9.5))
+    ramp = '[[course]]\nkind = "ramp"\nwidth = 1.1\nposition = [{}, 0.0]\n'
+    ramp += "yaw = {}\nlength = {}\nrise = {}\n"
+    course = f'[[course]]\nkind = "platform"\nposition = [1.0, 0.0]\nsize = [0.05, 1.1, {rise}]\n'
+    course += ramp.format(0.975 - length, 0.0, length, rise)
+    course += ramp.format(1.025 + length, 3.14159265, length, rise)
+    made = scenario(WALLS.format(y=0.5) + course)
+    assert is_solvable(made, build_course(made, body), body) is True
+
+
+DOOR = """
+[[course]]
+kind = "door"
+name = "door"
+position = [1.0, 0.0]
+width = 0.5
+height = {height}
+wall = [0.3, 0.3, 1.0]
+open = {open}
+"""
+SET = '[[event]]\nat = 5.0\ndo = "set_door"\nname = "door"\nopen = {}\n'
+
+
+@pytest.mark.parametrize(
+    ("keys", "then", "way"),
+    [
+        ({}, None, True),
+        ({"open": 0.0}, None, False),
+        ({"open": 0.2}, None, False),
+        ({"height": 0.5}, None, False),
+        ({}, 0.0, False),
+        ({"open": 0.0}, 1.0, True),
+    ],
+)
+def test_a_door_is_a_way_as_its_last_event_leaves_it(
+    keys: dict[str, float], then: float | None, way: bool
+) -> None:
+    event = "" if then is None else SET.format(then)
+    course = DOOR.format(**{"height": 0.7, "open": 1.0, **keys})
+    assert solvable(course + event) is way
 
 
 @pytest.mark.slow
@@ -173,7 +267,9 @@ def test_the_ground_knows_surfaces_above_each_other_and_what_lies_on_them() -> N
         '[[course]]\nkind = "platform"\nposition = [1.0, 0.0]\nsize = [0.6, 1.0, 0.03]\n'
         '[[course]]\nkind = "box"\nposition = [1.0, 0.3]\nsize = [0.2, 0.2, 0.4]\n'
     )
-    ground = TrueGround(build_course(made, qrio()), [(0.0, 0.0)], radius=0.14, tall=0.58)
+    ground = TrueGround(
+        build_course(made, qrio()), [(0.0, 0.0)], radius=0.14, tall=0.58, steepest=0.175
+    )
     row, column = ground.index(1.0, -0.1)
     assert ground.height[1, row, column] == pytest.approx(0.03)
     assert not ground.free[0, row, column]

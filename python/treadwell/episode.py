@@ -169,10 +169,10 @@ class Episode:
         times.add_row(self.pilot.timing)
         command = JointTargets(tick.positions, tick.velocities, tick.torques)
         outcome, reason, footsteps = tick.outcome, tick.reason, tick.footsteps
-        if self.scenario.event:
+        if self.course.events:
             self.events.before_tick(simulation)
             self._tell_senses(time_ns)
-        told = self._told(command, time_ns) if self.scenario.event else command
+        told = self._told(command, time_ns) if self.course.events else command
         begin = perf_counter()
         simulation.advance(told)
         times.add("physics", perf_counter() - begin)

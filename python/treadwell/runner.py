@@ -295,5 +295,7 @@ def _result(episode: Episode, scores: Scores, verdict: Verdict, wall_seconds: fl
         timing_ms={stage: timing(values) for stage, values in seconds.items()},
     )
     if seen:
-        result.map = map_counts(remembered, true_cells(course, remembered, headroom, places))
+        result.map = map_counts(
+            remembered, true_cells(episode.events.course_now(), remembered, headroom, places)
+        )
     return result.judged_by(made.expect)

@@ -47,7 +47,7 @@ def checked(
             "radius": scenario.goal.radius,
         },
         "elements": _elements(course),
-        "events": [_event(event) for event in scenario.event],
+        "events": [_event(event) for event in course.events],
         "navigation": scenario.navigation.slots(),
         "expect": scenario.expect.model_dump(mode="json"),
         "configuration": scenario.configuration(),

@@ -11,7 +11,7 @@ from treadwell.course.course import LEVEL_TOLERANCE, Course, CourseElement, Plac
 from treadwell.course.geometry import PREFIX, add_ground, add_movable_body, add_pieces
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import about_z
-from treadwell.course.plan import PlannedElement, plan_elements
+from treadwell.course.plan import PlannedElement, plan_course
 from treadwell.errors import InputError
 from treadwell.mjcf.build import compiled
 from treadwell.robot.load import Robot
@@ -26,9 +26,10 @@ def build_course(scenario: Scenario, robot: Robot) -> Course:
 
     Raises:
         InputError: a file is broken, no scattered layout leaves a way, the robot would start inside
-            an obstacle or over a void, or an event names a joint that the robot does not have.
+            an obstacle or over a void, or an event names a joint or a door that is not there.
     """
-    plans = plan_elements(scenario, robot)
+    planned = plan_course(scenario, robot)
+    plans = planned.elements
     friction = scenario.physics.friction
     spec = robot.spec()
     add_ground(spec, friction)
@@ -58,6 +59,7 @@ def build_course(scenario: Scenario, robot: Robot) -> Course:
         qpos=_standing(model, robot, start),
         texture=texture,
         geom_element=geom_element,
+        events=tuple(planned.events),
     )
     check_start(scenario, robot, course)
     return course
@@ -110,6 +112,7 @@ def _built(
         mocap_id=int(model.body_mocapid[body]) if plan.movable else None,
         origin=plan.origin,
         present=plan.present,
+        hinge=plan.hinge,
     )
 
 

@@ -1,5 +1,6 @@
 """The course as it was built: the model with the robot in it, and what stands where."""
 
+import math
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -9,10 +10,31 @@ import numpy.typing as npt
 
 from treadwell.course.levels import levels, surface_height
 from treadwell.course.outlines import Floats
-from treadwell.course.pieces import Piece, Top
+from treadwell.course.pieces import Piece, Top, about_z
+from treadwell.scenario.events import Event
 
 LEVEL_TOLERANCE: Final = 0.02
 """Metres: a height that a scenario names means the surface within this."""
+
+QUARTER: Final = math.pi / 2
+"""Radians by which a door is open that is wholly open."""
+
+
+@dataclass(frozen=True, slots=True)
+class Hinge:
+    """What a door's leaf turns about.
+
+    Attributes:
+        door: the door's name.
+        open: how far the leaf is open as its pieces lie, 0 to 1.
+    """
+
+    door: str
+    open: float
+
+    def turn(self, opened: float) -> Floats:
+        """Return the quaternion (w, x, y, z) of the leaf's body with the door so far open."""
+        return about_z(QUARTER * (opened - self.open))
 
 
 @dataclass(frozen=True)
@@ -30,6 +52,7 @@ class CourseElement:
         mocap_id: its row of `data.mocap_pos` when events can move it, else None.
         origin: (3,) world: where its body stands when it is where the file puts it.
         present: whether it is there from the beginning.
+        hinge: what it turns about where it is the leaf of a door, else None.
     """
 
     name: str
@@ -42,6 +65,7 @@ class CourseElement:
     mocap_id: int | None
     origin: Floats
     present: bool
+    hinge: Hinge | None = None
 
     @property
     def walkable(self) -> bool:
@@ -70,6 +94,7 @@ class Course:
         qpos: (nq,) the robot in its standing posture at the start.
         texture: (ngeom,) how well stereo sees each geom, 0 to 1.
         geom_element: (ngeom,) index into `elements`, -1 for the ground and the robot.
+        events: what happens on the way: the scenario's, then what drawn elements bring.
     """
 
     model: mujoco.MjModel
@@ -79,6 +104,7 @@ class Course:
     qpos: Floats
     texture: Floats
     geom_element: npt.NDArray[np.intp]
+    events: tuple[Event, ...] = ()
     _by_name: dict[str, CourseElement] = field(default_factory=dict)
 
     def element(self, name: str) -> CourseElement | None:

@@ -1,7 +1,7 @@
 """What happens on the way: a scenario's events, applied to the physics when they are due."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import Final, Protocol
 
 import mujoco
@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from treadwell.course.course import LEVEL_TOLERANCE, Course, CourseElement
+from treadwell.course.doors import with_leaf
 from treadwell.course.geometry import parked
+from treadwell.course.motions import Motion, Swing
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import about_z
-from treadwell.physics.audit import TICK_SECONDS
 from treadwell.robot.load import Robot
 from treadwell.scenario.events import (
     Add,
@@ -25,6 +26,7 @@ from treadwell.scenario.events import (
     Move,
     Push,
     Remove,
+    SetDoor,
 )
 from treadwell.scenario.faults import Fault
 from treadwell.scenario.model import Scenario
@@ -42,16 +44,6 @@ class Physics(Protocol):
 
     def set(self, field: str, value: ArrayLike) -> None:
         """Set a whole field of the model or the data before the next step, and audit it."""
-
-
-@dataclass
-class Motion:
-    """An element on its way."""
-
-    element: CourseElement
-    target: Floats
-    """(2,) world x, y of its reference point."""
-    speed: float
 
 
 class Events:
@@ -72,8 +64,8 @@ class Events:
         """Resolve names and indices once.
 
         Args:
-            scenario: whose events these are.
-            course: built from it.
+            scenario: whose course it is.
+            course: built from it; its events are those that are applied.
             robot: the robot on it.
         """
         self.encoder_offsets: dict[str, float] = {}
@@ -82,17 +74,20 @@ class Events:
         self.knocks: list[Knock] = []
         self.fired: list[tuple[float, str]] = []
         self._course = course
-        self._pending: list[tuple[int, Event]] = list(enumerate(scenario.event))
+        self._pending: list[tuple[int, Event]] = list(enumerate(course.events))
         self._added = _added_names(scenario)
         self._torso = course.model.body(robot.file.body.torso).id
         self._base = int(course.model.joint(robot.base).qposadr[0])
         self._pushes: list[tuple[int, Floats]] = []
         self._motions: dict[str, Motion] = {}
+        self._swings: dict[str, Swing] = {}
+        self._open = {e.name: e.hinge.open for e in course.elements if e.hinge is not None}
+        self._radius = robot.file.body.radius
         self._blind_until = -math.inf
 
     def before_tick(self, physics: Physics) -> None:
         """Do what is due before the physics goes on by one control tick."""
-        if not (self._pending or self._pushes or self._motions):
+        if not (self._pending or self._pushes or self._motions or self._swings):
             return
         time = physics.steps * physics.model.opt.timestep
         position = physics.data.qpos[self._base : self._base + 2].copy()
@@ -101,7 +96,8 @@ class Events:
             self.fired.append((time, item[1].do))
             self._apply(*item, physics, time)
         self._end_pushes(physics)
-        self._advance_motions(physics)
+        self._advance_motions(physics, position)
+        self._advance_swings(physics)
 
     def is_blind(self, time: float) -> bool:
         """Say whether the depth camera sees nothing at a simulated time, seconds."""
@@ -118,7 +114,18 @@ class Events:
         offset: Floats = data.mocap_pos[element.mocap_id] - element.origin
         return offset
 
-    def _apply(  # noqa: C901 - one case for each kind of event
+    def course_now(self) -> Course:
+        """Return the course with its doors as they now are."""
+        if not self._open:
+            return self._course
+        elements = tuple(self.stands(element) for element in self._course.elements)
+        return replace(self._course, elements=elements, _by_name={})
+
+    def stands(self, element: CourseElement) -> CourseElement:
+        """Return an element as its door now is; where it was moved to, `place` says."""
+        return with_leaf(element, self._open.get(element.name, 0.0))
+
+    def _apply(  # noqa: C901, PLR0912 - one case for each kind of event
         self, index: int, event: Event, physics: Physics, time: float
     ) -> None:
         match event:
@@ -131,7 +138,12 @@ class Events:
             case Move():
                 element = self._course.element(event.name)
                 if element is not None and event.name in self.present:
-                    self._motions[event.name] = Motion(element, np.array(event.to), event.speed)
+                    self._motions[event.name] = Motion(element, event)
+            case SetDoor():
+                for leaf in self._course.elements:
+                    if leaf.hinge is not None and leaf.hinge.door == event.name:
+                        begin = self._open[leaf.name]
+                        self._swings[leaf.name] = Swing(leaf, begin, event.open)
             case Push():
                 last = physics.steps + round(PUSH_SECONDS / physics.model.opt.timestep)
                 self._pushes.append((last, np.array(event.impulse) / PUSH_SECONDS))
@@ -175,22 +187,29 @@ class Events:
             self._pushes = acting
             self._set_force(physics)
 
-    def _advance_motions(self, physics: Physics) -> None:
+    def _advance_motions(self, physics: Physics, robot: Floats) -> None:
         """Take every moving element on by one control tick, in the order in which they began."""
         if not self._motions:
             return
         places = physics.data.mocap_pos.copy()
         for name, motion in list(self._motions.items()):
-            place = places[motion.element.mocap_id]
-            way = motion.target - place[:2]
-            distance = float(np.hypot(*way))
-            stride = motion.speed * TICK_SECONDS
-            if distance <= stride:
-                place[:2] = motion.target
+            if motion.advance(places[motion.element.mocap_id], robot, self._radius):
                 del self._motions[name]
-            else:
-                place[:2] += way * (stride / distance)
-        physics.set("mocap_pos", places)
+        if (places != physics.data.mocap_pos).any():
+            physics.set("mocap_pos", places)
+
+    def _advance_swings(self, physics: Physics) -> None:
+        """Turn every leaf on by one control tick, in the order in which they began."""
+        if not self._swings:
+            return
+        turns = physics.data.mocap_quat.copy()
+        for name, swing in list(self._swings.items()):
+            self._open[name] = swing.advance()
+            if swing.element.hinge is not None:
+                turns[swing.element.mocap_id] = swing.element.hinge.turn(self._open[name])
+            if swing.is_over:
+                del self._swings[name]
+        physics.set("mocap_quat", turns)
 
     def _kidnap(self, event: Kidnap, physics: Physics) -> None:
         """Put the robot elsewhere as it stands: its height above the surface and its tilt stay."""

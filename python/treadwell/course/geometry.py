@@ -8,7 +8,8 @@ import numpy as np
 
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import Piece
-from treadwell.scenario.elements import Box, ElementTable
+from treadwell.scenario.element_table import ElementTable
+from treadwell.scenario.elements import Box
 
 PREFIX: Final = "course/"
 """Before the names of a course's bodies and geoms, so that none is also a robot's."""
@@ -23,6 +24,7 @@ COLOURS: Final[dict[str, tuple[float, float, float]]] = {
     "box": (0.79, 0.35, 0.27),
     "cylinder": (0.16, 0.47, 0.56),
     "wall": (0.90, 0.88, 0.83),
+    "door": (0.62, 0.44, 0.28),
     "rubble": (0.50, 0.47, 0.45),
     "mesh": (0.50, 0.42, 0.60),
 }

@@ -18,10 +18,10 @@ from treadwell.course.outlines import (
     signed_distance,
 )
 from treadwell.random_streams import stream
+from treadwell.scenario.element_table import ElementTable
 from treadwell.scenario.elements import (
     Box,
     Cylinder,
-    ElementTable,
     Platform,
     Ramp,
     Rubble,

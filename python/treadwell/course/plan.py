@@ -1,19 +1,28 @@
 """What a course will consist of: every element with its name, geometry and part in the events."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from treadwell.course.assets import mesh_piece
+from treadwell.course.course import Hinge
+from treadwell.course.doors import LEAF, frame_pieces, hinge_of, leaf_piece
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import Piece, Top, simple_pieces
 from treadwell.course.scatter import scattered
 from treadwell.course.stairs import stairs_pieces
+from treadwell.course.worlds.drawing import Drawn
+from treadwell.course.worlds.house import drawn_house
+from treadwell.course.worlds.yard import drawn_yard
 from treadwell.errors import InputError
 from treadwell.robot.load import Robot
-from treadwell.scenario.elements import ElementTable, Mesh, Mjcf, Scatter, Stairs, Wall
-from treadwell.scenario.events import Add, Move, Remove
+from treadwell.scenario.drawn_elements import House, Scatter, Yard
+from treadwell.scenario.element_table import ElementTable
+from treadwell.scenario.elements import ELEMENTS, MOVABLE, Door, Mesh, Mjcf, Stairs, Wall
+from treadwell.scenario.events import Add, Event, Move, Remove, SetDoor
+from treadwell.scenario.messages import nearest
 from treadwell.scenario.model import Scenario
 from treadwell.scenario.values import element_names
 
@@ -35,6 +44,7 @@ class PlannedElement:
         present: it is there from the beginning.
         mjcf: the file of an MJCF world, whose pieces are known after building only.
         shape: vertices and faces of a mesh, world frame.
+        hinge: what it turns about where it is the leaf of a door.
     """
 
     name: str
@@ -46,6 +56,20 @@ class PlannedElement:
     present: bool = True
     mjcf: str | None = None
     shape: tuple[Floats, Any] | None = None
+    hinge: Hinge | None = None
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A course before it is built.
+
+    Attributes:
+        elements: in the order of the file, drawn ones in place, those of events last.
+        events: the scenario's, then what drawn elements bring.
+    """
+
+    elements: list[PlannedElement]
+    events: list[Event]
 
 
 def all_elements(scenario: Scenario) -> list[tuple[str, ElementTable, int | None]]:
@@ -56,64 +80,93 @@ def all_elements(scenario: Scenario) -> list[tuple[str, ElementTable, int | None
     return [(name, e, i) for name, (e, i) in zip(names, listed, strict=True)]
 
 
-def plan_elements(scenario: Scenario, robot: Robot) -> list[PlannedElement]:
-    """Return every element of a scenario, scattered ones drawn.
+def plan_course(scenario: Scenario, robot: Robot) -> Plan:
+    """Return every element of a scenario, those that draw themselves drawn, and all events.
 
     Raises:
-        InputError: a mesh is broken, an event moves what cannot move, or no layout leaves a way.
+        InputError: a mesh is broken, an event names what it cannot move, or no layout leaves a way.
     """
-    moved = {
-        e.name: f"event.{i}.name"
-        for i, e in enumerate(scenario.event)
-        if isinstance(e, Remove | Move)
-    }
-    where = str(scenario.path or scenario.name)
-    plans: list[PlannedElement | tuple[str, Scatter]] = []
-    for name, element, event in all_elements(scenario):
-        if isinstance(element, Scatter | Mjcf) and name in moved:
-            raise InputError(
-                f"{where}: {moved[name]}: found {name!r}; must be an element of one "
-                "body, neither scatter nor mjcf"
-            )
-        if isinstance(element, Scatter):
-            plans.append((name, element))
-            continue
-        movable = event is not None or name in moved
-        plans.append(_planned(scenario, name, element, movable=movable, present=event is None))
-    there = [plan for plan in plans if isinstance(plan, PlannedElement) and plan.present]
+    elements = all_elements(scenario)
+    check_names(scenario, elements)
+    moved = _moved(scenario.event)
+    fixed = [
+        None
+        if isinstance(element, Scatter | House | Yard)
+        else _planned(scenario, name, element, moved, present=event is None)
+        for name, element, event in elements
+    ]
+    there = [plan for plans in fixed if plans is not None for plan in plans if plan.present]
     result: list[PlannedElement] = []
-    for plan in plans:
-        if isinstance(plan, PlannedElement):
-            result.append(plan)
+    events: list[Event] = list(scenario.event)
+    for (name, element, _), plans in zip(elements, fixed, strict=True):
+        if plans is not None:
+            result += plans
             continue
-        name, scatter = plan
-        stops = [scenario.start.position, *scenario.goal.via, scenario.goal.position]
-        try:
-            items = scattered(
-                scatter,
-                name,
-                seed=scenario.seed,
-                stops=[np.array(stop) for stop in stops],
-                solid=[piece for p in there if not p.tops for piece in p.pieces],
-                tops=[top.polygon[:, :2] for p in there for top in p.tops],
-                passage=2 * robot.file.body.radius + SPARE_WIDTH,
-            )
-        except InputError as error:
-            raise InputError(f"{where}: {error}") from None
-        drawn = [
-            _planned(scenario, str(item.name), item, movable=False, present=True) for item in items
+        drawn = _drawn(scenario, robot, name, element, there)
+        moved = _moved(drawn.events)
+        made = [
+            plan
+            for item in drawn.elements
+            for plan in _planned(scenario, str(item.name), item, moved, present=True)
         ]
-        result += drawn
-        there += drawn
-    return result
+        result += made
+        there += made
+        events += drawn.events
+    return Plan(result, events)
+
+
+def _drawn(
+    scenario: Scenario,
+    robot: Robot,
+    name: str,
+    element: ElementTable,
+    there: Sequence[PlannedElement],
+) -> Drawn:
+    """Return what an element that draws itself consists of."""
+    goal = scenario.goal
+    stops = [np.array(stop) for stop in (scenario.start.position, *goal.via, goal.position)]
+    width = 2 * robot.file.body.radius
+    try:
+        if isinstance(element, House):
+            return drawn_house(element, name, seed=scenario.seed, stops=stops, width=width)
+        if isinstance(element, Yard):
+            return drawn_yard(element, name, seed=scenario.seed, stops=stops, width=width)
+        assert isinstance(element, Scatter)
+        items = scattered(
+            element,
+            name,
+            seed=scenario.seed,
+            stops=stops,
+            solid=[piece for p in there if not p.tops for piece in p.pieces],
+            tops=[top.polygon[:, :2] for p in there for top in p.tops],
+            passage=width + SPARE_WIDTH,
+        )
+    except InputError as error:
+        raise InputError(f"{scenario.path or scenario.name}: {error}") from None
+    return Drawn(list(items), [])
+
+
+def _moved(events: Sequence[Event]) -> set[str]:
+    """Return the names of the elements that events move, remove, open or shut."""
+    return {e.name for e in events if isinstance(e, Remove | Move | SetDoor)}
 
 
 def _planned(
-    scenario: Scenario, name: str, element: ElementTable, *, movable: bool, present: bool
-) -> PlannedElement:
+    scenario: Scenario, name: str, element: ElementTable, moved: set[str], *, present: bool
+) -> list[PlannedElement]:
+    """Return an element with its geometry; of a door the frame, and the leaf behind it."""
     pieces: list[Piece] = []
     tops: list[Top] = []
     shape = mjcf = None
+    movable = not present or name in moved
+    origin = origin_of(element)
+    if isinstance(element, Door):
+        leaf = (leaf_piece(element),)
+        hinge, at = Hinge(name, element.open), hinge_of(element)
+        return [
+            PlannedElement(name, element, tuple(frame_pieces(element)), (), origin),
+            PlannedElement(name + LEAF, element, leaf, (), at, movable, hinge=hinge),
+        ]
     if isinstance(element, Mjcf):
         mjcf = element.file
     elif isinstance(element, Mesh):
@@ -124,9 +177,35 @@ def _planned(
         pieces, tops = stairs_pieces(element)
     else:
         pieces, tops = simple_pieces(element, name, scenario.seed)
-    return PlannedElement(
-        name, element, tuple(pieces), tuple(tops), origin_of(element), movable, present, mjcf, shape
-    )
+    return [
+        PlannedElement(
+            name, element, tuple(pieces), tuple(tops), origin, movable, present, mjcf, shape
+        )
+    ]
+
+
+def check_names(scenario: Scenario, elements: Sequence[tuple[str, ElementTable, Any]]) -> None:
+    """Refuse events that name what they cannot move, or no door.
+
+    Raises:
+        InputError: with the event's key.
+    """
+    kinds = {name: str(getattr(element, "kind", "")) for name, element, _ in elements}
+    doors = [name for name, kind in kinds.items() if kind == "door"]
+    for i, event in enumerate(scenario.event):
+        where = f"{scenario.path or scenario.name}: event.{i}.name: found"
+        if isinstance(event, SetDoor) and event.name not in doors:
+            listed = ", ".join(doors) or "there is none"
+            raise InputError(
+                f"{where} {event.name!r}; must be a door of the course: {listed}"
+                f"{nearest(event.name, doors)}"
+            )
+        if isinstance(event, Remove | Move) and kinds.get(event.name, "box") not in MOVABLE:
+            *others, last = (kind for kind in ELEMENTS if kind not in MOVABLE)
+            raise InputError(
+                f"{where} {event.name!r}; must be an element of one body, neither "
+                f"{', '.join(others)} nor {last}"
+            )
 
 
 def origin_of(element: ElementTable) -> Floats:

@@ -10,7 +10,8 @@ from treadwell.course.outlines import Floats, convex_outline, near, signed_dista
 from treadwell.course.pieces import Piece, simple_pieces
 from treadwell.errors import InputError
 from treadwell.random_streams import stream
-from treadwell.scenario.elements import Box, Cylinder, Scatter
+from treadwell.scenario.drawn_elements import Scatter
+from treadwell.scenario.elements import Box, Cylinder
 
 LOWEST = 0.08
 """Metres: a scattered obstacle is at least so high."""
@@ -82,7 +83,7 @@ def _layout(
             item = _draw(f"{name}.{number}", scatter, generator, lower, upper)
             outline = simple_pieces(item, name, 0)[0][0].outline
             far = min(float(signed_distance(outline, stop[None])[0]) for stop in stops)
-            if far > passage / 2 and not any(_overlap(outline, other) for other in outlines):
+            if far > passage / 2 and not any(overlap(outline, other) for other in outlines):
                 break
         else:
             return None
@@ -127,7 +128,7 @@ def _draw(
     )
 
 
-def _overlap(first: Floats, second: Floats) -> bool:
+def overlap(first: Floats, second: Floats) -> bool:
     """Say whether two convex outlines (n, 2) overlap (separating axes)."""
     if (first.max(axis=0) < second.min(axis=0)).any() or (
         second.max(axis=0) < first.min(axis=0)

@@ -74,7 +74,7 @@ class TopView:
                     outline = convex_outline(top.polygon[:, :2] + shift)
                     self._fill(picture, outline, shade)
             else:
-                for piece in element.pieces:
+                for piece in episode.events.stands(element).pieces:
                     self._fill(picture, piece.outline + shift, OBSTACLE)
 
     def _disc(

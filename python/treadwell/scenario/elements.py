@@ -5,10 +5,12 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from treadwell.scenario.drawn_elements import House, Scatter, Yard
+from treadwell.scenario.element_table import ElementTable
 from treadwell.scenario.types import (
     MOST_STEPS,
     Angle,
-    ElementName,
+    Distance,
     FileName,
     Fraction,
     Height,
@@ -20,19 +22,7 @@ from treadwell.scenario.types import (
     RiseOrList,
     Size2,
     Size3,
-    Table,
 )
-
-
-class ElementTable(Table):
-    """What every element has."""
-
-    name: ElementName | None = None
-    """What overrides, events and results call it; no two elements have the same."""
-    mapped: bool = True
-    """False leaves it out of the a-priori map."""
-    texture: Fraction = 1.0
-    """How well stereo sees it, 0 (blank) to 1."""
 
 
 class Stairs(ElementTable):
@@ -161,6 +151,31 @@ class Wall(ElementTable):
         return self
 
 
+class Door(ElementTable):
+    """An opening in a wall, with a lintel above it and a leaf, hinged left, that opens away.
+
+    Position: middle of the opening; yaw: the way through.
+    """
+
+    kind: Literal["door"]
+    """Which kind of element it is."""
+    position: Point2 = (1.0, 0.0)
+    """Middle of the opening: world x, y, m."""
+    yaw: Angle = 0.0
+    """The way through, rad."""
+    width: Length = 0.6
+    """Extent of the opening across the way, m."""
+    height: Length = 0.8
+    """Height of the opening, m: the underside of the lintel."""
+    wall: Annotated[tuple[Distance, Distance, Length], Field(strict=False)] = (0.5, 0.5, 1.0)
+    """The wall that it is in: how far it goes to the left and to the right of the opening, and its
+    height, m."""
+    thickness: Length = 0.05
+    """Thickness of the wall, m, half of it to either side of the position."""
+    open: Fraction = 1.0
+    """How far the leaf is open: 0 shut, 1 by 90 degrees."""
+
+
 class Ramp(ElementTable):
     """An inclined walkable plane. Position: middle of the low edge; yaw: direction of ascent."""
 
@@ -206,32 +221,6 @@ class Mesh(ElementTable):
     """Heading of the file's x axis, rad."""
 
 
-class Scatter(ElementTable):
-    """Random boxes and cylinders, 0.08 m or higher, that leave a way from start to goal."""
-
-    kind: Literal["scatter"]
-    """Which kind of element it is."""
-    area: Annotated[tuple[Point2, Point2], Field(strict=False)] = ((0.5, -0.8), (2.5, 0.8))
-    """Two opposite corners of the area in which their centres lie: world x, y, m."""
-    count: Annotated[int, Field(ge=1, le=200)] = 6
-    """How many there are."""
-    size: Size2 = (0.05, 0.25)
-    """Smallest and largest edge, m."""
-
-    @model_validator(mode="after")
-    def _is_ordered(self) -> Self:
-        (x0, y0), (x1, y1) = self.area
-        if x0 >= x1 or y0 >= y1:
-            raise PydanticCustomError(
-                "order", "must be the lower and then the upper corner", {"key": "area"}
-            )
-        if self.size[0] > self.size[1]:
-            raise PydanticCustomError(
-                "order", "must be the smallest and then the largest edge", {"key": "size"}
-            )
-        return self
-
-
 class Mjcf(ElementTable):
     """An MJCF world in the scenario file's folder, added as it is."""
 
@@ -241,19 +230,32 @@ class Mjcf(ElementTable):
     """Its MJCF file, beside the scenario file."""
 
 
-Element = Annotated[
-    Stairs | Sill | Platform | Box | Cylinder | Wall | Ramp | Rubble | Mesh | Scatter | Mjcf,
-    Field(discriminator="kind"),
-]
-"""Any element of `[[course]]`."""
-
 MovableElement = Annotated[
     Stairs | Sill | Platform | Box | Cylinder | Wall | Ramp | Rubble | Mesh,
     Field(discriminator="kind"),
 ]
-"""What an event can add: one body whose place is known beforehand."""
+"""What an event can add, move or remove: one body whose place is known beforehand."""
 
-ELEMENTS: dict[str, type[ElementTable]] = {
+Element = Annotated[
+    Stairs
+    | Sill
+    | Platform
+    | Box
+    | Cylinder
+    | Wall
+    | Door
+    | Ramp
+    | Rubble
+    | Mesh
+    | Scatter
+    | House
+    | Yard
+    | Mjcf,
+    Field(discriminator="kind"),
+]
+"""Any element of `[[course]]`."""
+
+MOVABLE: dict[str, type[ElementTable]] = {
     "stairs": Stairs,
     "sill": Sill,
     "platform": Platform,
@@ -263,7 +265,15 @@ ELEMENTS: dict[str, type[ElementTable]] = {
     "ramp": Ramp,
     "rubble": Rubble,
     "mesh": Mesh,
+}
+"""Kind -> model of what an event can add, move or remove."""
+
+ELEMENTS: dict[str, type[ElementTable]] = {
+    **MOVABLE,
+    "door": Door,
     "scatter": Scatter,
+    "house": House,
+    "yard": Yard,
     "mjcf": Mjcf,
 }
 """Kind -> model."""

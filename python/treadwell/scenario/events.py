@@ -1,13 +1,22 @@
 """What can happen on the way, as it stands in a scenario file: one model per `do`."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from treadwell.scenario.elements import MovableElement
 from treadwell.scenario.event_table import EventTable
 from treadwell.scenario.faults import Fault
-from treadwell.scenario.types import Angle, ElementName, Friction, Height, Point2, Seconds
+from treadwell.scenario.types import (
+    Angle,
+    ElementName,
+    Fraction,
+    Friction,
+    Height,
+    Point2,
+    Seconds,
+)
 
 Impulse = Annotated[float, Field(ge=-100.0, le=100.0)]
 """One component of a push, N·s."""
@@ -32,16 +41,47 @@ class Remove(EventTable):
 
 
 class Move(EventTable):
-    """An element moves in a straight line; nothing happens when it is not there."""
+    """An element moves to a place or along a path; nothing happens when it is not there."""
 
     do: Literal["move"]
     """What happens."""
     name: ElementName
     """The element's name."""
-    to: Point2
-    """Where it goes: world x, y, m."""
+    to: Point2 | None = None
+    """Where it goes: world x, y, m. Either this or `path`."""
+    path: (
+        Annotated[tuple[Point2, ...], Field(strict=False, min_length=1, max_length=100)] | None
+    ) = None
+    """The points that it goes to one after the other: world x, y, m."""
+    loop: bool = False
+    """Whether it goes on from the path's last point to its first, for ever."""
     speed: Annotated[float, Field(gt=0.0, le=10.0)] = 0.2
     """Speed, m/s."""
+    gives_way: bool = False
+    """Whether it stops before the robot, as a person does, and turns back after three seconds."""
+
+    @model_validator(mode="after")
+    def _has_one_way(self) -> Self:
+        if (self.to is None) == (self.path is None):
+            raise PydanticCustomError("way", "must have either 'to' or 'path'", {"key": None})
+        if self.loop and self.path is None:
+            raise PydanticCustomError("way", "belongs to a 'path'", {"key": "loop"})
+        return self
+
+    def way(self) -> tuple[tuple[float, float], ...]:
+        """Return the points that it goes to, in order: world x, y, m."""
+        return self.path or ((self.to,) if self.to is not None else ())
+
+
+class SetDoor(EventTable):
+    """Somebody opens or shuts a door, within a second."""
+
+    do: Literal["set_door"]
+    """What happens."""
+    name: ElementName
+    """The door's name."""
+    open: Fraction
+    """How far its leaf is open in the end: 0 shut, 1 by 90 degrees."""
 
 
 class Push(EventTable):
@@ -109,7 +149,17 @@ class Knock(EventTable):
 
 
 Event = Annotated[
-    Add | Remove | Move | Push | Kidnap | Blind | ChangeFriction | EncoderOffset | Fault | Knock,
+    Add
+    | Remove
+    | Move
+    | SetDoor
+    | Push
+    | Kidnap
+    | Blind
+    | ChangeFriction
+    | EncoderOffset
+    | Fault
+    | Knock,
     Field(discriminator="do"),
 ]
 """Any entry of `[[event]]`."""
@@ -118,6 +168,7 @@ EVENTS: dict[str, type[EventTable]] = {
     "add": Add,
     "remove": Remove,
     "move": Move,
+    "set_door": SetDoor,
     "push": Push,
     "kidnap": Kidnap,
     "blind": Blind,

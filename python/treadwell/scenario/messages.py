@@ -10,7 +10,7 @@ from pydantic_core import ErrorDetails
 
 from treadwell.additions import known
 from treadwell.components import parameter_tables
-from treadwell.scenario.elements import ELEMENTS
+from treadwell.scenario.elements import ELEMENTS, MOVABLE
 from treadwell.scenario.events import EVENTS
 from treadwell.scenario.model import Expect, Goal, Navigation, Physics, Scenario, Sensors, Start
 from treadwell.scenario.values import element_names
@@ -87,9 +87,9 @@ def describe(error: ErrorDetails, raw: Mapping[str, Any]) -> str:
     if kind in {"union_tag_invalid", "union_tag_not_found"}:
         tag = str(context["discriminator"]).strip("'")
         path = (*path, tag)
-        allowed = EVENTS if tag == "do" else ELEMENTS
+        allowed: Mapping[str, type[BaseModel]] = EVENTS if tag == "do" else ELEMENTS
         if path[-2:-1] == ("element",):
-            allowed = {key: ELEMENTS[key] for key in ELEMENTS if key not in {"scatter", "mjcf"}}
+            allowed = MOVABLE
         found = value_at(raw, path)
         text = f"must be one of {', '.join(allowed)}"
         return _line(path, raw, text + nearest(found, allowed))

@@ -32,6 +32,8 @@ Coordinate = Annotated[float, Field(ge=-LARGEST_M, le=LARGEST_M)]
 """A coordinate in the world, metres."""
 Length = Annotated[float, Field(ge=SMALLEST_M, le=LARGEST_M)]
 """An extent, metres."""
+Distance = Annotated[float, Field(ge=0.0, le=LARGEST_M)]
+"""An extent that may be nothing, metres."""
 Height = Annotated[float, Field(ge=-10.0, le=10.0)]
 """A level or a base above the ground, metres."""
 Angle = Annotated[float, Field(ge=-12.6, le=12.6)]

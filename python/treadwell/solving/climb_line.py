@@ -41,6 +41,7 @@ class ClimbLine:
         self._foot, self._ahead = foot, ahead
         self._side = limits.half_width * np.array([-ahead[1], ahead[0]])
         self._known: dict[int, Floats] = {}
+        self._barred: dict[tuple[int, float], Mask] = {}
 
     def climb(self) -> tuple[Node, Node] | None:
         """Return from where to where it leads; None where the robot cannot go."""
@@ -67,6 +68,8 @@ class ClimbLine:
             if abs(rise) > self._limits.floor_max:
                 edges.append(((i + 0.5) * PROBE - way * PROBE / 2, rise))
             level = float(heights[surface])
+            if self._is_barred(i, level):
+                return None
             x, y = self._point((i + 0.5) * PROBE)
             row, column = self._ground.index(x, y)
             inside = 0 <= row < self._stand.shape[1] and 0 <= column < self._stand.shape[2]
@@ -109,10 +112,28 @@ class ClimbLine:
         return x, y
 
     def _heights(self, i: int) -> Floats:
-        """Return the surfaces' heights at the i-th place from the edge; never on the edge."""
+        """Return the surfaces' heights at the i-th place from the edge; never on the edge.
+
+        What is too steep is no surface to climb over.
+        """
         part, place = divmod(i, PART)
         if part not in self._known:
-            at = PROBE * (np.arange(part * PART, (part + 1) * PART) + 0.5)
-            self._known[part] = self._ground.heights(self._foot + at[:, None] * self._ahead)
-        heights: Floats = self._known[part][:, place]
-        return heights
+            heights = self._ground.heights(self._places(part))
+            heights[self._ground.steep] = np.nan
+            self._known[part] = heights
+        found: Floats = self._known[part][:, place]
+        return found
+
+    def _is_barred(self, i: int, level: float) -> bool:
+        """Say whether something stands or hangs in the way at the i-th place."""
+        part, place = divmod(i, PART)
+        key = part, round(level, 3)
+        if key not in self._barred:
+            beside = self._limits.half_width
+            self._barred[key] = self._ground.barred(self._places(part), level, beside)
+        return bool(self._barred[key][place])
+
+    def _places(self, part: int) -> Floats:
+        at = PROBE * (np.arange(part * PART, (part + 1) * PART) + 0.5)
+        places: Floats = self._foot + at[:, None] * self._ahead
+        return places

@@ -1,5 +1,10 @@
-"""What a robot can do by its folder and the scenario, for a search on the true course."""
+"""What a robot can do by its folder and the scenario, for a search on the true course.
 
+Its width and height, with the sway of a walk, are those of `[body]` in its `robot.toml`; steps are
+those of `[navigation.climbing]` there; of slopes `STEEPEST` holds for all.
+"""
+
+import math
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -7,6 +12,8 @@ from treadwell.core_settings import navigation_parameters
 from treadwell.robot.load import Robot
 from treadwell.scenario.model import Scenario
 
+STEEPEST: Final = math.radians(10.0)
+"""A slope that is walked on; up to 12 degrees a robot may refuse or walk, steeper it refuses."""
 FOOT_GAP: Final = 0.01
 """Metres between the feet side by side."""
 
@@ -22,7 +29,7 @@ class OneWay:
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What a robot can do, by its folder and the scenario, metres."""
+    """What a robot can do, by its folder and the scenario, metres and radians."""
 
     radius: float
     tall: float
@@ -31,6 +38,7 @@ class Limits:
     floor_max: float
     tolerance: float
     side_room: float
+    steepest: float
     up: OneWay
     down: OneWay
 
@@ -60,6 +68,7 @@ def limits_of(scenario: Scenario, robot: Robot) -> Limits:
         floor_max=climbing.get("floor_max", 0.01),
         tolerance=climbing.get("tolerance", 0.0025),
         side_room=climbing.get("side_room", 0.02),
+        steepest=STEEPEST,
         up=OneWay(
             up.get("step_max_z", 0.050),
             up.get("front_x_limit", -0.025),

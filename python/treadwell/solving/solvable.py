@@ -1,6 +1,8 @@
 """Whether there is a way at all: a search on the true course within the robot's published limits.
 
-What a robot refuses is justified where this finds none. Truth-side only: the core never asks.
+It asks for room for the body and the head, on walks and over climbs, for steps and treads that can
+be climbed, and for slopes of 10 degrees or less. What a robot refuses is justified where this finds
+none. Truth-side only: the core never asks.
 """
 
 from collections import defaultdict, deque
@@ -16,7 +18,8 @@ from treadwell.scenario.events import Kidnap
 from treadwell.scenario.model import Scenario
 from treadwell.solving.climb_line import PROBE, ClimbLine, Node
 from treadwell.solving.robot_limits import Limits, limits_of
-from treadwell.solving.true_ground import BARELY, Mask, TrueGround, edges_of
+from treadwell.solving.true_ground import Mask, TrueGround, edges_of
+from treadwell.solving.true_solids import BARELY
 
 EVERY: Final = 0.08
 """Metres between two lines over the same edge."""
@@ -36,7 +39,9 @@ def is_solvable(scenario: Scenario, course: Course, robot: Robot) -> bool | None
         return None
     limits = limits_of(scenario, robot)
     stops = [scenario.start.position, *scenario.goal.via, scenario.goal.position]
-    ground = TrueGround(course, stops, radius=limits.radius, tall=limits.tall)
+    ground = TrueGround(
+        course, stops, radius=limits.radius, tall=limits.tall, steepest=limits.steepest
+    )
     stand = ground.standing(limits.pair / 2, limits.floor_max)
     reached = _reached(ground, stand, limits, _start(ground, stand, scenario, course))
     heights = [None] * len(scenario.goal.via) + [scenario.goal.height]

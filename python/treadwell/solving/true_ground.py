@@ -2,15 +2,24 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 import numpy.typing as npt
 
-from treadwell.course.course import Course, CourseElement
+from treadwell.course.course import Course
 from treadwell.course.outlines import Floats, near, signed_distance
 from treadwell.course.pieces import Top, bounds
+from treadwell.solving.true_solids import (
+    BARELY,
+    FOOT_ROOM,
+    LEG_ROOM,
+    Boxes,
+    bury,
+    lasting,
+    solids_of,
+    with_own_surfaces,
+)
 
 CELL: Final = 0.03
 """Metres; more on courses that are very large."""
@@ -18,10 +27,6 @@ MOST_CELLS: Final = 250
 """Along a side."""
 MARGIN: Final = 1.0
 """Metres of ground around all that matters."""
-LEG_ROOM: Final = 0.15
-"""Metres: what can be walked on stands in the body's way only where it is higher than this."""
-BARELY: Final = 1e-3
-
 Mask = npt.NDArray[np.bool_]
 
 
@@ -29,17 +34,24 @@ class TrueGround:
     """The surfaces of a course that stay where they are, and what stands in the way.
 
     Elements that events add, remove or move are left out: what may not be there keeps nobody from
-    a way, and carries nobody.
+    a way, and carries nobody. A door is as its last event leaves it.
 
     Attributes:
         cell: side of a cell, metres.
         origin: (2,) world, the middle of cell [0, 0].
         height: (s, rows, cols) of the ground and of each top, metres; NaN where it is not.
         free: the same shape: the robot's upright cylinder has room there.
+        steep: (s,) whether a surface is too steep to stand or walk on.
     """
 
     def __init__(
-        self, course: Course, stops: Sequence[tuple[float, float]], *, radius: float, tall: float
+        self,
+        course: Course,
+        stops: Sequence[tuple[float, float]],
+        *,
+        radius: float,
+        tall: float,
+        steepest: float,
     ) -> None:
         """Lay the grid.
 
@@ -48,11 +60,19 @@ class TrueGround:
             stops: start, points to pass and goal, world x, y.
             radius: of the cylinder, metres.
             tall: its height, metres.
+            steepest: slope of a surface that can be walked on, radians.
         """
-        self._elements = [e for e in course.elements if e.present and e.mocap_id is None]
+        self._elements = lasting(course)
         self._radius, self._tall = radius, tall
-        self._solids = [_solids(element) for element in self._elements]
+        self._solids = [solids_of(element) for element in self._elements]
         self.tops = [top for element in self._elements for top in element.tops]
+        self._every = with_own_surfaces(self._elements, self._solids)
+        self._top_boxes = Boxes([top.polygon[:, :2] for top in self.tops])
+        self._solid_boxes = Boxes([solid.outline for solid, _ in self._every])
+        planes = np.array([slope_of(top) for top in self.tops]).reshape(-1, 2)
+        self._slopes = np.vstack([np.zeros(2), planes])
+        self._climb = math.tan(steepest)
+        self.steep = np.hypot(*self._slopes.T) > self._climb + BARELY
         pieces = (piece for element in self._elements for piece in element.pieces)
         low, high = bounds(pieces, np.array(stops))
         low, high = low - MARGIN, high + MARGIN
@@ -73,15 +93,12 @@ class TrueGround:
         """
         found = np.full((len(self.tops) + 1, len(points)), np.nan)
         found[0] = 0.0
-        for number, top in enumerate(self.tops, start=1):
+        for number in self._top_boxes.near(points):
+            top = self.tops[number]
             over = np.flatnonzero(top.contains(points))
-            found[number, over] = top.height_at(points[over])
-        first = 1
-        for element, solids in zip(self._elements, self._solids, strict=True):
-            own = range(first, first + len(element.tops))
-            first += len(element.tops)
-            for solid in solids:
-                _bury(found, points, solid, own)
+            found[number + 1, over] = top.height_at(points[over])
+        for number in self._solid_boxes.near(points):
+            bury(found, points, *self._every[number])
         return found
 
     def index(self, x: float, y: float) -> tuple[int, int]:
@@ -112,35 +129,99 @@ class TrueGround:
             self.height, ((0, 0), (cells, cells), (cells, cells)), constant_values=np.nan
         )
         mask = self.free.copy()
+        mask[self.steep] = False
         for surface in range(len(mask)):
             rows, columns = _extent(mask[surface])
             level, carried = self.height[surface, rows, columns], mask[surface, rows, columns]
-            slope_x, slope_y = self._slope(surface)
             for r, c in disc:
-                expected = level + self.cell * (slope_x * c + slope_y * r)
+                rises = self.cell * (self._slopes @ np.array([c, r]))
                 there = padded[:, _moved(rows, r + cells), _moved(columns, c + cells)]
-                carried &= (np.abs(there - expected) <= floor_max).any(axis=0)
+                # Either surface goes on beyond the crease between them, up to the other's place.
+                one = np.abs(there - level - rises[surface]) <= floor_max
+                other = np.abs(there - rises[:, None, None] - level) <= floor_max
+                carried &= (one | other).any(axis=0)
+            self._carry_on_slopes(surface, (rows, columns), carried, padded, disc)
         return mask
 
-    def _slope(self, surface: int) -> tuple[float, float]:
-        """Return the rise of a surface along x and y, metres a metre."""
-        if surface == 0:
-            return 0.0, 0.0
-        normal = self.tops[surface - 1].normal
-        return float(-normal[0] / normal[2]), float(-normal[1] / normal[2])
+    def _carry_on_slopes(
+        self,
+        surface: int,
+        extent: tuple[slice, slice],
+        carried: Mask,
+        padded: Floats,
+        disc: Sequence[tuple[int, int]],
+    ) -> None:
+        """Add the places from which slopes alone lead to all of the disc, as over a bevel.
+
+        Args:
+            surface: whose places they are.
+            extent: its rows and columns.
+            carried: (rows, columns) of the extent: where it is one floor, changed in place.
+            padded: heights with the disc's reach in cells around them.
+            disc: rows and columns from its middle.
+        """
+        at_row, at_column = np.nonzero(self.free[surface][extent] & ~carried)
+        if self.steep[surface] or not len(at_row):
+            return
+        rows, columns = at_row + extent[0].start, at_column + extent[1].start
+        reach = (padded.shape[1] - self.height.shape[1]) // 2
+        walkable = np.where(self.steep[:, None, None], np.nan, padded)
+        found = {(0, 0): self.height[surface, rows, columns]}
+        for r, c in sorted(disc, key=lambda one: math.hypot(*one))[1:]:
+            share = 1.0 - 1.0 / max(abs(r), abs(c))
+            before = round(share * r), round(share * c)
+            apart = self.cell * math.hypot(r - before[0], c - before[1])
+            there = walkable[:, rows + r + reach, columns + c + reach]
+            away = np.abs(there - found[before])
+            best = np.where(np.isnan(away), np.inf, away).argmin(axis=0)
+            every = np.arange(len(rows))
+            joined = away[best, every] <= self._climb * apart + BARELY
+            found[r, c] = np.where(joined, there[best, every], np.nan)
+        on = np.isfinite(np.stack(list(found.values()))).all(axis=0)
+        carried[at_row[on], at_column[on]] = True
+
+    def barred(self, points: Floats, level: float, beside: float) -> Mask:
+        """Say at which points (n, 2) what stands there or hangs leaves no room to climb.
+
+        Args:
+            points: world.
+            level: of the soles, metres.
+            beside: room that is asked for beside the middle of the feet, metres; below what hangs
+                the robot's whole radius has to have room.
+        """
+        found = np.zeros(len(points), dtype=bool)
+        for number in self._solid_boxes.near(points, max(beside, self._radius)):
+            solid, _ = self._every[number]
+            if solid.bars(level, self._tall):
+                reach = self._radius if solid.low > level + LEG_ROOM else beside
+                close = near(solid.outline, points, reach)
+                found[close[signed_distance(solid.outline, points[close]) < reach]] = True
+        return found
 
     def _room(self, points: Floats) -> Mask:
         """Say for each surface and point whether the cylinder stands free there."""
         level = self.heights(points)
         free = np.isfinite(level)
         for element, solids in zip(self._elements, self._solids, strict=True):
-            least = LEG_ROOM if element.tops else 0.01
+            least = LEG_ROOM if element.tops else FOOT_ROOM
+            slope = element.tops[0] if len(element.tops) == 1 else None
             for solid in solids:
                 close = near(solid.outline, points, self._radius)
                 close = close[signed_distance(solid.outline, points[close]) < self._radius]
                 there = level[:, close]
-                free[:, close] &= ~((solid.high > there + least) & (solid.low < there + self._tall))
+                high: Floats | float = solid.high
+                if slope is not None and not solid.upright:
+                    # Within the radius it is nowhere higher than this.
+                    up = float(np.hypot(*slope_of(slope))) * self._radius
+                    high = np.minimum(solid.high, slope.height_at(points[close]) + up)
+                free[:, close] &= ~((high > there + least) & (solid.low < there + self._tall))
         return free
+
+
+def slope_of(top: Top) -> tuple[float, float]:
+    """Return the rise of a top along x and y, metres a metre."""
+    normal = top.normal
+    return float(-normal[0] / normal[2]), float(-normal[1] / normal[2])
 
 
 def _extent(mask: Mask) -> tuple[slice, slice]:
@@ -154,39 +235,6 @@ def _extent(mask: Mask) -> tuple[slice, slice]:
 
 def _moved(part: slice, by: int) -> slice:
     return slice(part.start + by, part.stop + by)
-
-
-@dataclass(frozen=True, slots=True)
-class _Solid:
-    """A piece: its outline from above, and from where to where it reaches, metres."""
-
-    outline: Floats
-    low: float
-    high: float
-    upright: bool
-
-
-def _solids(element: CourseElement) -> list[_Solid]:
-    return [
-        _Solid(
-            piece.outline,
-            float(piece.vertices[:, 2].min()),
-            float(piece.vertices[:, 2].max()),
-            piece.is_upright,
-        )
-        for piece in element.pieces
-    ]
-
-
-def _bury(found: Floats, points: Floats, solid: _Solid, own: range) -> None:
-    """Take away the surfaces that a solid lies on, in place; `own` are its element's."""
-    close = near(solid.outline, points, 0.0)
-    inside = close[signed_distance(solid.outline, points[close]) < 0.0]
-    levels = found[:, inside]
-    buried = (solid.low <= levels + BARELY) & (levels < solid.high - 5 * BARELY)
-    if not solid.upright:
-        buried[own.start : own.stop] = False  # a slope lies in the box around it
-    found[:, inside] = np.where(buried, np.nan, levels)
 
 
 def edges_of(top: Top) -> list[tuple[Floats, Floats, Floats]]:

@@ -38,6 +38,7 @@ mod tests;
 
 use settings::{ConfigError, MakeError, Part, Table, TableDescription, read};
 use stairs::{ClimbingConfig, Feet};
+use terrain::support::stood_on_m;
 
 use crate::machine::{Interruption, Machine, State as _, Tick};
 use crate::part::{BehaviourNeeds, BehaviourPart};
@@ -180,6 +181,17 @@ impl StairClimbing {
         }
     }
 
+    /// The tick of a robot that has climbed: its height is that of the stair that it stands on.
+    fn on_known_stair<'a>(&self, tick: Tick<'a>) -> Tick<'a> {
+        if self.memory.on.is_none() {
+            return tick;
+        }
+        let (stairs, at_m) = (tick.situation.stairs, [tick.pose.x_m, tick.pose.y_m]);
+        let told_m = self.climbing.levels.told;
+        let ground_m = stood_on_m(stairs, at_m, tick.ground_m, told_m);
+        Tick { ground_m, ..tick }
+    }
+
     const fn is_walking(&self) -> bool {
         matches!(self.machine.state(), State::Walk)
     }
@@ -270,7 +282,7 @@ impl StairClimbing {
 
 impl Behaviour for StairClimbing {
     fn next(&mut self, situation: &Situation<'_>) -> Result<Decision, BehaviourError> {
-        let tick = self.machine.read(situation);
+        let tick = self.on_known_stair(self.machine.read(situation));
         self.keep_time(&tick);
         let stumbles = situation.stepping.stumbled && !self.had_stumbled;
         self.had_stumbled = situation.stepping.stumbled;

@@ -42,6 +42,8 @@ pub struct Situation<'a> {
     pub frames_used: u64,
     /// When the last frame was taken into the map, nanoseconds since the start; `None` before the first.
     pub last_frame_ns: Option<u64>,
+    /// Share of the pixels of the newest picture that were measured; `None` without a picture that was taken anew.
+    pub measured_share: Option<f64>,
 }
 
 /// What the robot declares.

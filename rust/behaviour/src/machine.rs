@@ -28,6 +28,9 @@ pub(crate) struct Limits {
     pub(crate) patience: f64,
     /// Being blind for this long is hopeless.
     pub(crate) blind_limit_s: f64,
+    /// While the robot walks, no more than this share of the picture being measured, for longer than that, s, is being blind, too: the
+    /// whole view is filled by what is too near to be measured.
+    pub(crate) dark: (f64, f64),
     /// Nothing has been done for the goal for this long: the robot gives up.
     pub(crate) idle_limit_s: f64,
     /// What could not be done then.
@@ -43,6 +46,8 @@ pub(crate) struct Machine<S> {
     lasted: Stopwatch,
     /// How long nothing was done for the goal.
     idle: Stopwatch,
+    /// How long next to nothing of the picture was measured.
+    dark: Stopwatch,
     clock: Clock,
     limits: Limits,
 }
@@ -54,6 +59,7 @@ impl<S: State> Machine<S> {
             state,
             lasted: Stopwatch::default(),
             idle: Stopwatch::default(),
+            dark: Stopwatch::default(),
             clock: Clock::default(),
             limits,
         }
@@ -88,6 +94,8 @@ impl<S: State> Machine<S> {
     pub(crate) fn keep_time(&mut self, tick: &Tick<'_>) {
         self.clock.count(tick);
         self.lasted.count(true, tick.passed_s);
+        self.dark
+            .count(tick.is_dark(self.limits.dark.0), tick.passed_s);
         match self.state.idling() {
             Idling::Counts => self.idle.count(true, tick.passed_s),
             Idling::Ends => self.idle.reset(),

@@ -10,6 +10,7 @@ mod handover;
 mod locate;
 mod look_around;
 mod obstacles;
+pub(crate) mod overhead;
 mod progress;
 mod side_leg;
 mod sidle;
@@ -35,9 +36,11 @@ use stairs::{ClimbingConfig, LevelsConfig};
 use crate::machine::{Interruption, Machine, State as _, Stopwatch};
 use crate::part::{BehaviourNeeds, BehaviourPart};
 use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Situation};
+use blind::{CameBy, Tried};
 pub use config::WalkingConfig;
 use gaze::{Gazer, Sweep};
 use obstacles::Followed;
+use overhead::Eyes;
 use progress::Progress;
 pub(crate) use state::State;
 use tick::WayTick;
@@ -74,8 +77,16 @@ pub struct WalkingBehaviour {
     goal: Option<Goal>,
     gazer: Gazer,
     looked: Looked,
+    /// Where the eyes are, and where they looked up; without eyes nothing is looked up at.
+    eyes: Option<Eyes>,
+    looked_up: Looked,
     followed: Followed,
     progress: Progress,
+    /// What was tried against seeing nothing since the robot last walked.
+    tried: Tried,
+    came_by: CameBy,
+    /// How often the pictures went dark while it walked.
+    darks: u32,
     /// Directions looked at in vain, one after the other.
     looks: u32,
     /// The place at which something stood on the way when the robot last stopped for that.
@@ -91,11 +102,8 @@ impl WalkingBehaviour {
     pub(crate) fn of(needs: &BehaviourNeeds<'_>) -> Result<Self, MakeError> {
         let size = &needs.body.description().body;
         let climbing: ClimbingConfig = read(needs.tables, "climbing")?;
-        Ok(Self::new(
-            read(needs.tables, "walking")?,
-            climbing.levels,
-            size,
-        )?)
+        let walking = Self::new(read(needs.tables, "walking")?, climbing.levels, size)?;
+        Ok(walking.with_eyes(Eyes::of(needs.body.description())))
     }
 
     /// Refuses settings that cannot be used.
@@ -108,7 +116,7 @@ impl WalkingBehaviour {
         levels.check()?;
         let limits = config.limits("no step towards the goal could be taken", "");
         Ok(Self {
-            machine: Machine::new(State::LookAround(Sweep::around(&config)), limits),
+            machine: Machine::new(State::LookAround(Sweep::around(&config, None)), limits),
             config,
             foot_side_m: size.foot_side,
             radius_m: size.radius,
@@ -120,8 +128,13 @@ impl WalkingBehaviour {
             goal: None,
             gazer: Gazer::default(),
             looked: Looked::default(),
+            eyes: None,
+            looked_up: Looked::default(),
             followed: Followed::default(),
             progress: Progress::default(),
+            tried: Tried::default(),
+            came_by: CameBy::default(),
+            darks: 0,
             looks: 0,
             watched_m: None,
             stumbles: 0,
@@ -182,7 +195,7 @@ impl WalkingBehaviour {
             Some(Interruption::Arrival) => self.enter(State::Arrive),
             // A robot that has just found its place first looks around.
             Some(Interruption::Blind) if locates => {}
-            Some(Interruption::Blind) => self.enter(State::Blind),
+            Some(Interruption::Blind) => self.begin_blind(tick),
             Some(Interruption::Idle(reason)) => self.refuse(reason),
         }
     }
@@ -197,7 +210,7 @@ impl WalkingBehaviour {
             State::Stop => self.stop(tick),
             State::Arrive => self.arrive(tick),
             State::Refuse { .. } => self.stand(tick),
-            State::Blind => self.wait_for_sight(tick),
+            State::Blind(blind) => self.wait_for_sight(tick, *blind),
             State::Locate(_) => self.locate(tick),
         }
     }

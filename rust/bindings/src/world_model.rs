@@ -36,6 +36,7 @@ impl PyWorldModel {
         let needs = WorldModelNeeds {
             tables: &parse(py, settings)?,
             known_map: None,
+            headroom_m: None,
         };
         let make = WORLD_MODELS
             .find(name)

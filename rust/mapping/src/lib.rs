@@ -7,9 +7,9 @@ pub mod surface;
 mod two_maps;
 
 pub use averaging::{Averaging, AveragingConfig, AveragingTuning};
-pub use model::{FloorView, Insertion, MapError, Surface, Voxel, WorldModel};
+pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};
 pub use part::{WorldModelNeeds, WorldModelPart};
-pub use surface::{Fog, FogConfig, FogTuning};
+pub use surface::{Fog, FogConfig, FogTuning, OverheadTuning};
 pub use two_maps::{
     BeamsTuning, EmptySightTuning, KnownSurfacesTuning, TwoMaps, TwoMapsConfig, TwoMapsTuning,
 };

@@ -26,6 +26,23 @@ pub enum Surface {
     Obstacle(f32),
 }
 
+/// What is known of the room above a cell's floor, up to the robot's head.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum HeadRoom {
+    /// There is room, or nobody asks.
+    #[default]
+    Free,
+    /// The floor was seen, but not all that may hang above it.
+    Unseen,
+    /// Something hangs lower than the robot needs. The cell is an obstacle because of that alone.
+    Low {
+        /// Height of the floor in the map frame, m; NaN where it was not seen, and the room is that above the robot's own level.
+        floor_m: f32,
+        /// From there to what hangs, m.
+        room_m: f32,
+    },
+}
+
 /// The floor, obstacle and unknown view that planners read. Cells are fixed to the map; the window moves with the robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FloorView {
@@ -40,6 +57,8 @@ pub struct FloorView {
     pub gradients: Grid<[f32; 2]>,
     /// Floor that rises by less per metre is level ground seen a little wrong.
     pub least_gradient: f64,
+    /// What is known of the room above each cell's floor.
+    pub head: Grid<HeadRoom>,
 }
 
 impl FloorView {
@@ -52,6 +71,7 @@ impl FloorView {
             sightings: Grid::filled(cols, rows, sightings),
             gradients: Grid::filled(cols, rows, [0.0; 2]),
             least_gradient: 0.0,
+            head: Grid::filled(cols, rows, HeadRoom::Free),
         }
     }
 
@@ -65,6 +85,7 @@ impl FloorView {
         self.cells.shift(cols, rows, &Surface::Unknown);
         self.sightings.shift(cols, rows, &0);
         self.gradients.shift(cols, rows, &[0.0; 2]);
+        self.head.shift(cols, rows, &HeadRoom::Free);
         self.lattice = lattice;
     }
 
@@ -100,6 +121,30 @@ impl FloorView {
         } else {
             gradient
         }
+    }
+
+    /// What is known of the room above the floor at a point of the map frame.
+    pub fn head_at(&self, x_m: f64, y_m: f64) -> HeadRoom {
+        let cell = self.lattice.cell_at(x_m, y_m);
+        self.head.get(cell).copied().unwrap_or_default()
+    }
+
+    /// The view as it were for a robot that needs no room for its head; `None` where that is no other.
+    pub fn without_ceilings(&self) -> Option<Self> {
+        let low = |head: &HeadRoom| matches!(head, HeadRoom::Low { .. });
+        if !self.head.values().iter().any(low) {
+            return None;
+        }
+        let mut view = self.clone();
+        let cells = view.cells.values_mut().iter_mut();
+        for (surface, head) in cells.zip(view.head.values_mut()) {
+            if let HeadRoom::Low { floor_m, .. } = *head {
+                let floor = Some(floor_m).filter(|floor_m| !floor_m.is_nan());
+                *surface = floor.map_or(Surface::Unknown, Surface::Floor);
+                *head = HeadRoom::Free;
+            }
+        }
+        Some(view)
     }
 
     /// What is in a cell; unknown outside the window.

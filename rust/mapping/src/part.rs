@@ -12,6 +12,8 @@ pub struct WorldModelNeeds<'a> {
     pub tables: &'a Tables,
     /// The map that the robot was told, if any.
     pub known_map: Option<&'a KnownMap>,
+    /// Room that the robot needs above a floor, m, where nothing else is set; `None` without a robot.
+    pub headroom_m: Option<f64>,
 }
 
 /// A world model that has a name.

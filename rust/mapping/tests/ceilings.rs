@@ -6,7 +6,7 @@ mod common;
 
 use common::{Block, camera, is_obstacle, look};
 use geometry::{Map, Pose, Robot};
-use mapping::{Fog, FogConfig, Surface, WorldModel};
+use mapping::{Fog, FogConfig, HeadRoom, Surface, WorldModel};
 use proptest::prelude::*;
 
 /// What the robot needs to walk upright, m.
@@ -68,6 +68,81 @@ proptest! {
             prop_assert!(is_obstacle(surface), "{:?} at {}", surface, underside_m);
         }
     }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn on_a_floor_of_any_height_40_mm_more_than_the_robot_needs_are_enough_and_20_mm_less_are_not(floor_m in 0.0..0.12f64) {
+        for (more_m, passes) in [(0.04, true), (-0.02, false)] {
+            let mut fog = fog(Some(HEADROOM_M));
+            let platform = Block::new([0.5, -1.0, 0.0], [2.0, 1.0, floor_m], true);
+            look_ahead(&mut fog, &[platform, bar(floor_m + HEADROOM_M + more_m)], &at(0.0));
+            let surface = fog.view().at(UNDER[0], UNDER[1]);
+            prop_assert!(passes != is_obstacle(surface), "{:?} with {} m more over {} m", surface, more_m, floor_m);
+        }
+    }
+}
+
+/// Looks at the floor alone: the horizon is above the picture.
+fn look_down(fog: &mut Fog, blocks: &[Block]) {
+    let pose = at(0.0);
+    for _ in 0..3 {
+        let planes = look(blocks, &pose, camera(0.5, 0.6, 0.0));
+        let _ = fog.insert(&planes, &pose).unwrap();
+    }
+}
+
+#[test]
+fn the_room_above_a_floor_is_unseen_until_the_gaze_rises_even_where_nothing_ends_it() {
+    let mut fog = fog(Some(HEADROOM_M));
+    let head = |fog: &Fog| fog.view().head_at(UNDER[0], UNDER[1]);
+    look_down(&mut fog, &[]);
+    assert_eq!(head(&fog), HeadRoom::Unseen);
+    assert_eq!(
+        fog.view().head_at(0.02, 0.02),
+        HeadRoom::Free,
+        "it stands there"
+    );
+    look_ahead(&mut fog, &[], &at(0.0));
+    assert_eq!(head(&fog), HeadRoom::Free);
+}
+
+#[test]
+fn what_hangs_too_low_is_an_obstacle_for_the_head_alone_and_what_stands_is_one_for_all() {
+    let mut fog = fog(Some(HEADROOM_M));
+    let stands = Block::new([0.6, 0.15, 0.0], [0.65, 0.22, 0.8], false);
+    look_ahead(&mut fog, &[bar(0.5), stands], &at(0.0));
+    let view = fog.view();
+    let HeadRoom::Low { floor_m, room_m } = view.head_at(UNDER[0], UNDER[1]) else {
+        panic!("{:?}", view.head_at(UNDER[0], UNDER[1]));
+    };
+    assert!(
+        floor_m.abs() < 1e-3 && (room_m - 0.5).abs() <= 0.04,
+        "{floor_m} {room_m}"
+    );
+    assert!(is_obstacle(view.at(UNDER[0], UNDER[1])));
+    let open = view.without_ceilings().unwrap();
+    assert!(matches!(open.at(UNDER[0], UNDER[1]), Surface::Floor(_)));
+    assert!(
+        is_obstacle(open.at(0.62, 0.18)),
+        "{:?}",
+        view.head_at(0.62, 0.18)
+    );
+    assert!(open.without_ceilings().is_none());
+}
+
+#[test]
+fn without_a_headroom_nobody_asks_for_room() {
+    let mut fog = fog(None);
+    look_down(&mut fog, &[]);
+    assert!(
+        fog.view()
+            .head
+            .values()
+            .iter()
+            .all(|head| *head == HeadRoom::Free)
+    );
 }
 
 #[test]

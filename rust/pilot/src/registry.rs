@@ -58,6 +58,7 @@ impl Making<'_> {
         let needs = WorldModelNeeds {
             tables: &self.settings.navigation.tables,
             known_map: self.known_map,
+            headroom_m: Some(self.body.description().body.height),
         };
         Ok(WORLD_MODELS.find(&self.settings.navigation.world_model)?(
             &needs,

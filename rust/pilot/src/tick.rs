@@ -178,11 +178,11 @@ impl Pilot {
             gaze: self.walker.gaze(),
             frames_used: self.perception.frames_used,
             last_frame_ns: self.perception.last_frame_ns,
+            measured_share: self.frames.measured_share(observation.time_ns),
         };
-        let camera = self.frames.fault(situation.time_ns);
         let behaviour = self.behaviour.as_mut();
         let decision = self.timing.measure(Stage::Behave, || {
-            watch::decide(behaviour, &situation, fault.as_ref(), camera)
+            watch::decide(behaviour, &situation, fault.as_ref(), &self.frames)
         })?;
         if decision.goal_passed {
             self.goals.advance();

@@ -1,5 +1,6 @@
 //! The planner: a path by A*, kept as long as it holds.
 
+mod ceilings;
 mod choice;
 mod path_search;
 
@@ -8,6 +9,7 @@ use mapping::FloorView;
 use settings::{ConfigError, Table, require};
 use stairs::{ClimbingConfig, Feet, Staircase};
 use terrain::rules::escape;
+use terrain::support::stood_on_m;
 use terrain::{
     GoalLevel, HeightLimits, LongerLandings, Needs, Rectangle, Rules, Sight, StandingAt, Terrain,
 };
@@ -135,7 +137,9 @@ impl Planner for AStar {
         start: &Pose<Map, Robot>,
         goal: &Goal,
     ) -> Result<Plan, PlanError> {
-        let (start, height_m) = place_of(start, goal)?;
+        let (start, by_legs_m) = place_of(start, goal)?;
+        let told_m = self.climbing.levels.told;
+        let height_m = stood_on_m(stairs, [start.x_m, start.y_m], by_legs_m, told_m);
         let stand = StandingAt {
             at_m: [start.x_m, start.y_m],
             height_m,
@@ -161,6 +165,10 @@ impl Planner for AStar {
         if found.as_ref().is_err_and(elsewhere) && self.goal_level.is_seen() {
             levelled = self.goal_level.give_up(goal);
             found = self.find(&stand, &levelled);
+        }
+        let barred = (found.as_ref()).map_or(true, |path| !path.end.is_certain());
+        if barred && let Some(no_way) = self.under_ceilings((view, stairs), &stand, &levelled) {
+            found = Err(no_way);
         }
         Ok(self.choose(rest, found, &levelled, &start))
     }

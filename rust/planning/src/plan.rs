@@ -112,6 +112,8 @@ pub struct Path {
 pub enum Refusal {
     /// Something stands in every way.
     Blocked,
+    /// Something hangs lower than the robot is high.
+    TooLow,
     /// There are gaps, but none is as wide as the robot.
     TooNarrow,
     /// Steps lead there, but one is too high.
@@ -133,6 +135,7 @@ impl Refusal {
     pub const fn word(self) -> &'static str {
         match self {
             Self::Blocked => "blocked",
+            Self::TooLow => "too_low",
             Self::TooNarrow => "too_narrow",
             Self::StepTooHigh => "step_too_high",
             Self::TreadTooShort => "tread_too_short",

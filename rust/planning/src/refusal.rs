@@ -107,7 +107,7 @@ pub(crate) fn explain(
     let widest = widest_way(terrain, ends, start, crack_m);
     let gap_m = 2.0 * widest.clearance_m;
     let needed = 2.0 * needed_m;
-    if gap_m >= crack_m && gap_m < needed {
+    if gap_m >= crack_m && gap_m < needed && widest.is_seen {
         return NoWay {
             refusal: Refusal::TooNarrow,
             sentence: format!("the widest gap is {gap_m:.2} m, {needed:.2} m are needed"),
@@ -201,6 +201,8 @@ fn unjoined(words: Words<'_>, rise_m: f64) -> NoWay {
 struct Widest {
     /// Clearance at the narrowest place of the widest way, m; 0 where there is no way for a point either.
     clearance_m: f64,
+    /// Whether the floor at the narrowest place was seen: a gap in what is known of a wall is none.
+    is_seen: bool,
     /// Octile distance in cells from the goal that a point could reach by gaps wider than a crack.
     nearest_cells: f64,
 }
@@ -213,9 +215,9 @@ fn widest_way(terrain: &Terrain, ends: &PathEnds<'_>, start: usize, crack_m: f64
         .collect();
     let cells = Cells::new(&open, terrain.cols);
     let mut seen = vec![false; open.len()];
-    let mut queue = BinaryHeap::from([(u32::MAX, Reverse(start))]);
+    let mut queue = BinaryHeap::from([(u32::MAX, true, Reverse(start))]);
     let mut nearest_cells = f64::INFINITY;
-    while let Some((narrowest, Reverse(cell))) = queue.pop() {
+    while let Some((narrowest, is_seen, Reverse(cell))) = queue.pop() {
         if std::mem::replace(&mut seen[cell], true) {
             continue;
         }
@@ -226,6 +228,7 @@ fn widest_way(terrain: &Terrain, ends: &PathEnds<'_>, start: usize, crack_m: f64
         if ends.cost(cell).is_some() {
             return Widest {
                 clearance_m,
+                is_seen,
                 nearest_cells,
             };
         }
@@ -238,12 +241,18 @@ fn widest_way(terrain: &Terrain, ends: &PathEnds<'_>, start: usize, crack_m: f64
                 } else {
                     terrain.distance.squared(next)
                 };
-                queue.push((narrowest.min(here), Reverse(next)));
+                let (narrowest, is_seen) = if here < narrowest {
+                    (here, !terrain.unknown[next])
+                } else {
+                    (narrowest, is_seen)
+                };
+                queue.push((narrowest, is_seen, Reverse(next)));
             }
         });
     }
     Widest {
         clearance_m: 0.0,
+        is_seen: false,
         nearest_cells: nearest_cells.min(ends.remaining(start)),
     }
 }

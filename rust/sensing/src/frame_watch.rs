@@ -32,6 +32,8 @@ pub struct FrameWatch {
     /// Where the camera was when the last new picture was taken.
     taken: Option<Pose<Robot, Camera>>,
     wrong: Option<Wrong>,
+    measured_share: Option<f64>,
+    arrived_ns: Option<u64>,
     good_ns: Option<u64>,
     begin_ns: Option<u64>,
 }
@@ -44,6 +46,8 @@ impl FrameWatch {
             last_m: Vec::new(),
             taken: None,
             wrong: None,
+            measured_share: None,
+            arrived_ns: None,
             good_ns: None,
             begin_ns: None,
         }
@@ -54,13 +58,15 @@ impl FrameWatch {
         let _ = self.begin_ns.get_or_insert(time_ns);
     }
 
-    /// Takes in a picture and where the joints say that the camera was. Whether it can be used: a frozen one tells nothing.
+    /// Takes in a picture and where the joints say that the camera was. Whether it can be used: one that is frozen, or without depth, tells nothing.
     pub fn is_new(&mut self, frame: &Frame, robot_from_camera: &Pose<Robot, Camera>) -> bool {
         let same = self.last_m.len() == frame.depth_m.len()
             && (self.last_m.iter())
                 .zip(&frame.depth_m)
                 .all(|(before_m, now_m)| before_m.to_bits() == now_m.to_bits());
-        let empty = !frame.depth_m.iter().any(|depth_m| depth_m.is_finite());
+        let measured = (frame.depth_m.iter())
+            .filter(|depth_m| depth_m.is_finite())
+            .count();
         if !same || self.taken.is_none() {
             self.last_m.clone_from(&frame.depth_m);
             self.taken = Some(*robot_from_camera);
@@ -70,9 +76,9 @@ impl FrameWatch {
             motion.translation.vector.norm() > self.config.moved
                 || motion.rotation.angle() > self.config.turned
         });
-        self.wrong = if empty {
+        self.wrong = if measured == 0 {
             Some(Wrong::Empty)
-        } else if same && moved {
+        } else if same && (moved || self.wrong == Some(Wrong::Frozen)) {
             Some(Wrong::Frozen)
         } else {
             None
@@ -80,7 +86,17 @@ impl FrameWatch {
         if self.wrong.is_none() {
             self.good_ns = Some(frame.arrival_ns);
         }
-        self.wrong != Some(Wrong::Frozen)
+        let share = measured as f64 / frame.depth_m.len().max(1) as f64;
+        self.measured_share = (self.wrong != Some(Wrong::Frozen)).then_some(share);
+        self.arrived_ns = Some(frame.arrival_ns);
+        self.wrong.is_none()
+    }
+
+    /// Share of the newest picture's pixels that were measured; `None` where it was not taken anew, or has been missing for long.
+    pub fn measured_share(&self, time_ns: u64) -> Option<f64> {
+        let silent_s = time_ns.saturating_sub(self.arrived_ns?) as f64 * 1e-9;
+        self.measured_share
+            .filter(|_| silent_s < self.config.silent)
     }
 
     /// What is wrong with the camera, where it has given no good picture for long.
@@ -146,6 +162,8 @@ mod tests {
         for number in 100..140 {
             assert!(!watch.is_new(&frame(number, 1.0), &turned(number - 99)));
         }
+        // Nor is it taken anew where the camera comes back to where the picture was taken.
+        assert!(!watch.is_new(&frame(140, 1.0), &turned(0)));
         let reason = watch.fault(140 * PERIOD_NS).unwrap().to_string();
         assert!(
             reason.starts_with("sensor: the depth camera gives the same picture"),
@@ -159,7 +177,7 @@ mod tests {
     fn a_camera_that_sees_nothing_or_is_silent_is_told() {
         let mut watch = watch();
         for number in 0..100 {
-            let _ = watch.is_new(&frame(number, f32::NAN), &turned(number));
+            assert!(!watch.is_new(&frame(number, f32::NAN), &turned(number)));
         }
         let reason = watch.fault(100 * PERIOD_NS).unwrap().to_string();
         assert!(reason.contains("no depth in any pixel"), "{reason}");

@@ -10,6 +10,7 @@ pub mod edge_costs;
 pub mod escape;
 pub mod far_levels;
 mod gaps;
+pub mod head_room;
 mod height_differences;
 mod heights;
 pub mod laid_stairs;
@@ -29,7 +30,7 @@ use crate::{Sight, Terrain, TerrainConfig};
 use voronoi::VoronoiConfig;
 
 /// All rules, in order.
-pub const RULES: [Rule; 19] = [
+pub const RULES: [Rule; 20] = [
     // Decides which cells belong to recognised stairs or lie beside them, and how high those are.
     Rule {
         name: "stair_cells",
@@ -117,6 +118,11 @@ pub const RULES: [Rule; 19] = [
     Rule {
         name: "obstacle_costs",
         apply: |rules, terrain, _| rules.obstacle_costs.apply(terrain),
+    },
+    // Decides what a metre costs where the room for the head was not seen.
+    Rule {
+        name: "head_room",
+        apply: |rules, terrain, sight| head_room::apply(terrain, sight, &rules.config.head_room),
     },
     // Decides where users chose it, what a metre costs off the lines with most room.
     Rule {

@@ -162,6 +162,16 @@ pub fn stairs_under(
     })
 }
 
+/// Height of the stair that a robot stands on whose own height, m, is no further from it than `told_m`; else its own. By its legs alone
+/// its height drifts from step to step, and the rise of the next stair with it.
+pub fn stood_on_m(stairs: &Staircase, at_m: [f64; 2], height_m: f64, told_m: f64) -> f64 {
+    let drift_m = |stair: &&Stair<Map>| (stair.height_m() - height_m).abs();
+    stairs_under(stairs, at_m, (height_m, told_m))
+        .filter(|stair| 2.0 * stair.front.aside_m(at_m).abs() < stair.front.length_m())
+        .min_by(|a, b| drift_m(a).total_cmp(&drift_m(b)))
+        .map_or(height_m, Stair::height_m)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -201,6 +211,19 @@ mod tests {
         assert_eq!(count(&stairs), 0);
         assert!(!is_roomy(&floor.view, [0.0; 2], 0.1) && is_roomy(&floor.view, [0.5, 0.0], 0.1));
         assert!(is_roomy(&floor.view, [1e12, 0.0], 1e9), "beyond the window");
+    }
+
+    #[test]
+    fn who_stands_on_a_stair_is_as_high_as_it_is_and_who_stands_beside_or_much_lower_is_not() {
+        let stairs = Staircase {
+            stairs: vec![stair(0.0, 0.3, 0.26, 0.6)],
+            ..Staircase::default()
+        };
+        let height_m = |at_m: [f64; 2], by_legs_m: f64| stood_on_m(&stairs, at_m, by_legs_m, 0.02);
+        assert_eq!(height_m([0.1, 0.0], 0.273), 0.26);
+        for (at_m, by_legs_m) in [([0.1, 0.0], 0.23), ([-0.1, 0.0], 0.27), ([0.1, 0.5], 0.27)] {
+            assert_eq!(height_m(at_m, by_legs_m), by_legs_m, "{at_m:?}");
+        }
     }
 
     #[test]

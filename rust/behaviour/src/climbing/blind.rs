@@ -16,7 +16,7 @@ impl StairClimbing {
             return Motion::Stand;
         }
         if !looks {
-            self.head.search(0.0);
+            self.head.look_down();
         }
         let looks = !self.head.advance(tick.situation.frames_used, tick.passed_s);
         self.machine.go_on(State::Blind { looks });

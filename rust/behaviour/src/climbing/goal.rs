@@ -34,6 +34,7 @@ impl Tick<'_> {
                 | Refusal::GapTooShort
                 | Refusal::TooSteep
                 | Refusal::Drop
+                | Refusal::TooLow
         ))
     }
 

@@ -72,6 +72,21 @@ impl ClimbingHead {
         ]);
     }
 
+    /// Begins to look for what the feet stand on: down before them, far to both sides, and down again, where it waits for frames.
+    pub(crate) fn look_down(&mut self) {
+        let aside_rad = self.walking.tuning.gaze.aside;
+        let swing_rad = self.tuning.swing.min(self.walking.sweep);
+        let (feet, near) = (self.walking.gaze_feet, self.walking.gaze_near);
+        self.begin(&[
+            (0.0, feet),
+            (swing_rad, near),
+            (-swing_rad, near),
+            (-aside_rad, feet),
+            (aside_rad, feet),
+            (0.0, feet),
+        ]);
+    }
+
     /// Begins to look at stairs from near by: at their first edge and up or down all of them.
     pub(crate) fn inspect(&mut self, place_m: [f64; 2]) {
         let Gaze { pan_rad, down_rad } = self.towards(place_m);

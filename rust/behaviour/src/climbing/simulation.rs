@@ -232,6 +232,7 @@ impl Simulation {
                 gaze: self.gaze,
                 frames_used: self.frames,
                 last_frame_ns: self.last_frame_ns,
+                measured_share: Some(1.0),
             })
             .unwrap();
         self.obey(&decision);

@@ -74,7 +74,8 @@ impl StairClimbing {
             .ahead
             .is_sure(self.walking.config().tuning.look_around.sure_after);
         if let Some(leg) = &leg {
-            if sure && leg.is_reached(&tick.pose, &self.config.tuning.leg) && !looking {
+            let reached = leg.is_reached(&tick.pose, &self.config.tuning.leg);
+            if sure && reached && !looking && !self.looks_up(tick) {
                 self.flight.adopt(leg.steps);
                 self.head.gazer.start(situation.gaze);
                 self.enter(State::Align);
@@ -113,6 +114,13 @@ impl StairClimbing {
             decision.state = State::Search.name();
         }
         Ok(decision)
+    }
+
+    /// Before a climb the robot looks up at what its head would meet on the way over it, where nobody did.
+    fn looks_up(&mut self, tick: &Tick<'_>) -> bool {
+        let path = tick.situation.plan.and_then(|plan| plan.way.as_ref().ok());
+        let within_m = self.walking.config().look_up;
+        path.is_some_and(|path| self.walking.looks_up(tick, path, within_m))
     }
 
     /// The next stairs that need a closer look.

@@ -22,6 +22,12 @@ impl<S: State> Machine<S> {
             1.0
         };
         tick.unseen_s() > patience * self.limits.blind_after_s
+            || (self.state.walks() && self.is_dark())
+    }
+
+    /// Whether the pictures have been dark for long.
+    pub(crate) fn is_dark(&self) -> bool {
+        self.dark.s() > self.limits.dark.1
     }
 
     /// Whether a robot sees again that stands for want of sight, since it entered its state.
@@ -38,8 +44,16 @@ impl<S: State> Machine<S> {
             let lasted_s = self.lasted_s();
             format!("lost: the robot has not known where it is for {lasted_s:.0} s{place}")
         } else {
-            let unseen_s = tick.unseen_s();
-            format!("lost: nothing has been seen for {unseen_s:.0} s{place}")
+            let (unseen_s, share) = (tick.unseen_s(), tick.situation.measured_share);
+            match share
+                .filter(|&share| share > 0.0)
+                .map(|share| 100.0 * share)
+            {
+                Some(percent) => format!(
+                    "lost: no ground has been seen for {unseen_s:.0} s, in pictures with {percent:.0} % of their pixels{place}"
+                ),
+                None => format!("lost: nothing has been seen for {unseen_s:.0} s{place}"),
+            }
         })
     }
 }

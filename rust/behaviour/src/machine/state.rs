@@ -42,6 +42,11 @@ pub(crate) trait State: Debug + Clone {
         false
     }
 
+    /// Whether the robot walks by what it has seen ahead.
+    fn walks(&self) -> bool {
+        false
+    }
+
     /// Whether it is the same state, whatever is known in it.
     fn is_kind_of(&self, other: &Self) -> bool {
         discriminant(self) == discriminant(other)

@@ -14,6 +14,7 @@ const LIMITS: Limits = Limits {
     blind_after_s: 1.0,
     patience: 4.0,
     blind_limit_s: 4.05,
+    dark: (0.0, 0.3),
     idle_limit_s: 9.0,
     idle_words: "nothing could be done",
     place_words: ", here",
@@ -70,6 +71,7 @@ impl World {
             gaze: Gaze::default(),
             frames_used: if sees { tick } else { 0 },
             last_frame_ns: sees.then_some(time_ns),
+            measured_share: Some(1.0),
         }
     }
 }

@@ -61,6 +61,12 @@ impl Tick<'_> {
         Some((height_m - self.ground_m).abs())
     }
 
+    /// Whether no more than this share of the newest picture was measured, once anything was.
+    pub(crate) fn is_dark(&self, share: f64) -> bool {
+        let situation = self.situation;
+        situation.frames_used > 0 && situation.measured_share.unwrap_or(0.0) <= share
+    }
+
     /// Time since a frame was last taken into the map, s; before the first since the behaviour began.
     pub(crate) fn unseen_s(&self) -> f64 {
         let since_s = |last_ns| self.situation.time_ns.saturating_sub(last_ns) as f64 * 1e-9;

@@ -45,10 +45,18 @@ settings! {
         unseen_radius: f64 = 0.2, "m", NOT_NEGATIVE;
         /// Steepest look below the horizon, to the ground before the feet.
         gaze_steep: f64 = 1.1, "rad", DOWN;
+        /// Look below the horizon of a robot that sees no ground: what it stands on may show nowhere but right before its feet.
+        gaze_feet: f64 = 1.2, "rad", DOWN;
         /// Look below the horizon at the ground near by.
         gaze_near: f64 = 0.85, "rad", DOWN;
         /// Look below the horizon at the ground further away.
         gaze_far: f64 = 0.5, "rad", DOWN;
+        /// Highest look, to the room for the head above the ground near by; above the horizon where negative.
+        gaze_high: f64 = -0.1, "rad", within(-1.5, 1.5);
+        /// Room for the head that was not seen is looked at while walking where it is nearer than this on the path.
+        look_up: f64 = 1.2, "m", NOT_NEGATIVE;
+        /// Room for the head that was not seen is looked at before the robot goes on where it is nearer than this on the path.
+        look_up_distance: f64 = 0.5, "m", NOT_NEGATIVE;
         /// Speed of the gaze.
         gaze_speed: f64 = 0.9, "rad/s", POSITIVE;
         /// The robot looks around so far to each side.
@@ -78,6 +86,8 @@ settings! {
     require (turn_until) < (turn_above);
     require (blind_limit) > (blind_after);
     require (gaze_steep) >= (gaze_far);
+    require (gaze_far) >= (gaze_high);
+    require (look_up) >= (look_up_distance);
 }
 
 impl WalkingConfig {
@@ -91,6 +101,7 @@ impl WalkingConfig {
             blind_after_s: self.blind_after,
             patience: self.tuning.look_around.patience,
             blind_limit_s: self.blind_limit,
+            dark: (self.tuning.blind.dark_share, self.tuning.blind.dark_after),
             idle_limit_s: self.tuning.idle_limit,
             idle_words,
             place_words,

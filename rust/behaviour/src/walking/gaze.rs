@@ -29,7 +29,7 @@ impl Gazer {
 }
 
 /// Most places in a list: an array's size, no list here is longer.
-const LONGEST_SWEEP: usize = 6;
+const LONGEST_SWEEP: usize = 8;
 
 /// A list of places to look at, one after the other.
 #[derive(Debug, Clone, Copy)]
@@ -43,7 +43,7 @@ pub(crate) struct Sweep {
 }
 
 impl Sweep {
-    /// Places as pan and down, rad, no more than six; so many frames must be used after the last one was reached.
+    /// Places as pan and down, rad, no more than eight; so many frames must be used after the last one was reached.
     pub(crate) fn through(places: &[(f64, f64)], last_frames: u64) -> Self {
         let mut sweep = Self {
             places: [Gaze::default(); LONGEST_SWEEP],
@@ -58,16 +58,64 @@ impl Sweep {
         sweep
     }
 
-    /// All that can be seen from here: near from left to right, then far from right to left.
-    pub(crate) fn around(config: &WalkingConfig) -> Self {
-        let (side, near, far) = (config.sweep, config.gaze_near, config.gaze_far);
+    /// All that may be seen by who sees nothing: what it stands on first, which may show nowhere but right before the feet. No frame
+    /// is waited for.
+    pub(crate) fn in_the_dark(config: &WalkingConfig) -> Self {
+        let (side, aside) = (config.sweep, config.tuning.gaze.aside);
+        let (feet, near, far) = (config.gaze_feet, config.gaze_near, config.gaze_far);
         let places = [
+            (0.0, feet),
+            (aside, feet),
+            (-aside, feet),
+            (aside, feet),
+            (side, near),
+            (-side, near),
+            (-side, far),
+            (side, far),
+        ];
+        Self::through(&places, 0)
+    }
+
+    /// All that can be seen from here: near from left to right, then far from right to left; and the room for the head, with a gaze so
+    /// far below the horizon, where one looks up.
+    pub(crate) fn around(config: &WalkingConfig, up_rad: Option<f64>) -> Self {
+        let (side, near, far) = (config.sweep, config.gaze_near, config.gaze_far);
+        let on_the_floor = [
             (0.0, config.gaze_steep),
             (side, near),
             (-side, near),
             (-side, far),
             (side, far),
-            (0.0, far),
+        ];
+        let last_frames = config.tuning.gaze.last_frames;
+        let Some(up_rad) = up_rad else {
+            return Self::through(&on_the_floor, last_frames).and((0.0, far));
+        };
+        let aside = config.tuning.gaze.up_aside.min(side);
+        // Where walls are near, neither look up nor far shows the ground, without which no frame is used for long.
+        Self::through(&on_the_floor, last_frames)
+            .and((aside, up_rad))
+            .and((-aside, up_rad))
+            .and((0.0, near))
+    }
+
+    /// Looks at one more place at its end, given as pan and down, rad.
+    fn and(mut self, (pan_rad, down_rad): (f64, f64)) -> Self {
+        if let Some(slot) = self.places.get_mut(self.count) {
+            *slot = Gaze { pan_rad, down_rad };
+            self.count += 1;
+        }
+        self
+    }
+
+    /// The room for the head at `bearing_rad` and beside it, with a gaze so far below the horizon, and then the floor there.
+    pub(crate) fn up(bearing_rad: f64, up_rad: f64, config: &WalkingConfig) -> Self {
+        let bearing_rad = bearing_rad.clamp(-config.sweep, config.sweep);
+        let aside_rad = config.tuning.gaze.aside;
+        let places = [
+            (bearing_rad + aside_rad, up_rad),
+            (bearing_rad - aside_rad, up_rad),
+            (bearing_rad, config.gaze_far),
         ];
         Self::through(&places, config.tuning.gaze.last_frames)
     }
@@ -144,7 +192,7 @@ mod tests {
     #[test]
     fn a_look_around_reaches_both_sides_near_and_far_and_ends() {
         let config = WalkingConfig::default();
-        let (ticks, seen) = run(Sweep::around(&config), 8);
+        let (ticks, seen) = run(Sweep::around(&config, None), 8);
         assert!(ticks < 1200, "{ticks}");
         for (pan, down) in [
             (1.1, 0.85),

@@ -10,6 +10,7 @@ impl WalkingBehaviour {
         self.gazer.start(situation.gaze);
         self.progress = Progress::default();
         self.followed.forget();
+        self.came_by.forget();
         self.no_plan.reset();
         self.no_way.reset();
         self.looks = 0;

@@ -4,7 +4,6 @@ use geometry::PlanarPose;
 use terrain::support::is_level_floor;
 
 use super::WalkingBehaviour;
-use crate::walking::gaze::Sweep;
 use crate::walking::state::{Locating, State};
 use crate::walking::tick::WayTick;
 use crate::walking::tuning::LocateTuning;
@@ -16,12 +15,13 @@ impl WalkingBehaviour {
         if matches!(self.machine.state(), State::Locate(_)) {
             return;
         }
+        self.came_by.forget();
         // A robot that has just looked round turns on.
         let holds_s = self.config.tuning.locate.look_holds;
         self.looked_round_s =
             (self.looked_round_s).filter(|looked_s| tick.elapsed_s - looked_s < holds_s);
         self.enter(State::Locate(Locating {
-            sweep: Sweep::around(&self.config),
+            sweep: self.around(),
             lost_at: odometry_in_map(tick),
         }));
     }
@@ -85,7 +85,7 @@ impl WalkingBehaviour {
         };
         match &tick.track {
             Some((_, track)) if stayed => self.set_off(track),
-            _ => self.look(Sweep::around(&self.config)),
+            _ => self.look(self.around()),
         }
     }
 }

@@ -54,7 +54,7 @@ impl WalkingBehaviour {
             self.refuse(reason);
             return;
         }
-        let around = Sweep::around(&self.config);
+        let around = self.around();
         self.machine.begin_again(State::LookAround(around));
     }
 

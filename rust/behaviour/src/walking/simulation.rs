@@ -1,5 +1,7 @@
 //! Test support: a point that walks over a plane of cells, sees what its gaze covers, and plans by Dijkstra.
 
+mod eyes;
+
 use std::collections::BinaryHeap;
 
 use geometry::{Cell, Grid, Lattice, PlanarPose, Pose};
@@ -28,7 +30,6 @@ pub(crate) fn walking(config: WalkingConfig) -> WalkingBehaviour {
 }
 
 pub(crate) const TICK_NS: u64 = 10_000_000;
-const EYE_HEIGHT_M: f64 = 0.46;
 const BODY_RADIUS_M: f64 = 0.14;
 const CELL_M: f64 = 0.04;
 /// A planner is asked every so many frames.
@@ -42,6 +43,14 @@ pub(crate) struct Simulation {
     /// Patches that stereo never sees.
     pub(crate) holes: Vec<[f64; 3]>,
     pub(crate) blind: bool,
+    /// The camera gives no picture that was taken anew.
+    pub(crate) frozen: bool,
+    /// Nothing is seen where the camera looks further than this, rad, from a heading, rad: a wall is too near.
+    pub(crate) sees_only: Option<(f64, f64)>,
+    /// Nothing is seen beyond this, m: a wall is too near.
+    pub(crate) sees_before_x_m: f64,
+    /// Beyond this, m, the picture is filled by what is too near.
+    pub(crate) dark_beyond_x_m: f64,
     /// Where feet come upon an edge across the way that nobody sees, m.
     pub(crate) unseen_edge_m: Option<f64>,
     /// Whether the planner's path ends where it meets the goal's disc.
@@ -78,6 +87,10 @@ impl Simulation {
             obstacles: Vec::new(),
             holes: Vec::new(),
             blind: false,
+            frozen: false,
+            sees_only: None,
+            sees_before_x_m: f64::INFINITY,
+            dark_beyond_x_m: f64::INFINITY,
             unseen_edge_m: None,
             ends_at_the_rim: false,
             closed: false,
@@ -115,7 +128,7 @@ impl Simulation {
 
     /// One tick of 10 ms.
     pub(crate) fn tick(&mut self) -> Decision {
-        if self.time_ns.is_multiple_of(8 * TICK_NS) && !self.blind {
+        if self.time_ns.is_multiple_of(8 * TICK_NS) && !self.sees_nothing() {
             self.see();
             self.make_plan();
         }
@@ -144,6 +157,8 @@ impl Simulation {
                 gaze: self.gaze,
                 frames_used: self.frames,
                 last_frame_ns: self.last_frame_ns,
+                measured_share: (!self.frozen)
+                    .then(|| f64::from(u8::from(self.pose.x_m < self.dark_beyond_x_m))),
             })
             .unwrap();
         self.obey(&decision);
@@ -196,50 +211,6 @@ impl Simulation {
                 self.stumbled &= self.standing_ticks <= 60;
             }
         }
-    }
-
-    fn truth(&self, [x, y]: [f64; 2]) -> Surface {
-        let within = |discs: &[[f64; 3]]| {
-            discs
-                .iter()
-                .any(|d| geometry::hypot(d[0] - x, d[1] - y) < d[2])
-        };
-        let boxed = self
-            .boxes
-            .iter()
-            .any(|[low, high]| (low[0]..high[0]).contains(&x) && (low[1]..high[1]).contains(&y));
-        if within(&self.holes) {
-            Surface::Unknown
-        } else if boxed || within(&self.obstacles) {
-            Surface::Obstacle(0.3)
-        } else {
-            Surface::Floor(0.0)
-        }
-    }
-
-    fn see(&mut self) {
-        let robot_from_map = self.pose.inverse();
-        for cell in self.view.cells.area().cells() {
-            let center = self.view.lattice.center_of(cell);
-            let surface = self.truth(center);
-            if self.view.cell(cell) == surface {
-                continue;
-            }
-            let (x, y) = robot_from_map.apply(center[0], center[1]);
-            let distance_m = geometry::hypot(x, y);
-            let pan_error_rad = geometry::angle_between(self.gaze.pan_rad, libm::atan2(y, x));
-            let down_rad = libm::atan2(EYE_HEIGHT_M, (distance_m - 0.05).max(0.01));
-            let in_view =
-                pan_error_rad.abs() < 0.41 && (down_rad - self.gaze.down_rad).abs() < 0.34;
-            if in_view
-                && distance_m < 2.0
-                && let Some(slot) = self.view.cells.get_mut(cell)
-            {
-                *slot = surface;
-            }
-        }
-        self.frames += 1;
-        self.last_frame_ns = Some(self.time_ns);
     }
 
     fn make_plan(&mut self) {

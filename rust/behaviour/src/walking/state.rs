@@ -14,6 +14,17 @@ pub(crate) struct Locating {
     pub(super) lost_at: PlanarPose,
 }
 
+/// What a robot does that sees nothing.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Blind {
+    /// Stands and turns the head.
+    Look(Sweep),
+    /// Steps back to a place from which it came, m.
+    StepBack { to_m: [f64; 2] },
+    /// Turns on the spot to a heading, rad.
+    Turn { to_rad: f64 },
+}
+
 /// What the robot is doing, and what it knows only while it does.
 #[derive(Debug, Clone)]
 pub(crate) enum State {
@@ -31,8 +42,8 @@ pub(crate) enum State {
     Arrive,
     /// Stands, having given up.
     Refuse { reason: String },
-    /// Stands because nothing is seen.
-    Blind,
+    /// Sees nothing, and tries what may change that.
+    Blind(Blind),
     /// Turns and circles to find out where it is.
     Locate(Locating),
 }
@@ -53,7 +64,7 @@ impl State {
             Self::Refuse {
                 reason: String::new(),
             },
-            Self::Blind,
+            Self::Blind(Blind::Look(sweep)),
             Self::Locate(Locating { sweep, lost_at }),
         ]
     }
@@ -62,7 +73,7 @@ impl State {
     pub(crate) const fn moves(&self) -> bool {
         matches!(
             self,
-            Self::Walk | Self::Turn { .. } | Self::Sidle | Self::Locate(_)
+            Self::Walk | Self::Turn { .. } | Self::Sidle | Self::Locate(_) | Self::Blind(_)
         )
     }
 }
@@ -77,7 +88,7 @@ impl machine::State for State {
             Self::Stop => "stop",
             Self::Arrive => "arrive",
             Self::Refuse { .. } => "refuse",
-            Self::Blind => "blind",
+            Self::Blind(_) => "blind",
             Self::Locate(_) => "locate",
         }
     }
@@ -88,11 +99,15 @@ impl machine::State for State {
             Self::LookAround(_) => !matches!(next, Self::Stop),
             Self::Walk | Self::Turn { .. } | Self::Sidle | Self::Stop => true,
             Self::Arrive => matches!(next, Self::Stop),
-            Self::Blind => matches!(
+            Self::Blind(_) => matches!(
                 next,
-                Self::LookAround(_) | Self::Refuse { .. } | Self::Arrive | Self::Locate(_)
+                Self::LookAround(_)
+                    | Self::Refuse { .. }
+                    | Self::Arrive
+                    | Self::Locate(_)
+                    | Self::Stop
             ),
-            Self::Locate(_) => !matches!(next, Self::Arrive | Self::Blind),
+            Self::Locate(_) => !matches!(next, Self::Arrive | Self::Blind(_)),
             Self::Refuse { .. } => false,
         }
     }
@@ -111,7 +126,7 @@ impl machine::State for State {
     /// A robot that cannot tell where it is or what is around has limits of its own for that.
     fn idling(&self) -> Idling {
         match self {
-            Self::Locate(_) | Self::Blind => Idling::Pauses,
+            Self::Locate(_) | Self::Blind(_) => Idling::Pauses,
             Self::Walk => Idling::Ends,
             _ => Idling::Counts,
         }
@@ -123,6 +138,10 @@ impl machine::State for State {
 
     fn is_interruptible(&self) -> bool {
         !matches!(self, Self::Refuse { .. } | Self::Arrive)
+    }
+
+    fn walks(&self) -> bool {
+        matches!(self, Self::Walk | Self::Sidle)
     }
 
     /// A robot that stands and looks around may look where there is no ground for a while.

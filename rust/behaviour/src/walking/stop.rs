@@ -1,7 +1,7 @@
 //! The state `stop`: stands and looks at what appeared on the way, and goes on when the way is free.
 
 use super::WalkingBehaviour;
-use crate::{Motion, walking::gaze::Sweep, walking::state::State, walking::tick::WayTick};
+use crate::{Motion, walking::state::State, walking::tick::WayTick};
 
 impl WalkingBehaviour {
     /// One tick of standing.
@@ -15,7 +15,7 @@ impl WalkingBehaviour {
                 self.set_off(track);
             } else {
                 self.looks = 0;
-                self.look(Sweep::around(&self.config));
+                self.look(self.around());
             }
         }
         Motion::Stand

@@ -172,11 +172,11 @@ fn a_blind_robot_stands_and_goes_on_when_it_sees_again() {
 fn who_stays_blind_is_lost() {
     let mut simulation = Simulation::new(PlanarPose::default(), [1.0, 0.0]);
     simulation.blind = true;
-    let (outcome, after_s) = simulation.run(60.0);
+    let (outcome, after_s) = simulation.run(90.0);
     assert!(
-        matches!(outcome, Some(Outcome::Refused(reason)) if reason.starts_with("lost: nothing has been seen"))
+        matches!(outcome, Some(Outcome::Refused(reason)) if reason.starts_with("lost: no ground has been seen"))
     );
-    assert!(after_s < 20.0);
+    assert!(after_s < 60.0);
 }
 
 #[test]
@@ -321,6 +321,7 @@ fn decide(
             standing,
             gaze: Gaze::default(),
             frames_used: *frames,
+            measured_share: Some(1.0),
             last_frame_ns: (*frames > 0)
                 .then_some(tick * TICK_NS * 30 - u64::from(!frame) * TICK_NS * 60),
         })

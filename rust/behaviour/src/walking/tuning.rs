@@ -24,6 +24,8 @@ settings! {
         turn: TurnTuning;
         /// How the robot finds out where it is.
         locate: LocateTuning;
+        /// What is tried where nothing is seen.
+        blind: BlindTuning;
         /// Unknown ground ahead on the path.
         unknown: UnknownGroundTuning;
         /// Obstacles on the way.
@@ -42,6 +44,12 @@ settings! {
     pub struct GazeTuning("navigation.walking.tuning.gaze") {
         /// A look ends once so many frames were taken into the map after its last place was reached.
         last_frames: u64 = 2, "1", within(0.0, 100.0);
+        /// A look up shows so much more above what the robot's head would meet, by which the body sways and the camera is off.
+        above_head: f64 = 0.04, "rad", ANGLE;
+        /// The look around looks up so far to each side.
+        up_aside: f64 = 0.5, "rad", ANGLE;
+        /// The look around looks up at the room for the head from this distance on.
+        up_from: f64 = 0.5, "m", NOT_NEGATIVE;
         /// A look at a place on the path reaches this far to its left and to its right.
         aside: f64 = 0.3, "rad", ANGLE;
         /// While the robot walks it looks far ahead and near by in turns that repeat after this time.
@@ -128,6 +136,22 @@ settings! {
         ahead: [f64; 3] = [0.15, 0.25, 0.35], "m", NOT_NEGATIVE;
         /// Floor is needed so far to the left at each distance ahead.
         aside: [f64; 3] = [-0.12, 0.0, 0.12], "m", within(-10.0, 10.0);
+    }
+}
+
+settings! {
+    /// What is tried where nothing is seen: a step back, and a turn.
+    pub struct BlindTuning("navigation.walking.tuning.blind") {
+        /// The robot steps back by so much of the way that it came.
+        back: f64 = 0.2, "m", POSITIVE;
+        /// A picture of which no more than this share was measured is dark: it is filled by what is too near, or the light is out.
+        dark_share: f64 = 0.02, "1", within(0.0, 1.0);
+        /// A robot that walks stops when its pictures have been dark for longer than this.
+        dark_after: f64 = 0.3, "s", WAIT;
+        /// It has come back so near to the place.
+        reached: f64 = 0.04, "m", POSITIVE;
+        /// Where the map has no room for a turn about, the outermost of the robot moves by this: a hand's breadth.
+        hand: f64 = 0.08, "m", POSITIVE;
     }
 }
 

@@ -3,7 +3,6 @@
 use geometry::angle_between;
 
 use super::{WalkingBehaviour, WalkingConfig};
-use crate::walking::gaze::Sweep;
 use crate::walking::state::State;
 use crate::walking::tick::WayTick;
 use crate::{Motion, Velocity};
@@ -32,7 +31,7 @@ impl WalkingBehaviour {
         // Far while there is much to turn, to see walls; near at its end, to see the ground that is stepped on next.
         let far = error_rad.abs() > tuning.look_near;
         if done && to_rad.is_some() {
-            self.look(Sweep::around(&self.config));
+            self.look(self.around());
             return Motion::Stand;
         }
         if done {
@@ -51,7 +50,7 @@ impl WalkingBehaviour {
     }
 
     /// A turn that is nearly half a circle does not change its mind about the side.
-    fn turn_velocity(&self, error_rad: f64) -> f64 {
+    pub(super) fn turn_velocity(&self, error_rad: f64) -> f64 {
         let speed_radps = turn_speed(error_rad, &self.config);
         match &self.motion {
             Motion::Walk(before)

@@ -18,13 +18,13 @@ pub(crate) struct Looked {
 
 impl Looked {
     /// Whether this place was looked at.
-    fn holds(&self, place_m: [f64; 2], radius_m: f64) -> bool {
+    pub(super) fn holds(&self, place_m: [f64; 2], radius_m: f64) -> bool {
         self.places_m
             .iter()
             .any(|&looked_m| distance_m(looked_m, place_m) < radius_m)
     }
 
-    fn add(&mut self, place_m: [f64; 2], tuning: &UnknownGroundTuning) {
+    pub(super) fn add(&mut self, place_m: [f64; 2], tuning: &UnknownGroundTuning) {
         if self.holds(place_m, tuning.looked_radius) {
             return;
         }

@@ -1,6 +1,7 @@
 //! The state `walk`: follows the path, and what every state that moves along it looks out for.
 
 use super::WalkingBehaviour;
+use super::blind::Tried;
 use crate::Motion;
 use crate::walking::gaze::{Sweep, glance};
 use crate::walking::progress::Headway;
@@ -50,6 +51,10 @@ impl WalkingBehaviour {
             self.look(Sweep::at(tick.bearing_rad(place_m), &self.config));
             return Motion::Stand;
         }
+        if self.looks_up(tick, path, self.config.look_up_distance) {
+            return Motion::Stand;
+        }
+        let overhead = self.overhead_ahead(path, track, view, tick.ground_m);
         if self.is_at_sidle(tick) {
             self.enter(State::Sidle);
             return Motion::Stand;
@@ -58,9 +63,18 @@ impl WalkingBehaviour {
             self.enter(State::Turn { to_rad: None });
         }
         self.machine.gets_on();
-        let gaze = glance(tick.elapsed_s, self.bearing_rad(track), &self.config);
+        self.tried = Tried::default();
+        (self.came_by).note([tick.pose.x_m, tick.pose.y_m], &self.config.tuning.blind);
+        let mut gaze = glance(tick.elapsed_s, self.bearing_rad(track), &self.config);
+        if let Some(place) = overhead.unlooked
+            && gaze.down_rad == self.config.gaze_far
+        {
+            let bearing_rad = tick.bearing_rad(place.at_m);
+            gaze.pan_rad = bearing_rad.clamp(-self.config.sweep, self.config.sweep);
+            gaze.down_rad = place.down_rad;
+        }
         self.gazer.turn(gaze, tick.passed_s, self.config.gaze_speed);
-        let limit_mps = if stays_unknown {
+        let limit_mps = if stays_unknown || overhead.stays_unseen {
             self.config.creep_speed
         } else {
             f64::INFINITY
@@ -90,7 +104,7 @@ impl WalkingBehaviour {
             .watch(remaining_m, detour, passed_s, &self.config)
         {
             Headway::Fine => return None,
-            Headway::Stuck => self.look(Sweep::around(&self.config)),
+            Headway::Stuck => self.look(self.around()),
             Headway::Hopeless => {
                 let waited_s = self.progress.waited_ever_s;
                 self.refuse(format!(

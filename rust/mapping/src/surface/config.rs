@@ -16,7 +16,7 @@ settings! {
         /// Cells along each side of the window.
         cells: usize = 100, "1", within(4.0, FogConfig::MOST_CELLS as f64), "000, section III";
         /// Layers of the occupancy grid.
-        layers: usize = 24, "1", within(1.0, 64.0), "000, section III: 16";
+        layers: usize = 32, "1", within(1.0, 64.0), "000, section III: 16; the robot's height above the highest floor that it climbs to";
         /// Height of a layer.
         layer: f64 = 0.04, "m", within(0.001, 10.0), "000, section III";
         /// Height at which layers begin: a lower bound of one of them. -0.02 keeps a floor at 0 in the middle of its layer.
@@ -47,8 +47,8 @@ settings! {
         /// Level surfaces that are more times as rough as the ground, root mean square in disparity, are no floor. Left out: all are, as
         /// in the paper.
         rough: Option<f64> = Some(1.6), "1", POSITIVE;
-        /// Room that the robot needs above a floor: what begins higher is a ceiling to pass under. Left out: whatever rises above a
-        /// floor is an obstacle, as the paper has it.
+        /// Room that the robot needs above a floor: what begins higher is a ceiling to pass under. Left out: the robot's own height;
+        /// for a map without a robot whatever rises above a floor is an obstacle, as the paper has it.
         headroom: Option<f64> = None, "m", POSITIVE, "000, section VI";
         /// How often a frame may change a voxel: once (`per_frame`), or with every ray (`per_point`).
         update: Update = Update::PerFrame, "-", settings::ANY;
@@ -77,6 +77,15 @@ settings! {
 impl FogConfig {
     /// Cells along each side of the window at most: more would not fit into memory.
     pub(crate) const MOST_CELLS: usize = 2000;
+
+    /// The settings with what follows from the robot: the room that it needs above a floor, m, where nothing else is set.
+    #[must_use]
+    pub fn for_robot(self, headroom_m: Option<f64>) -> Self {
+        Self {
+            headroom: self.headroom.or(headroom_m),
+            ..self
+        }
+    }
 
     fn is_ordered(&self, key: &str) -> Result<(), ConfigError> {
         let below = self.layers_below;
@@ -151,7 +160,7 @@ mod tests {
         );
         assert!(
             refused(FogConfig {
-                layers_below: 24,
+                layers_below: 32,
                 ..base()
             })
             .contains("layers_below")

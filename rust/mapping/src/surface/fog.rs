@@ -1,10 +1,13 @@
 //! The floor and obstacle grid of Gutmann, Fukuchi and Fujita 2005 (000): equations (5), (10), (11), the order of an update, and
 //! the ceiling map that its section VI proposes.
 
+mod head_room;
+
 use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use segmentation::Planes;
 use settings::{ConfigError, Table};
 
+use super::overhead::Overhead;
 use super::rough::Rough;
 use super::shadow::{Shadow, Surroundings};
 use super::underfoot::Underfoot;
@@ -29,6 +32,9 @@ pub struct Fog {
     pub floor: FloorGrid,
     rough: Rough,
     underfoot: Underfoot,
+    overhead: Overhead,
+    /// Height of the ground that the robot stands on, m.
+    level_m: f64,
     surroundings: Surroundings,
     view: FloorView,
     /// The points of the last frame, as they were taken in.
@@ -79,6 +85,8 @@ impl Fog {
             floor: FloorGrid::new(lattice, &config),
             rough: Rough::new(n, config.tuning.rough_lead),
             underfoot: Underfoot::new(n, config.footprint),
+            overhead: Overhead::new(n, config.tuning.overhead.clone()),
+            level_m: 0.0,
             surroundings: Surroundings::default(),
             view: FloorView {
                 least_gradient: config.tuning.slopes.least,
@@ -104,17 +112,6 @@ impl Fog {
         let floor_m = f64::from(self.floor.height(cell)?);
         self.occupancy
             .lowest_above_m(cell, floor_m + self.config.delta)
-    }
-
-    /// Whether all that is above a cell's floor begins so high that the robot passes under it.
-    fn is_passed_under(&self, cell: Cell) -> bool {
-        let (Some(headroom_m), Some(floor_m)) = (self.config.headroom, self.floor.height(cell))
-        else {
-            return false;
-        };
-        let half_layer_m = 0.5 * self.config.layer;
-        self.ceiling_m(cell)
-            .is_some_and(|center_m| center_m - half_layer_m >= f64::from(floor_m) + headroom_m)
     }
 
     /// Equation (11) of a cell, but that a ceiling which is high enough is no obstacle, and nor is what does not stand out of the
@@ -171,6 +168,7 @@ impl Fog {
         self.floor.shift(cols, rows, lattice);
         self.rough.shift(cols, rows);
         self.underfoot.shift(cols, rows);
+        self.overhead.shift(cols, rows, layers);
         self.view.shift(cols, rows, lattice);
         let all = self.view.cells.area();
         if layers != 0 {
@@ -197,7 +195,7 @@ impl Fog {
     }
 
     /// Takes in the frame that was read, in the paper's order (section III.A): rays, equations (8) and (9); the cells that this touched.
-    fn take_in(&mut self) -> CellArea {
+    fn take_in(&mut self, planes: &Planes, map_from_robot: &Pose<Map, Robot>) -> CellArea {
         let config = &self.config;
         let size = self.view.size();
         self.frame.locate(&self.view.lattice, size);
@@ -213,6 +211,7 @@ impl Fog {
         let judged = self.rough.take(&self.frame);
         self.floor.forget(judged, |cell| self.rough.is_rough(cell));
         touched.join(judged);
+        touched.join(self.look_overhead(planes, map_from_robot));
         touched
     }
 
@@ -222,7 +221,9 @@ impl Fog {
         let reached = area.grown(self.cells_beside()).within(all);
         let size = self.view.size();
         for index in runs(reached, size).flatten() {
-            self.view.cells.values_mut()[index] = self.surface_at(index);
+            let surface = self.surface_at(index);
+            self.view.cells.values_mut()[index] = surface;
+            self.view.head.values_mut()[index] = self.head_at(index, surface);
             self.view.sightings.values_mut()[index] = self.floor.all_sightings()[index];
             self.view.gradients.values_mut()[index] = match self.view.cells.values()[index] {
                 Surface::Floor(_) => self.floor.gradient_at(index),
@@ -259,8 +260,13 @@ impl WorldModel for Fog {
         check_poses(planes, map_from_robot)?;
         let at = map_from_robot.inner.translation.vector;
         let robot_m = [at.x, at.y, at.z];
+        self.level_m = robot_m[2];
         let moved = self.follow(robot_m);
         let mut changed = self.underfoot.stand(robot_m, &self.view.lattice);
+        if let Some(headroom_m) = self.config.headroom {
+            let heights = self.heights();
+            (self.overhead).stand(changed, &heights, robot_m[2], headroom_m);
+        }
 
         let config = &self.config;
         let reading = Reading {
@@ -293,7 +299,7 @@ impl WorldModel for Fog {
             if let Some(shift_m) = shift {
                 self.frame.raise(shift_m);
             }
-            changed.join(self.take_in());
+            changed.join(self.take_in(planes, map_from_robot));
         }
         changed = self.refresh(changed);
         changed.join(moved);

@@ -6,6 +6,7 @@ mod fog;
 mod frame;
 mod matching;
 mod merging;
+mod overhead;
 mod rough;
 mod shadow;
 mod tilts;
@@ -21,6 +22,7 @@ pub(crate) use frame::check_poses;
 pub use frame::{LabelledFrame, LabelledPoint, Reading};
 pub use matching::{Pair, height_shift};
 pub use merging::{INVALID, merge_height};
+pub use overhead::OverheadTuning;
 use settings::{Part, TableDescription, read};
 pub use tuning::{FloorSlopeTuning, FloorTuning, FogTuning, MatchingTuning};
 pub(crate) use underfoot::Underfoot;
@@ -32,5 +34,8 @@ pub const PART: WorldModelPart = Part {
     about: "floor and obstacle grid over an 8-bit occupancy grid, moves with the robot",
     source: Some("Gutmann, Fukuchi and Fujita 2005 (000)"),
     tables: &[TableDescription::of::<FogConfig>()],
-    make: |needs| Ok(Box::new(Fog::new(read(needs.tables, "fog")?)?)),
+    make: |needs| {
+        let config: FogConfig = read(needs.tables, "fog")?;
+        Ok(Box::new(Fog::new(config.for_robot(needs.headroom_m))?))
+    },
 };

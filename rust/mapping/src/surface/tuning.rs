@@ -3,6 +3,8 @@
 use settings::{NOT_NEGATIVE, above, above_to, settings, within};
 use volume::OccupancyGrid;
 
+use super::OverheadTuning;
+
 settings! {
     /// Numbers behind the floor and obstacle grid.
     pub struct FogTuning("navigation.fog.tuning") {
@@ -26,6 +28,8 @@ settings! {
         floors: FloorTuning;
         /// How slopes are told from level floors.
         slopes: FloorSlopeTuning;
+        /// What is above the floor, up to the robot's head.
+        overhead: OverheadTuning;
     }
 }
 

@@ -37,7 +37,9 @@ pub(crate) const PART: WorldModelPart = Part {
     source: Some("Maier, Hornung and Bennewitz 2012 (002)"),
     tables: &[TableDescription::of::<TwoMapsConfig>()],
     make: |needs| {
-        let (config, fog) = (read(needs.tables, "octree")?, read(needs.tables, "fog")?);
+        let (config, fog): (_, FogConfig) =
+            (read(needs.tables, "octree")?, read(needs.tables, "fog")?);
+        let fog = fog.for_robot(needs.headroom_m);
         Ok(Box::new(TwoMaps::new(config, &fog, needs.known_map)?))
     },
 };
@@ -246,6 +248,7 @@ impl TwoMaps {
         for index in runs(area, self.layers.size()).flatten() {
             let surface = self.surface_at(index);
             self.view.cells.values_mut()[index] = surface;
+            self.view.head.values_mut()[index] = self.floors.view().head.values()[index];
             let floors = &self.floors.floor;
             self.view.sightings.values_mut()[index] = floors.all_sightings()[index];
             self.view.gradients.values_mut()[index] = match surface {

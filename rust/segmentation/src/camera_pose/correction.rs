@@ -46,6 +46,8 @@ pub(crate) struct Correction {
     missed: Option<u32>,
     missed_height: u32,
     found: u32,
+    // Finds from afar in a row that contradicted a young track.
+    contradicted: u32,
     /// Whether what is near the feet told the track, or bore it out.
     pub(crate) near: bool,
 }
@@ -143,7 +145,10 @@ impl Correction {
                 self.forget();
             } else {
                 // Time after time it is the young track that is wrong.
-                self.missed_young();
+                self.contradicted += 1;
+                if self.contradicted > self.tuning.young_contradictions {
+                    self.forget();
+                }
             }
             return;
         }
@@ -162,6 +167,7 @@ impl Correction {
             self.covariance = (self.covariance + self.covariance.transpose()) / 2.0;
         }
         self.missed = Some(0);
+        self.contradicted = 0;
         self.missed_height = 0;
         self.found = self.found.saturating_add(1);
     }
@@ -189,13 +195,8 @@ impl Correction {
         if self.is_settled() {
             self.missed_of(forget_frames);
         } else {
-            self.missed_young();
+            self.missed_of(self.tuning.young_misses);
         }
-    }
-
-    /// A young track has little patience.
-    fn missed_young(&mut self) {
-        self.missed_of(self.tuning.young_misses);
     }
 
     fn missed_of(&mut self, patience: u32) {

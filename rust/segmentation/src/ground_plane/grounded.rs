@@ -4,6 +4,7 @@ use sensing::Intrinsics;
 use settings::{ConfigError, MakeError, Table, read};
 
 use super::buffers::ProductBuffers;
+use super::nearness::Nearness;
 use crate::camera_pose::{Correction, HorizonSearch, KnownLevels};
 use crate::ground_plane::config::GroundConfig;
 use crate::part::SegmenterNeeds;
@@ -22,6 +23,7 @@ pub struct Grounded<F> {
     pub(super) surfaces: FrameSurfaces<F>,
     pub(super) search: HorizonSearch,
     pub(super) known: KnownLevels,
+    pub(super) nearness: Nearness,
     pub(super) walls: Walls,
     pub(super) product: ProductBuffers,
 }
@@ -54,6 +56,7 @@ impl<F: Configured> Grounded<F> {
             correction: Correction::new(tuning.correction),
             search: HorizonSearch::new(tuning.tilt_search),
             known: KnownLevels::new(tuning.known_floor),
+            nearness: Nearness::default(),
             walls: Walls::new(tuning.walls, tuning.tilted.least_rise),
             product: ProductBuffers::new(tuning.steps),
             config,

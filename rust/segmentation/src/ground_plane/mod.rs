@@ -7,6 +7,7 @@ mod buffers;
 pub(crate) mod config;
 pub(crate) mod grounded;
 mod level;
+mod nearness;
 mod product;
 mod reference;
 mod segmenter;
@@ -16,3 +17,4 @@ pub(crate) use grounded::{Configured, Grounded};
 #[cfg(test)]
 mod tests;
 mod tuning;
+mod underfoot;

@@ -7,7 +7,6 @@ use super::tuning::ReferenceTuning;
 
 use crate::camera_pose::Levelled;
 use crate::ground_plane::grounded::Grounded;
-use crate::picture::NearFeet;
 use crate::planes::KnownFloor;
 use crate::regions::Finder;
 
@@ -87,56 +86,37 @@ impl<F: Finder> Grounded<F> {
             .hide_far(&levelled.view, &camera_m, reach_m, least)
     }
 
-    /// The ground among the regions: the largest level one close to where the ground is expected, but none where another
-    /// level is known to lie.
-    fn find_ground(&self, levelled: &Levelled) -> Option<usize> {
-        let config = &self.config;
-        let ReferenceTuning {
-            smooth, core_part, ..
-        } = config.tuning.reference;
-        let surfaces = &self.surfaces;
-        let pixels = surfaces.labels.len() as f64;
-        let (gate_m, least) = if self.searching() {
-            let least = (config.open_floor * pixels) as usize;
-            (config.ground_height, least.max(config.min_ground))
-        } else {
-            (config.track_height, config.min_ground)
-        };
+    /// The ground among the regions: while it is tracked the largest level one close to where it is expected, but none where another
+    /// level is known to lie; while it is searched, what the feet stand on.
+    fn find_ground(&mut self, levelled: &Levelled) -> Option<usize> {
+        if self.searching() {
+            return self.find_underfoot(levelled);
+        }
         let camera_m = levelled.predicted.inner.translation.z;
-        (0..surfaces.regions.len())
+        (0..self.surfaces.regions.len())
+            .filter(|&i| self.may_be_ground(i, camera_m, self.config.track_height))
             .filter(|&i| {
-                let region = &surfaces.regions[i];
-                let height_m = camera_m - 1.0 / f64::from(region.q);
-                let off_the_joints_m = height_m - self.correction.raised_m;
-                region.support >= least
-                    && core_part * region.core >= config.min_ground
-                    && height_m.abs() < gate_m
-                    && (height_m.abs() < config.known_height || !self.has_level_beside(i, camera_m))
-                    && off_the_joints_m.abs() < config.ground_height
-                    && surfaces.is_level(i)
-                    && !self.known.is_elsewhere(i, height_m, config.known_height)
-                    && (!self.searching()
-                        || surfaces.fits[i].roughness() < smooth && self.is_underfoot(levelled, i))
+                let height_m = camera_m - 1.0 / f64::from(self.surfaces.regions[i].q);
+                height_m.abs() < self.config.known_height || !self.has_level_beside(i, camera_m)
             })
-            .max_by_key(|&i| (surfaces.regions[i].support, std::cmp::Reverse(i)))
+            .max_by_key(|&i| (self.surfaces.regions[i].support, std::cmp::Reverse(i)))
     }
 
-    /// Whether most of what is seen near the feet belongs to a region.
-    fn is_underfoot(&self, levelled: &Levelled, index: usize) -> bool {
-        let camera_m = &levelled.predicted.inner.translation.vector;
-        let reach = NearFeet::new(&levelled.view, camera_m, self.config.search_reach);
-        let width = self.camera.width;
-        let lines = self.surfaces.images.disparity_px.chunks_exact(width);
-        let labels = self.surfaces.labels.chunks_exact(width);
-        let (mut near, mut own) = (0, 0);
-        for (row, (line, labels)) in lines.zip(labels).enumerate() {
-            for (is_near, &label) in reach.along(row, line).zip(labels) {
-                near += usize::from(is_near);
-                own += usize::from(is_near && usize::from(label) == index + 1);
-            }
-        }
-        let least = self.config.tuning.reference.underfoot * near as f64;
-        own >= self.config.min_region && own as f64 > least
+    /// Whether a region is level, large enough, no farther from where the ground is expected than `gate_m`, nor from where the joints
+    /// have it than they err, and not where another level is known to lie.
+    pub(super) fn may_be_ground(&self, index: usize, camera_m: f64, gate_m: f64) -> bool {
+        let config = &self.config;
+        let region = &self.surfaces.regions[index];
+        let height_m = camera_m - 1.0 / f64::from(region.q);
+        let off_the_joints_m = height_m - self.correction.raised_m;
+        region.support >= config.min_ground
+            && config.tuning.reference.core_part * region.core >= config.min_ground
+            && height_m.abs() < gate_m
+            && off_the_joints_m.abs() < config.ground_height
+            && self.surfaces.is_level(index)
+            && !self
+                .known
+                .is_elsewhere(index, height_m, config.known_height)
     }
 
     /// Whether a ground slopes where it is near the feet; none where too little is seen there.
@@ -183,8 +163,8 @@ impl<F: Finder> Grounded<F> {
         let camera_m = levelled.predicted.inner.translation.vector;
         self.known
             .compare(&self.surfaces, &levelled.view, &camera_m, known);
-        let config = &self.config;
         let ground = self.find_ground(levelled);
+        let config = &self.config;
         let near = ground.is_some_and(|region| self.known.is_near(region));
         // Ground behind the stairs tells less than the known treads before it.
         if !near

@@ -81,12 +81,21 @@ settings! {
         smooth: f64 = 1.35, "1", POSITIVE;
         /// A region is no ground when fewer than `min_ground` over this many pixels of it are left without its border.
         core_part: usize = 3, "1", within(1.0, 100.0);
-        /// Share of what is seen near the feet that must belong to a ground in a search.
+        /// Every so many columns and rows a pixel tells how near to the feet its region is; of finer images as many as of coarse ones.
+        stride: usize = 2, "1", within(1.0, 100.0);
+        /// A region is as near to the feet as so many of its pixels are, of a picture of `enough_pixels`.
+        nearest: usize = 40, "1", POSITIVE;
+        /// Share of what is seen near the feet that must belong to a ground that is searched and is not seen right before them.
         underfoot: f64 = 0.5, "1", SHARE;
+        /// While the ground is searched, a level that lies less than this above or below another one could be taken for it.
+        rival: f64 = 0.06, "m", POSITIVE;
+        /// Such a level counts where it is seen as near to the feet as this, and is `as_large`: what is further away errs by as much.
+        rival_reach: f64 = 0.6, "m", POSITIVE;
         /// A region could be taken for another one when they are less than so many times `track_height` apart.
         beside: f64 = 2.0, "1", NOT_NEGATIVE;
         /// A region that lies farther from where the joints have the ground than the ground can be may be a part of it all the same
-        /// when it has more than this share of the pixels of the other one: in a view that is off by degrees.
+        /// when it has more than this share of the pixels of the other one: in a view that is off by degrees. So large must a level be that
+        /// keeps another from being the ground.
         as_large: f64 = 0.5, "1", NOT_NEGATIVE;
     }
 }

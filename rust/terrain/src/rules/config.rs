@@ -6,6 +6,7 @@ use crate::goal_level::GoalLevelConfig;
 use crate::longer_landings::LongerLandingsConfig;
 use crate::rules::edge_costs::EdgeCostsConfig;
 use crate::rules::far_levels::FarLevelsConfig;
+use crate::rules::head_room::HeadRoomConfig;
 use crate::rules::laid_stairs::LaidStairsConfig;
 use crate::rules::obstacles::ObstaclesConfig;
 use crate::rules::platform_edges::PlatformEdgesConfig;
@@ -35,6 +36,8 @@ settings! {
         shadows: ShadowsConfig;
         /// Where the level that the robot stands on ends.
         platform_edges: PlatformEdgesConfig;
+        /// What it costs to go where nobody has looked up.
+        head_room: HeadRoomConfig;
         /// What being near to an edge costs.
         edge_costs: EdgeCostsConfig;
         /// How room along a way is measured.

@@ -117,7 +117,7 @@ fn a_young_track_that_all_finds_from_afar_contradict_is_given_up_after_some() {
         correction.found(&looking(0.0, 0.7), &off, 0.03, false);
         correction.missed.is_none()
     });
-    assert_eq!(frames, Some(tuning.young_misses as usize + 1));
+    assert_eq!(frames, Some(tuning.young_contradictions as usize + 1));
     for _ in 0..tuning.settled {
         correction.found(&looking(0.0, 0.7), &Vector2::zeros(), 0.0, false);
     }

@@ -39,8 +39,11 @@ settings! {
         settled: u32 = 8, "1", within(1.0, 1e6);
         /// Frames with ground after which a track is seasoned: what contradicts it then is no floor.
         seasoned: u32 = 25, "1", within(1.0, 1e6);
-        /// Frames without ground after which a track that has not settled is given up.
-        young_misses: u32 = 3, "1", within(0.0, 1e6);
+        /// Frames without ground after which a track that has not settled is given up: as many as the head takes to look elsewhere
+        /// and come back.
+        young_misses: u32 = 40, "1", within(0.0, 1e6);
+        /// Finds from afar that contradict a young track in a row after which it is given up.
+        young_contradictions: u32 = 3, "1", within(0.0, 1e6);
         /// Tilt by which a find contradicts a young track: one of both was no ground.
         contradicting_tilt: f64 = 0.05, "rad", POSITIVE;
         /// Height by which a find contradicts a young track.

@@ -2,6 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
+mod head_room;
+
 use geometry::{Cell, Grid, Lattice, Map, PlanarPose, Pose, Robot};
 use mapping::{FloorView, Surface};
 use planning::{AStar, AStarConfig, Goal, Path, Plan, PlanError, Planner, Refusal, VoronoiConfig};

@@ -1,0 +1,1 @@
+"""Worlds that draw themselves from the seed: a house, a yard."""
