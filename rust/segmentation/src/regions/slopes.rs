@@ -56,7 +56,8 @@ impl SlopeSearch {
     ) -> bool {
         let seen = SeenPicture { picture, view };
         let before = regions.len();
-        let mut learned = self.memory.faded(&self.tuning.memory);
+        let faded = self.memory.faded(&self.tuning.memory);
+        let (mut again, mut other) = (None, SlopeMemory::default());
         self.doubtful.clear();
         self.doubtful.resize(labels.len(), false);
         let starts = match look {
@@ -76,23 +77,34 @@ impl SlopeSearch {
                 continue;
             };
             let told = self.memory.told(&plane, better, &self.tuning.memory);
-            if told.sure > learned.sure {
-                learned = told;
+            if better.is_some() {
+                let same = self.memory.is_of(&plane, &self.tuning.memory);
+                let surer = |than: &SlopeMemory| told.sure > than.sure;
+                if same && again.as_ref().is_none_or(surer) {
+                    again = Some(told);
+                } else if !same && surer(&other) {
+                    other = told;
+                }
             }
             if told.is_sure(&self.tuning.memory) {
                 self.take(seen, &plane, regions, labels);
                 self.found.push((start, view.plane(&plane)));
-            } else if better > 0.0 {
+            } else if better.is_some_and(|better| better > 0.0) {
                 for &at in &self.growth.pixels {
                     self.doubtful[at] = true;
                 }
             }
         }
-        if self.memory.is_sure(&self.tuning.memory) && regions.len() == before {
+        let learned = again.unwrap_or(faded);
+        if learned.is_sure(&self.tuning.memory) && regions.len() == before {
             self.doubt_all_but_largest(regions, labels);
         }
         if look == Look::First {
-            self.memory = learned;
+            self.memory = if other.sure > learned.sure {
+                other
+            } else {
+                learned
+            };
         }
         regions.len() > before
     }
@@ -117,7 +129,7 @@ impl SlopeSearch {
             .collect()
     }
 
-    /// Grows a plane from a pixel on, and by how much it is better than treads; none where it is no slope.
+    /// Grows a plane from a pixel on, and by how much it is better than treads, where that can be told; none where it is no slope.
     fn grow(
         &mut self,
         seen: SeenPicture<'_>,
@@ -125,16 +137,18 @@ impl SlopeSearch {
         look: Look,
         regions: &[Region],
         labels: &[u16],
-    ) -> Option<(Vector3<f64>, f64)> {
+    ) -> Option<(Vector3<f64>, Option<f64>)> {
         let is_found = look == Look::Again;
         let plane = self.growth.grow(seen, start, is_found, regions, labels)?;
         let pixels = &self.growth.pixels;
-        if pixels.len() < (self.tuning.least_share * labels.len() as f64) as usize {
+        let least = (self.tuning.least_share * labels.len() as f64) as usize;
+        if pixels.len() < least {
             return None;
         }
         let verdict = self.treads.compare(seen, &plane, pixels, &self.tuning);
         let better = verdict.better_than_treads;
-        (verdict.length_m > self.tuning.least_length).then_some((plane, better))
+        let told = (2 * verdict.told >= least).then_some(better);
+        (verdict.length_m > self.tuning.least_length).then_some((plane, told))
     }
 
     /// Makes a region of the pixels that were grown, and of the rest of the strips that they were taken from.

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use geometry::{Cell, Lattice, in_step};
+use geometry::{Cell, Lattice, in_step, same_level};
 use mapping::{FloorView, Surface};
 use settings::{settings, within};
 
@@ -23,6 +23,8 @@ pub(super) struct FarLevels {
     lattice: Option<Lattice>,
     cols: usize,
     before_m: Vec<f32>,
+    /// Height of the ground that levels are compared with, m: the robot's own sways, on a slope more than elsewhere.
+    ground_m: Option<f64>,
     /// How far aside of the robot each column is, m.
     aside_m: Vec<f64>,
     /// Columns that lie side by side in `before_m`, too, and where their first one lies.
@@ -37,7 +39,15 @@ impl FarLevels {
         config: &FarLevelsConfig,
     ) {
         self.look(&mut terrain.nearest_m, sight.view, sight.stand.at_m);
-        doubt(terrain, sight, config.low);
+        let ground_m = self.steady_m(sight.stand.height_m, terrain.needs.limits.floor_m);
+        doubt(terrain, sight, ground_m, config.low);
+    }
+
+    /// The height that the robot stands at, m, but the one before while it differs by no more than floor does: who stands still must
+    /// not believe a level in one frame and doubt it in the next.
+    fn steady_m(&mut self, height_m: f64, floor_m: f64) -> f64 {
+        let before_m = (self.ground_m).filter(|&before_m| same_level(before_m, height_m, floor_m));
+        *self.ground_m.insert(before_m.unwrap_or(height_m))
     }
 
     /// Takes in where the robot is; moves with the view's window.
@@ -87,9 +97,9 @@ impl FarLevels {
 
 /// Makes unknown what lies on a higher level and was never near, unless a recognised stair or a slope says what it is. What ends lower than `low_m` above
 /// the ground may be a riser.
-fn doubt(terrain: &mut Terrain, sight: &Sight<'_>, low_m: f64) {
+fn doubt(terrain: &mut Terrain, sight: &Sight<'_>, ground_m: f64, low_m: f64) {
     let range_m = terrain.settings.judge_range;
-    let (floor_m, ground_m) = (terrain.needs.limits.floor_m, sight.stand.height_m);
+    let floor_m = terrain.needs.limits.floor_m;
     let surfaces = sight.view.cells.values().iter();
     for (index, (surface, &nearest_m)) in surfaces.zip(&terrain.nearest_m).enumerate() {
         let doubtful = match *surface {
@@ -155,5 +165,20 @@ mod tests {
         assert!(!is_doubted(Surface::Floor(-0.09), &[0.0], 1.25));
         assert!(!is_doubted(Surface::Obstacle(0.3), &[0.0], 1.25));
         assert!(is_doubted(Surface::Obstacle(0.1), &[0.0], 1.25));
+    }
+
+    #[test]
+    fn what_is_believed_or_doubted_stays_so_while_the_own_height_sways() {
+        let (mut rules, mut terrain, mut floor) = (Rules::default(), terrain(), Floor::new());
+        floor.view = view(-2.0, Surface::Floor(0.055));
+        let mut doubted = |height_m: f64| {
+            floor.stand.height_m = height_m;
+            floor.read(&mut rules, &mut terrain, "far_levels");
+            terrain.unknown[terrain.index_at([1.25, 0.05]).unwrap()]
+        };
+        let swaying = [0.041, 0.047, 0.043, 0.049, 0.041].map(&mut doubted);
+        assert_eq!(swaying, [true; 5]);
+        assert!(!doubted(0.06), "it has climbed");
+        assert!(!doubted(0.051), "and sways");
     }
 }

@@ -27,25 +27,34 @@ impl SlopeMemory {
         }
     }
 
-    /// After a frame that shows a plane, so much better than treads.
+    /// Whether a plane has the gradient of the slope.
+    pub(super) fn is_of(&self, plane: &Vector3<f64>, tuning: &SlopeMemoryTuning) -> bool {
+        (plane.xy() / plane.z - self.tilt).norm() < tuning.same_gradient
+    }
+
+    /// After a frame that shows a plane, so much better than treads; none: from too far away to tell.
     pub(super) fn told(
         &self,
         plane: &Vector3<f64>,
-        better: f64,
+        better: Option<f64>,
         tuning: &SlopeMemoryTuning,
     ) -> Self {
         let tilt = plane.xy() / plane.z;
-        let is_same = (tilt - self.tilt).norm() < tuning.same_gradient;
-        let before = if is_same { self.sure } else { 0.0 };
+        let before = if self.is_of(plane, tuning) { self.sure } else { 0.0 };
+        let Some(better) = better else {
+            return Self { tilt, sure: before };
+        };
         let is_steep = tilt.norm() > tuning.steep;
         let doubtful = if is_steep {
             tuning.doubtful_steep
         } else {
             tuning.doubtful
         };
+        // What treads explain as well as a plane tells of stairs as surely as a frame can.
+        let more = better.max(0.0) - doubtful;
         Self {
             tilt,
-            sure: (before + better - doubtful).min(tuning.most_sure),
+            sure: (before + more).clamp(0.0, tuning.most_sure),
         }
     }
 }
@@ -59,7 +68,7 @@ mod tests {
         let plane = Vector3::new(gradient, 0.0, 1.0);
         let (mut memory, tuning) = (SlopeMemory::default(), SlopeMemoryTuning::default());
         for _ in 0..6 {
-            memory = memory.told(&plane, better, &tuning);
+            memory = memory.told(&plane, Some(better), &tuning);
         }
         memory.is_sure(&tuning)
     }
@@ -73,10 +82,27 @@ mod tests {
     }
 
     #[test]
+    fn treads_in_its_place_take_a_slope_back_within_four_frames_and_what_is_too_far_away_does_not() {
+        let tuning = SlopeMemoryTuning::default();
+        for gradient in [0.1, 0.3] {
+            let plane = Vector3::new(gradient, 0.0, 1.0);
+            let mut memory = SlopeMemory::default().told(&plane, Some(100.0), &tuning);
+            for _ in 0..50 {
+                memory = memory.told(&plane, None, &tuning);
+            }
+            assert!(memory.is_sure(&tuning));
+            for _ in 0..4 {
+                memory = memory.told(&plane, Some(-15.0), &tuning);
+            }
+            assert!(!memory.is_sure(&tuning));
+        }
+    }
+
+    #[test]
     fn a_slope_is_forgotten_that_is_not_seen() {
         let plane = Vector3::new(0.12, 0.0, 1.0);
         let tuning = SlopeMemoryTuning::default();
-        let mut memory = SlopeMemory::default().told(&plane, 100.0, &tuning);
+        let mut memory = SlopeMemory::default().told(&plane, Some(100.0), &tuning);
         for _ in 0..59 {
             memory = memory.faded(&tuning);
         }

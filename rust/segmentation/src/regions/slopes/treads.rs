@@ -10,7 +10,9 @@ use crate::picture::SeenPicture;
 pub(super) struct TreadVerdict {
     /// How long it is where it is seen, along its slope, m.
     pub(super) length_m: f64,
-    /// By how much it explains the pixels better, in squared noise.
+    /// Pixels that tell it from treads: those that are not too far away.
+    pub(super) told: usize,
+    /// By how much it explains them better, in squared noise.
     pub(super) better_than_treads: f64,
 }
 
@@ -33,11 +35,25 @@ impl TreadBin {
     }
 }
 
+/// Whether the treads of stairs with steps of `told_step` that rise like a slope would be seen as treads at a pixel. What is further
+/// away runs into one surface, which a plane explains better whatever it is.
+fn is_resolved(seen: SeenPicture<'_>, at: usize, tilt: f64, rules: &TreadTuning) -> bool {
+    let [x, y, g] = seen.xyg(at).map(f64::from);
+    let per_row = [seen.view.x.per_row, seen.view.y.per_row, seen.view.g.per_row];
+    let baseline_m = Vector3::from(per_row).map(f64::from).norm();
+    // A level length is foreshortened by how flat the line of sight is, and a row is as high as the disparity says.
+    let rows_per_m = f64::from(seen.picture.disparity_px[at]) / baseline_m * g
+        / Vector3::new(x, y, g).norm();
+    rows_per_m * rules.told_step / tilt >= rules.resolved
+}
+
 /// Lays treads. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct TreadFit {
     bins: Vec<TreadBin>,
     best: Vec<f64>,
+    /// Pixels that tell treads.
+    telling: Vec<usize>,
 }
 
 impl TreadFit {
@@ -52,11 +68,14 @@ impl TreadFit {
         let rules = &tuning.treads;
         let gradient = plane.xy() / plane.z;
         let tilt = gradient.norm();
-        let mut length_m: f64 = 0.0;
+        self.fill(seen, plane, pixels, &(gradient / tilt), rules);
+        let length_m = self.bins.len() as f64 * rules.bin;
+        let mut telling = std::mem::take(&mut self.telling);
+        telling.clear();
+        telling.extend((pixels.iter()).filter(|&&at| is_resolved(seen, at, tilt, rules)));
         let mut try_turn = |turn_rad: f64| {
             let across = Rotation2::new(turn_rad) * gradient / tilt;
-            self.fill(seen, plane, pixels, &across, rules);
-            length_m = length_m.max(self.bins.len() as f64 * rules.bin);
+            self.fill(seen, plane, &telling, &across, rules);
             let depth_m = (rules.step / tilt).max(rules.depth);
             (self.lay(depth_m, tuning), turn_rad)
         };
@@ -73,8 +92,11 @@ impl TreadFit {
             let beside = [-step_rad, step_rad].map(|step| try_turn(so_far.1 + step));
             best = [so_far].into_iter().chain(beside).min_by(lower);
         }
+        let told = telling.len();
+        self.telling = telling;
         TreadVerdict {
             better_than_treads: best.map_or(f64::INFINITY, |(worse, _)| worse),
+            told,
             length_m,
         }
     }

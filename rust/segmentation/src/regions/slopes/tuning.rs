@@ -95,6 +95,10 @@ settings! {
         depth: f64 = 0.05, "m", POSITIVE;
         /// Most that lies between two treads in the picture: a riser, and what the matching window makes of its edges.
         riser: f64 = 0.05, "m", within(0.0, 1.0);
+        /// Steps of stairs that must not be taken for a slope: where their treads are seen in too few rows, nothing is told.
+        told_step: f64 = 0.04, "m", POSITIVE;
+        /// Rows of the image in which a tread is seen as one: those of a matching window, and as many as are blended at its ends.
+        resolved: f64 = 8.0, "px", POSITIVE;
         /// Price of one more tread, in squared noise: for the place of its edge, and its height.
         price: f64 = 2.0, "1", NOT_NEGATIVE;
         /// Directions to each side of the slope's own in which stairs are tried at first: a plane through stairs of which only a part
