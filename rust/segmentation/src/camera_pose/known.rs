@@ -5,7 +5,7 @@ use settings::{POSITIVE, SHARE, settings, within};
 
 use crate::picture::View;
 use crate::planes::KnownFloor;
-use crate::regions::{Finder, FrameSurfaces};
+use crate::regions::{Finder, FrameSurfaces, Region};
 
 settings! {
     /// How the camera's height is told by floor that is known from before.
@@ -53,6 +53,8 @@ pub(crate) struct KnownLevels {
     // Of so many pixels one is looked up.
     looked_up_of: usize,
     votes: Vec<Vote>,
+    /// The same of slopes.
+    slopes: Vec<Vote>,
     misses_m: Vec<Vec<f32>>,
     /// Pixels of each region that are near, and all of them.
     near: Vec<(usize, usize)>,
@@ -67,7 +69,7 @@ impl KnownLevels {
         }
     }
 
-    /// Looks up the known heights where the level regions of `surfaces` lie, seen from `camera_m` (robot frame).
+    /// Looks up the known heights where the level regions and the slopes of `surfaces` lie, seen from `camera_m` (robot frame).
     pub(crate) fn compare(
         &mut self,
         surfaces: &FrameSurfaces<impl Finder>,
@@ -86,8 +88,16 @@ impl KnownLevels {
         self.near.resize(count, (0, 0));
         for (row, col, label) in surfaces.inner_pixels(stride) {
             let region = usize::from(label) - 1;
-            let below_m = 1.0 / f64::from(surfaces.regions[region].q);
-            let depth = below_m / f64::from(view.g.at(col, row));
+            let falls = f64::from(view.g.at(col, row));
+            let depth = match &surfaces.regions[region] {
+                Region {
+                    plane: Some(plane),
+                    is_slope: true,
+                    ..
+                } => 1.0 / f64::from(plane.at(col, row)),
+                level => 1.0 / (f64::from(level.q) * falls),
+            };
+            let below_m = depth * falls;
             let x_m = camera_m.x + f64::from(view.x.at(col, row)) * depth;
             let y_m = camera_m.y + f64::from(view.y.at(col, row)) * depth;
             self.near[region].1 += 1;
@@ -103,6 +113,18 @@ impl KnownLevels {
             let vote = vote(region, &mut self.misses_m[region], &self.tuning);
             self.votes.extend(vote);
         }
+        let slopes = (0..count).filter(|&region| surfaces.regions[region].is_slope);
+        self.slopes.clear();
+        self.slopes.extend(
+            slopes.filter_map(|region| vote(region, &mut self.misses_m[region], &self.tuning)),
+        );
+    }
+
+    /// Whether a slope lies within `gate_m` of where it is known to lie, and is tilted as it is known to be.
+    pub(crate) fn has_known_slope(&self, gate_m: f64) -> bool {
+        self.slopes.iter().any(|vote| {
+            vote.is_clear(self.tuning.agreeing) && f64::from(vote.middle_m.abs()) < gate_m
+        })
     }
 
     /// Whether a good part of a region is near enough to tell the height well.

@@ -25,7 +25,7 @@ pub(super) enum PoseReference {
         /// What brings them to where they are known to lie, m.
         rise_m: f64,
     },
-    /// Level surfaces are seen of which no height is known: the track holds.
+    /// Level surfaces are seen of which no height is known, or a slope that lies as it is known to: the track holds.
     Level,
     /// Nothing level is seen.
     None,
@@ -186,7 +186,8 @@ impl<F: Finder> Grounded<F> {
                 && surfaces.is_level(i)
                 && surfaces.fits[i].roughness() < config.tuning.reference.smooth
         });
-        if levels.count() > 0 {
+        // Who looks at nothing but the slope that it stands on has not lost the ground.
+        if levels.count() > 0 || self.known.has_known_slope(config.track_height) {
             PoseReference::Level
         } else {
             PoseReference::None

@@ -77,6 +77,27 @@ fn where_a_slope_was_seen_just_now_level_strips_of_it_are_left_out_of_maps() {
     assert!(raised.all(|(_, &left_out)| left_out));
 }
 
+/// 0.12 rad of a slope that fills the picture for 8 s, longer than the ground may be out of view.
+#[test]
+fn a_robot_that_sees_nothing_but_the_slope_that_it_knows_does_not_take_it_for_the_ground() {
+    let (front_m, tilt_rad) = (0.1, 0.12);
+    let mut noise = Noise::new(3);
+    let mut segmenter = sloping(true, &mut noise);
+    let scene = slope(front_m, tilt_rad);
+    let known = |x_m: f64, _: f64| Some((x_m - front_m) * libm::tan(tilt_rad));
+    let (mut planes, mut tilts) = (planes(), Vec::new());
+    for _ in 0..100 {
+        let pose = camera_pose(noise.within(0.1), 0.95 + noise.within(0.05));
+        let scan = scene.scan(&pose, pose, SIGMA, &mut noise);
+        segmenter.segment_known(&scan, &known, &mut planes).unwrap();
+        tilts.extend(found(&planes).map(|(tilt, _)| (tilt - tilt_rad).abs()));
+    }
+    assert!(planes.reliable && planes.ground.is_none());
+    assert!(tilts.len() >= 90, "{}", tilts.len());
+    let off_rad = median(tilts);
+    assert!(off_rad < 0.018, "{off_rad}");
+}
+
 /// What takes seconds: not in the fast part of the tests.
 mod slow {
     use super::*;

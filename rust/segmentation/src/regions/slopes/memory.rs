@@ -40,7 +40,11 @@ impl SlopeMemory {
         tuning: &SlopeMemoryTuning,
     ) -> Self {
         let tilt = plane.xy() / plane.z;
-        let before = if self.is_of(plane, tuning) { self.sure } else { 0.0 };
+        let before = if self.is_of(plane, tuning) {
+            self.sure
+        } else {
+            0.0
+        };
         let Some(better) = better else {
             return Self { tilt, sure: before };
         };
@@ -82,7 +86,8 @@ mod tests {
     }
 
     #[test]
-    fn treads_in_its_place_take_a_slope_back_within_four_frames_and_what_is_too_far_away_does_not() {
+    fn treads_in_its_place_take_a_slope_back_within_four_frames_and_what_is_too_far_away_does_not()
+    {
         let tuning = SlopeMemoryTuning::default();
         for gradient in [0.1, 0.3] {
             let plane = Vector3::new(gradient, 0.0, 1.0);

@@ -39,11 +39,15 @@ impl TreadBin {
 /// away runs into one surface, which a plane explains better whatever it is.
 fn is_resolved(seen: SeenPicture<'_>, at: usize, tilt: f64, rules: &TreadTuning) -> bool {
     let [x, y, g] = seen.xyg(at).map(f64::from);
-    let per_row = [seen.view.x.per_row, seen.view.y.per_row, seen.view.g.per_row];
+    let per_row = [
+        seen.view.x.per_row,
+        seen.view.y.per_row,
+        seen.view.g.per_row,
+    ];
     let baseline_m = Vector3::from(per_row).map(f64::from).norm();
     // A level length is foreshortened by how flat the line of sight is, and a row is as high as the disparity says.
-    let rows_per_m = f64::from(seen.picture.disparity_px[at]) / baseline_m * g
-        / Vector3::new(x, y, g).norm();
+    let rows_per_m =
+        f64::from(seen.picture.disparity_px[at]) / baseline_m * g / Vector3::new(x, y, g).norm();
     rows_per_m * rules.told_step / tilt >= rules.resolved
 }
 
