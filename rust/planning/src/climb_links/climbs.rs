@@ -53,6 +53,9 @@ impl ClimbLinks {
             if fixed {
                 stride.from_m = at_m;
             }
+            if is_on_slope(scene, &stride) {
+                break;
+            }
             let Some(stride_m) = stride_cost_m(scene, at_m, &mut stride, level_m) else {
                 break;
             };
@@ -221,6 +224,18 @@ impl ClimbLinks {
         let cost_m = cost_m + ahead_m + rises_m;
         self.add(scene.terrain, (entry.cell, None), cost_m, way);
     }
+}
+
+/// Whether the ground before or behind an edge slopes so much that a sole that is set there level is farther off it than what is floor. The
+/// cells right beside the edge need not show it.
+fn is_on_slope(scene: &Scene<'_>, stride: &Stride) -> bool {
+    let along = |axis: usize, share: f64| {
+        stride.from_m[axis] + share * (stride.to_m[axis] - stride.from_m[axis])
+    };
+    [-1.0, -0.5, 0.0, 1.0, 1.5].iter().any(|&share| {
+        let [x, y] = (scene.view).gradient_at(along(0, share), along(1, share));
+        geometry::hypot(x, y) * scene.feet.length_m > scene.terrain.needs.limits.floor_m
+    })
 }
 
 /// What the way over a step costs by its length and by what stands beside it, m; `None` where the body has no room.

@@ -96,6 +96,25 @@ fn a_slope_that_is_too_steep_is_refused_by_its_word_before_it_is_met() {
     );
 }
 
+/// Soles are set level before an edge: on a slope of 9 degrees a robot that went down its side, and had to step back, fell.
+#[test]
+fn no_step_is_taken_from_a_slope() {
+    let climbs = |rise: f64| {
+        let mut course = Course::staircase(1, 0.03, 0.33);
+        let gradients = course.view.gradients.values_mut();
+        gradients.fill([0.0, rise as f32]);
+        let found = plan(
+            &mut planner(),
+            &course,
+            [0.0; 3],
+            0.0,
+            &goal_at(1.165, 0.0, 0.03),
+        );
+        found.way.map_or(0, |path| path.climbs.len())
+    };
+    assert_eq!([0.0, 0.04, 0.15].map(climbs), [1, 1, 0]);
+}
+
 #[test]
 fn its_side_is_an_edge_where_it_is_high() {
     let course = slope(0.0, RISE, true);
