@@ -53,9 +53,6 @@ impl ClimbLinks {
             if fixed {
                 stride.from_m = at_m;
             }
-            if is_on_slope(scene, &stride) {
-                break;
-            }
             let Some(stride_m) = stride_cost_m(scene, at_m, &mut stride, level_m) else {
                 break;
             };
@@ -238,13 +235,16 @@ fn is_on_slope(scene: &Scene<'_>, stride: &Stride) -> bool {
     })
 }
 
-/// What the way over a step costs by its length and by what stands beside it, m; `None` where the body has no room.
+/// What the way over a step costs by its length and by what stands beside it, m; `None` where the body has no room, or the feet no level ground.
 fn stride_cost_m(
     scene: &Scene<'_>,
     at_m: [f64; 2],
     stride: &mut Stride,
     level_m: f64,
 ) -> Option<f64> {
+    if is_on_slope(scene, stride) {
+        return None;
+    }
     let below = weight_on_stairs(scene, stride.from_m, level_m)?;
     let above = weight_on_stairs(scene, stride.to_m, stride.step.stair.height_m())?;
     stride.beside = below.max(above);
