@@ -89,7 +89,7 @@ fn unfit((climbing, tuning): Words<'_>, limit: Unfit) -> NoWay {
             ),
         ),
     };
-    NoWay { refusal, sentence }
+    NoWay::new(refusal, sentence)
 }
 
 /// Explains why the robot finds no way from `start`.
@@ -110,6 +110,7 @@ pub(crate) fn explain(
         return NoWay {
             refusal: Refusal::TooNarrow,
             sentence: format!("the widest gap is {gap_m:.2} m, {needed:.2} m are needed"),
+            shuts_goal_in: is_shut_in(terrain, ends),
         };
     }
     if let Some(route) = way_over_levels(terrain, ends, start) {
@@ -123,6 +124,7 @@ pub(crate) fn explain(
     let nearest = widest.nearest_cells * terrain.lattice.cell_m;
     let cells = 0..terrain.blocked.len();
     let free = |index: &usize| !terrain.blocked[*index];
+    let mut shuts_goal_in = is_shut_in(terrain, ends);
     let sentence = if cells
         .clone()
         .any(|index| free(&index) && ends.cost(index).is_some())
@@ -132,6 +134,8 @@ pub(crate) fn explain(
         && cells.clone().any(|index| free(&index) && ends.holds(index))
     {
         let radius = goal.radius_m;
+        // Floor of that height may show elsewhere, and what leads to it.
+        shuts_goal_in = false;
         format!("no floor within {radius:.2} m of the goal lies {height_m:.2} m high")
     } else {
         let radius = goal.radius_m;
@@ -140,7 +144,32 @@ pub(crate) fn explain(
     NoWay {
         refusal: Refusal::Blocked,
         sentence,
+        shuts_goal_in,
     }
+}
+
+/// Whether the goal lies in the window and where a robot could walk from it ends at obstacles before the window does.
+fn is_shut_in(terrain: &Terrain, ends: &PathEnds<'_>) -> bool {
+    let count = terrain.weights.len();
+    let mut reached = vec![false; count];
+    let mut waiting: Vec<usize> = (0..count)
+        .filter(|&cell| ends.holds(cell) && terrain.weights[cell].is_finite())
+        .collect();
+    let cells = Cells::new(&terrain.weights, terrain.cols);
+    while let Some(cell) = waiting.pop() {
+        if std::mem::replace(&mut reached[cell], true) {
+            continue;
+        }
+        if terrain.on_border(cell) {
+            return false;
+        }
+        cells.for_each_neighbour((cell, ANYWHERE), |next, _, _| {
+            if !reached[next] {
+                waiting.push(next);
+            }
+        });
+    }
+    ends.inside
 }
 
 /// The way that would lead to the goal if levels were one.
@@ -168,14 +197,14 @@ fn first_too_steep(terrain: &Terrain, route: &Route) -> Option<f64> {
 /// The word and sentence for a slope that is too steep, both in rise per metre.
 fn too_steep(rise_per_m: f64, limit: f64) -> NoWay {
     let degrees = |rise_per_m: f64| libm::atan(rise_per_m).to_degrees().round();
-    NoWay {
-        refusal: Refusal::Blocked,
-        sentence: format!(
+    NoWay::new(
+        Refusal::Blocked,
+        format!(
             "the slope is {} degrees steep, {} degrees is the limit",
             degrees(rise_per_m),
             degrees(limit)
         ),
-    }
+    )
 }
 
 /// The first change of level on a way, m.
@@ -208,10 +237,10 @@ fn unjoined(words: Words<'_>, rise_m: f64) -> NoWay {
         return unfit(words, Unfit::TooHigh(rise_m));
     }
     let mm = (1e3 * rise_m.abs()).round();
-    NoWay {
-        refusal: Refusal::Blocked,
-        sentence: format!("a step of {mm} mm is in the way, and no edge to climb it by was found"),
-    }
+    NoWay::new(
+        Refusal::Blocked,
+        format!("a step of {mm} mm is in the way, and no edge to climb it by was found"),
+    )
 }
 
 struct Widest {

@@ -57,6 +57,8 @@ pub(crate) struct Simulation {
     pub(crate) ends_at_the_rim: bool,
     /// Whether the planner says that there is no way.
     pub(crate) closed: bool,
+    /// Where it is closed: whether the walls stand around the goal.
+    pub(crate) goal_is_shut_in: bool,
     /// Plans instead of the Dijkstra here.
     pub(crate) planner: Option<AStar>,
     /// Boxes: their lowest and highest corner, m.
@@ -94,6 +96,7 @@ impl Simulation {
             unseen_edge_m: None,
             ends_at_the_rim: false,
             closed: false,
+            goal_is_shut_in: false,
             planner: None,
             boxes: Vec::new(),
             pose: start,
@@ -232,8 +235,8 @@ impl Simulation {
             .count();
         if self.closed {
             let no_way = NoWay {
-                refusal: Refusal::Blocked,
-                sentence: "walls all around".to_owned(),
+                shuts_goal_in: self.goal_is_shut_in,
+                ..NoWay::new(Refusal::Blocked, "walls all around".to_owned())
             };
             self.plan = Some(Plan {
                 way: Err(no_way),
@@ -317,10 +320,10 @@ impl Simulation {
                     cell = next;
                 }
                 _ => {
-                    return Err(NoWay {
-                        refusal: Refusal::Blocked,
-                        sentence: "all cells around are blocked".to_owned(),
-                    });
+                    return Err(NoWay::new(
+                        Refusal::Blocked,
+                        "all cells around are blocked".to_owned(),
+                    ));
                 }
             }
         }

@@ -130,6 +130,20 @@ fn no_way_is_refused_with_the_planners_reason_after_looking_all_around() {
 }
 
 #[test]
+fn a_goal_that_is_shut_in_is_looked_at_and_not_what_lies_elsewhere() {
+    for (goal_m, turns) in [([1.5, 0.0], 0), ([-1.5, 0.0], 1)] {
+        let mut simulation = Simulation::new(PlanarPose::default(), goal_m);
+        simulation.closed = true;
+        simulation.goal_is_shut_in = true;
+        let (outcome, after_s) = simulation.run(120.0);
+        assert!(matches!(outcome, Some(Outcome::Refused(_))));
+        assert!(after_s < if turns == 0 { 15.0 } else { 60.0 }, "{after_s}");
+        let turned = simulation.states.iter().filter(|(name, _)| *name == "turn");
+        assert_eq!(turned.count(), turns, "{:?}", simulation.states);
+    }
+}
+
+#[test]
 fn a_way_that_opens_while_looking_is_taken() {
     let mut simulation = Simulation::new(PlanarPose::default(), [1.2, 0.0]);
     simulation.closed = true;
@@ -287,10 +301,7 @@ fn decide(
     let way = match plan {
         0 => None,
         1 => Some(Ok(straight([0.0, 0.0], [goal_x, 0.1]))),
-        _ => Some(Err(NoWay {
-            refusal: Refusal::TooNarrow,
-            sentence: "s".to_owned(),
-        })),
+        _ => Some(Err(NoWay::new(Refusal::TooNarrow, "s".to_owned()))),
     };
     let plan = way.map(|way| Plan {
         way,

@@ -23,13 +23,13 @@ impl AStar {
             return None;
         }
         let (at_m, room_m) = lowest(&path, view, self.needed_m())?;
-        Some(NoWay {
-            refusal: Refusal::TooLow,
-            sentence: format!(
+        Some(NoWay::new(
+            Refusal::TooLow,
+            format!(
                 "what hangs at ({:.2}, {:.2}) leaves {room_m:.2} m above the floor, too little for the robot's head",
                 at_m[0], at_m[1]
             ),
-        })
+        ))
     }
 }
 

@@ -196,6 +196,23 @@ fn boxed_in_is_blocked() {
 }
 
 #[test]
+fn a_goal_is_shut_in_where_walls_stand_around_it_and_not_where_they_stand_around_the_robot() {
+    let shuts = |around_m: f64, goal_x_m: f64| {
+        let mut view = floor();
+        let square = |half_m: f64| [[around_m - half_m, -half_m], [around_m + half_m, half_m]];
+        let ([from_m, to_m], [inner_from_m, inner_to_m]) = (square(0.7), square(0.6));
+        paint(&mut view, from_m, to_m, Surface::Obstacle(0.4));
+        paint(&mut view, inner_from_m, inner_to_m, Surface::Unknown);
+        let end = goal(goal_x_m, 0.0);
+        let no_way = plan(&mut planner(), &view, START, &end).way.unwrap_err();
+        assert_eq!(no_way.refusal, Refusal::Blocked);
+        no_way.shuts_goal_in
+    };
+    assert!(shuts(1.0, 1.0), "a room around the goal, never seen inside");
+    assert!(!shuts(0.0, 1.5), "the robot is shut in");
+}
+
+#[test]
 fn a_goal_under_an_obstacle_is_reached_at_the_discs_free_side_or_refused() {
     let mut view = floor();
     paint(&mut view, [1.1, -0.2], [1.5, 0.2], Surface::Obstacle(0.3));
