@@ -246,7 +246,8 @@ fn unjoined(words: Words<'_>, rise_m: f64) -> NoWay {
 struct Widest {
     /// Clearance at the narrowest place of the widest way, m; 0 where there is no way for a point either.
     clearance_m: f64,
-    /// Whether the floor at the narrowest place was seen: a gap in what is known of a wall is none.
+    /// Whether the floor at the narrowest place, and where the way is as narrow to within a cell, was seen: a gap in what is known of
+    /// a wall is none.
     is_seen: bool,
     /// Octile distance in cells from the goal that a point could reach by gaps wider than a crack.
     nearest_cells: f64,
@@ -259,6 +260,7 @@ fn widest_way(terrain: &Terrain, ends: &PathEnds<'_>, start: usize, crack_m: f64
         .map(|(&blocked, &edge)| if blocked || edge { f32::INFINITY } else { 1.0 })
         .collect();
     let cells = Cells::new(&open, terrain.cols);
+    let cells_of = |squared: u32| f64::from(squared).sqrt();
     let mut seen = vec![false; open.len()];
     let mut queue = BinaryHeap::from([(u32::MAX, true, Reverse(start))]);
     let mut nearest_cells = f64::INFINITY;
@@ -286,11 +288,10 @@ fn widest_way(terrain: &Terrain, ends: &PathEnds<'_>, start: usize, crack_m: f64
                 } else {
                     terrain.distance.squared(next)
                 };
-                let (narrowest, is_seen) = if here < narrowest {
-                    (here, !terrain.unknown[next])
-                } else {
-                    (narrowest, is_seen)
-                };
+                let is_as_narrow = here < narrowest || cells_of(here) < cells_of(narrowest) + 1.0;
+                let hides = is_as_narrow && terrain.unknown[next];
+                let is_seen = !hides && (is_seen || here < narrowest);
+                let narrowest = narrowest.min(here);
                 queue.push((narrowest, is_seen, Reverse(next)));
             }
         });

@@ -165,6 +165,13 @@ fn a_wide_door_is_passed_in_its_middle_and_a_narrow_one_is_refused_with_figures(
 }
 
 #[test]
+fn a_narrow_gap_in_what_was_seen_of_a_wall_is_no_gap() {
+    let mut view = wall_with_door(0.24);
+    paint(&mut view, [0.8, -0.12], [0.88, 0.12], Surface::Unknown);
+    assert_eq!(refused(&view, &goal(1.5, 0.0)).0, Refusal::Blocked);
+}
+
+#[test]
 fn standing_before_a_narrow_door_does_not_open_it() {
     let view = wall_with_door(0.24);
     for x in [0.5, 0.6, 0.7] {
