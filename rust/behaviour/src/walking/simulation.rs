@@ -53,6 +53,8 @@ pub(crate) struct Simulation {
     pub(crate) dark_beyond_x_m: f64,
     /// Where feet come upon an edge across the way that nobody sees, m.
     pub(crate) unseen_edge_m: Option<f64>,
+    /// Whether the map keeps what the feet meet there.
+    pub(crate) feels: bool,
     /// Whether the planner's path ends where it meets the goal's disc.
     pub(crate) ends_at_the_rim: bool,
     /// Whether the planner says that there is no way.
@@ -94,6 +96,7 @@ impl Simulation {
             sees_before_x_m: f64::INFINITY,
             dark_beyond_x_m: f64::INFINITY,
             unseen_edge_m: None,
+            feels: false,
             ends_at_the_rim: false,
             closed: false,
             goal_is_shut_in: false,
@@ -207,6 +210,13 @@ impl Simulation {
                 self.stumbled = self.unseen_edge_m.is_some_and(|edge_m| pose.x_m > edge_m);
                 if !self.stumbled {
                     self.pose = pose;
+                } else if self.feels && self.view.felt.is_empty() {
+                    self.view.felt.push(mapping::FeltPlace {
+                        at_m: [pose.x_m + 0.06, pose.y_m],
+                        heading_rad: pose.yaw_rad,
+                        top_m: 0.015,
+                        half_width_m: 0.04,
+                    });
                 }
             }
             _ => {

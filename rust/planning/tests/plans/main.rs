@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
+mod felt;
 mod head_room;
 
 use geometry::{Cell, Grid, Lattice, Map, PlanarPose, Pose, Robot};
