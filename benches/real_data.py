@@ -7,6 +7,7 @@ One line of JSON a row; `FOLDER` is `TREADWELL_DATA` unless given. No image is k
 
 import argparse
 import json
+import math
 import os
 import time
 from collections.abc import Iterator
@@ -18,7 +19,7 @@ import numpy as np
 from into_results import add_options, write
 from numpy.typing import NDArray
 from real_data_cells import results_table
-from real_frames import RealFrame, labelled_table, room, simulated_scan, through_stereo
+from real_frames import TABLES, RealFrame, labelled_table, room, simulated_scan, through_stereo
 
 from treadwell._core import Planes, Segmenter
 from treadwell.components import COMPONENTS
@@ -228,6 +229,45 @@ def table_rows(data: Path) -> Iterator[dict[str, object]]:
             }
 
 
+WRONG_POSES = 20
+LARGEST_TURN = math.radians(5.0)
+LARGEST_RISE = 0.01
+FOUND = 0.5
+"""IoU with the table from which on a ground is the table."""
+
+
+def wrong_pose(normal: Floats, height: float, seed: int) -> Floats:
+    """Return a pose above a plane that is off by up to 5 degrees about any axis, and by 10 mm."""
+    draw = np.random.default_rng([seed, 5])
+    axis = draw.normal(size=3)
+    turn = axis / np.linalg.norm(axis) * draw.uniform(0.0, LARGEST_TURN)
+    return pose_above(normal, height, turn, draw.uniform(-LARGEST_RISE, LARGEST_RISE))
+
+
+def clutter_rows(data: Path) -> Iterator[dict[str, object]]:
+    """Yield how often the table under clutter is named the ground, from one picture."""
+    for name in TABLES:
+        full = labelled_table(data, name)
+        points = points_of(full)
+        normal, height = ransac_plane(points[np.isfinite(points[:, 2])])
+        for pixels, settings in (("640x480", KINECT), ("88x72 stereo", ROBOT)):
+            found = []
+            for seed in range(WRONG_POSES):
+                frame = full if pixels == "640x480" else through_stereo(full, seed)
+                pose = wrong_pose(normal, height, seed)
+                iou, _ = support_plane("scan_line", frame, settings, pose)
+                found += [iou] if iou > FOUND else []
+            yield {
+                "data": "clutter",
+                "pixels": pixels,
+                "segmenter": f"scan_line on {name}",
+                "found": len(found),
+                "of": WRONG_POSES,
+                "iou": float(np.mean(found)) if found else math.nan,
+                "least": min(found, default=math.nan),
+            }
+
+
 def scan_rows(data: Path) -> Iterator[dict[str, object]]:
     """Yield the rows of the simulated scan."""
     scan = simulated_scan(data)
@@ -293,7 +333,7 @@ def main() -> None:
     data = options.data
     if data is None:
         parser.error("say where the data are: --data FOLDER or TREADWELL_DATA")
-    for rows in (table_rows, scan_rows, room_rows):
+    for rows in (table_rows, clutter_rows, scan_rows, room_rows):
         found = []
         for row in islice(rows(Path(data)), options.rows):
             shown = {k: round(v, 3) if isinstance(v, float) else v for k, v in row.items()}

@@ -28,6 +28,11 @@ def _table_cells(row: Row) -> dict[str, str]:
     }
 
 
+def _clutter_cells(row: Row) -> dict[str, str]:
+    figures = f"{row['found']} of {row['of']}, {row['iou']:.3f} / {row['least']:.3f}"
+    return {row["pixels"]: figures}
+
+
 def _scan_cells(row: Row) -> dict[str, str]:
     return {k: str(v) for k, v in row.items() if k not in ("data", "pixels", "segmenter")}
 
@@ -41,6 +46,10 @@ TABLES: dict[str, tuple[str, Callable[[Row], dict[str, str]]]] = {
     "table": (
         "A labelled Kinect cloud (mOSD `test1`): IoU of the table, mean / least of six draws",
         _table_cells,
+    ),
+    "clutter": (
+        "The table under clutter (mOSD): the ground found in one picture, and its IoU",
+        _clutter_cells,
     ),
     "scan": (
         "A simulated scan (SynPEB `test_100`): regions at 80 % overlap (Hoover 1996)",

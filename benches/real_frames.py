@@ -2,7 +2,7 @@
 
 | folder | image | truth |
 | --- | --- | --- |
-| `mosd_labelled_kinect` | a Kinect's, 640 x 480, a table with two boxes | the table |
+| `mosd_labelled_kinect` | five of a Kinect, 640 x 480, things on a table | the table |
 | `synpeb_plane_gt` | a simulated scan, 100 x 100, 14 x 12 degrees | each pixel's plane |
 | `cape_kinect_depth` | a Kinect's, 640 x 480, a room | none |
 
@@ -46,9 +46,13 @@ class RealFrame:
     baseline: float
 
 
-def labelled_table(data: Path) -> RealFrame:
-    """Return the labelled Kinect cloud: 1 is the table, 0 what stands on it."""
-    cloud = PointCloud.from_path(data / "mosd_labelled_kinect" / "test1.pcd")
+TABLES = ("learn0", "learn1", "learn2", "learn3", "test1")
+"""The labelled Kinect clouds."""
+
+
+def labelled_table(data: Path, name: str = "test1") -> RealFrame:
+    """Return a labelled Kinect cloud: 1 is the table, 0 what stands on it."""
+    cloud = PointCloud.from_path(data / "mosd_labelled_kinect" / f"{name}.pcd")
     depth = cloud.numpy(("z",)).reshape(480, 640).astype(np.float64)
     label = cloud.numpy(("label",)).reshape(480, 640).astype(np.int64)
     truth = np.where(label == 0, -1, (label < 10).astype(np.int64))

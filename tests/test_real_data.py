@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import real_data
-from real_frames import RealFrame, labelled_table, room, simulated_scan, through_stereo
+from real_frames import TABLES, RealFrame, labelled_table, room, simulated_scan, through_stereo
 
 from treadwell.measuring.regions import RegionCounts
 from treadwell.senses.depth import Pinhole
@@ -99,6 +99,20 @@ def test_the_table_is_found_whatever_the_camera_believes_within_the_gate(table: 
             pose = real_data.pose_above(normal, height, turn, rise)
             iou, _ = real_data.support_plane("scan_line", frame, real_data.ROBOT, pose)
             assert iou > 0.94, (degrees, rise)
+
+
+@needs_data
+@pytest.mark.parametrize("name", TABLES)
+def test_the_table_under_clutter_is_the_ground_of_a_single_picture(name: str) -> None:
+    full = labelled_table(data(), name)
+    points = real_data.points_of(full)
+    normal, height = real_data.ransac_plane(points[np.isfinite(points[:, 2])])
+    found = []
+    for seed in range(5):
+        frame, pose = through_stereo(full, seed), real_data.wrong_pose(normal, height, seed)
+        found.append(real_data.support_plane("scan_line", frame, real_data.ROBOT, pose)[0])
+    assert sum(iou > real_data.FOUND for iou in found) >= 4, found
+    assert all(iou > 0.85 for iou in found if iou > real_data.FOUND), found
 
 
 @needs_data

@@ -129,7 +129,7 @@ app.command(short_help="Write files that other tools open.", epilog=run_verbs.EX
 )
 def experiment(
     name: Annotated[
-        str, typer.Argument(metavar="NAME", help="Which experiment: fog, nao, stairs.")
+        str, typer.Argument(metavar="NAME", help="Which experiment: fog, nao, stairs, world.")
     ],
     *,
     seeds: Annotated[

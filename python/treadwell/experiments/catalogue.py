@@ -8,8 +8,9 @@ from treadwell.experiments.experiment import Experiment
 from treadwell.experiments.fog import FOG
 from treadwell.experiments.nao import NAO
 from treadwell.experiments.stairs import STAIRS
+from treadwell.experiments.world.experiment import WORLD
 
-EXPERIMENTS: Final[dict[str, Experiment]] = {made.name: made for made in (FOG, NAO, STAIRS)}
+EXPERIMENTS: Final[dict[str, Experiment]] = {made.name: made for made in (FOG, NAO, STAIRS, WORLD)}
 
 
 def find_experiment(name: str) -> Experiment:

@@ -146,7 +146,9 @@ def _job(case: Case, seed: int, folder: Path) -> Job:
     place = folder / f"{case.name}-{seed}"
     if isinstance(case.scenario, str):
         return Job(case, seed, case.scenario, place)
-    drawn = write_scenario(place.with_suffix(".toml"), case.scenario(seed))
+    for name, text in case.beside:
+        write_whole(folder / name, text)
+    drawn = write_scenario(folder / f"{place.name}.toml", case.scenario(seed))
     return Job(case, seed, drawn, place)
 
 

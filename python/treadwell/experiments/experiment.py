@@ -30,6 +30,7 @@ class Case:
         share: of the seeds asked for; 5 runs five times as many, 0.5 every second one.
         watch: what looks at each camera frame of its runs.
         afterwards: makes another run of one that was recorded for it; it can be pickled.
+        beside: name and text of files that a scenario that is drawn names; they lie beside it.
     """
 
     name: str
@@ -38,6 +39,7 @@ class Case:
     share: float = 1.0
     watch: type[Watch] | None = None
     afterwards: Callable[[Run], Run] | None = None
+    beside: tuple[tuple[str, str], ...] = ()
 
     def seeds(self, asked: range) -> range:
         """Return the seeds to run where these are asked for; at least one."""

@@ -125,6 +125,8 @@ pub struct StairClimbing {
     ahead: ClimbAhead,
     /// Whether the walker had stumbled at the last tick.
     had_stumbled: bool,
+    /// Whether a foot of the walk has met something since stairs were looked for.
+    touched: bool,
 }
 
 impl StairClimbing {
@@ -168,6 +170,7 @@ impl StairClimbing {
             memory: Memory::default(),
             ahead: ClimbAhead::default(),
             had_stumbled: false,
+            touched: false,
         })
     }
 
@@ -292,6 +295,9 @@ impl Behaviour for StairClimbing {
         if self.is_walking() {
             return if situation.estimate.lost {
                 self.walk_lost(&tick)
+            } else if self.has_stepped_off(situation) {
+                self.after_stepping_off(&tick);
+                Ok(self.decision(&tick, Motion::Stand))
             } else {
                 self.walk(&tick)
             };

@@ -5,6 +5,7 @@ mod command;
 mod decision;
 mod machine;
 mod part;
+mod things_met;
 mod walking;
 
 pub use climbing::{Pace, StairClimbing, StairClimbingConfig};

@@ -15,6 +15,7 @@ mod progress;
 mod side_leg;
 mod sidle;
 mod state;
+mod step_off;
 mod stop;
 mod tick;
 mod track;
@@ -28,6 +29,7 @@ pub(crate) mod simulation;
 #[cfg(test)]
 mod tests;
 
+use mapping::FeltPlace;
 use planning::Goal;
 use robot::Extent;
 use settings::{ConfigError, MakeError, Part, Table, TableDescription, read};
@@ -35,6 +37,7 @@ use stairs::{ClimbingConfig, LevelsConfig};
 
 use crate::machine::{Interruption, Machine, State as _, Stopwatch};
 use crate::part::{BehaviourNeeds, BehaviourPart};
+use crate::things_met::ThingsMet;
 use crate::{Behaviour, BehaviourError, Command, Decision, Motion, Situation};
 use blind::{CameBy, Tried};
 pub use config::WalkingConfig;
@@ -91,7 +94,9 @@ pub struct WalkingBehaviour {
     looks: u32,
     /// The place at which something stood on the way when the robot last stopped for that.
     watched_m: Option<[f64; 2]>,
-    stumbles: u32,
+    touches: ThingsMet,
+    /// What a foot has met, until the robot has stopped for it.
+    met: Option<FeltPlace>,
     /// Time since the start at which the look around of the state `locate` was over, s.
     looked_round_s: Option<f64>,
     motion: Motion,
@@ -137,7 +142,8 @@ impl WalkingBehaviour {
             darks: 0,
             looks: 0,
             watched_m: None,
-            stumbles: 0,
+            touches: ThingsMet::default(),
+            met: None,
             looked_round_s: None,
             motion: Motion::Stand,
         })
@@ -190,7 +196,7 @@ impl WalkingBehaviour {
         let has_arrived = || !locates && self.has_arrived(tick);
         match self.machine.interruption(tick, has_arrived) {
             None => {}
-            Some(Interruption::Stumble) => self.stumble(),
+            Some(Interruption::Stumble) => self.stumble(tick),
             Some(Interruption::Lost) => self.begin_locating(tick),
             Some(Interruption::Arrival) => self.enter(State::Arrive),
             // A robot that has just found its place first looks around.
@@ -208,6 +214,7 @@ impl WalkingBehaviour {
             State::Turn { to_rad } => self.turn(tick, *to_rad),
             State::Sidle => self.sidle(tick),
             State::Stop => self.stop(tick),
+            State::StepOff { to_m } => self.step_off(tick, *to_m),
             State::Arrive => self.arrive(tick),
             State::Refuse { .. } => self.stand(tick),
             State::Blind(blind) => self.wait_for_sight(tick, *blind),

@@ -144,7 +144,7 @@ fn kinds<'py>(py: Python<'py>, view: &mapping::FloorView) -> PyResult<Bound<'py,
         Surface::Floor(_) => 1,
         Surface::Obstacle(_) => 2,
     };
-    let flat: Vec<u8> = view.cells.values().iter().map(kind).collect();
+    let flat: Vec<u8> = view.shown().cells.values().iter().map(kind).collect();
     flat.into_pyarray(py).reshape(shape(view))
 }
 
@@ -153,7 +153,7 @@ fn heights<'py>(py: Python<'py>, view: &mapping::FloorView) -> PyResult<Bound<'p
         Surface::Unknown => f32::NAN,
         Surface::Floor(height) | Surface::Obstacle(height) => height,
     };
-    let flat: Vec<f32> = view.cells.values().iter().map(height).collect();
+    let flat: Vec<f32> = view.shown().cells.values().iter().map(height).collect();
     flat.into_pyarray(py).reshape(shape(view))
 }
 

@@ -1,12 +1,14 @@
 //! World models: what the robot knows of the ground around it.
 
 mod averaging;
+mod felt;
 mod model;
 mod part;
 pub mod surface;
 mod two_maps;
 
 pub use averaging::{Averaging, AveragingConfig, AveragingTuning};
+pub use felt::{FeltConfig, FeltPlace, WithFelt};
 pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};
 pub use part::{WorldModelNeeds, WorldModelPart};
 pub use surface::{Fog, FogConfig, FogTuning, OverheadTuning};

@@ -1,7 +1,11 @@
 //! What every world model does: take in a frame, say what changed, show floors, obstacles and the unknown.
 
+use std::borrow::Cow;
+
 use geometry::{Cell, CellArea, Grid, Lattice, Map, Pose, Robot};
 use segmentation::Planes;
+
+use crate::FeltPlace;
 
 /// Why a frame could not be inserted. The map is unchanged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -59,6 +63,8 @@ pub struct FloorView {
     pub least_gradient: f64,
     /// What is known of the room above each cell's floor.
     pub head: Grid<HeadRoom>,
+    /// Where the feet met something, in the order in which they did.
+    pub felt: Vec<FeltPlace>,
 }
 
 impl FloorView {
@@ -72,6 +78,7 @@ impl FloorView {
             gradients: Grid::filled(cols, rows, [0.0; 2]),
             least_gradient: 0.0,
             head: Grid::filled(cols, rows, HeadRoom::Free),
+            felt: Vec::new(),
         }
     }
 
@@ -147,6 +154,33 @@ impl FloorView {
         Some(view)
     }
 
+    /// The view with an obstacle where the feet met something that is higher than what was seen there.
+    pub fn shown(&self) -> Cow<'_, Self> {
+        let mut shown = Cow::Borrowed(self);
+        for felt in &self.felt {
+            for cell in felt.cells(self.lattice) {
+                let top = felt.top_m as f32;
+                let as_high = match self.cell(cell) {
+                    Surface::Obstacle(_) => true,
+                    Surface::Floor(height) => height >= top,
+                    Surface::Unknown => false,
+                };
+                if !as_high && let Some(slot) = shown.to_mut().cells.get_mut(cell) {
+                    *slot = Surface::Obstacle(top);
+                }
+            }
+        }
+        shown
+    }
+
+    /// The view as it were had the feet met nothing; `None` where they did not.
+    pub fn without_felt(&self) -> Option<Self> {
+        (!self.felt.is_empty()).then(|| Self {
+            felt: Vec::new(),
+            ..self.clone()
+        })
+    }
+
     /// What is in a cell; unknown outside the window.
     pub fn cell(&self, cell: Cell) -> Surface {
         self.cells.get(cell).copied().unwrap_or_default()
@@ -184,6 +218,9 @@ pub trait WorldModel: Send + Sync {
 
     /// The floor, obstacle and unknown view, as of the last insertion.
     fn view(&self) -> &FloorView;
+
+    /// Takes in what a foot met. A model by itself knows only what is seen; [`WithFelt`](crate::WithFelt) keeps it for any.
+    fn feel(&mut self, _felt: FeltPlace) {}
 
     /// Drops what was seen: the robot found itself at another place than it had believed.
     fn forget(&mut self) {}

@@ -84,6 +84,23 @@ proptest! {
     }
 }
 
+/// A post hides the floor below a bar that shows above it.
+#[test]
+fn what_hangs_high_enough_is_passed_under_where_the_floor_below_was_not_seen_but_that_beside_it_was()
+ {
+    let post = Block::new([0.5, 0.0, 0.0], [0.54, 0.04, 0.3], false);
+    for (underside_m, passes) in [(HEADROOM_M + 0.08, true), (HEADROOM_M - 0.04, false)] {
+        let mut fog = fog(Some(HEADROOM_M));
+        look_ahead(&mut fog, &[post, bar(underside_m)], &at(0.0));
+        let hidden = fog.view().lattice.cell_at(UNDER[0], UNDER[1]);
+        assert!(ceiling_m(&fog).is_none(), "its floor is hidden");
+        let surface = *fog.view().cells.get(hidden).unwrap();
+        assert_eq!(is_obstacle(surface), !passes, "{surface:?}");
+        let low = matches!(fog.view().head_at(UNDER[0], UNDER[1]), HeadRoom::Low { .. });
+        assert_eq!(low, !passes);
+    }
+}
+
 /// Looks at the floor alone: the horizon is above the picture.
 fn look_down(fog: &mut Fog, blocks: &[Block]) {
     let pose = at(0.0);

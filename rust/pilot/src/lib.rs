@@ -1,6 +1,7 @@
 //! One tick through all floors. Wires the stages together and contains no algorithm.
 
 mod error;
+mod feeling;
 mod goals;
 mod parts;
 mod perception;

@@ -15,6 +15,7 @@ const STAGES: &[TableDescription] = &[
     TableDescription::of::<segmentation::GroundConfig>(),
     TableDescription::of::<stairs::StairsConfig>(),
     TableDescription::of::<stairs::ClimbingConfig>(),
+    TableDescription::of::<mapping::FeltConfig>(),
     TableDescription::of::<planning::TerrainConfig>(),
     TableDescription::of::<known_map::KnownMapConfig>(),
     TableDescription::of::<walking::GaitConfig>(),

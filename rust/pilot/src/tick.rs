@@ -5,7 +5,7 @@ use std::sync::Arc;
 use behaviour::{Behaviour, Decision, Situation};
 use geometry::{Map, Odometry, Pose, Robot};
 use localization::{Estimate, Localizer};
-use mapping::FloorView;
+use mapping::{FeltConfig, FloorView, WithFelt};
 use planning::{Plan, Planner};
 use proprioception::{
     BodyState, BodyStateHistory, Proprioception, ProprioceptionConfig, SenseWatch, SenseWatchConfig,
@@ -19,6 +19,7 @@ use volume::octree::Octree;
 use walking::relief::{Mapped, Slopes};
 use walking::{JointTargets, WalkError, Walker};
 
+use crate::feeling;
 use crate::goals::Goals;
 use crate::perception::{Perception, PerceptionConfig};
 use crate::registry::{self, Components, Making};
@@ -112,7 +113,10 @@ impl Pilot {
         let self_filter = SelfFilter::new(&body, &read(tables, "self_filter")?)?;
         let perception: PerceptionConfig = read(tables, "perception")?;
         perception.check()?;
+        let felt: FeltConfig = read(tables, "felt")?;
+        felt.check()?;
         let world_model = (given.world_model).map_or_else(|| making.world_model(), Ok)?;
+        let world_model = Box::new(WithFelt::new(world_model, felt));
         Ok(Self {
             map_from_odometry_at_start: Pose::wrap(settings.start_or_origin().inner),
             proprioception: Proprioception::new(&body, senses.clone())?,
@@ -142,14 +146,13 @@ impl Pilot {
     }
 
     /// Takes in an observation and says what the motors shall do. On an error nothing was taken in.
-    pub fn tick(&mut self, observation: &Observation) -> Result<Tick<'_>, PilotError> {
-        observation.check(self.body.joint_count(), &self.camera, self.time_ns)?;
-        self.time_ns = Some(observation.time_ns);
+    pub fn tick(&mut self, measured: &Observation) -> Result<Tick<'_>, PilotError> {
+        measured.check(self.body.joint_count(), &self.camera, self.time_ns)?;
+        self.time_ns = Some(measured.time_ns);
         self.timing = Timing::default();
         let on_slope = self.walker.on_slope();
         self.proprioception.note_slopes(on_slope);
         self.senses.note_slopes(on_slope);
-        let measured = observation;
         let repaired = self.senses.repaired(measured);
         let observation = repaired.as_ref().unwrap_or(measured);
         let state = self
@@ -165,6 +168,7 @@ impl Pilot {
         let estimate = self
             .timing
             .measure(Stage::Localize, || self.localizer.estimate(state))?;
+        feeling::tell(&self.walker, &estimate, &mut self.perception);
         let situation = Situation {
             time_ns: observation.time_ns,
             estimate: &estimate,

@@ -2,6 +2,7 @@
 
 mod ceilings;
 mod choice;
+mod felt;
 mod path_search;
 
 use geometry::{Map, Pose, Robot};
@@ -167,7 +168,13 @@ impl Planner for AStar {
             found = self.find(&stand, &levelled);
         }
         let barred = (found.as_ref()).map_or(true, |path| !path.end.is_certain());
-        if barred && let Some(no_way) = self.under_ceilings((view, stairs), &stand, &levelled) {
+        if found.is_err()
+            && let Some(no_way) = self.over_felt((view, stairs), &stand, &levelled)
+        {
+            found = Err(no_way);
+        } else if barred
+            && let Some(no_way) = self.under_ceilings((view, stairs), &stand, &levelled)
+        {
             found = Err(no_way);
         }
         Ok(self.choose(rest, found, &levelled, &start))

@@ -154,6 +154,19 @@ pub struct NoWay {
     pub refusal: Refusal,
     /// One sentence with figures.
     pub sentence: String,
+    /// Whether what is known stands all around the goal: nothing that is seen elsewhere could open a way.
+    pub shuts_goal_in: bool,
+}
+
+impl NoWay {
+    /// A reason that may not last: something else may show where nobody looked yet.
+    pub const fn new(refusal: Refusal, sentence: String) -> Self {
+        Self {
+            refusal,
+            sentence,
+            shuts_goal_in: false,
+        }
+    }
 }
 
 /// The product of a planner.

@@ -90,7 +90,7 @@ fn unfit((climbing, tuning): Words<'_>, limit: Unfit) -> NoWay {
             ),
         ),
     };
-    NoWay { refusal, sentence }
+    NoWay::new(refusal, sentence)
 }
 
 /// Explains why the robot finds no way from `start`.
@@ -111,6 +111,7 @@ pub(crate) fn explain(
         return NoWay {
             refusal: Refusal::TooNarrow,
             sentence: format!("the widest gap is {gap_m:.2} m, {needed:.2} m are needed"),
+            shuts_goal_in: is_shut_in(terrain, ends),
         };
     }
     if let Some(way) = steep_way(terrain, ends, start) {
@@ -127,6 +128,7 @@ pub(crate) fn explain(
     let nearest = widest.nearest_cells * terrain.lattice.cell_m;
     let cells = 0..terrain.blocked.len();
     let free = |index: &usize| !terrain.blocked[*index];
+    let mut shuts_goal_in = is_shut_in(terrain, ends);
     let sentence = if cells
         .clone()
         .any(|index| free(&index) && ends.cost(index).is_some())
@@ -136,6 +138,8 @@ pub(crate) fn explain(
         && cells.clone().any(|index| free(&index) && ends.holds(index))
     {
         let radius = goal.radius_m;
+        // Floor of that height may show elsewhere, and what leads to it.
+        shuts_goal_in = false;
         format!("no floor within {radius:.2} m of the goal lies {height_m:.2} m high")
     } else {
         let radius = goal.radius_m;
@@ -144,7 +148,32 @@ pub(crate) fn explain(
     NoWay {
         refusal: Refusal::Blocked,
         sentence,
+        shuts_goal_in,
     }
+}
+
+/// Whether the goal lies in the window and where a robot could walk from it ends at obstacles before the window does.
+fn is_shut_in(terrain: &Terrain, ends: &PathEnds<'_>) -> bool {
+    let count = terrain.weights.len();
+    let mut reached = vec![false; count];
+    let mut waiting: Vec<usize> = (0..count)
+        .filter(|&cell| ends.holds(cell) && terrain.weights[cell].is_finite())
+        .collect();
+    let cells = Cells::new(&terrain.weights, terrain.cols);
+    while let Some(cell) = waiting.pop() {
+        if std::mem::replace(&mut reached[cell], true) {
+            continue;
+        }
+        if terrain.on_border(cell) {
+            return false;
+        }
+        cells.for_each_neighbour((cell, ANYWHERE), |next, _, _| {
+            if !reached[next] {
+                waiting.push(next);
+            }
+        });
+    }
+    ends.inside
 }
 
 /// The way that would lead to the goal if levels were one.
@@ -192,16 +221,17 @@ fn unjoined(words: Words<'_>, rise_m: f64) -> NoWay {
         return unfit(words, Unfit::TooHigh(rise_m));
     }
     let mm = (1e3 * rise_m.abs()).round();
-    NoWay {
-        refusal: Refusal::Blocked,
-        sentence: format!("a step of {mm} mm is in the way, and no edge to climb it by was found"),
-    }
+    NoWay::new(
+        Refusal::Blocked,
+        format!("a step of {mm} mm is in the way, and no edge to climb it by was found"),
+    )
 }
 
 struct Widest {
     /// Clearance at the narrowest place of the widest way, m; 0 where there is no way for a point either.
     clearance_m: f64,
-    /// Whether the floor at the narrowest place was seen: a gap in what is known of a wall is none.
+    /// Whether the floor at the narrowest place, and where the way is as narrow to within a cell, was seen: a gap in what is known of
+    /// a wall is none.
     is_seen: bool,
     /// Octile distance in cells from the goal that a point could reach by gaps wider than a crack.
     nearest_cells: f64,
@@ -214,6 +244,7 @@ fn widest_way(terrain: &Terrain, ends: &PathEnds<'_>, start: usize, crack_m: f64
         .map(|(&blocked, &edge)| if blocked || edge { f32::INFINITY } else { 1.0 })
         .collect();
     let cells = Cells::new(&open, terrain.cols);
+    let cells_of = |squared: u32| f64::from(squared).sqrt();
     let mut seen = vec![false; open.len()];
     let mut queue = BinaryHeap::from([(u32::MAX, true, Reverse(start))]);
     let mut nearest_cells = f64::INFINITY;
@@ -241,11 +272,10 @@ fn widest_way(terrain: &Terrain, ends: &PathEnds<'_>, start: usize, crack_m: f64
                 } else {
                     terrain.distance.squared(next)
                 };
-                let (narrowest, is_seen) = if here < narrowest {
-                    (here, !terrain.unknown[next])
-                } else {
-                    (narrowest, is_seen)
-                };
+                let is_as_narrow = here < narrowest || cells_of(here) < cells_of(narrowest) + 1.0;
+                let hides = is_as_narrow && terrain.unknown[next];
+                let is_seen = !hides && (is_seen || here < narrowest);
+                let narrowest = narrowest.min(here);
                 queue.push((narrowest, is_seen, Reverse(next)));
             }
         });

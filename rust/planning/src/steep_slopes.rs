@@ -75,12 +75,12 @@ pub(crate) fn first_too_steep(terrain: &Terrain, route: &Route) -> Option<f64> {
 /// The word and sentence for a slope that is too steep, in rise per metre.
 pub(crate) fn too_steep(terrain: &Terrain, rise_per_m: f64) -> NoWay {
     let degrees = |rise_per_m: f64| libm::atan(rise_per_m).to_degrees().round();
-    NoWay {
-        refusal: Refusal::TooSteep,
-        sentence: format!(
+    NoWay::new(
+        Refusal::TooSteep,
+        format!(
             "the slope is {} degrees steep, {} degrees is the limit",
             degrees(rise_per_m),
             degrees(terrain.slopes.steepest_walked())
         ),
-    }
+    )
 }

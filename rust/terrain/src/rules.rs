@@ -9,6 +9,7 @@ pub(crate) mod config;
 pub mod edge_costs;
 pub mod escape;
 pub mod far_levels;
+pub mod felt;
 mod gaps;
 pub mod head_room;
 mod height_differences;
@@ -30,7 +31,7 @@ use crate::{Sight, Terrain, TerrainConfig};
 use voronoi::VoronoiConfig;
 
 /// All rules, in order.
-pub const RULES: [Rule; 20] = [
+pub const RULES: [Rule; 21] = [
     // Decides which cells belong to recognised stairs or lie beside them, and how high those are.
     Rule {
         name: "stair_cells",
@@ -109,6 +110,11 @@ pub const RULES: [Rule; 20] = [
         name: "tall_edges",
         apply: |_, terrain, sight| tall_edges::apply(terrain, sight),
     },
+    // Decides that what a foot met stands there, until something as high is seen there.
+    Rule {
+        name: "felt",
+        apply: |rules, terrain, sight| rules.felt.apply(terrain, sight, &rules.config.felt),
+    },
     // Decides how far each cell is from obstacles and from edges.
     Rule {
         name: "clearance",
@@ -164,6 +170,7 @@ pub struct Rules {
     gaps: gaps::Gaps,
     landing_edges: landing_edges::LandingEdges,
     platform_edges: platform_edges::PlatformEdges,
+    felt: felt::FeltThings,
     obstacle_costs: obstacle_costs::ObstacleCosts,
     voronoi: Option<voronoi::VoronoiField>,
     edge_costs: edge_costs::EdgeCosts,

@@ -146,6 +146,7 @@ mod tests {
             soles_m: [Vector3::zeros(); 2],
             short_m: [0.0; 2],
             pressed_m: [Vector2::zeros(); 2],
+            touched_m: [Vector3::zeros(); 2],
         };
         for _ in 0..10 {
             gait.advance(0.01, Task::Steps(&[]), &KnownGround::Felt(felt));

@@ -42,5 +42,6 @@ mod walker;
 
 pub use config::GaitConfig;
 pub use error::WalkError;
+pub use stumble::Met;
 pub use targets::JointTargets;
 pub use walker::Walker;

@@ -3,6 +3,8 @@
 use behaviour::Misstep;
 use geometry::PlanarPose;
 
+use crate::stumble::Met;
+
 /// How the present or the last list goes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Listed {
@@ -20,4 +22,8 @@ pub(crate) struct Listed {
     pub(crate) put_down: usize,
     /// Whether a walk has come upon a level that it was not told of.
     pub(crate) stumbled: bool,
+    /// What it has come upon, in the plan, until that was told.
+    pub(crate) met: Option<Met>,
+    /// What a walk has come upon last, in the plan.
+    pub(crate) met_last: Option<Met>,
 }

@@ -3,14 +3,41 @@
 //! Floors differ by up to 10 mm, which the walk takes as it comes; from there to the least step that the camera tells apart, feet
 //! are all that a robot has.
 
+use geometry::PlanarPose;
 use nalgebra::Vector2;
 
 use crate::felt::Felt;
 use crate::gait::Gait;
-use crate::phase::{GaitPhase, Manner, Swing};
+use crate::phase::{FootPose, GaitPhase, Manner, Swing};
 use crate::swing;
 
+/// What a foot of a walk met.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Met {
+    /// A point of it, and its direction from where the foot had stood.
+    pub at: PlanarPose,
+    /// It is at least so much higher than the ground that the foot left, m.
+    pub height_m: f64,
+    /// Half of the sole, across the way that it came, m.
+    pub half_width_m: f64,
+}
+
+impl Met {
+    /// The same in this frame.
+    pub(crate) fn seen_from(self, frame: &PlanarPose) -> Self {
+        Self {
+            at: frame.relative(&self.at),
+            ..self
+        }
+    }
+}
+
 impl Gait {
+    /// What a foot has met since this was asked last.
+    pub(crate) const fn take_met(&mut self) -> Option<Met> {
+        self.listed.met.take()
+    }
+
     /// Whether a walk has ended because of what it met.
     pub(crate) const fn has_stumbled(&self) -> bool {
         self.listed.stumbled
@@ -31,6 +58,8 @@ impl Gait {
         };
         if self.meets_a_level(&swing, before_s, felt) {
             self.listed.stumbled = true;
+            self.listed.met = Some(self.met(&swing, elapsed_s, felt));
+            self.listed.met_last = self.listed.met;
             self.go_off(&swing, elapsed_s, felt);
         }
     }
@@ -44,9 +73,34 @@ impl Gait {
             && share > self.config.tuning.landing.left_share
             && felt.loads_n[index] > self.config.landing_load
             && above_m > self.config.stumble_height
+            && !self.leaves_what_it_met(swing)
     }
 
-    /// Takes the foot back along its way until nothing of it is over the edge that it met; where most of it is, it stays.
+    /// Whether a foot goes back from where it met something last: it may still lie on it.
+    fn leaves_what_it_met(&self, swing: &Swing) -> bool {
+        self.listed.met_last.is_some_and(|met| {
+            let away_m = |foot: &FootPose| foot.planar.distance_m(&met.at);
+            let reach_m = self.planner.half_sole_m().norm() + self.config.tuning.stumble.clear;
+            away_m(&swing.from) < away_m(&swing.to).min(reach_m)
+        })
+    }
+
+    /// What a foot on its way has come upon: the middle of pressure on the sole lies on it.
+    fn met(&self, swing: &Swing, elapsed_s: f64, felt: &Felt) -> Met {
+        let touched_m = felt.touched_m[swing.side.index()];
+        let yaw_rad = swing.foot(elapsed_s, &self.config).planar.yaw_rad;
+        let from = &swing.from.planar;
+        let came_rad = libm::atan2(touched_m.y - from.y_m, touched_m.x - from.x_m);
+        let (sin, cos) = libm::sincos(came_rad - yaw_rad);
+        let half = self.planner.half_sole_m();
+        Met {
+            at: PlanarPose::new(touched_m.x, touched_m.y, came_rad),
+            height_m: touched_m.z - swing.to.z_m,
+            half_width_m: half.x * sin.abs() + half.y * cos.abs(),
+        }
+    }
+
+    /// Takes the foot back along its way until nothing of it is over the edge that it met; where all of it is, it stays.
     fn go_off(&mut self, swing: &Swing, elapsed_s: f64, felt: &Felt) {
         let index = swing.side.index();
         let tuning = &self.config.tuning.stumble;
@@ -106,6 +160,10 @@ mod tests {
             soles_m: [Vector3::new(0.02, 0.0425, height_m), Vector3::zeros()],
             short_m: [0.0; 2],
             pressed_m: [Vector2::new(pressed_m, 0.0), Vector2::zeros()],
+            touched_m: [
+                Vector3::new(0.02 + pressed_m, 0.0425, height_m),
+                Vector3::zeros(),
+            ],
         })
     }
 
@@ -125,6 +183,9 @@ mod tests {
         let toes_m = before.foot(Side::Left).planar.x_m + 0.0525;
         let gait = landed(before, &upon(0.018, 0.04));
         assert!(gait.has_stumbled());
+        let met = gait.listed.met.unwrap();
+        assert_eq!(met.at, PlanarPose::new(0.06, 0.0425, 0.0));
+        assert_eq!((met.height_m, met.half_width_m), (0.018, 0.0375));
         // Pressed 12.5 mm behind the toes: 25 mm of the sole are over the edge.
         let back_m = toes_m - (gait.feet[0].planar.x_m + 0.0525);
         assert!(back_m > 0.025, "{back_m}");
@@ -132,17 +193,34 @@ mod tests {
     }
 
     #[test]
-    fn a_sole_that_is_mostly_on_the_step_stays_there() {
-        let gait = landed(walking(), &upon(0.018, 0.01));
+    fn a_sole_that_lies_all_on_the_step_stays_there() {
+        let gait = landed(walking(), &upon(0.018, -0.005));
         assert!(gait.has_stumbled());
         assert!(gait.feet[0].planar.x_m > 0.0);
         assert_eq!(gait.feet[0].z_m, 0.018);
     }
 
     #[test]
+    fn a_foot_that_goes_back_from_what_it_met_does_not_meet_it_again() {
+        let back = |met: f64| {
+            let (from, to) = (foot_at(0.03, 0.0425), foot_at(-0.03, 0.0425));
+            let swing = Swing::new(Side::Left, Manner::Walk, from, to);
+            let mut gait = on_its_way(swing, foot_at(0.0, -0.0425), 0.65);
+            gait.listed.met_last = Some(Met {
+                at: PlanarPose::new(met, 0.04, 0.0),
+                height_m: 0.015,
+                half_width_m: 0.04,
+            });
+            landed(gait, &upon(0.018, 0.04))
+        };
+        assert!(!back(0.08).has_stumbled());
+        assert!(back(0.3).has_stumbled(), "another thing");
+    }
+
+    #[test]
     fn a_bump_that_counts_as_floor_is_walked_over() {
         let gait = landed(walking(), &upon(0.010, 0.04));
-        assert!(!gait.has_stumbled());
+        assert!(!gait.has_stumbled() && gait.listed.met.is_none());
         assert_eq!(gait.feet[0].planar.x_m, 0.03);
     }
 }

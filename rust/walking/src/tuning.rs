@@ -182,8 +182,9 @@ settings! {
         landing_share: f64 = 0.6, "1", SHARE;
         /// How far off the edge that it met a foot goes back.
         clear: f64 = 0.025, "m", NOT_NEGATIVE;
-        /// A foot of which more than this share lies beyond the edge that it met stands well there.
-        stands_share: f64 = 0.6, "1", SHARE;
+        /// A foot of which more than this share lies beyond the edge that it met stands well there: pressed at its
+        /// middle it may as well lie on a cable.
+        stands_share: f64 = 1.0, "1", SHARE;
     }
 }
 

@@ -24,6 +24,7 @@ use crate::posture::{Posture, PostureMoment};
 use crate::relief::{Relief, Slopes};
 use crate::stance::UprightStance;
 use crate::step_list::{ListFrame, StepList};
+use crate::stumble::Met;
 use crate::support::{Pressure, Soles};
 use crate::targets::JointTargets;
 
@@ -50,6 +51,7 @@ pub struct Walker {
     pub(crate) pressure: Pressure,
     targets: JointTargets,
     last_ns: Option<u64>,
+    met: Option<Met>,
 }
 
 impl Walker {
@@ -89,6 +91,7 @@ impl Walker {
                 dcm: middle,
             },
             last_ns: None,
+            met: None,
             list: StepList::default(),
             gait,
             config,
@@ -119,6 +122,7 @@ impl Walker {
         let task = self.list.task(&command.motion, &self.gait, relief);
         self.gait
             .advance(passed_s * rate, task, &KnownGround::Felt(felt));
+        self.met = self.gait.take_met().map(|met| met.seen_from(&frame.planar));
         let task = self.list.task(&command.motion, &self.gait, relief);
         self.reference = self.gait.reference(omega, task);
         self.com += (self.reference.dcm - self.com) * (omega * passed_s)
@@ -201,12 +205,18 @@ impl Walker {
         let plan_from_sole = Side::BOTH.map(|side| {
             self.balance.plan_from_torso * self.body.torso_from_sole(&state.links, side)
         });
+        let pressed_m =
+            Side::BOTH.map(|side| self.soles.pressed_m(side, &observation.foot_forces_n));
+        let touched_m = [0, 1].map(|foot: usize| {
+            let [x_m, y_m] = pressed_m[foot].into();
+            (plan_from_sole[foot] * nalgebra::Point3::new(x_m, y_m, 0.0)).coords
+        });
         Felt {
             loads_n: state.foot_loads_n,
             soles_m: plan_from_sole.map(|pose| pose.translation.vector),
             short_m: self.posture.short_m(),
-            pressed_m: Side::BOTH
-                .map(|side| self.soles.pressed_m(side, &observation.foot_forces_n)),
+            pressed_m,
+            touched_m,
         }
     }
 

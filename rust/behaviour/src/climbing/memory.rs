@@ -32,6 +32,4 @@ pub(super) struct Tries {
     pub(super) searches: u32,
     /// Stairs that were looked at from near by.
     pub(super) inspections: u32,
-    /// Walks that came upon a level which was not seen.
-    pub(super) stumbles: u32,
 }

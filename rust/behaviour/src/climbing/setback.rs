@@ -1,11 +1,14 @@
 //! What follows when a step fails: a new try, back to where the robot came from, or giving up.
 
+use geometry::distance_m;
+use mapping::FeltPlace;
 use robot::Side;
 
 use super::{StairClimbing, State};
 use crate::climbing::stepper::Stepped;
 use crate::machine::{State as _, Tick};
-use crate::{Footstep, Misstep, Motion};
+use crate::things_met::given_up;
+use crate::{Footstep, Misstep, Motion, Situation};
 
 /// What a misstep says of the world.
 pub(super) const fn told(misstep: Misstep) -> &'static str {
@@ -13,6 +16,14 @@ pub(super) const fn told(misstep: Misstep) -> &'static str {
         Misstep::NoGround => "the next step is not where it was seen",
         Misstep::Obstructed => "something is in the way of the foot",
     }
+}
+
+/// Whether what was felt last lies further than this from all that was felt before, m: only then may it be another thing.
+fn is_apart(felt: &[FeltPlace], one_thing_m: f64) -> bool {
+    felt.split_last().is_none_or(|(last, before)| {
+        let apart = |one: &FeltPlace| distance_m(one.at_m, last.at_m) > one_thing_m;
+        before.iter().all(apart)
+    })
 }
 
 impl StairClimbing {
@@ -55,15 +66,31 @@ impl StairClimbing {
 
     /// Looks for stairs from here, or gives up: a walking foot came upon a level that was not seen.
     pub(super) fn after_stumble(&mut self, tick: &Tick<'_>) {
-        self.memory.tries.stumbles += 1;
-        if self.memory.tries.stumbles > self.walking.config().tries {
-            self.refuse(format!("blocked: {}", told(Misstep::Obstructed)));
+        let felt = &tick.situation.view.felt;
+        if self.is_walking() {
+            self.touched = is_apart(felt, self.config.tuning.setback.one_thing);
+        } else if !self.walking.counts_touch(felt) {
+            self.refuse(given_up(felt, tick.ground_m));
         } else if self.machine.state().may_become(&State::Search) {
             self.memory.on = None;
             self.head.gazer.start(tick.situation.gaze);
             self.flight.clear();
-            self.begin_search(tick);
+            self.look_for_steps(tick);
         }
+    }
+
+    /// Whether a foot of the walk has met something and the robot has stepped back from it.
+    pub(super) fn has_stepped_off(&self, situation: &Situation<'_>) -> bool {
+        self.touched && !situation.stepping.stumbled && self.walking.goes_on()
+    }
+
+    /// Looks for stairs after a walking foot came upon something and the robot has stepped back: it may be a step.
+    pub(super) fn after_stepping_off(&mut self, tick: &Tick<'_>) {
+        self.touched = false;
+        self.memory.on = None;
+        self.head.gazer.start(tick.situation.gaze);
+        self.flight.clear();
+        self.look_for_steps(tick);
     }
 
     /// Moves back to where the robot stood before the last list, and gives up for this reason.

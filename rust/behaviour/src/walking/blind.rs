@@ -153,20 +153,10 @@ impl WalkingBehaviour {
 
     /// One tick of the steps back.
     fn step_back(&mut self, tick: &WayTick<'_>, to_m: [f64; 2]) -> Motion {
-        let [x_m, y_m] = tick.in_robot(to_m);
-        let away_m = geometry::hypot(x_m, y_m);
-        let tuning = &self.config.tuning.blind;
-        let longest_s = 2.0 * tuning.back / self.config.creep_speed;
-        if away_m < tuning.reached || self.machine.lasted_s() > longest_s {
-            return self.look_again();
+        match self.step_towards(tick, to_m) {
+            Some(motion) => motion,
+            None => self.look_again(),
         }
-        self.gaze_at(tick, 0.0, self.config.gaze_near);
-        let share = self.config.creep_speed / away_m;
-        Motion::Walk(Velocity {
-            x_mps: share * x_m,
-            y_mps: share * y_m,
-            ..Velocity::default()
-        })
     }
 
     /// One tick of the turn.

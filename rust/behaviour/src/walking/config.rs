@@ -80,6 +80,8 @@ settings! {
         /// Looks without headway, stumbles, corrections and new tries of one kind before the robot gives up. More would tell nothing
         /// new, and between two searches the robot walks, so that no clock ends them.
         tries: u32 = 3, "1", within(1.0, 100.0);
+        /// Things that were not seen, and that its feet meet, before the robot gives up: each one teaches it another way.
+        touches: u32 = 12, "1", within(1.0, 1000.0);
         /// Numbers that few will want to turn.
         tuning: WalkingTuning;
     }

@@ -43,8 +43,13 @@ impl WalkingBehaviour {
     fn look_elsewhere(&mut self, tick: &WayTick<'_>) {
         self.looks += 1;
         let tuning = &self.config.tuning.look_around;
-        if self.looks < tuning.directions {
-            let to_rad = Some(wrap_angle(tick.pose.yaw_rad + tuning.apart));
+        let goal = tick.situation.goal;
+        let bearing_rad = tick.bearing_rad([goal.x_m, goal.y_m]);
+        let shut_in = is_the_goal_shut_in(tick);
+        let saw_enough = shut_in && bearing_rad.abs() < self.config.sweep;
+        if self.looks < tuning.directions && !saw_enough {
+            let by_rad = if shut_in { bearing_rad } else { tuning.apart };
+            let to_rad = Some(wrap_angle(tick.pose.yaw_rad + by_rad));
             self.enter(State::Turn { to_rad });
             return;
         }
@@ -64,4 +69,10 @@ impl WalkingBehaviour {
         let goal = Gaze { pan_rad, down_rad };
         self.gazer.turn(goal, tick.passed_s, self.config.gaze_speed);
     }
+}
+
+/// Whether what is known stands all around the goal: nothing that is seen elsewhere could open a way.
+fn is_the_goal_shut_in(tick: &WayTick<'_>) -> bool {
+    let way = tick.situation.plan.map(|plan| &plan.way);
+    matches!(way, Some(Err(no_way)) if no_way.shuts_goal_in)
 }

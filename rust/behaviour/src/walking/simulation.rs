@@ -53,10 +53,14 @@ pub(crate) struct Simulation {
     pub(crate) dark_beyond_x_m: f64,
     /// Where feet come upon an edge across the way that nobody sees, m.
     pub(crate) unseen_edge_m: Option<f64>,
+    /// Whether the map keeps what the feet meet there.
+    pub(crate) feels: bool,
     /// Whether the planner's path ends where it meets the goal's disc.
     pub(crate) ends_at_the_rim: bool,
     /// Whether the planner says that there is no way.
     pub(crate) closed: bool,
+    /// Where it is closed: whether the walls stand around the goal.
+    pub(crate) goal_is_shut_in: bool,
     /// Plans instead of the Dijkstra here.
     pub(crate) planner: Option<AStar>,
     /// Boxes: their lowest and highest corner, m.
@@ -92,8 +96,10 @@ impl Simulation {
             sees_before_x_m: f64::INFINITY,
             dark_beyond_x_m: f64::INFINITY,
             unseen_edge_m: None,
+            feels: false,
             ends_at_the_rim: false,
             closed: false,
+            goal_is_shut_in: false,
             planner: None,
             boxes: Vec::new(),
             pose: start,
@@ -204,6 +210,13 @@ impl Simulation {
                 self.stumbled = self.unseen_edge_m.is_some_and(|edge_m| pose.x_m > edge_m);
                 if !self.stumbled {
                     self.pose = pose;
+                } else if self.feels && self.view.felt.is_empty() {
+                    self.view.felt.push(mapping::FeltPlace {
+                        at_m: [pose.x_m + 0.06, pose.y_m],
+                        heading_rad: pose.yaw_rad,
+                        top_m: 0.015,
+                        half_width_m: 0.04,
+                    });
                 }
             }
             _ => {
@@ -232,8 +245,8 @@ impl Simulation {
             .count();
         if self.closed {
             let no_way = NoWay {
-                refusal: Refusal::Blocked,
-                sentence: "walls all around".to_owned(),
+                shuts_goal_in: self.goal_is_shut_in,
+                ..NoWay::new(Refusal::Blocked, "walls all around".to_owned())
             };
             self.plan = Some(Plan {
                 way: Err(no_way),
@@ -317,10 +330,10 @@ impl Simulation {
                     cell = next;
                 }
                 _ => {
-                    return Err(NoWay {
-                        refusal: Refusal::Blocked,
-                        sentence: "all cells around are blocked".to_owned(),
-                    });
+                    return Err(NoWay::new(
+                        Refusal::Blocked,
+                        "all cells around are blocked".to_owned(),
+                    ));
                 }
             }
         }

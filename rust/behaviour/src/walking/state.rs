@@ -38,6 +38,8 @@ pub(crate) enum State {
     Sidle,
     /// Stands because something appeared or the way is gone.
     Stop,
+    /// Steps back to a place off what a foot has met, m.
+    StepOff { to_m: [f64; 2] },
     /// Stands at the goal.
     Arrive,
     /// Stands, having given up.
@@ -51,7 +53,7 @@ pub(crate) enum State {
 impl State {
     /// All of them.
     #[cfg(test)]
-    pub(crate) fn all() -> [Self; 9] {
+    pub(crate) fn all() -> [Self; 10] {
         let sweep = Sweep::through(&[], 2);
         let lost_at = PlanarPose::default();
         [
@@ -60,6 +62,7 @@ impl State {
             Self::Turn { to_rad: None },
             Self::Sidle,
             Self::Stop,
+            Self::StepOff { to_m: [0.0; 2] },
             Self::Arrive,
             Self::Refuse {
                 reason: String::new(),
@@ -73,7 +76,12 @@ impl State {
     pub(crate) const fn moves(&self) -> bool {
         matches!(
             self,
-            Self::Walk | Self::Turn { .. } | Self::Sidle | Self::Locate(_) | Self::Blind(_)
+            Self::Walk
+                | Self::Turn { .. }
+                | Self::Sidle
+                | Self::StepOff { .. }
+                | Self::Locate(_)
+                | Self::Blind(_)
         )
     }
 }
@@ -86,6 +94,7 @@ impl machine::State for State {
             Self::Turn { .. } => "turn",
             Self::Sidle => "sidle",
             Self::Stop => "stop",
+            Self::StepOff { .. } => "step_back",
             Self::Arrive => "arrive",
             Self::Refuse { .. } => "refuse",
             Self::Blind(_) => "blind",
@@ -96,8 +105,10 @@ impl machine::State for State {
     /// Refusing is final; a robot that has arrived can only have slipped out again.
     fn may_become(&self, next: &Self) -> bool {
         match self {
-            Self::LookAround(_) => !matches!(next, Self::Stop),
-            Self::Walk | Self::Turn { .. } | Self::Sidle | Self::Stop => true,
+            Self::LookAround(_) => !matches!(next, Self::StepOff { .. }),
+            Self::Walk | Self::Turn { .. } | Self::Sidle | Self::Stop | Self::StepOff { .. } => {
+                true
+            }
             Self::Arrive => matches!(next, Self::Stop),
             Self::Blind(_) => matches!(
                 next,
@@ -133,7 +144,7 @@ impl machine::State for State {
     }
 
     fn ends_by_a_stumble(&self) -> bool {
-        self.moves()
+        self.moves() || matches!(self, Self::LookAround(_))
     }
 
     fn is_interruptible(&self) -> bool {

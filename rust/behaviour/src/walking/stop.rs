@@ -11,7 +11,10 @@ impl WalkingBehaviour {
             .map_or(0.0, |place_m| tick.bearing_rad(place_m));
         self.gaze_at(tick, bearing_rad, self.config.gaze_near);
         if self.standing.s() > 0.0 && self.machine.lasted_s() > self.config.stop_time {
-            if let Some((_, track)) = &tick.track {
+            let met = self.met.take();
+            if let Some(to_m) = met.and_then(|felt| self.off_m(tick, &felt)) {
+                self.enter(State::StepOff { to_m });
+            } else if let Some((_, track)) = &tick.track {
                 self.set_off(track);
             } else {
                 self.looks = 0;
@@ -19,16 +22,5 @@ impl WalkingBehaviour {
             }
         }
         Motion::Stand
-    }
-
-    /// Stands and looks, or gives up: the feet came upon a step that nobody saw.
-    pub(super) fn stumble(&mut self) {
-        self.stumbles += 1;
-        if self.stumbles > self.config.tries {
-            self.refuse("blocked: the feet come upon a step that cannot be seen".to_owned());
-        } else {
-            self.watched_m = None;
-            self.enter(State::Stop);
-        }
     }
 }

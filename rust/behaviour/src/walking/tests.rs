@@ -59,6 +59,26 @@ fn a_walk_upon_an_unseen_step_stops_and_tries_again_before_it_is_given_up() {
 }
 
 #[test]
+fn who_has_met_something_steps_back_from_it_before_it_walks_on() {
+    let mut simulation = Simulation::new(PlanarPose::default(), [1.5, 0.0]);
+    (simulation.unseen_edge_m, simulation.feels) = (Some(0.5), true);
+    let (outcome, _) = simulation.run(120.0);
+    let Some(Outcome::Refused(reason)) = &outcome else {
+        panic!("{outcome:?} {:?}", simulation.states);
+    };
+    assert!(
+        reason.starts_with("blocked: a foot met something at (0.56, "),
+        "{reason}"
+    );
+    let after = (simulation.states.windows(2)).find(|pair| pair[0].0 == "step_back");
+    let [_, (_, pose)] = after.unwrap() else {
+        panic!("{:?}", simulation.states);
+    };
+    let away_m = 0.56 - pose.x_m;
+    assert!((0.18..0.26).contains(&away_m), "{away_m}");
+}
+
+#[test]
 fn the_robot_looks_around_before_its_first_step() {
     let mut simulation = Simulation::new(PlanarPose::default(), [1.5, 0.0]);
     let _ = simulation.run(60.0);
@@ -127,6 +147,20 @@ fn no_way_is_refused_with_the_planners_reason_after_looking_all_around() {
         .count();
     assert_eq!(turns, 1, "{:?}", simulation.states);
     assert!(geometry::hypot(simulation.pose.x_m, simulation.pose.y_m) < 1e-9);
+}
+
+#[test]
+fn a_goal_that_is_shut_in_is_looked_at_and_not_what_lies_elsewhere() {
+    for (goal_m, turns) in [([1.5, 0.0], 0), ([-1.5, 0.0], 1)] {
+        let mut simulation = Simulation::new(PlanarPose::default(), goal_m);
+        simulation.closed = true;
+        simulation.goal_is_shut_in = true;
+        let (outcome, after_s) = simulation.run(120.0);
+        assert!(matches!(outcome, Some(Outcome::Refused(_))));
+        assert!(after_s < if turns == 0 { 15.0 } else { 60.0 }, "{after_s}");
+        let turned = simulation.states.iter().filter(|(name, _)| *name == "turn");
+        assert_eq!(turned.count(), turns, "{:?}", simulation.states);
+    }
 }
 
 #[test]
@@ -287,10 +321,7 @@ fn decide(
     let way = match plan {
         0 => None,
         1 => Some(Ok(straight([0.0, 0.0], [goal_x, 0.1]))),
-        _ => Some(Err(NoWay {
-            refusal: Refusal::TooNarrow,
-            sentence: "s".to_owned(),
-        })),
+        _ => Some(Err(NoWay::new(Refusal::TooNarrow, "s".to_owned()))),
     };
     let plan = way.map(|way| Plan {
         way,

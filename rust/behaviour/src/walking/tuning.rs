@@ -28,6 +28,8 @@ settings! {
         blind: BlindTuning;
         /// Unknown ground ahead on the path.
         unknown: UnknownGroundTuning;
+        /// What a foot has met.
+        touch: TouchTuning;
         /// Obstacles on the way.
         obstacles: WayObstaclesTuning;
         /// The watch over headway on the way to the goal.
@@ -152,6 +154,14 @@ settings! {
         reached: f64 = 0.04, "m", POSITIVE;
         /// Where the map has no room for a turn about, the outermost of the robot moves by this: a hand's breadth.
         hand: f64 = 0.08, "m", POSITIVE;
+    }
+}
+
+settings! {
+    /// What the robot does once a foot has met something that was not seen.
+    pub struct TouchTuning("navigation.walking.tuning.touch") {
+        /// The robot steps back until its middle is so far from it: it can turn there without touching it again.
+        away: f64 = 0.24, "m", NOT_NEGATIVE;
     }
 }
 

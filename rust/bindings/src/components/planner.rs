@@ -54,10 +54,7 @@ impl PythonPlanner {
         if path.is_none() {
             let sentence: String = plan.getattr(intern!(py, "reason"))?.extract()?;
             return Ok(Plan {
-                way: Err(NoWay {
-                    refusal: Refusal::NoPath,
-                    sentence,
-                }),
+                way: Err(NoWay::new(Refusal::NoPath, sentence)),
                 replanned,
             });
         }

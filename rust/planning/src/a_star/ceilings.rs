@@ -18,31 +18,59 @@ impl AStar {
         let open = view.without_ceilings()?;
         let mut other = self.clone();
         other.look(&open, stairs, *stand, goal);
-        let path = other.find(stand, goal).ok()?;
+        let mut path = other.find(stand, goal).ok()?;
         if !path.end.is_certain() {
             return None;
         }
-        let (at_m, room_m) = lowest(&path, view, self.needed_m())?;
-        Some(NoWay {
-            refusal: Refusal::TooLow,
-            sentence: format!(
+        path.annotate(&other.terrain, &other.config);
+        let reach_m = self.needed_m();
+        let (at_m, room_m) = lowest(&path, view, reach_m)?;
+        if leads_into_the_unseen(&path, view, reach_m) {
+            return None;
+        }
+        Some(NoWay::new(
+            Refusal::TooLow,
+            format!(
                 "what hangs at ({:.2}, {:.2}) leaves {room_m:.2} m above the floor, too little for the robot's head",
                 at_m[0], at_m[1]
             ),
-        })
+        ))
     }
 }
 
-/// Where the least room above the floor is within the robot's reach of a path, and how much that is, m.
-fn lowest(path: &Path, view: &FloorView, reach_m: f64) -> Option<([f64; 2], f64)> {
+/// Whether a path leads from beside what hangs on over unseen ground for longer than `reach_m`: of a wall the upper part alone may
+/// have been seen, and what is behind it was not.
+fn leads_into_the_unseen(path: &Path, view: &FloorView, reach_m: f64) -> bool {
+    let is_beside = |at_m: [f64; 2]| {
+        low_cells(view).any(|(low_m, _)| geometry::distance_m(low_m, at_m) <= reach_m)
+    };
+    let points = path.points_m.iter().zip(&path.unknown);
+    let hangs = |[x_m, y_m]: [f64; 2]| matches!(view.head_at(x_m, y_m), HeadRoom::Low { .. });
+    let seen = points.filter(|&(&at_m, &unknown)| !unknown || hangs(at_m));
+    let ends = seen
+        .map(|(&at_m, _)| at_m)
+        .chain(path.points_m.last().copied());
+    let mut last_m = path.points_m[0];
+    ends.into_iter().any(|at_m| {
+        let before_m = std::mem::replace(&mut last_m, at_m);
+        geometry::distance_m(before_m, at_m) > reach_m && (is_beside(before_m) || is_beside(at_m))
+    })
+}
+
+/// The middles of the cells above which something hangs too low, and the room there, m.
+fn low_cells(view: &FloorView) -> impl Iterator<Item = ([f64; 2], f64)> + '_ {
     let cells = view.head.area().cells();
-    let low = cells.filter_map(|cell| match view.head.get(cell) {
+    cells.filter_map(|cell| match view.head.get(cell) {
         Some(HeadRoom::Low { room_m, .. }) => {
             Some((view.lattice.center_of(cell), f64::from(*room_m)))
         }
         _ => None,
-    });
-    let near = low.filter(|&(at_m, _)| {
+    })
+}
+
+/// Where the least room above the floor is within the robot's reach of a path, and how much that is, m.
+fn lowest(path: &Path, view: &FloorView, reach_m: f64) -> Option<([f64; 2], f64)> {
+    let near = low_cells(view).filter(|&(at_m, _)| {
         let mut pieces = path.points_m.windows(2);
         pieces.any(|piece| piece_away_m(piece[0], piece[1], at_m) <= reach_m)
     });

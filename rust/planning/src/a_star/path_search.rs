@@ -12,9 +12,9 @@ use crate::{AStar, Goal, NoWay, Path, PathEnd, Refusal};
 impl AStar {
     /// A new path over the terrain.
     pub(crate) fn find(&mut self, stand: &StandingAt, goal: &Goal) -> Result<Path, NoWay> {
-        let outside = || NoWay {
-            refusal: Refusal::NoPath,
-            sentence: "the robot stands outside of its map".into(),
+        let outside = || {
+            let sentence = "the robot stands outside of its map".to_owned();
+            NoWay::new(Refusal::NoPath, sentence)
         };
         let start = self.terrain.index_at(stand.at_m).ok_or_else(outside)?;
         let (route, worst, end) = self.route(stand, start, goal)?;

@@ -36,6 +36,32 @@ fn where_only_what_hangs_bars_the_way_it_is_too_low_and_else_blocked() {
     }
 }
 
+/// Noise leaves the upper part of a wall alone in its cells, and nothing was ever seen behind it.
+#[test]
+fn what_was_never_seen_behind_is_no_way_under_what_hangs() {
+    for (seen_to_m, refusal) in [(1.0, Refusal::Blocked), (1.9, Refusal::TooLow)] {
+        let mut view = floor();
+        paint(&mut view, [1.0, -0.6], [2.2, 0.6], Surface::Unknown);
+        paint(
+            &mut view,
+            [1.0, -0.6],
+            [seen_to_m, 0.6],
+            Surface::Floor(0.0),
+        );
+        for side in [-0.6, 0.52] {
+            paint(
+                &mut view,
+                [0.9, side],
+                [2.2, side + 0.08],
+                Surface::Obstacle(0.5),
+            );
+        }
+        paint(&mut view, [2.12, -0.6], [2.2, 0.6], Surface::Obstacle(0.5));
+        hang(&mut view, [0.9, -0.6], [1.0, 0.6], f32::NAN);
+        assert_eq!(refused(&view, &goal(1.7, 0.0)).0, refusal);
+    }
+}
+
 #[test]
 fn around_what_hangs_leads_a_way_where_there_is_room() {
     let mut view = floor();

@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests")]
 
+mod felt;
 mod head_room;
 
 use geometry::{Cell, Grid, Lattice, Map, PlanarPose, Pose, Robot};
@@ -165,6 +166,13 @@ fn a_wide_door_is_passed_in_its_middle_and_a_narrow_one_is_refused_with_figures(
 }
 
 #[test]
+fn a_narrow_gap_in_what_was_seen_of_a_wall_is_no_gap() {
+    let mut view = wall_with_door(0.24);
+    paint(&mut view, [0.8, -0.12], [0.88, 0.12], Surface::Unknown);
+    assert_eq!(refused(&view, &goal(1.5, 0.0)).0, Refusal::Blocked);
+}
+
+#[test]
 fn standing_before_a_narrow_door_does_not_open_it() {
     let view = wall_with_door(0.24);
     for x in [0.5, 0.6, 0.7] {
@@ -193,6 +201,23 @@ fn boxed_in_is_blocked() {
     // A crack that the map has by chance is no gap.
     paint(&mut view, [0.5, 0.0], [0.8, 0.04], Surface::Unknown);
     assert_eq!(refused(&view, &goal(1.5, 0.0)).0, Refusal::Blocked);
+}
+
+#[test]
+fn a_goal_is_shut_in_where_walls_stand_around_it_and_not_where_they_stand_around_the_robot() {
+    let shuts = |around_m: f64, goal_x_m: f64| {
+        let mut view = floor();
+        let square = |half_m: f64| [[around_m - half_m, -half_m], [around_m + half_m, half_m]];
+        let ([from_m, to_m], [inner_from_m, inner_to_m]) = (square(0.7), square(0.6));
+        paint(&mut view, from_m, to_m, Surface::Obstacle(0.4));
+        paint(&mut view, inner_from_m, inner_to_m, Surface::Unknown);
+        let end = goal(goal_x_m, 0.0);
+        let no_way = plan(&mut planner(), &view, START, &end).way.unwrap_err();
+        assert_eq!(no_way.refusal, Refusal::Blocked);
+        no_way.shuts_goal_in
+    };
+    assert!(shuts(1.0, 1.0), "a room around the goal, never seen inside");
+    assert!(!shuts(0.0, 1.5), "the robot is shut in");
 }
 
 #[test]

@@ -23,7 +23,7 @@ settings! {
         /// share of the picture that is.
         underfoot_reach: f64 = 0.29, "m", POSITIVE;
         /// Smallest ground that is searched, as a share of the image, where nothing is seen as near as `underfoot_reach`.
-        open_floor: f64 = 0.12, "1", SHARE;
+        open_floor: f64 = 0.03, "1", SHARE;
         /// A ground that is searched, and not seen as near as `underfoot_reach`, is most of what is seen up to this distance from the
         /// robot: what is further away may be the slope of a staircase.
         search_reach: f64 = 0.45, "m", POSITIVE;

@@ -14,8 +14,15 @@ use crate::regions::{Finder, TiltedRecord, over_rays};
 const NO_REGION: (u16, f32) = (0, f32::NAN);
 
 impl<F: Finder> Grounded<F> {
-    /// Fills regions, labels, points and floor heights. `rise_m` is what the ground adds to the camera's height.
-    pub(super) fn fill_product(&mut self, levelled: &Levelled, rise_m: f64, planes: &mut Planes) {
+    /// Fills regions, labels, points and floor heights. `rise_m` is what the ground adds to the camera's height; a ground that was
+    /// `searched` has all its pieces.
+    pub(super) fn fill_product(
+        &mut self,
+        levelled: &Levelled,
+        rise_m: f64,
+        searched: bool,
+        planes: &mut Planes,
+    ) {
         let predicted = levelled.predicted.inner;
         let mut position = predicted.translation.vector;
         position.z += rise_m;
@@ -26,6 +33,9 @@ impl<F: Finder> Grounded<F> {
         ));
         planes.camera = Some(self.camera);
         self.place_points(levelled, &position, planes);
+        if let Some(ground) = planes.ground.filter(|_| searched) {
+            self.join_pieces(ground);
+        }
         self.describe_regions(levelled, &position, planes);
         planes.floor_height_m.fill(f32::NAN);
         for run in &self.product.runs {
@@ -93,6 +103,11 @@ impl<F: Finder> Grounded<F> {
         self.find_runs();
         let ground = planes.ground;
         for index in 0..self.surfaces.regions.len() {
+            if self.surfaces.regions[index].support == 0 {
+                // It is a part of another one.
+                self.product.floors.push(NO_REGION);
+                continue;
+            }
             if !self.surfaces.is_level(index) {
                 let record = self.describe_tilted_region(index, planes);
                 // Slices of walls and of slopes have none: they are left for generic planes.

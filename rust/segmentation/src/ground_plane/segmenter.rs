@@ -19,7 +19,7 @@ impl<F: Finder> Grounded<F> {
         self.surfaces.refit(&by_joints.view);
         planes.exposure_ns = scan.exposure_ns;
         (planes.ground, planes.reliable) = (None, true);
-        self.fill_product(&by_joints, 0.0, planes);
+        self.fill_product(&by_joints, 0.0, false, planes);
     }
 }
 
@@ -49,6 +49,7 @@ impl<F: Finder> Segmenter for Grounded<F> {
         let predicted = levelled.predicted;
         let turn = levelled.turn().scaled_axis().xy();
         let (mut ground, mut rise_m) = (None, 0.0);
+        let searched = self.searching();
         match reference {
             PoseReference::Ground {
                 region,
@@ -79,7 +80,7 @@ impl<F: Finder> Segmenter for Grounded<F> {
         planes.reliable = self
             .correction
             .holds(self.config.hold_frames, self.config.hold_level_frames);
-        self.fill_product(&levelled, rise_m, planes);
+        self.fill_product(&levelled, rise_m, searched, planes);
         Ok(())
     }
 }

@@ -79,6 +79,9 @@ settings! {
         /// A region that scatters by so many times the noise or more is no ground in a search, and no level surface that confirms a
         /// track: a plane laid through several steps is rougher.
         smooth: f64 = 1.35, "1", POSITIVE;
+        /// A region that scatters by fewer times the noise than this is one plane, however little of what is near the feet belongs to it: a
+        /// plane laid through low steps scatters by 0.95 and more.
+        even: f64 = 0.76, "1", POSITIVE;
         /// A region is no ground when fewer than `min_ground` over this many pixels of it are left without its border.
         core_part: usize = 3, "1", within(1.0, 100.0);
         /// Every so many columns and rows a pixel tells how near to the feet its region is; of finer images as many as of coarse ones.

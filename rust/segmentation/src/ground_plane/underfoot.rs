@@ -1,5 +1,5 @@
 //! The ground of a search: what the feet stand on, named by how near to them it is seen and by the height that the joints state. Where
-//! nothing is seen right before the feet, it must be most of what is seen near them, and have no other level beside it.
+//! nothing is seen right before the feet, it must be even or most of what is seen near them, and have no other level beside it.
 
 use crate::camera_pose::Levelled;
 use crate::ground_plane::grounded::Grounded;
@@ -27,7 +27,13 @@ impl<F: Finder> Grounded<F> {
         };
         let nearest = candidates().min_by(|&a, &b| nearest_m[a].total_cmp(&nearest_m[b]))?;
         let is_before_the_feet = f64::from(nearest_m[nearest]) < self.config.underfoot_reach;
-        if !is_before_the_feet && (self.has_rival(nearest) || !self.is_most(levelled, nearest)) {
+        let is_clear = || {
+            let even = self.surfaces.fits[nearest].roughness() < self.config.tuning.reference.even;
+            !self.has_rival(nearest)
+                && self.is_open(nearest)
+                && (even || self.is_most(levelled, nearest))
+        };
+        if !is_before_the_feet && !is_clear() {
             return None;
         }
         candidates()
@@ -35,7 +41,26 @@ impl<F: Finder> Grounded<F> {
             .max_by_key(|&i| (self.surfaces.regions[i].support, std::cmp::Reverse(i)))
     }
 
-    /// Whether a region is a good part of the picture, and most of what is seen near the feet.
+    /// Joins the pieces of a ground that was just named: whatever stands on it and cuts it apart, what is level and as high is it.
+    pub(super) fn join_pieces(&mut self, ground: usize) {
+        let smooth = self.config.tuning.reference.smooth;
+        for index in (0..self.surfaces.regions.len()).filter(|&index| index != ground) {
+            if self.surfaces.fits[index].roughness() < smooth
+                && self.surfaces.is_level(index)
+                && self.apart_m(index, ground) < self.config.known_height
+            {
+                self.surfaces.join(index, ground);
+            }
+        }
+    }
+
+    /// Whether a region is a good part of the picture.
+    fn is_open(&self, index: usize) -> bool {
+        let open = self.config.open_floor * self.surfaces.labels.len() as f64;
+        self.surfaces.regions[index].support as f64 >= open
+    }
+
+    /// Whether a region is most of what is seen near the feet.
     fn is_most(&self, levelled: &Levelled, index: usize) -> bool {
         let camera_m = &levelled.predicted.inner.translation.vector;
         let reach = NearFeet::new(&levelled.view, camera_m, self.config.search_reach);
@@ -50,10 +75,7 @@ impl<F: Finder> Grounded<F> {
             }
         }
         let least = self.config.tuning.reference.underfoot * near as f64;
-        let open = self.config.open_floor * self.surfaces.labels.len() as f64;
-        own >= self.config.min_region
-            && own as f64 > least
-            && self.surfaces.regions[index].support as f64 >= open
+        own >= self.config.min_region && own as f64 > least
     }
 
     /// Whether another level surface nearby, about as large, lies a low step above or below a region.

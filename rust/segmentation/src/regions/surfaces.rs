@@ -288,6 +288,16 @@ impl<F: Finder> FrameSurfaces<F> {
             })
     }
 
+    /// Gives a region's pixels to another one. What is left of it has none.
+    pub(crate) fn join(&mut self, index: usize, other: usize) {
+        let (from, to) = (index as u16 + 1, other as u16 + 1);
+        for label in self.labels.iter_mut().filter(|label| **label == from) {
+            *label = to;
+        }
+        let support = std::mem::take(&mut self.regions[index].support);
+        self.regions[other].support += support;
+    }
+
     /// Whether a region is horizontal, as far as it tells: no slope, no slice of a wall, no sliver at an edge.
     pub(crate) fn is_level(&self, index: usize) -> bool {
         if self.regions[index].q == 0.0 {

@@ -6,6 +6,7 @@ use crate::goal_level::GoalLevelConfig;
 use crate::longer_landings::LongerLandingsConfig;
 use crate::rules::edge_costs::EdgeCostsConfig;
 use crate::rules::far_levels::FarLevelsConfig;
+use crate::rules::felt::FeltThingsConfig;
 use crate::rules::head_room::HeadRoomConfig;
 use crate::rules::laid_stairs::LaidStairsConfig;
 use crate::rules::obstacles::ObstaclesConfig;
@@ -36,6 +37,8 @@ settings! {
         shadows: ShadowsConfig;
         /// Where the level that the robot stands on ends.
         platform_edges: PlatformEdgesConfig;
+        /// What stands where a foot met something.
+        felt: FeltThingsConfig;
         /// What it costs to go where nobody has looked up.
         head_room: HeadRoomConfig;
         /// What being near to an edge costs.

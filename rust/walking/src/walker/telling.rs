@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use robot::Side;
 
 use super::Walker;
-use crate::{phase::GaitPhase, tuning::ReliefTuning};
+use crate::{phase::GaitPhase, stumble::Met, tuning::ReliefTuning};
 
 impl Walker {
     /// Whether it stands still on both soles.
@@ -31,6 +31,11 @@ impl Walker {
     /// How the listed footsteps go.
     pub fn stepping(&self) -> Stepping {
         self.gait.stepping()
+    }
+
+    /// What a foot of a walk met at the last tick, in the robot's frame.
+    pub const fn met(&self) -> Option<Met> {
+        self.met
     }
 
     /// The foot that stands while the other moves; `None` while both carry.

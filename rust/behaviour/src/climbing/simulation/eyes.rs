@@ -64,10 +64,7 @@ impl Simulation {
         let goal = self.index_at([self.goal.x_m, self.goal.y_m]);
         if goal.map_or(0, |at| at + 1) < from {
             // This planner knows no way back.
-            return Err(NoWay {
-                refusal: Refusal::Drop,
-                sentence: "the goal lies behind".to_owned(),
-            });
+            return Err(NoWay::new(Refusal::Drop, "the goal lies behind".to_owned()));
         }
         let mut ground_m = self.ground_m();
         let mut steps = Vec::new();
@@ -149,10 +146,7 @@ fn check(steps: &[Step]) -> Result<(), NoWay> {
                 Unfit::GapTooShort(..) => Refusal::GapTooShort,
                 Unfit::TooNarrow(..) => Refusal::TooNarrow,
             };
-            return Err(NoWay {
-                refusal,
-                sentence: "as measured".to_owned(),
-            });
+            return Err(NoWay::new(refusal, "as measured".to_owned()));
         }
     }
     Ok(())

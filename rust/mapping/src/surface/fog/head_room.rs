@@ -11,18 +11,25 @@ use crate::{HeadRoom, Surface};
 const ROUNDING_M: f64 = 1e-6;
 
 impl Fog {
-    /// Room above a cell's floor, m, as far as it matters: to the lowest layer that something is in, and within that layer to where
-    /// points were seen. `None` where nothing is above it, or no floor is known.
+    /// Room above a cell's floor, or the one beside it, m, as far as it matters: to the lowest layer that something is in, and within
+    /// that layer to where points were seen. `None` where nothing is above it, or no floor is known.
     fn room_m(&self, cell: Cell, headroom_m: f64) -> Option<f64> {
-        let floor_m = f64::from(self.floor.height(cell)?);
+        let floor_m = f64::from(self.floor_near(cell)?);
         let layer_m = self.config.layer;
-        let bottom_m = self.ceiling_m(cell)? - 0.5 * layer_m;
+        let above_m = floor_m + self.config.delta;
+        let bottom_m = self.occupancy.lowest_above_m(cell, above_m)? - 0.5 * layer_m;
         let needed_m = floor_m + headroom_m;
         let index = self.view.cells.index(cell)?;
         let is_in_doubt = bottom_m < needed_m && needed_m <= bottom_m + layer_m + ROUNDING_M;
         let seen_m = self.overhead.lowest_m(index).filter(|_| is_in_doubt);
         let seen_m = seen_m.map(|seen_m| seen_m.clamp(bottom_m, bottom_m + 2.0 * layer_m));
         Some(seen_m.unwrap_or(bottom_m) - floor_m)
+    }
+
+    /// Height of a cell's floor, m, or else of the one beside it: what hangs above a floor hangs on above a cell in which it was not
+    /// seen.
+    fn floor_near(&self, cell: Cell) -> Option<f32> {
+        (self.floor.height(cell)).or_else(|| self.floor_beside(cell))
     }
 
     /// Whether all that is above a cell's floor begins so high that the robot passes under it.
@@ -56,7 +63,7 @@ impl Fog {
                 let cols = self.view.cells.cols();
                 let cell = Cell::new((index % cols) as i32, (index / cols) as i32);
                 let hangs_m = self.config.tuning.overhead.hangs * headroom_m;
-                let floor = self.floor.height_at(index);
+                let floor = self.floor_near(cell);
                 let room_m = if floor.is_some() {
                     self.room_m(cell, headroom_m)
                 } else {
@@ -88,7 +95,7 @@ impl Fog {
     /// Whether the lowest of what is above a cell's floor, or the robot's own, was looked under: what stands on the floor may be known
     /// from its upper part alone.
     fn is_looked_under(&self, cell: Cell, index: usize, headroom_m: f64) -> bool {
-        let floor_m = self.floor.height(cell).map_or(self.level_m, f64::from);
+        let floor_m = self.floor_near(cell).map_or(self.level_m, f64::from);
         let above_m = floor_m + self.config.delta;
         let Some(lowest_m) = self.occupancy.lowest_above_m(cell, above_m) else {
             return false;

@@ -39,6 +39,25 @@ fn records_are_whole_planes_have_unit_normals_and_outlines_hold_their_points() {
 }
 
 #[test]
+fn a_ground_that_is_named_from_one_picture_has_all_the_pieces_that_a_wall_across_it_leaves() {
+    let mut noise = Noise::new(3);
+    let truth = camera_pose(0.0, 0.75);
+    // From side to side, so low that the floor behind it shows.
+    let wall = Block {
+        low_m: [0.45, -1.0, 0.0],
+        high_m: [0.47, 1.0, 0.06],
+    };
+    let planes = look(&mut segmenter(), &Scene::with(&[wall]), &truth, &mut noise);
+    let ground = planes.ground.unwrap();
+    let is_ground = |at: &usize| usize::from(planes.labels[*at]) == ground + 1;
+    let pixels: Vec<usize> = (0..planes.labels.len()).filter(is_ground).collect();
+    assert_eq!(planes.regions[ground].support, pixels.len());
+    let x_m = |at: &usize| planes.points_in_robot_m[*at][0];
+    assert!(pixels.iter().filter(|at| x_m(at) < 0.42).count() > 300);
+    assert!(pixels.iter().filter(|at| x_m(at) > 0.65).count() > 300);
+}
+
+#[test]
 fn nothing_seen_is_an_ordinary_product() {
     for value in [f32::NAN, 0.0, 3.0, 24.0, f32::INFINITY, -5.0] {
         let mut segmenter = segmenter();

@@ -1,0 +1,1 @@
+"""The world beyond the project's own courses: the experiment `world`."""

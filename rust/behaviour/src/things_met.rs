@@ -1,0 +1,75 @@
+//! What a robot makes of things that its feet meet: one that it did not know of teaches it another way, the same one again does not.
+
+use mapping::FeltPlace;
+
+use crate::WalkingConfig;
+
+/// Things that the feet met so far.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct ThingsMet {
+    /// Places that the map knew when a foot last met something.
+    known: usize,
+    /// Things that were met for the first time.
+    learnt: u32,
+    /// How often what was known was met again since then.
+    vain: u32,
+}
+
+impl ThingsMet {
+    /// Counts a thing that a foot met, which the map has among these. Whether to go on.
+    pub(crate) fn count(&mut self, felt: &[FeltPlace], config: &WalkingConfig) -> bool {
+        if felt.len() > self.known {
+            self.learnt += 1;
+            self.vain = 0;
+        } else {
+            self.vain += 1;
+        }
+        self.known = felt.len();
+        self.vain <= config.tries && self.learnt <= config.touches
+    }
+}
+
+/// Why a robot gives up that stands on ground of this height, m, and whose feet meet things again and again.
+pub(crate) fn given_up(felt: &[FeltPlace], ground_m: f64) -> String {
+    felt.last().map_or_else(
+        || "blocked: the feet come upon something that cannot be seen".to_owned(),
+        |felt| format!("blocked: {}", felt.told(ground_m)),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn felt(count: usize) -> Vec<FeltPlace> {
+        let at = |index| FeltPlace {
+            at_m: [0.5, 0.2 * index as f64],
+            heading_rad: 0.0,
+            top_m: 0.115,
+            half_width_m: 0.04,
+        };
+        (0..count).map(at).collect()
+    }
+
+    #[test]
+    fn the_same_thing_is_met_so_often_and_new_ones_more_often() {
+        let config = WalkingConfig::default();
+        let mut touches = ThingsMet::default();
+        assert!((1..=config.touches).all(|met| touches.count(&felt(met as usize), &config)));
+        let met = felt(config.touches as usize + 1);
+        assert!(!touches.count(&met, &config));
+        let (mut touches, met) = (ThingsMet::default(), felt(1));
+        assert!((0..=config.tries).all(|_| touches.count(&met, &config)));
+        assert!(!touches.count(&met, &config));
+    }
+
+    #[test]
+    fn who_gives_up_says_what_was_met_last_and_where() {
+        let told = given_up(&felt(2), 0.1);
+        assert!(
+            told.contains("(0.50, 0.20)") && told.contains("15 mm"),
+            "{told}"
+        );
+        assert!(told.starts_with("blocked: "));
+    }
+}

@@ -1,0 +1,223 @@
+//! What the feet met: the map keeps it whatever the camera makes of the place, since what is lower than a picture tells apart looks
+//! like floor.
+//!
+//! Composed over any world model, which knows nothing of it: as long as nothing was felt, the view is the model's own.
+
+use geometry::{Cell, Grid, Lattice, Map, Pose, Robot, distance_m};
+use segmentation::Planes;
+use settings::{NOT_NEGATIVE, at_least, settings};
+
+use crate::{FloorView, Insertion, MapError, Voxel, WorldModel};
+
+settings! {
+    /// What the map keeps of what the feet met.
+    pub struct FeltConfig("navigation.felt") {
+        /// What is met so near to a place where something was met before is the same thing.
+        same_place: f64 = 0.04, "m", NOT_NEGATIVE;
+        /// So many places are kept; the oldest one is forgotten first.
+        most: usize = 64, "1", at_least(1.0);
+    }
+}
+
+/// A place at which a foot met something, in the map frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeltPlace {
+    /// A point of what was met, m.
+    pub at_m: [f64; 2],
+    /// In which direction the foot came upon it, rad.
+    pub heading_rad: f64,
+    /// It is at least so high, m.
+    pub top_m: f64,
+    /// Half of the sole that met it, across the way that it came, m.
+    pub half_width_m: f64,
+}
+
+impl FeltPlace {
+    /// The points between which the sole met it, m: its left and its right.
+    pub fn ends_m(&self) -> [[f64; 2]; 2] {
+        let (sin, cos) = libm::sincos(self.heading_rad);
+        [self.half_width_m, -self.half_width_m]
+            .map(|aside_m| [self.at_m[0] - sin * aside_m, self.at_m[1] + cos * aside_m])
+    }
+
+    /// What was met, for people, told by one who stands on ground of this height, m.
+    pub fn told(&self, ground_m: f64) -> String {
+        let [x_m, y_m] = self.at_m;
+        let mm = (1e3 * (self.top_m - ground_m)).round();
+        format!(
+            "a foot met something at ({x_m:.2}, {y_m:.2}) that is {mm} mm high or more and was not seen"
+        )
+    }
+
+    /// The cells that the sole met it in, each once.
+    pub fn cells(&self, lattice: Lattice) -> impl Iterator<Item = Cell> + use<> {
+        let [[left_x, left_y], [right_x, right_y]] = self.ends_m();
+        let pieces = 4 * (self.half_width_m / lattice.cell_m).ceil().max(1.0) as usize;
+        let mut last = None;
+        let cells = (0..=pieces).map(move |piece| {
+            let share = piece as f64 / pieces as f64;
+            lattice.cell_at(
+                left_x + share * (right_x - left_x),
+                left_y + share * (right_y - left_y),
+            )
+        });
+        cells.filter(move |cell| last.replace(*cell) != Some(*cell))
+    }
+}
+
+/// A world model that keeps what the feet met.
+pub struct WithFelt {
+    model: Box<dyn WorldModel>,
+    config: FeltConfig,
+    /// The model's view and all that was felt; `None` while nothing was.
+    view: Option<FloorView>,
+}
+
+impl WithFelt {
+    /// Over this model.
+    pub fn new(model: Box<dyn WorldModel>, config: FeltConfig) -> Self {
+        Self {
+            model,
+            config,
+            view: None,
+        }
+    }
+}
+
+/// Adds what was met, or what more is known of it where something was met before.
+fn remember(places: &mut Vec<FeltPlace>, felt: FeltPlace, config: &FeltConfig) {
+    let same = |known: &&mut FeltPlace| distance_m(known.at_m, felt.at_m) <= config.same_place;
+    if let Some(known) = places.iter_mut().find(same) {
+        known.top_m = known.top_m.max(felt.top_m);
+        return;
+    }
+    if places.len() >= config.most {
+        let _ = places.remove(0);
+    }
+    places.push(felt);
+}
+
+impl WorldModel for WithFelt {
+    fn insert(
+        &mut self,
+        planes: &Planes,
+        map_from_robot: &Pose<Map, Robot>,
+    ) -> Result<Insertion, MapError> {
+        let insertion = self.model.insert(planes, map_from_robot)?;
+        if let Some(view) = &mut self.view {
+            let felt = std::mem::take(&mut view.felt);
+            view.clone_from(self.model.view());
+            view.felt = felt;
+        }
+        Ok(insertion)
+    }
+
+    fn view(&self) -> &FloorView {
+        self.view.as_ref().unwrap_or_else(|| self.model.view())
+    }
+
+    fn feel(&mut self, felt: FeltPlace) {
+        let view = self.view.get_or_insert_with(|| self.model.view().clone());
+        remember(&mut view.felt, felt, &self.config);
+    }
+
+    fn forget(&mut self) {
+        self.view = None;
+        self.model.forget();
+    }
+
+    fn ceilings(&self) -> Option<Grid<f32>> {
+        self.model.ceilings()
+    }
+
+    fn occupied(&self) -> Vec<Voxel> {
+        self.model.occupied()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Fog, FogConfig, Surface};
+
+    const MET: FeltPlace = FeltPlace {
+        at_m: [0.5, 0.1],
+        heading_rad: 0.0,
+        top_m: 0.014,
+        half_width_m: 0.04,
+    };
+
+    fn model() -> WithFelt {
+        let fog = Fog::new(FogConfig::default()).unwrap();
+        WithFelt::new(Box::new(fog), FeltConfig::default())
+    }
+
+    fn blank() -> Planes {
+        Planes::new(0)
+    }
+
+    #[test]
+    fn what_was_felt_stays_in_the_view_whatever_is_seen() {
+        let mut map = model();
+        assert!(map.view().felt.is_empty());
+        map.feel(MET);
+        for _ in 0..20 {
+            let _ = map.insert(&blank(), &Pose::identity());
+        }
+        assert_eq!(map.view().felt, vec![MET]);
+        assert_eq!(map.view().cells, map.model.view().cells);
+        assert_eq!(map.view().at(0.5, 0.1), Surface::Unknown);
+    }
+
+    #[test]
+    fn who_found_itself_elsewhere_forgets_what_it_felt() {
+        let mut map = model();
+        map.feel(MET);
+        map.forget();
+        assert!(map.view().felt.is_empty());
+    }
+
+    #[test]
+    fn the_same_place_is_kept_once_with_the_greatest_height_and_no_more_than_so_many() {
+        let config = FeltConfig {
+            most: 3,
+            ..FeltConfig::default()
+        };
+        let mut places = Vec::new();
+        let higher = FeltPlace {
+            at_m: [0.51, 0.12],
+            top_m: 0.02,
+            ..MET
+        };
+        remember(&mut places, MET, &config);
+        remember(&mut places, higher, &config);
+        assert_eq!(places.len(), 1);
+        assert_eq!((places[0].top_m, places[0].at_m), (0.02, MET.at_m));
+        for far in 1..9 {
+            let at_m = [0.5, 0.1 + f64::from(far)];
+            remember(&mut places, FeltPlace { at_m, ..MET }, &config);
+        }
+        assert_eq!(places.len(), 3);
+        assert_eq!(places[2].at_m, [0.5, 8.1]);
+    }
+
+    #[test]
+    fn a_sole_meets_the_cells_across_its_way_each_once() {
+        let lattice = Lattice {
+            origin_m: [0.0, 0.0],
+            cell_m: 0.04,
+        };
+        let cells: Vec<Cell> = MET.cells(lattice).collect();
+        assert_eq!(
+            cells,
+            [3, 2, 1].map(|row| Cell::new(12, row)),
+            "from the left to the right"
+        );
+        let sideways = FeltPlace {
+            heading_rad: std::f64::consts::FRAC_PI_2,
+            ..MET
+        };
+        let cells: Vec<Cell> = sideways.cells(lattice).collect();
+        assert!(cells.iter().all(|cell| cell.row == 2) && cells.len() == 3);
+    }
+}
