@@ -21,10 +21,11 @@ impl AStar {
         other.look(&open, stairs, *stand, goal);
         let path = other.find(stand, goal).ok()?;
         let felt = nearest(&path, &view.felt)?;
-        Some(NoWay {
-            refusal: Refusal::Blocked,
-            sentence: format!("{}, and no way leads around it", felt.told(stand.height_m)),
-        })
+        let met = felt.told(stand.height_m);
+        Some(NoWay::new(
+            Refusal::Blocked,
+            format!("{met}, and no way leads around it"),
+        ))
     }
 }
 
