@@ -150,9 +150,8 @@ impl Pilot {
         measured.check(self.body.joint_count(), &self.camera, self.time_ns)?;
         self.time_ns = Some(measured.time_ns);
         self.timing = Timing::default();
-        let on_slope = self.walker.on_slope();
-        self.proprioception.note_slopes(on_slope);
-        self.senses.note_slopes(on_slope);
+        self.proprioception.note_slopes(self.walker.on_slope());
+        self.senses.note_uneven(self.walker.on_uneven());
         let repaired = self.senses.repaired(measured);
         let observation = repaired.as_ref().unwrap_or(measured);
         let state = self

@@ -5,6 +5,7 @@
 
 use geometry::PlanarPose;
 use nalgebra::Vector2;
+use robot::Side;
 
 use crate::felt::Felt;
 use crate::gait::Gait;
@@ -80,8 +81,21 @@ impl Gait {
     fn leaves_what_it_met(&self, swing: &Swing) -> bool {
         self.listed.met_last.is_some_and(|met| {
             let away_m = |foot: &FootPose| foot.planar.distance_m(&met.at);
-            let reach_m = self.planner.half_sole_m().norm() + self.config.tuning.stumble.clear;
-            away_m(&swing.from) < away_m(&swing.to).min(reach_m)
+            away_m(&swing.from) < away_m(&swing.to).min(self.reach_of_touch_m())
+        })
+    }
+
+    /// How far from the middle of a sole what it touches may be, m.
+    fn reach_of_touch_m(&self) -> f64 {
+        self.planner.half_sole_m().norm() + self.config.tuning.stumble.clear
+    }
+
+    /// Whether a foot lies where one met something last, or may touch it.
+    pub(crate) fn lies_on_what_it_met(&self, side: Side) -> bool {
+        let feet = [self.feet[side.index()], self.foot(side)];
+        self.listed.met_last.is_some_and(|met| {
+            let near = |foot: FootPose| foot.planar.distance_m(&met.at) < self.reach_of_touch_m();
+            feet.into_iter().any(near)
         })
     }
 

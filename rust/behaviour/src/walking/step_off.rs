@@ -37,27 +37,25 @@ impl WalkingBehaviour {
         )
     }
 
-    /// Where to step back to from what a foot has met: the way that the foot came, as far as there is known floor.
+    /// Where to step back to from what a foot has met: straight away from it, as far as there is known floor.
     pub(super) fn off_m(&self, tick: &WayTick<'_>, felt: &FeltPlace) -> Option<[f64; 2]> {
         let here = &tick.pose;
-        let away = PlanarPose::new(felt.at_m[0], felt.at_m[1], felt.heading_rad);
-        let (x_m, _) = away.inverse().apply(here.x_m, here.y_m);
-        // Behind the thing the way on leads off it.
-        let sign = if x_m > 0.0 { 1.0 } else { -1.0 };
-        let tuning = &self.config.tuning.touch;
-        let missing_m = tuning.away - x_m.abs();
-        let (sin, cos) = libm::sincos(felt.heading_rad);
-        let at = |back_m: f64| {
-            [
-                here.x_m + sign * cos * back_m,
-                here.y_m + sign * sin * back_m,
-            ]
-        };
+        let (dx_m, dy_m) = (here.x_m - felt.at_m[0], here.y_m - felt.at_m[1]);
         let cell_m = tick.situation.view.lattice.cell_m;
+        let away_m = geometry::hypot(dx_m, dy_m);
+        let off = if away_m > cell_m {
+            [dx_m / away_m, dy_m / away_m]
+        } else {
+            // Above the thing itself: the way that the robot faces leads over it.
+            let (sin, cos) = libm::sincos(here.yaw_rad);
+            [-cos, -sin]
+        };
+        let missing_m = self.config.tuning.touch.away - away_m;
+        let at = |back_m: f64| [here.x_m + off[0] * back_m, here.y_m + off[1] * back_m];
         let pieces = (missing_m / cell_m).ceil().max(0.0) as usize;
         let places = (1..=pieces).map(|piece| at(missing_m * piece as f64 / pieces as f64));
         places
-            .take_while(|&place_m| self.may_stand(tick, place_m, felt.heading_rad))
+            .take_while(|&place_m| self.may_stand(tick, place_m, here.yaw_rad))
             .last()
     }
 

@@ -95,11 +95,11 @@ impl Check for Turning {
             // A sole slips for a moment and fast; a gyroscope errs slowly and for long.
             let fastest_rad = config.slip * passed_s;
             self.heading_rad += turned_rad.clamp(-fastest_rad, fastest_rad);
-            // A sole that rests on some of its cells alone rocks, and one that is set onto a slope turns until it lies on it.
+            // A sole that rests on some of its cells alone rocks, and one that is set onto a slope or a thing turns until it lies on it.
             let cells_n = &moment.observation.foot_forces_n[side.index()];
             let least_n = config.firm * moment.weight_n;
             let is_firm = cells_n.iter().all(|&force_n| force_n > least_n);
-            if is_firm && !moment.on_slope[side.index()] {
+            if is_firm && !moment.on_uneven[side.index()] {
                 self.tilt_rad += off_rad - up * turned_rad;
             }
         }

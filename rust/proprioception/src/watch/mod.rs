@@ -33,8 +33,8 @@ pub(crate) struct Moment<'a> {
     body: &'a Body,
     weight_n: f64,
     passed_s: f64,
-    /// Feet that stand, or are to land, on a slope.
-    on_slope: [bool; 2],
+    /// Feet that stand, or are to land, on a slope or on something that a foot met.
+    on_uneven: [bool; 2],
     config: &'a SenseWatchConfig,
 }
 
@@ -60,7 +60,7 @@ pub struct SenseWatch {
     checks: Vec<Box<dyn Check>>,
     told_rad: Vec<f64>,
     before_ns: Option<u64>,
-    on_slope: [bool; 2],
+    on_uneven: [bool; 2],
     found: Option<Finding>,
     standing: repair::LegTurn,
 }
@@ -83,7 +83,7 @@ impl SenseWatch {
             told_rad: Vec::with_capacity(body.joint_count()),
             body: body.clone(),
             before_ns: None,
-            on_slope: [false; 2],
+            on_uneven: [false; 2],
             found: None,
             standing: repair::LegTurn::default(),
             config,
@@ -120,7 +120,7 @@ impl SenseWatch {
                 body: &self.body,
                 weight_n: self.weight_n,
                 passed_s,
-                on_slope: self.on_slope,
+                on_uneven: self.on_uneven,
                 config: &self.config,
             };
             for check in &mut self.checks {
@@ -133,9 +133,9 @@ impl SenseWatch {
         self.found.as_ref().map(|found| &found.fault)
     }
 
-    /// Takes note of which feet stand, or are to land, on a slope: such a sole turns until it lies on it.
-    pub const fn note_slopes(&mut self, on_slope: [bool; 2]) {
-        self.on_slope = on_slope;
+    /// Takes note of which feet stand, or are to land, on a slope or on something that a foot met: such a sole turns under the robot.
+    pub const fn note_uneven(&mut self, on_uneven: [bool; 2]) {
+        self.on_uneven = on_uneven;
     }
 
     /// Takes note of what the joints are told, rad.

@@ -42,7 +42,7 @@ fn found_on(
     let body = &walk.body;
     let mut proprioception = Proprioception::new(body, ProprioceptionConfig::default()).unwrap();
     let mut watch = SenseWatch::new(body, SenseWatchConfig::default()).unwrap();
-    watch.note_slopes([slopes; 2]);
+    watch.note_uneven([slopes; 2]);
     for (tick, observation) in walk.observations.iter().enumerate() {
         let mut observation = observation.clone();
         spoil(tick, &mut observation);

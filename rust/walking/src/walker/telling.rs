@@ -55,6 +55,12 @@ impl Walker {
         feet.map(|foot| foot.gradient != Vector2::zeros())
     }
 
+    /// Whether each foot stands, or is to land, on a slope or where a foot met something: such a sole turns under the robot.
+    pub fn on_uneven(&self) -> [bool; 2] {
+        let on_slope = self.on_slope();
+        Side::BOTH.map(|side| on_slope[side.index()] || self.gait.lies_on_what_it_met(side))
+    }
+
     /// Where the head was told to look at the last tick.
     pub fn gaze(&self) -> Gaze {
         self.head.gaze()
