@@ -59,10 +59,10 @@ impl Planner for Beeline {
             .collect();
         let met = |point: &&[f64; 2]| matches!(view.at(point[0], point[1]), Surface::Obstacle(_));
         let way = match points_m.iter().find(met) {
-            Some([x, y]) => Err(NoWay {
-                refusal: Refusal::Blocked,
-                sentence: format!("something stands at {x:.2}, {y:.2}"),
-            }),
+            Some([x, y]) => Err(NoWay::new(
+                Refusal::Blocked,
+                format!("something stands at {x:.2}, {y:.2}"),
+            )),
             None => Ok(Path {
                 unknown: points_m
                     .iter()

@@ -2,8 +2,6 @@
 
 use mapping::FeltPlace;
 
-use crate::WalkingConfig;
-
 /// Things that the feet met so far.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ThingsMet {
@@ -16,8 +14,9 @@ pub(crate) struct ThingsMet {
 }
 
 impl ThingsMet {
-    /// Counts a thing that a foot met, which the map has among these. Whether to go on.
-    pub(crate) fn count(&mut self, felt: &[FeltPlace], config: &WalkingConfig) -> bool {
+    /// Counts a thing that a foot met, which the map has among these. Whether to go on: no more than `touches` things were met, and
+    /// none of them again more than `tries` times.
+    pub(crate) const fn count(&mut self, felt: &[FeltPlace], [tries, touches]: [u32; 2]) -> bool {
         if felt.len() > self.known {
             self.learnt += 1;
             self.vain = 0;
@@ -25,7 +24,7 @@ impl ThingsMet {
             self.vain += 1;
         }
         self.known = felt.len();
-        self.vain <= config.tries && self.learnt <= config.touches
+        self.vain <= tries && self.learnt <= touches
     }
 }
 
@@ -53,14 +52,12 @@ mod tests {
 
     #[test]
     fn the_same_thing_is_met_so_often_and_new_ones_more_often() {
-        let config = WalkingConfig::default();
-        let mut touches = ThingsMet::default();
-        assert!((1..=config.touches).all(|met| touches.count(&felt(met as usize), &config)));
-        let met = felt(config.touches as usize + 1);
-        assert!(!touches.count(&met, &config));
-        let (mut touches, met) = (ThingsMet::default(), felt(1));
-        assert!((0..=config.tries).all(|_| touches.count(&met, &config)));
-        assert!(!touches.count(&met, &config));
+        let (most, mut met) = ([2, 12], ThingsMet::default());
+        assert!((1..=12).all(|count| met.count(&felt(count), most)));
+        assert!(!met.count(&felt(13), most));
+        let (mut met, one) = (ThingsMet::default(), felt(1));
+        assert!((0..=2).all(|_| met.count(&one, most)));
+        assert!(!met.count(&one, most));
     }
 
     #[test]

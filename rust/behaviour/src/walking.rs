@@ -28,6 +28,8 @@ mod walk;
 pub(crate) mod simulation;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod touch_tests;
 
 use mapping::FeltPlace;
 use planning::Goal;

@@ -2,13 +2,15 @@
 
 mod averaging;
 mod felt;
+mod felt_place;
 mod model;
 mod part;
 pub mod surface;
 mod two_maps;
 
 pub use averaging::{Averaging, AveragingConfig, AveragingTuning};
-pub use felt::{FeltConfig, FeltPlace, WithFelt};
+pub use felt::{FeltConfig, WithFelt};
+pub use felt_place::FeltPlace;
 pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};
 pub use part::{WorldModelNeeds, WorldModelPart};
 pub use surface::{Fog, FogConfig, FogTuning, OverheadTuning};

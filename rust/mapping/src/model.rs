@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use geometry::{Cell, CellArea, Grid, Lattice, Map, Pose, Robot};
 use segmentation::Planes;
 
-use crate::FeltPlace;
+use crate::felt_place::FeltPlace;
 
 /// Why a frame could not be inserted. The map is unchanged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

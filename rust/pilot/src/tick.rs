@@ -145,13 +145,18 @@ impl Pilot {
         })
     }
 
+    /// Tells the body's senses on what kind of ground the feet are put.
+    fn note_ground(&mut self) {
+        self.proprioception.note_slopes(self.walker.on_slope());
+        self.senses.note_uneven(self.walker.on_uneven());
+    }
+
     /// Takes in an observation and says what the motors shall do. On an error nothing was taken in.
     pub fn tick(&mut self, measured: &Observation) -> Result<Tick<'_>, PilotError> {
         measured.check(self.body.joint_count(), &self.camera, self.time_ns)?;
         self.time_ns = Some(measured.time_ns);
         self.timing = Timing::default();
-        self.proprioception.note_slopes(self.walker.on_slope());
-        self.senses.note_uneven(self.walker.on_uneven());
+        self.note_ground();
         let repaired = self.senses.repaired(measured);
         let observation = repaired.as_ref().unwrap_or(measured);
         let state = self

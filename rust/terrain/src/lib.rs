@@ -9,6 +9,7 @@
 mod cells;
 mod goal_level;
 mod longer_landings;
+mod over_slopes;
 pub mod rules;
 mod sight;
 mod slope_cells;

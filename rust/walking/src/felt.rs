@@ -26,7 +26,7 @@ pub struct Felt {
     pub short_m: [f64; 2],
     /// Centre of pressure on each sole, from its middle forward and to the left, m; the middle of one that carries nothing.
     pub pressed_m: [Vector2<f64>; 2],
-    /// The same by joints and attitude, in the plan, m.
+    /// Where joints and attitude have it, in the plan, m.
     pub touched_m: [Vector3<f64>; 2],
 }
 

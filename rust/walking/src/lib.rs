@@ -21,6 +21,7 @@ mod landing;
 pub mod leg;
 mod leg_geometry;
 mod listed;
+mod met;
 mod pelvis;
 pub mod phase;
 mod posture;
@@ -42,6 +43,6 @@ mod walker;
 
 pub use config::GaitConfig;
 pub use error::WalkError;
-pub use stumble::Met;
+pub use met::Met;
 pub use targets::JointTargets;
 pub use walker::Walker;

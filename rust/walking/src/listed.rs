@@ -3,7 +3,7 @@
 use behaviour::Misstep;
 use geometry::PlanarPose;
 
-use crate::stumble::Met;
+use crate::met::Met;
 
 /// How the present or the last list goes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

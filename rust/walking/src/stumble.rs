@@ -9,29 +9,9 @@ use robot::Side;
 
 use crate::felt::Felt;
 use crate::gait::Gait;
+use crate::met::Met;
 use crate::phase::{FootPose, GaitPhase, Manner, Swing};
 use crate::swing;
-
-/// What a foot of a walk met.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Met {
-    /// A point of it, and its direction from where the foot had stood.
-    pub at: PlanarPose,
-    /// It is at least so much higher than the ground that the foot left, m.
-    pub height_m: f64,
-    /// Half of the sole, across the way that it came, m.
-    pub half_width_m: f64,
-}
-
-impl Met {
-    /// The same in this frame.
-    pub(crate) fn seen_from(self, frame: &PlanarPose) -> Self {
-        Self {
-            at: frame.relative(&self.at),
-            ..self
-        }
-    }
-}
 
 impl Gait {
     /// What a foot has met since this was asked last.

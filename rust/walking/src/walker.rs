@@ -18,13 +18,13 @@ use crate::felt::{Felt, KnownGround};
 use crate::footsteps::FootstepPlanner;
 use crate::gait::Gait;
 use crate::gaze::HeadControl;
+use crate::met::Met;
 use crate::pelvis::Course;
 use crate::phase::GaitReference;
 use crate::posture::{Posture, PostureMoment};
 use crate::relief::{Relief, Slopes};
 use crate::stance::UprightStance;
 use crate::step_list::{ListFrame, StepList};
-use crate::stumble::Met;
 use crate::support::{Pressure, Soles};
 use crate::targets::JointTargets;
 

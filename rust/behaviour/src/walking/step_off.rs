@@ -25,7 +25,8 @@ impl WalkingBehaviour {
 
     /// Counts a thing that a foot met. Whether to go on.
     pub(crate) fn counts_touch(&mut self, felt: &[FeltPlace]) -> bool {
-        self.touches.count(felt, &self.config)
+        self.touches
+            .count(felt, [self.config.tries, self.config.touches])
     }
 
     /// Whether it goes on: it neither stands for something, nor steps back from what a foot has met, nor has given up.

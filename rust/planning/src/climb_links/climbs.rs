@@ -229,7 +229,10 @@ fn is_on_slope(scene: &Scene<'_>, stride: &Stride) -> bool {
     let along = |axis: usize, share: f64| {
         stride.from_m[axis] + share * (stride.to_m[axis] - stride.from_m[axis])
     };
-    [-1.0, -0.5, 0.0, 1.0, 1.5].iter().any(|&share| {
+    // In halves of the stride, from one before it to a half behind it; the second is the edge itself.
+    let halves = (-2..=3).filter(|&halves| halves != 1);
+    let mut shares = halves.map(|halves| 0.5 * f64::from(halves));
+    shares.any(|share| {
         let [x, y] = (scene.view).gradient_at(along(0, share), along(1, share));
         geometry::hypot(x, y) * scene.feet.length_m > scene.terrain.needs.limits.floor_m
     })

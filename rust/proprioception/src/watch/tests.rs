@@ -33,7 +33,7 @@ fn found(walk: &Walk, spoil: impl FnMut(usize, &mut Observation)) -> Option<(usi
     found_on(walk, false, spoil)
 }
 
-/// The same on ground that is known to slope, or not.
+/// What was found on such a walk where the ground is known to slope, or is not.
 fn found_on(
     walk: &Walk,
     slopes: bool,

@@ -53,7 +53,7 @@ pub(crate) struct KnownLevels {
     // Of so many pixels one is looked up.
     looked_up_of: usize,
     votes: Vec<Vote>,
-    /// The same of slopes.
+    /// What slopes tell of it, where no level surface does.
     slopes: Vec<Vote>,
     misses_m: Vec<Vec<f32>>,
     /// Pixels of each region that are near, and all of them.

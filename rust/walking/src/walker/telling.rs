@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use robot::Side;
 
 use super::Walker;
-use crate::{phase::GaitPhase, stumble::Met, tuning::ReliefTuning};
+use crate::{met::Met, phase::GaitPhase, tuning::ReliefTuning};
 
 impl Walker {
     /// Whether it stands still on both soles.

@@ -1,0 +1,49 @@
+//! A place at which a foot met something.
+
+use geometry::{Cell, Lattice};
+
+/// A place at which a foot met something, in the map frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeltPlace {
+    /// A point of what was met, m.
+    pub at_m: [f64; 2],
+    /// In which direction the foot came upon it, rad.
+    pub heading_rad: f64,
+    /// It is at least so high, m.
+    pub top_m: f64,
+    /// Half of the sole that met it, across the way that it came, m.
+    pub half_width_m: f64,
+}
+
+impl FeltPlace {
+    /// The points between which the sole met it, m: its left and its right.
+    pub fn ends_m(&self) -> [[f64; 2]; 2] {
+        let (sin, cos) = libm::sincos(self.heading_rad);
+        [self.half_width_m, -self.half_width_m]
+            .map(|aside_m| [self.at_m[0] - sin * aside_m, self.at_m[1] + cos * aside_m])
+    }
+
+    /// What was met, for people, told by one who stands on ground of this height, m.
+    pub fn told(&self, ground_m: f64) -> String {
+        let [x_m, y_m] = self.at_m;
+        let mm = (1e3 * (self.top_m - ground_m)).round();
+        format!(
+            "a foot met something at ({x_m:.2}, {y_m:.2}) that is {mm} mm high or more and was not seen"
+        )
+    }
+
+    /// The cells that the sole met it in, each once.
+    pub fn cells(&self, lattice: Lattice) -> impl Iterator<Item = Cell> + use<> {
+        let [[left_x, left_y], [right_x, right_y]] = self.ends_m();
+        let pieces = 4 * (self.half_width_m / lattice.cell_m).ceil().max(1.0) as usize;
+        let mut last = None;
+        let cells = (0..=pieces).map(move |piece| {
+            let share = piece as f64 / pieces as f64;
+            lattice.cell_at(
+                left_x + share * (right_x - left_x),
+                left_y + share * (right_y - left_y),
+            )
+        });
+        cells.filter(move |cell| last.replace(*cell) != Some(*cell))
+    }
+}
