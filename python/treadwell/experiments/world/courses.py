@@ -159,7 +159,8 @@ def ramp_corridor() -> Part:
         "course.pillar.position.1": spread(0.5),
     }
     goal = {"position": [3.6, 0.0], "radius": 0.2}
-    return scenario("ramp_corridor", goal, course, vary=vary, event=[crossing])
+    made = scenario("ramp_corridor", goal, course, vary=vary, event=[crossing])
+    return {**made, "time_limit": 240.0}
 
 
 def cable_open() -> Part:
