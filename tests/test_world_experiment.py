@@ -112,12 +112,13 @@ def test_a_run_is_right_that_ends_rightly_without_fall_or_touch() -> None:
 def test_a_refusal_is_right_by_its_word_or_where_there_is_no_way(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    low = Claim(TABLE.case, "x", "qrio", always("too_low"))
+    low = Claim(TABLE.case, "x", "qrio", always("too_low"), judged=True)
     refused = run("refused", "too_low: no room for the head")
     for no_way in (False, True):
         monkeypatch.setattr(claim, "has_no_way", Mock(return_value=no_way))
         assert low.is_right(refused)
         assert low.is_right(run("refused", "no_path: there is no path")) is no_way
+        assert not TABLE.is_right(run("refused", "no_path: there is no path"))
     assert not low.is_right(run("goal_reached"))
 
 

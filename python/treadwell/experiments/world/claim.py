@@ -31,6 +31,7 @@ class Claim:
         robot: whose it is.
         ends: the right ends.
         untouched: whether the robot may meet nothing.
+        judged: whether any refusal is right where the search on the true course finds no way.
     """
 
     case: Case
@@ -38,12 +39,10 @@ class Claim:
     robot: str
     ends: Ends
     untouched: bool = True
+    judged: bool = False
 
     def is_right(self, run: Run) -> bool:
-        """Say whether a run ended as it has to: without a fall, and truly.
-
-        A refusal is right, too, where the search on the true course finds no way.
-        """
+        """Say whether a run ended as it has to: without a fall, and truly."""
         result = run.result
         if result.falls or (self.untouched and result.collisions):
             return False
@@ -51,7 +50,8 @@ class Claim:
             return GOAL in self.ends(result.seed) or not self.ends(result.seed)
         if result.outcome != "refused":
             return False
-        return word(run) in self.ends(result.seed) or has_no_way(self.case, run)
+        told = word(run) in self.ends(result.seed)
+        return told or (self.judged and has_no_way(self.case, run))
 
 
 def always(*ends: str) -> Ends:

@@ -51,17 +51,20 @@ _HELD: Final[tuple[tuple[Draw, tuple[str, ...]], ...]] = (
 )
 
 
-def _one(draw: Draw, _seed: int) -> Part:
+def _one(draw: Draw, outcome: str, _seed: int) -> Part:
     """Return a course that is the same for every seed; what varies stands in it."""
-    return draw()
+    made = draw()
+    return {**made, "expect": {**made["expect"], "outcome": outcome}}
 
 
 def _course(draw: Draw, robot: str, ends: tuple[str, ...], *, met: bool, share: float) -> Claim:
     name = draw.__name__
     beside = tuple((file, text) for file, text in BOARDS.items() if file == f"{name}.xml")
-    scenario = for_robot(robot, partial(_one, draw))
+    outcome = "goal_reached" if GOAL in ends else "refused"
+    scenario = for_robot(robot, partial(_one, draw, outcome))
     case = Case(f"{name}_{robot}", scenario, share=share, beside=beside)
-    return Claim(case, name, robot, always(*ends), untouched=not met)
+    judged = draw is courses.ramp_corridor
+    return Claim(case, name, robot, always(*ends), untouched=not met, judged=judged)
 
 
 def _complaints() -> Iterator[Claim]:
@@ -79,7 +82,7 @@ def _slope_claim(band: tuple[float, float]) -> Claim:
 
 def _named(name: str, robot: str, share: float, ends: Ends) -> Claim:
     case = Case(f"{name}_{robot}", name, (f"robot={robot}",), share=share)
-    return Claim(case, name, robot, ends)
+    return Claim(case, name, robot, ends, judged=True)
 
 
 def _overhead(robot: str) -> Claim:

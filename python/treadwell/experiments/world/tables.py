@@ -28,8 +28,9 @@ _COLUMNS: Final = (
 )
 _RIGHT: Final = (
     "Right: the goal, or a refusal by a word that is true of the course, without a fall and, but "
-    "for cables, without a touch. A refusal is right, too, where a search on the true course finds "
-    "no way within the robot's published limits."
+    "for cables, without a touch. Of what is drawn anew for each seed, and of the ramp's "
+    "corridor, a refusal is right, too, where a search on the true course finds no way within the "
+    "robot's limits."
 )
 
 
