@@ -46,6 +46,7 @@ mod tests {
             heading_rad: 0.0,
             top_m: 0.115,
             half_width_m: 0.04,
+            thing: 0,
         };
         (0..count).map(at).collect()
     }

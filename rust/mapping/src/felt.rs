@@ -14,6 +14,8 @@ settings! {
     pub struct FeltConfig("navigation.felt") {
         /// What is met so near to a place where something was met before is the same thing.
         same_place: f64 = 0.04, "m", NOT_NEGATIVE;
+        /// Places at which something was met are one thing where they are no further apart than this: a cable, not two toys.
+        one_thing: f64 = 0.6, "m", NOT_NEGATIVE;
         /// So many places are kept; the oldest one is forgotten first.
         most: usize = 64, "1", at_least(1.0);
     }
@@ -40,15 +42,27 @@ impl WithFelt {
 
 /// Adds what was met, or what more is known of it where something was met before.
 fn remember(places: &mut Vec<FeltPlace>, felt: FeltPlace, config: &FeltConfig) {
-    let same = |known: &&mut FeltPlace| distance_m(known.at_m, felt.at_m) <= config.same_place;
-    if let Some(known) = places.iter_mut().find(same) {
+    let away_m = |known: &FeltPlace| distance_m(known.at_m, felt.at_m);
+    if let Some(known) = (places.iter_mut()).find(|known| away_m(known) <= config.same_place) {
         known.top_m = known.top_m.max(felt.top_m);
         return;
     }
     if places.len() >= config.most {
         let _ = places.remove(0);
     }
-    places.push(felt);
+    let beside = places
+        .iter()
+        .filter(|known| away_m(known) <= config.one_thing);
+    let joined: Vec<usize> = beside.map(|known| known.thing).collect();
+    let new = places.iter().map(|known| known.thing + 1).max();
+    let thing = (joined.first().copied()).unwrap_or_else(|| new.unwrap_or(0));
+    for known in places
+        .iter_mut()
+        .filter(|known| joined.contains(&known.thing))
+    {
+        known.thing = thing;
+    }
+    places.push(FeltPlace { thing, ..felt });
 }
 
 impl WorldModel for WithFelt {
@@ -93,13 +107,13 @@ impl WorldModel for WithFelt {
 mod tests {
     use super::*;
     use crate::{Fog, FogConfig, Surface};
-    use geometry::{Cell, Lattice};
 
     const MET: FeltPlace = FeltPlace {
         at_m: [0.5, 0.1],
         heading_rad: 0.0,
         top_m: 0.014,
         half_width_m: 0.04,
+        thing: 0,
     };
 
     fn model() -> WithFelt {
@@ -157,22 +171,17 @@ mod tests {
     }
 
     #[test]
-    fn a_sole_meets_the_cells_across_its_way_each_once() {
-        let lattice = Lattice {
-            origin_m: [0.0, 0.0],
-            cell_m: 0.04,
+    fn places_near_to_each_other_are_one_thing_and_one_between_two_things_joins_them() {
+        let config = FeltConfig::default();
+        let mut places = Vec::new();
+        let mut things = |y_m: f64| {
+            let at_m = [0.5, y_m];
+            remember(&mut places, FeltPlace { at_m, ..MET }, &config);
+            places.iter().map(|known| known.thing).collect::<Vec<_>>()
         };
-        let cells: Vec<Cell> = MET.cells(lattice).collect();
-        assert_eq!(
-            cells,
-            [3, 2, 1].map(|row| Cell::new(12, row)),
-            "from the left to the right"
-        );
-        let sideways = FeltPlace {
-            heading_rad: std::f64::consts::FRAC_PI_2,
-            ..MET
-        };
-        let cells: Vec<Cell> = sideways.cells(lattice).collect();
-        assert!(cells.iter().all(|cell| cell.row == 2) && cells.len() == 3);
+        assert_eq!(things(0.0), [0]);
+        assert_eq!(things(1.0), [0, 1], "two toys");
+        assert_eq!(things(1.5), [0, 1, 1]);
+        assert_eq!(things(0.5), [0, 0, 0, 0], "a cable");
     }
 }

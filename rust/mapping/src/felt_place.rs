@@ -13,6 +13,8 @@ pub struct FeltPlace {
     pub top_m: f64,
     /// Half of the sole that met it, across the way that it came, m.
     pub half_width_m: f64,
+    /// The thing that it is a part of, as the map numbers them.
+    pub thing: usize,
 }
 
 impl FeltPlace {
@@ -45,5 +47,38 @@ impl FeltPlace {
             )
         });
         cells.filter(move |cell| last.replace(*cell) != Some(*cell))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MET: FeltPlace = FeltPlace {
+        at_m: [0.5, 0.1],
+        heading_rad: 0.0,
+        top_m: 0.014,
+        half_width_m: 0.04,
+        thing: 0,
+    };
+
+    #[test]
+    fn a_sole_meets_the_cells_across_its_way_each_once() {
+        let lattice = Lattice {
+            origin_m: [0.0, 0.0],
+            cell_m: 0.04,
+        };
+        let cells: Vec<Cell> = MET.cells(lattice).collect();
+        assert_eq!(
+            cells,
+            [3, 2, 1].map(|row| Cell::new(12, row)),
+            "from the left to the right"
+        );
+        let sideways = FeltPlace {
+            heading_rad: std::f64::consts::FRAC_PI_2,
+            ..MET
+        };
+        let cells: Vec<Cell> = sideways.cells(lattice).collect();
+        assert!(cells.iter().all(|cell| cell.row == 2) && cells.len() == 3);
     }
 }

@@ -29,6 +29,7 @@ fn in_map(met: &Met, map_from_robot: &Pose<Map, Robot>, view: &FloorView) -> Fel
         heading_rad: map_from_robot.yaw_rad() + met.at.yaw_rad,
         top_m: at.inner.z - lifted_m,
         half_width_m: met.half_width_m,
+        thing: 0,
     }
 }
 

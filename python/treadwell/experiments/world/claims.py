@@ -1,12 +1,13 @@
 """All that the experiment claims: each case with how it has to end, in the order of its tables."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 from typing import Final
 
 from treadwell.experiments.experiment import Case
 from treadwell.experiments.world import courses, inclines
-from treadwell.experiments.world.claim import GOAL, ROBOTS, Claim, Ends, always, for_robot
+from treadwell.experiments.world.claim import GOAL, ROBOTS, Claim, always, for_robot
 from treadwell.experiments.world.courses import BOARDS
 from treadwell.experiments.world.overhead import overhead, overhead_ends
 from treadwell.experiments.world.parts import Part
@@ -20,34 +21,51 @@ WORLDS: Final = ("random_house", "random_yard")
 RANDOM: Final = ("random_flat", "random_stairs")
 
 Draw = Callable[[], Part]
-_AROUND_OR_OVER: Final = (GOAL, "too_steep")
 
-_COMPLAINTS: Final[tuple[tuple[Draw, tuple[str, ...], bool], ...]] = (
-    (courses.table, (GOAL,), True),
-    (courses.ceiling_flat, ("too_low",), True),
-    (courses.head_room_on_stairs, ("too_low",), True),
-    (courses.ceiling_step, ("too_low",), True),
-    (courses.facing_wall, (GOAL,), True),
-    (courses.stairs_down_near, (GOAL,), True),
-    (courses.near_up, (GOAL,), True),
-    (courses.low_near, (GOAL,), True),
-    (courses.low_down_near, (GOAL,), True),
-    (courses.ramp_edge, _AROUND_OR_OVER, True),
-    (courses.door_sill_ramps, _AROUND_OR_OVER, True),
-    (courses.ramp_corridor, (GOAL,), True),
-    (courses.cable_open, (GOAL,), False),
-    (courses.cable_across, (GOAL, "blocked"), False),
-    (courses.start_by_wall, (GOAL,), True),
+
+@dataclass(frozen=True, slots=True)
+class _Course:
+    """A small course, and what its claims are.
+
+    Attributes:
+        draw: makes it.
+        ends: the right ends.
+        untouched: whether nothing may be met.
+        judged: whether what varies may leave no way.
+    """
+
+    draw: Draw
+    ends: tuple[str, ...] = (GOAL,)
+    untouched: bool = True
+    judged: bool = False
+
+
+_BEVEL_ENDS: Final = (GOAL, "too_steep")
+_COMPLAINTS: Final = (
+    _Course(courses.table),
+    _Course(courses.ceiling_flat, ("too_low",)),
+    _Course(courses.head_room_on_stairs, ("too_low",)),
+    _Course(courses.ceiling_step, ("too_low",)),
+    _Course(courses.facing_wall),
+    _Course(courses.stairs_down_near),
+    _Course(courses.near_up),
+    _Course(courses.low_near),
+    _Course(courses.low_down_near),
+    _Course(courses.ramp_edge, _BEVEL_ENDS),
+    _Course(courses.door_sill_ramps, _BEVEL_ENDS),
+    _Course(courses.ramp_corridor, judged=True),
+    # A cable is felt before it is known.
+    _Course(courses.cable_open, untouched=False),
+    _Course(courses.cable_across, (GOAL, "blocked"), untouched=False),
+    _Course(courses.start_by_wall),
 )
-"""Course, right ends, and whether nothing may be met: a cable is felt before it is known."""
-
-_HELD: Final[tuple[tuple[Draw, tuple[str, ...]], ...]] = (
-    (courses.nosing, (GOAL,)),
-    (courses.open_risers, (GOAL,)),
-    (courses.handrails, (GOAL,)),
-    (courses.narrow_corridor, (GOAL,)),
-    (courses.dead_end, (GOAL,)),
-    (courses.grating, (GOAL, "blocked", "no_path", "tread_too_short")),
+_HELD: Final = (
+    _Course(courses.nosing),
+    _Course(courses.open_risers),
+    _Course(courses.handrails),
+    _Course(courses.narrow_corridor),
+    _Course(courses.dead_end),
+    _Course(courses.grating, (GOAL, "blocked", "no_path", "tread_too_short")),
 )
 
 
@@ -57,20 +75,14 @@ def _one(draw: Draw, outcome: str, _seed: int) -> Part:
     return {**made, "expect": {**made["expect"], "outcome": outcome}}
 
 
-def _course(draw: Draw, robot: str, ends: tuple[str, ...], *, met: bool, share: float) -> Claim:
-    name = draw.__name__
+def _claim(course: _Course, robot: str, share: float) -> Claim:
+    name = course.draw.__name__
     beside = tuple((file, text) for file, text in BOARDS.items() if file == f"{name}.xml")
-    outcome = "goal_reached" if GOAL in ends else "refused"
-    scenario = for_robot(robot, partial(_one, draw, outcome))
+    outcome = "goal_reached" if GOAL in course.ends else "refused"
+    scenario = for_robot(robot, partial(_one, course.draw, outcome))
     case = Case(f"{name}_{robot}", scenario, share=share, beside=beside)
-    judged = draw is courses.ramp_corridor
-    return Claim(case, name, robot, always(*ends), untouched=not met, judged=judged)
-
-
-def _complaints() -> Iterator[Claim]:
-    for draw, ends, untouched in _COMPLAINTS:
-        for robot in ROBOTS:
-            yield _course(draw, robot, ends, met=not untouched, share=1.0)
+    ends = always(*course.ends)
+    return Claim(case, name, robot, ends, untouched=course.untouched, judged=course.judged)
 
 
 def _slope_claim(band: tuple[float, float]) -> Claim:
@@ -80,9 +92,9 @@ def _slope_claim(band: tuple[float, float]) -> Claim:
     return Claim(case, name, "qrio", always(*inclines.incline_ends(band)))
 
 
-def _named(name: str, robot: str, share: float, ends: Ends) -> Claim:
+def _named(name: str, robot: str, share: float) -> Claim:
     case = Case(f"{name}_{robot}", name, (f"robot={robot}",), share=share)
-    return Claim(case, name, robot, ends, judged=True)
+    return Claim(case, name, robot, always(GOAL), judged=True)
 
 
 def _overhead(robot: str) -> Claim:
@@ -90,19 +102,15 @@ def _overhead(robot: str) -> Claim:
     return Claim(case, "overhead", robot, partial(overhead_ends, robot))
 
 
-COMPLAINTS: Final = tuple(_complaints())
+COMPLAINTS: Final = tuple(_claim(course, robot, 1.0) for course in _COMPLAINTS for robot in ROBOTS)
 """Small courses on which others' robots, and ours, went wrong."""
-HELD: Final = tuple(
-    _course(draw, "qrio", ends, met=False, share=HELD_SHARE) for draw, ends in _HELD
-)
+HELD: Final = tuple(_claim(course, "qrio", HELD_SHARE) for course in _HELD)
 """Small courses that went well, and have to."""
 OVERHEAD: Final = tuple(_overhead(robot) for robot in ROBOTS)
 SLOPES: Final = tuple(_slope_claim(band) for band in SLOPES_SHARES)
-WORLD_CLAIMS: Final = tuple(
-    _named(name, robot, DRAWN_SHARE, always(GOAL)) for name in WORLDS for robot in ROBOTS
-)
+WORLD_CLAIMS: Final = tuple(_named(name, robot, DRAWN_SHARE) for name in WORLDS for robot in ROBOTS)
 RANDOM_CLAIMS: Final = tuple(
-    _named(name, robot, RANDOM_SHARE, always(GOAL)) for name in RANDOM for robot in ROBOTS
+    _named(name, robot, RANDOM_SHARE) for name in RANDOM for robot in ROBOTS
 )
 CLAIMS: Final = (*COMPLAINTS, *HELD, *OVERHEAD, *SLOPES, *WORLD_CLAIMS, *RANDOM_CLAIMS)
 """All but the faults, which are right or wrong in another way."""

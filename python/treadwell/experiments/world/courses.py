@@ -233,7 +233,7 @@ def _boards(name: str) -> Part:
     return scenario(name, goal, [*corridor(1.6), built])
 
 
-def _world(slabs: Iterable[tuple[float, float, float, float]]) -> str:
+def _mjcf_of(slabs: Iterable[tuple[float, float, float, float]]) -> str:
     """Return an MJCF world of slabs 90 cm wide: from x to x and from z to z, m."""
     geoms = "".join(
         f'<geom name="slab {i}" type="box" pos="{(x0 + x1) / 2:.4f} 0 {(z0 + z1) / 2:.4f}" '
@@ -249,11 +249,11 @@ _STEPS: Final = tuple(
 """Front edge, back edge and height of four steps, m."""
 
 BOARDS: Final = {
-    "nosing.xml": _world(
+    "nosing.xml": _mjcf_of(
         slab
         for front, back, top in _STEPS
         for slab in ((front - 0.02, back, top - 0.01, top), (front, back, 0.0, top - 0.01))
     ),
-    "open_risers.xml": _world((front, back, top - 0.012, top) for front, back, top in _STEPS),
+    "open_risers.xml": _mjcf_of((front, back, top - 0.012, top) for front, back, top in _STEPS),
 }
 """Name of a file -> its text: what `nosing` and `open_risers` name."""

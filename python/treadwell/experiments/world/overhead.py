@@ -14,6 +14,8 @@ LEAST, MOST = 0.45, 0.75
 SPARE: Final = 0.04
 """Metres: with so much more than its height a robot has to pass."""
 _STREAM: Final = 31
+_ACROSS: Final = 1.0
+"""Metres: from wall to wall of the corridor, and into them."""
 _RISE: Final = 0.03
 _STEPS: Final = 3
 
@@ -55,7 +57,6 @@ def drawn(seed: int) -> Overhead:
 def overhead(seed: int) -> Part:
     """Return the course of a seed."""
     one = drawn(seed)
-    width = 1.0
     if one.kind == "desk":
         course = desk((1.4, 0.0), (one.depth, 1.2), one.room)
     elif one.kind == "lamp":
@@ -63,12 +64,12 @@ def overhead(seed: int) -> Part:
     elif one.kind == "landing":
         top = _RISE * _STEPS
         ceiling = box(
-            "ceiling", (1.35 + one.depth / 2, 0.0), (one.depth, width, 0.05), top + one.room
+            "ceiling", (1.35 + one.depth / 2, 0.0), (one.depth, _ACROSS, 0.05), top + one.room
         )
         course = [*corridor(2.9), flight(_STEPS, _RISE, 0.12, 0.9, 2.0), ceiling]
         return scenario("overhead", {"position": [2.5, 0.0], "height": top}, course)
     else:
-        across = box(one.kind, (1.6, 0.0), (one.depth, width, 0.05), one.room)
+        across = box(one.kind, (1.6, 0.0), (one.depth, _ACROSS, 0.05), one.room)
         course = [*corridor(3.0), across]
     return scenario("overhead", {"position": [2.6, 0.0]}, course)
 

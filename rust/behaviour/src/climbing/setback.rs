@@ -1,6 +1,5 @@
 //! What follows when a step fails: a new try, back to where the robot came from, or giving up.
 
-use geometry::distance_m;
 use mapping::FeltPlace;
 use robot::Side;
 
@@ -18,12 +17,10 @@ pub(super) const fn told(misstep: Misstep) -> &'static str {
     }
 }
 
-/// Whether what was felt last lies further than this from all that was felt before, m: only then may it be another thing.
-fn is_apart(felt: &[FeltPlace], one_thing_m: f64) -> bool {
-    felt.split_last().is_none_or(|(last, before)| {
-        let apart = |one: &FeltPlace| distance_m(one.at_m, last.at_m) > one_thing_m;
-        before.iter().all(apart)
-    })
+/// Whether what was felt last is no part of what was felt before.
+fn is_another_thing(felt: &[FeltPlace]) -> bool {
+    felt.split_last()
+        .is_none_or(|(last, before)| before.iter().all(|one| one.thing != last.thing))
 }
 
 impl StairClimbing {
@@ -68,14 +65,11 @@ impl StairClimbing {
     pub(super) fn after_stumble(&mut self, tick: &Tick<'_>) {
         let felt = &tick.situation.view.felt;
         if self.is_walking() {
-            self.touched = is_apart(felt, self.config.tuning.setback.one_thing);
+            self.touched = is_another_thing(felt);
         } else if !self.walking.counts_touch(felt) {
             self.refuse(given_up(felt, tick.ground_m));
         } else if self.machine.state().may_become(&State::Search) {
-            self.memory.on = None;
-            self.head.gazer.start(tick.situation.gaze);
-            self.flight.clear();
-            self.look_for_steps(tick);
+            self.look_for_what_was_met(tick);
         }
     }
 
@@ -87,6 +81,11 @@ impl StairClimbing {
     /// Looks for stairs after a walking foot came upon something and the robot has stepped back: it may be a step.
     pub(super) fn after_stepping_off(&mut self, tick: &Tick<'_>) {
         self.touched = false;
+        self.look_for_what_was_met(tick);
+    }
+
+    /// Looks for stairs whose step a foot may have met.
+    fn look_for_what_was_met(&mut self, tick: &Tick<'_>) {
         self.memory.on = None;
         self.head.gazer.start(tick.situation.gaze);
         self.flight.clear();

@@ -216,6 +216,7 @@ impl Simulation {
                         heading_rad: pose.yaw_rad,
                         top_m: 0.015,
                         half_width_m: 0.04,
+                        thing: 0,
                     });
                 }
             }

@@ -15,14 +15,10 @@ impl AStar {
         stand: &StandingAt,
         goal: &Goal,
     ) -> Option<NoWay> {
-        let open = view.without_ceilings()?;
-        let mut other = self.clone();
-        other.look(&open, stairs, *stand, goal);
-        let mut path = other.find(stand, goal).ok()?;
+        let path = self.way_in((&view.without_ceilings()?, stairs), stand, goal)?;
         if !path.end.is_certain() {
             return None;
         }
-        path.annotate(&other.terrain, &other.config);
         let reach_m = self.needed_m();
         let (at_m, room_m) = lowest(&path, view, reach_m)?;
         if leads_into_the_unseen(&path, view, reach_m) {

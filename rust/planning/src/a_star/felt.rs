@@ -16,10 +16,7 @@ impl AStar {
         stand: &StandingAt,
         goal: &Goal,
     ) -> Option<NoWay> {
-        let open = view.without_felt()?;
-        let mut other = self.clone();
-        other.look(&open, stairs, *stand, goal);
-        let path = other.find(stand, goal).ok()?;
+        let path = self.way_in((&view.without_felt()?, stairs), stand, goal)?;
         let felt = nearest(&path, &view.felt)?;
         let met = felt.told(stand.height_m);
         Some(NoWay::new(

@@ -1,5 +1,7 @@
 //! A new path: to the goal, to stairs of which a limit is in doubt, or to a place to look from.
 
+use mapping::FloorView;
+use stairs::Staircase;
 use terrain::{StandingAt, Terrain};
 
 use crate::climb_links::Fit;
@@ -35,6 +37,20 @@ impl AStar {
         let tuning = &self.config.tuning.legs;
         path.go_along(terrain, links, (&route, worst), end_m, tuning);
         Ok(path)
+    }
+
+    /// The way that there would be if the map were this one.
+    pub(super) fn way_in(
+        &self,
+        (view, stairs): (&FloorView, &Staircase),
+        stand: &StandingAt,
+        goal: &Goal,
+    ) -> Option<Path> {
+        let mut other = self.clone();
+        other.look(view, stairs, *stand, goal);
+        let mut path = other.find(stand, goal).ok()?;
+        path.annotate(&other.terrain, &other.config);
+        Some(path)
     }
 
     /// The cheapest route over what is known to fit; and whether it may lead out of the window and back to a goal in it.

@@ -13,6 +13,7 @@ fn met() -> FloorView {
         heading_rad: 0.0,
         top_m: 0.015,
         half_width_m: 0.04,
+        thing: 0,
     });
     view
 }

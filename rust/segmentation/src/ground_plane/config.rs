@@ -22,10 +22,8 @@ settings! {
         /// A ground that is searched is what is seen as near to the robot as this: it stands on the floor before its feet, whatever
         /// share of the picture that is.
         underfoot_reach: f64 = 0.29, "m", POSITIVE;
-        /// Smallest ground that is searched, as a share of the image, where nothing is seen as near as `underfoot_reach`.
-        open_floor: f64 = 0.03, "1", SHARE;
-        /// A ground that is searched, and not seen as near as `underfoot_reach`, is most of what is seen up to this distance from the
-        /// robot: what is further away may be the slope of a staircase.
+        /// A ground that is searched, not seen as near as `underfoot_reach` and not even, is most of what is seen up to this distance
+        /// from the robot: what is further away may be the slope of a staircase.
         search_reach: f64 = 0.45, "m", POSITIVE;
         /// What is seen up to this distance from the robot is near its feet: there a ground that is searched must not slope.
         near_reach: f64 = 0.36, "m", POSITIVE;

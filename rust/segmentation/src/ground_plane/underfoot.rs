@@ -29,9 +29,7 @@ impl<F: Finder> Grounded<F> {
         let is_before_the_feet = f64::from(nearest_m[nearest]) < self.config.underfoot_reach;
         let is_clear = || {
             let even = self.surfaces.fits[nearest].roughness() < self.config.tuning.reference.even;
-            !self.has_rival(nearest)
-                && self.is_open(nearest)
-                && (even || self.is_most(levelled, nearest))
+            !self.has_rival(nearest) && (even || self.is_most(levelled, nearest))
         };
         if !is_before_the_feet && !is_clear() {
             return None;
@@ -52,12 +50,6 @@ impl<F: Finder> Grounded<F> {
                 self.surfaces.join(index, ground);
             }
         }
-    }
-
-    /// Whether a region is a good part of the picture.
-    fn is_open(&self, index: usize) -> bool {
-        let open = self.config.open_floor * self.surfaces.labels.len() as f64;
-        self.surfaces.regions[index].support as f64 >= open
     }
 
     /// Whether a region is most of what is seen near the feet.

@@ -14,8 +14,6 @@ settings! {
         seen_within: f64 = 0.004, "m", NOT_NEGATIVE;
         /// What is seen in so much of the place that a sole met is what it met.
         seen_share: f64 = 0.5, "1", within(0.0, 1.0);
-        /// Places at which something was met are one thing where they are no further apart than this: a cable, not two toys.
-        one_thing: f64 = 0.6, "m", NOT_NEGATIVE;
         /// For each place but the first, one thing goes on by this share of its known length at both ends.
         goes_on: f64 = 0.5, "1", within(0.0, 10.0);
         /// It goes on no further than this.
@@ -50,7 +48,7 @@ impl FeltThings {
                 block(terrain, terrain.lattice.center_of(cell), 0.0);
             }
         }
-        while self.gather(config.one_thing) {
+        while self.gather() {
             if let Some((ends_m, further_m)) = goes_on(&self.thing, config) {
                 lay(terrain, ends_m, further_m, config.passed);
             }
@@ -58,16 +56,15 @@ impl FeltThings {
     }
 
     /// Takes the places of one thing out of all; false where none is left.
-    fn gather(&mut self, apart_m: f64) -> bool {
+    fn gather(&mut self) -> bool {
         self.thing.clear();
-        self.thing.extend(self.places.pop());
-        let mut next = 0;
-        while let Some(&FeltPlace { at_m, .. }) = self.thing.get(next) {
-            next += 1;
-            let beside = |other: &mut FeltPlace| distance_m(other.at_m, at_m) <= apart_m;
-            self.thing.extend(self.places.extract_if(.., beside));
-        }
-        !self.thing.is_empty()
+        let Some(last) = self.places.pop() else {
+            return false;
+        };
+        self.thing.push(last);
+        let beside = |other: &mut FeltPlace| other.thing == last.thing;
+        self.thing.extend(self.places.extract_if(.., beside));
+        true
     }
 }
 
@@ -139,6 +136,7 @@ mod tests {
             heading_rad: 0.0,
             top_m: 0.015,
             half_width_m: 0.04,
+            thing: 0,
         });
     }
 
@@ -205,6 +203,7 @@ mod tests {
         let mut floor = Floor::new();
         met(&mut floor, 0.525);
         met(&mut floor, -0.525);
+        floor.view.felt[1].thing = 1;
         assert!(!blocked_at(&floor, 0.525, 0.0) && blocked_at(&floor, 0.525, 0.525));
     }
 
@@ -217,6 +216,7 @@ mod tests {
                 heading_rad: 1.57,
                 top_m: 0.015,
                 half_width_m: 0.04,
+                thing: 0,
             });
         }
         assert!(!blocked_at(&floor, 0.025, 0.025) && blocked_at(&floor, 0.1, 0.025));

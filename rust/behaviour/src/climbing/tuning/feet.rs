@@ -65,8 +65,6 @@ settings! {
         /// With one foot on the next step, the other foot tries again after so many missteps; after more of them the robot moves back
         /// and gives up.
         second_tries: u32 = 1, "1", within(0.0, 100.0);
-        /// What a walking foot meets so near to what one met before may be the same thing: no stairs are looked for again.
-        one_thing: f64 = 0.6, "m", NOT_NEGATIVE;
     }
 }
 
