@@ -28,11 +28,11 @@ impl ThingsMet {
     }
 }
 
-/// Why a robot gives up that stands on ground of this height, m, and whose feet meet things again and again.
-pub(crate) fn given_up(felt: &[FeltPlace], ground_m: f64) -> String {
+/// Why a robot gives up whose feet meet things again and again.
+pub(crate) fn given_up(felt: &[FeltPlace]) -> String {
     felt.last().map_or_else(
         || "blocked: the feet come upon something that cannot be seen".to_owned(),
-        |felt| format!("blocked: {}", felt.told(ground_m)),
+        |felt| format!("blocked: {}", felt.told()),
     )
 }
 
@@ -45,6 +45,7 @@ mod tests {
             at_m: [0.5, 0.2 * index as f64],
             heading_rad: 0.0,
             top_m: 0.115,
+            ground_m: 0.1,
             half_width_m: 0.04,
             thing: 0,
         };
@@ -63,7 +64,7 @@ mod tests {
 
     #[test]
     fn who_gives_up_says_what_was_met_last_and_where() {
-        let told = given_up(&felt(2), 0.1);
+        let told = given_up(&felt(2));
         assert!(
             told.contains("(0.50, 0.20)") && told.contains("15 mm"),
             "{told}"

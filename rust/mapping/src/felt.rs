@@ -112,6 +112,7 @@ mod tests {
         at_m: [0.5, 0.1],
         heading_rad: 0.0,
         top_m: 0.014,
+        ground_m: 0.0,
         half_width_m: 0.04,
         thing: 0,
     };

@@ -11,6 +11,8 @@ pub struct FeltPlace {
     pub heading_rad: f64,
     /// It is at least so high, m.
     pub top_m: f64,
+    /// How high the ground is that the foot came from, m.
+    pub ground_m: f64,
     /// Half of the sole that met it, across the way that it came, m.
     pub half_width_m: f64,
     /// The thing that it is a part of, as the map numbers them.
@@ -25,10 +27,10 @@ impl FeltPlace {
             .map(|aside_m| [self.at_m[0] - sin * aside_m, self.at_m[1] + cos * aside_m])
     }
 
-    /// What was met, for people, told by one who stands on ground of this height, m.
-    pub fn told(&self, ground_m: f64) -> String {
+    /// What was met, for people.
+    pub fn told(&self) -> String {
         let [x_m, y_m] = self.at_m;
-        let mm = (1e3 * (self.top_m - ground_m)).round();
+        let mm = (1e3 * (self.top_m - self.ground_m)).round();
         format!(
             "a foot met something at ({x_m:.2}, {y_m:.2}) that is {mm} mm high or more and was not seen"
         )
@@ -58,6 +60,7 @@ mod tests {
         at_m: [0.5, 0.1],
         heading_rad: 0.0,
         top_m: 0.014,
+        ground_m: 0.0,
         half_width_m: 0.04,
         thing: 0,
     };

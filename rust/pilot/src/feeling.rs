@@ -28,6 +28,7 @@ fn in_map(met: &Met, map_from_robot: &Pose<Map, Robot>, view: &FloorView) -> Fel
         at_m: [at.inner.x, at.inner.y],
         heading_rad: map_from_robot.yaw_rad() + met.at.yaw_rad,
         top_m: at.inner.z - lifted_m,
+        ground_m: stands.z - lifted_m,
         half_width_m: met.half_width_m,
         thing: 0,
     }
@@ -59,6 +60,7 @@ mod tests {
         // The map says that it stands 12 mm above the ground.
         let lifted = in_map(&met, &robot, &view(Surface::Floor(0.088)));
         assert!((lifted.top_m - 0.103).abs() < 1e-6);
+        assert!(lifted.told().contains("15 mm"), "{}", lifted.told());
         let sunk = in_map(&met, &robot, &view(Surface::Floor(0.12)));
         assert!((sunk.top_m - 0.115).abs() < 1e-12);
     }

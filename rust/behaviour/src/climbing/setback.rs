@@ -67,7 +67,7 @@ impl StairClimbing {
         if self.is_walking() {
             self.touched = is_another_thing(felt);
         } else if !self.walking.counts_touch(felt) {
-            self.refuse(given_up(felt, tick.ground_m));
+            self.refuse(given_up(felt));
         } else if self.machine.state().may_become(&State::Search) {
             self.look_for_what_was_met(tick);
         }

@@ -215,6 +215,7 @@ impl Simulation {
                         at_m: [pose.x_m + 0.06, pose.y_m],
                         heading_rad: pose.yaw_rad,
                         top_m: 0.015,
+                        ground_m: 0.0,
                         half_width_m: 0.04,
                         thing: 0,
                     });

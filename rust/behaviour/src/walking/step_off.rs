@@ -19,7 +19,7 @@ impl WalkingBehaviour {
             self.met = felt.last().copied();
             self.enter(State::Stop);
         } else {
-            self.refuse(given_up(felt, tick.ground_m));
+            self.refuse(given_up(felt));
         }
     }
 

@@ -18,7 +18,7 @@ impl AStar {
     ) -> Option<NoWay> {
         let path = self.way_in((&view.without_felt()?, stairs), stand, goal)?;
         let felt = nearest(&path, &view.felt)?;
-        let met = felt.told(stand.height_m);
+        let met = felt.told();
         Some(NoWay::new(
             Refusal::Blocked,
             format!("{met}, and no way leads around it"),

@@ -12,6 +12,7 @@ fn met() -> FloorView {
         at_m: [0.5, 0.02],
         heading_rad: 0.0,
         top_m: 0.015,
+        ground_m: 0.0,
         half_width_m: 0.04,
         thing: 0,
     });

@@ -135,6 +135,7 @@ mod tests {
             at_m: [0.525, y_m],
             heading_rad: 0.0,
             top_m: 0.015,
+            ground_m: 0.0,
             half_width_m: 0.04,
             thing: 0,
         });
@@ -215,6 +216,7 @@ mod tests {
                 at_m: [x_m, 0.025],
                 heading_rad: 1.57,
                 top_m: 0.015,
+                ground_m: 0.0,
                 half_width_m: 0.04,
                 thing: 0,
             });
