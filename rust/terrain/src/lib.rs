@@ -24,7 +24,7 @@ pub use goal_level::{GoalLevel, GoalLevelConfig};
 pub use longer_landings::{LongerLandings, LongerLandingsConfig};
 pub use rules::config::TerrainConfig;
 pub use rules::voronoi::VoronoiConfig;
-pub use rules::{RULES, Rule, Rules};
+pub use rules::{RULES, Rule, RuleName, Rules};
 pub use sight::{CellSettings, HeightLimits, Needs, Rectangle, Sight, StandingAt};
 pub use slope_cells::SlopeCells;
 pub use stair_cells::StairCells;

@@ -17,6 +17,7 @@ mod heights;
 pub mod laid_stairs;
 mod landing_edges;
 mod lone_cells;
+mod name;
 mod obstacle_costs;
 pub mod obstacles;
 pub mod platform_edges;
@@ -28,111 +29,112 @@ mod tall_edges;
 pub mod voronoi;
 
 use crate::{Sight, Terrain, TerrainConfig};
+pub use name::RuleName;
 use voronoi::VoronoiConfig;
 
 /// All rules, in order.
 pub const RULES: [Rule; 21] = [
     // Decides which cells belong to recognised stairs or lie beside them, and how high those are.
     Rule {
-        name: "stair_cells",
+        name: RuleName::StairCells,
         apply: |rules, terrain, sight| {
             stair_cells::apply(terrain, sight, &rules.config.stair_cells);
         },
     },
     // Decides what stands there: what is seen, but a riser beside a stair; and what is unknown.
     Rule {
-        name: "obstacles",
+        name: RuleName::Obstacles,
         apply: |rules, terrain, sight| obstacles::apply(terrain, sight, &rules.config.obstacles),
     },
     // Decides that what looks like a higher level from afar is unknown until it was near.
     Rule {
-        name: "far_levels",
+        name: RuleName::FarLevels,
         apply: |rules, terrain, sight| {
             (rules.far_levels).apply(terrain, sight, &rules.config.far_levels);
         },
     },
     // Decides that obstacles of a cell or two are unknown.
     Rule {
-        name: "lone_cells",
+        name: RuleName::LoneCells,
         apply: |rules, terrain, _| rules.lone_cells.apply(terrain),
     },
     // Decides that floor has a height where it was seen often enough and is not in doubt.
     Rule {
-        name: "heights",
+        name: RuleName::Heights,
         apply: |_, terrain, sight| heights::apply(terrain, sight),
     },
     // Decides that stairs overwrite heights, but well inside the robot's own level.
     Rule {
-        name: "laid_stairs",
+        name: RuleName::LaidStairs,
         apply: |rules, terrain, sight| {
             (rules.laid_stairs).apply(terrain, sight, &rules.config.laid_stairs);
         },
     },
     // Decides which cells are tilted, and which may be level strips of a slope.
     Rule {
-        name: "slopes",
+        name: RuleName::Slopes,
         apply: |rules, terrain, sight| slopes::apply(terrain, sight, &rules.config.slopes),
     },
     // Decides that a single unseen cell has the height of the ground on both sides of it.
     Rule {
-        name: "gaps",
+        name: RuleName::Gaps,
         apply: |rules, terrain, _| rules.gaps.apply(terrain),
     },
     // Decides that a level of stairs has an edge before unseen ground.
     Rule {
-        name: "landing_edges",
+        name: RuleName::LandingEdges,
         apply: |rules, terrain, sight| rules.landing_edges.apply(terrain, sight),
     },
     // Decides that there is an edge between neighbours that differ by more than floor does.
     Rule {
-        name: "height_differences",
+        name: RuleName::HeightDifferences,
         apply: |_, terrain, _| height_differences::apply(terrain),
     },
     // Decides that there is an edge across a few unseen cells between two levels.
     Rule {
-        name: "shadows",
+        name: RuleName::Shadows,
         apply: |rules, terrain, _| shadows::apply(terrain, &rules.config.shadows),
     },
     // Decides that slopes too steep to be walked on are edges.
     Rule {
-        name: "steep_slopes",
+        name: RuleName::SteepSlopes,
         apply: |_, terrain, _| steep_slopes::apply(terrain),
     },
     // Decides that a raised level under the robot has an edge where nothing was seen beside it.
     Rule {
-        name: "platform_edges",
+        name: RuleName::PlatformEdges,
         apply: |rules, terrain, sight| {
             (rules.platform_edges).apply(terrain, sight, &rules.config.platform_edges);
         },
     },
     // Decides that what is higher than a step, and no staircase, is an obstacle.
     Rule {
-        name: "tall_edges",
+        name: RuleName::TallEdges,
         apply: |_, terrain, sight| tall_edges::apply(terrain, sight),
     },
     // Decides that what a foot met stands there, until something as high is seen there.
     Rule {
-        name: "felt",
+        name: RuleName::Felt,
         apply: |rules, terrain, sight| rules.felt.apply(terrain, sight, &rules.config.felt),
     },
     // Decides how far each cell is from obstacles and from edges.
     Rule {
-        name: "clearance",
+        name: RuleName::Clearance,
         apply: |rules, terrain, _| clearance::apply(terrain, &rules.config.edge_costs),
     },
     // Decides what a metre costs near to obstacles and in the unknown, and where there is no room.
     Rule {
-        name: "obstacle_costs",
+        name: RuleName::ObstacleCosts,
         apply: |rules, terrain, _| rules.obstacle_costs.apply(terrain),
     },
     // Decides what a metre costs where the room for the head was not seen.
     Rule {
-        name: "head_room",
+        name: RuleName::HeadRoom,
         apply: |rules, terrain, sight| head_room::apply(terrain, sight, &rules.config.head_room),
     },
     // Decides where users chose it, what a metre costs off the lines with most room.
     Rule {
-        name: "voronoi",
+        name: RuleName::Voronoi,
         apply: |rules, terrain, _| {
             if let Some(field) = &mut rules.voronoi {
                 field.apply(terrain);
@@ -141,12 +143,12 @@ pub const RULES: [Rule; 21] = [
     },
     // Decides what a metre costs near to edges, and that nobody walks on one.
     Rule {
-        name: "edge_costs",
+        name: RuleName::EdgeCosts,
         apply: |rules, terrain, _| rules.edge_costs.apply(terrain, &rules.config.edge_costs),
     },
     // Decides that the robot may leave what it already stands too near to.
     Rule {
-        name: "escape",
+        name: RuleName::Escape,
         apply: |_, terrain, sight| escape::apply(terrain, sight),
     },
 ];
@@ -155,7 +157,7 @@ pub const RULES: [Rule; 21] = [
 #[derive(Debug, Clone, Copy)]
 pub struct Rule {
     /// The name of its file and of its table of settings, if it has one.
-    pub name: &'static str,
+    pub name: RuleName,
     apply: fn(&mut Rules, &mut Terrain, &Sight<'_>),
 }
 
@@ -185,7 +187,8 @@ impl Rules {
     /// Reads what is seen into a terrain.
     pub fn read(&mut self, terrain: &mut Terrain, sight: &Sight<'_>) {
         terrain.begin(sight.view);
-        for rule in &RULES {
+        let left_out = self.config.left_out;
+        for rule in RULES.iter().filter(|rule| Some(rule.name) != left_out) {
             (rule.apply)(self, terrain, sight);
         }
     }
@@ -194,7 +197,10 @@ impl Rules {
     #[cfg(test)]
     pub(crate) fn read_until(&mut self, name: &str, terrain: &mut Terrain, sight: &Sight<'_>) {
         terrain.begin(sight.view);
-        let last = RULES.iter().position(|rule| rule.name == name).unwrap();
+        let last = RULES
+            .iter()
+            .position(|rule| rule.name.word() == name)
+            .unwrap();
         for rule in &RULES[..=last] {
             (rule.apply)(self, terrain, sight);
         }
@@ -209,7 +215,7 @@ mod tests {
     fn every_rule_has_a_name_of_its_own_and_a_file_of_that_name() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/rules");
         for (index, rule) in RULES.iter().enumerate() {
-            let file = format!("{folder}/{}.rs", rule.name);
+            let file = format!("{folder}/{}.rs", rule.name.word());
             assert!(std::path::Path::new(&file).exists(), "{file}");
             let others = RULES[index + 1..].iter();
             assert!(others.into_iter().all(|other| other.name != rule.name));

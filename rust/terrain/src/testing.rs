@@ -144,8 +144,8 @@ impl Floor {
 
     /// What the rules make of it up to, but without, the one of this name.
     pub(crate) fn before(&self, rule: &str) -> Terrain {
-        let at = crate::RULES.iter().position(|one| one.name == rule);
-        self.after(crate::RULES[at.unwrap() - 1].name)
+        let at = crate::RULES.iter().position(|one| one.name.word() == rule);
+        self.after(&crate::RULES[at.unwrap() - 1].name.word())
     }
 }
 

@@ -1,9 +1,10 @@
 //! Settings of the rules: one table for each, in the order in which they act.
 
-use settings::settings;
+use settings::{ANY, settings};
 
 use crate::goal_level::GoalLevelConfig;
 use crate::longer_landings::LongerLandingsConfig;
+use crate::rules::RuleName;
 use crate::rules::edge_costs::EdgeCostsConfig;
 use crate::rules::far_levels::FarLevelsConfig;
 use crate::rules::felt::FeltThingsConfig;
@@ -19,6 +20,8 @@ use crate::terrain::RoomConfig;
 settings! {
     /// What a cell is: one table for each rule that has settings of its own, in the order in which the rules act.
     pub struct TerrainConfig("navigation.terrain") {
+        /// A rule that does not act, to see what it is worth.
+        left_out: Option<RuleName> = None, "-", ANY;
         /// Which level a goal lies on that is told without a height.
         goal_level: GoalLevelConfig;
         /// Which landings are taken to go on to the goal.
