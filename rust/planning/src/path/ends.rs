@@ -174,8 +174,8 @@ pub(crate) fn end_of(
     match climbed {
         Some(way) if way.at_goal => PathEnd::Goal,
         Some(_) => PathEnd::Hope,
+        None if !(ends.inside && in_disc) => PathEnd::Border,
         None if blind => PathEnd::Hope,
-        None if ends.inside && in_disc => PathEnd::Goal,
-        None => PathEnd::Border,
+        None => PathEnd::Goal,
     }
 }

@@ -3,7 +3,7 @@
 use crate::course::{Course, goal, goal_at, plan, planner, way};
 use geometry::Cell;
 use mapping::Surface;
-use planning::{Goal, Path};
+use planning::{Goal, Path, PathEnd};
 
 #[test]
 fn a_way_up_that_may_go_on_is_not_given_up_for_known_ground_that_leads_away() {
@@ -114,4 +114,13 @@ fn a_goal_that_comes_in_sight_behind_a_long_wall_is_not_walked_back_for() {
         "{at:?}"
     );
     assert!(turned_back_m < 1.5, "{turned_back_m}");
+}
+
+#[test]
+fn a_goal_on_another_level_outside_of_the_window_is_gone_towards_up_to_the_border() {
+    // Of the border nothing was seen yet: that is no reason to stop there.
+    let mut course = Course::floor();
+    course.forget([1.6, -2.0], [2.0, 2.0]);
+    let path = way(&course, 0.0, &goal_at(3.5, 0.0, 0.08));
+    assert_eq!(path.end, PathEnd::Border);
 }

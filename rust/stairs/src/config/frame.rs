@@ -94,6 +94,9 @@ settings! {
         solid: f64 = 0.6, "1", SHARE;
         /// An edge that was seen from one of its sides only counts as this part of the points: fringes move it by centimetres.
         one_sided: usize = 8, "1", at_least(1.0);
+        /// How far the camera's tilt may be off in a frame that does not show the ground: from afar the ground itself then seems to lie
+        /// higher or lower.
+        tilt: f64 = 0.012, "rad", NOT_NEGATIVE;
         /// Edges between two surfaces, seen from both.
         shared_edges: SharedEdgesTuning;
     }

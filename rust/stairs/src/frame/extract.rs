@@ -47,8 +47,13 @@ impl Extraction {
             let sighting = self.sighting(region, &view, config);
             self.found.extend(sighting);
         }
+        // Without the ground in the picture heights are no better than the camera's tilt is known.
+        let tilt_rad = match planes.ground {
+            Some(_) => 0.0,
+            None => config.tuning.frame.tilt,
+        };
         for i in 0..self.found.len() {
-            self.found[i].own_level = is_own_level(&self.found, i, config);
+            self.found[i].own_level = is_own_level(&self.found, i, tilt_rad, config);
         }
         let near = |stair: &Stair<Robot>| stair.seen_from_m <= config.max_distance;
         self.found
@@ -226,11 +231,19 @@ impl LevelSurface {
     }
 }
 
-/// Whether the surface is at the robot's own height, with nothing of another height on the way to it.
-fn is_own_level(found: &[StairSighting], index: usize, config: &StairsConfig) -> bool {
+/// Whether the surface is at the robot's own height, as far as can be told by a camera that may be tilted by `tilt_rad`, with nothing
+/// of another height on the way to it.
+fn is_own_level(
+    found: &[StairSighting],
+    index: usize,
+    tilt_rad: f64,
+    config: &StairsConfig,
+) -> bool {
     let tuning = &config.tuning.frame;
     let stair = &found[index].stair;
-    let own = |stair: &Stair<Robot>| stair.height_m().abs() < config.own_height;
+    let own = |stair: &Stair<Robot>| {
+        stair.height_m().abs() < config.own_height + tilt_rad * stair.seen_from_m
+    };
     let to = stair.reference.inner.xy();
     let from_robot_m = |place: &Point2<f64>| place.coords.dot(&to.coords.normalize());
     let cuts_m = |hull: &Outline| {

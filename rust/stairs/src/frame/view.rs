@@ -131,6 +131,22 @@ impl<'a> PlanesView<'a> {
         })
     }
 
+    /// Whether the ground that the robot stands on is seen at a place that is said to lie higher or lower, from so near that the two
+    /// are told apart.
+    pub(crate) fn shows_ground_at(&self, place: &Point3<f64>) -> bool {
+        let on_ground = Point3::new(place.x, place.y, 0.0);
+        let seen = || {
+            let at = self.index(&self.pixel(&on_ground)?)?;
+            let level_m = f64::from(self.planes.floor_height_m[at]);
+            let eye = self.planes.robot_from_camera.inner.translation.vector;
+            let away = (on_ground.coords - eye).norm_squared();
+            let same_m = self.tuning.same_height;
+            let told = place.z.abs() > same_m + self.tuning.height_noise * away;
+            Some(told && level_m.abs() <= same_m)
+        };
+        self.planes.ground.is_some() && seen() == Some(true)
+    }
+
     /// What is seen at a place of a surface at the place's height; `None` out of view or where nothing was seen.
     pub(crate) fn shows_at(&self, place: &Point3<f64>) -> Option<Shows> {
         self.shows(&self.pixel(place)?, place.z)

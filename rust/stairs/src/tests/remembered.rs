@@ -118,6 +118,55 @@ fn stairs_that_vanish_are_dropped_after_some_frames_and_not_at_once() {
     assert!(!last.contains(&1) && !last.contains(&2), "{last:?}");
 }
 
+/// Levels one behind the other, each from a place on and so high.
+fn levels(from_and_top_m: &[[f64; 2]]) -> Vec<Prism> {
+    let ends = from_and_top_m[1..]
+        .iter()
+        .map(|&[from_m, _]| from_m)
+        .chain([5.0]);
+    let each = from_and_top_m.iter().zip(ends);
+    let prism = |(&[from_m, top_m], to_m): (&[f64; 2], f64)| {
+        let corners = [[from_m, -3.0], [to_m, -3.0], [to_m, 3.0], [from_m, 3.0]];
+        Prism::new(&corners, top_m)
+    };
+    each.map(prism).collect()
+}
+
+#[test]
+fn a_lower_tread_is_dropped_once_the_ground_itself_is_seen_in_its_place_from_near() {
+    let mut recognizer = Recognizer::new(StairsConfig::default(), CAMERA).unwrap();
+    let mut has_tread = |prisms: &[Prism]| {
+        let (scan, mut planes) = frame(prisms, &Pose::identity(), &camera_pose(0.0, 0.9));
+        planes.ground = Some(0);
+        for _ in 0..6 {
+            let found = recognizer.update(&scan, &planes, &Pose::identity(), 0);
+            assert!(found.is_ok());
+        }
+        let stairs = &recognizer.staircase.stairs;
+        (stairs.iter()).any(|stair| (-0.03..-0.01).contains(&stair.height_m()))
+    };
+    let ground = [-3.0, 0.0];
+    assert!(has_tread(&levels(&[ground, [0.3, -0.02], [0.45, -0.04]])));
+    assert!(!has_tread(&levels(&[ground])));
+}
+
+/// Looking up, a robot whose camera is off by half a degree sees the floor a centimetre lower.
+#[test]
+fn floor_that_seems_lower_is_no_stair_while_the_ground_before_the_feet_is_not_seen() {
+    for (ground, is_one) in [(None, false), (Some(0), true)] {
+        let mut recognizer = Recognizer::new(StairsConfig::default(), CAMERA).unwrap();
+        let prisms = levels(&[[-3.0, 0.0], [0.2, -0.014]]);
+        let (scan, mut planes) = frame(&prisms, &Pose::identity(), &camera_pose(0.0, 0.4));
+        planes.ground = ground;
+        for _ in 0..6 {
+            let found = recognizer.update(&scan, &planes, &Pose::identity(), 0);
+            assert!(found.is_ok());
+        }
+        let stairs = &recognizer.staircase.stairs;
+        assert_eq!(!stairs.is_empty(), is_one, "{ground:?}: {stairs:?}");
+    }
+}
+
 /// From afar a step and the platform behind it run into each other for some frames. Of the platform little is seen from near by.
 #[test]
 fn two_steps_that_were_taken_for_one_do_not_stay_beside_them() {

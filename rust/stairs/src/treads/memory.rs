@@ -80,7 +80,7 @@ impl TreadMemory {
         self.frames = self.frames.saturating_add(1);
     }
 
-    /// Counts the frames in which something lower shows where a tread should be.
+    /// Counts the frames in which something lower, or the ground itself, shows where a tread should be.
     fn look_for_gone(
         &mut self,
         view: &PlanesView<'_>,
@@ -95,6 +95,10 @@ impl TreadMemory {
             };
             let (mut there, mut gone) = (0_usize, 0_usize);
             for place in stair.transformed(&robot_from_map).places(&tuning.places) {
+                if view.shows_ground_at(&place.inner) {
+                    gone += 1;
+                    continue;
+                }
                 match view.shows_at(&place.inner) {
                     Some(Shows::Surface) => there += 1,
                     Some(Shows::Lower) => gone += 1,
