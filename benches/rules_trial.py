@@ -1,8 +1,8 @@
 """What each rule of `terrain` is worth: recordings replayed without each rule in turn.
 
-    python benches/rules_trial.py record corpus/        # a run of each course, once
-    python benches/rules_trial.py replay corpus/        # each without each rule, to the first change
-    python benches/rules_trial.py settings corpus/      # each with each number doubled and halved
+    python benches/rules_trial.py record corpus/    # a run of each course, once
+    python benches/rules_trial.py replay corpus/    # each without each rule, to the first change
+    python benches/rules_trial.py settings corpus/  # each with each number doubled and halved
 
 A replay gives the core what was sensed then and stops where a command first differs from the
 recorded one. A rule, or a number, that changes no command in any recording decided nothing there.
@@ -25,11 +25,11 @@ from treadwell.replaying.difference import between_answers
 from treadwell.replaying.source import open_source
 
 RULES = (
-    *("stair_cells", "obstacles", "far_levels", "lone_cells", "heights", "laid_stairs", "slopes"),
-    *("gaps", "landing_edges", "height_differences", "shadows", "steep_slopes", "platform_edges"),
-    *("tall_edges", "felt", "clearance", "obstacle_costs", "head_room", "voronoi", "edge_costs"),
-    "escape",
+    *("stair_cells", "far_levels", "lone_cells", "laid_stairs", "slopes", "gaps"),
+    *("landing_edges", "height_differences", "shadows", "steep_slopes", "platform_edges"),
+    *("tall_edges", "felt", "head_room", "voronoi", "edge_costs", "escape"),
 )
+"""Those that not all others build on."""
 FAMILIES = {"random_house": 8, "random_yard": 6, "random_stairs": 4, "random_flat": 2}
 """Scenario -> seeds, from 0 on."""
 

@@ -1,6 +1,6 @@
 //! Settings of the rules: one table for each, in the order in which they act.
 
-use settings::{ANY, settings};
+use settings::{ANY, ConfigError, require, settings};
 
 use crate::goal_level::GoalLevelConfig;
 use crate::longer_landings::LongerLandingsConfig;
@@ -20,7 +20,7 @@ use crate::terrain::RoomConfig;
 settings! {
     /// What a cell is: one table for each rule that has settings of its own, in the order in which the rules act.
     pub struct TerrainConfig("navigation.terrain") {
-        /// A rule that does not act, to see what it is worth.
+        /// A rule that does not act, to see what it is worth; none that all others build on.
         left_out: Option<RuleName> = None, "-", ANY;
         /// Which level a goal lies on that is told without a height.
         goal_level: GoalLevelConfig;
@@ -48,5 +48,46 @@ settings! {
         edge_costs: EdgeCostsConfig;
         /// How room along a way is measured.
         room: RoomConfig;
+    }
+    check TerrainConfig::can_do_without;
+}
+
+impl TerrainConfig {
+    fn can_do_without(&self, key: &str) -> Result<(), ConfigError> {
+        use RuleName::{Clearance, Heights, ObstacleCosts, Obstacles};
+        let needed = [Obstacles, Heights, Clearance, ObstacleCosts];
+        let is_needed = self.left_out.is_some_and(|rule| needed.contains(&rule));
+        let key = format!("{key}.left_out");
+        let found = self.left_out.map_or(String::new(), RuleName::word);
+        require(
+            !is_needed,
+            &key,
+            "a rule that not all others build on",
+            found,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use settings::Table;
+
+    use super::*;
+
+    #[test]
+    fn what_all_others_build_on_is_not_left_out() {
+        let without = |rule| TerrainConfig {
+            left_out: Some(rule),
+            ..TerrainConfig::default()
+        };
+        assert_eq!(without(RuleName::Gaps).check(), Ok(()));
+        let refused = without(RuleName::Obstacles)
+            .check()
+            .unwrap_err()
+            .to_string();
+        assert!(
+            refused.starts_with("navigation.terrain.left_out must be a rule"),
+            "{refused}"
+        );
     }
 }

@@ -35,11 +35,11 @@ pub enum RuleName {
 
 settings::choices!(RuleName);
 
-#[cfg(test)]
 impl RuleName {
     /// As it is written in a file of settings.
     pub(crate) fn word(self) -> String {
-        let word = settings::serde_json::to_value(self).unwrap();
-        word.as_str().unwrap().to_owned()
+        let word = settings::serde_json::to_value(self);
+        let word = word.ok().and_then(|word| word.as_str().map(str::to_owned));
+        word.unwrap_or_default()
     }
 }
