@@ -1,6 +1,6 @@
 //! Settings of the watch over the body's senses.
 
-use settings::{POSITIVE, above_to, settings};
+use settings::{POSITIVE, SHARE, above_to, settings};
 
 settings! {
     /// When the senses of the body contradict each other.
@@ -33,6 +33,15 @@ settings! {
         firm: f64 = 0.02, "1", above_to(0.0, 1.0);
         /// Roll or pitch by which the two may differ in that time: whole ones differ by less than 0.03.
         tilt: f64 = 0.045, "rad", POSITIVE;
+        /// Roll or pitch by which they must differ over the other foot, too: a sole that rocks on something is one foot's.
+        tilt_of_both: f64 = 0.03, "rad", POSITIVE;
+        /// How fast what differed over a foot fades: with the steps that follow.
+        both_time: f64 = 1.0, "s", POSITIVE;
+        /// Unless the turn of the legs about other axes explains the readings so much better: what is left of them then is less than
+        /// this share.
+        rewired: f64 = 0.5, "1", SHARE;
+        /// Time over which both turns are smoothed for that.
+        turn_smooth: f64 = 0.05, "s", POSITIVE;
         /// Time over which the heading by the gyroscope is held against that by the legs.
         heading_time: f64 = 2.0, "s", POSITIVE;
         /// A difference between the two that is faster counts as if it were so fast: a sole that slips turns fast and for a moment.
