@@ -32,7 +32,7 @@ pub use climbing::conditions::{Ahead, Stand, Tolerance, Unready, conditions};
 pub use climbing::config::{ClimbingConfig, ClimbingTuning, LevelsConfig, ParameterSet};
 pub use climbing::footing::{Feet, Footing, Onward, Unfit};
 pub use config::{
-    BorderTuning, CoarseTuning, EdgeModelTuning, EdgesTuning, ExcerptTuning, FitsTuning,
+    BevelMemoryTuning, BevelTuning, BorderTuning, CoarseTuning, EdgeModelTuning, EdgesTuning, ExcerptTuning, FitsTuning,
     FrameTuning, FusionTuning, JointsTuning, LinesTuning, MemoryTuning, MergingTuning,
     PlacesTuning, RefineTuning, SharedEdgesTuning, SidesTuning, StairsConfig, StairsTuning,
     TreadsTuning, ViewTuning, VisibilityTuning, WindowTuning,

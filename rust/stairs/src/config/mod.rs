@@ -8,9 +8,9 @@ mod treads;
 use settings::{NOT_NEGATIVE, POSITIVE, settings};
 
 pub use edge_model::{
-    CoarseTuning, EdgeModelTuning, ExcerptTuning, RefineTuning, VisibilityTuning, WindowTuning,
+    BevelTuning, CoarseTuning, EdgeModelTuning, ExcerptTuning, RefineTuning, VisibilityTuning, WindowTuning,
 };
-pub use edges::{EdgesTuning, FitsTuning, FusionTuning, JointsTuning};
+pub use edges::{BevelMemoryTuning, EdgesTuning, FitsTuning, FusionTuning, JointsTuning};
 pub use frame::{FrameTuning, LinesTuning, PlacesTuning, SharedEdgesTuning, ViewTuning};
 pub use treads::{BorderTuning, MemoryTuning, MergingTuning, SidesTuning, TreadsTuning};
 

@@ -1,9 +1,12 @@
 //! Which edges are fitted in a frame, and what the fits of all frames say of the stairs.
 
 use geometry::{Map, Point, Pose, Robot};
+use mapping::Bevel;
 use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
 
+use crate::edges::bevels::Bevels;
+use crate::edges::edge_model::bevel::BevelModel;
 use crate::edges::fusion::FusedEdge;
 use crate::edges::joints::{apart_m, before, part_beside};
 use crate::frame::view::PlanesView;
@@ -13,8 +16,11 @@ use crate::{Edge, EdgeFit, EdgeModel, EdgesTuning, FitsTuning, Stair, StairsConf
 /// Fits edges and keeps what is found.
 #[derive(Debug, Clone)]
 pub(crate) struct Fits {
+    camera: Intrinsics,
     model: EdgeModel,
     edges: Vec<FusedEdge>,
+    bevel_model: BevelModel,
+    bevels: Bevels,
 }
 
 /// An edge to be fitted: the guess in the robot's frame, and the levels before and behind it.
@@ -23,6 +29,8 @@ struct Wanted {
     ahead_m: f64,
     guess: Edge<Robot>,
     heights_m: [f64; 2],
+    /// How far before and behind it nothing else changes, m.
+    room_m: [f64; 2],
 }
 
 impl Fits {
@@ -30,12 +38,16 @@ impl Fits {
         Self {
             model: EdgeModel::new(camera, tuning.edge_model.clone()),
             edges: Vec::with_capacity(tuning.edges.fits.kept),
+            camera,
+            bevel_model: BevelModel::default(),
+            bevels: Bevels::default(),
         }
     }
 
     /// Drops what was fitted.
     pub(crate) fn forget(&mut self) {
         self.edges.clear();
+        self.bevels.forget();
     }
 
     /// The robot stepped this often.
@@ -48,6 +60,7 @@ impl Fits {
         }
         self.edges
             .retain(|edge| edge.steps_ago <= config.forget_steps);
+        self.bevels.step(times, config.forget_steps);
     }
 
     /// Fits the nearest edges of the stairs that a frame shows.
@@ -63,17 +76,39 @@ impl Fits {
             joints,
             fits,
             fusion,
+            bevels,
         } = &config.tuning.edges;
         let mut wanted = wanted(stairs, view, map_from_robot, config);
+        let robot_from_map = map_from_robot.inverse();
+        let rise_m = map_from_robot.origin().inner.z;
+        for (middle, heights_m) in self.bevels.middles(bevels) {
+            let guess = middle.transformed(&robot_from_map);
+            wanted.extend(facing(guess, heights_m.map(|m| m - rise_m), fits));
+        }
         wanted.sort_by(|a, b| a.ahead_m.total_cmp(&b.ahead_m));
         let map_from_camera = *map_from_robot * planes.robot_from_camera;
-        let rise_m = map_from_robot.origin().inner.z;
         for Wanted {
             guess,
             heights_m: [near_m, far_m],
+            room_m,
             ..
         } in wanted.into_iter().take(fits.fitted)
         {
+            let edge_model = &config.tuning.edge_model;
+            let heights_m = [near_m, far_m];
+            let seen = (scan, planes);
+            let (camera, model) = (&self.camera, &mut self.bevel_model);
+            if let Some(bevel) = model.fit(camera, seen, &guess, heights_m, room_m, edge_model) {
+                if std::env::var_os("BEVEL_DEBUG").is_some() {
+                    eprintln!(
+                        "bevel near {near_m:.4} far {far_m:.4} guess {:.3} room {room_m:.2?} -> mid {:.3} run {:.3} better {:.2}",
+                        guess.middle_m()[0], bevel.middle.middle_m()[0], bevel.run_m, bevel.better
+                    );
+                }
+                let heights_m = heights_m.map(|m| m + rise_m);
+                let place = (map_from_robot, fits.same_level);
+                self.bevels.see(&bevel, heights_m, place, bevels);
+            }
             let Ok(fitted) = self.model.fit(scan, planes, &guess, near_m, far_m) else {
                 continue;
             };
@@ -97,6 +132,11 @@ impl Fits {
             let new = FusedEdge::new(&fitted, &edge, heights_m, &map_from_camera, fusion);
             self.edges.push(new);
         }
+    }
+
+    /// The changes of height that are short slopes.
+    pub(crate) fn bevels(&self, list: &mut Vec<Bevel>, tuning: &EdgesTuning) {
+        self.bevels.list(list, &tuning.bevels);
     }
 
     /// Puts the stairs' edges where the fits have them.
@@ -168,13 +208,32 @@ fn wanted(
             && (far_m - near_m).abs() < tuning.largest_rise
             && (stair.seen_ends.front > 0 || stair.front_fit.is_some())
             && view.contains(&guess.middle().inner);
+        let depth_m = |stair: &Stair<Map>| 0.5 * stair.depth_m();
         shows.then_some(Wanted {
             ahead_m: away_m / guess.across().x.max(tuning.glancing),
             guess,
             heights_m: [near_m, far_m],
+            room_m: [before.map_or(f64::INFINITY, depth_m), depth_m(stair)],
         })
     };
     (0..stairs.len()).filter_map(one).collect()
+}
+
+/// A known slope, looked for again from the side on which the robot is; nothing where that is behind the robot.
+fn facing(guess: Edge<Robot>, heights_m: [f64; 2], tuning: &FitsTuning) -> Option<Wanted> {
+    let away_m = -guess.beyond_m([0.0, 0.0]);
+    let (guess, heights_m) = if away_m > 0.0 {
+        (guess, heights_m)
+    } else {
+        (guess.reversed(), [heights_m[1], heights_m[0]])
+    };
+    let ahead = guess.across().x;
+    (ahead > 0.0).then_some(Wanted {
+        ahead_m: away_m.abs() / ahead.max(tuning.glancing),
+        guess,
+        heights_m,
+        room_m: [f64::INFINITY; 2],
+    })
 }
 
 /// Where the front edge of a stair is looked for. The middle of a wide one may be out of view: that of the floor at the foot of a
