@@ -113,7 +113,8 @@ impl Recognizer {
                 .see(seen, &view, stairs, map_from_robot, &self.config);
         }
         self.fits.apply(stairs, &self.config.tuning.edges);
-        self.fits.bevels(&mut self.bevels, &self.config.tuning.edges);
+        self.fits
+            .bevels(&mut self.bevels, &self.config.tuning.edges);
         sort_by_nearness(stairs, map_from_robot);
         self.staircase.frames = self.memory.frames;
         Ok(&self.staircase)

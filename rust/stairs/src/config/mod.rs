@@ -8,7 +8,8 @@ mod treads;
 use settings::{NOT_NEGATIVE, POSITIVE, settings};
 
 pub use edge_model::{
-    BevelTuning, CoarseTuning, EdgeModelTuning, ExcerptTuning, RefineTuning, VisibilityTuning, WindowTuning,
+    BevelTuning, CoarseTuning, EdgeModelTuning, ExcerptTuning, RefineTuning, VisibilityTuning,
+    WindowTuning,
 };
 pub use edges::{BevelMemoryTuning, EdgesTuning, FitsTuning, FusionTuning, JointsTuning};
 pub use frame::{FrameTuning, LinesTuning, PlacesTuning, SharedEdgesTuning, ViewTuning};

@@ -36,7 +36,11 @@ impl ChangeOfHeight {
         let same = |[c, d]: [f64; 2]| (a - c).abs() < same_m && (b - d).abs() < same_m;
         let [near_m, far_m] = other.heights_m;
         let ahead = self.middle.across().dot(&other.middle.across()) > 0.0;
-        same(if ahead { [near_m, far_m] } else { [far_m, near_m] })
+        same(if ahead {
+            [near_m, far_m]
+        } else {
+            [far_m, near_m]
+        })
     }
 
     /// This one with what another frame says of it.
@@ -104,7 +108,8 @@ impl Bevels {
             steps_ago: 0,
         };
         let is_here = |known: &ChangeOfHeight| known.is_at(&new, tuning.apart);
-        let is_same = |known: &ChangeOfHeight| is_here(known) && known.has_levels(&new, same_level_m);
+        let is_same =
+            |known: &ChangeOfHeight| is_here(known) && known.has_levels(&new, same_level_m);
         let mut same = None;
         self.known.retain_mut(|known| {
             if is_same(known) && same.is_none() {
@@ -133,12 +138,32 @@ impl Bevels {
         self.known.iter().filter(move |known| known.better > least)
     }
 
+    /// The level before an edge to which the last slope leads that the robot crosses on its way there.
+    pub(crate) fn level_before(
+        &self,
+        edge: &Edge<Map>,
+        robot_m: [f64; 2],
+        tuning: &BevelMemoryTuning,
+    ) -> Option<f64> {
+        let between = self.sure(tuning).filter_map(|known| {
+            let at_m = edge.beyond_m(known.middle.middle_m());
+            let crossed = known.middle.beyond_m(edge.middle_m());
+            let here = known.middle.beyond_m(robot_m);
+            let is_between = at_m < -tuning.apart && crossed * here < 0.0;
+            let [near_m, far_m] = known.heights_m;
+            is_between.then_some((at_m, if crossed > 0.0 { far_m } else { near_m }))
+        });
+        let last = between.max_by(|a, b| a.0.total_cmp(&b.0));
+        last.map(|(_, level_m)| level_m)
+    }
+
     /// The middles of those that are sure, with the heights before and behind.
     pub(crate) fn middles(
         &self,
         tuning: &BevelMemoryTuning,
     ) -> impl Iterator<Item = (Edge<Map>, [f64; 2])> {
-        self.sure(tuning).map(|known| (known.middle, known.heights_m))
+        self.sure(tuning)
+            .map(|known| (known.middle, known.heights_m))
     }
 
     /// The short slopes.
@@ -170,9 +195,11 @@ fn between(a: &Edge<Map>, b: &Edge<Map>, share: f64) -> Edge<Map> {
     let across = Vector2::new(along.y, -along.x);
     let at = at + across * (share * across.dot(&(other - at)));
     let ends = [a.left, a.right, b.left, b.right].map(|end| along.dot(&(end.inner.xy() - at)));
-    let (right, left) = ends.iter().fold((f64::MAX, f64::MIN), |(least, most), end| {
-        (least.min(*end), most.max(*end))
-    });
+    let (right, left) = ends
+        .iter()
+        .fold((f64::MAX, f64::MIN), |(least, most), end| {
+            (least.min(*end), most.max(*end))
+        });
     let z_m = a.left.inner.z;
     let end = |along_m: f64| Point::new(at.x + along.x * along_m, at.y + along.y * along_m, z_m);
     Edge {
@@ -236,6 +263,23 @@ mod tests {
         let found = after(&[wrong, right].concat());
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(found[0].heights_m[1] > 0.0);
+    }
+
+    #[test]
+    fn the_level_before_an_edge_is_that_of_the_slope_before_it() {
+        let (mut bevels, tuning) = (Bevels::default(), BevelMemoryTuning::default());
+        for _ in 0..8 {
+            let (fitted, heights_m) = frame(0.5, 0.1, 0.02, 20.0);
+            bevels.see(&fitted, heights_m, (&Pose::identity(), 0.007), &tuning);
+        }
+        let edge = |at_m: f64| Edge {
+            left: Point::new(at_m, 0.4, 0.0),
+            right: Point::new(at_m, -0.4, 0.0),
+        };
+        let level_m =
+            |at_m: f64, robot_m: f64| bevels.level_before(&edge(at_m), [robot_m, 0.0], &tuning);
+        assert!((level_m(0.7, 0.0).unwrap() - 0.02).abs() < 1e-9);
+        assert_eq!((level_m(0.7, 0.6), level_m(0.4, 0.0)), (None, None));
     }
 
     #[test]

@@ -78,7 +78,9 @@ impl Fits {
             fusion,
             bevels,
         } = &config.tuning.edges;
-        let mut wanted = wanted(stairs, view, map_from_robot, config);
+        let robot_m = map_from_robot.origin().inner.xy().into();
+        let slopes = |stair: &Stair<Map>| self.bevels.level_before(&stair.front, robot_m, bevels);
+        let mut wanted = wanted(stairs, view, map_from_robot, slopes, config);
         let robot_from_map = map_from_robot.inverse();
         let rise_m = map_from_robot.origin().inner.z;
         for (middle, heights_m) in self.bevels.middles(bevels) {
@@ -102,7 +104,10 @@ impl Fits {
                 if std::env::var_os("BEVEL_DEBUG").is_some() {
                     eprintln!(
                         "bevel near {near_m:.4} far {far_m:.4} guess {:.3} room {room_m:.2?} -> mid {:.3} run {:.3} better {:.2}",
-                        guess.middle_m()[0], bevel.middle.middle_m()[0], bevel.run_m, bevel.better
+                        guess.middle_m()[0],
+                        bevel.middle.middle_m()[0],
+                        bevel.run_m,
+                        bevel.better
                     );
                 }
                 let heights_m = heights_m.map(|m| m + rise_m);
@@ -187,11 +192,13 @@ fn is_sure(fit: &EdgeFit, tuning: &FitsTuning) -> bool {
     fit.place_sigma_m < tuning.sure_place && fit.heading_sigma_rad < tuning.sure_heading
 }
 
-/// The front edges ahead of the robot that are in view, with the levels on both sides.
+/// The front edges ahead of the robot that are in view, with the levels on both sides. What lies before an edge is the stair that ends
+/// there, else the level that a slope leads to, else the robot's own.
 fn wanted(
     stairs: &[Stair<Map>],
     view: &PlanesView<'_>,
     map_from_robot: &Pose<Map, Robot>,
+    slopes: impl Fn(&Stair<Map>) -> Option<f64>,
     config: &StairsConfig,
 ) -> Vec<Wanted> {
     let robot_from_map = map_from_robot.inverse();
@@ -200,7 +207,8 @@ fn wanted(
     let one = |index: usize| {
         let stair = &stairs[index];
         let before = before(stairs, index, config).map(|at| &stairs[at]);
-        let near_m = before.map_or(0.0, |before| before.height_m() - robot_m);
+        let level_m = before.map(Stair::height_m).or_else(|| slopes(stair));
+        let near_m = level_m.map_or(0.0, |level_m| level_m - robot_m);
         let guess = guess(stair, before, view, &robot_from_map, tuning);
         let far_m = stair.height_m() - robot_m;
         let away_m = -guess.beyond_m([0.0, 0.0]);

@@ -1,6 +1,6 @@
 //! What the camera saw where a surface lies or ends.
 
-use geometry::{Camera, Robot};
+use geometry::{Camera, Outline, Robot};
 use nalgebra::{Isometry3, Point2, Point3, Vector2, Vector3};
 use segmentation::{PlaneRegion, Planes};
 use sensing::Intrinsics;
@@ -134,6 +134,21 @@ impl<'a> PlanesView<'a> {
     /// What is seen at a place of a surface at the place's height; `None` out of view or where nothing was seen.
     pub(crate) fn shows_at(&self, place: &Point3<f64>) -> Option<Shows> {
         self.shows(&self.pixel(place)?, place.z)
+    }
+
+    /// Whether a level surface that is higher than this place of another one is seen there, and lies over it.
+    pub(crate) fn is_covered(&self, place: &Point3<f64>) -> bool {
+        let at = self.pixel(place).and_then(|pixel| self.index(&pixel));
+        let label = at.map_or(0, |at| usize::from(self.planes.labels[at]));
+        let region = label
+            .checked_sub(1)
+            .and_then(|index| self.planes.regions.get(index));
+        region.is_some_and(|region| {
+            let higher = (region.floor_height_m)
+                .is_some_and(|height_m| height_m - place.z > self.tuning.same_height);
+            let over = |outline: &Outline| outline.contains(&place.xy());
+            higher && region.boundary.as_ref().is_some_and(over)
+        })
     }
 
     /// Shares of the places just beyond a side, from `a` to `b`, that show something lower and something higher than it.

@@ -80,7 +80,7 @@ impl TreadMemory {
         self.frames = self.frames.saturating_add(1);
     }
 
-    /// Counts the frames in which something lower shows where a tread should be.
+    /// Counts the frames in which something lower shows where a tread should be, or a level surface that lies over it.
     fn look_for_gone(
         &mut self,
         view: &PlanesView<'_>,
@@ -98,6 +98,7 @@ impl TreadMemory {
                 match view.shows_at(&place.inner) {
                     Some(Shows::Surface) => there += 1,
                     Some(Shows::Lower) => gone += 1,
+                    Some(Shows::Higher) if view.is_covered(&place.inner) => gone += 1,
                     Some(Shows::Higher) | None => {}
                 }
             }

@@ -58,7 +58,10 @@ impl Faces {
         } else {
             let slope = (far_m - near_m) / run_m;
             let over_m = above_m(f64::midpoint(near_m, far_m)) + slope * ahead_m;
-            (across.mix(slope / over_m, &sight.fall, 1.0 / over_m), over_m)
+            (
+                across.mix(slope / over_m, &sight.fall, 1.0 / over_m),
+                over_m,
+            )
         };
         let least_m = [above_m(near_m), above_m(far_m), ahead_m, clear_m];
         (least_m.iter().all(|clear_m| *clear_m > sight.clear_m)).then(|| Self {
@@ -252,7 +255,8 @@ impl BevelModel {
             if miss_px.abs() > rules.largest {
                 continue;
             }
-            let by = Vector3::from_fn(|axis, _| (around[axis].seen_px(col, row) - seen_px) / trial_m);
+            let by =
+                Vector3::from_fn(|axis, _| (around[axis].seen_px(col, row) - seen_px) / trial_m);
             information += by * by.transpose();
             product += by * miss_px;
         }
