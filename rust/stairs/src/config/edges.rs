@@ -28,6 +28,8 @@ settings! {
         most_once: f64 = 3.0, "1", POSITIVE;
         /// What the frames said is kept up to this, in squared noise.
         most: f64 = 36.0, "1", POSITIVE;
+        /// What its place and length weigh at most against those of one more frame, in squared noise: who walks on it needs them settled.
+        settled: f64 = 500.0, "1", POSITIVE;
         /// Farthest that the middles of one slope in two frames lie apart.
         apart: f64 = 0.12, "m", POSITIVE;
         /// Changes of height that are kept.

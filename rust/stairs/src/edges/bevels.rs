@@ -44,7 +44,8 @@ impl ChangeOfHeight {
     }
 
     /// This one with what another frame says of it.
-    fn with(mut self, new: &Self, most: f64) -> Self {
+    fn with(mut self, new: &Self, tuning: &BevelMemoryTuning) -> Self {
+        let (most, settled) = (tuning.most, tuning.settled);
         self.better = (self.better + new.better).clamp(-most, most);
         self.steps_ago = 0;
         if new.weight > 0.0 {
@@ -61,7 +62,7 @@ impl ChangeOfHeight {
             for (known, new) in self.heights_m.iter_mut().zip(heights_m) {
                 *known += share * (new - *known);
             }
-            self.weight = (self.weight + new.weight).min(most);
+            self.weight = (self.weight + new.weight).min(settled);
         }
         self
     }
@@ -127,7 +128,7 @@ impl Bevels {
             let _ = self.known.remove(0);
         }
         self.known.push(match same {
-            Some(known) => known.with(&new, tuning.most),
+            Some(known) => known.with(&new, tuning),
             None => new,
         });
     }

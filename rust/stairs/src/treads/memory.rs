@@ -90,9 +90,13 @@ impl TreadMemory {
         let memory = &tuning.treads.memory;
         let robot_from_map = map_from_robot.inverse();
         for tread in &mut self.treads {
-            let Some(stair) = tread.stair() else {
+            let Some(mut stair) = tread.stair() else {
                 continue;
             };
+            // Of a deep one the camera may show no more than its front, which is what is stepped on.
+            if stair.depth_m() > memory.front_depth {
+                stair.back = stair.front.shifted(memory.front_depth);
+            }
             let (mut there, mut gone) = (0_usize, 0_usize);
             for place in stair.transformed(&robot_from_map).places(&tuning.places) {
                 match view.shows_at(&place.inner) {
