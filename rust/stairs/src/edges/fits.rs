@@ -16,7 +16,6 @@ use crate::{Edge, EdgeFit, EdgeModel, EdgesTuning, FitsTuning, Stair, StairsConf
 /// Fits edges and keeps what is found.
 #[derive(Debug, Clone)]
 pub(crate) struct Fits {
-    camera: Intrinsics,
     model: EdgeModel,
     edges: Vec<FusedEdge>,
     bevel_model: BevelModel,
@@ -38,7 +37,6 @@ impl Fits {
         Self {
             model: EdgeModel::new(camera, tuning.edge_model.clone()),
             edges: Vec::with_capacity(tuning.edges.fits.kept),
-            camera,
             bevel_model: BevelModel::default(),
             bevels: Bevels::default(),
         }
@@ -99,17 +97,8 @@ impl Fits {
             let edge_model = &config.tuning.edge_model;
             let heights_m = [near_m, far_m];
             let seen = (scan, planes);
-            let (camera, model) = (&self.camera, &mut self.bevel_model);
-            if let Some(bevel) = model.fit(camera, seen, &guess, heights_m, room_m, edge_model) {
-                if std::env::var_os("BEVEL_DEBUG").is_some() {
-                    eprintln!(
-                        "bevel near {near_m:.4} far {far_m:.4} guess {:.3} room {room_m:.2?} -> mid {:.3} run {:.3} better {:.2}",
-                        guess.middle_m()[0],
-                        bevel.middle.middle_m()[0],
-                        bevel.run_m,
-                        bevel.better
-                    );
-                }
+            let model = &mut self.bevel_model;
+            if let Some(bevel) = model.fit(seen, &guess, heights_m, room_m, edge_model) {
                 let heights_m = heights_m.map(|m| m + rise_m);
                 let place = (map_from_robot, fits.same_level);
                 self.bevels.see(&bevel, heights_m, place, bevels);

@@ -3,19 +3,21 @@
 //! Both are fitted to the same disparities, the upright face and slopes of several lengths, each with its own place and levels, and what
 //! is told is by how much the best slope explains the picture better. What the matching window makes of an upright face is in both.
 
+mod faces;
+#[cfg(test)]
+mod tests;
+
 use geometry::Robot;
 use nalgebra::{Matrix3, Vector3};
 use segmentation::Planes;
-use sensing::{Intrinsics, Scan};
+use sensing::Scan;
 
 use super::excerpt::stretch_in_view;
 use super::lot::PIXELS;
 use super::onto_step;
-use super::sight::{CameraSight, PixelLinear, StepModel};
+use super::sight::{CameraSight, StepModel};
 use crate::{BevelTuning, Edge, EdgeModelTuning};
-
-/// Distance from a window's middle at which a value to each side and the middle's have the mean of a window's five, px.
-const BESIDE_PX: f64 = 1.732;
+use faces::Faces;
 
 /// What a frame says of a change of height.
 #[derive(Debug, Clone, Copy)]
@@ -35,79 +37,18 @@ pub(crate) struct BevelModel {
     misses: Vec<f64>,
 }
 
-/// The two levels in the picture and the face between them, and how far apart they are at a pixel.
-struct Faces {
-    near: PixelLinear,
-    far: PixelLinear,
-    face: PixelLinear,
-    rises: bool,
-    is_upright: bool,
-}
-
-impl Faces {
-    /// `None` where the camera does not look down on all of them, from before the edge.
-    fn new(sight: &CameraSight, step: &StepModel, run_m: f64) -> Option<Self> {
-        let camera = sight.position_m;
-        let above_m = |height_m: f64| camera.z - height_m;
-        let (near_m, far_m) = (step.near_height_m, step.far_height_m);
-        let ahead_m = -step.beyond_m(&camera.xy());
-        let across = sight.along(&step.normal());
-        let is_upright = run_m <= 0.0;
-        let (face, clear_m) = if is_upright {
-            (across.times(1.0 / ahead_m), ahead_m)
-        } else {
-            let slope = (far_m - near_m) / run_m;
-            let over_m = above_m(f64::midpoint(near_m, far_m)) + slope * ahead_m;
-            (
-                across.mix(slope / over_m, &sight.fall, 1.0 / over_m),
-                over_m,
-            )
-        };
-        let least_m = [above_m(near_m), above_m(far_m), ahead_m, clear_m];
-        (least_m.iter().all(|clear_m| *clear_m > sight.clear_m)).then(|| Self {
-            near: sight.fall.times(1.0 / above_m(near_m)),
-            far: sight.fall.times(1.0 / above_m(far_m)),
-            face,
-            rises: far_m > near_m,
-            is_upright,
-        })
-    }
-
-    /// The disparity that the ray of a pixel meets first, px.
-    fn met_px(&self, col: f64, row: f64) -> f64 {
-        let [near, far, face] = [&self.near, &self.far, &self.face].map(|plane| plane.at(col, row));
-        match (self.rises, self.is_upright) {
-            (true, _) => near.max(far.min(face)),
-            (false, true) if near > face => near,
-            (false, true) => far,
-            (false, false) => near.min(far.max(face)),
-        }
-    }
-
-    /// What the matching window around a pixel makes of that, px.
-    fn seen_px(&self, col: f64, row: f64) -> f64 {
-        let beside = [-BESIDE_PX, 0.0, BESIDE_PX];
-        let line = |row: f64| -> f64 {
-            let met = beside.iter().map(|off| self.met_px(col + off, row));
-            met.sum()
-        };
-        beside.iter().map(|off| line(row + off)).sum::<f64>() / 9.0
-    }
-}
-
 impl BevelModel {
     /// What a frame says of the change of height at `guess` from one level to another (robot frame, m), of which nothing else changes within
     /// `room_m` before and behind; `None` where it says nothing.
     pub(crate) fn fit(
         &mut self,
-        camera: &Intrinsics,
         (scan, planes): (&Scan, &Planes),
         guess: &Edge<Robot>,
         heights_m: [f64; 2],
         room_m: [f64; 2],
         tuning: &EdgeModelTuning,
     ) -> Option<FittedBevel> {
-        let rules = &tuning.bevels;
+        let (rules, camera) = (&tuning.bevels, &scan.camera);
         let rise_m = (heights_m[1] - heights_m[0]).abs();
         if rise_m < rules.least_rise {
             return None;
@@ -171,7 +112,10 @@ impl BevelModel {
         for (at, &seen_px) in scan.disparity_px.iter().enumerate() {
             let (col, row) = ((at % width) as f64, (at / width) as f64);
             let (near, far) = (faces.near.at(col, row), faces.far.at(col, row));
-            if !(seen_px > 0.0) || near.min(far) < f64::from(tuning.excerpt.least_disparity) {
+            if seen_px.is_nan()
+                || seen_px <= 0.0
+                || near.min(far) < f64::from(tuning.excerpt.least_disparity)
+            {
                 continue;
             }
             let from_m = across.at(col, row) / near - ahead_m;
