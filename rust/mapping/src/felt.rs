@@ -7,6 +7,7 @@ use geometry::{Grid, Map, Pose, Robot, distance_m};
 use segmentation::Planes;
 use settings::{NOT_NEGATIVE, at_least, settings};
 
+use crate::laid_bevels::lay;
 use crate::{Bevel, FeltPlace, FloorView, Insertion, MapError, Voxel, WorldModel};
 
 settings! {
@@ -48,7 +49,7 @@ impl WithFelt {
             view.clone_from(self.model.view());
             view.felt = felt;
             for bevel in &self.bevels {
-                bevel.lay(view);
+                lay(bevel, view);
             }
         }
     }

@@ -4,6 +4,7 @@ mod averaging;
 mod bevel;
 mod felt;
 mod felt_place;
+mod laid_bevels;
 mod model;
 mod part;
 pub mod surface;

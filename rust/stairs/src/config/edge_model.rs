@@ -93,6 +93,8 @@ settings! {
         height_sigma: f64 = 0.003, "m", POSITIVE;
         /// Pixels that tell as much as one independent one, because matching windows overlap.
         hold: f64 = 25.0, "1", POSITIVE;
+        /// Half of the misses are smaller than this share of the noise, as those of a normal variable are.
+        median: f64 = 0.6745, "1", POSITIVE;
         /// Noise is no less than this.
         least_noise: f64 = 0.02, "px", POSITIVE;
         /// Misses count up to so many times the noise where slope and step are compared.

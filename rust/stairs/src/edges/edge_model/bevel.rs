@@ -212,7 +212,6 @@ impl BevelModel {
             information[(axis, axis)] += hold;
             product[axis] += hold * off_m;
         }
-        information[(0, 0)] += 1e-6;
         let change = information.cholesky()?.solve(&product);
         Some(moved(&change.map(|m| m.clamp(-rules.stride, rules.stride))))
     }
@@ -247,7 +246,6 @@ impl BevelModel {
         );
         let middle = self.misses.len() / 2;
         let (_, median, _) = self.misses.select_nth_unstable_by(middle, f64::total_cmp);
-        // Half of a normal variable's values are smaller than this share of its sigma.
-        Some((*median / 0.6745).max(rules.least_noise))
+        Some((*median / rules.median).max(rules.least_noise))
     }
 }

@@ -1,9 +1,7 @@
 //! What a slope or an upright face between two levels looks like in the picture.
 
+use crate::edges::edge_model::lot::REACH;
 use crate::edges::edge_model::sight::{CameraSight, PixelLinear, StepModel};
-
-/// Distance from a window's middle at which a value to each side and the middle's have the mean of a window's five, px.
-const BESIDE_PX: f64 = 1.732;
 
 /// The two levels in the picture and the face between them, and how far apart they are at a pixel.
 pub(super) struct Faces {
@@ -56,11 +54,14 @@ impl Faces {
 
     /// What the matching window around a pixel makes of that, px.
     pub(super) fn seen_px(&self, col: f64, row: f64) -> f64 {
-        let beside = [-BESIDE_PX, 0.0, BESIDE_PX];
+        // A value to each side and the middle's have the mean of a window's side where they lie so far apart.
+        let off_px = (0.5 * REACH * (REACH + 1.0)).sqrt();
+        let beside = [-off_px, 0.0, off_px];
         let line = |row: f64| -> f64 {
             let met = beside.iter().map(|off| self.met_px(col + off, row));
             met.sum()
         };
-        beside.iter().map(|off| line(row + off)).sum::<f64>() / 9.0
+        let all: f64 = beside.iter().map(|off| line(row + off)).sum();
+        all / beside.len().pow(2) as f64
     }
 }
