@@ -1,13 +1,14 @@
-//! What the feet met: the map keeps it whatever the camera makes of the place, since what is lower than a picture tells apart looks
-//! like floor.
+//! What the feet met, and short slopes: the map keeps them whatever the camera makes of the place, since what is lower or shorter than a
+//! picture tells apart looks like level floor.
 //!
-//! Composed over any world model, which knows nothing of it: as long as nothing was felt, the view is the model's own.
+//! Composed over any world model, which knows nothing of it: as long as there is nothing of it, the view is the model's own.
 
 use geometry::{Grid, Map, Pose, Robot, distance_m};
 use segmentation::Planes;
 use settings::{NOT_NEGATIVE, at_least, settings};
 
-use crate::{FeltPlace, FloorView, Insertion, MapError, Voxel, WorldModel};
+use crate::laid_bevels::lay;
+use crate::{Bevel, FeltPlace, FloorView, Insertion, MapError, Voxel, WorldModel};
 
 settings! {
     /// What the map keeps of what the feet met.
@@ -21,11 +22,12 @@ settings! {
     }
 }
 
-/// A world model that keeps what the feet met.
+/// A world model that keeps what the feet met, and short slopes.
 pub struct WithFelt {
     model: Box<dyn WorldModel>,
     config: FeltConfig,
-    /// The model's view and all that was felt; `None` while nothing was.
+    bevels: Vec<Bevel>,
+    /// The model's view with all that; `None` while there is nothing.
     view: Option<FloorView>,
 }
 
@@ -35,7 +37,20 @@ impl WithFelt {
         Self {
             model,
             config,
+            bevels: Vec::new(),
             view: None,
+        }
+    }
+
+    /// Makes the view anew from the model's.
+    fn renew(&mut self) {
+        if let Some(view) = &mut self.view {
+            let felt = std::mem::take(&mut view.felt);
+            view.clone_from(self.model.view());
+            view.felt = felt;
+            for bevel in &self.bevels {
+                lay(bevel, view);
+            }
         }
     }
 }
@@ -72,11 +87,7 @@ impl WorldModel for WithFelt {
         map_from_robot: &Pose<Map, Robot>,
     ) -> Result<Insertion, MapError> {
         let insertion = self.model.insert(planes, map_from_robot)?;
-        if let Some(view) = &mut self.view {
-            let felt = std::mem::take(&mut view.felt);
-            view.clone_from(self.model.view());
-            view.felt = felt;
-        }
+        self.renew();
         Ok(insertion)
     }
 
@@ -89,8 +100,18 @@ impl WorldModel for WithFelt {
         remember(&mut view.felt, felt, &self.config);
     }
 
+    fn lay(&mut self, bevels: &[Bevel]) {
+        if bevels.is_empty() && self.bevels.is_empty() {
+            return;
+        }
+        self.bevels = bevels.to_vec();
+        let _ = (self.view).get_or_insert_with(|| self.model.view().clone());
+        self.renew();
+    }
+
     fn forget(&mut self) {
         self.view = None;
+        self.bevels.clear();
         self.model.forget();
     }
 

@@ -1,14 +1,17 @@
 //! World models: what the robot knows of the ground around it.
 
 mod averaging;
+mod bevel;
 mod felt;
 mod felt_place;
+mod laid_bevels;
 mod model;
 mod part;
 pub mod surface;
 mod two_maps;
 
 pub use averaging::{Averaging, AveragingConfig, AveragingTuning};
+pub use bevel::Bevel;
 pub use felt::{FeltConfig, WithFelt};
 pub use felt_place::FeltPlace;
 pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use geometry::{Cell, CellArea, Grid, Lattice, Map, Pose, Robot};
 use segmentation::Planes;
 
+use crate::bevel::Bevel;
 use crate::felt_place::FeltPlace;
 
 /// Why a frame could not be inserted. The map is unchanged.
@@ -221,6 +222,9 @@ pub trait WorldModel: Send + Sync {
 
     /// Takes in what a foot met. A model by itself knows only what is seen; [`WithFelt`](crate::WithFelt) keeps it for any.
     fn feel(&mut self, _felt: FeltPlace) {}
+
+    /// Takes in where short slopes are, all that are known. A model by itself knows none; [`WithFelt`](crate::WithFelt) keeps them for any.
+    fn lay(&mut self, _bevels: &[Bevel]) {}
 
     /// Drops what was seen: the robot found itself at another place than it had believed.
     fn forget(&mut self) {}

@@ -146,6 +146,7 @@ impl Perception {
             self.recognizer
                 .update(&self.scan, &self.planes, map_from_robot, steps_taken)
         })?;
+        self.world_model.lay(&self.recognizer.bevels);
         if insertion.used {
             self.frames_used += 1;
             self.last_frame_ns = Some(frame.arrival_ns);

@@ -32,10 +32,10 @@ pub use climbing::conditions::{Ahead, Stand, Tolerance, Unready, conditions};
 pub use climbing::config::{ClimbingConfig, ClimbingTuning, LevelsConfig, ParameterSet};
 pub use climbing::footing::{Feet, Footing, Onward, Unfit};
 pub use config::{
-    BorderTuning, CoarseTuning, EdgeModelTuning, EdgesTuning, ExcerptTuning, FitsTuning,
-    FrameTuning, FusionTuning, JointsTuning, LinesTuning, MemoryTuning, MergingTuning,
-    PlacesTuning, RefineTuning, SharedEdgesTuning, SidesTuning, StairsConfig, StairsTuning,
-    TreadsTuning, ViewTuning, VisibilityTuning, WindowTuning,
+    BevelMemoryTuning, BevelTuning, BorderTuning, CoarseTuning, EdgeModelTuning, EdgesTuning,
+    ExcerptTuning, FitsTuning, FrameTuning, FusionTuning, JointsTuning, LinesTuning, MemoryTuning,
+    MergingTuning, PlacesTuning, RefineTuning, SharedEdgesTuning, SidesTuning, StairsConfig,
+    StairsTuning, TreadsTuning, ViewTuning, VisibilityTuning, WindowTuning,
 };
 pub use edge_line::EdgeLine;
 pub use edges::edge_model::{EdgeModel, FittedEdge, Untrusted};

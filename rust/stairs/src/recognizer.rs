@@ -1,7 +1,7 @@
 //! The recognizer: from planes to stairs in the map.
 
 use geometry::{Map, Pose, Robot};
-use mapping::FloorView;
+use mapping::{Bevel, FloorView};
 use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
 use settings::{ConfigError, Table};
@@ -40,6 +40,8 @@ pub struct Recognizer {
     steps_taken: u64,
     /// The stairs as of the last frame.
     pub staircase: Staircase,
+    /// Changes of height that are short slopes and no steps, as of the last frame.
+    pub bevels: Vec<Bevel>,
 }
 
 impl Recognizer {
@@ -53,6 +55,7 @@ impl Recognizer {
             fits: Fits::new(camera, &config.tuning),
             steps_taken: 0,
             staircase: Staircase::default(),
+            bevels: Vec::new(),
             config,
         })
     }
@@ -62,6 +65,7 @@ impl Recognizer {
         self.memory = TreadMemory::default();
         self.fits.forget();
         self.staircase = Staircase::default();
+        self.bevels.clear();
     }
 
     /// Takes in a frame seen from `map_from_robot` after `steps_taken` steps in all. Frames whose planes are not reliable
@@ -109,6 +113,8 @@ impl Recognizer {
                 .see(seen, &view, stairs, map_from_robot, &self.config);
         }
         self.fits.apply(stairs, &self.config.tuning.edges);
+        self.fits
+            .bevels(&mut self.bevels, &self.config.tuning.edges);
         sort_by_nearness(stairs, map_from_robot);
         self.staircase.frames = self.memory.frames;
         Ok(&self.staircase)

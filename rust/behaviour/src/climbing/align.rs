@@ -1,6 +1,7 @@
 //! The state `align`: to the place before the first edge from which it is measured, and square to it (003, section V.B).
 
 use geometry::angle_between;
+use planning::Step;
 
 use super::{StairClimbing, State, drop_off::DropOff, leg::align_pose, state::Approach};
 use crate::{Motion, Velocity, machine::Tick};
@@ -12,6 +13,9 @@ impl StairClimbing {
             self.begin_search(tick);
             return Motion::Stand;
         };
+        if self.walks_on(tick, &first) {
+            return Motion::Stand;
+        }
         self.head
             .turn_to(tick.in_robot(first.crossing_m), tick.passed_s);
         if self.flight.is_lost() {
@@ -45,6 +49,18 @@ impl StairClimbing {
             return Motion::Stand;
         }
         Motion::Walk(velocity)
+    }
+
+    /// Whether the first step turned out to be a slope, as the map has it: then it is walked on, or refused, as slopes are.
+    pub(super) fn walks_on(&mut self, tick: &Tick<'_>, first: &Step) -> bool {
+        let [x_m, y_m] = first.crossing_m;
+        let is_slope = tick.situation.view.gradient_at(x_m, y_m) != [0.0; 2];
+        if is_slope {
+            self.flight.clear();
+            self.walking.resume(tick.situation);
+            self.enter(State::Walk);
+        }
+        is_slope
     }
 
     /// The floor that the robot stands on, as the map has it end.

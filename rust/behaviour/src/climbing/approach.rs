@@ -20,6 +20,9 @@ impl StairClimbing {
             self.begin_search(tick);
             return Motion::Stand;
         };
+        if tick.situation.standing && self.walks_on(tick, &first) {
+            return Motion::Stand;
+        }
         if approach == Approach::Measure {
             if self.look(tick, self.is_well_measured(&first)) {
                 self.judge_edge(tick, &first);

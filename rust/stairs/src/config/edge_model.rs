@@ -53,6 +53,56 @@ settings! {
         window: WindowTuning;
         /// Whether both surfaces are in view.
         visibility: VisibilityTuning;
+        /// Short slopes in the place of steps.
+        bevels: BevelTuning;
+    }
+}
+
+settings! {
+    /// How a short slope between two levels is told from a step.
+    pub struct BevelTuning("navigation.stairs.tuning.edge_model.bevels") {
+        /// Least change of height that is asked whether it is a slope's.
+        least_rise: f64 = 0.008, "m", POSITIVE;
+        /// How far before and behind an edge pixels take part, where nothing else changes there.
+        around: f64 = 0.17, "m", POSITIVE;
+        /// How much of both levels together must be left beside a slope.
+        level_beside: f64 = 0.02, "m", NOT_NEGATIVE;
+        /// Shortest slope that is tried.
+        shortest: f64 = 0.06, "m", POSITIVE;
+        /// By how much each slope that is tried is longer than the one before.
+        run_step: f64 = 0.02, "m", POSITIVE;
+        /// Slopes that are tried.
+        runs: usize = 11, "1", within(1.0, 100.0);
+        /// Rise per metre beyond which nothing is a slope.
+        steepest: f64 = 0.4, "1", POSITIVE;
+        /// Places to each side of the edge at which a slope is tried.
+        places: i32 = 3, "1", within(0.0, 100.0);
+        /// Distance from place to place.
+        place_step: f64 = 0.02, "m", POSITIVE;
+        /// Steps of the refinement.
+        rounds: usize = 4, "1", within(0.0, 100.0);
+        /// Shift by which the change of the picture is tried.
+        trial: f64 = 0.003, "m", POSITIVE;
+        /// Largest change of place and levels at once.
+        stride: f64 = 0.02, "m", POSITIVE;
+        /// Misses count up to this where the best place is looked for.
+        largest: f64 = 0.5, "px", POSITIVE;
+        /// Noise of a disparity, for what is known of the levels before.
+        noise: f64 = 0.1, "px", POSITIVE;
+        /// How well the levels are known before: standard deviation.
+        height_sigma: f64 = 0.003, "m", POSITIVE;
+        /// Pixels that tell as much as one independent one, because matching windows overlap.
+        hold: f64 = 25.0, "1", POSITIVE;
+        /// Half of the misses are smaller than this share of the noise, as those of a normal variable are.
+        median: f64 = 0.6745, "1", POSITIVE;
+        /// Noise is no less than this.
+        least_noise: f64 = 0.02, "px", POSITIVE;
+        /// Misses count up to so many times the noise where slope and step are compared.
+        outlier: f64 = 3.0, "1", POSITIVE;
+        /// Fewest pixels that tell anything.
+        fewest: usize = 100, "1", at_least(1.0);
+        /// Most pixels that are looked at.
+        samples: usize = 400, "1", at_least(1.0);
     }
 }
 

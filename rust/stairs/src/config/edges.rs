@@ -11,6 +11,29 @@ settings! {
         fits: FitsTuning;
         /// One edge from the fits of many frames.
         fusion: FusionTuning;
+        /// Which changes of height are short slopes, and no steps.
+        bevels: BevelMemoryTuning;
+    }
+}
+
+settings! {
+    /// How the frames together say that a change of height is a short slope, and no step.
+    pub struct BevelMemoryTuning("navigation.stairs.tuning.edges.bevels") {
+        /// It is a slope when the frames explain it so by more than this better than by a step, in squared noise.
+        sure: f64 = 12.0, "1", NOT_NEGATIVE;
+        /// What a frame that explains it better by a slope takes off that, in squared noise: a slope of any length is one more number
+        /// that is free.
+        price: f64 = 2.0, "1", NOT_NEGATIVE;
+        /// Most that one frame says, in squared noise: frames from one place err alike.
+        most_once: f64 = 3.0, "1", POSITIVE;
+        /// What the frames said is kept up to this, in squared noise.
+        most: f64 = 36.0, "1", POSITIVE;
+        /// What its place and length weigh at most against those of one more frame, in squared noise: who walks on it needs them settled.
+        settled: f64 = 500.0, "1", POSITIVE;
+        /// Farthest that the middles of one slope in two frames lie apart.
+        apart: f64 = 0.12, "m", POSITIVE;
+        /// Changes of height that are kept.
+        kept: usize = 8, "1", within(1.0, 1000.0);
     }
 }
 

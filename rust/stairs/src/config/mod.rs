@@ -8,9 +8,10 @@ mod treads;
 use settings::{NOT_NEGATIVE, POSITIVE, settings};
 
 pub use edge_model::{
-    CoarseTuning, EdgeModelTuning, ExcerptTuning, RefineTuning, VisibilityTuning, WindowTuning,
+    BevelTuning, CoarseTuning, EdgeModelTuning, ExcerptTuning, RefineTuning, VisibilityTuning,
+    WindowTuning,
 };
-pub use edges::{EdgesTuning, FitsTuning, FusionTuning, JointsTuning};
+pub use edges::{BevelMemoryTuning, EdgesTuning, FitsTuning, FusionTuning, JointsTuning};
 pub use frame::{FrameTuning, LinesTuning, PlacesTuning, SharedEdgesTuning, ViewTuning};
 pub use treads::{BorderTuning, MemoryTuning, MergingTuning, SidesTuning, TreadsTuning};
 
@@ -29,7 +30,7 @@ settings! {
         similar_height: f64 = 0.009, "m", POSITIVE, "003, section IV.C";
         /// Frames in which a stair must be seen before it is believed.
         min_frames: u32 = 2, "1", POSITIVE;
-        /// Frames in a row in which something lower, or the ground, is seen in a stair's place before it is dropped.
+        /// Frames in a row in which something lower, or a level surface over it, is seen in a stair's place before it is dropped.
         contradicted_frames: u32 = 4, "1", POSITIVE;
         /// Steps after which a stair that was not seen again is forgotten.
         forget_steps: u32 = 80, "1", NOT_NEGATIVE;

@@ -66,7 +66,9 @@ settings! {
         /// Places of a stair that must be seen to tell that it is not there: more than a strip along each side, which shows what
         /// lies beside a stair that is taken for wider than it is, and may be all that is not too near to be seen.
         looked_at: usize = 11, "1", at_least(1.0);
-        /// Share of the places that are seen which must show something lower, or the ground.
+        /// How much of a stair behind its front is looked at.
+        front_depth: f64 = 0.3, "m", POSITIVE;
+        /// Share of the places that are seen which must show something lower, or a level surface that lies over the stair.
         seen_through: f64 = 0.6, "1", SHARE;
         /// Share of a stair's places from which on it lies on a slope of the map, and is no stair; and share of the places along its
         /// front beyond which it lies along a slope, which leads to it.

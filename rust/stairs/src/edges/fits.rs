@@ -1,9 +1,12 @@
 //! Which edges are fitted in a frame, and what the fits of all frames say of the stairs.
 
 use geometry::{Map, Point, Pose, Robot};
+use mapping::Bevel;
 use segmentation::Planes;
 use sensing::{Intrinsics, Scan};
 
+use crate::edges::bevels::Bevels;
+use crate::edges::edge_model::bevel::BevelModel;
 use crate::edges::fusion::FusedEdge;
 use crate::edges::joints::{apart_m, before, part_beside};
 use crate::frame::view::PlanesView;
@@ -15,6 +18,8 @@ use crate::{Edge, EdgeFit, EdgeModel, EdgesTuning, FitsTuning, Stair, StairsConf
 pub(crate) struct Fits {
     model: EdgeModel,
     edges: Vec<FusedEdge>,
+    bevel_model: BevelModel,
+    bevels: Bevels,
 }
 
 /// An edge to be fitted: the guess in the robot's frame, and the levels before and behind it.
@@ -23,6 +28,8 @@ struct Wanted {
     ahead_m: f64,
     guess: Edge<Robot>,
     heights_m: [f64; 2],
+    /// How far before and behind it nothing else changes, m.
+    room_m: [f64; 2],
 }
 
 impl Fits {
@@ -30,12 +37,15 @@ impl Fits {
         Self {
             model: EdgeModel::new(camera, tuning.edge_model.clone()),
             edges: Vec::with_capacity(tuning.edges.fits.kept),
+            bevel_model: BevelModel::default(),
+            bevels: Bevels::default(),
         }
     }
 
     /// Drops what was fitted.
     pub(crate) fn forget(&mut self) {
         self.edges.clear();
+        self.bevels.forget();
     }
 
     /// The robot stepped this often.
@@ -48,6 +58,7 @@ impl Fits {
         }
         self.edges
             .retain(|edge| edge.steps_ago <= config.forget_steps);
+        self.bevels.step(times, config.forget_steps);
     }
 
     /// Fits the nearest edges of the stairs that a frame shows.
@@ -63,17 +74,35 @@ impl Fits {
             joints,
             fits,
             fusion,
+            bevels,
         } = &config.tuning.edges;
-        let mut wanted = wanted(stairs, view, map_from_robot, config);
+        let robot_m = map_from_robot.origin().inner.xy().into();
+        let slopes = |stair: &Stair<Map>| self.bevels.level_before(&stair.front, robot_m, bevels);
+        let mut wanted = wanted(stairs, view, map_from_robot, slopes, config);
+        let robot_from_map = map_from_robot.inverse();
+        let rise_m = map_from_robot.origin().inner.z;
+        for (middle, heights_m) in self.bevels.middles(bevels) {
+            let guess = middle.transformed(&robot_from_map);
+            wanted.extend(facing(guess, heights_m.map(|m| m - rise_m), fits));
+        }
         wanted.sort_by(|a, b| a.ahead_m.total_cmp(&b.ahead_m));
         let map_from_camera = *map_from_robot * planes.robot_from_camera;
-        let rise_m = map_from_robot.origin().inner.z;
         for Wanted {
             guess,
             heights_m: [near_m, far_m],
+            room_m,
             ..
         } in wanted.into_iter().take(fits.fitted)
         {
+            let edge_model = &config.tuning.edge_model;
+            let heights_m = [near_m, far_m];
+            let seen = (scan, planes);
+            let model = &mut self.bevel_model;
+            if let Some(bevel) = model.fit(seen, &guess, heights_m, room_m, edge_model) {
+                let heights_m = heights_m.map(|m| m + rise_m);
+                let place = (map_from_robot, fits.same_level);
+                self.bevels.see(&bevel, heights_m, place, bevels);
+            }
             let Ok(fitted) = self.model.fit(scan, planes, &guess, near_m, far_m) else {
                 continue;
             };
@@ -97,6 +126,11 @@ impl Fits {
             let new = FusedEdge::new(&fitted, &edge, heights_m, &map_from_camera, fusion);
             self.edges.push(new);
         }
+    }
+
+    /// The changes of height that are short slopes.
+    pub(crate) fn bevels(&self, list: &mut Vec<Bevel>, tuning: &EdgesTuning) {
+        self.bevels.list(list, &tuning.bevels);
     }
 
     /// Puts the stairs' edges where the fits have them.
@@ -147,11 +181,13 @@ fn is_sure(fit: &EdgeFit, tuning: &FitsTuning) -> bool {
     fit.place_sigma_m < tuning.sure_place && fit.heading_sigma_rad < tuning.sure_heading
 }
 
-/// The front edges ahead of the robot that are in view, with the levels on both sides.
+/// The front edges ahead of the robot that are in view, with the levels on both sides. What lies before an edge is the stair that ends
+/// there, else the level that a slope leads to, else the robot's own.
 fn wanted(
     stairs: &[Stair<Map>],
     view: &PlanesView<'_>,
     map_from_robot: &Pose<Map, Robot>,
+    slopes: impl Fn(&Stair<Map>) -> Option<f64>,
     config: &StairsConfig,
 ) -> Vec<Wanted> {
     let robot_from_map = map_from_robot.inverse();
@@ -160,7 +196,8 @@ fn wanted(
     let one = |index: usize| {
         let stair = &stairs[index];
         let before = before(stairs, index, config).map(|at| &stairs[at]);
-        let near_m = before.map_or(0.0, |before| before.height_m() - robot_m);
+        let level_m = before.map(Stair::height_m).or_else(|| slopes(stair));
+        let near_m = level_m.map_or(0.0, |level_m| level_m - robot_m);
         let guess = guess(stair, before, view, &robot_from_map, tuning);
         let far_m = stair.height_m() - robot_m;
         let away_m = -guess.beyond_m([0.0, 0.0]);
@@ -168,13 +205,32 @@ fn wanted(
             && (far_m - near_m).abs() < tuning.largest_rise
             && (stair.seen_ends.front > 0 || stair.front_fit.is_some())
             && view.contains(&guess.middle().inner);
+        let depth_m = |stair: &Stair<Map>| 0.5 * stair.depth_m();
         shows.then_some(Wanted {
             ahead_m: away_m / guess.across().x.max(tuning.glancing),
             guess,
             heights_m: [near_m, far_m],
+            room_m: [before.map_or(f64::INFINITY, depth_m), depth_m(stair)],
         })
     };
     (0..stairs.len()).filter_map(one).collect()
+}
+
+/// A known slope, looked for again from the side on which the robot is; nothing where that is behind the robot.
+fn facing(guess: Edge<Robot>, heights_m: [f64; 2], tuning: &FitsTuning) -> Option<Wanted> {
+    let away_m = -guess.beyond_m([0.0, 0.0]);
+    let (guess, heights_m) = if away_m > 0.0 {
+        (guess, heights_m)
+    } else {
+        (guess.reversed(), [heights_m[1], heights_m[0]])
+    };
+    let ahead = guess.across().x;
+    (ahead > 0.0).then_some(Wanted {
+        ahead_m: away_m.abs() / ahead.max(tuning.glancing),
+        guess,
+        heights_m,
+        room_m: [f64::INFINITY; 2],
+    })
 }
 
 /// Where the front edge of a stair is looked for. The middle of a wide one may be out of view: that of the floor at the foot of a

@@ -1,6 +1,6 @@
 //! What the camera saw where a surface lies or ends.
 
-use geometry::{Camera, Robot};
+use geometry::{Camera, Outline, Robot};
 use nalgebra::{Isometry3, Point2, Point3, Vector2, Vector3};
 use segmentation::{PlaneRegion, Planes};
 use sensing::Intrinsics;
@@ -131,25 +131,24 @@ impl<'a> PlanesView<'a> {
         })
     }
 
-    /// Whether the ground that the robot stands on is seen at a place that is said to lie higher or lower, from so near that the two
-    /// are told apart.
-    pub(crate) fn shows_ground_at(&self, place: &Point3<f64>) -> bool {
-        let on_ground = Point3::new(place.x, place.y, 0.0);
-        let seen = || {
-            let at = self.index(&self.pixel(&on_ground)?)?;
-            let level_m = f64::from(self.planes.floor_height_m[at]);
-            let eye = self.planes.robot_from_camera.inner.translation.vector;
-            let away = (on_ground.coords - eye).norm_squared();
-            let same_m = self.tuning.same_height;
-            let told = place.z.abs() > same_m + self.tuning.height_noise * away;
-            Some(told && level_m.abs() <= same_m)
-        };
-        self.planes.ground.is_some() && seen() == Some(true)
-    }
-
     /// What is seen at a place of a surface at the place's height; `None` out of view or where nothing was seen.
     pub(crate) fn shows_at(&self, place: &Point3<f64>) -> Option<Shows> {
         self.shows(&self.pixel(place)?, place.z)
+    }
+
+    /// Whether a level surface that is higher than this place of another one is seen there, and lies over it.
+    pub(crate) fn is_covered(&self, place: &Point3<f64>) -> bool {
+        let at = self.pixel(place).and_then(|pixel| self.index(&pixel));
+        let label = at.map_or(0, |at| usize::from(self.planes.labels[at]));
+        let region = label
+            .checked_sub(1)
+            .and_then(|index| self.planes.regions.get(index));
+        region.is_some_and(|region| {
+            let higher = (region.floor_height_m)
+                .is_some_and(|height_m| height_m - place.z > self.tuning.same_height);
+            let over = |outline: &Outline| outline.contains(&place.xy());
+            higher && region.boundary.as_ref().is_some_and(over)
+        })
     }
 
     /// Shares of the places just beyond a side, from `a` to `b`, that show something lower and something higher than it.

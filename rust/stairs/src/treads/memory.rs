@@ -80,7 +80,7 @@ impl TreadMemory {
         self.frames = self.frames.saturating_add(1);
     }
 
-    /// Counts the frames in which something lower, or the ground itself, shows where a tread should be.
+    /// Counts the frames in which something lower shows where a tread should be, or a level surface that lies over it.
     fn look_for_gone(
         &mut self,
         view: &PlanesView<'_>,
@@ -90,18 +90,19 @@ impl TreadMemory {
         let memory = &tuning.treads.memory;
         let robot_from_map = map_from_robot.inverse();
         for tread in &mut self.treads {
-            let Some(stair) = tread.stair() else {
+            let Some(mut stair) = tread.stair() else {
                 continue;
             };
+            // Of a deep one the camera may show no more than its front, which is what is stepped on.
+            if stair.depth_m() > memory.front_depth {
+                stair.back = stair.front.shifted(memory.front_depth);
+            }
             let (mut there, mut gone) = (0_usize, 0_usize);
             for place in stair.transformed(&robot_from_map).places(&tuning.places) {
-                if view.shows_ground_at(&place.inner) {
-                    gone += 1;
-                    continue;
-                }
                 match view.shows_at(&place.inner) {
                     Some(Shows::Surface) => there += 1,
                     Some(Shows::Lower) => gone += 1,
+                    Some(Shows::Higher) if view.is_covered(&place.inner) => gone += 1,
                     Some(Shows::Higher) | None => {}
                 }
             }

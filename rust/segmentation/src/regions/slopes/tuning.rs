@@ -8,8 +8,8 @@ settings! {
     pub struct SlopeTuning("navigation.ground.tuning.slopes") {
         /// Fewest pixels of a slope, as a share of the image.
         least_share: f64 = 0.1, "1", SHARE;
-        /// A slope is longer than this along its gradient, where it is seen.
-        least_length: f64 = 0.25, "m", NOT_NEGATIVE;
+        /// A slope is longer than this along its gradient, where it is seen. What is shorter is told where an edge is fitted.
+        least_length: f64 = 0.15, "m", NOT_NEGATIVE;
         /// Pixels that tell as much as one independent one, because matching windows overlap: as many as a window of 5x5 has.
         alike: f64 = 25.0, "1", at_least(1.0);
         /// Which gradients a slope may have.

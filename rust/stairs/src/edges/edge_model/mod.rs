@@ -5,6 +5,7 @@
 //! three planes are linear in disparity, so a ray's first hit is a few comparisons. Block matching blends over its window
 //! what it sees, and so does the model.
 
+pub(crate) mod bevel;
 mod coarse;
 mod excerpt;
 mod lot;

@@ -161,7 +161,8 @@ fn of_steps_ahead_and_the_sides_of_the_stairs_the_steps_are_fitted() {
         step(0.61, 0.06),
     ];
     let here = Pose::identity();
-    let mut wanted = wanted(&stairs, &view, &here, &StairsConfig::default());
+    let none = |_: &Stair<Map>| None;
+    let mut wanted = wanted(&stairs, &view, &here, none, &StairsConfig::default());
     assert_eq!(wanted.len(), stairs.len());
     wanted.sort_by(|a, b| a.ahead_m.total_cmp(&b.ahead_m));
     let heights_m = wanted
