@@ -33,13 +33,13 @@ settings! {
         firm: f64 = 0.02, "1", above_to(0.0, 1.0);
         /// Roll or pitch by which the two may differ in that time: whole ones differ by less than 0.03.
         tilt: f64 = 0.045, "rad", POSITIVE;
-        /// Roll or pitch by which they must differ over the other foot, too: a sole that rocks on something is one foot's.
-        tilt_of_both: f64 = 0.03, "rad", POSITIVE;
+        /// Roll or pitch by which they must differ over both feet: a sole on something a centimetre high rocks by less.
+        tilt_of_both: f64 = 0.08, "rad", POSITIVE;
         /// How fast what differed over a foot fades: with the steps that follow.
         both_time: f64 = 1.0, "s", POSITIVE;
         /// Unless the turn of the legs about other axes explains the readings so much better: what is left of them then is less than
         /// this share.
-        rewired: f64 = 0.5, "1", SHARE;
+        rewired: f64 = 0.2, "1", SHARE;
         /// Time over which both turns are smoothed for that.
         turn_smooth: f64 = 0.05, "s", POSITIVE;
         /// Time over which the heading by the gyroscope is held against that by the legs.

@@ -159,12 +159,13 @@ impl BevelModel {
         }
         let (mut step, mut least) = best?;
         for _ in 0..rules.rounds {
-            let next = self.improved(sight, start, &step, run_m, rules)?;
-            let cost = self.cost(sight, &next, run_m, rules.largest)?;
-            if cost >= least {
-                break;
+            let next = self.improved(sight, start, &step, run_m, rules);
+            let judged =
+                next.and_then(|next| Some((next, self.cost(sight, &next, run_m, rules.largest)?)));
+            match judged.filter(|(_, cost)| *cost < least) {
+                Some(better) => (step, least) = better,
+                None => break,
             }
-            (step, least) = (next, cost);
         }
         Some((step, least))
     }
