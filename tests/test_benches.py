@@ -32,6 +32,7 @@ LEAST: dict[str, list[str]] = {
     "peers/rays.py": ["--cells", "0.04"],
     "real_data.py": ["--rows", "1"],
     "replay_runs.py": ["--count", "1", "--seconds", "0.5"],
+    "rules_trial.py": ["record", "FOLDER", "--courses", "SHORT"],
     "seam.py": ["--seconds", "0.3"],
     "sense_faults.py": ["--scenarios", "SHORT", "--seeds", "0", "--faults", "imu zero"],
     "soak.py": ["--hours", "0.0001", "--scenarios", "SHORT"],

@@ -77,7 +77,7 @@ pub(super) struct Turning {
     tilt_rad: Vector3<f64>,
     /// By how much the tilt differed at most over each foot, less what has faded since, rad.
     most_rad: [f64; 2],
-    wiring: Wiring,
+    axes: AxisOrder,
     heading_rad: f64,
 }
 
@@ -111,7 +111,7 @@ impl Check for Turning {
                 let most_rad = &mut self.most_rad[side.index()];
                 *most_rad = most_rad.max(self.tilt_rad.norm());
             }
-            self.wiring
+            self.axes
                 .take_in(by_gyro_rad, by_legs_rad, passed_s, config);
         }
         // A sole that lies aslant slips: its leg does not tell the heading.
@@ -121,7 +121,7 @@ impl Check for Turning {
         }
         // A sole that rocks on something turns as no other axes of the legs do, and over one foot.
         let over_both = self.most_rad.iter().all(|&rad| rad > config.tilt_of_both);
-        let believed = over_both || self.wiring.is_wrong(config);
+        let believed = over_both || self.axes.is_wrong(config);
         let (tilt_rad, heading_rad) = (self.tilt_rad.norm(), self.heading_rad.abs());
         let what = if tilt_rad > config.tilt && believed {
             format!("tells another tilt than the legs, by {tilt_rad:.2} rad")
@@ -139,14 +139,14 @@ impl Check for Turning {
 
 /// How turns by the gyroscope and by the legs go together, axis by axis, in the last moments: whether some of its axes are swapped.
 #[derive(Debug, Clone, Default)]
-struct Wiring {
+struct AxisOrder {
     by_gyro_rad: Vector3<f64>,
     by_legs_rad: Vector3<f64>,
     products: Matrix3<f64>,
     squares: f64,
 }
 
-impl Wiring {
+impl AxisOrder {
     /// Takes in how far both turned in a tick, in the torso's frame.
     fn take_in(
         &mut self,
