@@ -1,4 +1,4 @@
-"""Short bevels are walked over as the slopes that they are, or refused as such before a foot meets one."""
+"""Short bevels are walked over as the slopes they are, or refused before a foot meets one."""
 
 from pathlib import Path
 
