@@ -74,7 +74,7 @@ settings! {
         /// Slopes that are tried.
         runs: usize = 11, "1", within(1.0, 100.0);
         /// Rise per metre beyond which nothing is a slope.
-        steepest: f64 = 0.4, "1", POSITIVE;
+        steepest: f64 = 0.3, "1", POSITIVE;
         /// Places to each side of the edge at which a slope is tried.
         places: i32 = 3, "1", within(0.0, 100.0);
         /// Distance from place to place.
