@@ -101,10 +101,12 @@ impl WorldModel for WithFelt {
     }
 
     fn lay(&mut self, bevels: &[Bevel]) {
-        if bevels.is_empty() && self.bevels.is_empty() {
+        // What came in last has the same ones laid into it.
+        if bevels == self.bevels {
             return;
         }
-        self.bevels = bevels.to_vec();
+        self.bevels.clear();
+        self.bevels.extend_from_slice(bevels);
         let _ = (self.view).get_or_insert_with(|| self.model.view().clone());
         self.renew();
     }
@@ -127,16 +129,8 @@ impl WorldModel for WithFelt {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::felt_place::tests::MET;
     use crate::{Fog, FogConfig, Surface};
-
-    const MET: FeltPlace = FeltPlace {
-        at_m: [0.5, 0.1],
-        heading_rad: 0.0,
-        top_m: 0.014,
-        ground_m: 0.0,
-        half_width_m: 0.04,
-        thing: 0,
-    };
 
     fn model() -> WithFelt {
         let fog = Fog::new(FogConfig::default()).unwrap();

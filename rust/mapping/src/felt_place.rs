@@ -53,10 +53,10 @@ impl FeltPlace {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    const MET: FeltPlace = FeltPlace {
+    pub(crate) const MET: FeltPlace = FeltPlace {
         at_m: [0.5, 0.1],
         heading_rad: 0.0,
         top_m: 0.014,

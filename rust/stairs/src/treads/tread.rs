@@ -23,7 +23,7 @@ pub(crate) struct Tread {
     seen_from_m: f64,
     /// Steps since the last of them.
     pub(crate) steps_ago: u32,
-    /// Frames in a row in which something lower was seen through it.
+    /// Frames in a row in which something lower was seen through it, or a level surface over it.
     pub(crate) contradicted: u32,
     // What the sums come to, with the outline between the edges' ends.
     shape: Option<(Stair<Map>, Outline)>,
