@@ -37,9 +37,21 @@ impl Bevel {
 
     /// Height above a place of its line of rise, m.
     pub(crate) fn height_m(&self, at_m: [f64; 2]) -> f64 {
-        let (sin, cos) = libm::sincos(self.heading_rad);
-        let ahead_m = cos * (at_m[0] - self.middle_m[0]) + sin * (at_m[1] - self.middle_m[1]);
+        let [ahead_m, _] = self.along_m(at_m);
         let share = (0.5 + ahead_m / self.run_m).clamp(0.0, 1.0);
         self.heights_m[0] + share * (self.heights_m[1] - self.heights_m[0])
+    }
+
+    /// How far a place lies beyond the nearest of its sides, m; negative within it.
+    pub(crate) fn beyond_sides_m(&self, at_m: [f64; 2]) -> f64 {
+        let [ahead_m, left_m] = self.along_m(at_m);
+        (ahead_m.abs() - 0.5 * self.run_m).max(left_m.abs() - self.half_width_m)
+    }
+
+    /// How far a place lies along its rise and to the left of that, from its middle, m.
+    fn along_m(&self, at_m: [f64; 2]) -> [f64; 2] {
+        let (sin, cos) = libm::sincos(self.heading_rad);
+        let [x_m, y_m] = [at_m[0] - self.middle_m[0], at_m[1] - self.middle_m[1]];
+        [cos * x_m + sin * y_m, cos * y_m - sin * x_m]
     }
 }

@@ -16,7 +16,7 @@ pub(crate) fn lay(bevel: &Bevel, view: &mut FloorView) {
     let lattice = view.lattice;
     let gradient = bevel.gradient();
     for cell in area_of(lattice, &corners).cells() {
-        let Some(share) = share_of(lattice, cell, &outline).filter(|share| *share > 0.0) else {
+        let Some(share) = share_of(lattice, cell, (bevel, &outline)) else {
             continue;
         };
         let height_m = bevel.height_m(lattice.center_of(cell));
@@ -39,14 +39,25 @@ fn area_of(lattice: Lattice, corners: &[Point2<f64>]) -> CellArea {
     }
 }
 
-/// The share of a cell that lies within an outline.
-fn share_of(lattice: Lattice, cell: Cell, outline: &Outline) -> Option<f64> {
-    let [x_m, y_m] = lattice.center_of(cell);
+/// The share of a cell that lies within a bevel's outline; none where nothing of it does. Only at the outline's sides is it cut out.
+fn share_of(lattice: Lattice, cell: Cell, (bevel, outline): (&Bevel, &Outline)) -> Option<f64> {
+    let middle_m = lattice.center_of(cell);
     let half = 0.5 * lattice.cell_m;
+    let beyond_m = bevel.beyond_sides_m(middle_m);
+    // Half of a cell's diagonal: so far a cell reaches in any direction.
+    let reach_m = half * std::f64::consts::SQRT_2;
+    if beyond_m > reach_m {
+        return None;
+    }
+    if beyond_m < -reach_m {
+        return Some(1.0);
+    }
+    let [x_m, y_m] = middle_m;
     let corners = [(half, half), (-half, half), (-half, -half), (half, -half)]
         .map(|(x, y)| Point2::new(x_m + x, y_m + y));
     let whole = Outline::hull(&corners).ok()?;
-    Some(outline.shared_area_m2(&whole) / lattice.cell_m.powi(2))
+    let share = outline.shared_area_m2(&whole) / lattice.cell_m.powi(2);
+    (share > 0.0).then_some(share)
 }
 
 #[cfg(test)]

@@ -187,12 +187,12 @@ impl BevelModel {
             ..*step
         };
         let here = Faces::new(sight, step, run_m)?;
-        let mut around = Vec::with_capacity(3);
-        for axis in 0..3 {
-            let mut change = Vector3::zeros();
-            change[axis] = trial_m;
-            around.push(Faces::new(sight, &moved(&change), run_m)?);
-        }
+        let trial = |change: Vector3<f64>| Faces::new(sight, &moved(&(change * trial_m)), run_m);
+        let around = [
+            trial(Vector3::x())?,
+            trial(Vector3::y())?,
+            trial(Vector3::z())?,
+        ];
         let (mut information, mut product) = (Matrix3::zeros(), Vector3::zeros());
         for &[col, row, observed_px] in &self.pixels {
             let seen_px = here.seen_px(col, row);
