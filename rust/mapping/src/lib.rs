@@ -2,19 +2,19 @@
 
 mod averaging;
 mod bevel;
-mod felt;
 mod felt_place;
 mod laid_bevels;
 mod model;
+mod overlay;
 mod part;
 pub mod surface;
 mod two_maps;
 
 pub use averaging::{Averaging, AveragingConfig, AveragingTuning};
 pub use bevel::Bevel;
-pub use felt::{FeltConfig, WithFelt};
 pub use felt_place::FeltPlace;
 pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};
+pub use overlay::{FeltConfig, Overlay};
 pub use part::{WorldModelNeeds, WorldModelPart};
 pub use surface::{Fog, FogConfig, FogTuning, OverheadTuning};
 pub use two_maps::{

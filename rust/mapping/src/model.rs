@@ -220,10 +220,10 @@ pub trait WorldModel: Send + Sync {
     /// The floor, obstacle and unknown view, as of the last insertion.
     fn view(&self) -> &FloorView;
 
-    /// Takes in what a foot met. A model by itself knows only what is seen; [`WithFelt`](crate::WithFelt) keeps it for any.
+    /// Takes in what a foot met. A model by itself knows only what is seen; [`Overlay`](crate::Overlay) keeps it for any.
     fn feel(&mut self, _felt: FeltPlace) {}
 
-    /// Takes in where short slopes are, all that are known. A model by itself knows none; [`WithFelt`](crate::WithFelt) keeps them for any.
+    /// Takes in where short slopes are, all that are known. A model by itself knows none; [`Overlay`](crate::Overlay) keeps them for any.
     fn lay(&mut self, _bevels: &[Bevel]) {}
 
     /// Drops what was seen: the robot found itself at another place than it had believed.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use behaviour::{Behaviour, Decision, Situation};
 use geometry::{Map, Odometry, Pose, Robot};
 use localization::{Estimate, Localizer};
-use mapping::{FeltConfig, FloorView, WithFelt};
+use mapping::{FeltConfig, FloorView, Overlay};
 use planning::{Plan, Planner};
 use proprioception::{
     BodyState, BodyStateHistory, Proprioception, ProprioceptionConfig, SenseWatch, SenseWatchConfig,
@@ -116,7 +116,7 @@ impl Pilot {
         let felt: FeltConfig = read(tables, "felt")?;
         felt.check()?;
         let world_model = (given.world_model).map_or_else(|| making.world_model(), Ok)?;
-        let world_model = Box::new(WithFelt::new(world_model, felt));
+        let world_model = Box::new(Overlay::new(world_model, felt));
         Ok(Self {
             map_from_odometry_at_start: Pose::wrap(settings.start_or_origin().inner),
             proprioception: Proprioception::new(&body, senses.clone())?,

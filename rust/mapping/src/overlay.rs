@@ -23,7 +23,7 @@ settings! {
 }
 
 /// A world model that keeps what the feet met, and short slopes.
-pub struct WithFelt {
+pub struct Overlay {
     model: Box<dyn WorldModel>,
     config: FeltConfig,
     bevels: Vec<Bevel>,
@@ -31,7 +31,7 @@ pub struct WithFelt {
     view: Option<FloorView>,
 }
 
-impl WithFelt {
+impl Overlay {
     /// Over this model.
     pub fn new(model: Box<dyn WorldModel>, config: FeltConfig) -> Self {
         Self {
@@ -80,7 +80,7 @@ fn remember(places: &mut Vec<FeltPlace>, felt: FeltPlace, config: &FeltConfig) {
     places.push(FeltPlace { thing, ..felt });
 }
 
-impl WorldModel for WithFelt {
+impl WorldModel for Overlay {
     fn insert(
         &mut self,
         planes: &Planes,
@@ -132,9 +132,9 @@ mod tests {
     use crate::felt_place::tests::MET;
     use crate::{Fog, FogConfig, Surface};
 
-    fn model() -> WithFelt {
+    fn model() -> Overlay {
         let fog = Fog::new(FogConfig::default()).unwrap();
-        WithFelt::new(Box::new(fog), FeltConfig::default())
+        Overlay::new(Box::new(fog), FeltConfig::default())
     }
 
     fn blank() -> Planes {
