@@ -20,7 +20,7 @@ from treadwell.episode import Episode
 from treadwell.errors import TreadwellError
 from treadwell.experiments.stairs import steps_row
 from treadwell.measuring.step_watch import StepError, StepWatch
-from treadwell.physics.audit import replay_audit
+from treadwell.physics.recorded_audit import replay_audit
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from treadwell.errors import InputError, RecordingError
-from treadwell.physics.audit import join_parts, replay_audit, replay_lengths, steps_per_tick
+from treadwell.physics.audit import steps_per_tick
 from treadwell.physics.motors import JointTargets
 from treadwell.physics.parts import PARTS
+from treadwell.physics.recorded_audit import join_parts, replay_audit, replay_lengths
 from treadwell.physics.simulation import Simulation, Start
 from treadwell.robot.load import Robot, load_robot
 

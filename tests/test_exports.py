@@ -20,10 +20,10 @@ from PIL import Image
 from plyfile import PlyData
 from run_folders import plain_run, recorded_run
 
+from treadwell import files
 from treadwell._core import Octree
 from treadwell.cli.app import execute
 from treadwell.errors import InputError, RecordingError
-from treadwell.exports import files
 from treadwell.exports import octomap as octomap_export
 from treadwell.exports.export import FORMATS, export
 from treadwell.exports.map_server import FREE, OCCUPIED, UNSEEN, seen_part, step_edges

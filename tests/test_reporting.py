@@ -225,7 +225,7 @@ def test_a_page_that_cannot_be_written_leaves_none(
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(page, "write_whole", full)
+    monkeypatch.setattr(page, "write_text", full)
     with pytest.raises(RecordingError, match="No space left"):
         report([copy])
 

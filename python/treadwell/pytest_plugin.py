@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from treadwell.errors import TreadwellError
+from treadwell.errors import InputError, TreadwellError
+from treadwell.files import opened
 
 if TYPE_CHECKING:
     from treadwell.judging.result import Result
@@ -38,9 +39,9 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 def is_scenario(path: Path) -> bool:
     """Say whether a file looks like a scenario, broken or not, and not like a suite of them."""
     try:
-        with path.open(encoding="utf-8", errors="replace") as file:
-            lines = file.read(20_000).splitlines()
-    except OSError:
+        with opened(path) as file:
+            lines = file.read(20_000).decode(errors="replace").splitlines()
+    except (InputError, OSError):
         return False
     keys = {line.partition("=")[0].strip() for line in lines if "=" in line}
     is_suite = any(line.strip() == "[[entry]]" for line in lines)

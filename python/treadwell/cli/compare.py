@@ -8,7 +8,7 @@ from treadwell.comparing.comparison import compared
 from treadwell.comparing.sides import candidates
 from treadwell.comparing.tables import comparison_tables
 from treadwell.errors import InputError, RecordingError
-from treadwell.judging.result import write_whole
+from treadwell.files import write_text
 
 
 def compare(folders: Sequence[Path], *, out: Path | None, as_json: bool) -> int:
@@ -36,7 +36,7 @@ def compare(folders: Sequence[Path], *, out: Path | None, as_json: bool) -> int:
         if not out.parent.is_dir():
             raise InputError(f"--out: {out}: there is no folder {out.parent}")
         try:
-            write_whole(out, "\n".join(table.markdown() for table in tables))
+            write_text(out, "\n".join(table.markdown() for table in tables))
         except OSError as error:
             raise RecordingError(f"--out: {out}: {error.strerror}") from None
     return PASSED

@@ -7,8 +7,9 @@ from typing import Any
 
 from treadwell.comparing.comparison import Candidate
 from treadwell.errors import InputError
+from treadwell.files import read_text
 from treadwell.sweeps import journal
-from treadwell.sweeps.folder import ASKED, RESULTS, read_asked
+from treadwell.sweeps.folder import ASKED, LARGEST, RESULTS, read_asked
 from treadwell.sweeps.request import SCHEMA
 from treadwell.sweeps.row import Row, row_of
 
@@ -48,8 +49,8 @@ def read_results(folder: Path) -> dict[str, Any]:
             raise InputError(f"{folder}: the sweep is not finished; its command goes on with it")
         raise InputError(f"{folder}: not a sweep, there is no {RESULTS}")
     try:
-        document = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError) as error:
+        document = json.loads(read_text(file, LARGEST))
+    except (ValueError, RecursionError) as error:
         raise InputError(f"{file}: cannot be read: {error}") from None
     good = isinstance(document, dict) and document.get("schema") == SCHEMA
     if not good or not all(isinstance(document.get(key), list) for key in ("lines", "episodes")):

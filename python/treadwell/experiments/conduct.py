@@ -12,7 +12,7 @@ from treadwell.episode import Episode
 from treadwell.errors import SimulationError
 from treadwell.experiments.drawn import write_scenario
 from treadwell.experiments.experiment import Case, Experiment, Picture, Table
-from treadwell.judging.result import write_whole
+from treadwell.files import write_text
 from treadwell.progress import Progress
 from treadwell.recording.run_folder import make_experiment_folder
 from treadwell.runner import Run, run_episode
@@ -135,9 +135,9 @@ def conduct(
     missing = len(runs) < len(jobs)
     pictures = tuple(experiment.pictures(by_case, folder))
     report = Report(experiment, folder, seeds, runs, tables, pictures, interrupted=missing)
-    write_whole(folder / "experiment.md", report.markdown())
+    write_text(folder / "experiment.md", report.markdown())
     document = json.dumps(report.document(), indent=2, allow_nan=False)
-    write_whole(folder / "experiment.json", document + "\n")
+    write_text(folder / "experiment.json", document + "\n")
     return report
 
 
@@ -147,7 +147,7 @@ def _job(case: Case, seed: int, folder: Path) -> Job:
     if isinstance(case.scenario, str):
         return Job(case, seed, case.scenario, place)
     for name, text in case.beside:
-        write_whole(folder / name, text)
+        write_text(folder / name, text)
     drawn = write_scenario(folder / f"{place.name}.toml", case.scenario(seed))
     return Job(case, seed, drawn, place)
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import tomli_w
 
-from treadwell.judging.result import write_whole
+from treadwell.files import write_text
 
 
 def write_scenario(path: Path, table: dict[str, Any]) -> str:
@@ -14,5 +14,5 @@ def write_scenario(path: Path, table: dict[str, Any]) -> str:
     Raises:
         OSError: it cannot be written.
     """
-    write_whole(path, tomli_w.dumps(table))
+    write_text(path, tomli_w.dumps(table))
     return str(path)

@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.errors import InputError
-from treadwell.exports.files import write_bytes
-from treadwell.judging.result import write_whole
+from treadwell.files import write_bytes, write_text
 from treadwell.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import read_map
@@ -114,7 +113,7 @@ def _write(
         occupied=OCCUPIED_THRESH,
         free=FREE_THRESH,
     )
-    write_whole(page, text)
+    write_text(page, text)
     return [image, page]
 
 

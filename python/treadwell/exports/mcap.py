@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.errors import InputError
-from treadwell.exports.files import whole_file
 from treadwell.exports.map_server import seen_part
 from treadwell.exports.recorded_points import SeenPoints, seen_points
+from treadwell.files import whole_file
 from treadwell.judging.result import read_result
 from treadwell.map_memory import RememberedMap
 from treadwell.recording.map_file import NAME as MAP

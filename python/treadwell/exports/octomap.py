@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from treadwell._core import Octree
 from treadwell.errors import InputError
-from treadwell.exports.files import whole_file
 from treadwell.exports.recorded_points import seen_points
+from treadwell.files import whole_file
 from treadwell.map_memory import FLOOR, OBSTACLE
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import StoredMap, read_map

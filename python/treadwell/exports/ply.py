@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.errors import InputError
-from treadwell.exports.files import write_bytes
 from treadwell.exports.map_server import seen_part
 from treadwell.exports.recorded_points import seen_points
+from treadwell.files import write_bytes
 from treadwell.map_memory import UNKNOWN, RememberedMap
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import read_map

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from treadwell.errors import InputError, RecordingError
-from treadwell.exports.files import whole_file
+from treadwell.files import whole_file
 from treadwell.film.follower import Follower, follow
 from treadwell.film.plan_panel import PlanPanel
 from treadwell.film.poses import TICK_S, RecordedPoses

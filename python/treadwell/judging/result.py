@@ -2,15 +2,13 @@
 
 import json
 import math
-import os
-import tempfile
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 
 from treadwell.errors import InputError
-from treadwell.files import read_text
+from treadwell.files import read_text, write_text
 from treadwell.scenario.model import Expect
 
 LARGEST_RESULT: Final = 100_000_000
@@ -213,7 +211,7 @@ class Result(Table):
             OSError: the file cannot be written.
         """
         table = self.model_dump(mode="json", by_alias=True)
-        write_whole(path, json.dumps(table, indent=2, allow_nan=False) + "\n")
+        write_text(path, json.dumps(table, indent=2, allow_nan=False) + "\n")
 
 
 def unmet(result: Result, expect: Expect) -> list[str]:
@@ -272,22 +270,3 @@ def read_result(path: Path) -> Result:
     except ValueError:
         raise InputError(f"{path}: configuration: has a number that is not finite") from None
     return result
-
-
-def write_whole(path: Path, text: str) -> None:
-    """Write a text file by way of a temporary one beside it, so that no half file is ever seen.
-
-    Raises:
-        OSError: the file cannot be written.
-    """
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        Path(temporary).chmod(0o644)
-        Path(temporary).replace(path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise

@@ -8,6 +8,7 @@ from defusedxml import ElementTree
 from defusedxml.common import DefusedXmlException
 
 from treadwell.errors import InputError
+from treadwell.files import read_text
 
 MOST_ELEMENTS: Final = 20_000
 """Elements of all files together, each as often as `<replicate>` makes it."""
@@ -149,17 +150,13 @@ def _resolved(place: Path, name: str, bounds: _Bounds) -> Path:
 
 def _read(path: Path, what: str) -> Element:
     try:
-        if not path.is_file():
-            raise InputError(f"{what}: {path.name}: there is no such file")
-        if path.stat().st_size > MOST_BYTES:
-            raise InputError(f"{what}: larger than {MOST_BYTES} bytes")
         # As MuJoCo reads it: whatever encoding the file claims to have.
-        text = path.read_bytes().decode()
+        text = read_text(path, MOST_BYTES)
         root: Element = ElementTree.fromstring(text.removeprefix("\ufeff"), forbid_dtd=True)
+    except InputError as error:
+        raise InputError(f"{what}: {error}") from None
     except DefusedXmlException:
         raise InputError(f"{what}: has a DOCTYPE or an entity, which is not allowed") from None
-    except UnicodeDecodeError:
-        raise InputError(f"{what}: not UTF-8") from None
     except (OSError, ParseError, ValueError, RecursionError, LookupError) as error:
         raise InputError(f"{what}: {' '.join(str(error).split())[:300]}") from None
     return root

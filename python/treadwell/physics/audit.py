@@ -3,14 +3,12 @@
 import logging
 from pathlib import Path
 from typing import Any
-from zipfile import ZIP_STORED, BadZipFile, ZipFile
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell.errors import InputError, RecordingError
-from treadwell.limited import Limits, limited
+from treadwell.errors import RecordingError
 from treadwell.physics.parts import CTRL, EVENT_STEP, PARTS, QPOS, STATE0, join
 from treadwell.physics.rows import Rows
 
@@ -22,13 +20,6 @@ TICK_SECONDS = 0.01
 SHORTEST_STEP = 1e-5
 """Seconds; a model with a shorter one is no run's."""
 STATE = mujoco.mjtState.mjSTATE_INTEGRATION
-LARGEST_MODEL = 500 << 20
-"""Bytes of a model: as many as those of all files of a robot may have."""
-MOST_ARRAYS = 100
-LEAST_ROW = 8 * 12
-"""Bytes of a row of `ctrl`: a robot has more motors than its legs' twelve."""
-FIXED_SECONDS, STEP_SECONDS = 3, 1e-3
-"""Of the processor's time that an audit may take, and more for each step; ten times the usual."""
 DATA_FIELDS = ("xfrc_applied", "qpos", "qvel", "mocap_pos", "mocap_quat")
 """Fields of MuJoCo's data that an event may set; any other name is a field of the model."""
 _OWN_KEYS = ("qpos", "qvel")
@@ -168,154 +159,6 @@ class Audit:
         for field, rows in self._events.items():
             rows.append(self._now[field])
             self._now[field] = _untouched(field, self._now[field])
-
-
-def join_parts(folder: Path) -> None:
-    """Make `physics.npz` of what a run that was killed has left in its folder.
-
-    Raises:
-        RecordingError: there is nothing, or it cannot be written.
-    """
-    try:
-        model = mujoco.MjModel.from_binary_path(str(folder / "model.mjb"))
-    except ValueError as error:
-        raise RecordingError(f"{folder / 'model.mjb'}: is missing or broken") from error
-    join(folder, (), steps_per_tick(model))
-
-
-def replay_audit(folder: Path) -> int | None:
-    """Step plain MuJoCo through an audit and compare the states bit for bit.
-
-    Args:
-        folder: with `model.mjb` and `physics.npz`.
-
-    Returns:
-        The first row of `qpos` that differs, or None if all are the same.
-
-    Raises:
-        InputError: a file is missing or broken, or they do not belong together.
-    """
-    model, arrays = load_audit(folder)
-    data, steps = mujoco.MjData(model), steps_per_tick(model)
-    mujoco.mj_setState(model, data, arrays["state0"], STATE)
-    events = {int(step): row for row, step in enumerate(arrays.get("event_step", ()))}
-    fields = [(arrays[key], _field(model, data, key)) for key in event_keys(arrays)]
-    for step, ctrl in enumerate(arrays["ctrl"]):
-        if step in events:
-            for rows, array in fields:
-                row = rows[events[step]]
-                if not np.isnan(row).all():
-                    array[:] = row
-        data.ctrl[:] = ctrl
-        mujoco.mj_step(model, data)
-        tick, rest = divmod(step + 1, steps)
-        if rest == 0 and not np.array_equal(arrays["qpos"][tick - 1], data.qpos):
-            return tick - 1
-    return None
-
-
-def replay_limited(folder: Path) -> tuple[int, int | None, int]:
-    """Do what `replay_audit` does in a child process: a model may be made to crash MuJoCo.
-
-    Returns:
-        The rows of `qpos`, the first that differs, or None if all are the same, and the physics
-        steps of a row.
-
-    Raises:
-        InputError: a file is missing or broken, or takes more than an audit of its size should.
-    """
-    path, model = folder / "physics.npz", folder / "model.mjb"
-    if not model.is_file():
-        raise InputError(f"{model}: is missing or broken")
-    if model.stat().st_size > LARGEST_MODEL:
-        raise InputError(
-            f"{model}: is missing or broken: larger than {LARGEST_MODEL} bytes, which is the limit"
-        )
-    seconds = FIXED_SECONDS + int(STEP_SECONDS * _steps(path))
-    limits = Limits(cpu_seconds=seconds, deadline_seconds=60.0 + 10.0 * seconds)
-    rows, different, steps = limited(replay_lengths, [str(folder)], str(model), limits)
-    return int(rows), None if different is None else int(different), int(steps)
-
-
-def replay_lengths(folder: str) -> tuple[int, int | None, int]:
-    """Return what `replay_limited` returns: the part that the child does."""
-    different = replay_audit(Path(folder))
-    with np.load(Path(folder) / "physics.npz", allow_pickle=False) as file:
-        rows = len(file["qpos"])
-        return rows, different, len(file["ctrl"]) // max(rows, 1)
-
-
-def _steps(path: Path) -> int:
-    """Return how many physics steps an audit can have at most, by the bytes of its file.
-
-    Raises:
-        InputError: it is no archive as `save` writes it, whose arrays are as large as the file.
-    """
-    try:
-        if not path.is_file():
-            raise InputError(f"{path}: is missing or broken: there is no such file")
-        with ZipFile(path) as archive:
-            members = archive.infolist()
-        packed = any(member.compress_type != ZIP_STORED for member in members)
-    except (OSError, ValueError, EOFError, BadZipFile, NotImplementedError) as error:
-        raise InputError(f"{path}: is missing or broken: {error}") from None
-    if packed or len(members) > MOST_ARRAYS:
-        raise InputError(f"{path}: is missing or broken: is not as a run writes it")
-    ctrl = next((member.file_size for member in members if member.filename == "ctrl.npy"), 0)
-    return int(min(ctrl, path.stat().st_size)) // LEAST_ROW
-
-
-def load_audit(folder: Path) -> tuple[mujoco.MjModel, dict[str, NDArray[Any]]]:
-    """Return the model and the arrays of an audit.
-
-    Raises:
-        InputError: a file is missing or broken, or they do not belong together.
-    """
-    try:
-        model = mujoco.MjModel.from_binary_path(str(folder / "model.mjb"))
-    except ValueError as error:
-        raise InputError(f"{folder / 'model.mjb'}: is missing or broken") from error
-    path = folder / "physics.npz"
-    _steps(path)
-    try:
-        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as file:
-            arrays = {key: file[key] for key in file.files}
-        whole = _fits(model, arrays)
-    except (OSError, ValueError, EOFError, KeyError, AttributeError, BadZipFile) as error:
-        raise InputError(f"{path}: is missing or broken: {error}") from error
-    except MemoryError:
-        raise InputError(f"{path}: is missing or broken: an array that no memory holds") from None
-    if not whole:
-        raise InputError(f"{path}: does not fit model.mjb beside it")
-    return model, arrays
-
-
-def _fits(model: mujoco.MjModel, arrays: dict[str, NDArray[Any]]) -> bool:
-    """Whether all arrays are there with the sizes that the model asks for."""
-    ctrl, qpos, state0 = arrays["ctrl"], arrays["qpos"], arrays["state0"]
-    data, events = mujoco.MjData(model), arrays.get("event_step", ())
-    return (
-        all(array.dtype.kind in "bifu" for array in arrays.values())
-        and ctrl.ndim == 2
-        and ctrl.shape[1] == model.nu
-        and qpos.shape == (len(ctrl) // steps_per_tick(model), model.nq)
-        and state0.shape == (mujoco.mj_stateSize(model, STATE),)
-        and all(
-            arrays[key].shape == (len(events), *_field(model, data, key).shape)
-            for key in event_keys(arrays)
-        )
-    )
-
-
-def event_keys(arrays: dict[str, NDArray[Any]]) -> list[str]:
-    """Return which arrays of an audit hold what events set."""
-    return [key for key in arrays if key not in ("state0", "ctrl", "qpos", "event_step")]
-
-
-def _field(model: mujoco.MjModel, data: mujoco.MjData, key: str) -> NDArray[Any]:
-    field = key.removeprefix("event_")
-    array: NDArray[Any] = getattr(data if field in DATA_FIELDS else model, field)
-    return array
 
 
 def _key(field: str) -> str:

@@ -8,17 +8,19 @@ from zipfile import ZIP_STORED, ZipFile
 
 import numpy as np
 
-from treadwell.errors import RecordingError
+from treadwell.errors import InputError, RecordingError
+from treadwell.files import opened, whole_file
 from treadwell.physics.rows import write_header
 
 PARTS: Final = "physics.part"
 """Name of the folder, in a run's, while it goes on."""
 AUDIT: Final = "physics.npz"
+MODEL: Final = "model.mjb"
 STATE0, CTRL, QPOS, EVENT_STEP = "state0", "ctrl", "qpos", "event_step"
 _FIRST: Final = (STATE0, CTRL, QPOS, EVENT_STEP)
 
 
-def join(folder: Path, names: Iterable[str], steps_a_tick: int) -> None:
+def join(folder: Path, names: Iterable[str], steps_a_tick: int, path: Path | None = None) -> None:
     """Make `physics.npz` of the parts in a run's folder, and delete them.
 
     Of a run that was killed the rows to the last tick that all parts have are taken.
@@ -27,6 +29,7 @@ def join(folder: Path, names: Iterable[str], steps_a_tick: int) -> None:
         folder: the run's.
         names: the arrays in the order in which they are written; those that are there by default.
         steps_a_tick: rows of `ctrl` to one of `qpos`.
+        path: of a file elsewhere; the parts then stay.
 
     Raises:
         RecordingError: a part is missing or broken, or the file cannot be written.
@@ -40,23 +43,38 @@ def join(folder: Path, names: Iterable[str], steps_a_tick: int) -> None:
         events = min(rows[name] for name in order if name not in (STATE0, CTRL, QPOS))
         taken = dict.fromkeys(order, events)
         taken |= {STATE0: rows[STATE0], CTRL: ticks * steps_a_tick, QPOS: ticks}
-        with ZipFile(folder / AUDIT, "w", ZIP_STORED) as archive:
+        with (
+            whole_file(path or folder / AUDIT) as temporary,
+            ZipFile(temporary, "w", ZIP_STORED) as archive,
+        ):
             for name in order if events else (STATE0, CTRL, QPOS):
                 # As numpy writes it: an hour's are larger than what memory should hold.
                 with (
-                    (parts / f"{name}.npy").open("rb") as part,
+                    opened(parts / f"{name}.npy") as part,
                     archive.open(f"{name}.npy", "w", force_zip64=True) as member,
                 ):
                     _copy(part, member, taken[name])
-        shutil.rmtree(parts)
-    except (OSError, ValueError, KeyError) as error:
+        if path is None:
+            shutil.rmtree(parts)
+    except (InputError, OSError, ValueError, KeyError) as error:
         reason = getattr(error, "strerror", None) or error
-        raise RecordingError(f"{folder / AUDIT}: cannot be written: {reason}") from error
+        raise RecordingError(f"{path or folder / AUDIT}: cannot be written: {reason}") from error
+
+
+def part_bytes(folder: Path, name: str) -> int:
+    """Return the bytes of a part; 0 where it is missing.
+
+    Args:
+        folder: the run's.
+        name: the array's.
+    """
+    path = folder / PARTS / f"{name}.npy"
+    return path.stat().st_size if path.is_file() else 0
 
 
 def _rows(path: Path) -> int:
     """Return how many rows a part has in truth."""
-    with path.open("rb") as file:
+    with opened(path) as file:
         shape, _, dtype = _header(file)
         row_bytes = dtype.itemsize * int(np.prod(shape[1:]))
         return min(shape[0], (path.stat().st_size - file.tell()) // max(1, row_bytes))

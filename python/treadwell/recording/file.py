@@ -7,6 +7,9 @@ import struct
 from pathlib import Path
 from typing import Final
 
+from treadwell.errors import InputError
+from treadwell.files import opened
+
 _MAGIC: Final = b"RRF2"
 _HEADER: Final = 12
 _MESSAGE: Final = struct.Struct("<QQ")
@@ -24,10 +27,11 @@ def whole_length(path: Path) -> int:
     A file that rerun has finished ends with a footer behind its last message, which counts.
 
     Raises:
-        OSError: the file cannot be read.
+        InputError: the file cannot be read.
+        OSError: it broke while it was read.
     """
-    size = path.stat().st_size
-    with path.open("rb") as file:
+    with opened(path) as file:
+        size = os.fstat(file.fileno()).st_size
         if file.read(len(_MAGIC)) != _MAGIC or size < _HEADER:
             return 0
         end, count = _HEADER, 0
@@ -47,7 +51,7 @@ def cut_to_whole_messages(path: Path) -> None:
     """Cut a recording that breaks off amid a message behind the last whole one."""
     try:
         os.truncate(path, whole_length(path))
-    except OSError:
+    except (InputError, OSError):
         return  # it stays as it is: readable but for its end
 
 

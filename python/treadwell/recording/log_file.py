@@ -19,6 +19,7 @@ from mcap.opcode import Opcode
 from mcap.records import Attachment, Channel, Chunk, Metadata
 
 from treadwell.errors import InputError
+from treadwell.files import opened
 
 LARGEST_RECORD: Final = 1 << 26
 """Bytes of one record, and of what a chunk unpacks to."""
@@ -96,7 +97,7 @@ def read_front(path: Path) -> Front:
         InputError: the file is missing, or is no MCAP file.
     """
     front = Front()
-    with _opened(path) as file:
+    with opened(path) as file:
         try:
             for opcode, content in _records(file, path):
                 if opcode == Opcode.METADATA:
@@ -124,7 +125,7 @@ def read_messages(path: Path, topics: Container[str]) -> Iterator[Message]:
         InputError: the file is missing.
     """
     channels: dict[int, str | None] = {}
-    with _opened(path) as file:
+    with opened(path) as file:
         whole, size = 0, path.stat().st_size
         allowance = _Allowance(MOST_TIMES * size + BESIDES[0], size // LEAST_PACKED + BESIDES[1])
         try:
@@ -223,17 +224,6 @@ def _taken(
         if len(channels) > MOST_CHANNELS:
             raise ValueError(f"more than {MOST_CHANNELS} channels")
     return None
-
-
-def _opened(path: Path) -> BinaryIO:
-    try:
-        if not path.is_file():
-            raise InputError(f"{path}: cannot be read: no such file")
-        return path.open("rb")
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    except ValueError:
-        raise InputError(f"{path}: cannot be read: not a file's name") from None
 
 
 def _line(error: Exception) -> str:

@@ -6,8 +6,6 @@
 middle and side, m, of the cubes that the core held to be occupied; empty where it kept none.
 """
 
-import os
-import tempfile
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.errors import InputError
+from treadwell.files import opened, whole_file
 from treadwell.map_memory import OBSTACLE, RememberedMap
 
 NAME: Final = "map.npz"
@@ -50,23 +49,16 @@ def write_map(path: Path, surface: RememberedMap, voxels: NDArray[np.float32]) -
     Raises:
         OSError: the file cannot be written.
     """
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            np.savez_compressed(
-                file,
-                origin=np.array(surface.origin),
-                cell=np.array(surface.cell),
-                kind=surface.kind,
-                height=surface.height,
-                sightings=surface.sightings,
-                voxels=voxels,
-            )
-        Path(temporary).chmod(0o644)
-        Path(temporary).replace(path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    with whole_file(path) as temporary, temporary.open("wb") as file:
+        np.savez_compressed(
+            file,
+            origin=np.array(surface.origin),
+            cell=np.array(surface.cell),
+            kind=surface.kind,
+            height=surface.height,
+            sightings=surface.sightings,
+            voxels=voxels,
+        )
 
 
 def read_map(path: Path) -> StoredMap:
@@ -76,8 +68,10 @@ def read_map(path: Path) -> StoredMap:
         InputError: it is missing or broken, or its arrays do not belong together.
     """
     try:
-        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as file:
+        with opened(path) as stream, np.load(stream, allow_pickle=False) as file:
             arrays = {key: _array(file, key) for key in _SHAPES}
+    except InputError:
+        raise
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
     except (ValueError, KeyError, EOFError, zipfile.BadZipFile, zipfile.LargeZipFile) as error:

@@ -15,6 +15,7 @@ from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
 from treadwell.course.course import Course
+from treadwell.files import whole_file
 from treadwell.judging.result import Result
 from treadwell.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
 from treadwell.recording.stair_memory import StairMemory, outline
@@ -41,7 +42,7 @@ def draw_map(
     truth: Trajectory,
     stairs: StairMemory,
 ) -> None:
-    """Draw the picture.
+    """Draw the picture, whole or not at all.
 
     Args:
         path: of the PNG file.
@@ -97,7 +98,10 @@ def draw_map(
         edgecolor="none",
         fontsize=8,
     )
-    figure.savefig(path, bbox_inches="tight", facecolor="white", metadata={"Software": None})
+    with whole_file(path) as temporary:
+        figure.savefig(
+            temporary, bbox_inches="tight", facecolor="white", metadata={"Software": None}
+        )
 
 
 def _title(result: Result) -> str:

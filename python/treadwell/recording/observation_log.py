@@ -23,10 +23,17 @@ from typing import TYPE_CHECKING, Any, Final
 from treadwell._core import Octree
 from treadwell._core import version as core_version
 from treadwell.errors import InputError, RecordingError
+from treadwell.files import opened, read_content
 from treadwell.observation import Observation
 from treadwell.processor import processor
 from treadwell.recording import cdr, messages
-from treadwell.recording.log_file import BrokenLogError, Front, read_front, read_messages
+from treadwell.recording.log_file import (
+    LARGEST_RECORD,
+    BrokenLogError,
+    Front,
+    read_front,
+    read_messages,
+)
 from treadwell.recording.log_writer import Entry, LogWriter
 from treadwell.scenario.model import Scenario
 from treadwell.version import __version__
@@ -301,7 +308,7 @@ def _octree_bytes(octree: Octree) -> bytes:
     with TemporaryDirectory() as folder:
         path = Path(folder) / STATIC_MAP
         octree.write(str(path))
-        return path.read_bytes()
+        return read_content(path, LARGEST_RECORD)
 
 
 def _core_table(core: "CoreInput") -> dict[str, Any]:
@@ -317,7 +324,7 @@ def folder_hash(folder: Path) -> str:
     digest = hashlib.sha256()
     for path in sorted(p for p in folder.rglob("*") if p.is_file()):
         digest.update(path.relative_to(folder).as_posix().encode() + b"\0")
-        with path.open("rb") as file:
+        with opened(path) as file:
             while block := file.read(1 << 20):
                 digest.update(block)
         digest.update(b"\0")

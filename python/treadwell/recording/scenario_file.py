@@ -10,7 +10,8 @@ from typing import Any, Final
 
 import tomli_w
 
-from treadwell.judging.result import write_whole
+from treadwell.errors import InputError
+from treadwell.files import opened, write_text
 from treadwell.scenario.model import Scenario
 
 NAME: Final = "scenario.toml"
@@ -26,16 +27,16 @@ def write_scenario(path: Path, scenario: Scenario) -> None:
     """
     origin = None if scenario.path is None else str(scenario.path.absolute())
     text = tomli_w.dumps(without_nothing(scenario.configuration()))
-    write_whole(path, f"{_ORIGIN}{json.dumps(origin)}\n{text}")
+    write_text(path, f"{_ORIGIN}{json.dumps(origin)}\n{text}")
 
 
 def origin_of(path: Path) -> Path | None:
     """Return the file that a `scenario.toml` came from; None where it does not say or is broken."""
     try:
-        with path.open(encoding="utf-8") as file:
-            line = file.readline(_LONGEST_LINE)
+        with opened(path) as file:
+            line = file.readline(_LONGEST_LINE).decode()
         named = json.loads(line.removeprefix(_ORIGIN)) if line.startswith(_ORIGIN) else None
-    except (OSError, ValueError):
+    except (InputError, OSError, ValueError):
         return None
     return Path(named) if isinstance(named, str) and "\x00" not in named else None
 

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.errors import InputError
-from treadwell.files import read_text
-from treadwell.judging.result import write_whole
+from treadwell.files import read_text, write_text
 from treadwell.protocols import Pose
 
 LARGEST_FILE = 100_000_000
@@ -60,7 +59,7 @@ class Trajectory:
             f"{row[0]:.9f} " + " ".join(f"{value:.9f}" for value in row[1:])
             for row in self.rows.tolist()
         ]
-        write_whole(path, "\n".join(lines) + "\n")
+        write_text(path, "\n".join(lines) + "\n")
 
 
 def read_trajectory(path: Path) -> NDArray[np.float64]:

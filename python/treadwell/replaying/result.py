@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from treadwell.files import write_text
 from treadwell.judging.result import (
     SCHEMA,
     Count,
@@ -13,7 +14,6 @@ from treadwell.judging.result import (
     StateEntry,
     Table,
     Timing,
-    write_whole,
 )
 
 
@@ -78,4 +78,4 @@ class ReplayResult(Table):
         Raises:
             OSError: the file cannot be written.
         """
-        write_whole(path, json.dumps(self.document(), indent=2, allow_nan=False) + "\n")
+        write_text(path, json.dumps(self.document(), indent=2, allow_nan=False) + "\n")

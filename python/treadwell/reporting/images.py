@@ -12,10 +12,12 @@ from typing import Final
 from PIL import Image, UnidentifiedImageError
 
 from treadwell.errors import InputError
+from treadwell.files import read_content
 from treadwell.reporting.data_uri import data_uri, jpeg_uri
 
 _LARGEST: Final = 400_000
 """Bytes of a picture that goes into the page as it is."""
+_LARGEST_READ: Final = 100_000_000
 _WIDEST: Final = 1400
 """Pixels."""
 _LARGEST_VIDEO: Final = 6_000_000
@@ -39,7 +41,7 @@ def picture_uri(path: Path) -> str:
         InputError: it is no picture, or far too large for one.
     """
     try:
-        content = path.read_bytes()
+        content = read_content(path, _LARGEST_READ)
         with Image.open(io.BytesIO(content), formats=["PNG"]) as picture:
             picture.load()
             if len(content) <= _LARGEST and picture.width <= 2 * _WIDEST:
@@ -77,4 +79,4 @@ def film_uri(path: Path) -> str | None:
     """Return a film as a data URI; None where it is too large to go into a page."""
     if path.stat().st_size > _LARGEST_VIDEO:
         return None
-    return data_uri(_TYPES[path.suffix.lower()], path.read_bytes())
+    return data_uri(_TYPES[path.suffix.lower()], read_content(path, _LARGEST_VIDEO))

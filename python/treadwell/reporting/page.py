@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from treadwell.errors import RecordingError
-from treadwell.judging.result import write_whole
+from treadwell.files import write_text
 from treadwell.reporting.sections import RunSection
 from treadwell.reporting.sweep_section import SweepSection
 
@@ -47,7 +47,7 @@ def write_page(path: Path, text: str) -> None:
     # What a file may hold and UTF-8 may not, half of a pair of surrogates, becomes a mark.
     text = text.encode("utf-8", "replace").decode("utf-8").replace("\x00", "\ufffd")
     try:
-        write_whole(path, text)
+        write_text(path, text)
     except OSError as error:
         raise RecordingError(f"{path}: cannot be written: {error.strerror or error}") from error
 

@@ -4,14 +4,15 @@ import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 from treadwell.errors import InputError
+from treadwell.files import read_text
+from treadwell.sweeps.folder import LARGEST
 from treadwell.sweeps.journal import NAME as JOURNAL
 from treadwell.sweeps.journal import read_rows
 
 ASKED, RESULTS = "sweep.json", "results.json"
-_LARGEST: Final = 500_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,11 +100,7 @@ def _document(path: Path, problems: list[str]) -> Any:  # noqa: ANN401 - any JSO
         problems.append(f"{path.name} is missing")
         return {}
     try:
-        if path.stat().st_size > _LARGEST:
-            raise InputError(f"{path}: larger than {_LARGEST} bytes, which is the limit")
-        return json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+        return json.loads(read_text(path, LARGEST))
     except (ValueError, RecursionError):
         raise InputError(f"{path}: is no JSON") from None
 

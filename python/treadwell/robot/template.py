@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 
 from treadwell.errors import InputError
+from treadwell.files import write_text
 from treadwell.robot.additions import STAND
 from treadwell.robot.anatomy import Anatomy, FoundLeg
 from treadwell.robot.followers import followers
@@ -73,7 +74,7 @@ def write_template(folder: Path) -> Path:
     mjcf = find_mjcf(folder)
     text = draft(folder.resolve().name, mjcf.name, compile_alone(mjcf))
     try:
-        path.write_text(text, encoding="utf-8")
+        write_text(path, text)
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror}") from error
     return path

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from treadwell.data import data_folder
 from treadwell.errors import InputError
-from treadwell.files import read_content
+from treadwell.files import opened, read_content
 from treadwell.scenario.elements import Mesh, Mjcf
 from treadwell.scenario.events import Add
 from treadwell.scenario.messages import describe, dotted, nearest, report, shortened, shown
@@ -232,8 +232,7 @@ def asset_fault(folder: Path, file: str, suffixes: Sequence[str]) -> str:
             return f"there is no such file in {folder}"
         if resolved.stat().st_size > LARGEST_ASSET:
             return f"must be at most {LARGEST_ASSET} bytes"
-        with resolved.open("rb") as opened:
-            opened.read(1)
-    except (OSError, RuntimeError, ValueError) as error:
+        opened(resolved).close()
+    except (InputError, OSError, RuntimeError, ValueError) as error:
         return f"cannot be read: {shortened(str(error))}"
     return ""

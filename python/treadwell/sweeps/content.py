@@ -10,6 +10,7 @@ from typing import Any
 
 from treadwell.additions import class_of, installed
 from treadwell.data import PACKAGE
+from treadwell.files import opened
 from treadwell.own_core import VARIABLE
 from treadwell.robot.load import Robot
 from treadwell.scenario.elements import Mesh, Mjcf
@@ -73,7 +74,7 @@ def _files_in(folder: Path, pattern: str) -> list[Path]:
 def _hash(files: Sequence[Path], text: str) -> str:
     content = hashlib.sha256()
     for path in files:
-        with path.open("rb") as opened:
-            content.update(hashlib.file_digest(opened, "sha256").digest())
+        with opened(path) as file:
+            content.update(hashlib.file_digest(file, "sha256").digest())
     content.update(text.encode())
     return content.hexdigest()[:16]

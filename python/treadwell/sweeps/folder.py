@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Final, Self
 
 from treadwell.errors import InputError, RecordingError
-from treadwell.judging.result import write_whole
+from treadwell.files import read_text, write_text
 from treadwell.sweeps import journal
 from treadwell.sweeps.request import SCHEMA, Key, Request
 from treadwell.sweeps.row import Row, row_of
@@ -19,6 +19,8 @@ ASKED: Final = "sweep.json"
 RESULTS: Final = "results.json"
 TABLE: Final = "episodes.parquet"
 EPISODES: Final = "episodes"
+LARGEST: Final = 500_000_000
+"""Bytes of `sweep.json` and of `results.json`."""
 _LOCK: Final = ".lock"
 _DOING: Final = ".doing"
 
@@ -110,7 +112,7 @@ class SweepFolder:
         """
         try:
             write_table(self.path / TABLE, self.ordered())
-            write_whole(self.path / RESULTS, json.dumps(document, indent=1, allow_nan=False) + "\n")
+            write_text(self.path / RESULTS, json.dumps(document, indent=1, allow_nan=False) + "\n")
         except OSError as error:
             raise RecordingError(f"{self.path}: cannot be written: {error}") from error
 
@@ -121,7 +123,7 @@ class SweepFolder:
             if there and not (path / ASKED).is_file() and not (path / _LOCK).is_file():
                 raise InputError(f"--out: {path} exists already and holds no sweep")
             path.mkdir(parents=True, exist_ok=True)
-            handle = os.open(path / _LOCK, os.O_RDWR | os.O_CREAT, 0o644)
+            handle = os.open(path / _LOCK, os.O_RDWR | os.O_CREAT, 0o666)
         except OSError as error:
             raise InputError(f"--out: {path}: {error.strerror}") from None
         try:
@@ -136,9 +138,9 @@ class SweepFolder:
         asked = self._request.document()
         file = self.path / ASKED
         try:
-            if file.is_file():
+            if os.path.lexists(file):
                 _check_same(file, read_asked(file), asked)
-            write_whole(file, json.dumps(asked, indent=2) + "\n")
+            write_text(file, json.dumps(asked, indent=2) + "\n")
         except OSError as error:
             raise RecordingError(f"{file}: cannot be written: {error}") from error
 
@@ -179,8 +181,8 @@ def read_asked(file: Path) -> dict[str, Any]:
         InputError: it is no such file.
     """
     try:
-        document = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError) as error:
+        document = json.loads(read_text(file, LARGEST))
+    except (ValueError, RecursionError) as error:
         raise InputError(f"{file}: cannot be read: {error}") from None
     if not isinstance(document, dict) or document.get("schema") != SCHEMA:
         raise InputError(f"{file}: not a sweep of schema {SCHEMA}")

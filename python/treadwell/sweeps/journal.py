@@ -7,8 +7,11 @@ from pathlib import Path
 from typing import Any, Final
 
 from treadwell.errors import InputError, RecordingError
+from treadwell.files import read_content
 
 NAME: Final = "journal.jsonl"
+LARGEST: Final = 500_000_000
+"""Bytes: some million rows."""
 
 
 class Journal:
@@ -21,16 +24,20 @@ class Journal:
         """Open the file, a new one where there is none, and read it.
 
         Raises:
-            InputError: a line before the last is broken.
+            InputError: it is no file, or a line before the last is broken.
             RecordingError: it cannot be opened.
         """
         self._path = path
         try:
-            new = not path.exists()
-            self._file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
-            if new:
+            if os.path.lexists(path):
+                content = read_content(path, LARGEST)
+                self._file = os.open(path, os.O_WRONLY | os.O_APPEND)
+            else:
+                content = b""
+                self._file = os.open(
+                    path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND, 0o666
+                )
                 _sync_folder(path.parent)
-            content = path.read_bytes()
         except OSError as error:
             raise RecordingError(f"{path}: {error.strerror}") from error
         whole = content.rfind(b"\n") + 1
@@ -74,11 +81,14 @@ class Journal:
 
 
 def read_rows(path: Path) -> list[dict[str, Any]]:
-    """Return the whole rows of a journal that somebody may be writing; none where there is none."""
-    try:
-        content = path.read_bytes()
-    except OSError:
+    """Return the whole rows of a journal that somebody may be writing; none where there is none.
+
+    Raises:
+        InputError: it is no file, or too large for one.
+    """
+    if not os.path.lexists(path):
         return []
+    content = read_content(path, LARGEST)
     rows = []
     for line in content[: content.rfind(b"\n") + 1].splitlines():
         try:

@@ -9,7 +9,8 @@ from pydantic import Field, ValidationError, field_validator
 
 from treadwell.data import data_folder
 from treadwell.errors import InputError
-from treadwell.scenario.loading import find_scenario, load_scenario, read_toml
+from treadwell.files import read_content
+from treadwell.scenario.loading import LARGEST_ASSET, find_scenario, load_scenario, read_toml
 from treadwell.scenario.messages import nearest, shortened
 from treadwell.scenario.types import Name, Table
 from treadwell.sweeps.content import named_files
@@ -70,11 +71,11 @@ def file_hash(path: Path) -> str:
 
     Of what it names besides, another file's course, meshes and worlds, the content counts, too.
     """
-    content = hashlib.sha256(path.read_bytes().replace(b"\r\n", b"\n"))
+    content = hashlib.sha256(read_content(path, LARGEST_ASSET).replace(b"\r\n", b"\n"))
     scenario = load_scenario(path)
     course_of = read_toml(path).get("course_of")
     for other in (*([path.parent / course_of] if course_of else []), *named_files(scenario)):
-        content.update(other.read_bytes())
+        content.update(read_content(other, LARGEST_ASSET))
     return content.hexdigest()
 
 

@@ -8,9 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.errors import InputError
+from treadwell.files import read_content
 
 MAGIC: Final = b"DFR1"
 _HEADER: Final = 32
+_LARGEST: Final = 4_000_000_000
+"""Bytes: an hour of small frames, or a thousand of 640x480 pixels."""
 """Bytes."""
 
 
@@ -86,10 +89,7 @@ def read_frames(path: Path) -> Frames:
     Raises:
         InputError: it cannot be read, or is no such file.
     """
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror or error}") from error
+    data = read_content(path, _LARGEST)
     if data[:4] != MAGIC or len(data) < _HEADER:
         raise InputError(f"{path}: depth frames begin with {MAGIC.decode()}")
     width, height, count = (int(n) for n in np.frombuffer(data, "<i4", 3, 4))
