@@ -22,6 +22,7 @@ SIMULATOR = {"simulated_body", "mujoco_step"}
 TESTED_BY = {
     "cli.verify": "test_difference.py",
     "progress": "test_cli.py",
+    "scores": "test_runner.py",
     "protocols": "test_components.py",
     "version": "test_bindings.py",
     "cli.compare": "test_comparison.py",

@@ -1,11 +1,15 @@
 """A run that is cut short: Ctrl-C, a full disk, a kill. What there is stays readable."""
 
+import fcntl
 import itertools
 import json
+import os
 import resource
+import shutil
 import signal
 import subprocess
 import sys
+import termios
 import threading
 import time
 import warnings
@@ -15,21 +19,26 @@ from pathlib import Path
 
 import pytest
 
-from treadwell.interruption import Interruption
+from treadwell import interruption
+from treadwell.interruption import SIGNALS, Interruption
 from treadwell.recording.observation_log import read_observations
 from treadwell.recording.verification import verify_run
 
 pytestmark = pytest.mark.slow
 
+TWICE = [signal.SIGINT] * 3
+"""Ctrl-C, and again at once, and while the files are being closed."""
 LONG = ("run", "slalom", "--seed", "1", "--set", "time_limit=60")
 
 
 @pytest.fixture(autouse=True)
 def interruptible() -> Iterator[None]:
     """Ctrl-C counts, also where these tests run in the background of a shell that ignores it."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    before = {one: signal.getsignal(one) for one in SIGNALS}
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
-    signal.signal(signal.SIGINT, before)
+    for number, handler in before.items():
+        signal.signal(number, handler)
 
 
 @contextmanager
@@ -39,6 +48,7 @@ def start(folder: Path, *options: str, limit: int | None = None) -> Iterator[sub
     def tighten() -> None:
         # Ctrl-C counts, also where these tests run in the background of a shell that ignores it.
         signal.signal(signal.SIGINT, signal.SIG_DFL)
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)
         if limit is not None:
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
@@ -76,14 +86,16 @@ def recorded(folder: Path) -> set[str]:
         return {str(chunk.entity_path) for chunk in chunks}
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("numbers", [[signal.SIGINT], [signal.SIGTERM], [signal.SIGHUP], TWICE])
 def test_an_interrupted_run_closes_its_files_says_so_and_leaves_with_130(
-    tmp_path: Path, number: signal.Signals
+    tmp_path: Path, numbers: list[signal.Signals]
 ) -> None:
     folder = tmp_path / "run"
     with start(folder, "--json") as process:
         wait_for(process, folder / "recording.rrd", 1_500_000)
-        process.send_signal(number)
+        for number in numbers:
+            process.send_signal(number)
+            time.sleep(0.1)
         output, messages = process.communicate(timeout=60)
     assert process.returncode == 130
     assert "Traceback" not in messages
@@ -119,6 +131,7 @@ def test_a_disk_that_is_full_from_the_start_is_one_message(tmp_path: Path) -> No
     with start(tmp_path / "run", limit=1_000) as process:
         output, messages = process.communicate(timeout=60)
     assert process.returncode == 3
+    assert not (tmp_path / "run").exists()
     assert messages.count("error: ") == 1
     assert "Traceback" not in messages + output
 
@@ -138,19 +151,103 @@ def test_a_killed_run_leaves_what_it_recorded(tmp_path: Path) -> None:
 
 def test_a_signal_waits_for_the_end_of_the_tick_and_handlers_come_back() -> None:
     before = signal.getsignal(signal.SIGINT)
-    with Interruption() as interruption:
-        interruption.check()
+    with Interruption() as asked:
+        asked.check()
         signal.raise_signal(signal.SIGINT)
         with pytest.raises(KeyboardInterrupt):
-            interruption.check()
+            asked.check()
     assert signal.getsignal(signal.SIGINT) is before
 
 
-def test_a_second_signal_does_not_wait() -> None:
+def test_a_second_signal_waits_too_unless_a_tick_goes_on_and_on(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    now = [100.0]
+    monkeypatch.setattr(interruption, "monotonic", lambda: now[0])
     with Interruption():
         signal.raise_signal(signal.SIGINT)
+        now[0] += 0.3
+        signal.raise_signal(signal.SIGINT)
+        now[0] += 2.0
         with pytest.raises(KeyboardInterrupt):
             signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)  # it was told
+
+
+def test_what_is_being_written_no_signal_cuts_short(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [100.0]
+    monkeypatch.setattr(interruption, "monotonic", lambda: now[0])
+    written = []
+
+    def work() -> None:
+        with Interruption() as held:
+            held.hold()
+            for _ in range(3):
+                signal.raise_signal(signal.SIGTERM)
+                now[0] += 10.0
+            written.append(True)
+
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    with pytest.raises(KeyboardInterrupt):
+        work()
+    assert written == [True]
+
+
+def test_a_run_whose_terminal_is_closed_ends_with_its_result(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    ours, theirs = os.openpty()
+    process = subprocess.Popen(
+        [sys.executable, "-m", "treadwell.cli.app", *LONG, "--out", str(folder)],
+        stdin=theirs,
+        stdout=theirs,
+        stderr=theirs,
+        start_new_session=True,
+        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),
+    )
+    os.close(theirs)
+    reader = threading.Thread(target=drain, args=(ours, folder / "recording.rrd"))
+    reader.start()
+    reader.join(60.0)
+    os.close(ours)
+    assert process.wait(60.0) == 130
+    told = json.loads((folder / "result.json").read_text())
+    assert told["outcome"] == "interrupted"
+    assert verify_run(folder).problems == ()
+
+
+def drain(terminal: int, path: Path) -> None:
+    """Read what is written to a terminal until a recording has grown."""
+    while not (path.is_file() and path.stat().st_size > 1_500_000):
+        os.read(terminal, 10_000)
+
+
+def test_an_interruption_while_the_folder_is_opened_leaves_a_result(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    with start(folder) as process:
+        wait_for(process, folder / "scenario.toml", 100)
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert json.loads((folder / "result.json").read_text())["outcome"] == "interrupted"
+    assert verify_run(folder).problems == ()
+
+
+@pytest.mark.parametrize("removed", [True, False])
+def test_a_folder_that_is_removed_or_renamed_is_told_at_once(tmp_path: Path, removed: bool) -> None:
+    folder = tmp_path / "run"
+    with start(folder) as process:
+        wait_for(process, folder / "recording.rrd", 500_000)
+        folder.rename(tmp_path / "other")
+        if removed:
+            shutil.rmtree(tmp_path / "other")
+        begin = time.monotonic()
+        _, messages = process.communicate(timeout=60)
+    assert time.monotonic() - begin < 10.0
+    assert process.returncode == 3
+    (error,) = [line for line in messages.splitlines() if line.startswith("error: ")]
+    assert error.startswith(f"error: {folder}: was removed or renamed while the run wrote into it")
+    assert not folder.exists()
 
 
 def test_in_another_thread_nothing_changes() -> None:
@@ -158,8 +255,8 @@ def test_in_another_thread_nothing_changes() -> None:
     seen = []
 
     def work() -> None:
-        with Interruption() as interruption:
-            interruption.check()
+        with Interruption() as asked:
+            asked.check()
             seen.append(signal.getsignal(signal.SIGINT))
 
     thread = threading.Thread(target=work)

@@ -8,7 +8,7 @@ from threading import Barrier
 import pytest
 
 from treadwell.errors import InputError, RecordingError
-from treadwell.recording.run_folder import make_experiment_folder, make_run_folder
+from treadwell.recording.run_folder import make_experiment_folder, run_folder
 
 
 @pytest.fixture(autouse=True)
@@ -17,8 +17,14 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+def begun(out: Path | None, scenario: str, robot: str, seed: int) -> Path:
+    """Return the folder of a run that has begun."""
+    with run_folder(out, scenario, robot, seed) as folder:
+        return folder
+
+
 def test_runs_of_one_second_have_folders_of_their_own_and_latest_is_the_last(here: Path) -> None:
-    made = [make_run_folder(None, "slalom", "qrio", 3) for _ in range(4)]
+    made = [begun(None, "slalom", "qrio", 3) for _ in range(4)]
     assert len(set(made)) == 4
     for folder in made:
         assert folder.is_dir()
@@ -44,13 +50,13 @@ def test_a_disk_that_is_full_is_no_bad_input(here: Path, monkeypatch: pytest.Mon
 
     monkeypatch.setattr(Path, "mkdir", full)
     with pytest.raises(RecordingError, match="No space left"):
-        make_run_folder(here / "new", "x", "y", 0)
+        begun(here / "new", "x", "y", 0)
 
 
 def test_a_folder_of_the_users_may_be_deep_or_empty(here: Path) -> None:
-    assert make_run_folder(here / "a" / "b", "x", "y", 0).is_dir()
+    assert begun(here / "a" / "b", "x", "y", 0).is_dir()
     (here / "empty").mkdir()
-    make_run_folder(here / "empty", "x", "y", 0)
+    begun(here / "empty", "x", "y", 0)
     assert not (here / "runs").exists()
 
 
@@ -62,19 +68,36 @@ def test_a_run_is_never_overwritten(here: Path) -> None:
     file.write_text("")
     for taken in (full, file):
         with pytest.raises(InputError, match="exists already; a run is never overwritten"):
-            make_run_folder(taken, "x", "y", 0)
+            begun(taken, "x", "y", 0)
     assert (full / "result.json").read_text() == "{}"
 
 
 def test_a_folder_that_cannot_be_made_is_bad_input(here: Path) -> None:
     (here / "file").write_text("")
     with pytest.raises(InputError, match="--out: file/run: "):
-        make_run_folder(Path("file/run"), "x", "y", 0)
+        begun(Path("file/run"), "x", "y", 0)
     with pytest.raises(InputError, match="File name too long"):
-        make_run_folder(Path("x" * 300), "x", "y", 0)
+        begun(Path("x" * 300), "x", "y", 0)
 
 
 def test_a_file_called_runs_is_bad_input(here: Path) -> None:
     (here / "runs").write_text("")
     with pytest.raises(InputError, match="--out: runs/slalom-qrio-0"):
-        make_run_folder(None, "slalom", "qrio", 0)
+        begun(None, "slalom", "qrio", 0)
+
+
+@pytest.mark.parametrize("name", [None, "new", "empty"])
+def test_a_run_that_cannot_begin_leaves_nothing_behind(here: Path, name: str | None) -> None:
+    (here / "empty").mkdir()
+    before = begun(None, "slalom", "qrio", 0)
+    there = sorted(here.rglob("*"))
+
+    def fail() -> None:
+        with run_folder(None if name is None else Path(name), "slalom", "qrio", 1) as folder:
+            (folder / "scenario.toml").write_text("half")
+            raise RecordingError("the disk is full")
+
+    with pytest.raises(RecordingError, match="the disk is full"):
+        fail()
+    assert sorted(here.rglob("*")) == there
+    assert (here / "runs" / "latest").resolve() == before.resolve()

@@ -26,3 +26,7 @@ class SimulationError(TreadwellError):
 
 class RecordingError(TreadwellError):
     """A recording cannot be written any more: a full disk, a file that vanished. Names the file."""
+
+
+class ShellLimitError(TreadwellError):
+    """The shell allows less memory than is needed (`ulimit`), which is no fault of the input."""

@@ -15,7 +15,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from treadwell.errors import InputError
+from treadwell.errors import InputError, ShellLimitError
+from treadwell.shell_limits import tightness, within
 
 PACKAGE_FOLDER: Final = Path(__file__).resolve().parent.parent
 
@@ -51,6 +52,7 @@ def limited(
 
     Raises:
         InputError: the task raised one, crashed, or reached a limit.
+        ShellLimitError: it may be the shell's limit that it reached.
     """
     command = [sys.executable, "-P", "-m", "treadwell.limited", place_of(task)]
     command += [str(limits.cpu_seconds), str(limits.memory_bytes), *arguments]
@@ -76,6 +78,9 @@ def limited(
         return answer["value"]
     if "fault" in answer:
         raise InputError(f"{answer['fault']}")
+    tight = tightness(limits.memory_bytes)
+    if tight:
+        raise ShellLimitError(f"{what}: could not be looked at: {tight}")
     raise InputError(
         f"{what}: cannot be read within {limits.cpu_seconds} s and {limits.memory_bytes >> 30} GB, "
         "or makes MuJoCo crash"
@@ -96,8 +101,9 @@ def _main(arguments: Sequence[str]) -> None:
     used = resource.getrusage(resource.RUSAGE_SELF)
     cpu = int(cpu_seconds) + int(used.ru_utime + used.ru_stime) + 1
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_CPU, (cpu, cpu))
-    resource.setrlimit(resource.RLIMIT_AS, (int(memory_bytes), int(memory_bytes)))
+    for limit, wanted in ((resource.RLIMIT_CPU, cpu), (resource.RLIMIT_AS, int(memory_bytes))):
+        most = within(limit, wanted)  # nobody may raise what the shell allows
+        resource.setrlimit(limit, (most, most))
     try:
         answer = {"value": function(*rest)}
     except InputError as error:

@@ -7,27 +7,23 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from treadwell.episode import Episode, Step
-from treadwell.errors import CoreError, SimulationError, TreadwellError
+from treadwell.episode import Episode
+from treadwell.errors import CoreError, ShellLimitError, SimulationError, TreadwellError
 from treadwell.interruption import Interruption
-from treadwell.judging.result import CollisionEntry, Result, StateEntry
+from treadwell.judging.result import Result
 from treadwell.judging.verdict import Verdict
-from treadwell.map_memory import MapMemory, RememberedMap
+from treadwell.map_memory import RememberedMap
 from treadwell.measuring.clearance import least_clearance
-from treadwell.measuring.measures import PoseErrors, timing
-from treadwell.measuring.score import map_counts, surfaces, true_cells
-from treadwell.measuring.step_watch import KnownTop, StepError, StepWatch
+from treadwell.measuring.step_watch import KnownTop, StepError
 from treadwell.measuring.watch import Watch
 from treadwell.physics.simulation import TICK_NS
-from treadwell.processor import processor
 from treadwell.progress import Progress
 from treadwell.recording.rhythm import Rhythm
-from treadwell.recording.run_folder import make_run_folder
-from treadwell.recording.stair_memory import StairMemory
-from treadwell.recording.tracing import stairs_of, trace_of
-from treadwell.recording.trajectory import Trajectory
+from treadwell.recording.run_folder import run_folder
+from treadwell.recording.tracing import trace_of
 from treadwell.recording.writers import NoWriters, Writers, open_viewer
-from treadwell.version import __version__
+from treadwell.scores import Scores, result_of
+from treadwell.shell_limits import RECORDED_RUN, tightness
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,38 +63,6 @@ class Run:
     def document(self) -> dict[str, Any]:
         """The result as plain data, as in the file."""
         return self.result.model_dump(mode="json", by_alias=True)
-
-
-class Scores:
-    """Collects what the result says of an episode, one camera frame after the other."""
-
-    def __init__(self, episode: Episode, watch: type[Watch] | None = None) -> None:
-        """Begin with nothing."""
-        self._episode = episode
-        self.steps = StepWatch(episode)
-        self.watch = None if watch is None else watch(episode)
-        self.poses = PoseErrors()
-        self.estimate, self.truth = Trajectory(), Trajectory()
-        self.memory = MapMemory()
-        self.stairs = StairMemory()
-        self.states: list[StateEntry] = []
-        self._state: str | None = None
-
-    def tick(self, step: Step) -> None:
-        """Take in a control tick."""
-        self.steps.tick(step)
-        if step.state != self._state:
-            self._state = step.state
-            self.states.append(StateEntry(time=1e-9 * step.time_ns, state=step.state))
-
-    def frame(self, step: Step) -> None:
-        """Take in a camera frame, right after its tick."""
-        pilot, believed, truth = self._episode.pilot, step.estimate, self._episode.judge.frame
-        self.poses.add_level(believed.pose, believed.odometry, truth)
-        self.estimate.add_level(step.time_ns, believed.pose)
-        self.truth.add_level(step.time_ns, truth)
-        self.stairs.update(stairs_of(pilot), climbing=bool(step.footsteps))
-        self.memory.update(*pilot.floor())
 
 
 def run(
@@ -156,16 +120,20 @@ def run_episode(
     Raises:
         InputError: the folder cannot be taken; nothing was written.
         RecordingError: the recording cannot be written; what was written stays readable.
+        ShellLimitError: the shell allows too little memory for a recording.
     """
     made = episode.scenario
+    if record and (tight := tightness(RECORDED_RUN)):
+        raise ShellLimitError(f"the run cannot be recorded: {tight}; --no-record takes a third")
     viewer = open_viewer(episode) if view else None
-    folder = make_run_folder(out, made.name, episode.robot.name, made.seed)
-    writers = Writers(folder, episode, record=record, viewer=viewer)
     scores = Scores(episode, watch)
-    result, problem = _played(episode, scores, writers, progress)
-    writers.finish(result, scores.estimate, scores.truth, scores.memory.map(), scores.stairs)
-    if problem is not None:
-        raise problem
+    with Interruption() as interruption:
+        with run_folder(out, made.name, episode.robot.name, made.seed) as folder:
+            writers = Writers(folder, episode, record=record, viewer=viewer)
+        result, problem = _played(episode, scores, writers, progress, interruption)
+        remembered = scores.memory.map()
+        ways = (scores.estimate, scores.truth)
+        writers.finish(result, *ways, remembered, scores.stairs, problem)
     way = scores.truth.positions()[:, :2]
     clearance = least_clearance(episode.course, episode.robot, way)
     findings = None if scores.watch is None else scores.watch.findings()
@@ -187,7 +155,8 @@ def play_episode(episode: Episode) -> Result:
         TreadwellError: what is neither the physics' nor a component's failure.
     """
     episode.simulation.audit.drop()
-    result, problem = _played(episode, Scores(episode), NoWriters(), None)
+    with Interruption() as interruption:
+        result, problem = _played(episode, Scores(episode), NoWriters(), None, interruption)
     if problem is not None:
         raise problem
     return result
@@ -198,14 +167,17 @@ def _played(
     scores: Scores,
     writers: Writers | NoWriters,
     progress: Progress | None,
+    interruption: Interruption,
 ) -> tuple[Result, TreadwellError | None]:
-    """Run an episode to its end; return the result and what kept it from being written."""
+    """Run an episode to its end; return the result and what kept it from being written.
+
+    From then on no signal cuts short what follows.
+    """
     begin = perf_counter()
     verdict: Verdict | None = None
     problem: TreadwellError | None = None
     try:
-        with Interruption() as interruption:
-            _loop(episode, scores, writers, progress, begin, interruption)
+        _loop(episode, scores, writers, progress, begin, interruption)
         verdict = episode.verdict
     except KeyboardInterrupt:
         verdict = Verdict("interrupted", "interrupted: the run was interrupted")
@@ -216,8 +188,9 @@ def _played(
     except TreadwellError as error:
         verdict = Verdict("error", f"error: {error}")
         problem = error
+    interruption.hold()
     assert verdict is not None
-    return _result(episode, scores, verdict, perf_counter() - begin), problem
+    return result_of(episode, scores, verdict, perf_counter() - begin), problem
 
 
 def _loop(
@@ -247,55 +220,3 @@ def _loop(
                 away = math.dist(episode.goal, step.estimate.pose[:2])
                 progress.update(simulated, step.state, away, factor)
         writers.tick(step)
-
-
-def _result(episode: Episode, scores: Scores, verdict: Verdict, wall_seconds: float) -> Result:
-    judge, course, made = episode.judge, episode.course, episode.scenario
-    simulated = 1e-9 * episode.simulation.time_ns
-    remembered = scores.memory.map()
-    places = {
-        element.name: episode.events.place(element, episode.simulation.data)
-        for element in course.elements
-        if element.name in episode.events.present
-    }
-    passed = scores.truth.positions()[:, :2]
-    headroom = episode.robot.file.body.height
-    seen = remembered.kind.size > 0
-    seconds = episode.seconds
-    physics = sum(seconds["physics"])
-    result = Result(
-        scenario=made.name,
-        robot=episode.robot.name,
-        seed=made.seed,
-        version=__version__,
-        processor=processor(),
-        configuration=made.configuration(),
-        ablation=episode.ablation,
-        outcome=verdict.outcome,
-        reason=verdict.reason,
-        simulated_seconds=simulated,
-        wall_seconds=wall_seconds,
-        real_time_factor=simulated / max(wall_seconds, 1e-9),
-        physics_real_time_factor=simulated / max(physics, 1e-9),
-        falls=judge.falls,
-        collisions=[
-            CollisionEntry(
-                time=hit.time, robot_part=hit.robot_part, element=hit.element, impulse=hit.impulse
-            )
-            for hit in judge.collisions
-        ],
-        steps_taken=episode.pilot.steps_taken,
-        stairs_climbed=judge.stairs_climbed,
-        stairs_descended=judge.stairs_descended,
-        path_length=judge.path_length,
-        replans=episode.pilot.replans,
-        localization=scores.poses.errors(),
-        surfaces=surfaces(course, remembered, passed, places) if seen else [],
-        behaviour=scores.states,
-        timing_ms={stage: timing(values) for stage, values in seconds.items()},
-    )
-    if seen:
-        result.map = map_counts(
-            remembered, true_cells(episode.events.course_now(), remembered, headroom, places)
-        )
-    return result.judged_by(made.expect)

@@ -18,6 +18,7 @@ from treadwell.cli.options import (
     SetOption,
 )
 from treadwell.cli.output import ERROR, INTERRUPTED, PASSED, guarded, write_json
+from treadwell.interruption import leave_terminal
 
 app = typer.Typer(
     name="treadwell",
@@ -236,11 +237,15 @@ def execute(arguments: Sequence[str]) -> int:
 def main() -> None:
     """Run the command line and leave with its exit status."""
 
-    def stop(_number: int, _frame: FrameType | None) -> None:
+    def stop(number: int, _frame: FrameType | None) -> None:
+        if number == signal.SIGHUP:
+            leave_terminal()
         raise KeyboardInterrupt
 
-    # A run that is told to end closes its files as after Ctrl-C.
-    signal.signal(signal.SIGTERM, stop)
+    # A run that is told to end, or whose terminal is closed, ends as after Ctrl-C; `nohup` counts.
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, stop)
     try:
         status = execute(sys.argv[1:])
     except KeyboardInterrupt:

@@ -4,9 +4,11 @@ import json
 import os
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any, Final
 
 from treadwell.errors import InputError, TreadwellError
+from treadwell.shell_limits import RECORDED_RUN, tightness
 
 PASSED: Final = 0
 FAILED: Final = 1
@@ -25,8 +27,9 @@ def write_json(document: object) -> None:
 
 def write_message(text: str) -> None:
     """Write a line to standard error."""
-    sys.stderr.write(text.rstrip("\n") + "\n")
-    sys.stderr.flush()
+    with suppress(OSError):  # nobody is there any more to read it
+        sys.stderr.write(text.rstrip("\n") + "\n")
+        sys.stderr.flush()
 
 
 _WIDTH_OF_A_FILE: Final = 160
@@ -82,7 +85,9 @@ def _verdict(error: Exception) -> tuple[str, int]:
     if isinstance(error, TreadwellError):
         return str(error), BAD_INPUT if isinstance(error, InputError) else ERROR
     text = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-    if not isinstance(error, OSError | MemoryError):
+    if tight := tightness(RECORDED_RUN):
+        text += f"; {tight}"
+    elif not isinstance(error, OSError | MemoryError):
         text += f"\n(this is a fault of treadwell; set {SHOW_TRACEBACK}=1 to see where)"
     return text, ERROR
 

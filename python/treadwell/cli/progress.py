@@ -1,7 +1,10 @@
 """The live line of a run: simulated time, state, distance to the goal, real-time factor."""
 
 import sys
+from contextlib import suppress
 from typing import TYPE_CHECKING, Self
+
+from treadwell.cli.output import write_message
 
 if TYPE_CHECKING:
     from rich.status import Status
@@ -57,7 +60,8 @@ class ProgressLine:
     def __exit__(self, *raised: object) -> None:
         """Take the line away, whatever happened."""
         if self._status is not None:
-            self._status.stop()
+            with suppress(OSError):  # the terminal may be gone
+                self._status.stop()
             self._status = None
 
     def update(self, time_s: float, state: str, distance_m: float, real_time_factor: float) -> None:
@@ -77,5 +81,4 @@ class ProgressLine:
         elif not self._terminal and (time_s >= self._next_s or state != self._state):
             self._next_s = (time_s // SECONDS_A_LINE + 1) * SECONDS_A_LINE
             self._state = state
-            sys.stderr.write(f"{self._title} {text}\n".lstrip())
-            sys.stderr.flush()
+            write_message(f"{self._title} {text}".lstrip())

@@ -2,7 +2,10 @@
 
 import sys
 import time
+from contextlib import suppress
 from typing import TYPE_CHECKING, Final, Self
+
+from treadwell.cli.output import write_message
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
@@ -56,7 +59,8 @@ class SweepProgress:
     def __exit__(self, *raised: object) -> None:
         """Leave the last state on the screen, whatever happened."""
         if self._bar is not None:
-            self._bar.stop()
+            with suppress(OSError):  # the terminal may be gone
+                self._bar.stop()
             self._bar = None
 
     def update(self, done: int, successes: int, row: "Row | None") -> None:
@@ -76,10 +80,10 @@ class SweepProgress:
             self._bar.update(self._task, completed=done, description=text)
             return
         if row is not None and not row.success:
-            self._say(f"{row.key.text}: {row.outcome} {row.reason or ''}")
+            write_message(f"{row.key.text}: {row.outcome} {row.reason or ''}")
         if now >= self._next_s or done == self._of:
             self._next_s = now + SECONDS_A_LINE
-            self._say(f"{done} of {self._of} episodes, {text}")
+            write_message(f"{done} of {self._of} episodes, {text}")
 
     def _left(self, done: int, now: float) -> str:
         """Return the time left, by what was done since the beginning; nothing where unknown."""
@@ -88,8 +92,3 @@ class SweepProgress:
             return ""
         seconds = round((now - begin) / (done - before) * (self._of - done))
         return f", {seconds // 3600}:{seconds // 60 % 60:02}:{seconds % 60:02} left"
-
-    @staticmethod
-    def _say(text: str) -> None:
-        sys.stderr.write(text.rstrip() + "\n")
-        sys.stderr.flush()

@@ -81,8 +81,7 @@ class Recorder:
         centre, extent = _middle_and_extent(scenario, course)
         try:
             path.touch()
-            if room(path) < _SPARE_BYTES:
-                raise self._full()
+            self._check_room()
             self._stream = rr.RecordingStream(
                 "treadwell",
                 recording_id=f"{scenario.name}-{robot.name}-{scenario.seed}",
@@ -137,10 +136,12 @@ class Recorder:
         """Find out whether what was logged is in the file: `log` itself says nothing."""
         try:
             # Rerun's writer can hang where a disk is full, so it is stopped before that.
-            if room(self._path) < _SPARE_BYTES:
+            try:
+                self._check_room()
+            except RecordingError:
                 self._broken = True
                 self._stream.disconnect()
-                raise self._full()
+                raise
             self._send()
             self._stream.flush(timeout_sec=_FLUSH_SECONDS)
             _ = self._path.stat()
@@ -161,11 +162,20 @@ class Recorder:
                     self._rows.log_all(entity, kind, **fields)
         self._rows.send()
 
-    def _full(self) -> RecordingError:
-        return RecordingError(
-            f"{self._path}: the disk is full (or the file as large as it may be); "
-            "what was recorded before stays readable"
-        )
+    def _check_room(self) -> None:
+        """Find out whether there is room for what comes until the next look.
+
+        Raises:
+            RecordingError: there is not.
+            OSError: the file is gone.
+        """
+        left = room(self._path)
+        if left < _SPARE_BYTES:
+            raise RecordingError(
+                f"{self._path}: the disk is full, or the file as large as it may be: "
+                f"{left / 1e6:.1f} MB are left, and {(_SPARE_BYTES - left) / 1e6:.1f} MB more are "
+                "needed to go on; what was recorded before stays readable"
+            )
 
     def _abandon(self) -> None:
         """Touch a stream whose writer has failed no more: to flush or to end it could hang."""

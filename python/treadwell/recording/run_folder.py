@@ -2,7 +2,10 @@
 
 import errno
 import os
+import shutil
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from treadwell.errors import InputError, RecordingError
@@ -12,11 +15,13 @@ _DISK = (errno.ENOSPC, errno.EDQUOT, errno.EIO)
 """Faults of the disk, which are not the user's."""
 
 
-def make_run_folder(out: Path | None, scenario: str, robot: str, seed: int) -> Path:
-    """Return a new, empty folder.
+@contextmanager
+def run_folder(out: Path | None, scenario: str, robot: str, seed: int) -> Iterator[Path]:
+    """Give a new, empty folder to begin a run in; where that fails, nothing is left of it.
 
     Args:
-        out: where; None: `runs/<scenario>-<robot>-<seed>-<time>/`, and `runs/latest` leads there.
+        out: where; None: `runs/<scenario>-<robot>-<seed>-<time>/`, and `runs/latest` leads there
+            once the run has begun.
         scenario: the scenario's name.
         robot: the robot's name.
         seed: the seed.
@@ -25,13 +30,17 @@ def make_run_folder(out: Path | None, scenario: str, robot: str, seed: int) -> P
         InputError: there is something already, or no folder can be made there.
         RecordingError: the disk is full or broken.
     """
+    was_there = out is not None and os.path.isdir(out)
     folder = _make(out, f"{scenario}-{robot}-{seed}")
-    if out is None:
-        try:
+    try:
+        yield folder
+        if out is None:
             _point_latest(folder)
-        except OSError as error:
-            raise InputError(f"--out: {folder}: {error.strerror}") from None
-    return folder
+    except BaseException:
+        shutil.rmtree(folder, ignore_errors=True)
+        if was_there:
+            folder.mkdir(exist_ok=True)
+        raise
 
 
 def make_experiment_folder(out: Path | None, experiment: str) -> Path:
@@ -81,8 +90,7 @@ def _make(out: Path | None, stem: str) -> Path:
             raise InputError(f"--out: {folder} exists already; a run is never overwritten")
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        kind = RecordingError if error.errno in _DISK else InputError
-        raise kind(f"--out: {folder}: {error.strerror}") from None
+        raise _refused(folder, error) from None
     return folder
 
 
@@ -107,8 +115,21 @@ def _unused(folder: Path) -> Path:
 
 
 def _point_latest(folder: Path) -> None:
-    """Let `runs/latest` lead to the folder, in one step."""
+    """Let `runs/latest` lead to the folder, in one step.
+
+    Raises:
+        InputError: there is something of that name.
+        RecordingError: the disk is full or broken.
+    """
     fresh = RUNS / f".latest-{os.getpid()}"
-    fresh.unlink(missing_ok=True)
-    fresh.symlink_to(folder.name)
-    fresh.replace(RUNS / "latest")
+    try:
+        fresh.unlink(missing_ok=True)
+        fresh.symlink_to(folder.name)
+        fresh.replace(RUNS / "latest")
+    except OSError as error:
+        raise _refused(folder, error) from None
+
+
+def _refused(folder: Path, error: OSError) -> InputError | RecordingError:
+    kind = RecordingError if error.errno in _DISK else InputError
+    return kind(f"--out: {folder}: {error.strerror}")

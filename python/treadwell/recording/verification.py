@@ -9,7 +9,8 @@ from typing import Any, Final
 from treadwell.errors import InputError
 from treadwell.files import read_content
 from treadwell.judging.result import Result, read_result
-from treadwell.physics.audit import TICK_SECONDS, replay_limited
+from treadwell.physics.audit import TICK_SECONDS
+from treadwell.physics.recorded_audit import replay_limited
 from treadwell.processor import likely_reason
 from treadwell.recording.file import whole_length
 from treadwell.recording.log_file import read_front, read_messages
@@ -56,7 +57,11 @@ class Verification:
 
 
 def verify(run_dirs: Iterable[Path]) -> list[Verification]:
-    """Verify the folders of runs, one after the other. Nothing in them can make it fail."""
+    """Verify the folders of runs, one after the other. Nothing in them can make it fail.
+
+    Raises:
+        ShellLimitError: the shell allows too little memory to step the physics.
+    """
     return [verify_run(Path(folder)) for folder in run_dirs]
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.episode import Episode, Step
-from treadwell.errors import CoreError, InputError, RecordingError
+from treadwell.errors import CoreError, InputError, RecordingError, TreadwellError
 from treadwell.judging.result import Result
 from treadwell.map_memory import RememberedMap
 from treadwell.recording.map_file import NAME as MAP
@@ -63,6 +63,7 @@ class Writers:
         self._thread: WritingThread | None = None
         self._viewer = viewer
         self._ticks = 0
+        self._place = _identity(folder)
         self._messages: list[Entry] = []
         self._frames: list[Trace] = []
         # First of all: the folder is then taken, and what was run is known however it ends.
@@ -106,6 +107,7 @@ class Writers:
             if self._ticks % _TICKS_A_JOB == 0:
                 self._hand_over()
         if self._ticks % _TICKS_A_FLUSH == 0:
+            self._check_place()
             self._episode.simulation.audit.flush()
         if self._viewer is not None and step.observation.depth is not None:
             self._viewer.sync()
@@ -156,15 +158,26 @@ class Writers:
         truth: Trajectory,
         remembered: RememberedMap,
         stairs: StairMemory,
+        problem: TreadwellError | None = None,
     ) -> None:
         """Close what is open and write the rest, `result.json` last.
 
+        Args:
+            result: of the run.
+            estimate: the believed way.
+            truth: the true one.
+            remembered: what the map last said of every cell.
+            stairs: what was known of stairs.
+            problem: what ended the run before its time; it is raised in the end.
+
         Raises:
+            TreadwellError: the problem.
             RecordingError: something could not be written; everything else was.
         """
         folder, episode = self._folder, self._episode
         jobs: list[Callable[[], None]] = [
             self._close,
+            self._check_place,
             lambda: estimate.write(folder / ESTIMATE),
             lambda: truth.write(folder / TRUTH),
             lambda: episode.simulation.save_audit(folder),
@@ -176,8 +189,13 @@ class Writers:
         for job in jobs:
             try:
                 job()
+            except _MovedError as error:
+                problem = error  # whatever else went wrong came of it
+                break
             except (OSError, RecordingError) as error:
                 first = first or error
+        if problem is not None:
+            raise problem
         if first is not None:
             raise RecordingError(f"{folder}: not everything could be written: {first}") from first
 
@@ -195,6 +213,18 @@ class Writers:
         course, path = self._episode.course, self._folder / PICTURE
         draw_map(path, course, result, remembered, estimate, truth, stairs)
 
+    def _check_place(self) -> None:
+        """Find out whether the folder is still where it was.
+
+        Raises:
+            RecordingError: it is not.
+        """
+        if _identity(self._folder) != self._place:
+            raise _MovedError(
+                f"{self._folder}: was removed or renamed while the run wrote into it; what was "
+                "written until then is where the folder is now"
+            )
+
     def _close(self) -> None:
         if self._viewer is not None:
             self._viewer.close()
@@ -207,6 +237,19 @@ class Writers:
             if self._thread is not None:
                 closing.callback(self._thread.close)
                 closing.callback(self._hand_over)
+
+
+class _MovedError(RecordingError):
+    """The folder of the run is no longer there."""
+
+
+def _identity(folder: Path) -> tuple[int, int] | None:
+    """Return what tells a folder from another of its name; None where there is none."""
+    try:
+        found = folder.stat()
+    except OSError:
+        return None
+    return found.st_dev, found.st_ino
 
 
 class NoWriters:

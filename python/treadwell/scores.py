@@ -1,0 +1,100 @@
+"""What a run's result says of an episode: collected on its way, put together at its end."""
+
+from treadwell.episode import Episode, Step
+from treadwell.judging.result import CollisionEntry, Result, StateEntry
+from treadwell.judging.verdict import Verdict
+from treadwell.map_memory import MapMemory
+from treadwell.measuring.measures import PoseErrors, timing
+from treadwell.measuring.score import map_counts, surfaces, true_cells
+from treadwell.measuring.step_watch import StepWatch
+from treadwell.measuring.watch import Watch
+from treadwell.processor import processor
+from treadwell.recording.stair_memory import StairMemory
+from treadwell.recording.tracing import stairs_of
+from treadwell.recording.trajectory import Trajectory
+from treadwell.version import __version__
+
+
+class Scores:
+    """Collects what the result says of an episode, one camera frame after the other."""
+
+    def __init__(self, episode: Episode, watch: type[Watch] | None = None) -> None:
+        """Begin with nothing."""
+        self._episode = episode
+        self.steps = StepWatch(episode)
+        self.watch = None if watch is None else watch(episode)
+        self.poses = PoseErrors()
+        self.estimate, self.truth = Trajectory(), Trajectory()
+        self.memory = MapMemory()
+        self.stairs = StairMemory()
+        self.states: list[StateEntry] = []
+        self._state: str | None = None
+
+    def tick(self, step: Step) -> None:
+        """Take in a control tick."""
+        self.steps.tick(step)
+        if step.state != self._state:
+            self._state = step.state
+            self.states.append(StateEntry(time=1e-9 * step.time_ns, state=step.state))
+
+    def frame(self, step: Step) -> None:
+        """Take in a camera frame, right after its tick."""
+        pilot, believed, truth = self._episode.pilot, step.estimate, self._episode.judge.frame
+        self.poses.add_level(believed.pose, believed.odometry, truth)
+        self.estimate.add_level(step.time_ns, believed.pose)
+        self.truth.add_level(step.time_ns, truth)
+        self.stairs.update(stairs_of(pilot), climbing=bool(step.footsteps))
+        self.memory.update(*pilot.floor())
+
+
+def result_of(episode: Episode, scores: Scores, verdict: Verdict, wall_seconds: float) -> Result:
+    """Return what came of an episode, judged by its scenario's expectations."""
+    judge, course, made = episode.judge, episode.course, episode.scenario
+    simulated = 1e-9 * episode.simulation.time_ns
+    remembered = scores.memory.map()
+    places = {
+        element.name: episode.events.place(element, episode.simulation.data)
+        for element in course.elements
+        if element.name in episode.events.present
+    }
+    passed = scores.truth.positions()[:, :2]
+    headroom = episode.robot.file.body.height
+    seen = remembered.kind.size > 0
+    seconds = episode.seconds
+    physics = sum(seconds["physics"])
+    result = Result(
+        scenario=made.name,
+        robot=episode.robot.name,
+        seed=made.seed,
+        version=__version__,
+        processor=processor(),
+        configuration=made.configuration(),
+        ablation=episode.ablation,
+        outcome=verdict.outcome,
+        reason=verdict.reason,
+        simulated_seconds=simulated,
+        wall_seconds=wall_seconds,
+        real_time_factor=simulated / max(wall_seconds, 1e-9),
+        physics_real_time_factor=simulated / max(physics, 1e-9),
+        falls=judge.falls,
+        collisions=[
+            CollisionEntry(
+                time=hit.time, robot_part=hit.robot_part, element=hit.element, impulse=hit.impulse
+            )
+            for hit in judge.collisions
+        ],
+        steps_taken=episode.pilot.steps_taken,
+        stairs_climbed=judge.stairs_climbed,
+        stairs_descended=judge.stairs_descended,
+        path_length=judge.path_length,
+        replans=episode.pilot.replans,
+        localization=scores.poses.errors(),
+        surfaces=surfaces(course, remembered, passed, places) if seen else [],
+        behaviour=scores.states,
+        timing_ms={stage: timing(values) for stage, values in seconds.items()},
+    )
+    if seen:
+        result.map = map_counts(
+            remembered, true_cells(episode.events.course_now(), remembered, headroom, places)
+        )
+    return result.judged_by(made.expect)
