@@ -20,6 +20,7 @@ position = [0.0, 0.0]
 position = [1.0, 0.0]
 """
 LEAST: dict[str, list[str]] = {
+    "cut_runs.py": ["--ends", "1", "--disks", "1", "--seconds", "0.3"],
     "episodes.py": ["SHORT", "--seeds", "0", "--workers", "1", "--audit"],
     "fuzz_files.py": ["--count", "3"],
     "kill_sweep.py": ["--kills", "1", "--episodes", "2"],

@@ -219,11 +219,12 @@ def test_a_run_without_its_audit_has_no_film(tmp_path: Path) -> None:
 def test_states_and_goal_are_the_results() -> None:
     result = read_result(recorded_run() / "result.json")
     first = result.behaviour[0]
-    assert state_at(result, first.time) == first.state
-    assert state_at(result, -1.0) == ""
-    assert goal_of(result, recorded_run())[:2] == tuple(result.configuration["goal"]["position"])
+    assert state_at(result.behaviour, first.time) == first.state
+    assert state_at(result.behaviour, -1.0) == ""
+    goal = result.configuration["goal"]["position"]
+    assert goal_of(result.configuration, recorded_run())[:2] == tuple(goal)
     with pytest.raises(InputError, match="goal"):
-        goal_of(result.model_copy(update={"configuration": {"goal": 3}}), recorded_run())
+        goal_of({"goal": 3}, recorded_run())
 
 
 def test_without_the_extra_the_message_names_it(tmp_path: Path) -> None:

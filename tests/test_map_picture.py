@@ -11,7 +11,7 @@ from matplotlib.image import imread
 from treadwell.judging.result import CollisionEntry
 from treadwell.map_memory import FLOOR, OBSTACLE
 from treadwell.poses import pose_matrix
-from treadwell.recording.map_picture import draw_map
+from treadwell.recording.map_picture import caption_of, draw_map
 from treadwell.recording.stair_memory import StairMemory
 from treadwell.recording.trajectory import Trajectory
 
@@ -53,7 +53,15 @@ def test_obstacles_floors_and_the_unknown_are_to_be_seen(tmp_path: Path) -> None
     remembered.height[20:30, 10:60] = np.linspace(0.0, 0.03, 50)
     remembered.kind[25, 20:25] = OBSTACLE
     told = result(made.scenario, outcome="refused", reason="too_narrow: a sentence", falls=1)
-    draw_map(tmp_path / "map.png", made.course, told, remembered, way(0.02), way(0.0), climbs())
+    draw_map(
+        tmp_path / "map.png",
+        made.course,
+        caption_of(told),
+        remembered,
+        way(0.02),
+        way(0.0),
+        climbs(),
+    )
     picture = pixels(tmp_path / "map.png")
     assert picture.shape[0] > 400
     assert picture.shape[1] > 600
@@ -70,7 +78,13 @@ def test_an_episode_that_ended_at_once_has_a_picture(tmp_path: Path, outcome: st
     told = result(made.scenario, outcome=outcome, collisions=[hit])
     empty = grid(rows=0, cols=0)
     draw_map(
-        tmp_path / "map.png", made.course, told, empty, Trajectory(), Trajectory(), StairMemory()
+        tmp_path / "map.png",
+        made.course,
+        caption_of(told),
+        empty,
+        Trajectory(),
+        Trajectory(),
+        StairMemory(),
     )
     assert pixels(tmp_path / "map.png").size > 0
 
@@ -81,7 +95,7 @@ def test_the_same_run_gives_the_same_picture(tmp_path: Path) -> None:
         draw_map(
             tmp_path / name,
             made.course,
-            result(made.scenario),
+            caption_of(result(made.scenario)),
             grid(),
             way(0.0),
             way(0.0),

@@ -146,7 +146,8 @@ def test_what_others_wrote_stays_text(copy: Path, tmp_path: Path) -> None:
 def test_what_is_missing_is_told(copy: Path, name: str) -> None:
     (copy / name).unlink()
     found = Page(report([copy]).read_text())
-    assert found.where(f"{name} is missing") < found.where("Run it again")
+    told = "cut off" if name == "result.json" else f"{name} is missing"
+    assert found.where(told) < found.where("Run it again")
 
 
 @pytest.mark.parametrize(
@@ -171,8 +172,8 @@ def test_a_run_that_was_cut_off_is_shown_as_far_as_it_went(tmp_path: Path) -> No
     (folder / "recording.rrd").write_bytes((recorded_run() / "recording.rrd").read_bytes()[:5000])
     found = Page(report([folder]).read_text())
     assert "stairs_up · qrio · seed 4" in found.texts[0]
-    assert found.where("cut off before its end") >= 0
-    seconds = float(found.texts[found.where("observed until") + 1].split()[0])
+    assert found.where("the run was cut off at ") >= 0
+    seconds = float(found.texts[found.where("recorded until") + 1].split()[0])
     assert 1.0 < seconds < 3.0
     assert execute(["report", str(folder)]) == 0
 

@@ -9,8 +9,8 @@ from treadwell.measuring.score import map_counts, surfaces, true_cells
 from treadwell.measuring.step_watch import StepWatch
 from treadwell.measuring.watch import Watch
 from treadwell.processor import processor
+from treadwell.recording.core_products import stairs_of
 from treadwell.recording.stair_memory import StairMemory
-from treadwell.recording.tracing import stairs_of
 from treadwell.recording.trajectory import Trajectory
 from treadwell.version import __version__
 

@@ -18,7 +18,7 @@ from treadwell.cli.options import (
     SetOption,
 )
 from treadwell.cli.output import ERROR, INTERRUPTED, PASSED, guarded, write_json
-from treadwell.interruption import leave_terminal
+from treadwell.interruption import SIGNALS, leave_terminal
 
 app = typer.Typer(
     name="treadwell",
@@ -252,6 +252,9 @@ def main() -> None:
         status = INTERRUPTED
     except SystemExit as error:
         status = error.code if isinstance(error.code, int) else ERROR
+    finally:
+        for number in SIGNALS:  # all is said; what comes now would only add a traceback
+            signal.signal(number, signal.SIG_IGN)
     sys.exit(status)
 
 

@@ -7,7 +7,7 @@ from typing import Annotated, Final
 import typer
 
 from treadwell.cli.options import JsonOption
-from treadwell.cli.output import PASSED, write_json
+from treadwell.cli.output import PASSED, write_json, write_message
 
 INSPECT_EXAMPLE: Final = "Example: treadwell inspect runs/latest"
 VERIFY_EXAMPLE: Final = "Example: treadwell verify runs/*"
@@ -36,10 +36,14 @@ def inspect(
 ) -> int:
     """Open a run's recording in the rerun viewer."""
     from treadwell.recording import recorder as recording
+    from treadwell.recording.cut_off import cut_run
 
+    cut = cut_run(run_dir)
+    if cut is not None:
+        write_message(f"{run_dir}: {cut.sentence()}")
     recording.inspect(run_dir, web=web)
     if as_json:
-        write_json({"run": str(run_dir)})
+        write_json({"run": str(run_dir), "cut": None if cut is None else cut.seconds})
     return PASSED
 
 

@@ -38,7 +38,12 @@ def verify(run_dirs: Sequence[Path], *, against: Path | None, as_json: bool) -> 
 
 def _found(run_dir: Path, against: Path | None) -> dict[str, Any]:
     (seen,) = verify_runs([run_dir])
+    cut = seen.cut
     table: dict[str, Any] = {"whole": seen.passed, "faults": list(seen.problems)}
+    table |= {"cut": None if cut is None else cut.seconds}
+    if cut is not None:
+        left = f"; what it left is whole, {seen.steps} physics steps are the same"
+        table["cut_sentence"] = cut.sentence() + ("" if seen.problems else left)
     if against is not None:
         first, other = read_header(against / NAME), read_header(run_dir / NAME)
         joints = first.get("joints", "").split(",")
@@ -55,7 +60,10 @@ def _found(run_dir: Path, against: Path | None) -> dict[str, Any]:
 
 
 def _sentence(table: dict[str, Any]) -> str:
-    parts = table["faults"] or ["whole, the same states"]
+    parts = table["faults"]
+    if "cut_sentence" in table:
+        parts = [table.pop("cut_sentence"), *parts]
+    parts = parts or ["whole, the same states"]
     if "first_difference" in table:
         parts = [*parts, table.pop("sentence", "the same recording, bit for bit")]
     return "; ".join(parts)

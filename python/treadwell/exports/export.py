@@ -6,6 +6,8 @@ from pathlib import Path
 from typing import Final
 
 from treadwell.errors import InputError, RecordingError
+from treadwell.recording.cut_off import is_cut_off
+from treadwell.recording.map_file import NAME as MAP
 from treadwell.scenario.loading import scenario_names
 
 
@@ -86,5 +88,11 @@ def export(run_dir: Path, to: str, out: Path | None = None) -> list[Path]:
         raise InputError(f"--out: {folder}: {error.strerror}") from None
     try:
         return list(work(folder))
+    except InputError as error:
+        if is_cut_off(run_dir) and not (run_dir / MAP).exists():
+            raise InputError(
+                f"{error} (the run was cut off; `treadwell replay {run_dir}` makes its map)"
+            ) from None
+        raise
     except OSError as error:
         raise RecordingError(f"{folder}: cannot be written: {error.strerror or error}") from error

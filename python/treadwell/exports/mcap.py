@@ -18,12 +18,15 @@ from treadwell.exports.recorded_points import SeenPoints, seen_points
 from treadwell.files import whole_file
 from treadwell.judging.result import read_result
 from treadwell.map_memory import RememberedMap
+from treadwell.observation import Observation
+from treadwell.recording.cut_off import cut_run, is_cut_off, ways
+from treadwell.recording.log_file import BrokenLogError
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import read_map
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
 from treadwell.recording.observation_log import read_observations
 from treadwell.recording.recorder import NAME as RECORDING
-from treadwell.recording.trajectory import ESTIMATE, TRUTH, quaternion, read_trajectory
+from treadwell.recording.trajectory import quaternion
 
 NAME: Final = "run.mcap"
 _SECOND: Final = 1_000_000_000
@@ -84,10 +87,11 @@ def _write(path: Path, told: list[Told]) -> None:
 
 
 def _messages(source: Path, schemas: Any) -> Iterator[Told]:  # noqa: ANN401
-    estimate, truth = (read_trajectory(source / name) for name in (ESTIMATE, TRUTH))
+    told = cut_run(source) or read_result(source / "result.json")
+    estimate, truth = ways(source)
     for topic, child, rows in (("/estimate", "robot", estimate), ("/truth", "robot_true", truth)):
         yield from _way(schemas, topic, child, rows)
-    for entry in read_result(source / "result.json").behaviour:
+    for entry in told.behaviour:
         when = _time(schemas, _ns(entry.time))
         line = schemas.Log(
             timestamp=when, level=schemas.LogLevel.Info, name="behaviour", message=entry.state
@@ -114,8 +118,17 @@ def _way(schemas: Any, topic: str, child: str, rows: NDArray[np.float64]) -> Ite
         yield Told(time_ns, "/tf", _transform(schemas, time_ns, child, row[1:8]))
 
 
+def _observations(path: Path) -> Iterator[Observation]:
+    """Yield a run's observations, of one that was cut off those up to there."""
+    try:
+        yield from read_observations(path)
+    except BrokenLogError:
+        if not is_cut_off(path.parent):
+            raise
+
+
 def _depth(schemas: Any, path: Path) -> Iterator[Told]:  # noqa: ANN401
-    for observation in read_observations(path):
+    for observation in _observations(path):
         if observation.depth is not None:
             time_ns, depth = observation.depth.arrival_ns, observation.depth.depth
             yield Told(time_ns, "/camera/depth", _image(schemas, time_ns, depth))

@@ -1,11 +1,11 @@
 """A film of a run: the robot from behind, the map beside it; MP4, or GIF by the file's ending."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,8 @@ from treadwell.film.follower import Follower, follow
 from treadwell.film.plan_panel import PlanPanel
 from treadwell.film.poses import TICK_S, RecordedPoses
 from treadwell.film.ray_camera import Disc, RayCamera
-from treadwell.judging.result import Result, read_result
+from treadwell.judging.result import StateEntry, read_result
+from treadwell.recording.cut_off import cut_run
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import read_map
 from treadwell.recording.trajectory import ESTIMATE, TRUTH, read_trajectory
@@ -33,12 +34,23 @@ _SIZE, _PLAN = (432, 320), (288, 320)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scene:
-    """What a run's pictures are drawn from."""
+    """What a run's pictures are drawn from.
+
+    Attributes:
+        poses: where everything was.
+        follower: where the camera is.
+        camera: draws.
+        goal: x, y and radius, m.
+        behaviour: the states, each with the time at which it began.
+        ways: (n, 8) the believed and the true trajectory; without rows where one is missing.
+    """
 
     poses: RecordedPoses
     follower: Follower
     camera: RayCamera
-    result: Result
+    goal: tuple[float, float, float]
+    behaviour: Sequence[StateEntry]
+    ways: tuple[NDArray[np.float64], NDArray[np.float64]]
 
     def picture(self, row: int) -> Picture:
         """Return what the following camera sees at a row of the audit."""
@@ -60,26 +72,39 @@ def scene_of(folder: Path, size: tuple[int, int] = _SIZE) -> Scene:
     Raises:
         InputError: result or audit are missing or broken, or the run ended before its first tick.
     """
-    result = read_result(folder / "result.json")
+    cut = cut_run(folder)
+    told = cut or read_result(folder / "result.json")
+    ways = _ways(folder) if cut is None else (cut.estimate, cut.truth)
     poses = RecordedPoses(folder)
     if not poses.count:
         raise InputError(f"{folder / 'physics.npz'}: not one tick was run")
-    x, y, radius = goal_of(result, folder)
-    camera = RayCamera(poses.model, size, Disc(x, y, radius))
-    return Scene(poses, follow(poses), camera, result)
+    goal = goal_of(told.configuration, folder)
+    camera = RayCamera(poses.model, size, Disc(*goal))
+    return Scene(poses, follow(poses), camera, goal, told.behaviour, ways)
 
 
-def goal_of(result: Result, folder: Path) -> tuple[float, float, float]:
+def _ways(folder: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return what there is of the trajectories."""
+    found = []
+    for name in (ESTIMATE, TRUTH):
+        try:
+            found.append(read_trajectory(folder / name))
+        except InputError:
+            found.append(np.empty((0, 8)))
+    return found[0], found[1]
+
+
+def goal_of(configuration: Mapping[str, Any], folder: Path) -> tuple[float, float, float]:
     """Return x, y and radius of the goal, m.
 
     Raises:
         InputError: the configuration has none.
     """
     try:
-        goal = result.configuration["goal"]
+        goal = configuration["goal"]
         x, y, radius = (float(v) for v in (*goal["position"], goal["radius"]))
     except (KeyError, TypeError, ValueError):
-        raise InputError(f"{folder / 'result.json'}: configuration.goal: there is none") from None
+        raise InputError(f"{folder}: its configuration has no goal") from None
     return x, y, radius
 
 
@@ -123,13 +148,8 @@ def _plan(folder: Path, scene: Scene) -> PlanPanel:
         surface = read_map(folder / MAP).surface
     except InputError:
         surface = None
-    ways = []
-    for name in (TRUTH, ESTIMATE):
-        try:
-            ways.append(read_trajectory(folder / name)[:, :4])
-        except InputError:
-            ways.append(np.empty((0, 4)))
-    return PlanPanel(_PLAN, surface, ways[0], ways[1], goal_of(scene.result, folder))
+    estimate, truth = (way[:, :4] for way in scene.ways)
+    return PlanPanel(_PLAN, surface, truth, estimate, scene.goal)
 
 
 def _frames(
@@ -144,7 +164,7 @@ def _frames(
         time_s = (row + 1) * TICK_S
         both = np.hstack([scene.picture(row), plan.at(time_s, scene.heading(row))])
         frame = Image.fromarray(both)
-        text = f"{time_s:5.1f} s   {state_at(scene.result, time_s)}"
+        text = f"{time_s:5.1f} s   {state_at(scene.behaviour, time_s)}"
         text += f"   {speed:g} x" if speed > 1.0 else ""
         ImageDraw.Draw(frame).text(
             (10, 8), text, font=font, fill=(20, 22, 28), stroke_width=2, stroke_fill=(240, 242, 245)
@@ -154,9 +174,9 @@ def _frames(
             progress(number + 1, len(rows))
 
 
-def state_at(result: Result, time_s: float) -> str:
+def state_at(behaviour: Sequence[StateEntry], time_s: float) -> str:
     """Return the behaviour's state at a time."""
-    states = [entry.state for entry in result.behaviour if entry.time <= time_s]
+    states = [entry.state for entry in behaviour if entry.time <= time_s]
     return states[-1] if states else ""
 
 

@@ -72,6 +72,19 @@ def part_bytes(folder: Path, name: str) -> int:
     return path.stat().st_size if path.is_file() else 0
 
 
+def part_rows(folder: Path, name: str) -> int | None:
+    """Return how many whole rows a part has; None where there is none.
+
+    Args:
+        folder: the run's.
+        name: the array's.
+    """
+    try:
+        return _rows(folder / PARTS / f"{name}.npy")
+    except (InputError, OSError, ValueError):
+        return None
+
+
 def _rows(path: Path) -> int:
     """Return how many rows a part has in truth."""
     with opened(path) as file:

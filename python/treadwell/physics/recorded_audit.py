@@ -124,8 +124,8 @@ def read_model(folder: Path) -> mujoco.MjModel:
         raise InputError(f"{folder / MODEL}: is missing or broken") from None
 
 
-def is_cut_off(folder: Path) -> bool:
-    """Say whether a run's audit is still in parts: it did not come to its end."""
+def in_parts(folder: Path) -> bool:
+    """Say whether an audit is still in parts: the run was cut off, or there was no room."""
     return (folder / PARTS).is_dir() and not os.path.lexists(folder / AUDIT)
 
 
@@ -135,7 +135,7 @@ def _steps(folder: Path) -> int:
     Raises:
         InputError: it is no archive as `save` writes it, whose arrays are as large as the file.
     """
-    if is_cut_off(folder):
+    if in_parts(folder):
         return part_bytes(folder, CTRL) // LEAST_ROW
     path = folder / AUDIT
     try:
@@ -157,7 +157,7 @@ def load_audit(folder: Path) -> tuple[mujoco.MjModel, dict[str, NDArray[Any]]]:
         InputError: a file is missing or broken, or they do not belong together.
     """
     model = read_model(folder)
-    if is_cut_off(folder):
+    if in_parts(folder):
         with TemporaryDirectory() as place:
             path = Path(place) / AUDIT
             try:

@@ -1,8 +1,9 @@
 """`map.png`: the remembered map from above, with the true course and the ways over it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -33,10 +34,37 @@ _LABELS_INCHES: Final = 0.45
 """Room below the map for the numbers and the name of its axis, whatever the map's height."""
 
 
+@dataclass(frozen=True, slots=True)
+class Caption:
+    """What a picture says of its run.
+
+    Attributes:
+        title: what was run and what came of it, two lines.
+        goal: the scenario's table.
+    """
+
+    title: str
+    goal: Mapping[str, Any]
+
+
+def caption_of(result: Result) -> Caption:
+    """Return what the picture of a whole run says."""
+    outcome = result.outcome.replace("_", " ")
+    if result.reason:
+        outcome += f" · {result.reason.split(':')[0].replace('_', ' ')}"
+    facts = f"{outcome} after {result.simulated_seconds:.1f} s, {result.path_length:.2f} m"
+    if result.falls:
+        facts += f", {result.falls} fall{'s' if result.falls > 1 else ''}"
+    hits = len(result.collisions)
+    facts += f", {hits} collision{'' if hits == 1 else 's'}"
+    title = f"{result.scenario} · {result.robot} · seed {result.seed}\n{facts}"
+    return Caption(title, result.configuration["goal"])
+
+
 def draw_map(
     path: Path,
     course: Course,
-    result: Result,
+    caption: Caption,
     remembered: RememberedMap,
     estimate: Trajectory,
     truth: Trajectory,
@@ -47,7 +75,7 @@ def draw_map(
     Args:
         path: of the PNG file.
         course: what truly stands where, and start and goal.
-        result: for title and goal.
+        caption: title and goal.
         remembered: what the map last said of every cell.
         estimate: the believed way.
         truth: the true one.
@@ -56,7 +84,7 @@ def draw_map(
     Raises:
         OSError: the file cannot be written.
     """
-    west, east, south, north = _bounds(course, result, remembered, truth)
+    west, east, south, north = _bounds(course, caption, remembered, truth)
     width, height = east - west, north - south
     scale = 9.0 / max(width, height / 0.7)
     figure = Figure(
@@ -69,7 +97,7 @@ def draw_map(
     _draw_course(axes, course)
     _draw_stairs(axes, stairs.stairs)
     _draw_ways(axes, estimate, truth, np.array(stairs.climbing, dtype=bool))
-    _draw_ends(axes, course, result)
+    _draw_ends(axes, course, caption)
     axes.set_xlim(west, east)
     axes.set_ylim(south, north)
     axes.set_aspect("equal")
@@ -81,7 +109,7 @@ def draw_map(
     bar = figure.colorbar(colours, ax=axes, shrink=0.85, pad=0.02, aspect=24)
     bar.set_label("floor height (mm)")
     bar.outline.set_visible(False)
-    axes.set_title(_title(result), fontsize=11, loc="left", pad=10)
+    axes.set_title(caption.title, fontsize=11, loc="left", pad=10)
     axes.legend(
         handles=[
             *axes.get_legend_handles_labels()[0],
@@ -104,26 +132,13 @@ def draw_map(
         )
 
 
-def _title(result: Result) -> str:
-    """Return what was run and what came of it, two lines."""
-    outcome = result.outcome.replace("_", " ")
-    if result.reason:
-        outcome += f" · {result.reason.split(':')[0].replace('_', ' ')}"
-    facts = f"{outcome} after {result.simulated_seconds:.1f} s, {result.path_length:.2f} m"
-    if result.falls:
-        facts += f", {result.falls} fall{'s' if result.falls > 1 else ''}"
-    hits = len(result.collisions)
-    facts += f", {hits} collision{'' if hits == 1 else 's'}"
-    return f"{result.scenario} · {result.robot} · seed {result.seed}\n{facts}"
-
-
 def _bounds(
-    course: Course, result: Result, remembered: RememberedMap, truth: Trajectory
+    course: Course, caption: Caption, remembered: RememberedMap, truth: Trajectory
 ) -> tuple[float, float, float, float]:
     """Return west, east, south and north of what is worth seeing, m."""
     row, col = np.nonzero(remembered.kind != UNKNOWN)
     seen = (np.column_stack([col, row]) + 0.5) * remembered.cell + np.array(remembered.origin)
-    points = [np.array([course.start.position, result.configuration["goal"]["position"]])]
+    points = [np.array([course.start.position, caption.goal["position"]])]
     points += [truth.positions()[:, :2], seen]
     points += [piece.outline for e in course.elements if e.present for piece in e.pieces]
     every = np.vstack([p for p in points if len(p)])
@@ -248,8 +263,8 @@ def _draw_ways(
         )
 
 
-def _draw_ends(axes: Axes, course: Course, result: Result) -> None:
-    goal = result.configuration["goal"]
+def _draw_ends(axes: Axes, course: Course, caption: Caption) -> None:
+    goal = caption.goal
     for position in goal["via"]:
         axes.add_patch(
             Circle(position, goal["radius"], fill=False, edgecolor=_GOAL, linestyle=":", zorder=6)

@@ -3,11 +3,12 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from treadwell._core import Pilot, Stair
+from treadwell._core import Pilot
 from treadwell.episode import Episode, Step
 from treadwell.poses import pose_matrix
+from treadwell.recording.core_products import occupied_by, stairs_of
 from treadwell.recording.rhythm import Rhythm
-from treadwell.trace import StairTrace, Trace
+from treadwell.trace import Trace
 
 _MOST_GUESSES = 1000
 """So many guesses of a localizer are shown, about, evenly out of all."""
@@ -25,7 +26,7 @@ def trace_of(episode: Episode, step: Step, rhythm: Rhythm | None = None) -> Trac
     pilot, data = episode.pilot, episode.simulation.data
     if rhythm is not None:
         rhythm.frame(step.time_ns)
-    occupied = _occupied(pilot) if rhythm is None or rhythm.voxels else _NOTHING
+    occupied = occupied_by(pilot) if rhythm is None or rhythm.voxels else _NOTHING
     if rhythm is not None and len(occupied):
         rhythm.voxels_taken()
     map_from_robot = pose_matrix(*step.estimate.pose)
@@ -66,26 +67,6 @@ def trace_of(episode: Episode, step: Step, rhythm: Rhythm | None = None) -> Trac
         body_orientations=data.xquat.copy(),
         timing=dict(zip(pilot.stages, pilot.timing, strict=True)),
     )
-
-
-def stairs_of(pilot: Pilot) -> tuple[StairTrace, ...]:
-    """Return the stairs that are seen or remembered."""
-    return tuple([_stair(stair) for stair in pilot.staircase().stairs])
-
-
-def _stair(stair: Stair) -> StairTrace:
-    return StairTrace(
-        front=np.array(stair.front),
-        back=np.array(stair.back),
-        front_fitted=stair.front_fit is not None,
-        back_fitted=stair.back_fit is not None,
-        steps_ago=stair.steps_ago,
-    )
-
-
-def _occupied(pilot: Pilot) -> NDArray[np.float32]:
-    middles, sides = pilot.occupied()
-    return np.column_stack([middles, sides]).astype(np.float32)
 
 
 def _guesses(pilot: Pilot) -> NDArray[np.float32]:

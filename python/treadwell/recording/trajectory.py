@@ -44,6 +44,10 @@ class Trajectory:
         """Append a pose (x m, y m, z m, yaw rad): to the bit what `add` does of its matrix."""
         self._numbers.extend((1e-9 * time_ns, *pose[:3], *turned(pose[3])))
 
+    def add_row(self, time_ns: int, pose: tuple[float, ...]) -> None:
+        """Append a pose: x, y, z m, quaternion x, y, z, w."""
+        self._numbers.extend((1e-9 * time_ns, *pose))
+
     def positions(self) -> NDArray[np.float64]:
         """Return the positions, (n, 3) m."""
         return self.rows[:, 1:4]

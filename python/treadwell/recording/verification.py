@@ -1,7 +1,8 @@
 """`treadwell verify`: a run's files are whole, belong together, and plain MuJoCo agrees."""
 
+import os
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -10,10 +11,12 @@ from treadwell.errors import InputError
 from treadwell.files import read_content
 from treadwell.judging.result import Result, read_result
 from treadwell.physics.audit import TICK_SECONDS
-from treadwell.physics.recorded_audit import replay_limited
+from treadwell.physics.parts import AUDIT
+from treadwell.physics.recorded_audit import in_parts, replay_limited
 from treadwell.processor import likely_reason
+from treadwell.recording.cut_off import RESULT, CutRun, cut_run
 from treadwell.recording.file import whole_length
-from treadwell.recording.log_file import read_front, read_messages
+from treadwell.recording.log_file import BrokenLogError, read_front, read_messages
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import PICTURE, read_map
 from treadwell.recording.observation_log import CORE, hash_of, header_of, read_observations
@@ -25,7 +28,8 @@ from treadwell.recording.trajectory import ESTIMATE, TRUTH, read_trajectory
 from treadwell.scenario.loading import read_toml
 from treadwell.version import __version__
 
-RESULT: Final = "result.json"
+_EARLY: Final = ("error", "interrupted")
+"""Outcomes of runs whose files may end at different ticks."""
 _PNG: Final = b"\x89PNG\r\n\x1a\n"
 _LARGEST_PICTURE: Final = 100_000_000
 """Bytes."""
@@ -43,17 +47,19 @@ class Verification:
         problems: a sentence for each thing that is wrong, with the file's name.
         steps: physics steps that plain MuJoCo repeated bit for bit.
         first_difference: the first physics step after which the states differ, None if none does.
+        cut: what is known of a run that was cut off; None of one that has a result.
     """
 
     folder: Path
     problems: tuple[str, ...]
     steps: int
     first_difference: int | None
+    cut: CutRun | None = None
 
     @property
     def passed(self) -> bool:
-        """Whether nothing is wrong."""
-        return not self.problems
+        """Whether nothing is wrong, and the run came to its end."""
+        return not self.problems and self.cut is None
 
 
 def verify(run_dirs: Iterable[Path]) -> list[Verification]:
@@ -66,28 +72,43 @@ def verify(run_dirs: Iterable[Path]) -> list[Verification]:
 
 
 def verify_run(folder: Path) -> Verification:
-    """Verify the folder of one run."""
+    """Verify the folder of one run. Of one that was cut off, what it left is looked at.
+
+    Raises:
+        ShellLimitError: the shell allows too little memory to step the physics.
+    """
     if not folder.is_dir():
         return Verification(folder, (f"{folder}: there is no such run",), 0, None)
     problems: list[str] = []
-    result = _result(folder, problems)
-    rows = _trajectories(folder, problems)
-    ticks, difference, steps_a_tick = _audit(folder, result, problems)
+    cut = cut_run(folder)
+    result = _result(folder, problems) if cut is None else None
+    early = cut is not None or (result is not None and result.outcome in _EARLY)
+    rows = [] if _unwritten(folder, ESTIMATE, cut) else _trajectories(folder, problems)
+    begun = cut is None or in_parts(folder) or (folder / AUDIT).exists()
+    ticks, difference, steps_a_tick = _audit(folder, result, problems) if begun else (None, None, 0)
     if result is not None and ticks is not None:
         simulated = round(result.simulated_seconds / _TICK)
-        if simulated != ticks:
+        # Where writing failed, or a tick was cut short, not every file has the last ticks.
+        if not (ticks <= simulated + 1 if early else ticks == simulated):
             problems.append(
                 f"physics.npz: {ticks} control ticks, but result.json has {simulated}: "
                 "they are of different runs"
             )
     if rows and result is not None and rows[-1] > result.simulated_seconds + 1e-6:
         problems.append(f"{ESTIMATE}: goes on after the end of the run")
-    _picture(folder, problems)
-    _map(folder, problems)
+    if not _unwritten(folder, PICTURE, cut):
+        _picture(folder, problems)
+    if not _unwritten(folder, MAP, cut):
+        _map(folder, problems)
     _scenario(folder, result, problems)
-    _recordings(folder, result, ticks, problems)
+    _recordings(folder, result, ticks, problems, early=early)
     steps = (ticks or 0) * steps_a_tick if difference is None else difference
-    return Verification(folder, tuple(problems), steps, difference)
+    return Verification(folder, tuple(problems), steps, difference, cut)
+
+
+def _unwritten(folder: Path, name: str, cut: CutRun | None) -> bool:
+    """Say whether a file is missing because the run was cut off before it was written."""
+    return cut is not None and not os.path.lexists(folder / name)
 
 
 def _result(folder: Path, problems: list[str]) -> Result | None:
@@ -165,39 +186,52 @@ def _scenario(folder: Path, result: Result | None, problems: list[str]) -> None:
 
 
 def _recordings(
-    folder: Path, result: Result | None, ticks: int | None, problems: list[str]
+    folder: Path, result: Result | None, ticks: int | None, problems: list[str], *, early: bool
 ) -> None:
     """Look at what `--no-record` leaves out: both files or none."""
     observations, recording = folder / OBSERVATIONS, folder / RECORDING
-    there = [path.is_file() for path in (observations, recording)]
+    there = [os.path.lexists(path) for path in (observations, recording)]
     if not any(there):
         return
     for path, is_there in zip((observations, recording), there, strict=True):
-        if not is_there:
+        if not is_there and not early:
             problems.append(f"{path}: is missing, though the run was recorded")
     if there[1]:
-        whole = whole_length(recording)
-        if whole < recording.stat().st_size or whole == 0:
-            problems.append(
-                f"{recording}: breaks off amid a message or is no rerun recording "
-                f"({whole} bytes of it are whole)"
-            )
+        _recording(recording, problems, early=early)
     if there[0]:
-        _observations(observations, result, ticks, problems)
+        _observations(observations, result, ticks, problems, early=early)
 
 
-def _observations(
-    path: Path, result: Result | None, ticks: int | None, problems: list[str]
-) -> None:
+def _recording(path: Path, problems: list[str], *, early: bool) -> None:
     try:
-        front = read_front(path)
-        header = header_of(front, path)
-        count = sum(1 for _ in read_observations(path))
-        others = Counter(message.topic for message in read_messages(path, _BESIDE))
+        whole, size = whole_length(path), path.stat().st_size
     except InputError as error:
         problems.append(str(error))
         return
-    if CORE in front.attachments and any(others[topic] != count for topic in _BESIDE):
+    if early and (whole or not size):
+        return  # it may break off amid a message: what came before is read
+    if whole < size or whole == 0:
+        problems.append(
+            f"{path}: breaks off amid a message or is no rerun recording "
+            f"({whole} bytes of it are whole)"
+        )
+
+
+def _observations(
+    path: Path, result: Result | None, ticks: int | None, problems: list[str], *, early: bool
+) -> None:
+    if early and path.is_file() and not path.stat().st_size:
+        return  # it was cut off before the first of it was written
+    try:
+        front = read_front(path)
+        header = header_of(front, path)
+        count = _count(read_observations(path), early=early)
+        others = Counter(m.topic for m in _whole(read_messages(path, _BESIDE), early=early))
+    except InputError as error:
+        problems.append(str(error))
+        return
+    fewest = count - 1 if early else count  # a tick's messages follow one another
+    if CORE in front.attachments and any(not fewest <= others[t] <= count for t in _BESIDE):
         found = ", ".join(f"{others[topic]} of {topic}" for topic in _BESIDE)
         problems.append(f"{path}: {count} observations, but {found}")
     if result is not None:
@@ -213,5 +247,22 @@ def _observations(
         wrong = [key for key, value in of_result.items() if header.get(key) != value]
         if wrong:
             problems.append(f"{path}: {', '.join(wrong)} not as in {RESULT}")
-    if ticks is not None and count != ticks:
+    if ticks is not None and count != ticks and not early:
         problems.append(f"{path}: {count} observations, but {ticks} control ticks")
+
+
+def _count(some: Iterator[object], *, early: bool) -> int:
+    return sum(1 for _ in _whole(some, early=early))
+
+
+def _whole(some: Iterator[Any], *, early: bool) -> Iterator[Any]:
+    """Yield what a log has up to where it breaks off, which only an early end explains.
+
+    Raises:
+        InputError: the log breaks off, and nothing explains it.
+    """
+    try:
+        yield from some
+    except BrokenLogError:
+        if not early:
+            raise

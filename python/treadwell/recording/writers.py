@@ -5,13 +5,11 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-import numpy as np
-from numpy.typing import NDArray
-
 from treadwell.episode import Episode, Step
-from treadwell.errors import CoreError, InputError, RecordingError, TreadwellError
+from treadwell.errors import InputError, RecordingError, TreadwellError
 from treadwell.judging.result import Result
 from treadwell.map_memory import RememberedMap
+from treadwell.recording.core_products import known_occupied
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import PICTURE, write_map
 from treadwell.recording.messages import encode_command, encode_estimate
@@ -182,7 +180,7 @@ class Writers:
             lambda: truth.write(folder / TRUTH),
             lambda: episode.simulation.save_audit(folder),
             lambda: self._draw(result, estimate, truth, remembered, stairs),
-            lambda: write_map(folder / MAP, remembered, occupied(episode)),
+            lambda: write_map(folder / MAP, remembered, known_occupied(episode.pilot)),
             lambda: result.write(folder / "result.json"),
         ]
         first: Exception | None = None
@@ -208,10 +206,10 @@ class Writers:
         stairs: StairMemory,
     ) -> None:
         # Late, because matplotlib takes half a second to import.
-        from treadwell.recording.map_picture import draw_map
+        from treadwell.recording.map_picture import caption_of, draw_map
 
         course, path = self._episode.course, self._folder / PICTURE
-        draw_map(path, course, result, remembered, estimate, truth, stairs)
+        draw_map(path, course, caption_of(result), remembered, estimate, truth, stairs)
 
     def _check_place(self) -> None:
         """Find out whether the folder is still where it was.
@@ -262,15 +260,6 @@ class NoWriters:
 
     def frame(self, trace: Trace) -> None:
         """Take in a camera frame."""
-
-
-def occupied(episode: Episode) -> NDArray[np.float32]:
-    """Return middle and side of each cube that the core holds to be occupied, (n, 4) m."""
-    try:
-        middles, sides = episode.pilot.occupied()
-    except CoreError:  # a core that has failed tells no more
-        return np.empty((0, 4), np.float32)
-    return np.column_stack([middles, sides]).astype(np.float32)
 
 
 def open_viewer(episode: Episode) -> Any:  # noqa: ANN401 - MuJoCo's viewer has no types

@@ -2,26 +2,26 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
 from treadwell._core import Pilot, Tick
 from treadwell.core_settings import build_core, guards, user_components
-from treadwell.errors import CoreError, InputError, RecordingError
+from treadwell.errors import CoreError, InputError
 from treadwell.guard import Guard, blamed
 from treadwell.interruption import Interruption
-from treadwell.judging.result import LocalizationErrors, StateEntry
-from treadwell.measuring.measures import PoseErrors, timing
-from treadwell.observation import Floats, Observation
-from treadwell.poses import pose_matrix, rotation_of
+from treadwell.measuring.measures import timing
+from treadwell.observation import Observation
 from treadwell.progress import Progress
+from treadwell.recording.core_products import known_occupied
 from treadwell.recording.log_file import BrokenLogError
 from treadwell.recording.messages import encode_command, encode_estimate
-from treadwell.recording.observation_log import read_answers, read_observations, read_truth
+from treadwell.recording.observation_log import read_answers, read_observations
 from treadwell.recording.run_folder import make_folder_beside
-from treadwell.recording.trajectory import ESTIMATE, Trajectory
 from treadwell.replaying.difference import Answer, Difference, between_answers
+from treadwell.replaying.findings import Findings
+from treadwell.replaying.folder import write_folder
 from treadwell.replaying.result import FirstDifference, ReplayFacts, ReplayResult
 from treadwell.replaying.source import Source, open_source
 from treadwell.version import __version__
@@ -48,53 +48,6 @@ class Replay:
         answered = facts.broken is not None or facts.compared == facts.observations
         same = facts.changed or (facts.first_difference is None and answered)
         return same and facts.error is None and not self.interrupted
-
-
-@dataclass
-class _Findings:
-    """What is collected on the way; poses as (tick, estimate, odometry) of camera frames."""
-
-    seconds: dict[str, list[float]] = field(
-        default_factory=lambda: {name: [] for name in Pilot.stages}
-    )
-    states: list[StateEntry] = field(default_factory=list)
-    frames: list[tuple[int, int, Floats, Floats]] = field(default_factory=list)
-    last: tuple[Observation, Tick] | None = None
-    ticks: int = 0
-    compared: int = 0
-    difference: Difference | None = None
-    declared: tuple[str | None, str | None] = (None, None)
-    broken: str | None = None
-    error: str | None = None
-    core_seconds: float = 0.0
-
-    def tick(self, observation: Observation, tick: Tick, pilot: Pilot) -> None:
-        """Take in a tick."""
-        now = observation.time_ns
-        for name, seconds in zip(Pilot.stages, pilot.timing, strict=True):
-            if not math.isnan(seconds):
-                self.seconds[name].append(seconds)
-        if not self.states or self.states[-1].state != tick.state:
-            self.states.append(StateEntry(time=1e-9 * now, state=tick.state))
-        if self.declared[0] is None and tick.outcome is not None:
-            self.declared = (tick.outcome, tick.reason)
-        if observation.depth is not None or now == 0:
-            self._frame(now, tick)
-        self.last = (observation, tick)
-        self.ticks += 1
-
-    def end(self) -> None:
-        """Add the last tick to the poses, as a run does."""
-        if self.last is not None:
-            observation, tick = self.last
-            if self.frames[-1:] == [] or self.frames[-1][0] != self.ticks - 1:
-                self.ticks -= 1
-                self._frame(observation.time_ns, tick)
-                self.ticks += 1
-
-    def _frame(self, time_ns: int, tick: Tick) -> None:
-        poses = pose_matrix(*tick.estimate), pose_matrix(*tick.odometry)
-        self.frames.append((self.ticks, time_ns, *poses))
 
 
 def replay(
@@ -125,28 +78,22 @@ def replay(
     pilot = build_core(source.scenario, source.core.settings, given, source.core.static_map)
     core = _GuardedCore(pilot, guarded)
     folder = make_folder_beside(out, Path(run_dir), "replay")
-    found, begin, interrupted = _Findings(), perf_counter(), False
-    try:
-        with Interruption() as interruption:
+    found, begin, interrupted = Findings(), perf_counter(), False
+    with Interruption() as interruption:
+        try:
             _loop(source, core, found, progress, begin, interruption)
-    except KeyboardInterrupt:
-        interrupted, found.error = True, "interrupted: the replay was interrupted"
-    except CoreError as error:
-        found.error = f"error: {error} at tick {found.ticks}"
-    except InputError:
-        folder.rmdir()
-        raise
-    found.end()
-    wall = perf_counter() - begin
-    result = _result(source, Path(run_dir), pilot, found, wall)
-    trajectory = Trajectory()
-    for _, time_ns, estimate, _ in found.frames:
-        trajectory.add(time_ns, estimate)
-    try:
-        trajectory.write(folder / ESTIMATE)
-        result.write(folder / "result.json")
-    except OSError as error:
-        raise RecordingError(f"{folder}: cannot be written: {error.strerror}") from error
+        except KeyboardInterrupt:
+            interrupted, found.error = True, "interrupted: the replay was interrupted"
+        except CoreError as error:
+            found.error = f"error: {error} at tick {found.ticks}"
+        except InputError:
+            folder.rmdir()
+            raise
+        interruption.hold()
+        found.end(source.path)
+        wall = perf_counter() - begin
+        result = _result(source, Path(run_dir), pilot, found, wall)
+        write_folder(folder, source.scenario, result, found, known_occupied(pilot))
     return Replay(result, folder, interrupted)
 
 
@@ -168,7 +115,7 @@ class _GuardedCore:
 def _loop(
     source: Source,
     core: _GuardedCore,
-    found: _Findings,
+    found: Findings,
     progress: Progress | None,
     begin: float,
     interruption: Interruption,
@@ -212,7 +159,7 @@ def _answers(path: Path) -> Iterator[Answer]:
 
 
 def _compare(
-    now: int, tick: Tick, recorded: Answer, joints: Sequence[str], found: _Findings
+    now: int, tick: Tick, recorded: Answer, joints: Sequence[str], found: Findings
 ) -> None:
     found.compared += 1
     if found.difference is not None:
@@ -226,23 +173,8 @@ def _compare(
         found.difference = Difference(found.ticks, 1e-9 * now, what)
 
 
-def _localization(source: Source, found: _Findings) -> LocalizationErrors | None:
-    """Return the errors against the recorded truth, read only now that the core has ended."""
-    errors = PoseErrors()
-    wanted = {tick: (estimate, odometry) for tick, _, estimate, odometry in found.frames}
-    try:
-        for tick, row in enumerate(read_truth(source.path)):
-            if tick in wanted:
-                truth = pose_matrix(row[0], row[1], row[2], 0.0)
-                truth[:3, :3] = rotation_of(row[3:])
-                errors.add(*wanted[tick], truth)
-    except BrokenLogError:
-        pass  # told with the observations
-    return errors.errors()
-
-
 def _result(
-    source: Source, run_dir: Path, pilot: Pilot, found: _Findings, wall: float
+    source: Source, run_dir: Path, pilot: Pilot, found: Findings, wall: float
 ) -> ReplayResult:
     difference = found.difference
     simulated = 0.0 if found.last is None else 1e-9 * found.last[0].time_ns + 0.01
@@ -257,7 +189,7 @@ def _result(
         real_time_factor=simulated / max(wall, 1e-9),
         steps_taken=pilot.steps_taken,
         replans=pilot.replans,
-        localization=_localization(source, found),
+        localization=found.errors.errors(),
         behaviour=found.states,
         timing_ms={stage: timing(values) for stage, values in found.seconds.items()},
         replay=ReplayFacts(

@@ -1,17 +1,20 @@
 """What a run's folder still has: everything that can be read, and a sentence for what cannot."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from treadwell.errors import InputError
-from treadwell.judging.result import Result, read_result
+from treadwell.judging.result import Result, StateEntry, read_result
+from treadwell.physics.parts import MODEL
+from treadwell.recording.cut_off import CutRun, cut_run, is_cut_off
 from treadwell.recording.map_file import PICTURE
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
-from treadwell.recording.observation_log import read_header, read_observations
+from treadwell.recording.observation_log import read_header
 from treadwell.recording.recorder import NAME as RECORDING
 from treadwell.recording.trajectory import ESTIMATE, TRUTH, headings, read_trajectory
 
@@ -23,6 +26,8 @@ KNOWN: Final = (
 """Files of a run."""
 _OPTIONAL: Final = (RECORDING, OBSERVATIONS)
 """What `--no-record` leaves out, both together."""
+_AS_IT_RUNS: Final = (RECORDING, OBSERVATIONS, MODEL, "scenario.toml")
+"""What is written as a run goes on."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,7 +41,7 @@ class RunData:
         problems: a sentence for each thing that is missing or broken.
         estimate: (n, 8) the believed trajectory; without rows where it is missing.
         truth: (n, 8) the true one.
-        seen_seconds: s, the time of the last observation; None where that does not matter.
+        cut: what is known of a run that was cut off; None of one that has a result.
     """
 
     folder: Path
@@ -45,12 +50,24 @@ class RunData:
     problems: list[str]
     estimate: NDArray[np.float64]
     truth: NDArray[np.float64]
-    seen_seconds: float | None = None
+    cut: CutRun | None = None
 
     @property
     def passed(self) -> bool:
         """Whether it met its expectations; a run without a result did not."""
         return self.result is not None and self.result.passed
+
+    @property
+    def configuration(self) -> dict[str, Any]:
+        """The scenario as it was run; empty where nothing says it."""
+        told = self.result or self.cut
+        return {} if told is None else told.configuration
+
+    @property
+    def behaviour(self) -> Sequence[StateEntry]:
+        """The states, each with the time at which it began."""
+        told = self.result or self.cut
+        return () if told is None else told.behaviour
 
     def name(self, key: str) -> str:
         """Return `scenario`, `robot`, `seed` or `version` as text; a dash where nothing says it."""
@@ -70,11 +87,12 @@ def read_run(folder: Path) -> RunData:
     if not any((folder / name).is_file() for name in KNOWN):
         raise InputError(f"{folder}: no run's folder: it has none of {', '.join(KNOWN)}")
     problems = _missing(folder)
+    cut = cut_run(folder)
+    if cut is not None:
+        problems.insert(0, f"the run was {cut.sentence()}; `treadwell replay` makes its map")
+        header = _header(folder / OBSERVATIONS, problems)
+        return RunData(folder, None, header, problems, cut.estimate, cut.truth, cut)
     result = read_result(folder / RESULT) if (folder / RESULT).is_file() else None
-    header: dict[str, str] = {}
-    seen: float | None = None
-    if result is None:
-        header, seen = _of_observations(folder / OBSERVATIONS, problems)
     ways = []
     for name in (ESTIMATE, TRUTH):
         try:
@@ -83,35 +101,28 @@ def read_run(folder: Path) -> RunData:
             if (folder / name).is_file():
                 problems.append(str(error))
             ways.append(np.empty((0, 8)))
-    return RunData(folder, result, header, problems, ways[0], ways[1], seen)
+    return RunData(folder, result, {}, problems, ways[0], ways[1])
 
 
 def _missing(folder: Path) -> list[str]:
     gone = [name for name in KNOWN if not (folder / name).is_file()]
     if set(_OPTIONAL) <= set(gone):
         gone = [name for name in gone if name not in _OPTIONAL]
-    problems = [f"{name} is missing" for name in gone]
-    if RESULT in gone:
-        problems.insert(0, "the run was cut off before its end: it has no result")
-    return problems
+    if is_cut_off(folder):
+        # The others are written in the end.
+        gone = [name for name in gone if name in _AS_IT_RUNS]
+    return [f"{name} is missing" for name in gone]
 
 
-def _of_observations(path: Path, problems: list[str]) -> tuple[dict[str, str], float | None]:
-    """Return what was run and until when, of a run without a result."""
+def _header(path: Path, problems: list[str]) -> dict[str, str]:
+    """Return what a log says was run."""
     if not path.is_file():
-        return {}, None
-    header: dict[str, str] = {}
-    last: int | None = None
+        return {}
     try:
-        header = read_header(path)
+        return read_header(path)
     except InputError as error:
         problems.append(str(error))
-    try:
-        for observation in read_observations(path):
-            last = observation.time_ns
-    except InputError as error:
-        problems.append(str(error))
-    return header, None if last is None else 1e-9 * last
+        return {}
 
 
 def pose_errors(run: RunData) -> tuple[NDArray[np.float64], ...]:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import tomli_w
@@ -11,6 +11,7 @@ from markupsafe import Markup
 
 from treadwell.errors import InputError
 from treadwell.judging.result import Result, Spread
+from treadwell.physics.parts import MODEL
 from treadwell.recording.map_file import PICTURE
 from treadwell.recording.scenario_file import without_nothing
 from treadwell.reporting.charts import Line, plot, state_lane
@@ -75,20 +76,20 @@ def run_section(
         anchor=anchor,
         title=title,
         subtitle=f"treadwell {run.name('version')}",
-        description="" if result is None else str(result.configuration.get("description") or ""),
+        description=str(run.configuration.get("description") or ""),
         folder=str(run.folder),
         passed=run.passed,
         outcome="cut off" if result is None else result.outcome.replace("_", " "),
-        reason="" if result is None else result.reason or "",
+        reason=_reason(run),
         failures=[] if result is None else result.failures,
         problems=problems,
         facts=_facts(run),
-        repeat=Repeat(()) if result is None else repeat_command(result.configuration, run.folder),
+        repeat=repeat_command(run.configuration, run.folder) if run.configuration else Repeat(()),
     )
     try:
         if (run.folder / PICTURE).is_file():
             section.picture = picture_uri(run.folder / PICTURE)
-        if pictures and result is not None:
+        if pictures and (run.folder / MODEL).is_file():
             section.shots = strip(run.folder)
     except InputError as error:
         if str(error) not in problems:
@@ -97,24 +98,31 @@ def run_section(
         section.film = film_uri(film) or ""
         section.film_kind = film.suffix.lower()[1:]
     section.plots = _plots(run)
+    section.configuration = _toml(run.configuration)
     if result is not None:
-        section.configuration = _toml(result)
         section.first_tables = _first_tables(result)
         section.tables = _tables(result)
     return section
 
 
-def _toml(result: Result) -> str:
+def _reason(run: RunData) -> str:
+    if run.result is not None:
+        return run.result.reason or ""
+    return "" if run.cut is None else run.cut.sentence()
+
+
+def _toml(configuration: dict[str, Any]) -> str:
     try:
-        return tomli_w.dumps(without_nothing(result.configuration))
+        return tomli_w.dumps(without_nothing(configuration))
     except (TypeError, ValueError, RecursionError):
-        return str(result.configuration)
+        return str(configuration)
 
 
 def _facts(run: RunData) -> list[tuple[str, str]]:
     result = run.result
     if result is None:
-        return [("observed until", f"{run.seen_seconds:.2f} s")] if run.seen_seconds else []
+        seconds = None if run.cut is None else run.cut.seconds
+        return [] if seconds is None else [("recorded until", f"{seconds:.2f} s")]
     facts = [
         ("simulated", f"{result.simulated_seconds:.1f} s"),
         ("against real time", f"{result.real_time_factor:.1f} ×"),
@@ -216,8 +224,8 @@ def _plots(run: RunData) -> list[Markup]:
     ends = [rows[-1, 0] for rows in (run.estimate, run.truth) if len(rows)]
     end = float(max([result.simulated_seconds if result else 0.0, *ends, 1e-3]))
     plots = []
-    if result is not None and result.behaviour:
-        plots.append(state_lane([(each.time, each.state) for each in result.behaviour], end))
+    if run.behaviour:
+        plots.append(state_lane([(each.time, each.state) for each in run.behaviour], end))
     times, place, turn = pose_errors(run)
     if len(times):
         plots.append(
@@ -241,10 +249,10 @@ def _plots(run: RunData) -> list[Markup]:
 
 
 def _distance(run: RunData) -> Line | None:
-    if run.result is None or not len(run.truth):
+    if not len(run.truth):
         return None
     try:
-        x, y = (float(value) for value in run.result.configuration["goal"]["position"])
+        x, y = (float(value) for value in run.configuration["goal"]["position"])
     except (KeyError, TypeError, ValueError):
         return None
     with np.errstate(over="ignore"):

@@ -29,7 +29,7 @@ def shots(folder: Path) -> list[tuple[str, str]]:
     for share in MOMENTS:
         row = round(share * (scene.poses.count - 1))
         time_s = (row + 1) * TICK_S
-        caption = f"{time_s:.1f} s {state_at(scene.result, time_s)}".rstrip()
+        caption = f"{time_s:.1f} s {state_at(scene.behaviour, time_s)}".rstrip()
         made.append((jpeg_uri(Image.fromarray(scene.picture(row))), caption))
     return made
 
