@@ -1,6 +1,7 @@
-"""A sweep that is killed (kill -9, workers and all) at random times until it is through.
+"""Sweeps that are ended at random times until they are through: kill -9, TERM, HUP, INT, INT twice.
 
 python benches/kill_sweep.py --kills 50 --episodes 120
+python benches/kill_sweep.py --sweeps 50 --kills 2 --episodes 8 --signals
 """
 
 import argparse
@@ -11,8 +12,9 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from into_results import add_options, write
 
@@ -29,8 +31,25 @@ position = [1.0, 0.0]
 """
 
 
+KILL: Final = (signal.SIGKILL,)
+WAYS: Final = (
+    KILL,
+    (signal.SIGTERM,),
+    (signal.SIGHUP,),
+    (signal.SIGINT,),
+    (signal.SIGINT, signal.SIGINT),
+)
+
+
 def killed_sweep(
-    scenario: Path, out: Path, *, kills: int, episodes: int, workers: int = 2
+    scenario: Path,
+    out: Path,
+    *,
+    kills: int,
+    episodes: int,
+    workers: int = 2,
+    ways: Sequence[Sequence[signal.Signals]] = (KILL,),
+    seed: int = 0,
 ) -> tuple[dict[str, Any], int]:
     """Run a sweep, kill it so many times, let it end; return its results and how often it died.
 
@@ -41,27 +60,43 @@ def killed_sweep(
     """
     command = [sys.executable, "-m", "treadwell.cli.app", "sweep", str(scenario)]
     command += ["--episodes", str(episodes), "--workers", str(workers), "--out", str(out), "--json"]
-    draw, journal = random.Random(episodes), out / "journal.jsonl"
+    draw, journal = random.Random(episodes + seed), out / "journal.jsonl"
     killed = 0
     for _ in range(kills):
         before = _size(journal)
-        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen(
+            command,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            preexec_fn=_with_signals,
+        )
         # Half of the kills at any time, the others soon after an episode was noted.
         if draw.random() < 0.5:
             _wait(process, lambda size=before: _size(journal) > size)
             time.sleep(draw.uniform(0.0, 0.3))
         else:
             time.sleep(draw.uniform(0.3, 4.0))
-        process.send_signal(signal.SIGKILL)
-        process.communicate()
-        killed += process.returncode == -signal.SIGKILL
+        way = draw.choice(ways)
+        for number in way:
+            process.send_signal(number)
+            time.sleep(0.05 if len(way) > 1 else 0.0)
+        _, messages = process.communicate()
+        assert "fault of treadwell" not in messages, messages
+        killed += process.returncode not in (0, 1)
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
     assert done.returncode in (0, 1), done.returncode
     document: dict[str, Any] = json.loads((out / "results.json").read_text())
     return document, killed
 
 
-def _wait(process: "subprocess.Popen[bytes]", over: Any) -> None:  # noqa: ANN401
+def _with_signals() -> None:
+    """Let signals count, also where this runs in the background of a shell that ignores them."""
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
+def _wait(process: "subprocess.Popen[str]", over: Any) -> None:  # noqa: ANN401
     while process.poll() is None and not over():
         time.sleep(0.005)
 
@@ -75,27 +110,36 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--kills", type=int, default=50)
     parser.add_argument("--episodes", type=int, default=120)
+    parser.add_argument("--sweeps", type=int, default=1)
+    parser.add_argument("--signals", action="store_true", help="not kill -9 alone")
     add_options(parser)
     options = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        scenario = Path(folder) / "short.toml"
-        scenario.write_text(SHORT)
-        out = Path(folder) / "out"
-        document, killed = killed_sweep(
-            scenario, out, kills=options.kills, episodes=options.episodes
-        )
-        lines = [
-            json.loads(line)["seed"] for line in (out / "journal.jsonl").read_text().splitlines()
-        ]
-    lost = set(range(options.episodes)) - {row["seed"] for row in document["episodes"]}
-    doubled = len(lines) - len(set(lines))
-    sys.stdout.write(
-        f"killed {killed} times: {len(document['episodes'])} of {options.episodes} episodes, "
-        f"{len(lost)} lost, {doubled} doubled\n"
-    )
-    done = f"{len(lost)} / {doubled} of {options.episodes}, killed {killed} times"
+    killed = lost = doubled = 0
+    for number in range(options.sweeps):
+        with tempfile.TemporaryDirectory() as folder:
+            scenario = Path(folder) / "short.toml"
+            scenario.write_text(SHORT)
+            out = Path(folder) / "out"
+            document, times = killed_sweep(
+                scenario,
+                out,
+                kills=options.kills,
+                episodes=options.episodes,
+                ways=WAYS if options.signals else (KILL,),
+                seed=number,
+            )
+            text = (out / "journal.jsonl").read_text()
+        seeds = [json.loads(line)["seed"] for line in text.splitlines()]
+        killed += times
+        lost += len(set(range(options.episodes)) - {row["seed"] for row in document["episodes"]})
+        doubled += len(seeds) - len(set(seeds))
+        sys.stderr.write(f"sweep {number + 1} of {options.sweeps}: ended {times} times\n")
+    of = options.sweeps * options.episodes
+    done = f"{lost} / {doubled} of {of}, ended {killed} times"
+    sys.stdout.write(f"episodes lost / doubled: {done}\n")
     rows = [{"what": "episodes lost / doubled", "measured": done}]
-    write(options, "Kill -9 at random times", None, rows)
+    title = "Sweeps ended by signals" if options.signals else "Kill -9 at random times"
+    write(options, title, None, rows)
     sys.exit(bool(lost or doubled))
 
 

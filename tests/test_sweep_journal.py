@@ -1,5 +1,6 @@
 """The journal: a line counts when its end is there."""
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -50,3 +51,19 @@ def test_a_broken_line_before_the_last_is_bad_input(tmp_path: Path) -> None:
 def test_a_journal_that_cannot_be_is_told(tmp_path: Path) -> None:
     with pytest.raises(RecordingError):
         Journal(tmp_path / "nowhere" / "journal.jsonl")
+
+
+@pytest.mark.parametrize("removed", [True, False])
+def test_a_folder_that_is_removed_or_renamed_is_told(tmp_path: Path, removed: bool) -> None:
+    folder = tmp_path / "sweep"
+    folder.mkdir()
+    journal = Journal(folder / "journal.jsonl")
+    journal.append({"seed": 1})
+    folder.rename(tmp_path / "other")
+    if removed:
+        shutil.rmtree(tmp_path / "other")
+    with pytest.raises(RecordingError, match="was removed or renamed while the sweep went on"):
+        journal.append({"seed": 2})
+    journal.close()
+    if not removed:
+        assert read_rows(tmp_path / "other" / "journal.jsonl") == [{"seed": 1}]

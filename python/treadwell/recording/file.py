@@ -1,5 +1,6 @@
 """The file of a recording: how far it is whole, and how much it can still grow."""
 
+import errno
 import math
 import os
 import resource
@@ -53,6 +54,22 @@ def cut_to_whole_messages(path: Path) -> None:
         os.truncate(path, whole_length(path))
     except (InputError, OSError):
         return  # it stays as it is: readable but for its end
+
+
+def write_fault(path: Path, error: OSError) -> str:
+    """Return why a file could not be written, with the room that is left where that is too little.
+
+    Args:
+        path: of the file.
+        error: that came of writing it.
+    """
+    told = str(error.strerror or error)
+    if error.errno not in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
+        return told
+    try:
+        return f"{told}, {room(path) / 1e6:.1f} MB are left"
+    except OSError:
+        return told
 
 
 def room(path: Path) -> float:

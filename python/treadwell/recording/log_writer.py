@@ -135,6 +135,15 @@ class LogWriter:
             if self._size > self._chunk_bytes:
                 self._end_chunk()
 
+    def flush(self) -> None:
+        """End the chunk, so that what was added is in the file.
+
+        Raises:
+            OSError: the file cannot be written.
+        """
+        self._end_chunk()
+        self._file.flush()
+
     def finish(self) -> None:
         """Write what is left and the summary.
 

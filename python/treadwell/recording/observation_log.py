@@ -27,6 +27,7 @@ from treadwell.files import opened, read_content
 from treadwell.observation import Observation
 from treadwell.processor import processor
 from treadwell.recording import cdr, messages
+from treadwell.recording.file import write_fault
 from treadwell.recording.log_file import (
     LARGEST_RECORD,
     BrokenLogError,
@@ -177,6 +178,17 @@ class ObservationLog:
         except OSError as error:
             raise self._failed(error) from error
 
+    def flush(self) -> None:
+        """Put what was appended into the file, where it outlives the process.
+
+        Raises:
+            RecordingError: the file cannot be written.
+        """
+        try:
+            self._writer.flush()
+        except OSError as error:
+            raise self._failed(error) from error
+
     def close(self) -> None:
         """Finish the file.
 
@@ -201,7 +213,7 @@ class ObservationLog:
     def _failed(self, error: OSError) -> RecordingError:
         return RecordingError(
             f"{self._path}: writing failed, what was recorded before stays readable: "
-            f"{error.strerror}"
+            f"{write_fault(self._path, error)}"
         )
 
 

@@ -145,6 +145,7 @@ class Writers:
         assert self._recorder is not None
         try:
             self._observations.append(messages)
+            self._observations.flush()
         finally:
             for trace in frames:
                 self._recorder.frame(trace)

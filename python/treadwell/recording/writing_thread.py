@@ -5,7 +5,7 @@ from queue import Queue
 from threading import Thread
 from typing import Final
 
-_MOST_JOBS: Final = 8
+_MOST_JOBS: Final = 2
 """Jobs that may wait: more would be lost where the process is killed, and take memory."""
 
 

@@ -55,6 +55,7 @@ class Journal:
         Raises:
             RecordingError: it could not be written; the file is as it was before.
         """
+        self._check_place()
         line = json.dumps(row, allow_nan=False, separators=(",", ":")).encode() + b"\n"
         try:
             _write(self._file, line)
@@ -65,6 +66,24 @@ class Journal:
             ) from error
         self._size += len(line)
         self.rows.append(row)
+
+    def _check_place(self) -> None:
+        """Find out whether the file is still where it was.
+
+        Raises:
+            RecordingError: it is not.
+        """
+        opened = os.fstat(self._file)
+        try:
+            there = os.stat(self._path)
+            is_there = (there.st_dev, there.st_ino) == (opened.st_dev, opened.st_ino)
+        except OSError:
+            is_there = False
+        if not is_there:
+            raise RecordingError(
+                f"{self._path}: was removed or renamed while the sweep went on; what was done "
+                "before is where the folder is now"
+            )
 
     def close(self) -> None:
         """Close the file."""
