@@ -37,6 +37,7 @@ TESTED_BY = {
     "course.check": "test_course.py",
     "course.levels": "test_course.py",
     "course.pieces": "test_course.py",
+    "recording.scores": "test_runner.py",
     "recording.products": "test_recording.py",
     "recording.stair_shapes": "test_recording.py",
     "reporting.data_uri": "test_reporting.py",

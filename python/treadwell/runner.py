@@ -7,26 +7,26 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from treadwell.episode import Episode, Step
+from treadwell.episode import Episode
 from treadwell.errors import CoreError, SimulationError, TreadwellError
 from treadwell.interruption import Interruption
-from treadwell.judging.result import CollisionEntry, Result, StateEntry
+from treadwell.judging.result import CollisionEntry, Result
 from treadwell.judging.verdict import Verdict
-from treadwell.map_memory import MapMemory, RememberedMap
+from treadwell.map_memory import RememberedMap
 from treadwell.measuring.clearance import least_clearance
-from treadwell.measuring.measures import PoseErrors, timing
+from treadwell.measuring.measures import timing
 from treadwell.measuring.score import map_counts, surfaces, true_cells
-from treadwell.measuring.step_watch import KnownTop, StepError, StepWatch
+from treadwell.measuring.step_watch import KnownTop, StepError
 from treadwell.measuring.watch import Watch
 from treadwell.physics.simulation import TICK_NS
 from treadwell.processor import processor
 from treadwell.progress import Progress
 from treadwell.recording.rhythm import Rhythm
 from treadwell.recording.run_folder import make_run_folder
-from treadwell.recording.stair_memory import StairMemory
-from treadwell.recording.tracing import stairs_of, trace_of
-from treadwell.recording.trajectory import Trajectory
+from treadwell.recording.scores import Scores
+from treadwell.recording.tracing import trace_of
 from treadwell.recording.writers import NoWriters, Writers, open_viewer
+from treadwell.scenario.model import Scenario
 from treadwell.version import __version__
 
 
@@ -69,40 +69,8 @@ class Run:
         return self.result.model_dump(mode="json", by_alias=True)
 
 
-class Scores:
-    """Collects what the result says of an episode, one camera frame after the other."""
-
-    def __init__(self, episode: Episode, watch: type[Watch] | None = None) -> None:
-        """Begin with nothing."""
-        self._episode = episode
-        self.steps = StepWatch(episode)
-        self.watch = None if watch is None else watch(episode)
-        self.poses = PoseErrors()
-        self.estimate, self.truth = Trajectory(), Trajectory()
-        self.memory = MapMemory()
-        self.stairs = StairMemory()
-        self.states: list[StateEntry] = []
-        self._state: str | None = None
-
-    def tick(self, step: Step) -> None:
-        """Take in a control tick."""
-        self.steps.tick(step)
-        if step.state != self._state:
-            self._state = step.state
-            self.states.append(StateEntry(time=1e-9 * step.time_ns, state=step.state))
-
-    def frame(self, step: Step) -> None:
-        """Take in a camera frame, right after its tick."""
-        pilot, believed, truth = self._episode.pilot, step.estimate, self._episode.judge.frame
-        self.poses.add_level(believed.pose, believed.odometry, truth)
-        self.estimate.add_level(step.time_ns, believed.pose)
-        self.truth.add_level(step.time_ns, truth)
-        self.stairs.update(stairs_of(pilot), climbing=bool(step.footsteps))
-        self.memory.update(*pilot.floor())
-
-
-def run(
-    scenario: str | Path,
+def run(  # noqa: PLR0913 - one an option
+    scenario: str | Path | Scenario,
     *,
     robot: str | None = None,
     seed: int | None = None,
@@ -111,12 +79,13 @@ def run(
     record: bool = True,
     view: bool = False,
     progress: Progress | None = None,
+    user_code: bool = True,
     **components: object,
 ) -> Run:
     """Run one episode and write its folder: the same as `treadwell run`.
 
     Args:
-        scenario: a name or a path.
+        scenario: a name, a path, or a scenario that is already loaded.
         robot: instead of the scenario's.
         seed: instead of the scenario's.
         overrides: settings `KEY=VALUE`, as `--set` takes them.
@@ -124,13 +93,21 @@ def run(
         record: False leaves out the recording and the observations.
         view: show the physics in a window; needs the extra `view`.
         progress: is told how the run gets on.
+        user_code: False: a scenario that names a Python class is refused.
         components: objects of the user's by slot, as in `planner=MyPlanner()`.
 
     Raises:
         InputError: anything that the user gave is bad; nothing was written.
         RecordingError: the recording cannot be written; what was written stays readable.
     """
-    episode = Episode(scenario, robot=robot, seed=seed, overrides=tuple(overrides), **components)
+    episode = Episode(
+        scenario,
+        robot=robot,
+        seed=seed,
+        overrides=tuple(overrides),
+        user_code=user_code,
+        **components,
+    )
     return run_episode(episode, out=out, record=record, view=view, progress=progress)
 
 

@@ -26,3 +26,6 @@ SetOption = Annotated[
 JsonOption = Annotated[
     bool, typer.Option("--json", help="Write JSON to standard output, and nothing else there.")
 ]
+NoUserCodeOption = Annotated[
+    bool, typer.Option("--no-user-code", help="Refuse a scenario that names a Python class.")
+]

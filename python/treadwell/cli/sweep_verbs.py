@@ -6,7 +6,7 @@ from typing import Annotated, Final
 
 import typer
 
-from treadwell.cli.options import JsonOption, RobotOption, SetOption
+from treadwell.cli.options import JsonOption, NoUserCodeOption, RobotOption, SetOption
 
 SWEEP_EXAMPLE: Final = (
     "Example: treadwell sweep slalom doorway --episodes 20 "
@@ -66,6 +66,7 @@ def sweep(  # noqa: PLR0913 - one an option
         Path | None,
         typer.Option("--out", metavar="DIR", help="Its folder; one that is there goes on."),
     ] = None,
+    no_user_code: NoUserCodeOption = False,
     as_json: JsonOption = False,
 ) -> int:
     """Run many episodes, side by side; the same command goes on where it was stopped."""
@@ -86,6 +87,7 @@ def sweep(  # noqa: PLR0913 - one an option
         workers=workers,
         care=cli_sweep.care(timeout, memory, keep),
         out=out,
+        user_code=not no_user_code,
         as_json=as_json,
     )
 

@@ -43,6 +43,7 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         actions: Literal["velocity", "footsteps"] = "velocity",
         overrides: Sequence[str] = (),
         render_mode: str | None = None,
+        user_code: bool = True,
     ) -> None:
         """Build the scenario once, so that what is bad in it is told here.
 
@@ -52,6 +53,7 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
             actions: what the agent does.
             overrides: settings `KEY=VALUE`, as `--set` takes them.
             render_mode: None, or `rgb_array`: the course from above.
+            user_code: False: a scenario that names a Python class is refused.
 
         Raises:
             InputError: anything of it is bad.
@@ -64,6 +66,7 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         self._asked: dict[str, Any] = {"robot": robot, "overrides": tuple(overrides)}
         self._scenario = scenario
         self._kind = actions
+        self._user_code = user_code
         self._episode: Episode | None = None
         self._view: TopView | None = None
         self._step: Step | None = None
@@ -144,7 +147,9 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         self.close()  # where nothing can be built, the episode before does not go on
         made = load_scenario(self._scenario, seed=seed, **self._asked)
         self._behaviour = Commanded(made.goal.height)
-        self._episode = Episode(made, behaviour=self._behaviour, planner=NoPlanner())
+        self._episode = Episode(
+            made, user_code=self._user_code, behaviour=self._behaviour, planner=NoPlanner()
+        )
         self._verdict: Verdict | None = None
         self._depth: NDArray[np.float32] | None = None
         self._actions = self._make_actions(self._episode)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from treadwell.episode import Episode
 from treadwell.errors import InputError, TreadwellError
 from treadwell.physics.audit import STATE
-from treadwell.runner import Scores
+from treadwell.recording.scores import Scores
 
 FROZEN: Final = Path(__file__).resolve().parent / "frozen" / "slalom.npz"
 TORQUE_UNIT: Final = 2.0**-10
