@@ -87,7 +87,7 @@ def run(  # noqa: PLR0913 - one an option
     Args:
         scenario: a name, a path, or a scenario that is already loaded.
         robot: instead of the scenario's.
-        seed: instead of the scenario's.
+        seed: instead of the scenario's; one seed gives one result on one kind of processor.
         overrides: settings `KEY=VALUE`, as `--set` takes them.
         out: the folder; it must be new or empty.
         record: False leaves out the recording and the observations.

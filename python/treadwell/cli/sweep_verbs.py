@@ -30,7 +30,12 @@ def sweep(  # noqa: PLR0913 - one an option
     *,
     episodes: Annotated[
         int | None,
-        typer.Option("--episodes", metavar="N", min=1, help="Seeds of each, 0 to N-1."),
+        typer.Option(
+            "--episodes",
+            metavar="N",
+            min=1,
+            help="Seeds of each, 0 to N-1; one seed gives one result on one kind of processor.",
+        ),
     ] = None,
     first_seed: Annotated[
         int, typer.Option("--first-seed", metavar="N", min=0, help="The first seed, if not 0.")

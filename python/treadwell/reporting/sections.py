@@ -48,6 +48,7 @@ class RunSection:
     problems: list[str]
     facts: list[tuple[str, str]]
     repeat: Repeat
+    processor: str = ""
     configuration: str = ""
     picture: str = ""
     shots: Sequence[Shot] = ()
@@ -84,6 +85,7 @@ def run_section(
         problems=problems,
         facts=_facts(run),
         repeat=Repeat(()) if result is None else repeat_command(result.configuration, run.folder),
+        processor="" if result is None else result.processor or "",
     )
     try:
         if (run.folder / PICTURE).is_file():
