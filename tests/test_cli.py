@@ -19,6 +19,7 @@ from treadwell.cli.progress import ProgressLine, line
 from treadwell.components import COMPONENTS
 from treadwell.errors import InputError, TreadwellError
 from treadwell.scenario.loading import scenario_names
+from treadwell.scenario.model import Scenario
 
 HEAD = 'schema = 1\nname = "x"\n[start]\n[goal]\n'
 
@@ -177,17 +178,18 @@ def test_run_hands_its_options_on_and_returns_the_outcomes_status(
 ) -> None:
     seen: dict[str, Any] = {}
 
-    def run(scenario: str, **options: object) -> SimpleNamespace:
+    def run(scenario: Scenario, **options: object) -> SimpleNamespace:
         seen.update(options, scenario=scenario)
         return SimpleNamespace(document=result(**changes), folder=tmp_path, least_clearance=0.1)
 
     monkeypatch.setitem(sys.modules, "treadwell.runner", SimpleNamespace(run=run))
-    arguments = ["run", "x", "--seed", "4", "--set", "a=1", "--set", "b=2", "--no-record"]
+    changed = ["--set", "time_limit=9", "--set", "goal.radius=0.2"]
+    arguments = ["run", "slalom", "--seed", "4", *changed, "--no-record", "--no-user-code"]
     assert execute([*arguments, "--json"]) == status
     assert json.loads(capsys.readouterr().out) == result(**changes)
-    assert seen["scenario"] == "x"
-    assert seen["seed"] == 4
-    assert seen["overrides"] == ["a=1", "b=2"]
+    made = seen["scenario"]
+    assert (made.name, made.seed, made.time_limit, made.goal.radius) == ("slalom", 4, 9.0, 0.2)
+    assert not seen["user_code"]
     assert not seen["record"]
     assert execute(arguments) == status
     assert result(**changes)["outcome"] in capsys.readouterr().out

@@ -217,7 +217,7 @@ def test_a_named_parts_table_goes_to_its_constructor() -> None:
 @pytest.mark.parametrize(
     ("setting", "message"),
     [
-        ("navigation.planner=no_such_package:Thing", "cannot import no_such_package"),
+        ("navigation.planner=no_such_package:Thing", "there is no module no_such_package"),
         ("navigation.planner=user_parts:Thing", "user_parts has no class Thing"),
         ("navigation.planner=user_parts:Still", "Still has no method plan"),
         ("navigation.Straight.points=1", r"cannot make user_parts:Straight.*2 or more"),

@@ -8,6 +8,8 @@ from user_parts import PARTS, Straight
 from treadwell.errors import InputError
 from treadwell.plugins import METHODS, check_component, load_component
 
+PLANNER = "class Planner:\n    def plan(self): ...\n"
+
 
 @pytest.mark.parametrize("slot", METHODS)
 def test_a_class_is_found_and_made(slot: str) -> None:
@@ -23,7 +25,7 @@ def test_parameters_are_keyword_arguments() -> None:
 def test_a_module_that_fails_on_import_is_bad_input_with_its_error(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (tmp_path / "halfway.py").write_text("import nothing_of_that_name\n")
+    (tmp_path / "halfway.py").write_text(f"import nothing_of_that_name\n{PLANNER}")
     monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(InputError, match=r"navigation\.planner: cannot import halfway: .*nothing_"):
         load_component("planner", "halfway:Planner", {})
@@ -41,16 +43,16 @@ def test_an_attribute_that_is_no_class_is_bad_input(
 def test_a_module_that_leaves_ends_nothing_but_is_bad_input(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (tmp_path / "leaving.py").write_text("import sys\nsys.exit(0)\n")
+    (tmp_path / "leaving.py").write_text(f"import sys\nsys.exit(0)\n{PLANNER}")
     monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(InputError, match="cannot import leaving: SystemExit"):
         load_component("planner", "leaving:Planner", {})
 
 
 def test_a_class_that_is_no_component_is_not_called(tmp_path: Path) -> None:
-    """Else a scenario file could run any program: `check` makes its components."""
+    """Else a scenario file could run any program."""
     made = tmp_path / "made"
-    with pytest.raises(InputError, match="planner: Popen has no method plan"):
+    with pytest.raises(InputError, match="subprocess:Popen: Popen has no method plan"):
         load_component("planner", "subprocess:Popen", {"args": ["touch", str(made)]})
     with pytest.raises(InputError, match="subprocess has no class run"):
         load_component("planner", "subprocess:run", {"args": ["touch", str(made)]})

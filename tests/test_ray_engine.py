@@ -1,5 +1,8 @@
-"""The same sweep on a Ray cluster of two nodes; skipped where Ray is not installed."""
+"""The same sweep on a Ray cluster of two nodes; skipped without Ray, but never in CI."""
 
+import os
+import re
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,13 +15,16 @@ from treadwell.sweeps.conduct import Care, conduct
 from treadwell.sweeps.engine import local_engine
 from treadwell.sweeps.request import crossed
 
+ROOT = Path(__file__).resolve().parent.parent
 CLOCK = {"wall_seconds", "core_ms", "folder", "reproduced"}
 
 
 @pytest.fixture
 def cluster(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Two nodes of one processor each, on this machine."""
-    ray = pytest.importorskip("ray", reason="the extra `ray` is not installed")
+    if not os.environ.get("CI"):
+        pytest.importorskip("ray", reason="the extra `ray` is not installed")
+    import ray
     from ray.cluster_utils import Cluster
 
     monkeypatch.setenv("RAY_USAGE_STATS_ENABLED", "0")
@@ -33,6 +39,8 @@ def cluster(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     made.shutdown()
 
 
+@pytest.mark.slow
+@pytest.mark.timeout(600)
 @pytest.mark.filterwarnings("ignore")  # Ray leaves files open, and warns of its own changes
 def test_on_two_nodes_episodes_come_out_as_on_one_machine(cluster: None, tmp_path: Path) -> None:  # noqa: ARG001
     request = crossed([short(tmp_path)], seeds=range(4))
@@ -51,3 +59,17 @@ def test_without_ray_the_command_says_what_to_install(
     asked = ["sweep", short(tmp_path), "--episodes", "1", "--engine", "ray"]
     assert execute([*asked, "--out", str(tmp_path / "out")]) == 2
     assert "pip install 'treadwell[ray]'" in capsys.readouterr().err
+
+
+def test_what_extras_bring_is_there_for_the_tests_all_but_the_window() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    extras = project["project"]["optional-dependencies"]
+    del extras["view"]
+    asked = {package(one) for wanted in extras.values() for one in wanted}
+    assert asked - set(map(package, project["dependency-groups"]["dev"])) == set()
+
+
+def package(requirement: str) -> str:
+    found = re.match(r"[\w.-]+", requirement)
+    assert found is not None
+    return found[0]

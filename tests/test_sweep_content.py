@@ -54,11 +54,11 @@ def test_a_planner_that_was_edited_is_another(
     (package / "helper.py").write_text("STEP = 1\n")
     setting = "navigation.planner=my_parts_of_a_sweep.planner:Mine"
     before = line(scenario, setting)
-    assert before.foreign
+    assert before.parts
     (package / "helper.py").write_text("STEP = 2\n")
     after = line(scenario, setting)
     assert after.hash != before.hash
-    assert line(scenario, "navigation.planner=there_is_no_such_module:Mine").foreign
+    assert line(scenario, "navigation.planner=there_is_no_such_module:Mine").parts
 
 
 def test_a_robots_mesh_that_was_changed_is_another_robot(tmp_path: Path) -> None:

@@ -142,7 +142,7 @@ def test_a_component_that_goes_wrong_takes_nothing_along(
         settings=["navigation.planner=sweep_builders:Odd"],
         vary=[f"navigation.Odd.how={','.join(ways)}"],
     )
-    assert all(line.foreign for line in request.lines)
+    assert all(line.parts for line in request.lines)
     document = swept(request, tmp_path / "out", seconds=8.0, memory=2 * GIGABYTE)
     rows = dict(zip(ways, document["episodes"], strict=True))
     assert rows["well"]["outcome"] == "timed_out"

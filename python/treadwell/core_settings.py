@@ -7,10 +7,14 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from treadwell._core import Octree, Pilot
-from treadwell.components import COMPONENTS
 from treadwell.errors import InputError
 from treadwell.guard import Guard
-from treadwell.plugins import check_component, load_component
+from treadwell.plugins import (
+    check_component,
+    foreign_parts,
+    load_component,
+    refuse_user_code,
+)
 from treadwell.scenario.messages import nearest
 from treadwell.scenario.model import Navigation, Scenario
 
@@ -110,15 +114,19 @@ def _over(own: Mapping[str, Any], asked: Mapping[str, Any]) -> dict[str, Any]:
     return both
 
 
-def user_components(scenario: Scenario, given: dict[str, object]) -> dict[str, Any]:
+def user_components(
+    scenario: Scenario, given: dict[str, object], *, user_code: bool = True
+) -> dict[str, Any]:
     """Return the components that are Python objects, by slot.
 
     Args:
         scenario: names those to load, as `package.module:Class`.
         given: objects that the caller brings; they beat the scenario's.
+        user_code: False: the scenario may name no class.
 
     Raises:
-        InputError: one cannot be loaded, lacks a method, or cannot do without a known start.
+        InputError: one cannot be loaded, lacks a method, or cannot do without a known start; or
+            the scenario names a class and may not.
     """
     for slot, component in given.items():
         check_component(slot, component)
@@ -131,13 +139,18 @@ def user_components(scenario: Scenario, given: dict[str, object]) -> dict[str, A
             f"{scenario.path or scenario.name}: start.known: found false; the localizer "
             f"{scenario.navigation.localizer} has to be told where it starts"
         )
-    loaded = {
-        slot: load_component(
-            slot, name, scenario.navigation.parameters().get(name.rpartition(":")[2], {})
-        )
-        for slot, name in scenario.navigation.slots().items()
-        if slot not in given and name not in COMPONENTS[slot]
-    }
+    where = str(scenario.path or scenario.name)
+    slots = {slot: name for slot, name in scenario.navigation.slots().items() if slot not in given}
+    parts, parameters = foreign_parts(slots), scenario.navigation.parameters()
+    if not user_code:
+        refuse_user_code(parts, where)
+    loaded = {}
+    for part in parts:
+        own = parameters.get(part.name.rpartition(":")[2], {})
+        try:
+            loaded[part.slot] = load_component(part.slot, part.name, own)
+        except InputError as error:
+            raise InputError(f"{where}: {error}") from error
     return {**loaded, **given}
 
 

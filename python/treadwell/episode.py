@@ -98,6 +98,7 @@ class Episode:
         robot: str | None = None,
         seed: int | None = None,
         overrides: tuple[str, ...] = (),
+        user_code: bool = True,
         **components: object,
     ) -> None:
         """Build everything.
@@ -107,6 +108,7 @@ class Episode:
             robot: instead of the scenario's.
             seed: instead of the scenario's.
             overrides: settings `KEY=VALUE`, as `--set` takes them.
+            user_code: False: a scenario that names a Python class is refused.
             components: objects of the user's by slot, as in `planner=MyPlanner()`.
 
         Raises:
@@ -136,7 +138,7 @@ class Episode:
         self.verdict: Verdict | None = None
         self.times = StageTimes(("physics", "depth"), Pilot.stages)
         brought = {slot: class_path(component) for slot, component in components.items()}
-        given = user_components(scenario, dict(components))
+        given = user_components(scenario, dict(components), user_code=user_code)
         self.guards = guards(scenario, given, set(components))
         given.update(self.guards)
         self.ablation = scenario.navigation.localizer == "truth" and "localizer" not in given

@@ -1,9 +1,17 @@
-"""User components: found by name or `package.module:Class`, made, checked for their methods."""
+"""User components: found by name or `package.module:Class`, made, checked for their methods.
+
+A class that a scenario names is input: it is looked at first (`class_source`), and may be refused.
+What an installed package brings by a name is the choice of whoever installed it.
+"""
 
 import importlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from treadwell.additions import class_of
+from treadwell.class_source import check_class, locate
 from treadwell.components import COMPONENTS
 from treadwell.errors import InputError
 
@@ -20,6 +28,90 @@ OPTIONAL = {"world_model": ("forget",), "planner": ("forget",)}
 """Slot -> the methods that are called where a component has them."""
 
 
+@dataclass(frozen=True, slots=True)
+class ForeignPart:
+    """A component that is Python of the user's or of an installed package.
+
+    Attributes:
+        slot: which component it is to be.
+        name: what the scenario calls it.
+        target: its class, `package.module:Class`.
+    """
+
+    slot: str
+    name: str
+    target: str
+
+    @property
+    def installed(self) -> bool:
+        """Whether an installed package brings it by a name; else the scenario names the class."""
+        return self.name != self.target
+
+    def examined(self) -> Path | None:
+        """Return the file that would be run, and run nothing; None: the module is in no file.
+
+        Raises:
+            InputError: there is no such module; or the scenario names what is not seen to be a
+                class with the methods of its protocol.
+        """
+        module, _, kind = self.target.partition(":")
+        try:
+            if not self.installed:
+                check_class(module, kind, METHODS[self.slot])
+            return locate(module).file
+        except InputError as error:
+            raise InputError(f"navigation.{self.slot}: {self.name}: {error}") from None
+
+
+def foreign_parts(slots: Mapping[str, str]) -> tuple[ForeignPart, ...]:
+    """Return the components that are not treadwell's own, of slot -> name.
+
+    Raises:
+        InputError: no installed package brings one, or two do.
+    """
+    return tuple(
+        ForeignPart(slot, name, name if ":" in name else class_of(slot, name))
+        for slot, name in slots.items()
+        if name not in COMPONENTS[slot]
+    )
+
+
+def examined(parts: Sequence[ForeignPart], where: str) -> dict[ForeignPart, Path | None]:
+    """Return the file that each part would run, as `ForeignPart.examined` does.
+
+    Raises:
+        InputError: as it does; with `where`, the scenario's file, before the key.
+    """
+    try:
+        return {part: part.examined() for part in parts}
+    except InputError as error:
+        raise InputError(f"{where}: {error}") from None
+
+
+def refuse_user_code(parts: Sequence[ForeignPart], where: str) -> None:
+    """Refuse classes that a scenario names.
+
+    Args:
+        parts: what `foreign_parts` returned.
+        where: the scenario's file.
+
+    Raises:
+        InputError: one is the scenario's; those of installed packages are let through.
+    """
+    for part in parts:
+        if not part.installed:
+            raise InputError(
+                f"{where}: navigation.{part.slot}: found {part.name!r}, which is code of the "
+                "user's; where --no-user-code (user_code=False) is asked for it must be a name of "
+                "`treadwell list components`"
+            )
+
+
+def stand_in(slot: str) -> object:
+    """Return an object with the methods of a slot's protocol, none of which does anything."""
+    return type("StandIn", (), dict.fromkeys(METHODS[slot], lambda *_: None))()
+
+
 def load_component(slot: str, name: str, parameters: dict[str, Any]) -> object:
     """Return an object of the class that `name` means.
 
@@ -32,7 +124,10 @@ def load_component(slot: str, name: str, parameters: dict[str, Any]) -> object:
         InputError: there is no such module or class, it cannot be made, or a method is missing.
     """
     where = f"navigation.{slot}"
-    module_name, _, class_name = (name if ":" in name else class_of(slot, name)).partition(":")
+    (part,) = foreign_parts({slot: name})
+    if not part.installed:
+        part.examined()
+    module_name, _, class_name = part.target.partition(":")
     try:
         module = importlib.import_module(module_name)
     except (Exception, SystemExit) as error:
@@ -40,7 +135,7 @@ def load_component(slot: str, name: str, parameters: dict[str, Any]) -> object:
     kind = getattr(module, class_name, None)
     if not isinstance(kind, type):
         raise InputError(f"{where}: {module_name} has no class {class_name}")
-    # Before it is called: a scenario may name any class there is, and making it may do anything.
+    # Before it is called: making a class may do anything.
     _check_methods(slot, kind, class_name)
     try:
         component: object = kind(**parameters)

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from treadwell.judging.result import Result
 
 _RUNS = "treadwell_runs"
+_NO_USER_CODE = "--treadwell-no-user-code"
 
 
 class ScenarioFailedError(Exception):
@@ -20,7 +21,10 @@ class ScenarioFailedError(Exception):
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Let a folder for the runs of failed scenarios be chosen."""
+    """Let a folder for the runs of failed scenarios be chosen, and the user's code be refused."""
+    parser.addoption(
+        _NO_USER_CODE, action="store_true", help="refuse scenarios that name a Python class"
+    )
     parser.addini(_RUNS, "folder for the runs of failed scenarios", default="runs/pytest")
 
 
@@ -66,7 +70,7 @@ class ScenarioItem(pytest.Item):
 
     def runtest(self) -> None:
         """Run it."""
-        run_scenario(self.path, runs_folder(self.config))
+        run_scenario(self.path, runs_folder(self.config), user_code=user_code(self.config))
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], *_: object) -> str:
         """Return what was not met and where the run lies, without a traceback of ours."""
@@ -84,7 +88,8 @@ def treadwell_scenario(request: pytest.FixtureRequest) -> Callable[..., "Result"
     """A function that runs a scenario as `treadwell.run` does, and fails where it does not pass."""
 
     def run(scenario: str | Path, **options: Any) -> "Result":  # noqa: ANN401 - as treadwell.run
-        return run_scenario(scenario, runs_folder(request.config), **options)
+        allowed = options.pop("user_code", True) and user_code(request.config)
+        return run_scenario(scenario, runs_folder(request.config), user_code=allowed, **options)
 
     return run
 
@@ -92,6 +97,11 @@ def treadwell_scenario(request: pytest.FixtureRequest) -> Callable[..., "Result"
 def runs_folder(config: pytest.Config) -> Path:
     """Return the folder for the runs of failed scenarios."""
     return config.rootpath / str(config.getini(_RUNS))
+
+
+def user_code(config: pytest.Config) -> bool:
+    """Return whether a scenario may name a Python class."""
+    return not config.getoption(_NO_USER_CODE)
 
 
 def run_scenario(scenario: str | Path, runs: Path, **options: Any) -> "Result":  # noqa: ANN401

@@ -22,6 +22,7 @@ from treadwell.recording.rhythm import Rhythm
 from treadwell.recording.run_folder import run_folder
 from treadwell.recording.tracing import trace_of
 from treadwell.recording.writers import NoWriters, Writers, open_viewer
+from treadwell.scenario.model import Scenario
 from treadwell.scores import Scores, result_of
 from treadwell.shell_limits import RECORDED_RUN, tightness
 
@@ -65,8 +66,8 @@ class Run:
         return self.result.model_dump(mode="json", by_alias=True)
 
 
-def run(
-    scenario: str | Path,
+def run(  # noqa: PLR0913 - one an option
+    scenario: str | Path | Scenario,
     *,
     robot: str | None = None,
     seed: int | None = None,
@@ -75,26 +76,35 @@ def run(
     record: bool = True,
     view: bool = False,
     progress: Progress | None = None,
+    user_code: bool = True,
     **components: object,
 ) -> Run:
     """Run one episode and write its folder: the same as `treadwell run`.
 
     Args:
-        scenario: a name or a path.
+        scenario: a name, a path, or a scenario that is already loaded.
         robot: instead of the scenario's.
-        seed: instead of the scenario's.
+        seed: instead of the scenario's; one seed gives one result on one kind of processor.
         overrides: settings `KEY=VALUE`, as `--set` takes them.
         out: the folder; it must be new or empty.
         record: False leaves out the recording and the observations.
         view: show the physics in a window; needs the extra `view`.
         progress: is told how the run gets on.
+        user_code: False: a scenario that names a Python class is refused.
         components: objects of the user's by slot, as in `planner=MyPlanner()`.
 
     Raises:
         InputError: anything that the user gave is bad; nothing was written.
         RecordingError: the recording cannot be written; what was written stays readable.
     """
-    episode = Episode(scenario, robot=robot, seed=seed, overrides=tuple(overrides), **components)
+    episode = Episode(
+        scenario,
+        robot=robot,
+        seed=seed,
+        overrides=tuple(overrides),
+        user_code=user_code,
+        **components,
+    )
     return run_episode(episode, out=out, record=record, view=view, progress=progress)
 
 

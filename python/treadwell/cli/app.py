@@ -12,6 +12,7 @@ import typer
 from treadwell.cli import list_verbs, run_verbs, sweep_verbs
 from treadwell.cli.options import (
     JsonOption,
+    NoUserCodeOption,
     RobotOption,
     ScenarioArgument,
     SeedOption,
@@ -47,7 +48,7 @@ def _options(
 
 
 @app.command(epilog="Example: treadwell run slalom --seed 3 --set physics.friction=0.6")
-def run(
+def run(  # noqa: PLR0913 - one an option
     scenario: ScenarioArgument,
     *,
     robot: RobotOption = None,
@@ -61,6 +62,7 @@ def run(
         bool, typer.Option("--record/--no-record", help="Keep the recording and observations.")
     ] = True,
     view: Annotated[bool, typer.Option("--view", help="Watch the physics in a window.")] = False,
+    no_user_code: NoUserCodeOption = False,
     as_json: JsonOption = False,
 ) -> int:
     """Run one closed-loop episode, and say how it went."""
@@ -74,6 +76,7 @@ def run(
         out=out,
         record=record,
         view=view,
+        user_code=not no_user_code,
         as_json=as_json,
     )
 
@@ -90,7 +93,7 @@ def check(
     settings: SetOption = None,
     as_json: JsonOption = False,
 ) -> int:
-    """Check a scenario file and say what it would build; nothing is run."""
+    """Check a scenario file and say what it would build; nothing is run, nor imported."""
     from treadwell.cli import check as cli_check
 
     document = cli_check.checked(scenario, robot=robot, seed=seed, settings=settings or [])

@@ -6,6 +6,7 @@ from typing import Any
 from treadwell.cli.output import write_table
 from treadwell.course.build import build_course
 from treadwell.course.course import Course
+from treadwell.plugins import ForeignPart, examined, foreign_parts, stand_in
 from treadwell.robot.load import load_robot
 from treadwell.scenario.event_table import EventTable
 from treadwell.scenario.loading import load_scenario
@@ -29,7 +30,9 @@ def checked(
     scenario = load_scenario(name_or_path, robot=robot, seed=seed, overrides=settings)
     body = load_robot(scenario.robot)
     course = build_course(scenario, body)
-    _check_components(scenario)
+    parts = foreign_parts(scenario.navigation.slots())
+    files = examined(parts, str(scenario.path))
+    _check_components(scenario, parts)
     return {
         "scenario": scenario.name,
         "description": scenario.description,
@@ -49,6 +52,10 @@ def checked(
         "elements": _elements(course),
         "events": [_event(event) for event in course.events],
         "navigation": scenario.navigation.slots(),
+        "python": [
+            {"slot": p.slot, "name": p.name, "class": p.target, "file": str(file or "")}
+            for p, file in files.items()
+        ],
         "expect": scenario.expect.model_dump(mode="json"),
         "configuration": scenario.configuration(),
     }
@@ -74,6 +81,10 @@ def show(document: Mapping[str, Any]) -> None:
         (
             "navigation",
             ", ".join(f"{slot} {name}" for slot, name in document["navigation"].items()),
+        ),
+        *(
+            ("python", f"{entry['slot']} {entry['class']} {entry['file']}: named, not loaded")
+            for entry in document["python"]
         ),
         (
             "expects",
@@ -103,15 +114,18 @@ def show(document: Mapping[str, Any]) -> None:
         )
 
 
-def _check_components(scenario: Scenario) -> None:
+def _check_components(scenario: Scenario, parts: Sequence[ForeignPart]) -> None:
     """Let the core read the components' parameters: what they may be, only it knows.
+
+    In the place of parts in Python stands something that does nothing: none of them is loaded.
 
     Raises:
         InputError: with the file and the key that the core refuses.
     """
     from treadwell.episode import Episode
 
-    Episode(scenario)
+    given: dict[str, Any] = {part.slot: stand_in(part.slot) for part in parts}
+    Episode(scenario, user_code=False, **given)
 
 
 def _elements(course: Course) -> list[dict[str, Any]]:

@@ -15,7 +15,13 @@ RobotOption = Annotated[
     typer.Option("--robot", metavar="NAME", help="A robot's name or folder, not the file's."),
 ]
 SeedOption = Annotated[
-    int | None, typer.Option("--seed", metavar="N", min=0, help="Seed of all that is random.")
+    int | None,
+    typer.Option(
+        "--seed",
+        metavar="N",
+        min=0,
+        help="Seed of all that is random; one seed gives one result on one kind of processor.",
+    ),
 ]
 SetOption = Annotated[
     list[str] | None,
@@ -25,4 +31,7 @@ SetOption = Annotated[
 ]
 JsonOption = Annotated[
     bool, typer.Option("--json", help="Write JSON to standard output, and nothing else there.")
+]
+NoUserCodeOption = Annotated[
+    bool, typer.Option("--no-user-code", help="Refuse a scenario that names a Python class.")
 ]

@@ -3,12 +3,16 @@
 import json
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from typing import Any, Final
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
 
 from treadwell.errors import InputError, TreadwellError
 from treadwell.shell_limits import RECORDED_RUN, tightness
+
+if TYPE_CHECKING:
+    from treadwell.plugins import ForeignPart
 
 PASSED: Final = 0
 FAILED: Final = 1
@@ -30,6 +34,17 @@ def write_message(text: str) -> None:
     with suppress(OSError):  # nobody is there any more to read it
         sys.stderr.write(text.rstrip("\n") + "\n")
         sys.stderr.flush()
+
+
+def announce(parts: "Mapping[ForeignPart, Path | None]") -> None:
+    """Say which Python a scenario is about to run, on standard error; nothing where it is none.
+
+    Args:
+        parts: what `treadwell.plugins.examined` returned.
+    """
+    for part, file in parts.items():
+        named = f"{part.name} = {part.target}" if part.installed else part.name
+        write_message(f"python:    runs {part.slot} {named}" + (f" ({file})" if file else ""))
 
 
 _WIDTH_OF_A_FILE: Final = 160

@@ -9,26 +9,36 @@ from treadwell.cli.output import (
     FAILED,
     INTERRUPTED,
     PASSED,
+    announce,
     write_json,
     write_message,
     write_table,
 )
 from treadwell.cli.progress import ProgressLine
+from treadwell.plugins import examined, foreign_parts
 
 
-def replay(run_dir: Path, *, settings: Sequence[str], out: Path | None, as_json: bool) -> int:
+def replay(
+    run_dir: Path, *, settings: Sequence[str], out: Path | None, user_code: bool, as_json: bool
+) -> int:
     """Replay a run, write what came of it, and return the exit status.
 
     Args:
         run_dir: the run's folder.
         settings: `KEY=VALUE` each.
         out: the replay's folder.
+        user_code: False: a run whose scenario names a Python class is refused.
         as_json: write `result.json` to standard output instead of a table.
     """
-    from treadwell.replaying.replay import replay as replay_run
+    from treadwell.replaying.replay import replay_source
+    from treadwell.replaying.source import open_source
 
+    source = open_source(run_dir, settings)
+    if user_code:
+        parts = foreign_parts(source.scenario.navigation.slots())
+        announce(examined(parts, str(source.path)))
     with ProgressLine(run_dir.name) as progress:
-        done = replay_run(run_dir, overrides=settings, out=out, progress=progress)
+        done = replay_source(source, run_dir, out=out, progress=progress, user_code=user_code)
     document = done.result.document()
     facts = document["replay"]
     if as_json:

@@ -9,17 +9,20 @@ from treadwell.cli.output import (
     FAILED,
     INTERRUPTED,
     PASSED,
+    announce,
     write_json,
     write_message,
     write_table,
 )
 from treadwell.cli.progress import ProgressLine
+from treadwell.plugins import examined, foreign_parts
+from treadwell.scenario.loading import load_scenario
 
 STATUS: Final = {"interrupted": INTERRUPTED, "error": ERROR}
 """Outcomes that are not the robot's doing -> exit status."""
 
 
-def run(
+def run(  # noqa: PLR0913 - one an option
     scenario: str,
     *,
     robot: str | None,
@@ -28,6 +31,7 @@ def run(
     out: Path | None,
     record: bool,
     view: bool,
+    user_code: bool,
     as_json: bool,
 ) -> int:
     """Run an episode, write its result, and return the exit status.
@@ -40,20 +44,17 @@ def run(
         out: the run's folder.
         record: keep the recording and the observations.
         view: show the physics in a window.
+        user_code: False: a scenario that names a Python class is refused.
         as_json: write `result.json` to standard output instead of a table.
     """
     from treadwell.runner import run as run_episode
 
+    made = load_scenario(scenario, robot=robot, seed=seed, overrides=settings)
+    if user_code:
+        announce(examined(foreign_parts(made.navigation.slots()), str(made.path)))
     with ProgressLine(Path(scenario).stem) as progress:
         result = run_episode(
-            scenario,
-            robot=robot,
-            seed=seed,
-            overrides=settings,
-            out=out,
-            record=record,
-            view=view,
-            progress=progress,
+            made, out=out, record=record, view=view, progress=progress, user_code=user_code
         )
     document = result.document
     if as_json:

@@ -6,7 +6,7 @@ from typing import Annotated, Final
 
 import typer
 
-from treadwell.cli.options import JsonOption
+from treadwell.cli.options import JsonOption, NoUserCodeOption
 from treadwell.cli.output import PASSED, write_json, write_message
 
 INSPECT_EXAMPLE: Final = "Example: treadwell inspect runs/latest"
@@ -75,12 +75,19 @@ def replay(
         Path | None,
         typer.Option("--out", metavar="DIR", help="Its folder; default: a new one beside."),
     ] = None,
+    no_user_code: NoUserCodeOption = False,
     as_json: JsonOption = False,
 ) -> int:
     """Run the core again over what a run recorded, without MuJoCo, and compare its answers."""
     from treadwell.cli import replay as cli_replay
 
-    return cli_replay.replay(run_dir, settings=settings or [], out=out, as_json=as_json)
+    return cli_replay.replay(
+        run_dir,
+        settings=settings or [],
+        out=out,
+        user_code=not no_user_code,
+        as_json=as_json,
+    )
 
 
 def report(

@@ -8,7 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from treadwell.cli.output import FAILED, PASSED, write_json, write_message, write_table
+from treadwell.cli.output import (
+    FAILED,
+    PASSED,
+    announce,
+    write_json,
+    write_message,
+    write_table,
+)
 from treadwell.cli.sweep_progress import SweepProgress
 from treadwell.errors import InputError
 from treadwell.recording.run_folder import sweep_folder
@@ -92,6 +99,7 @@ def sweep(
     workers: int | None,
     care: Care,
     out: Path | None,
+    user_code: bool,
     as_json: bool,
 ) -> int:
     """Run a sweep, show its counts, and return the exit status.
@@ -102,6 +110,7 @@ def sweep(
         workers: episodes at a time; None: as many as there are cores.
         care: limits, and what is kept.
         out: the folder.
+        user_code: False: a scenario that names a Python class is refused.
         as_json: write the counts to standard output as JSON instead of a table.
 
     Raises:
@@ -109,6 +118,9 @@ def sweep(
         RecordingError: the folder cannot be written.
     """
     request = asked.request()
+    if not user_code:
+        request.refuse_user_code()
+    announce(request.python())
     folder = sweep_folder(out, asked.name)
     with SweepProgress(len(request.keys())) as progress:
         try:

@@ -6,7 +6,7 @@ from typing import Annotated, Final
 
 import typer
 
-from treadwell.cli.options import JsonOption, RobotOption, SetOption
+from treadwell.cli.options import JsonOption, NoUserCodeOption, RobotOption, SetOption
 
 SWEEP_EXAMPLE: Final = (
     "Example: treadwell sweep slalom doorway --episodes 20 "
@@ -30,7 +30,12 @@ def sweep(  # noqa: PLR0913 - one an option
     *,
     episodes: Annotated[
         int | None,
-        typer.Option("--episodes", metavar="N", min=1, help="Seeds of each, 0 to N-1."),
+        typer.Option(
+            "--episodes",
+            metavar="N",
+            min=1,
+            help="Seeds of each, 0 to N-1; one seed gives one result on one kind of processor.",
+        ),
     ] = None,
     first_seed: Annotated[
         int, typer.Option("--first-seed", metavar="N", min=0, help="The first seed, if not 0.")
@@ -66,6 +71,7 @@ def sweep(  # noqa: PLR0913 - one an option
         Path | None,
         typer.Option("--out", metavar="DIR", help="Its folder; one that is there goes on."),
     ] = None,
+    no_user_code: NoUserCodeOption = False,
     as_json: JsonOption = False,
 ) -> int:
     """Run many episodes, side by side; the same command goes on where it was stopped."""
@@ -86,6 +92,7 @@ def sweep(  # noqa: PLR0913 - one an option
         workers=workers,
         care=cli_sweep.care(timeout, memory, keep),
         out=out,
+        user_code=not no_user_code,
         as_json=as_json,
     )
 

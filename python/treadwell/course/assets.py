@@ -5,6 +5,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from treadwell.course.height_field import FieldPiece, FieldTop, height_field
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import Piece, Top, about_z, level
 from treadwell.mjcf.build import check_builds, compiled, mesh_spec, read_spec
@@ -63,14 +64,17 @@ def read_mjcf(folder: Path, file: str, what: str) -> mujoco.MjSpec:
 def mjcf_pieces(
     model: mujoco.MjModel, data: mujoco.MjData, geom_ids: list[int]
 ) -> tuple[list[Piece], list[Top]]:
-    """Return the pieces of an MJCF world's geoms and the tops of its upright boxes.
+    """Return the pieces of an MJCF world's geoms, and the tops of upright boxes and height fields.
+
+    What is tilted has no top.
 
     Args:
         model: the compiled course.
         data: after `mj_forward`.
         geom_ids: the world's geoms; each gives one piece: a box itself, another shape its box.
     """
-    pieces, tops = [], []
+    pieces: list[Piece] = []
+    tops: list[Top] = []
     signs = np.array([[x, y, z] for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
     for geom in geom_ids:
         rotation = data.geom_xmat[geom].reshape(3, 3)
@@ -80,7 +84,15 @@ def mjcf_pieces(
         quaternion = np.zeros(4)
         mujoco.mju_mat2Quat(quaternion, data.geom_xmat[geom])
         name = model.geom(geom).name.rpartition("/")[2]
+        upright = rotation[2, 2] > 0.9999
+        if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_HFIELD and upright:
+            field = height_field(model, data, geom)
+            common = (name, vertices, center, size.copy(), quaternion)
+            pieces.append(FieldPiece("hull", *common, field))
+            outline = level(name, field.corners, float(field.heights.mean()))
+            tops.append(FieldTop(name, outline.polygon, field))
+            continue
         pieces.append(Piece("box", name, vertices, center, size.copy(), quaternion))
-        if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_BOX and rotation[2, 2] > 0.9999:
+        if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_BOX and upright:
             tops.append(level(name, vertices[4:, :2], float(vertices[4, 2])))
     return pieces, tops

@@ -58,7 +58,7 @@ def _inside(course: Course, robot: Robot) -> str:
         if not element.present:
             continue
         for piece in element.pieces:
-            low, high = piece.vertices[:, 2].min(), piece.vertices[:, 2].max()
+            low, high = piece.vertices[:, 2].min(), piece.top_at(point)[0]
             if low < head and high > floor and signed_distance(piece.outline, point)[0] < 0.0:
                 return element.name
     return ""

@@ -30,10 +30,8 @@ def levels(tops: Sequence[Top], solids: Sequence[Piece], x: float, y: float) -> 
     above = [top for top in tops if top.contains(point)[0]]
     heights = sorted({0.0, *(round(float(top.height_at(point)[0]), 6) for top in above)})
     spans = [
-        piece.vertices[:, 2]
+        (piece.vertices[:, 2].min(), piece.top_at(point)[0])
         for piece in solids
-        if piece.is_upright and signed_distance(piece.outline, point)[0] < 0.0
+        if piece.is_filled and signed_distance(piece.outline, point)[0] < 0.0
     ]
-    return [
-        h for h in heights if not any(z.min() <= h + 1e-3 and h < z.max() - 5e-3 for z in spans)
-    ]
+    return [h for h in heights if not any(low <= h + 1e-3 and h < top - 5e-3 for low, top in spans)]

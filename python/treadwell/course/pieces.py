@@ -63,6 +63,15 @@ class Piece:
         return self.shape == "box" and self.has_level_top
 
     @property
+    def is_filled(self) -> bool:
+        """Whether all over its outline it is solid from its lowest corner to `top_at`."""
+        return self.is_upright
+
+    def top_at(self, points: Floats) -> Floats:
+        """Return up to where it reaches at points (n, 2) of its outline, m: its highest corner."""
+        return np.full(len(points), self.vertices[:, 2].max())
+
+    @property
     def has_level_top(self) -> bool:
         """Whether it is a box or a cylinder that stands upright."""
         level = bool(np.abs(self.quaternion[1:3]).max() < 1e-9)
@@ -71,7 +80,7 @@ class Piece:
 
 @dataclass(frozen=True)
 class Top:
-    """A walkable surface: a plane convex polygon in the world frame."""
+    """A walkable surface: a plane convex polygon in the world frame, but for height fields."""
 
     part: str
     polygon: Floats

@@ -146,6 +146,8 @@ def _range(
     """Return how far along a line a geom begins, -1 for nowhere; its half sizes are >= `thin`."""
     if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH:
         return float(mujoco.mj_rayMesh(model, data, geom, begin, along))
+    if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_HFIELD:
+        return float(mujoco.mj_rayHfield(model, data, geom, begin, along))
     size = np.maximum(model.geom_size[geom], thin)
     distance = mujoco.mju_rayGeom(
         data.geom_xpos[geom], data.geom_xmat[geom], size, begin, along, model.geom_type[geom]

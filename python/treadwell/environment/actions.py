@@ -1,12 +1,15 @@
 """What an agent can do: walk with a velocity and look, or put one foot after the other."""
 
+from collections.abc import Mapping
 from typing import Any, Final, Protocol
 
 import gymnasium
 import numpy as np
 
 from treadwell._core import Situation
+from treadwell.errors import InputError
 from treadwell.protocols import Decision, Footstep
+from treadwell.scenario.messages import shown
 
 FASTEST: Final = (0.15, 0.1, 0.5)
 """(forward m/s, left m/s, counter-clockwise rad/s) that 1 stands for."""
@@ -19,6 +22,31 @@ LONGEST_STEP_TICKS: Final = 600
 """Control ticks after which a footstep that has not landed is given up."""
 
 
+def numbers(value: Any, words: tuple[str, ...], where: str = "action") -> list[float]:  # noqa: ANN401
+    """Return the numbers of an action, one for each word.
+
+    Args:
+        value: what the agent gave.
+        words: what the numbers mean, for an error.
+        where: what the action's part is called in it.
+
+    Raises:
+        InputError: another shape, no numbers, or not finite.
+    """
+    allowed = f"must be {len(words)} finite numbers: {', '.join(words)}"
+    try:
+        array = np.asarray(value)
+    except (TypeError, ValueError, RuntimeError):
+        raise InputError(f"{where}: found {shown(value)}; {allowed}") from None
+    if array.dtype.kind not in "fiu":
+        raise InputError(f"{where}: found {shown(value)}; {allowed}")
+    if array.shape != (len(words),):
+        raise InputError(f"{where}: found an array of shape {array.shape}; {allowed}")
+    if not np.isfinite(array).all():
+        raise InputError(f"{where}: found {shown(array.tolist())}; {allowed}")
+    return [float(number) for number in array]
+
+
 class Actions(Protocol):
     """A kind of action."""
 
@@ -27,7 +55,11 @@ class Actions(Protocol):
         """What actions there are."""
 
     def decision(self, action: Any) -> Decision:  # noqa: ANN401 - an element of the space
-        """Return what the behaviour decides while the action is on."""
+        """Return what the behaviour decides while the action is on.
+
+        Raises:
+            InputError: it has not the form of the space's.
+        """
 
     def is_over(self, ticks: int, situation: Situation) -> bool:
         """Say whether the action is done, so many control ticks after it began."""
@@ -54,12 +86,13 @@ class VelocityActions:
 
     def decision(self, action: Any) -> Decision:  # noqa: ANN401
         """Walk, or stand where next to nothing is asked for."""
-        gaze = gaze_of(action[3], action[4])
-        if max(abs(float(value)) for value in action[:3]) < STILL:
-            return Decision("stand", gaze=gaze)
-        ahead, left, turn = (
-            most * float(share) for most, share in zip(FASTEST, action[:3], strict=True)
+        *shares, pan, down = numbers(
+            action, ("forward", "left", "counter-clockwise", "pan", "down")
         )
+        gaze = gaze_of(pan, down)
+        if max(map(abs, shares)) < STILL:
+            return Decision("stand", gaze=gaze)
+        ahead, left, turn = (most * share for most, share in zip(FASTEST, shares, strict=True))
         return Decision("walk", velocity=(ahead, left, turn), gaze=gaze)
 
     def is_over(self, ticks: int, _situation: Situation) -> bool:
@@ -92,16 +125,21 @@ class FootstepActions:
 
     def decision(self, action: Any) -> Decision:  # noqa: ANN401
         """Take the step, or stand."""
-        gaze = gaze_of(*action["gaze"])
-        foot = int(action["foot"])
-        self._steps, self._lifted = foot > 0, False
+        if not isinstance(action, Mapping) or action.keys() != self.space.keys():
+            keys = ", ".join(action) if isinstance(action, Mapping) else type(action).__name__
+            raise InputError(f"action: found {keys}; must be a dict of foot, step and gaze")
+        shares = numbers(action["step"], ("forward", "outwards", "turn", "height"), "action: step")
+        gaze = gaze_of(*numbers(action["gaze"], ("pan", "down"), "action: gaze"))
+        (foot,) = numbers(np.atleast_1d(action["foot"]), ("foot",), "action: foot")
+        if foot not in {0.0, 1.0, 2.0}:
+            raise InputError(f"action: foot: found {foot:g}; must be 0 to stand, 1 left, 2 right")
+        self._steps, self._lifted = foot > 0.0, False
         if not self._steps:
             return Decision("stand", gaze=gaze)
-        shares = (float(value) for value in action["step"])
         ahead, outwards, turn, height = (
             most * share for most, share in zip(LONGEST_STEP, shares, strict=True)
         )
-        side, sign = ("left", 1.0) if foot == 1 else ("right", -1.0)
+        side, sign = ("left", 1.0) if foot == 1.0 else ("right", -1.0)
         step = Footstep(
             side,
             ahead,

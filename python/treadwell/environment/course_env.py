@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from copy import deepcopy
 from itertools import pairwise
 from typing import Any, Final, Literal
 
@@ -17,11 +18,18 @@ from treadwell.episode import Episode, Step
 from treadwell.errors import CoreError, InputError, SimulationError
 from treadwell.judging.verdict import Verdict
 from treadwell.physics.simulation import TICK_NS
+from treadwell.processor import likely_reason, processor
 from treadwell.scenario.loading import load_scenario
 
 GOAL_REWARD: Final = 10.0
 FALL_REWARD: Final = -10.0
 COLLISION_REWARD: Final = -1.0
+
+
+_ALIVE: Final = frozenset(
+    {"_episode", "_view", "_step", "_behaviour", "_verdict", "_depth", "_actions"}
+)
+"""Attributes that hold physics, core, or what follows from them."""
 
 
 class CourseEnv(gymnasium.Env[Observed, Any]):
@@ -31,6 +39,9 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
     `GOAL_REWARD`, `FALL_REWARD` and, for each new collision, `COLLISION_REWARD`. It and the end of
     an episode come from the judge, which knows the truth; observations have none of it. An episode
     is truncated when the scenario's time limit is over, terminated by any other verdict.
+
+    It can be copied and pickled, amid an episode, too. Physics and core hold more than can be
+    written down, so the copy does again what was done since `reset`: it takes as long as that did.
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 12}  # noqa: RUF012 - as Env has it
@@ -43,6 +54,7 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         actions: Literal["velocity", "footsteps"] = "velocity",
         overrides: Sequence[str] = (),
         render_mode: str | None = None,
+        user_code: bool = True,
     ) -> None:
         """Build the scenario once, so that what is bad in it is told here.
 
@@ -52,6 +64,7 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
             actions: what the agent does.
             overrides: settings `KEY=VALUE`, as `--set` takes them.
             render_mode: None, or `rgb_array`: the course from above.
+            user_code: False: a scenario that names a Python class is refused.
 
         Raises:
             InputError: anything of it is bad.
@@ -64,9 +77,11 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         self._asked: dict[str, Any] = {"robot": robot, "overrides": tuple(overrides)}
         self._scenario = scenario
         self._kind = actions
+        self._user_code = user_code
         self._episode: Episode | None = None
         self._view: TopView | None = None
         self._step: Step | None = None
+        self._done: list[Any] | None = None
         self._begin(load_scenario(scenario, **self._asked).seed)
         assert self._episode is not None
         self.observation_space = observation_space(self._episode.robot)
@@ -93,8 +108,7 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         if observation_space(self._episode.robot) != self.observation_space:
             self.close()
             raise InputError(f"{name}: [vary] draws a robot whose observations have another form")
-        while self._step is None or self._depth is None:
-            self._tick()
+        self._look()
         if self._verdict is not None:
             outcome = self._verdict.outcome
             self.close()
@@ -102,12 +116,19 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
         return self._observed(), self._info()
 
     def step(self, action: Any) -> tuple[Observed, float, bool, bool, dict[str, Any]]:  # noqa: ANN401
-        """Do an action and return observation, reward, terminated, truncated and info."""
+        """Do an action and return observation, reward, terminated, truncated and info.
+
+        Raises:
+            InputError: it is none of `action_space`, by its form or by what is no finite number;
+                nothing was done.
+        """
         episode = self._episode
         if episode is None or self._step is None or self._verdict is not None:
             raise gymnasium.error.ResetNeeded("call reset before step")
         before, hits = self._to_go(), len(episode.judge.collisions)
         self._behaviour.decision = self._actions.decision(action)
+        assert self._done is not None
+        self._done.append(deepcopy(action))
         ticks, verdict = 0, None
         while verdict is None:
             verdict = self._tick()
@@ -138,13 +159,57 @@ class CourseEnv(gymnasium.Env[Observed, Any]):
     def close(self) -> None:
         """Let the physics and the core go."""
         self._episode = self._view = None
-        self._step = None
+        self._step = self._done = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return all but what is alive, and what has to be done to have that again."""
+        state = {key: value for key, value in self.__dict__.items() if key not in _ALIVE}
+        return state | {"_was": None if self._episode is None else self._mark()}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Do again what was done.
+
+        Raises:
+            SimulationError: it does not come out the same, as on another processor.
+        """
+        was, done = state.pop("_was"), state.pop("_done")
+        self.__dict__.update(state)
+        self._episode = self._view = None
+        self._step = self._done = None
+        if was is None:
+            return
+        self._begin(was["seed"])
+        if done is not None:
+            self._look()
+            for action in done:
+                self.step(action)
+        if self._mark() | {"processor": ""} != was | {"processor": ""}:
+            reason = likely_reason(was["processor"]) or "the scenario or its code changed"
+            raise SimulationError(
+                f"{self._scenario}: the copy of this environment does not come to the same state "
+                f"after the same {len(done or [])} actions: {reason}"
+            )
+
+    def _mark(self) -> dict[str, Any]:
+        """Return what tells an episode's state from another."""
+        assert self._episode is not None
+        made, step = self._episode.scenario, self._step
+        where = None if step is None else (step.time_ns, step.estimate, self._episode.judge.frame)
+        return {"seed": made.seed, "where": where, "processor": processor()}
+
+    def _look(self) -> None:
+        """Go on to the first picture."""
+        self._done = []
+        while self._step is None or self._depth is None:
+            self._tick()
 
     def _begin(self, seed: int) -> None:
         self.close()  # where nothing can be built, the episode before does not go on
         made = load_scenario(self._scenario, seed=seed, **self._asked)
         self._behaviour = Commanded(made.goal.height)
-        self._episode = Episode(made, behaviour=self._behaviour, planner=NoPlanner())
+        self._episode = Episode(
+            made, user_code=self._user_code, behaviour=self._behaviour, planner=NoPlanner()
+        )
         self._verdict: Verdict | None = None
         self._depth: NDArray[np.float32] | None = None
         self._actions = self._make_actions(self._episode)

@@ -5,9 +5,11 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from treadwell._core import Surfaces
 from treadwell.course.course import Course
+from treadwell.course.height_field import FieldPiece
 from treadwell.robot.load import Robot
 
 SAME_CONTACT_SECONDS = 0.5
@@ -18,7 +20,11 @@ SOLE_ON_TOP = 0.7
 """Least z of the normal (from the floor up) with which a sole stands on a walkable top."""
 LIES_ON_TOP = 0.9
 """The same for any other part: leaning on an edge is a collision, lying on a top is a fall."""
+FIELD_TOUCH = 0.003
+"""Metres from a height field's surface within which a contact lies on it."""
 _GROUND, _NOTHING = -1, -2
+_AROUND = 0.002 * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]])
+"""Metres: a contact on the crease between two triangles of a height field is on either."""
 
 
 @dataclass(slots=True)
@@ -95,6 +101,12 @@ class Contacts:
         self._walkable = [*(element.walkable for element in course.elements), True]
         words = [self._word(geom) for geom in range(model.ngeom)]
         self._surfaces = Surfaces(words, SOLE_ON_TOP, LIES_ON_TOP)
+        self._fields = {
+            geom: piece.field
+            for element in course.elements
+            for geom, piece in zip(element.geom_ids, element.pieces, strict=True)
+            if isinstance(piece, FieldPiece)
+        }
         self._open: dict[tuple[str, str], Collision] = {}
         self._closed: list[Collision] = []
 
@@ -107,7 +119,8 @@ class Contacts:
             interval: s since the last look: for how long the forces are taken to have acted.
         """
         contact = data.contact
-        left, right, lying, hits = self._surfaces.sort(contact.geom, contact.frame)
+        frames = contact.frame if not self._fields else self._by_surface(data)
+        left, right, lying, hits = self._surfaces.sort(contact.geom, frames)
         if hits:
             self._add(data, hits, time, interval)
         if lying is None:
@@ -128,6 +141,26 @@ class Contacts:
         if element == _GROUND:
             return "ground"
         return "walkable" if self._walkable[element] else "obstacle"
+
+    def _by_surface(self, data: mujoco.MjData) -> NDArray[np.float64]:
+        """Return the contacts' frames; on height fields with the normals of their surfaces.
+
+        MuJoCo makes a column of each triangle, and a sole that slides over level ones is told to
+        touch their sides, too. What lies on the surface has the normal of the surface there.
+        """
+        contact = data.contact
+        frames: NDArray[np.float64] = contact.frame.copy()
+        for index, (first, second) in enumerate(contact.geom.tolist()):
+            field = self._fields.get(first) or self._fields.get(second)
+            if field is None:
+                continue
+            x, y, z = contact.pos[index]
+            around = np.array([x, y]) + _AROUND
+            on_it = np.abs(field.surface(around) - z) <= FIELD_TOUCH
+            if on_it.any():
+                up = float(field.upward(around[on_it]).max())
+                frames[index, 2] = up if first in self._fields else -up
+        return frames
 
     def _add(
         self,

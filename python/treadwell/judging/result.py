@@ -149,11 +149,12 @@ class Result(Table):
     robot: str
     """The robot's name."""
     seed: int
-    """The seed."""
+    """The seed: one seed gives one result, bit for bit, on one kind of processor."""
     version: str
     """The version of treadwell."""
     processor: str | None = None
-    """What the physics ran on: another may differ in the last bits. None in runs of before."""
+    """What the physics ran on; on another the last bits, and so the run, may differ. None in runs
+    of before."""
     configuration: dict[str, Any]
     """The whole scenario as it was run: overrides and draws applied."""
     ablation: bool = False

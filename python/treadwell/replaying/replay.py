@@ -56,6 +56,7 @@ def replay(
     overrides: Sequence[str] = (),
     out: Path | None = None,
     progress: Progress | None = None,
+    user_code: bool = True,
     **components: object,
 ) -> Replay:
     """Run the core over a run's observations and write a folder: the same as `treadwell replay`.
@@ -65,6 +66,7 @@ def replay(
         overrides: settings `KEY=VALUE` of `navigation`, as `--set` takes them.
         out: the folder; it must be new or empty. None: a new one beside the run's.
         progress: is told how it gets on.
+        user_code: False: a run whose scenario names a Python class is refused.
         components: objects of the user's by slot, as in `planner=MyPlanner()`.
 
     Raises:
@@ -72,7 +74,22 @@ def replay(
         RecordingError: the folder cannot be written.
     """
     source = open_source(Path(run_dir), tuple(overrides), tuple(components))
-    given = user_components(source.scenario, dict(components))
+    return replay_source(
+        source, run_dir, out=out, progress=progress, user_code=user_code, **components
+    )
+
+
+def replay_source(
+    source: Source,
+    run_dir: str | Path,
+    *,
+    out: Path | None = None,
+    progress: Progress | None = None,
+    user_code: bool = True,
+    **components: object,
+) -> Replay:
+    """Run the core over what `open_source` opened in `run_dir`; all else is as of `replay`."""
+    given = user_components(source.scenario, dict(components), user_code=user_code)
     guarded = guards(source.scenario, given, set(components))
     given.update(guarded)
     pilot = build_core(source.scenario, source.core.settings, given, source.core.static_map)

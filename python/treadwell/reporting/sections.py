@@ -49,6 +49,7 @@ class RunSection:
     problems: list[str]
     facts: list[tuple[str, str]]
     repeat: Repeat
+    processor: str = ""
     configuration: str = ""
     picture: str = ""
     shots: Sequence[Shot] = ()
@@ -85,6 +86,7 @@ def run_section(
         problems=problems,
         facts=_facts(run),
         repeat=repeat_command(run.configuration, run.folder) if run.configuration else Repeat(()),
+        processor="" if result is None else result.processor or "",
     )
     try:
         if (run.folder / PICTURE).is_file():

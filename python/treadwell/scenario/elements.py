@@ -222,7 +222,12 @@ class Mesh(ElementTable):
 
 
 class Mjcf(ElementTable):
-    """An MJCF world in the scenario file's folder, added as it is."""
+    """An MJCF world in the scenario file's folder, added as it is.
+
+    Its upright boxes and height fields are walked on, by their true surfaces. All else in it,
+    tilted ones too, counts as the box around it. Steps within a height field are not looked for
+    where it is asked whether there is a way.
+    """
 
     kind: Literal["mjcf"]
     """Which kind of element it is."""

@@ -171,7 +171,7 @@ class Scenario(Table):
     robot: Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f]{1,500}$")] = "qrio"
     """A robot of `treadwell list robots`, or the path to a robot's folder."""
     seed: Annotated[int, Field(ge=0, lt=SEEDS)] = 0
-    """What all that is random is drawn from."""
+    """What all that is random is drawn from: one seed, one result on one kind of processor."""
     time_limit: Annotated[Seconds, Field(gt=0.0)] = 120.0
     """The episode ends after this, simulated seconds."""
     start: Start

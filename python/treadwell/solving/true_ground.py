@@ -210,7 +210,9 @@ class TrueGround:
                 close = close[signed_distance(solid.outline, points[close]) < self._radius]
                 there = level[:, close]
                 high: Floats | float = solid.high
-                if slope is not None and not solid.upright:
+                if solid.field is not None:
+                    high = solid.field.highest(points[close], self._radius)
+                elif slope is not None and not solid.upright:
                     # Within the radius it is nowhere higher than this.
                     up = float(np.hypot(*slope_of(slope))) * self._radius
                     high = np.minimum(solid.high, slope.height_at(points[close]) + up)
@@ -219,7 +221,10 @@ class TrueGround:
 
 
 def slope_of(top: Top) -> tuple[float, float]:
-    """Return the rise of a top along x and y, metres a metre."""
+    """Return the rise of a top along x and y, metres a metre; of a height field 0.
+
+    Its slopes are in its heights, and found there from cell to cell.
+    """
     normal = top.normal
     return float(-normal[0] / normal[2]), float(-normal[1] / normal[2])
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from treadwell.course.course import Course, CourseElement, Hinge
 from treadwell.course.doors import with_leaf
+from treadwell.course.height_field import FieldPiece, HeightField
 from treadwell.course.outlines import Floats, near, signed_distance
 from treadwell.scenario.events import SetDoor
 
@@ -34,13 +35,17 @@ def _last(hinge: Hinge, doors: Mapping[str, float]) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """A piece: its outline from above, and from where to where it reaches, metres."""
+    """A piece: its outline from above, and from where to where it reaches, metres.
+
+    That of a height field reaches up to its surface.
+    """
 
     outline: Floats
     low: float
     high: float
     upright: bool
     walkable: bool
+    field: HeightField | None = None
 
     def bars(self, level: float, tall: float) -> bool:
         """Say whether a body on a level is stopped by it, in front or above, metres.
@@ -65,6 +70,7 @@ def solids_of(element: CourseElement) -> list[Solid]:
             float(piece.vertices[:, 2].max()),
             piece.is_upright,
             element.walkable,
+            piece.field if isinstance(piece, FieldPiece) else None,
         )
         for piece in element.pieces
     ]
@@ -104,7 +110,8 @@ def bury(found: Floats, points: Floats, solid: Solid, own: range) -> None:
     close = near(solid.outline, points, 0.0)
     inside = close[signed_distance(solid.outline, points[close]) < 0.0]
     levels = found[:, inside]
-    buried = (solid.low <= levels + BARELY) & (levels < solid.high - 5 * BARELY)
+    high = solid.high if solid.field is None else solid.field.surface(points[inside])
+    buried = (solid.low <= levels + BARELY) & (levels < high - 5 * BARELY)
     if not solid.upright:
         buried[own.start : own.stop] = False  # a slope lies in the box around it
     found[:, inside] = np.where(buried, np.nan, levels)

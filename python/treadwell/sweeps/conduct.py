@@ -176,7 +176,7 @@ class _Sweep:
 
     def _submit(self, engine: Engine, job: Job, *, next_: bool = False) -> None:
         # What a user's class keeps from one episode to the next must not change a result.
-        foreign = self._request.lines[self._request.line_of(job.key)].foreign
+        foreign = bool(self._request.lines[self._request.line_of(job.key)].parts)
         engine.submit(job, self._care.limits(job), fresh=foreign, next_=next_)
 
 

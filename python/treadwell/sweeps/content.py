@@ -8,10 +8,10 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from treadwell.additions import class_of, installed
 from treadwell.data import PACKAGE
 from treadwell.files import opened
 from treadwell.own_core import VARIABLE
+from treadwell.plugins import foreign_parts
 from treadwell.robot.load import Robot
 from treadwell.scenario.elements import Mesh, Mjcf
 from treadwell.scenario.events import Add
@@ -35,15 +35,9 @@ def line_hash(file: Path, scenario: Scenario, robot: Robot, asked: Sequence[Any]
         asked: settings and the like, as plain data.
     """
     files = [file, *named_files(scenario), *_files_in(robot.folder, "*")]
-    for slot, name in scenario.navigation.slots().items():
-        if is_foreign(slot, name):
-            files += _sources(name if ":" in name else class_of(slot, name))
+    for part in foreign_parts(scenario.navigation.slots()):
+        files += _sources(part.target)
     return _hash(files, json.dumps([scenario.configuration(), *asked]))
-
-
-def is_foreign(slot: str, name: str) -> bool:
-    """Return whether a component is a Python class of the user's or of an installed package."""
-    return ":" in name or name in installed(slot)
 
 
 def named_files(scenario: Scenario) -> Iterator[Path]:

@@ -7,9 +7,11 @@ from typing import Any, Final
 
 from treadwell.data import data_folder
 from treadwell.errors import InputError
+from treadwell.plugins import ForeignPart, examined, foreign_parts, refuse_user_code
 from treadwell.robot.load import load_robot
-from treadwell.scenario.loading import find_scenario, load_scenario
-from treadwell.sweeps.content import build_hash, is_foreign, line_hash
+from treadwell.scenario.loading import find_scenario, load_scenario, read_toml
+from treadwell.scenario.model import Scenario
+from treadwell.sweeps.content import build_hash, line_hash
 from treadwell.sweeps.variants import variants
 from treadwell.version import __version__
 
@@ -44,7 +46,8 @@ class Line:
         variant: its settings of `--vary` as one text; empty where nothing varies.
         settings: `KEY=VALUE` each, those of `--set` and of the variant.
         seeds: of its episodes.
-        foreign: whether a component is a Python class of the user's or of an installed package.
+        parts: the components that are Python of the user's or of installed packages, in any of
+            its episodes.
         hash: of the files that it depends on, and of what the scenario becomes.
     """
 
@@ -55,7 +58,7 @@ class Line:
     variant: str
     settings: tuple[str, ...]
     seeds: tuple[int, ...]
-    foreign: bool
+    parts: tuple[ForeignPart, ...]
     hash: str
 
     def keys(self) -> list[Key]:
@@ -102,6 +105,26 @@ class Request:
             if (line.scenario, line.robot, line.variant) == (key.scenario, key.robot, key.variant):
                 return number
         raise KeyError(key)
+
+    def python(self) -> dict[ForeignPart, Path | None]:
+        """Return the parts in Python that its episodes run, each with its file.
+
+        Raises:
+            InputError: one is not there, or no class with the methods of its protocol.
+        """
+        found: dict[ForeignPart, Path | None] = {}
+        for line in self.lines:
+            found.update(examined(line.parts, str(line.file)))
+        return found
+
+    def refuse_user_code(self) -> None:
+        """Refuse it where a scenario names a class.
+
+        Raises:
+            InputError: with the first such file and key.
+        """
+        for line in self.lines:
+            refuse_user_code(line.parts, str(line.file))
 
     def document(self) -> dict[str, Any]:
         """Return it as plain data: what `sweep.json` holds."""
@@ -174,6 +197,24 @@ def make_line(
         variant=", ".join(variant),
         settings=both,
         seeds=tuple(seeds),
-        foreign=any(is_foreign(slot, name) for slot, name in made.navigation.slots().items()),
+        parts=_parts(file, made, seeds, robot, both),
         hash=line_hash(file, made, loaded, [both, robot]),
     )
+
+
+def _parts(
+    file: Path, first: Scenario, seeds: Sequence[int], robot: str | None, settings: Sequence[str]
+) -> tuple[ForeignPart, ...]:
+    """Return the parts in Python of a line's episodes; each is looked at where parts are drawn."""
+    parts = dict.fromkeys(foreign_parts(first.navigation.slots()))
+    words = [key.split(".")[0].strip() for key in (*settings, *_drawn(file))]
+    if "vary" in words or "navigation" in words[len(settings) :]:
+        for seed in seeds[1:]:
+            made = load_scenario(file, robot=robot, seed=seed, overrides=settings)
+            parts.update(dict.fromkeys(foreign_parts(made.navigation.slots())))
+    return tuple(parts)
+
+
+def _drawn(file: Path) -> list[str]:
+    table = read_toml(file).get("vary", {})
+    return list(table) if isinstance(table, dict) else []
