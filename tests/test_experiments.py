@@ -240,17 +240,21 @@ def test_an_experiment_leaves_its_report_and_the_runs(
         conduct(small, range(1), out)
 
 
+@pytest.mark.parametrize("between", [False, True])
 def test_an_interrupted_experiment_reports_what_there_is(
+    between: bool,
     small: Experiment,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    """The second run is interrupted, as by Ctrl-C."""
+    """The second run is interrupted, as by Ctrl-C, or what is before and after it."""
     outcomes = iter(("timed_out", "interrupted"))
 
     def run(*_: object, **__: object) -> Any:  # noqa: ANN401 - as much of a run as is asked for
         made = climbed(outcome=next(outcomes))
+        if between and made.outcome == "interrupted":
+            raise KeyboardInterrupt
         return Run(made, tmp_path)
 
     monkeypatch.setattr(conducting, "run_episode", run)

@@ -13,6 +13,7 @@ from treadwell.errors import SimulationError
 from treadwell.experiments.drawn import write_scenario
 from treadwell.experiments.experiment import Case, Experiment, Picture, Table
 from treadwell.files import write_text
+from treadwell.interruption import Interruption
 from treadwell.progress import Progress
 from treadwell.recording.run_folder import make_experiment_folder
 from treadwell.runner import Run, run_episode
@@ -128,16 +129,19 @@ def conduct(
     jobs = [_job(case, seed, folder) for case in experiment.cases for seed in case.seeds(seeds)]
     results = _one_by_one(jobs, progress) if workers == 1 else _side_by_side(jobs, workers)
     runs = tuple((job.case.name, done) for job, done in zip(jobs, results, strict=False))
-    by_case = {
-        case.name: [done for name, done in runs if name == case.name] for case in experiment.cases
-    }
-    tables = tuple(experiment.tables(by_case))
-    missing = len(runs) < len(jobs)
-    pictures = tuple(experiment.pictures(by_case, folder))
-    report = Report(experiment, folder, seeds, runs, tables, pictures, interrupted=missing)
-    write_text(folder / "experiment.md", report.markdown())
-    document = json.dumps(report.document(), indent=2, allow_nan=False)
-    write_text(folder / "experiment.json", document + "\n")
+    with Interruption() as interruption:
+        interruption.hold()  # hours of runs are not lost to a second Ctrl-C
+        by_case = {
+            case.name: [done for name, done in runs if name == case.name]
+            for case in experiment.cases
+        }
+        tables = tuple(experiment.tables(by_case))
+        missing = len(runs) < len(jobs)
+        pictures = tuple(experiment.pictures(by_case, folder))
+        report = Report(experiment, folder, seeds, runs, tables, pictures, interrupted=missing)
+        write_text(folder / "experiment.md", report.markdown())
+        document = json.dumps(report.document(), indent=2, allow_nan=False)
+        write_text(folder / "experiment.json", document + "\n")
     return report
 
 
@@ -164,11 +168,14 @@ def _done(job: Job, progress: Progress | None = None) -> Run:
 def _one_by_one(
     jobs: Sequence[Job], progress: Callable[[str], AbstractContextManager[Progress]] | None
 ) -> Iterator[Run]:
-    """Do the runs one after the other, up to the one that is interrupted."""
+    """Do the runs one after the other, up to the one that is interrupted, or the pause after it."""
     for number, job in enumerate(jobs, start=1):
         title = _title(number, len(jobs), job)
-        with nullcontext() if progress is None else progress(title) as shown:
-            done = _done(job, shown)
+        try:
+            with nullcontext() if progress is None else progress(title) as shown:
+                done = _done(job, shown)
+        except KeyboardInterrupt:
+            return
         if done.outcome == "interrupted":
             return
         yield done
