@@ -13,7 +13,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # What the built package is made of: `make setup` builds anew when it changes.
 SOURCES := $(shell find rust models scenarios -type f)
 
-.PHONY: setup demo test test-core test-package fast fuzz check lint lint-package clippy format bench clean
+.PHONY: setup demo test test-core test-package fast fuzz check lint lint-package clippy deny advisories format bench clean
 
 setup: .venv/.ready ## the environment in .venv, with the command .venv/bin/treadwell
 
@@ -33,7 +33,7 @@ test: export PROPTEST_RNG_SEED ?= 2004
 test: ## every check and every test: the core's and the package's side by side, since much of each waits for one processor
 	$(MAKE) --jobs=2 --output-sync=line test-core test-package
 
-test-core: clippy
+test-core: clippy deny
 	cargo fmt --check
 	$(CARGO_TEST)
 	MAKEFLAGS= cargo test --workspace --doc --quiet # it looks for make's jobs, and warns
@@ -71,6 +71,15 @@ lint-package: setup
 
 clippy:
 	cargo clippy --workspace --all-targets --quiet -- -D warnings
+
+deny: ## licences and sources of the crates; cargo-deny is asked where it is there
+	@if cargo deny --version >/dev/null 2>&1; then cargo deny check licenses bans sources; \
+	else echo "cargo-deny is not installed: tests/test_dependencies.py alone looks at licences and sources"; fi
+
+advisories: setup ## known faults of what we build on; needs the network, cargo-deny and pip-audit
+	cargo deny check advisories
+	$(UV) export --locked --quiet --no-emit-project --format requirements-txt --output-file .uv-export.txt
+	$(RUN) --with pip-audit pip-audit --requirement .uv-export.txt --disable-pip; status=$$?; rm .uv-export.txt; exit $$status
 
 format: setup
 	cargo fmt

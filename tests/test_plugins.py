@@ -8,7 +8,7 @@ from user_parts import PARTS, Straight
 from treadwell.errors import InputError
 from treadwell.plugins import METHODS, check_component, load_component
 
-PLANNER = "class Planner:\n    def plan(self): ...\n"
+PLANNER = "class Planner:\n    def plan(self, *given): ...\n"
 
 
 @pytest.mark.parametrize("slot", METHODS)

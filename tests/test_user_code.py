@@ -167,6 +167,17 @@ def test_a_sweep_knows_the_classes_that_its_seeds_draw(tmp_path: Path) -> None:
     assert by_hand.python() == {}
 
 
+@pytest.mark.slow
+def test_a_sweep_says_once_what_its_episodes_run(
+    module: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    asked = ["sweep", scenario(tmp_path), "--episodes", "2", "--workers", "1", "--keep", "0"]
+    assert execute([*asked, "--out", str(tmp_path / "out")]) == 1
+    said = capsys.readouterr().err
+    assert said.count(f"python:    runs planner stranger:P ({module})\n") == 1
+    assert said.index("python:") < said.index("results:")
+
+
 def test_what_an_installed_package_brings_is_told_and_not_refused(
     module: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -14,65 +14,25 @@ of it the class itself is asked.
 """
 
 import ast
+import inspect
 import sys
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from importlib.machinery import ModuleSpec
-from importlib.util import find_spec
-from pathlib import Path
-from pkgutil import get_importer
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
 from treadwell.errors import InputError
-from treadwell.files import read_content
+from treadwell.module_source import flat, locate, parsed
 
-LARGEST_SOURCE: Final = 10_000_000
-"""Bytes of a module's source."""
 MOST_MODULES: Final = 50
 """Modules that are looked at on the way from a name to its class and the class's bases."""
+Methods = Mapping[str, Sequence[str]]
+"""A method's name -> the arguments that it is called with, by their names; without `self`."""
 
 
-@dataclass(frozen=True, slots=True)
-class Located:
-    """Where a module is.
-
-    Attributes:
-        name: the module's.
-        folders: in which its submodules lie; None: it is no package.
-        file: its source; None: it has none that could be read.
-        source: its content.
-    """
-
-    name: str
-    folders: tuple[str, ...] | None
-    file: Path | None = None
-    source: bytes | None = None
-
-
-def locate(module: str) -> Located:
-    """Return where a module is; nothing of it is run, nor of the packages that it is in.
-
-    Raises:
-        InputError: there is none, or its source cannot be read.
-    """
-    located: Located | None = None
-    words = module.split(".")
-    for depth in range(1, len(words) + 1):
-        name = ".".join(words[:depth])
-        loaded = sys.modules.get(name)
-        if loaded is None:
-            spec = _spec(name, None if located is None else located.folders or ())
-        else:
-            spec = getattr(loaded, "__spec__", None) or ModuleSpec(name, None)
-        if spec is None:
-            raise InputError(f"there is no module {name} on Python's path")
-        located = _located(name, spec)
-    assert located is not None
-    return located
-
-
-def check_class(module: str, name: str, methods: Sequence[str]) -> None:
+def check_class(module: str, name: str, methods: Methods) -> None:
     """Make sure, by its source alone, that a module has a class with these methods.
+
+    A method has to take its arguments: what is called so but is something else is not made, either,
+    since to make it may do anything.
 
     Raises:
         InputError: it has not, or it cannot be seen; the sentence says which, without a place.
@@ -82,11 +42,12 @@ def check_class(module: str, name: str, methods: Sequence[str]) -> None:
         kind = vars(loaded).get(name)
         if not isinstance(kind, type):
             raise InputError(f"{module} has no class {name}")
-        missing = [method for method in methods if not callable(getattr(kind, method, None))]
+        missing = [method for method in methods if not _takes(kind, method, methods[method])]
     else:
         missing = _Reader().missing(module, name, methods)
     if missing:
-        raise InputError(f"{name} has no method {', '.join(missing)}")
+        listed = ", ".join(f"{method}({', '.join(methods[method])})" for method in missing)
+        raise InputError(f"{name} has no method {listed}")
 
 
 class _Reader:
@@ -97,20 +58,32 @@ class _Reader:
         self._packages: dict[str, bool] = {}
         self._left = MOST_MODULES
 
-    def missing(self, module: str, name: str, methods: Sequence[str]) -> list[str]:
+    def missing(self, module: str, name: str, methods: Methods) -> list[str]:
         """Return the methods that neither the class nor a base of it is seen to have."""
         found = self._class(module, name, set())
         if found is None:
             raise InputError(f"{module} has no class {name} that could be seen without running it")
-        return self._lacking(*found, list(methods), set())
+        taken: dict[str, bool] = {}
+        self._gather(*found, methods, taken, set())
+        return [method for method in methods if not taken.get(method, False)]
 
-    def _lacking(
-        self, home: str, node: ast.ClassDef, methods: list[str], seen: set[tuple[str, str]]
-    ) -> list[str]:
-        methods = [method for method in methods if method not in _names_in(node.body)]
+    def _gather(
+        self,
+        home: str,
+        node: ast.ClassDef,
+        methods: Methods,
+        taken: dict[str, bool],
+        seen: set[tuple[str, str]],
+    ) -> None:
+        """Note of each method whether it takes its arguments, as the class or a base has it."""
+        own: dict[str, bool] = {}
+        for statement in flat(node.body):
+            for name, takes in _defined(statement, methods):
+                own[name] = own.get(name, False) or takes
+        taken.update({name: takes for name, takes in own.items() if name not in taken})
         for base in node.bases:
             named = _dotted(base.value if isinstance(base, ast.Subscript) else base)
-            if not methods or named is None or (home, named) in seen:
+            if named is None or (home, named) in seen or taken.keys() >= methods.keys():
                 continue
             seen.add((home, named))
             try:
@@ -118,8 +91,7 @@ class _Reader:
             except InputError:
                 continue  # a base that cannot be read brings no method that could be seen
             if found is not None:
-                methods = self._lacking(*found, methods, seen)
-        return methods
+                self._gather(*found, methods, taken, seen)
 
     def _dotted_class(self, home: str, named: str) -> tuple[str, ast.ClassDef] | None:
         """Return the class that `Name`, or `module.Name`, means in a module."""
@@ -189,84 +161,43 @@ class _Reader:
                 raise InputError(f"more than {MOST_MODULES} modules lead to the class")
             located = locate(module)
             self._packages[module] = located.folders is not None
-            self._bodies[module] = _parsed(located)
-        return _flat(self._bodies[module])
+            self._bodies[module] = parsed(located)
+        return flat(self._bodies[module])
 
 
-def _spec(name: str, folders: Sequence[str] | None) -> ModuleSpec | None:
-    """Return a module's spec; `folders` are those of its package, None for one in no package."""
+def _defined(statement: ast.stmt, methods: Methods) -> Iterator[tuple[str, bool]]:
+    """Yield what a statement of a class makes a method of, and whether it takes its arguments."""
+    if isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef):
+        if statement.name in methods:
+            yield statement.name, _has_room(statement, len(methods[statement.name]))
+    elif isinstance(statement, ast.Assign) and not isinstance(statement.value, ast.Constant):
+        yield from ((to.id, True) for to in statement.targets if isinstance(to, ast.Name))
+
+
+def _has_room(function: ast.FunctionDef | ast.AsyncFunctionDef, count: int) -> bool:
+    """Say whether a method takes so many arguments; of a decorated one it cannot be told."""
+    decorators = [_dotted(one) for one in function.decorator_list]
+    if set(decorators) - {"staticmethod", "classmethod"}:
+        return True
+    given, asked = count + ("staticmethod" not in decorators), function.args
+    most = len(asked.posonlyargs) + len(asked.args)
+    least = most - len(asked.defaults) + sum(one is None for one in asked.kw_defaults)
+    return least <= given and (given <= most or asked.vararg is not None)
+
+
+def _takes(kind: type, method: str, arguments: Sequence[str]) -> bool:
+    """Say whether a class that is there has a method that takes these arguments."""
+    function = getattr(kind, method, None)
+    if not callable(function):
+        return False
+    bound = isinstance(inspect.getattr_static(kind, method), staticmethod | classmethod)
     try:
-        if folders is None:
-            return find_spec(name)  # asks the finders; there is no package that it would run
-        portions: list[str] = []
-        for folder in folders:
-            finder = get_importer(folder)
-            spec = None if finder is None else finder.find_spec(name, None)
-            if spec is not None and spec.loader is not None:
-                return spec
-            portions += [] if spec is None else spec.submodule_search_locations or []
-    except Exception as error:  # finders of others: what they raise is theirs
-        raise InputError(f"{name} cannot be looked for: {error!r}") from None
-    if not portions:
-        return None
-    spec = ModuleSpec(name, None, is_package=True)
-    spec.submodule_search_locations = portions
-    return spec
-
-
-def _located(name: str, spec: ModuleSpec) -> Located:
-    places = spec.submodule_search_locations
-    folders = None if places is None else tuple(places)
-    origin = Path(spec.origin) if spec.has_location and spec.origin else None
-    if origin is None or origin.suffix not in {".py", ".pyw"}:
-        return Located(name, folders)
-    if origin.exists():
-        return Located(name, folders, origin, read_content(origin, LARGEST_SOURCE))
-    get_source = getattr(spec.loader, "get_source", None)  # of an archive
-    try:
-        text = None if get_source is None else get_source(name)
-    except (ImportError, OSError, SyntaxError, UnicodeDecodeError):
-        text = None
-    return Located(name, folders, origin, None if text is None else text.encode())
-
-
-def _parsed(located: Located) -> list[ast.stmt]:
-    if located.source is None:
-        if located.file is None and located.folders is not None:
-            return []  # a folder without an __init__.py
-        raise InputError(
-            f"{located.name} has no source that could be read: what is compiled is not run to see "
-            "what it has; name a class in Python around it, with the methods written out"
-        )
-    try:
-        return ast.parse(located.source).body
-    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        raise InputError(f"{located.file or located.name}: is no Python: {error}") from None
-
-
-def _flat(statements: Sequence[ast.stmt]) -> Iterator[ast.stmt]:
-    """Yield statements, and those within `if`, `try` and `with`."""
-    for statement in statements:
-        yield statement
-        if isinstance(statement, ast.If | ast.Try | ast.With):
-            yield from _flat(statement.body)
-        if isinstance(statement, ast.If | ast.Try):
-            yield from _flat(statement.orelse)
-        if isinstance(statement, ast.Try):
-            for handler in statement.handlers:
-                yield from _flat(handler.body)
-            yield from _flat(statement.finalbody)
-
-
-def _names_in(body: Sequence[ast.stmt]) -> set[str]:
-    """Return what a class's own statements define: methods, and other names for them."""
-    names: set[str] = set()
-    for statement in _flat(body):
-        if isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef):
-            names.add(statement.name)
-        elif isinstance(statement, ast.Assign) and not isinstance(statement.value, ast.Constant):
-            names |= {to.id for to in statement.targets if isinstance(to, ast.Name)}
-    return names
+        inspect.signature(function).bind(*([] if bound else [None]), *arguments)
+    except TypeError:
+        return False
+    except ValueError:
+        return True  # of what is compiled it cannot be told
+    return True
 
 
 def _dotted(node: ast.expr) -> str | None:

@@ -5,15 +5,18 @@ What an installed package brings by a name is the choice of whoever installed it
 """
 
 import importlib
+import inspect
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from treadwell.additions import class_of
-from treadwell.class_source import check_class, locate
+from treadwell.class_source import check_class
 from treadwell.components import COMPONENTS
 from treadwell.errors import InputError
+from treadwell.module_source import locate
+from treadwell.protocols import Behaviour, Localizer, Planner, Segmenter, WorldModel
 
 METHODS = {
     "segmenter": ("segment",),
@@ -23,6 +26,15 @@ METHODS = {
     "behaviour": ("next",),
 }
 """Slot -> the methods of its protocol in `treadwell.protocols`."""
+
+PROTOCOLS: dict[str, type] = {
+    "segmenter": Segmenter,
+    "world_model": WorldModel,
+    "localizer": Localizer,
+    "planner": Planner,
+    "behaviour": Behaviour,
+}
+"""Slot -> its protocol."""
 
 OPTIONAL = {"world_model": ("forget",), "planner": ("forget",)}
 """Slot -> the methods that are called where a component has them."""
@@ -57,10 +69,19 @@ class ForeignPart:
         module, _, kind = self.target.partition(":")
         try:
             if not self.installed:
-                check_class(module, kind, METHODS[self.slot])
+                check_class(module, kind, arguments(self.slot))
             return locate(module).file
         except InputError as error:
             raise InputError(f"navigation.{self.slot}: {self.name}: {error}") from None
+
+
+def arguments(slot: str) -> dict[str, tuple[str, ...]]:
+    """Return the methods of a slot's protocol, each with the arguments that it is called with."""
+    protocol = PROTOCOLS[slot]
+    return {
+        method: tuple(inspect.signature(getattr(protocol, method)).parameters)[1:]
+        for method in METHODS[slot]
+    }
 
 
 def foreign_parts(slots: Mapping[str, str]) -> tuple[ForeignPart, ...]:
@@ -136,7 +157,10 @@ def load_component(slot: str, name: str, parameters: dict[str, Any]) -> object:
     if not isinstance(kind, type):
         raise InputError(f"{where}: {module_name} has no class {class_name}")
     # Before it is called: making a class may do anything.
-    _check_methods(slot, kind, class_name)
+    if part.installed:
+        _check_methods(slot, kind, class_name)
+    else:
+        part.examined()  # now of the class itself
     try:
         component: object = kind(**parameters)
     except (Exception, SystemExit) as error:
