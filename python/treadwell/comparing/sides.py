@@ -1,10 +1,10 @@
 """The sides of a comparison: finished sweeps, each variant a side of its own."""
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from treadwell.careful_json import json_of
 from treadwell.comparing.comparison import Candidate
 from treadwell.errors import InputError
 from treadwell.sweeps import journal
@@ -48,8 +48,8 @@ def read_results(folder: Path) -> dict[str, Any]:
             raise InputError(f"{folder}: the sweep is not finished; its command goes on with it")
         raise InputError(f"{folder}: not a sweep, there is no {RESULTS}")
     try:
-        document = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError) as error:
+        document = json_of(file.read_bytes(), str(file))
+    except OSError as error:
         raise InputError(f"{file}: cannot be read: {error}") from None
     good = isinstance(document, dict) and document.get("schema") == SCHEMA
     if not good or not all(isinstance(document.get(key), list) for key in ("lines", "episodes")):

@@ -10,6 +10,8 @@ from typing import Any, Final
 
 import tomli_w
 
+from treadwell.careful_json import json_of
+from treadwell.errors import InputError
 from treadwell.judging.result import write_whole
 from treadwell.scenario.model import Scenario
 
@@ -34,8 +36,8 @@ def origin_of(path: Path) -> Path | None:
     try:
         with path.open(encoding="utf-8") as file:
             line = file.readline(_LONGEST_LINE)
-        named = json.loads(line.removeprefix(_ORIGIN)) if line.startswith(_ORIGIN) else None
-    except (OSError, ValueError):
+        named = json_of(line.removeprefix(_ORIGIN), str(path)) if line.startswith(_ORIGIN) else None
+    except (OSError, ValueError, InputError):
         return None
     return Path(named) if isinstance(named, str) and "\x00" not in named else None
 

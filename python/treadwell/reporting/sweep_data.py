@@ -1,11 +1,11 @@
 """The folder of a sweep as far as a page needs it: rows of episodes, whatever keys they lack."""
 
-import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
+from treadwell.careful_json import json_of
 from treadwell.errors import InputError
 from treadwell.sweeps.journal import NAME as JOURNAL
 from treadwell.sweeps.journal import read_rows
@@ -101,11 +101,9 @@ def _document(path: Path, problems: list[str]) -> Any:  # noqa: ANN401 - any JSO
     try:
         if path.stat().st_size > _LARGEST:
             raise InputError(f"{path}: larger than {_LARGEST} bytes, which is the limit")
-        return json.loads(path.read_text(encoding="utf-8"))
+        return json_of(path.read_bytes(), str(path), strict=False)
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    except (ValueError, RecursionError):
-        raise InputError(f"{path}: is no JSON") from None
 
 
 def _lines(asked: Any) -> dict[tuple[str, str, str], dict[str, Any]]:  # noqa: ANN401

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final, Self
 
+from treadwell.careful_json import json_of
 from treadwell.errors import InputError, RecordingError
 from treadwell.judging.result import write_whole
 from treadwell.sweeps import journal
@@ -179,8 +180,8 @@ def read_asked(file: Path) -> dict[str, Any]:
         InputError: it is no such file.
     """
     try:
-        document = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError) as error:
+        document = json_of(file.read_bytes(), str(file))
+    except OSError as error:
         raise InputError(f"{file}: cannot be read: {error}") from None
     if not isinstance(document, dict) or document.get("schema") != SCHEMA:
         raise InputError(f"{file}: not a sweep of schema {SCHEMA}")

@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 from typing import Any, Final
 
+from treadwell.careful_json import json_of
 from treadwell.errors import InputError, RecordingError
 
 NAME: Final = "journal.jsonl"
@@ -64,12 +65,10 @@ class Journal:
         os.close(self._file)
 
     def _read(self, number: int, line: bytes) -> dict[str, Any]:
-        try:
-            row = json.loads(line)
-        except ValueError:
-            row = None
+        place = f"{self._path}: line {number}"
+        row = json_of(line, place)
         if not isinstance(row, dict):
-            raise InputError(f"{self._path}: line {number}: not a row of a sweep")
+            raise InputError(f"{place}: not a row of a sweep")
         return row
 
 
@@ -82,8 +81,8 @@ def read_rows(path: Path) -> list[dict[str, Any]]:
     rows = []
     for line in content[: content.rfind(b"\n") + 1].splitlines():
         try:
-            row = json.loads(line)
-        except (ValueError, RecursionError):
+            row = json_of(line, str(path), strict=False)
+        except InputError:
             break
         if isinstance(row, dict):
             rows.append(row)
