@@ -1,16 +1,19 @@
 """Changes good files at random, and hands them to what reads files of strangers.
 
-    python benches/fuzz_files.py --count 100000
+    python benches/fuzz_files.py --count 200000
+    python benches/fuzz_files.py --count 200000 --structure
 
-Each must be taken, or refused by treadwell's own error within 5 s. What MuJoCo builds (meshes,
-worlds) is built here without the child process that stands around it in the program: a crash or a
-hang of it ends one worker, is counted as contained, and tried again in the child. The cases follow
-from `--seed`; what is at fault is kept in `--keep`.
+Each must be taken, or refused by treadwell's own error within 5 s and 1 GB. Bytes are changed
+wherever they stand; with `--structure` values, keys and types of TOML and JSON, and the records of
+logs, inside of their chunks, too. What MuJoCo builds (meshes, worlds) is built here without the
+child process that stands around it in the program: a crash or a hang of it ends one worker, is
+counted as contained, and tried again in the child. The cases follow from `--seed`; what is at fault
+is kept in `--keep`.
 """
 
 import argparse
 import json
-import shutil
+import resource
 import subprocess
 import sys
 import tempfile
@@ -18,24 +21,16 @@ import time
 from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
+import fuzz_structure
 import numpy as np
+from fuzz_readers import BUILT, READERS, Reader, read_log, seeds, share
 from into_results import add_options, write
 
-from treadwell._core import Octree
-from treadwell.data import data_folder
 from treadwell.errors import InputError, TreadwellError
-from treadwell.judging.result import read_result
 from treadwell.mjcf.build import build_files
-from treadwell.mjcf.xml import check_xml
-from treadwell.recording.file import whole_length
-from treadwell.recording.observation_log import read_answers, read_observations
-from treadwell.recording.trajectory import read_trajectory
-from treadwell.replaying.source import open_source
-from treadwell.robot.reading import read_robot_file
-from treadwell.scenario.loading import load_scenario
 
+MOST_MEMORY = 1 << 30
 LONGEST_SECONDS = 5.0
 BATCH = 500
 WORDS = (
@@ -43,12 +38,6 @@ WORDS = (
     b"../", b"/etc/passwd", b"[", b"]", b"{", b"}", b'"', b"<", b">", b"/>", b"&lt;", b"=", b"\n",
     b"<include file='../x'/>", b"<replicate count='99999'>", b"true", b"'", b"<!--", b"]]>", b".",
 )  # fmt: skip
-WORLD = b"""<mujoco><asset><mesh name="m" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/></asset><worldbody>
-<geom name="a" type="box" size=".2 .3 .02" pos="1 0 .02"/><replicate count="3" offset="1 0 0">
-<body pos="2 1 0"><geom type="cylinder" size=".1 .2"/></body></replicate>
-<geom type="mesh" mesh="m"/>
-</worldbody></mujoco>"""
-OBJ = b"v 0 0 0\nv 0.2 0 0\nv 0 0.2 0\nv 0 0 0.2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 
 
 def changed(content: bytes, random: np.random.Generator) -> bytes:
@@ -73,85 +62,45 @@ def changed(content: bytes, random: np.random.Generator) -> bytes:
     return bytes(made)
 
 
-def _scenario(path: Path) -> None:
-    load_scenario(path).configuration()
-
-
-def _world(path: Path) -> None:
-    check_xml(path, path.parent, "x")
-    build_files(str(path), "x")
-
-
-def _mesh(path: Path) -> None:
-    build_files(str(path), "x")
-
-
-def _log(path: Path) -> None:
-    """Read a log; one that is taken for whole must say what the good one said."""
-    shutil.copyfile(path, path.parent / "observations.mcap")
-    open_source(path.parent)
-    said = [(o.time_ns, o.joint_positions.tobytes()) for o in read_observations(path)]
-    good = path.parent / "good.mcap"
-    if said != [(o.time_ns, o.joint_positions.tobytes()) for o in read_observations(good)]:
-        raise AssertionError("taken for whole, but says something else")
-    if list(read_answers(path)) != list(read_answers(good)):
-        raise AssertionError("taken for whole, but answers something else")
-
-
-Reader = Callable[[Path], Any]
-READERS: dict[str, tuple[str, Reader]] = {
-    "scenario": ("x.toml", _scenario),
-    "robot": ("robot.toml", read_robot_file),
-    "world": ("x.xml", _world),
-    "obj": ("x.obj", _mesh),
-    "stl": ("x.stl", _mesh),
-    "log": ("x.mcap", _log),
-    "result": ("result.json", read_result),
-    "trajectory": ("x.tum", read_trajectory),
-    "recording": ("x.rrd", whole_length),
-    "tree": ("x.ot", lambda path: Octree.read(str(path))),
-    "binary tree": ("x.bt", lambda path: Octree.read(str(path))),
+Change = Callable[[bytes, np.random.Generator], bytes]
+Kinds = dict[str, tuple[str, Reader, Change]]
+STRUCTURE: Kinds = {
+    "scenario": (*READERS["scenario"], fuzz_structure.toml_of),
+    "robot": (*READERS["robot"], fuzz_structure.toml_of),
+    "suite": (*READERS["suite"], fuzz_structure.toml_of),
+    "journal": (*READERS["journal"], fuzz_structure.json_of),
+    "sweep.json": (*READERS["sweep.json"], fuzz_structure.json_of),
+    "results.json": (*READERS["results.json"], fuzz_structure.json_of),
+    "result": (*READERS["result"], fuzz_structure.json_of),
+    "log": (READERS["log"][0], read_log, fuzz_structure.log_of),
 }
+WAYS: dict[str, Kinds] = {
+    "bytes": {kind: (*reader, changed) for kind, reader in READERS.items()},
+    "structure": STRUCTURE,
+}
+"""How files are changed -> kind -> file, reader and what changes it."""
 
 
-def seeds(folder: Path) -> None:
-    """Write the good files."""
-    import treadwell
-
-    shipped = data_folder("scenarios")
-    run = treadwell.run("slalom", overrides=("time_limit=0.3",), out=folder / "run").folder
-    tree = Octree(0.1)
-    tree.occupy(np.random.default_rng(0).uniform(-1, 1, (200, 3)))
-    shutil.copyfile(shipped / "visitor.toml", folder / "x.toml")
-    shutil.copyfile(data_folder("models") / "qrio" / "robot.toml", folder / "robot.toml")
-    for name, there in (("x.mcap", "observations.mcap"), ("x.tum", "trajectory.tum")):
-        shutil.copyfile(run / there, folder / name)
-    shutil.copyfile(run / "result.json", folder / "result.json")
-    (folder / "x.rrd").write_bytes((run / "recording.rrd").read_bytes()[:50_000])
-    (folder / "x.xml").write_bytes(WORLD)
-    (folder / "x.obj").write_bytes(OBJ)
-    faces = np.random.default_rng(0).uniform(-1, 1, (20, 12)).astype("<f4")
-    body = b"".join(face.tobytes() + b"\0\0" for face in faces)
-    (folder / "x.stl").write_bytes(bytes(80) + (20).to_bytes(4, "little") + body)
-    tree.write(str(folder / "x.ot"))
-    tree.write(str(folder / "x.bt"))
-
-
-def case(good: Path, here: Path, seed: int, number: int) -> tuple[str, Path]:
+def case(good: Path, here: Path, way: str, seed: int, number: int) -> tuple[str, Path]:
     """Write a case's file; return its kind and where it is."""
     random = np.random.default_rng([seed, number])
-    kind = list(READERS)[number % len(READERS)]
-    file = READERS[kind][0]
+    kind = kind_of(way, number)
+    file, _, change = WAYS[way][kind]
     path = here / file
-    path.write_bytes(changed((good / file).read_bytes(), random))
+    path.write_bytes(change((good / file).read_bytes(), random))
     return kind, path
 
 
-def tried(kind: str, path: Path) -> str:
+def kind_of(way: str, number: int) -> str:
+    """Return the kind of a case: they take turns."""
+    return list(WAYS[way])[number % len(WAYS[way])]
+
+
+def tried(read: Reader, path: Path) -> str:
     """Return what came of a case: taken, refused, or a sentence that begins with FAULT."""
     begin = time.process_time()
     try:
-        READERS[kind][1](path)
+        read(path)
         came = "taken"
     except TreadwellError:
         came = "refused"
@@ -161,24 +110,32 @@ def tried(kind: str, path: Path) -> str:
     return came if spent < LONGEST_SECONDS else f"FAULT took {spent:.1f} s"
 
 
-def work(good: Path, seed: int, first: int, count: int) -> None:
+def work(good: Path, way: str, seed: int, first: int, count: int) -> None:
     """Try some cases; write a line before each and after each."""
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+    most = pages * resource.getpagesize() + MOST_MEMORY
+    resource.setrlimit(resource.RLIMIT_AS, (most, resource.getrlimit(resource.RLIMIT_AS)[1]))
     with tempfile.TemporaryDirectory() as folder:
         here = Path(folder)
-        shutil.copyfile(good / "x.mcap", here / "good.mcap")
+        share(good, here)
         for number in range(first, first + count):
             print(json.dumps([number]), flush=True)
-            kind, path = case(good, here, seed, number)
-            print(json.dumps([number, kind, tried(kind, path)]), flush=True)
+            kind, path = case(good, here, way, seed, number)
+            came = tried(WAYS[way][kind][1], path)
+            print(json.dumps([number, kind, came]), flush=True)
+            for place in ("run", "sweep"):
+                if (here / place / path.name).is_file():
+                    good_one = good / place / path.name
+                    (here / place / path.name).write_bytes(good_one.read_bytes())
 
 
-def contained(good: Path, seed: int, number: int) -> str:
+def contained(good: Path, way: str, seed: int, number: int) -> str:
     """Try in the child process of the program what ended a worker."""
     from treadwell.limited import limited
 
     with tempfile.TemporaryDirectory() as folder:
-        kind, path = case(good, Path(folder), seed, number)
-        if READERS[kind][1] not in (_world, _mesh):
+        kind, path = case(good, Path(folder), way, seed, number)
+        if WAYS[way][kind][1] not in BUILT:
             return f"FAULT crashed or hung ({kind})"
         try:
             limited(build_files, [str(path), "x"], "x")
@@ -187,12 +144,12 @@ def contained(good: Path, seed: int, number: int) -> str:
         return "FAULT crashed, and was taken in the child"
 
 
-def batch(good: Path, seed: int, first: int, count: int) -> list[tuple[int, str, str]]:
+def batch(good: Path, way: str, seed: int, first: int, count: int) -> list[tuple[int, str, str]]:
     """Return number, kind and what came of each case."""
     done: list[tuple[int, str, str]] = []
     while len(done) < count:
         begin = first + len(done)
-        command = [sys.executable, __file__, "--work", str(good), str(seed), str(begin)]
+        command = [sys.executable, __file__, "--work", str(good), way, str(seed), str(begin)]
         command += [str(count - len(done))]
         try:
             out = subprocess.run(
@@ -204,22 +161,24 @@ def batch(good: Path, seed: int, first: int, count: int) -> list[tuple[int, str,
         done += [(n[0], n[1], n[2]) for n in lines if len(n) == 3]
         if len(done) < count:
             number = first + len(done)
-            kind = list(READERS)[number % len(READERS)]
-            done.append((number, kind, contained(good, seed, number)))
+            came = contained(good, way, seed, number)
+            done.append((number, kind_of(way, number), came))
     return done
 
 
-def fuzz(count: int, seed: int, good: Path, keep: Path | None = None) -> Counter[tuple[str, str]]:
+def fuzz(
+    count: int, seed: int, good: Path, keep: Path | None = None, way: str = "bytes"
+) -> Counter[tuple[str, str]]:
     """Try cases; return how often each kind came to what."""
     found: Counter[tuple[str, str]] = Counter()
     for first in range(0, count, BATCH):
-        for number, kind, came in batch(good, seed, first, min(BATCH, count - first)):
+        for number, kind, came in batch(good, way, seed, first, min(BATCH, count - first)):
             found[kind, came.partition(" ")[0]] += 1
             if came.startswith("FAULT"):
                 print(f"case {number} ({kind}): {came}", flush=True)
                 if keep is not None:
                     (keep / str(number)).mkdir(parents=True, exist_ok=True)
-                    case(good, keep / str(number), seed, number)
+                    case(good, keep / str(number), way, seed, number)
         print(f"{min(first + BATCH, count)} of {count}", file=sys.stderr, flush=True)
     return found
 
@@ -227,25 +186,31 @@ def fuzz(count: int, seed: int, good: Path, keep: Path | None = None) -> Counter
 def main() -> int:
     """Run, and return 1 where there was a fault."""
     if sys.argv[1:2] == ["--work"]:
-        work(Path(sys.argv[2]), *map(int, sys.argv[3:6]))
+        work(Path(sys.argv[2]), sys.argv[3], *map(int, sys.argv[4:7]))
         return 0
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=1000)
+    parser.add_argument("--structure", action="store_true", help="change files by their structure")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--keep", type=Path)
     add_options(parser)
     options = parser.parse_args()
+    way = "structure" if options.structure else "bytes"
     with tempfile.TemporaryDirectory() as folder:
         good = Path(folder)
         seeds(good)
-        found = fuzz(options.count, options.seed, good, options.keep)
-    for (kind, came), times in sorted(found.items()):
-        print(f"{kind:12s} {came:10s} {times}")
-    faults = sum(times for (_, came), times in found.items() if came == "FAULT")
+        found = fuzz(options.count, options.seed, good, options.keep, way)
+    rows = []
+    for kind in WAYS[way]:
+        came = {what: times for (one, what), times in found.items() if one == kind}
+        print(f"{kind:12s} {came}")
+        wrong = f"{came.get('FAULT', 0)} in {sum(came.values()):,}"
+        rows.append({"what": f"{kind}: traceback, hang, a gigabyte, false success",
+                     "measured": wrong})  # fmt: skip
+    faults = sum(times for (_, what), times in found.items() if what == "FAULT")
     print(f"{options.count} files, {faults} faults")
-    found_none = f"{faults} in {options.count:,}"
-    rows = [{"what": "traceback, hang or false success", "measured": found_none}]
-    write(options, "Hostile files, generated", [options.seed], rows)
+    title = "Hostile files, generated" + (" by their structure" if options.structure else "")
+    write(options, title, [options.seed], rows)
     return 1 if faults else 0
 
 

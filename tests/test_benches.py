@@ -22,6 +22,7 @@ position = [1.0, 0.0]
 LEAST: dict[str, list[str]] = {
     "cut_runs.py": ["--ends", "1", "--disks", "1", "--seconds", "0.3"],
     "episodes.py": ["SHORT", "--seeds", "0", "--workers", "1", "--audit"],
+    "extreme_numbers.py": ["scenario", "--only", "slalom goal.radius", "--seconds", "0.1"],
     "fuzz_files.py": ["--count", "3"],
     "kill_sweep.py": ["--kills", "1", "--episodes", "2"],
     "memory.py": ["--minutes", "0.02"],
@@ -31,6 +32,7 @@ LEAST: dict[str, list[str]] = {
     "peers/occupancy.py": ["--frames", "1"],
     "peers/octree.py": ["--frames", "1", "--cells", "0.04"],
     "peers/rays.py": ["--cells", "0.04"],
+    "random_scenarios.py": ["--count", "1", "--first-seed", "9"],
     "real_data.py": ["--rows", "1"],
     "replay_runs.py": ["--count", "1", "--seconds", "0.5"],
     "rules_trial.py": ["record", "FOLDER", "--courses", "SHORT"],

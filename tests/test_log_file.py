@@ -4,6 +4,7 @@ import struct
 import time
 from pathlib import Path
 
+import lz4.frame
 import pytest
 import zstandard
 from mcap.writer import CompressionType, Writer
@@ -11,8 +12,10 @@ from mcap.writer import CompressionType, Writer
 from treadwell.errors import InputError
 from treadwell.recording.log_file import (
     LARGEST_RECORD,
+    MOST_WAITING,
     BrokenLogError,
     read_front,
+    read_in_order,
     read_messages,
 )
 
@@ -41,7 +44,7 @@ def log(path: Path, count: int = 100, compression: CompressionType = Compression
     return path
 
 
-@pytest.mark.parametrize("compression", [CompressionType.ZSTD, CompressionType.NONE])
+@pytest.mark.parametrize("compression", list(CompressionType))
 def test_the_messages_of_a_topic_come_in_their_order(
     tmp_path: Path, compression: CompressionType
 ) -> None:
@@ -158,3 +161,45 @@ def test_a_front_that_would_do_harm_is_refused(tmp_path: Path, content: bytes) -
 def test_what_is_no_file_is_refused(tmp_path: Path, name: str) -> None:
     with pytest.raises(InputError, match="cannot be read"):
         read_front(tmp_path / name)
+
+
+def test_what_lz4_packed_unpacks_to_no_more_than_it_says(tmp_path: Path) -> None:
+    bomb = lz4.frame.compress(bytes(1 << 24))
+    path = tmp_path / "x"
+    for said in (100, 1 << 23, (1 << 24) + 1):
+        path.write_bytes(MAGIC + chunk(bomb, said, b"lz4"))
+        with pytest.raises(BrokenLogError, match="another size than it says"):
+            list(read_messages(path, ("/a",)))
+    path.write_bytes(MAGIC + chunk(b"\x04\x22\x4d\x18" + bomb[8:], 100, b"lz4"))
+    with pytest.raises(BrokenLogError):
+        list(read_messages(path, ("/a",)))
+
+
+def test_messages_come_by_time_and_those_of_one_time_by_topic(tmp_path: Path) -> None:
+    path = tmp_path / "x"
+    with path.open("wb") as file:
+        writer = Writer(file, compression=CompressionType.NONE)
+        writer.start()
+        numbers = {name: writer.register_channel(name, "cdr", 0) for name in ("/b", "/a")}
+        for tick, names in enumerate((("/b", "/a"), ("/a", "/b"), ("/b", "/a", "/a"))):
+            for count, name in enumerate(names):
+                writer.add_message(numbers[name], tick, str(count).encode(), tick)
+        writer.finish()  # type: ignore[no-untyped-call]
+    found = [(m.log_ns, m.topic, m.data) for m in read_in_order(path, ("/a", "/b"))]
+    assert found == [
+        (0, "/a", b"1"), (0, "/b", b"0"), (1, "/a", b"0"), (1, "/b", b"1"),
+        (2, "/a", b"1"), (2, "/a", b"2"), (2, "/b", b"0"),
+    ]  # fmt: skip
+
+
+def test_what_stands_far_behind_its_time_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "x"
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        number = writer.register_channel("/a", "cdr", 0)
+        for tick in (*range(1, 2 * MOST_WAITING[0]), 0):
+            writer.add_message(number, tick, b"", tick)
+        writer.finish()  # type: ignore[no-untyped-call]
+    with pytest.raises(InputError, match="no recording in the order of time"):
+        list(read_in_order(path, ("/a",)))

@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from episode_builders import qrio, scenario
+from mcap.reader import make_reader
+from mcap.writer import Writer
 from test_cdr import observation
 
 from treadwell.errors import InputError, RecordingError
@@ -30,7 +32,7 @@ def sent(count: int) -> list[Observation]:
     for i in range(count):
         o = observation(seed=i, time_ns=i * TICK)
         depth = random.random((72, 88)).astype(np.float32)
-        frame = Frame(i * TICK, i * TICK + 3, depth) if i % 8 == 0 else None
+        frame = Frame(max(0, i * TICK - 3), i * TICK, depth) if i % 8 == 0 else None
         made.append(
             Observation(
                 o.time_ns,
@@ -63,6 +65,28 @@ def test_every_observation_is_read_back_with_its_frame(tmp_path: Path) -> None:
         if a.depth is not None and b.depth is not None:
             assert np.array_equal(a.depth.depth, b.depth.depth)
             assert a.depth.exposure_ns == b.depth.exposure_ns
+            assert a.depth.arrival_ns == b.depth.arrival_ns
+
+
+def test_messages_of_one_time_may_stand_in_any_order(tmp_path: Path) -> None:
+    path = write(tmp_path, sent(60))
+    other = tmp_path / "other.mcap"
+    with path.open("rb") as file, other.open("wb") as made:
+        writer = Writer(made)
+        writer.start()
+        reader = make_reader(file)
+        messages = sorted(reader.iter_messages(), key=lambda m: (m[2].log_time, m[1].topic))
+        numbers: dict[str, int] = {}
+        for _, channel, message in messages:
+            if channel.topic not in numbers:
+                numbers[channel.topic] = writer.register_channel(channel.topic, "cdr", 0)
+            number, when = numbers[channel.topic], message.log_time
+            writer.add_message(number, when, message.data, message.publish_time)
+        writer.finish()  # type: ignore[no-untyped-call]
+    assert [channel.topic for _, channel, _ in messages[:2]] == ["/depth", "/observation"]
+    for a, b in zip(read_observations(path), read_observations(other), strict=True):
+        assert (a.time_ns, a.depth is None) == (b.time_ns, b.depth is None)
+        if a.depth is not None and b.depth is not None:
             assert a.depth.arrival_ns == b.depth.arrival_ns
 
 

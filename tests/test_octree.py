@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from treadwell._core import Octree
+from treadwell._core import OccupancyGrid, Octree
 from treadwell.errors import InputError
 
 EYE = (0.01, 0.02, 0.53)
@@ -94,3 +94,32 @@ def test_bad_files_and_settings_are_refused_by_name(tmp_path: Path) -> None:
         Octree().insert(np.zeros((3, 2)), EYE)
     with pytest.raises(InputError, match="the eye must be finite"):
         Octree().insert(np.zeros((3, 3)), (np.nan, 0.0, 0.0))
+
+
+FAR = np.array([500_000.0, 5_000_000.0, 100.0])
+
+
+def test_what_lies_beyond_the_voxels_is_counted_and_refused_where_all_does() -> None:
+    said = r"point 0 at \(50000\d.*, 4999999.81, .*\) m lies beyond .* from -1310.72 to 1310.72 m"
+    tree = Octree(0.04)
+    with pytest.raises(InputError, match=said):
+        tree.insert(wall() + FAR, tuple(EYE + FAR))
+    with pytest.raises(InputError, match=said):
+        tree.occupy(wall() + FAR)
+    assert tree.nodes == 0
+    both = np.concatenate([wall(), wall()[:3] + FAR, [[np.nan, 0.0, 0.0]]])
+    assert tree.insert(both, EYE) == 3
+    assert tree.occupy(both) == 3
+    assert tree.insert(wall(), EYE) == 0
+    with pytest.raises(InputError, match=r"to 32768 m"):
+        Octree(1.0).occupy(np.array([[1e5, 0.0, 0.0]]))
+
+
+def test_a_grid_that_a_frame_misses_says_so_and_one_far_away_works() -> None:
+    grid = OccupancyGrid((60, 60, 20), (-1.0, -1.0, 0.0))
+    with pytest.raises(InputError, match=r"lies outside the grid, as all others and the eye"):
+        grid.insert(wall() + FAR, tuple(EYE + FAR))
+    assert grid.insert(np.concatenate([wall(), wall()[:2] + FAR]), EYE) == 2
+    there = OccupancyGrid((60, 60, 20), tuple(FAR + np.array([-1.0, -1.0, 0.0])))
+    assert there.insert(wall() + FAR, tuple(EYE + FAR)) == 0
+    assert (there.probability() > 0.5).sum() > 10

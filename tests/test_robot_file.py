@@ -1,5 +1,6 @@
 """Claims about robot.toml: what does not have its form is refused with the key."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -16,7 +17,11 @@ BROKEN = [
     ("[head]", "[head", "TOML"),
     ("[head]", "[ranges]\nneck_pan = [1.0, -1.0]\n[head]", "ranges: neck_pan: its least angle"),
     ("period = 0.08", f"period = 0x{'f' * 4000}", r"camera\.period"),
-    ("kp = 150.0", "kp = 0.0", r"motors\.hip_and_knee\.kp.*greater than 0, got 0"),
+    (
+        "kp = 150.0",
+        "kp = 0.0",
+        r"motors\.hip_and_knee\.kp.*must be greater than or equal to 0.001, got 0",
+    ),
     ("kp = 150.0", "kp = nan", r"motors\.hip_and_knee\.kp"),
     ("kp = 150.0", "kb = 150.0", r"motors\.hip_and_knee\.kb: unknown key; allowed are .*kp, kv"),
     ("period = 0.08", "period = 0.085", "multiple of the control tick"),
@@ -52,6 +57,28 @@ def test_every_wrong_key_is_told_at_once(tmp_path: Path) -> None:
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=r"body\.radius.*got 0\n.*camera\.width.*got 8\.5"):
         read_robot_file(path)
+
+
+@pytest.mark.parametrize("number", ["5e-324", "1e-300", "1e308", "-1e308"])
+def test_no_number_without_a_meaning_is_taken(tmp_path: Path, number: str) -> None:
+    text = QRIO.read_text(encoding="utf-8")
+    path = tmp_path / "robot.toml"
+    for key in ("radius", "length", "quantum", "kp", "peak_torque", "no_load_speed", "baseline",
+                "period", "horizontal_fov", "leg_offset", "gyro_noise", "force_noise"):  # fmt: skip
+        if key in {"leg_offset", "gyro_noise", "force_noise"} and number == "1e-300":
+            continue  # nearly none, which is no harm
+        path.write_text(
+            re.sub(rf"(?m)^{key} = [\d.]+", f"{key} = {number}", text), encoding="utf-8"
+        )
+        with pytest.raises(InputError, match=rf"\.{key}: .*must be .*, got "):
+            read_robot_file(path)
+
+
+def test_minus_nothing_is_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "robot.toml"
+    text = QRIO.read_text(encoding="utf-8").replace("yaw_error = 0.01745", "yaw_error = -0.0")
+    path.write_text(text, encoding="utf-8")
+    assert str(read_robot_file(path).encoders.camera_yaw_error) == "0.0"
 
 
 def test_a_missing_file_is_named(tmp_path: Path) -> None:

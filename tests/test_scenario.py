@@ -269,7 +269,11 @@ def test_a_seed_gives_the_same_scenario_again(seed: int) -> None:
     assert 0.6 <= first.physics.friction <= 1.0
 
 
-@given(low=st.floats(-10, 10), width=st.floats(0, 10), seed=st.integers(0, 1000))
+@given(
+    low=st.integers(-(10**7), 10**7).map(lambda number: number / 1e6),
+    width=st.just(0.0) | st.floats(1e-9, 10),
+    seed=st.integers(0, 1000),
+)
 def test_a_uniform_draw_stays_in_its_bounds(low: float, width: float, seed: int) -> None:
     value = Draw.model_validate({"uniform": [low, low + width]}).sample(seed, "key")
     assert isinstance(value, float)
@@ -372,3 +376,19 @@ def test_the_course_of_another_file_comes_first(tmp_path: Path) -> None:
         path.write_text(task.replace('"house.toml"', found))
         with pytest.raises(InputError, match="course_of: "):
             load_scenario(path)
+
+
+def test_minus_nothing_is_nothing_as_a_bound_and_as_the_end_of_a_draw(tmp_path: Path) -> None:
+    path = tmp_path / "x.toml"
+    text = f"{HEAD}[sensors]\ncamera_roll_pitch_error = -0.0\n"
+    path.write_text(text + '[vary]\n"start.yaw" = {uniform = [0.0, -0.0]}\n', encoding="utf-8")
+    scenario = load_scenario(path)
+    assert str(scenario.sensors.camera_roll_pitch_error) == "0.0"
+    assert str(scenario.start.yaw) == "0.0"
+
+
+def test_a_number_that_is_nearly_nothing_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "x.toml"
+    path.write_text(f"{HEAD}[physics]\nfriction = 5e-324\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"physics\.friction: found 5e-324; must be 0, or not so"):
+        load_scenario(path)

@@ -44,8 +44,16 @@ def test_a_broken_line_before_the_last_is_bad_input(tmp_path: Path) -> None:
     path = tmp_path / "journal.jsonl"
     for broken in (b"no\n{}\n", b"{}\n[1]\n"):
         path.write_bytes(broken)
-        with pytest.raises(InputError, match=r"line [12]: not a row"):
+        with pytest.raises(InputError, match=r"line [12]: not (a row|JSON)"):
             Journal(path)
+
+
+def test_a_line_that_is_nested_too_deep_is_bad_input(tmp_path: Path) -> None:
+    path = tmp_path / "journal.jsonl"
+    path.write_bytes(b'{"seed":1}\n{"seed":' + b"[" * 10_000 + b"]" * 10_000 + b"}\n")
+    with pytest.raises(InputError, match=r"journal\.jsonl: line 2: nested too deep"):
+        Journal(path)
+    assert read_rows(path) == [{"seed": 1}]
 
 
 def test_a_journal_that_cannot_be_is_told(tmp_path: Path) -> None:

@@ -1,10 +1,10 @@
 """The sides of a comparison: finished sweeps, each variant a side of its own."""
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from treadwell.careful_json import json_of
 from treadwell.comparing.comparison import Candidate
 from treadwell.errors import InputError
 from treadwell.files import read_text
@@ -48,10 +48,7 @@ def read_results(folder: Path) -> dict[str, Any]:
         if (folder / journal.NAME).is_file():
             raise InputError(f"{folder}: the sweep is not finished; its command goes on with it")
         raise InputError(f"{folder}: not a sweep, there is no {RESULTS}")
-    try:
-        document = json.loads(read_text(file, LARGEST))
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"{file}: cannot be read: {error}") from None
+    document = json_of(read_text(file, LARGEST), str(file))
     good = isinstance(document, dict) and document.get("schema") == SCHEMA
     if not good or not all(isinstance(document.get(key), list) for key in ("lines", "episodes")):
         raise InputError(f"{file}: not of schema {SCHEMA}")

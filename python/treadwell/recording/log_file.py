@@ -4,14 +4,16 @@ The records are framed here and not by the `mcap` package: its reader believes e
 file states, a few bytes that unpack to gigabytes among them, and takes ten times as long.
 """
 
+import heapq
 import struct
 import zlib
-from collections.abc import Container, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO, Final, NamedTuple
 
+import lz4.frame
 import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
@@ -29,6 +31,8 @@ LEAST_PACKED: Final = 4
 """Bytes of the file for each record of a chunk, at least."""
 BESIDES: Final = (1 << 24, 100_000)
 """Bytes and records that a file may hold besides, however small it is."""
+MOST_WAITING: Final = (100, 1 << 26)
+"""Messages and bytes that wait for what is earlier but stands behind them."""
 MOST_CHANNELS: Final = 1000
 MOST_ATTACHMENTS: Final = 100
 _MAGIC: Final = b"\x89MCAP0\r\n"
@@ -43,6 +47,7 @@ _FAULTS: Final = (
     IndexError,
     OSError,
     OverflowError,
+    RuntimeError,  # what lz4 raises
     zstandard.ZstdError,
 )
 
@@ -117,7 +122,7 @@ def read_front(path: Path) -> Front:
     return front
 
 
-def read_messages(path: Path, topics: Container[str]) -> Iterator[Message]:
+def read_messages(path: Path, topics: Sequence[str]) -> Iterator[Message]:
     """Return the messages of some topics, in the order in which they were written.
 
     Raises:
@@ -141,6 +146,38 @@ def read_messages(path: Path, topics: Container[str]) -> Iterator[Message]:
             raise BrokenLogError(
                 f"{path}: breaks off or is no recording: {_line(error)}", size - whole
             ) from None
+
+
+def read_in_order(path: Path, topics: Sequence[str]) -> Iterator[Message]:
+    """Return the messages of some topics by time; those of one time in the order of the topics.
+
+    Who writes a log anew, as a merge or a filter does, may order what has one time as he likes.
+
+    Raises:
+        BrokenLogError: the file breaks off, after all that is whole was given.
+        InputError: the file is missing, or a message stands far behind a later one.
+    """
+    rank = {topic: number for number, topic in enumerate(topics)}
+    waiting: list[tuple[int, int, int, Message]] = []
+    size, last = 0, 0
+    try:
+        for number, message in enumerate(read_messages(path, topics)):
+            if message.log_ns < last:
+                raise InputError(
+                    f"{path}: is no recording in the order of time: {message.topic} of "
+                    f"{1e-9 * message.log_ns:.2f} s stands behind {1e-9 * last:.2f} s"
+                )
+            heapq.heappush(waiting, (message.log_ns, rank[message.topic], number, message))
+            size += len(message.data)
+            while len(waiting) > MOST_WAITING[0] or size > MOST_WAITING[1]:
+                first = heapq.heappop(waiting)[-1]
+                size -= len(first.data)
+                last = first.log_ns
+                yield first
+    except BrokenLogError:
+        yield from (entry[-1] for entry in sorted(waiting))
+        raise
+    yield from (entry[-1] for entry in sorted(waiting))
 
 
 def _records(file: BinaryIO, path: Path) -> Iterator[tuple[int, bytes]]:
@@ -174,8 +211,12 @@ def _unpacked(content: bytes) -> bytes:
         if zstandard.get_frame_parameters(data).content_size > LARGEST_RECORD:
             raise ValueError("a chunk that unpacks to more than it says")
         data = zstandard.decompress(data, max_output_size=chunk.uncompressed_size)
+    elif chunk.compression == "lz4":
+        # Asked for one byte more than is said, it cannot make more than that of a few bytes.
+        unpacker = lz4.frame.LZ4FrameDecompressor()
+        data = unpacker.decompress(data, max_length=chunk.uncompressed_size + 1)
     elif chunk.compression:
-        raise ValueError(f"a chunk packed by {chunk.compression[:20]!r}, only zstd is read")
+        raise ValueError(f"a chunk packed by {chunk.compression[:20]!r}, zstd and lz4 are read")
     if len(data) != chunk.uncompressed_size:
         raise ValueError("a chunk of another size than it says")
     if chunk.uncompressed_crc and zlib.crc32(data) != chunk.uncompressed_crc:
@@ -184,7 +225,7 @@ def _unpacked(content: bytes) -> bytes:
 
 
 def _messages(
-    data: bytes, channels: dict[int, str | None], topics: Container[str], allowance: _Allowance
+    data: bytes, channels: dict[int, str | None], topics: Sequence[str], allowance: _Allowance
 ) -> Iterator[Message]:
     at, end, told = 0, len(data), 0
     allowance.data -= end
@@ -208,7 +249,7 @@ def _messages(
 
 
 def _taken(
-    opcode: int, content: bytes, channels: dict[int, str | None], topics: Container[str]
+    opcode: int, content: bytes, channels: dict[int, str | None], topics: Sequence[str]
 ) -> Message | None:
     """Return a message of the topics; learn a channel."""
     if opcode == Opcode.MESSAGE:

@@ -24,7 +24,7 @@ from treadwell._core import Octree
 from treadwell._core import version as core_version
 from treadwell.errors import InputError, RecordingError
 from treadwell.files import opened, read_content
-from treadwell.observation import Observation
+from treadwell.observation import Frame, Observation
 from treadwell.processor import processor
 from treadwell.recording import cdr, messages
 from treadwell.recording.file import write_fault
@@ -33,7 +33,7 @@ from treadwell.recording.log_file import (
     BrokenLogError,
     Front,
     read_front,
-    read_messages,
+    read_in_order,
 )
 from treadwell.recording.log_writer import Entry, LogWriter
 from treadwell.scenario.model import Scenario
@@ -220,22 +220,26 @@ class ObservationLog:
 def read_observations(path: Path) -> Iterator[Observation]:
     """Return a file's observations in order: all that a replayed core is given, and no truth.
 
-    A file that breaks off gives what it has, and then raises.
+    A frame belongs to the first observation that is no earlier than its arrival. A file that breaks
+    off gives what it has, and then raises.
 
     Raises:
         InputError: the file is missing, breaks off, or is none of this kind.
     """
     waiting: Observation | None = None
+    frame: Frame | None = None
     try:
-        for message in read_messages(path, ("/observation", "/depth")):
+        for message in read_in_order(path, ("/observation", "/depth")):
             if message.topic == "/observation":
                 if waiting is not None:
                     yield waiting
                     waiting = None
-                waiting = cdr.decode(message.data)
-            elif waiting is not None:
+                waiting = replace(cdr.decode(message.data), depth=frame)
+                frame = None
+            else:
                 frame = cdr.decode_image(message.data, message.publish_ns, message.log_ns)
-                waiting = replace(waiting, depth=frame)
+                if waiting is not None and message.log_ns <= waiting.time_ns:
+                    waiting, frame = replace(waiting, depth=frame), None
     except BrokenLogError:
         if waiting is not None:
             yield waiting
@@ -252,12 +256,12 @@ def read_answers(path: Path) -> Iterator[tuple[bytes, bytes]]:
     Raises:
         InputError: the file is missing, breaks off, or is none of this kind.
     """
-    command = b""
-    for message in read_messages(path, ("/command", "/estimate")):
+    command, time_ns = b"", -1
+    for message in read_in_order(path, ("/command", "/estimate")):
         if message.topic == "/command":
-            command = message.data
+            command, time_ns = message.data, message.log_ns
         else:
-            yield command, message.data
+            yield command if message.log_ns == time_ns else b"", message.data
 
 
 def read_truth(path: Path) -> Iterator[tuple[float, ...]]:
@@ -268,7 +272,7 @@ def read_truth(path: Path) -> Iterator[tuple[float, ...]]:
     Raises:
         InputError: the file is missing, breaks off, or is none of this kind.
     """
-    for message in read_messages(path, ("/truth",)):
+    for message in read_in_order(path, ("/truth",)):
         try:
             yield messages.decode_truth(message.data)
         except ValueError as error:

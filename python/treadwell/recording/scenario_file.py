@@ -10,6 +10,7 @@ from typing import Any, Final
 
 import tomli_w
 
+from treadwell.careful_json import json_of
 from treadwell.errors import InputError
 from treadwell.files import opened, write_text
 from treadwell.scenario.model import Scenario
@@ -35,7 +36,7 @@ def origin_of(path: Path) -> Path | None:
     try:
         with opened(path) as file:
             line = file.readline(_LONGEST_LINE).decode()
-        named = json.loads(line.removeprefix(_ORIGIN)) if line.startswith(_ORIGIN) else None
+        named = json_of(line.removeprefix(_ORIGIN), str(path)) if line.startswith(_ORIGIN) else None
     except (InputError, OSError, ValueError):
         return None
     return Path(named) if isinstance(named, str) and "\x00" not in named else None

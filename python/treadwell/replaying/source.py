@@ -9,6 +9,7 @@ from typing import Any, Final
 from pydantic import ValidationError
 
 from treadwell._core import Octree
+from treadwell.careful_json import json_of
 from treadwell.core_settings import MAPPED, CoreInput, navigation_settings, told_map
 from treadwell.errors import InputError
 from treadwell.recording import observation_log as log
@@ -149,10 +150,7 @@ def _table(front: Front, name: str, path: Path) -> dict[str, Any]:
             f"{path}: has no {name}, without which it cannot be replayed; it was written by an "
             "older treadwell, or by other software"
         )
-    try:
-        table = json.loads(front.attachments[name], parse_constant=_no_number)
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"{path}: {name}: is broken: {str(error)[:200]}") from None
+    table = json_of(front.attachments[name], f"{path}: {name}: is broken")
     if not isinstance(table, dict):
         raise InputError(f"{path}: {name}: is broken: must be a table")
     return table
@@ -163,7 +161,3 @@ def _part(table: dict[str, Any], key: str, path: Path) -> dict[str, Any]:
     if not isinstance(part, dict):
         raise InputError(f"{path}: {log.CORE}: {key}: is missing or no table")
     return part
-
-
-def _no_number(text: str) -> float:
-    raise ValueError(f"{text} is no finite number")

@@ -1,11 +1,11 @@
 """The folder of a sweep as far as a page needs it: rows of episodes, whatever keys they lack."""
 
-import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from treadwell.careful_json import json_of
 from treadwell.errors import InputError
 from treadwell.files import read_text
 from treadwell.sweeps.folder import LARGEST
@@ -99,10 +99,7 @@ def _document(path: Path, problems: list[str]) -> Any:  # noqa: ANN401 - any JSO
     if not path.is_file():
         problems.append(f"{path.name} is missing")
         return {}
-    try:
-        return json.loads(read_text(path, LARGEST))
-    except (ValueError, RecursionError):
-        raise InputError(f"{path}: is no JSON") from None
+    return json_of(read_text(path, LARGEST), str(path), strict=False)
 
 
 def _lines(asked: Any) -> dict[tuple[str, str, str], dict[str, Any]]:  # noqa: ANN401

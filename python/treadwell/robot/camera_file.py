@@ -4,25 +4,36 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, FiniteFloat, model_validator
 
-from treadwell.robot.tables import Name, NotNegative, Position, Positive, Share, Table
+from treadwell.robot.tables import (
+    Angle,
+    Depth,
+    Disparity,
+    Length,
+    Name,
+    Pixels,
+    PixelStep,
+    Position,
+    Share,
+    Table,
+)
 
 
 class StereoTable(Table):
     """`[camera.stereo]`: a stereo camera, and how it errs."""
 
-    baseline: Positive
+    baseline: Length
     """Distance between the lenses, m."""
     window: Annotated[int, Field(ge=1, le=31)]
     """Side of the matching window, pixels, odd."""
-    disparity_noise_fixed: NotNegative = 0.0
+    disparity_noise_fixed: Pixels = 0.0
     """Standard deviation of the fixed pattern of disparities, pixels."""
-    disparity_noise_temporal: NotNegative = 0.0
+    disparity_noise_temporal: Pixels = 0.0
     """Standard deviation of what changes from frame to frame, pixels."""
-    quantum: NotNegative = 0.0
+    quantum: PixelStep = 0.0
     """Step of a disparity, pixels."""
-    min_disparity: Positive
+    min_disparity: Disparity
     """Smallest disparity that is matched, pixels: sets the farthest depth."""
-    max_disparity: Positive
+    max_disparity: Disparity
     """Largest disparity that is matched, pixels: sets the nearest depth."""
     mismatch_rate: Share = 0.0
     """Share of pixels that are grossly wrong."""
@@ -41,23 +52,23 @@ class StereoTable(Table):
 class StructuredLightTable(Table):
     """`[camera.structured_light]`: a structured-light camera, and how it errs."""
 
-    baseline: Positive
+    baseline: Length
     """Distance between projector and lens, m."""
     window: Annotated[int, Field(ge=1, le=31)]
     """Side of the matching window, pixels."""
-    disparity_noise: NotNegative
+    disparity_noise: Pixels
     """Standard deviation of a disparity, pixels."""
-    quantum: NotNegative = 0.0
+    quantum: PixelStep = 0.0
     """Step of a disparity, pixels."""
-    nearest: Positive
+    nearest: Depth
     """Nearest depth that is seen, m."""
-    farthest: Positive
+    farthest: Depth
     """Farthest depth that is seen, m."""
-    lateral_noise: NotNegative = 0.0
+    lateral_noise: Pixels = 0.0
     """Standard deviation of where a border is seen, pixels."""
     edge_dropout: Share = 0.0
     """Share of pixels at edges of depth without a value."""
-    steepest: Annotated[FiniteFloat, Field(gt=0.0, le=1.5708)]
+    steepest: Annotated[FiniteFloat, Field(ge=0.01, le=1.5708)]
     """Surfaces that are seen more aslant than this have no value, rad."""
 
     @model_validator(mode="after")
@@ -76,7 +87,7 @@ class MountTable(Table):
     """The link that carries it."""
     position: Position
     """The lens in the link's frame, m."""
-    down: FiniteFloat = 0.0
+    down: Angle = 0.0
     """How far it is tipped down, rad."""
 
 
@@ -91,11 +102,11 @@ class CameraTable(Table):
     """Width of the image, pixels."""
     height: Annotated[int, Field(ge=8, le=480)]
     """Height of the image, pixels."""
-    horizontal_fov: Annotated[FiniteFloat, Field(gt=0.0, lt=3.0)]
+    horizontal_fov: Annotated[FiniteFloat, Field(ge=0.01, lt=3.0)]
     """Horizontal field of view, rad."""
-    vertical_fov: Annotated[FiniteFloat, Field(gt=0.0, lt=3.0)]
+    vertical_fov: Annotated[FiniteFloat, Field(ge=0.01, lt=3.0)]
     """Vertical field of view, rad."""
-    period: Positive
+    period: Annotated[FiniteFloat, Field(ge=0.01, le=10.0)]
     """Time between exposures, s: a multiple of the control tick of 0.01 s."""
     pool: Annotated[int, Field(ge=1, le=8)] = 1
     """Pixels a side that the core takes for one."""

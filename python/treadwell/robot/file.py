@@ -3,10 +3,30 @@
 import json
 from typing import Annotated, Any, Self
 
-from pydantic import Field, FiniteFloat, StringConstraints, field_validator, model_validator
+from pydantic import Field, StringConstraints, field_validator, model_validator
 
 from treadwell.robot.camera_file import CameraTable
-from treadwell.robot.tables import Name, NotNegative, Position, Positive, Table
+from treadwell.robot.tables import (
+    AccelerationError,
+    Angle,
+    AngleError,
+    AngleStep,
+    Coordinate,
+    Damping,
+    ForceError,
+    Friction,
+    Inertia,
+    Length,
+    LengthError,
+    Name,
+    Position,
+    RateError,
+    Share,
+    Speed,
+    Stiffness,
+    Table,
+    Torque,
+)
 
 
 class RobotTable(Table):
@@ -25,17 +45,17 @@ class BodyTable(Table):
 
     torso: Name
     """The link that counts as the trunk."""
-    radius: Positive
+    radius: Length
     """Radius of the upright cylinder that holds the robot while it walks, m."""
-    height: Positive
+    height: Length
     """Height of the top of the head while it stands, m."""
-    depth: Positive | None = None
+    depth: Length | None = None
     """Front to back, the upright box that holds it while it walks sideways, m; default: the
     cylinder's diameter.
     """
-    width: Positive | None = None
+    width: Length | None = None
     """Across, the same box, m; default: the cylinder's diameter."""
-    foot_side: Positive = 0.06
+    foot_side: Length = 0.06
     """How far to each side of the middle the ground matters to the feet, m: a little less than the
     outer edges of the soles.
     """
@@ -48,9 +68,9 @@ class SoleTable(Table):
     """The link that carries it."""
     position: Position
     """Its centre in the link's frame, on the ground, m."""
-    length: Positive
+    length: Length
     """Extent forward, m."""
-    width: Positive
+    width: Length
     """Extent across, m."""
 
 
@@ -59,9 +79,9 @@ class SensorsTable(Table):
 
     position: Position
     """Its centre in the link's frame, m."""
-    length: Positive
+    length: Length
     """Extent forward, m."""
-    width: Positive
+    width: Length
     """Extent across, m."""
 
 
@@ -113,11 +133,11 @@ class HeadTable(Table):
     """The joint that turns it left and right."""
     tilt: Name
     """The joint that nods."""
-    eye_height: Positive = 0.45
+    eye_height: Length = 0.45
     """Height of the eyes above the ground while the robot stands, as far as turning the head to a
     place needs it, m.
     """
-    eye_ahead: FiniteFloat = 0.04
+    eye_ahead: Coordinate = 0.04
     """How far the eyes are ahead of the robot's middle, as far as turning the head to a place needs
     it, m.
     """
@@ -126,9 +146,9 @@ class HeadTable(Table):
 class ArmsTable(Table):
     """`[arms]`: where the arms are held."""
 
-    rest: dict[Name, FiniteFloat] = Field(default_factory=dict)
+    rest: dict[Name, Angle] = Field(default_factory=dict)
     """Angles of joints of the arms at rest, rad."""
-    raised: dict[Name, FiniteFloat] = Field(default_factory=dict)
+    raised: dict[Name, Angle] = Field(default_factory=dict)
     """Angles when they are raised in joy, rad."""
 
 
@@ -145,39 +165,39 @@ class ImuTable(Table):
     """The gyro of the MJCF; added where it has none."""
     accelerometer: Name = "accelerometer"
     """The accelerometer of the MJCF; added where it has none."""
-    gyro_noise: NotNegative = 0.0
+    gyro_noise: RateError = 0.0
     """Standard deviation of an axis of the gyro at a tick, rad/s."""
-    gyro_bias: NotNegative = 0.0
+    gyro_bias: RateError = 0.0
     """Standard deviation of an axis' constant error, rad/s."""
-    accelerometer_noise: NotNegative = 0.0
+    accelerometer_noise: AccelerationError = 0.0
     """Standard deviation of an axis of the accelerometer at a tick, m/s²."""
-    accelerometer_bias: NotNegative = 0.0
+    accelerometer_bias: AccelerationError = 0.0
     """Standard deviation of an axis' constant error, m/s²."""
 
 
 class EncodersTable(Table):
     """`[encoders]`: how joint angles and the camera mount err."""
 
-    quantum: NotNegative = 0.0
+    quantum: AngleStep = 0.0
     """Step of an encoder, rad."""
-    play: NotNegative = 0.0
+    play: AngleError = 0.0
     """Whole lost motion of a gear, rad; encoders sit on the motors' side of it."""
-    leg_offset: NotNegative = 0.0
+    leg_offset: AngleError = 0.0
     """Bound of the constant error of a leg's encoder, rad."""
-    camera_roll_pitch_error: NotNegative = 0.0
+    camera_roll_pitch_error: AngleError = 0.0
     """Bound of the camera's constant error in roll and pitch, rad."""
-    camera_yaw_error: NotNegative = 0.0
+    camera_yaw_error: AngleError = 0.0
     """Bound of its constant error in yaw, rad."""
-    camera_position_error: NotNegative = 0.0
+    camera_position_error: LengthError = 0.0
     """Bound of the constant error of its place, m."""
 
 
 class FeetTable(Table):
     """`[feet]`: how the force sensors err."""
 
-    force_noise: NotNegative = 0.0
+    force_noise: Share = 0.0
     """Standard deviation as a share of the force."""
-    force_noise_absolute: NotNegative = 0.0
+    force_noise_absolute: ForceError = 0.0
     """Standard deviation beside that, N."""
 
 
@@ -186,21 +206,21 @@ class MotorsTable(Table):
 
     joints: Annotated[tuple[Name, ...], Field(min_length=1)]
     """The joints with such a motor."""
-    peak_torque: Positive
+    peak_torque: Torque
     """Largest torque, N·m."""
-    stall_torque: Positive | None = None
+    stall_torque: Torque | None = None
     """Torque at which the torque-speed line starts, N·m; default: `peak_torque`."""
-    no_load_speed: Positive
+    no_load_speed: Speed
     """Speed at which no torque is left, rad/s."""
-    kp: Positive
+    kp: Stiffness
     """Stiffness of the servo, N·m/rad."""
-    kv: NotNegative
+    kv: Damping
     """Damping of the servo, N·m·s/rad."""
-    damping: NotNegative | None = None
+    damping: Damping | None = None
     """The joints' own damping, N·m·s/rad; default: the MJCF's."""
-    friction: NotNegative | None = None
+    friction: Friction | None = None
     """The joints' dry friction, N·m; default: the MJCF's."""
-    armature: NotNegative | None = None
+    armature: Inertia | None = None
     """The motor's inertia at the joint, kg·m²; default: the MJCF's."""
 
     @model_validator(mode="after")
@@ -215,11 +235,11 @@ class RobotFile(Table):
 
     robot: RobotTable
     """Who it is."""
-    stand: dict[Name, FiniteFloat] = Field(default_factory=dict)
+    stand: dict[Name, Angle] = Field(default_factory=dict)
     """Angles of the upright stance, rad, 0 for the joints that are not named; default: the MJCF's
     keyframe.
     """
-    ranges: dict[Name, tuple[FiniteFloat, FiniteFloat]] = Field(default_factory=dict)
+    ranges: dict[Name, tuple[Angle, Angle]] = Field(default_factory=dict)
     """Least and largest angle of joints whose range the MJCF does not have, rad."""
     body: BodyTable
     """The size of the whole robot."""

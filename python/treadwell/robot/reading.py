@@ -48,7 +48,7 @@ def _lines(path: Path, error: ValidationError) -> list[str]:
     lines = []
     for item in error.errors():
         key = ".".join(str(part) for part in item["loc"])
-        message = item["msg"].removeprefix("Value error, ")
+        message = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
         found = (
             "" if isinstance(item["input"], dict | BaseModel) else f", got {shown(item['input'])}"
         )

@@ -55,7 +55,7 @@ class Move(EventTable):
     """The points that it goes to one after the other: world x, y, m."""
     loop: bool = False
     """Whether it goes on from the path's last point to its first, for ever."""
-    speed: Annotated[float, Field(gt=0.0, le=10.0)] = 0.2
+    speed: Annotated[float, Field(ge=0.001, le=10.0)] = 0.2
     """Speed, m/s."""
     gives_way: bool = False
     """Whether it stops before the robot, as a person does, and turns back after three seconds."""

@@ -35,7 +35,7 @@ SEEDS = 2**53
 MOST_ELEMENTS = 2000
 MOST_EVENTS = 200
 Count = Annotated[int, Field(ge=0, le=1_000_000)]
-Limit = Annotated[float, Field(gt=0.0, le=1e6)]
+Limit = Annotated[float, Field(ge=1e-6, le=1e6)]
 
 
 class Start(Table):
@@ -109,7 +109,7 @@ class Navigation(Table):
     """What finds the way."""
     behaviour: str = "stair_climbing"
     """What decides."""
-    call_limit: Annotated[Seconds, Field(gt=0.0)] = 30.0
+    call_limit: Annotated[Seconds, Field(ge=0.001)] = 30.0
     """Seconds of wall-clock time that one call of a component in Python may take."""
 
     @field_validator("world_model", "segmenter", "localizer", "planner", "behaviour")
@@ -172,7 +172,7 @@ class Scenario(Table):
     """A robot of `treadwell list robots`, or the path to a robot's folder."""
     seed: Annotated[int, Field(ge=0, lt=SEEDS)] = 0
     """What all that is random is drawn from: one seed, one result on one kind of processor."""
-    time_limit: Annotated[Seconds, Field(gt=0.0)] = 120.0
+    time_limit: Annotated[Seconds, Field(ge=0.001)] = 120.0
     """The episode ends after this, simulated seconds."""
     start: Start
     """Where the robot starts."""

@@ -1,8 +1,10 @@
 """The number, name and table types that the models of a scenario file are made of."""
 
-from typing import Annotated, Final
+import sys
+from typing import Annotated, Any, Final
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, field_validator
+from pydantic_core import PydanticCustomError
 
 LARGEST_M: Final = 100.0
 """Nothing in a scenario is farther away or longer than this, in metres."""
@@ -10,7 +12,41 @@ SMALLEST_M: Final = 0.001
 """Nothing in a scenario is thinner than this, in metres: MuJoCo makes no sense of it."""
 
 
-class Table(BaseModel):
+class PlainNumbers(BaseModel):
+    """Numbers that arithmetic takes as they look: no -0.0, and none too near to 0 for 64 bits.
+
+    A range that ends in -0.0 is empty to NumPy, and the reciprocal of a subnormal number is
+    infinite.
+    """
+
+    @field_validator("*")
+    @classmethod
+    def _take_plainly(cls, value: Any) -> Any:  # noqa: ANN401 - whatever a field holds
+        return plain(value)
+
+
+def plain(value: Any) -> Any:  # noqa: ANN401 - whatever a field holds
+    """Return a value with 0.0 for each -0.0 in it.
+
+    Raises:
+        PydanticCustomError: a number in it is subnormal.
+    """
+    if isinstance(value, float):
+        if 0.0 < abs(value) < sys.float_info.min:
+            raise PydanticCustomError(
+                "subnormal",
+                "must be 0, or not so near to it: {least} at least",
+                {"least": sys.float_info.min},
+            )
+        return value + 0.0
+    if isinstance(value, tuple | list):
+        return type(value)(plain(item) for item in value)
+    if isinstance(value, dict):
+        return {key: plain(item) for key, item in value.items()}
+    return value
+
+
+class Table(PlainNumbers):
     """A table of the file: no unknown keys, no conversions, no NaN or infinity, never changed."""
 
     model_config = ConfigDict(

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final, Self
 
+from treadwell.careful_json import json_of
 from treadwell.errors import InputError, RecordingError
 from treadwell.files import read_text, write_text
 from treadwell.sweeps import journal
@@ -180,10 +181,7 @@ def read_asked(file: Path) -> dict[str, Any]:
     Raises:
         InputError: it is no such file.
     """
-    try:
-        document = json.loads(read_text(file, LARGEST))
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"{file}: cannot be read: {error}") from None
+    document = json_of(read_text(file, LARGEST), str(file))
     if not isinstance(document, dict) or document.get("schema") != SCHEMA:
         raise InputError(f"{file}: not a sweep of schema {SCHEMA}")
     lines = document.get("lines")

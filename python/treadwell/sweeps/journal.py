@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 from typing import Any, Final
 
+from treadwell.careful_json import json_of
 from treadwell.errors import InputError, RecordingError
 from treadwell.files import read_content
 
@@ -90,12 +91,10 @@ class Journal:
         os.close(self._file)
 
     def _read(self, number: int, line: bytes) -> dict[str, Any]:
-        try:
-            row = json.loads(line)
-        except ValueError:
-            row = None
+        place = f"{self._path}: line {number}"
+        row = json_of(line, place)
         if not isinstance(row, dict):
-            raise InputError(f"{self._path}: line {number}: not a row of a sweep")
+            raise InputError(f"{place}: not a row of a sweep")
         return row
 
 
@@ -111,8 +110,8 @@ def read_rows(path: Path) -> list[dict[str, Any]]:
     rows = []
     for line in content[: content.rfind(b"\n") + 1].splitlines():
         try:
-            row = json.loads(line)
-        except (ValueError, RecursionError):
+            row = json_of(line, str(path), strict=False)
+        except InputError:
             break
         if isinstance(row, dict):
             rows.append(row)

@@ -234,7 +234,7 @@ BENCHES: Final[dict[str, Callable[[Frames], dict[str, Any]]]] = {
 }
 
 
-def _timed(call: Callable[[], None]) -> float:
+def _timed(call: Callable[[], object]) -> float:
     started = perf_counter()
     call()
     return perf_counter() - started

@@ -57,7 +57,8 @@ impl PyOctree {
     }
 
     /// Takes in a frame's points, (n, 3) m, all seen from `eye`; what is further than `max_range` clears the way up to it. Points
-    /// that are no numbers are left out. A voxel changes once a frame, and a hit wins, or by `each_point`.
+    /// that are no numbers are left out. A voxel changes once a frame, and a hit wins, or by `each_point`. Returns how many points
+    /// were left out since they lie beyond the 2^16 voxels along each axis; it is an `InputError` where they all do, and the eye.
     #[pyo3(signature = (points, eye, *, max_range=f64::INFINITY, each_point=false))]
     fn insert(
         &mut self,
@@ -66,7 +67,7 @@ impl PyOctree {
         eye: [f64; 3],
         max_range: f64,
         each_point: bool,
-    ) -> PyResult<()> {
+    ) -> PyResult<usize> {
         let points = points.readonly();
         let points = triples("points", &points)?;
         if max_range <= 0.0 || max_range.is_nan() {
@@ -79,22 +80,22 @@ impl PyOctree {
         };
         let tree = Arc::make_mut(&mut self.tree);
         let started = Instant::now();
-        run(py, || {
+        let beyond = run(py, || {
             let rays: Vec<_> = rays(eye, points, max_range).map(|(_, ray)| ray).collect();
             tree.insert(eye, &rays, update)
         })?
         .map_err(|error| bad_setting(py, &error))?;
         self.seconds = started.elapsed().as_secs_f64();
-        Ok(())
+        Ok(beyond)
     }
 
-    /// Makes the voxels of points, (n, 3) m, occupied: a map that is told, not seen. Points beyond what a tree can hold, and those
-    /// that are no numbers, are left out.
-    fn occupy(&mut self, py: Python<'_>, points: &Bound<'_, PyArray2<f64>>) -> PyResult<()> {
+    /// Makes the voxels of points, (n, 3) m, occupied: a map that is told, not seen. Points that are no numbers are left out, and
+    /// those beyond the 2^16 voxels along each axis: their number is returned; it is an `InputError` where all are.
+    fn occupy(&mut self, py: Python<'_>, points: &Bound<'_, PyArray2<f64>>) -> PyResult<usize> {
         let points = points.readonly();
         let points = triples("points", &points)?;
         let tree = Arc::make_mut(&mut self.tree);
-        run(py, || tree.occupy(points))
+        run(py, || tree.occupy(points))?.map_err(|error| bad_setting(py, &error))
     }
 
     /// The occupied leaves: (n, 3) m, their centres, and (n,) m, their sides.

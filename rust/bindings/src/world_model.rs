@@ -115,13 +115,14 @@ impl PyOccupancyGrid {
         })
     }
 
-    /// Takes in a frame's points, (n, 3) m, all seen from `eye`; what is further than `max_range` clears the way up to it.
+    /// Takes in a frame's points, (n, 3) m, all seen from `eye`; what is further than `max_range` clears the way up to it. Returns
+    /// how many points lie outside the grid; it is an `InputError` where they all do, and the eye.
     fn insert(
         &mut self,
         py: Python<'_>,
         points: &Bound<'_, PyArray2<f64>>,
         eye: [f64; 3],
-    ) -> PyResult<()> {
+    ) -> PyResult<usize> {
         let points = points.readonly();
         let flat = by_row(&points)?;
         if points.as_array().ncols() != 3 {
@@ -131,6 +132,7 @@ impl PyOccupancyGrid {
         if !eye.iter().all(|at| at.is_finite()) {
             return Err(PyValueError::new_err("the eye must be finite"));
         }
+        let outside = self.outside(py, eye, points)?;
         let (grid, config) = (&mut self.grid, &self.config);
         let rays = rays(eye, points, config.max_range).map(|(_, ray)| ray);
         let started = Instant::now();
@@ -138,11 +140,12 @@ impl PyOccupancyGrid {
             grid.insert(eye, rays, config.update, config.clearing)
         })?;
         self.seconds = started.elapsed().as_secs_f64();
-        Ok(())
+        Ok(outside)
     }
 
     /// Takes in a picture's points, (h, w, 3) m, NaN where nothing was seen. `camera`, (4, 4), is where it was taken: x to the right,
     /// y down, z forward. `focal` and `centre` are (along columns, along rows), pixels; each pixel's point lies on its line of sight.
+    /// Returns how many points lie outside the grid; it is an `InputError` where they all do, and the camera.
     fn insert_picture(
         &mut self,
         py: Python<'_>,
@@ -150,7 +153,7 @@ impl PyOccupancyGrid {
         camera: &Bound<'_, PyArray2<f64>>,
         focal: [f64; 2],
         centre: [f64; 2],
-    ) -> PyResult<()> {
+    ) -> PyResult<usize> {
         let points = points.readonly();
         let flat = by_row(&points)?;
         let (height, width, parts) = points.as_array().dim();
@@ -172,6 +175,7 @@ impl PyOccupancyGrid {
             axes: Picture::axes_of(&pose),
         };
         let eye = pose.inner.translation.vector.into();
+        let outside = self.outside(py, eye, points)?;
         let (grid, config) = (&mut self.grid, &self.config);
         let rays = rays(eye, points, config.max_range);
         let started = Instant::now();
@@ -179,7 +183,7 @@ impl PyOccupancyGrid {
             grid.insert_picture(eye, &picture, rays, config.update, config.clearing)
         })?;
         self.seconds = started.elapsed().as_secs_f64();
-        Ok(())
+        Ok(outside)
     }
 
     /// (rows, columns, layers) float32: how likely each voxel is occupied.
@@ -197,6 +201,43 @@ impl PyOccupancyGrid {
             }));
         }
         values.into_pyarray(py).reshape([rows, cols, layers])
+    }
+}
+
+impl PyOccupancyGrid {
+    /// How many points lie outside the grid; refused where nothing of a frame lies in it.
+    fn outside(&self, py: Python<'_>, eye: [f64; 3], points: &[[f64; 3]]) -> PyResult<usize> {
+        let Placement {
+            lattice,
+            bottom_m,
+            layer_m,
+        } = self.grid.placement;
+        let Size { cols, rows, layers } = self.size;
+        let low = [lattice.origin_m[0], lattice.origin_m[1], bottom_m];
+        let sides = [lattice.cell_m, lattice.cell_m, layer_m];
+        let counts = [cols, rows, layers];
+        let high: [f64; 3] =
+            std::array::from_fn(|axis| low[axis] + counts[axis] as f64 * sides[axis]);
+        let inside =
+            |at: &[f64; 3]| (0..3).all(|axis| at[axis] >= low[axis] && at[axis] < high[axis]);
+        let finite = points
+            .iter()
+            .filter(|at| at.iter().all(|one| one.is_finite()));
+        let (mut count, mut held) = (0, inside(&eye));
+        for point in finite.clone() {
+            let holds = inside(point);
+            held |= holds;
+            count += usize::from(!holds);
+        }
+        match finite.clone().next() {
+            Some(point) if !held => {
+                let said = format!(
+                    "the point at {point:?} m lies outside the grid, as all others and the eye: it goes from {low:?} to {high:?} m"
+                );
+                Err(bad_setting(py, &said))
+            }
+            _ => Ok(count),
+        }
     }
 }
 

@@ -45,7 +45,13 @@ impl KnownMap {
             let in_row = (0..cols).map(|x| [x, y, z]);
             let filled = in_row.filter(|voxel| solid.is_solid(voxel.map(|at| at as i64)));
             let centre_m = |voxel| (solid.corner_m(voxel)).map(|low_m| low_m + 0.5 * resolution_m);
-            tree.occupy(&filled.map(centre_m).collect::<Vec<_>>());
+            let _beyond = tree
+                .occupy(&filled.map(centre_m).collect::<Vec<_>>())
+                .map_err(|error| ConfigError {
+                    key: "static_map".to_owned(),
+                    allowed: "within what a tree can hold".to_owned(),
+                    found: error.to_string(),
+                })?;
         }
         let config = KnownMapConfig {
             resolution: resolution_m,

@@ -48,7 +48,7 @@ mod tests {
             ..OctreeConfig::default()
         };
         let mut tree = Octree::new(voxels(0.06)).unwrap();
-        tree.occupy(&[[0.03, 0.03, 0.03]]);
+        let _beyond = tree.occupy(&[[0.03, 0.03, 0.03]]).unwrap();
         let finer = recut(&tree, &voxels(0.04), "size", 100.0).unwrap();
         for (at_m, solid) in [(0.01, Some(true)), (0.05, Some(true)), (0.09, None)] {
             assert_eq!(finer.is_occupied_at([at_m, 0.01, 0.01]), solid, "{at_m}");

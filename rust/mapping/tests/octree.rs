@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use beams::{SPAN, frames, in_voxels, point, tree};
 use mapping::Update;
 use proptest::prelude::*;
-use volume::octree::{Format, Key, Leaf, Octree, probability};
+use volume::octree::{Format, Key, Leaf, Octree, OctreeConfig, probability};
 use volume::{Ray, VoxelWalk, bayes};
 
 /// Log-odds in the tree's steps.
@@ -108,7 +108,7 @@ proptest! {
     fn the_tree_is_the_exact_grid_per_frame(frames in frames(6.0)) {
         let (mut tree, mut exact) = (tree(), Exact::default());
         for (eye, rays) in &frames {
-            tree.insert(*eye, rays, Update::PerFrame).unwrap();
+            let _beyond = tree.insert(*eye, rays, Update::PerFrame).unwrap();
             exact.insert(*eye, rays, Update::PerFrame);
         }
         let touched = |key: Key| frames.iter().any(|(eye, rays)| rays.iter().any(|ray| grazes(*eye, ray.end_m, key)));
@@ -119,7 +119,7 @@ proptest! {
     fn the_tree_is_the_exact_grid_per_point(frames in frames(3.0)) {
         let (mut tree, mut exact) = (tree(), Exact::default());
         for (eye, rays) in &frames {
-            tree.insert(*eye, rays, Update::PerPoint).unwrap();
+            let _beyond = tree.insert(*eye, rays, Update::PerPoint).unwrap();
             exact.insert(*eye, rays, Update::PerPoint);
         }
         prop_assert_eq!(exact.agrees(&tree, |_| false), Ok(()));
@@ -130,7 +130,7 @@ proptest! {
         let (mut tree, mut exact) = (tree(), Exact::default());
         // Often enough that free voxels become as free as can be, and are then skipped.
         for eye in eyes.iter().chain(&eyes).chain(&eyes).chain(&eyes) {
-            tree.insert(*eye, &picture(*eye, width), Update::PerFrame).unwrap();
+            let _beyond = tree.insert(*eye, &picture(*eye, width), Update::PerFrame).unwrap();
             exact.insert(*eye, &picture(*eye, width), Update::PerFrame);
         }
         let touched = |key: Key| eyes.iter().any(|eye| picture(*eye, width).iter().any(|ray| grazes(*eye, ray.end_m, key)));
@@ -186,7 +186,8 @@ fn far_beams_take_no_more_room_than_they_pass() {
             hit: true,
         },
     ];
-    tree.insert([0.01, 0.02, 0.03], &rays, Update::PerFrame)
+    let _beyond = tree
+        .insert([0.01, 0.02, 0.03], &rays, Update::PerFrame)
         .unwrap();
     assert_eq!(tree.is_occupied_at([3000.0, 2500.0, -2000.0]), Some(true));
     assert_eq!(
@@ -225,4 +226,36 @@ fn a_beam_that_is_no_number_changes_nothing() {
             .is_err()
     );
     assert_eq!(tree.leaves().count(), 0);
+}
+
+#[test]
+fn what_lies_beyond_the_voxels_is_counted_and_refused_where_all_does() {
+    let mut tree = Octree::new(OctreeConfig::default()).unwrap();
+    let hit = |end_m| Ray { end_m, hit: true };
+    let (far, eye) = (
+        [500_000.5, 5_000_000.0, 100.0],
+        [500_000.0, 5_000_000.0, 100.0],
+    );
+    for update in [Update::PerFrame, Update::PerPoint] {
+        let said = tree
+            .insert(eye, &[hit(far)], update)
+            .unwrap_err()
+            .to_string();
+        assert!(said.starts_with("point 0 at (500000.5, 5000000, 100) m lies beyond the tree: with voxels of 0.04 m it reaches from -1310.72 to 1310.72 m along each axis"), "{said}");
+    }
+    assert_eq!(
+        tree.occupy(&[far]).unwrap_err().to_string(),
+        tree.insert(eye, &[hit(far)], Update::PerFrame)
+            .unwrap_err()
+            .to_string()
+    );
+    assert_eq!(tree.leaves().count(), 0);
+    let near = [1.0, 0.0, 0.0];
+    assert_eq!(
+        tree.insert([0.0; 3], &[hit(near), hit(far)], Update::PerFrame),
+        Ok(1)
+    );
+    assert_eq!(tree.occupy(&[near, far, far, [f64::NAN; 3]]), Ok(2));
+    assert_eq!(tree.is_occupied_at(near), Some(true));
+    assert_eq!(tree.insert(eye, &[], Update::PerFrame), Ok(0));
 }

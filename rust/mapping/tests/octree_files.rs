@@ -73,7 +73,8 @@ fn a_truncated_map_is_refused_at_every_length() {
             hit: true,
         },
     ];
-    tree.insert([0.01, 0.02, 0.03], &rays, Update::PerFrame)
+    let _beyond = tree
+        .insert([0.01, 0.02, 0.03], &rays, Update::PerFrame)
         .unwrap();
     for format in [Format::Binary, Format::Full] {
         let bytes = tree.to_bytes(format);
@@ -205,7 +206,7 @@ proptest! {
             let angle = 0.15 * f64::from(i);
             Ray { end_m: [3.0 * libm::cos(angle), 3.0 * libm::sin(angle), 0.3 + 0.1 * angle], hit: true }
         }).collect();
-        tree.insert([0.01, 0.02, 0.03], &rays, Update::PerFrame).unwrap();
+        let _beyond = tree.insert([0.01, 0.02, 0.03], &rays, Update::PerFrame).unwrap();
         let mut bytes = tree.to_bytes(if full { Format::Full } else { Format::Binary });
         let at = at.index(bytes.len());
         bytes[at] = byte;

@@ -20,7 +20,7 @@ proptest! {
     ) {
         let mut tree = tree();
         for (eye, rays) in &frames {
-            tree.insert(*eye, rays, Update::PerFrame).unwrap();
+            let _beyond = tree.insert(*eye, rays, Update::PerFrame).unwrap();
         }
         let far = std::array::from_fn(|axis| origin[axis] + 50.0 * direction[axis]);
         let mut expected = Cast::Nothing;

@@ -51,7 +51,7 @@ fn told(blocks: &[Block]) -> Octree {
         }
     }
     for ray in rays {
-        tree.insert(ray.end_m, &[ray], Update::PerPoint).unwrap();
+        let _beyond = tree.insert(ray.end_m, &[ray], Update::PerPoint).unwrap();
     }
     tree
 }

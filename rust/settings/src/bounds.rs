@@ -4,10 +4,16 @@ use std::fmt;
 
 use crate::{ConfigError, require};
 
+/// No number but 0 is nearer to it than this, where its own bounds say nothing.
+pub const LEAST: f64 = 1e-9;
+/// No number is further from 0 than this, where its own bounds say nothing. The square of what one such number is to another fits
+/// in 32 bits: what is computed of them stays finite.
+pub const LARGEST: f64 = 1e9;
+
 /// One end of what is allowed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum End {
-    /// No limit but that the number is finite.
+    /// No limit but [`LARGEST`].
     None,
     /// Up to and with this value.
     With(f64),
@@ -15,7 +21,7 @@ pub enum End {
     Without(f64),
 }
 
-/// The values that a number may have. All are finite.
+/// The values that a number may have. All are 0 or from [`LEAST`] to [`LARGEST`] in size, whatever its unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
     /// The lower end.
@@ -24,7 +30,7 @@ pub struct Bounds {
     pub high: End,
 }
 
-/// Any finite number; anything, of what is no number.
+/// Any number; anything, of what is no number.
 pub const ANY: Bounds = bounds(End::None, End::None);
 /// Greater than 0: a length, a time, a weight.
 pub const POSITIVE: Bounds = bounds(End::Without(0.0), End::None);
@@ -70,6 +76,11 @@ pub const fn from_below(low: f64, high: f64) -> Bounds {
 impl Bounds {
     /// Whether a number may have this value.
     pub fn hold(&self, value: f64) -> bool {
+        self.enclose(value) && self.fit(value)
+    }
+
+    /// Whether a value lies between the ends.
+    fn enclose(&self, value: f64) -> bool {
         let low = match self.low {
             End::None => true,
             End::With(low) => value >= low,
@@ -83,31 +94,56 @@ impl Bounds {
         value.is_finite() && low && high
     }
 
-    /// Refuses a value outside, by its key.
-    pub fn check(&self, key: &str, value: f64) -> Result<(), ConfigError> {
-        require(self.hold(value), key, &self.to_string(), value)
+    /// Whether a value is neither too near to 0 nor too far from it.
+    fn fit(&self, value: f64) -> bool {
+        // As the narrowest numbers have it: one of theirs may lie a little below.
+        let seen = matches!(self.low, End::With(low) | End::Without(low) if low > 0.0)
+            || value == 0.0
+            || value.abs() as f32 >= LEAST as f32;
+        let low = self.low != End::None || value >= -LARGEST;
+        let high = self.high != End::None || value <= LARGEST;
+        seen && low && high
+    }
+
+    /// Refuses a value outside, by its key; `found` is the value as it was written.
+    pub fn check(
+        &self,
+        key: &str,
+        value: f64,
+        found: impl fmt::Display,
+    ) -> Result<(), ConfigError> {
+        let far = value.is_finite() && !(1e-6..1e15).contains(&value.abs()) && value != 0.0;
+        let found = if far {
+            format!("{value:e}")
+        } else {
+            found.to_string()
+        };
+        require(self.enclose(value), key, &self.to_string(), &found)?;
+        let allowed = format!("{self}, and 0 or from {LEAST:e} to {LARGEST:e} in size");
+        require(self.fit(value), key, &allowed, &found)
     }
 
     /// The keywords of JSON schema that say the same.
     pub fn keywords(&self) -> Vec<(&'static str, f64)> {
         let low = match self.low {
-            End::None => None,
-            End::With(low) => Some(("minimum", low)),
-            End::Without(low) => Some(("exclusiveMinimum", low)),
+            End::None => ("minimum", -LARGEST),
+            End::With(low) => ("minimum", low),
+            End::Without(0.0) => ("minimum", LEAST),
+            End::Without(low) => ("exclusiveMinimum", low),
         };
         let high = match self.high {
-            End::None => None,
-            End::With(high) => Some(("maximum", high)),
-            End::Without(high) => Some(("exclusiveMaximum", high)),
+            End::None => ("maximum", LARGEST),
+            End::With(high) => ("maximum", high),
+            End::Without(high) => ("exclusiveMaximum", high),
         };
-        low.into_iter().chain(high).collect()
+        vec![low, high]
     }
 }
 
 impl fmt::Display for Bounds {
     fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.low, self.high) {
-            (End::None, End::None) => write!(to, "finite"),
+            (End::None, End::None) => write!(to, "any number"),
             (End::With(low), End::With(high)) => write!(to, "from {low} to {high}"),
             (low, high) => {
                 match low {
@@ -135,7 +171,7 @@ mod tests {
     #[test]
     fn ends_are_in_or_out_as_they_say_and_nothing_is_infinite() {
         for (bounds, inside, outside, said) in [
-            (ANY, -3.0, f64::INFINITY, "finite"),
+            (ANY, -3.0, f64::INFINITY, "any number"),
             (POSITIVE, 1e-9, 0.0, "> 0"),
             (NOT_NEGATIVE, 0.0, -1e-9, ">= 0"),
             (SHARE, 1.0, 1.1, "from 0 to 1"),
@@ -152,11 +188,42 @@ mod tests {
     }
 
     #[test]
+    fn what_is_nearly_nothing_or_beyond_all_measure_is_refused_whatever_the_bounds() {
+        for bounds in [
+            ANY,
+            POSITIVE,
+            NOT_NEGATIVE,
+            SHARE,
+            at_least(0.0),
+            between(0.0, 0.5),
+        ] {
+            for value in [5e-324, 1e-300, 1e-12] {
+                assert!(!bounds.hold(value), "{bounds}: {value:e}");
+            }
+            assert!(bounds.hold(1e-9) && bounds.hold(f64::from(1e-9_f32)));
+        }
+        for bounds in [ANY, POSITIVE, NOT_NEGATIVE, above(1.0)] {
+            assert!(bounds.hold(1e9) && !bounds.hold(1e10) && !bounds.hold(1e308));
+        }
+        assert!(!ANY.hold(-1e308) && within(1e-15, 1e15).hold(1e15));
+        assert!(within(1e-15, 1e15).hold(1e-12));
+        let said = POSITIVE.check("a.key", 5e-324, 5e-324).unwrap_err();
+        assert_eq!(
+            said.to_string(),
+            "a.key must be > 0, and 0 or from 1e-9 to 1e9 in size, got 5e-324"
+        );
+    }
+
+    #[test]
     fn a_schema_says_the_same() {
-        assert_eq!(ANY.keywords(), []);
+        assert_eq!(ANY.keywords(), [("minimum", -1e9), ("maximum", 1e9)]);
         assert_eq!(
             above_to(0.0, 60.0).keywords(),
-            [("exclusiveMinimum", 0.0), ("maximum", 60.0)]
+            [("minimum", 1e-9), ("maximum", 60.0)]
+        );
+        assert_eq!(
+            above(1.0).keywords(),
+            [("exclusiveMinimum", 1.0), ("maximum", 1e9)]
         );
     }
 }

@@ -62,11 +62,11 @@ mod tests {
     #[test]
     fn what_is_not_positive_or_no_number_is_refused() {
         for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let error = POSITIVE.check("a.key", value).unwrap_err();
+            let error = POSITIVE.check("a.key", value, value).unwrap_err();
             let said = format!("a.key must be > 0, got {value}");
             assert_eq!(error.to_string(), said);
         }
-        assert_eq!(POSITIVE.check("a.key", 1e-9), Ok(()));
+        assert_eq!(POSITIVE.check("a.key", 1e-9, 1e-9), Ok(()));
     }
 
     #[test]

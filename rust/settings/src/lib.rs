@@ -12,8 +12,8 @@ mod setting;
 mod table;
 
 pub use bounds::{
-    ANY, Bounds, End, NOT_NEGATIVE, POSITIVE, SHARE, above, above_to, at_least, between,
-    from_below, within,
+    ANY, Bounds, End, LARGEST, LEAST, NOT_NEGATIVE, POSITIVE, SHARE, above, above_to, at_least,
+    between, from_below, within,
 };
 #[doc(hidden)]
 pub use error::require_fit;

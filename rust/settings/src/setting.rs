@@ -57,7 +57,7 @@ macro_rules! numbers {
                     reason = "only some conversions are lossless"
                 )]
                 let value = *self as f64;
-                crate::require(bounds.hold(value), key, &bounds.to_string(), self)
+                bounds.check(key, value, self)
             }
 
             fn schema(bounds: &Bounds) -> Value {

@@ -41,7 +41,7 @@ settings! {
         /// Guesses that are kept at most, where the robot has to find out where it is.
         most_particles: usize = 8000, "1", within(1.0, MOST_PARTICLES);
         /// Seed of all that is drawn.
-        seed: u64 = 0, "1", ANY;
+        seed: u64 = 0, "1", within(0.0, 9_007_199_254_740_992.0);
         /// Growth of the odometry's error along x and y: per way, turn and time.
         place_noise: [f64; 3] = [0.05, 0.02, 0.004], "m/sqrt(m), m/sqrt(rad), m/sqrt(s)", POSITIVE;
         /// Growth of the error of the odometry's height: per way, turn and time.

@@ -121,7 +121,7 @@ mod tests {
                 cell: 1e-12,
                 ..base()
             }),
-            "navigation.fog.cell must be from 0.001 to 10, got 0.000000000001"
+            "navigation.fog.cell must be from 0.001 to 10, got 1e-12"
         );
         assert!(
             refused(FogConfig {

@@ -199,7 +199,7 @@ impl TwoMaps {
         }
         let taken = self.local.insert(eye_m, &rays, Update::PerFrame);
         self.rays = rays;
-        taken.map_err(|error| MapError::Failed(error.to_string()))?;
+        let _beyond = taken.map_err(|error| MapError::Failed(error.to_string()))?;
         Ok(touched.within(self.layers.all()))
     }
 

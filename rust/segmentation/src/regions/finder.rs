@@ -18,7 +18,7 @@ pub trait Finder: Send + Sync {
     const ANY_DIRECTION: bool;
 
     /// Fills `regions` with what `picture` shows under `view`, and `labels` with their pixels (0: none, i + 1: region i).
-    /// Before another look both still hold what the last one left.
+    /// Before another look both hold what the last one left, and what was made of it since: slopes have regions of their own.
     fn find(
         &mut self,
         picture: Picture<'_>,

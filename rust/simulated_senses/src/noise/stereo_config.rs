@@ -1,7 +1,7 @@
 //! What a stereo camera is like.
 
 use settings::{
-    ConfigError, NOT_NEGATIVE, POSITIVE, SHARE, above_to, at_least, require, settings, within,
+    ConfigError, NOT_NEGATIVE, POSITIVE, SHARE, at_least, require, settings, within,
 };
 
 settings! {
@@ -91,7 +91,7 @@ settings! {
         /// Share of a blank surface's matches that is decided anew in each frame.
         temporal: f64 = 0.4, "1", SHARE;
         /// No match is surer, or less sure, than up to this.
-        doubt: f64 = 1e-12, "1", above_to(0.0, 0.5);
+        doubt: f64 = 1e-12, "1", within(1e-15, 0.5);
     }
 }
 

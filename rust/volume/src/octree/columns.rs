@@ -140,9 +140,9 @@ mod tests {
         ) {
             let mut tree = Octree::new(OctreeConfig { resolution: 0.05, ..OctreeConfig::default() }).unwrap();
             let rays: Vec<_> = ends.iter().map(|&end_m| Ray { end_m, hit: true }).collect();
-            tree.insert([0.0; 3], &rays, Update::PerFrame).unwrap();
+            let _beyond = tree.insert([0.0; 3], &rays, Update::PerFrame).unwrap();
             // Part of it is seen twice.
-            tree.insert([0.0; 3], &rays[..rays.len() / 2], Update::PerFrame).unwrap();
+            let _beyond = tree.insert([0.0; 3], &rays[..rays.len() / 2], Update::PerFrame).unwrap();
             let low = low.map(|at| at + 32768);
             let footprint = ColumnFootprint { low, cells: [9, 7], per_cell };
             let mut found = BTreeSet::new();

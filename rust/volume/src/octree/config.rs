@@ -1,6 +1,6 @@
 //! Parameters of the octree, and the log-odds that they mean.
 
-use settings::{ConfigError, POSITIVE, between, require, settings};
+use settings::{POSITIVE, between, settings};
 
 settings! {
     /// An octree of occupancy. The defaults are those of OctoMap (Hornung et al. 2013).
@@ -15,17 +15,6 @@ settings! {
         p_min: f64 = 0.1192, "1", between(0.0, 0.5), "Hornung et al. 2013, equation (4)";
         /// No beam makes a voxel more likely occupied than this: what has been seen long can still change.
         p_max: f64 = 0.971, "1", between(0.5, 1.0), "Hornung et al. 2013, equation (4)";
-    }
-    check OctreeConfig::has_room;
-}
-
-impl OctreeConfig {
-    /// Whether voxels of this size, and 2^16 of them, can be counted in metres.
-    fn has_room(&self, key: &str) -> Result<(), ConfigError> {
-        let side_m = self.resolution;
-        let scale = (1.0 / side_m).is_finite() && (side_m * 65536.0).is_finite();
-        let name = format!("{key}.resolution");
-        require(scale, &name, "1e-300 to 1e300", side_m)
     }
 }
 
@@ -139,7 +128,7 @@ mod tests {
                     resolution: 1e-310,
                     ..base()
                 },
-                "octree.resolution must be 1e-300 to 1e300, got ",
+                "octree.resolution must be > 0, and 0 or from 1e-9 to 1e9 in size, got 1e-310",
             ),
             (
                 OctreeConfig {

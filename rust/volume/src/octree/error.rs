@@ -12,6 +12,22 @@ pub enum OctreeError {
         /// Which one.
         index: usize,
     },
+    /// All of what is given lies where the tree has no voxels.
+    #[error(
+        "point {index} at {place} m lies beyond the tree: with voxels of {side_m} m it reaches from {low} to {high} m along each axis; move the points, or take larger voxels"
+    )]
+    Reach {
+        /// The first of the points.
+        index: usize,
+        /// Where it is.
+        place: String,
+        /// Side of a voxel.
+        side_m: String,
+        /// The lowest coordinate that a voxel holds.
+        low: String,
+        /// The end of the highest voxel.
+        high: String,
+    },
     /// A file that could not be opened or written.
     #[error("{path}: {reason}")]
     Access {

@@ -6,7 +6,7 @@ use super::super::marks::Marks;
 use super::super::placement::{Ray, Size};
 use super::super::{VoxelWalk, voxels::bits};
 use super::brick::{EDGE, index};
-use super::key::{Key, SPAN, in_voxels};
+use super::key::{Key, SPAN, in_voxels, key_at};
 use super::window::OctreeWindow;
 use super::{Octree, OctreeError};
 use crate::{Clearing, Update};
@@ -128,13 +128,14 @@ fn usable(at: &[f64; 3]) -> bool {
 impl Octree {
     /// Takes in the beams of one frame, all from `eye_m`, as the beam model of 002 says: the last voxel of a beam is occupied, all
     /// others up to it are free. Per frame each voxel is updated once, and occupied wins; per point by every beam.
-    /// Where a beam says that nothing was seen, its last voxel is free, too.
+    /// Where a beam says that nothing was seen, its last voxel is free, too. Of a beam that ends beyond what a tree can hold, the
+    /// part inside counts; how many such ends were left out is returned, and it is an error where eye and all ends lie beyond.
     pub fn insert(
         &mut self,
         eye_m: [f64; 3],
         rays: &[Ray],
         update: Update,
-    ) -> Result<(), OctreeError> {
+    ) -> Result<usize, OctreeError> {
         let per_m = self.per_m();
         let eye = in_voxels(eye_m, per_m);
         if !usable(&eye) {
@@ -142,11 +143,33 @@ impl Octree {
         }
         let ends = RayEnds { rays, per_m };
         let corners = ends.corners(eye)?;
+        let beyond = self.ends_beyond(eye, ends, corners)?;
         match update {
             Update::PerFrame => self.insert_frame(eye, ends, corners),
             Update::PerPoint => self.insert_each(eye, ends),
         }
-        Ok(())
+        Ok(beyond)
+    }
+
+    /// How many ends lie where no voxel is; refused where nothing of the frame lies elsewhere.
+    fn ends_beyond(
+        &self,
+        eye: [f64; 3],
+        ends: RayEnds<'_>,
+        corners: [[f64; 3]; 2],
+    ) -> Result<usize, OctreeError> {
+        if corners.iter().all(|&corner| key_at(corner).is_some()) {
+            return Ok(0);
+        }
+        let outside = |end: [f64; 3]| key_at(end).is_none();
+        let all = ends.iter().all(|(end, _)| outside(end));
+        match ends.rays.first() {
+            Some(ray) if all && outside(eye) => Err(self.beyond(0, ray.end_m)),
+            _ => Ok(ends
+                .iter()
+                .filter(|&(end, hit)| hit && outside(end))
+                .count()),
+        }
     }
 
     /// Per point: every beam at once.

@@ -81,14 +81,39 @@ impl Octree {
     }
 
     /// Makes the voxels that hold these points of the map frame, m, as surely occupied as beams can: a map that is told, not seen.
-    /// Points beyond what a tree can hold are left out.
-    pub fn occupy(&mut self, points_m: &[[f64; 3]]) {
-        let per_m = self.per_m();
-        for key in (points_m.iter()).filter_map(|point| key::key_at(key::in_voxels(*point, per_m)))
-        {
-            self.nodes
-                .set_leaf(key, key::DEPTH, self.beam.highest, &self.beam);
-            self.nodes.prune(key);
+    /// Points beyond what a tree can hold are left out, and counted in what is returned; it is an error where all are. What is no
+    /// number is left out, too.
+    pub fn occupy(&mut self, points_m: &[[f64; 3]]) -> Result<usize, OctreeError> {
+        let (mut held, mut beyond) = (0_usize, None);
+        let mut count = 0;
+        for (index, &point) in points_m.iter().enumerate() {
+            if let Some(key) = self.key_at(point) {
+                self.nodes
+                    .set_leaf(key, key::DEPTH, self.beam.highest, &self.beam);
+                self.nodes.prune(key);
+                held += 1;
+            } else if point.iter().all(|at| at.is_finite()) {
+                count += 1;
+                beyond = beyond.or(Some(index));
+            }
+        }
+        match beyond {
+            Some(index) if held == 0 => Err(self.beyond(index, points_m[index])),
+            _ => Ok(count),
+        }
+    }
+
+    /// What a point is refused with that lies where no voxel is.
+    fn beyond(&self, index: usize, point_m: [f64; 3]) -> OctreeError {
+        let side_m = self.config.resolution;
+        let half_m = 0.5 * f64::from(key::SPAN) * side_m;
+        let [x, y, z] = point_m;
+        OctreeError::Reach {
+            index,
+            place: format!("({x}, {y}, {z})"),
+            side_m: side_m.to_string(),
+            low: (-half_m).to_string(),
+            high: half_m.to_string(),
         }
     }
 

@@ -5,7 +5,7 @@ use super::planes::FreePlanes;
 use super::remaining::Remaining;
 use super::tuning::{FreePlaneTuning, PeelingTuning};
 use crate::picture::{Linear, Picture, View};
-use crate::regions::Region;
+use crate::regions::{Look, Region};
 
 /// What is left of a picture, and the planes that were taken out of it. Keeps its buffers.
 #[derive(Debug, Clone)]
@@ -62,7 +62,13 @@ impl Peeling {
     }
 
     /// Fills `regions` with the planes as a view shows them.
-    pub(crate) fn show(&self, view: &View, labels: &[u16], regions: &mut Vec<Region>) {
-        self.planes.show(view, labels, regions);
+    pub(crate) fn show(
+        &mut self,
+        view: &View,
+        look: Look,
+        labels: &mut [u16],
+        regions: &mut Vec<Region>,
+    ) {
+        self.planes.show(view, look, labels, regions);
     }
 }

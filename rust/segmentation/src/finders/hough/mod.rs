@@ -131,6 +131,6 @@ impl Finder for Votes {
                     ballot.elect(picture, &parts_of?, remaining, labels, draws)
                 });
         }
-        self.peeling.show(view, labels, regions);
+        self.peeling.show(view, look, labels, regions);
     }
 }

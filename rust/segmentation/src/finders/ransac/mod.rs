@@ -105,6 +105,6 @@ impl Finder for Consensus {
                 trials.best(remaining, draws)
             });
         }
-        self.peeling.show(view, labels, regions);
+        self.peeling.show(view, look, labels, regions);
     }
 }

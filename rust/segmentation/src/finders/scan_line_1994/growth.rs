@@ -183,6 +183,7 @@ mod tests {
     use super::super::lines::Lines;
     use super::*;
     use crate::picture::view::View;
+    use crate::regions::Look;
     use testkit::synthetic::{CAMERA, camera_pose};
 
     fn grown(d: impl Fn(usize, usize) -> f32) -> (Vec<u16>, FreePlanes) {
@@ -218,10 +219,15 @@ mod tests {
 
     #[test]
     fn two_planes_that_meet_are_two_regions() {
-        let (labels, planes) = grown(|_, row| 4.0 + 0.15 * (row as f32 - 36.0).abs());
+        let (mut labels, mut planes) = grown(|_, row| 4.0 + 0.15 * (row as f32 - 36.0).abs());
         let rotation = camera_pose(0.0, 0.8).inner.rotation.to_rotation_matrix();
         let mut regions = Vec::new();
-        planes.show(&View::new(&CAMERA, &rotation), &labels, &mut regions);
+        planes.show(
+            &View::new(&CAMERA, &rotation),
+            Look::First,
+            &mut labels,
+            &mut regions,
+        );
         assert_eq!(regions.len(), 2);
         assert_ne!(labels[0], labels[labels.len() - 1]);
         assert!(regions.iter().all(|region| region.support > 2500));

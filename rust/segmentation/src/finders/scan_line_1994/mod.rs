@@ -73,6 +73,6 @@ impl Finder for StraightLines {
             self.growth
                 .grow(picture, &self.segments, config, planes, labels);
         }
-        self.planes.show(view, labels, regions);
+        self.planes.show(view, look, labels, regions);
     }
 }

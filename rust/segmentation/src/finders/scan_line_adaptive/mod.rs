@@ -139,6 +139,6 @@ impl Finder for NoisyLines {
             let (planes, queue) = (&self.noisy_planes, &mut self.queue);
             settle_borders(picture, planes, &self.config, labels, queue);
         }
-        self.planes.show(view, labels, regions);
+        self.planes.show(view, look, labels, regions);
     }
 }
