@@ -191,6 +191,16 @@ def test_a_hostile_octree_is_refused(name: str, suffix: str, tmp_path: Path) -> 
     watch.check()
 
 
+@pytest.mark.parametrize("name", NO_FILE)
+def test_what_is_no_octree_is_refused(name: str, tmp_path: Path) -> None:
+    path = tmp_path / "x.bt"
+    NO_FILE[name](path)
+    watch = Watch()
+    with pytest.raises(TreadwellError, match=r"x\.bt"):
+        Octree.read(str(path))
+    watch.check()
+
+
 def test_a_child_that_goes_on_and_on_is_ended(tmp_path: Path) -> None:
     path = tmp_path / "x.xml"
     inside = (

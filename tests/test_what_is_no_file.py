@@ -4,7 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Final
 
@@ -22,28 +22,41 @@ KINDS: Final[dict[str, Callable[[Path], None]]] = {
     "pipe": os.mkfifo,
     "endless": lambda path: path.symlink_to("/dev/zero"),
 }
-RUN_VERBS: Final = (
-    ("verify",),
-    ("report", "--out", "{out}/page.html"),
-    ("report", "--out", "{out}/page.html", "--video", "{out}/film.gif"),
-    ("replay", "--out", "{out}/replay"),
-    ("export", "--to", "octomap", "--out", "{out}/a"),
-    ("export", "--to", "map_server", "--out", "{out}/b"),
-    ("export", "--to", "ply", "--out", "{out}/c"),
-    ("export", "--to", "tum", "--out", "{out}/d"),
-)
-SWEEP_VERBS: Final = (("report", "--out", "{out}/page.html"), ("compare",))
+VERIFY, REPORT = ("verify",), ("report", "--out", "{out}/page.html")
+FILM = (*REPORT, "--video", "{out}/film.gif")
+REPLAY = ("replay", "--out", "{out}/replay")
+Verb = tuple[str, ...]
+
+
+def export(to: str) -> Verb:
+    return ("export", "--to", to, "--out", "{out}/export")
+
+
+READ_BY: Final[dict[str, tuple[Verb, ...]]] = {
+    "result.json": (VERIFY, REPORT, FILM),
+    "trajectory.tum": (VERIFY, REPORT, FILM, export("tum")),
+    "trajectory_truth.tum": (VERIFY, REPORT, export("tum")),
+    "map.png": (VERIFY, REPORT),
+    "map.npz": (VERIFY, FILM, export("map_server"), export("ply")),
+    "model.mjb": (VERIFY, FILM),
+    "physics.npz": (VERIFY, FILM),
+    "recording.rrd": (VERIFY, REPORT, export("octomap"), export("ply")),
+    "observations.mcap": (VERIFY, REPORT, REPLAY),
+    "scenario.toml": (VERIFY, REPORT),
+}
+"""File of a run -> the verbs that read it."""
+SWEEP_VERBS: Final = (REPORT, ("compare",))
 LIMITED: Final = (
     "import resource, sys; from treadwell.cli.app import execute; "
     f"resource.setrlimit(resource.RLIMIT_AS, ({MEMORY}, {MEMORY})); "
-    "[print(execute(line.split('|'))) for line in sys.argv[1:]]"
+    "[print(f'\\nSTATUS {execute(line.split(chr(124)))}') for line in sys.argv[1:]]"
 )
 
 
-def statuses(folder: Path, verbs: tuple[tuple[str, ...], ...], out: Path) -> list[int]:
-    """Return the exit status of each verb on a folder; all in one process of bounded memory."""
+def statuses(verbs: Sequence[tuple[Path, Verb]], out: Path) -> list[int]:
+    """Return the exit status of each verb on its folder; all in one process of bounded memory."""
     lines = []
-    for number, (verb, *options) in enumerate(verbs):
+    for number, (folder, (verb, *options)) in enumerate(verbs):
         place = out / str(number)
         place.mkdir(parents=True)
         lines.append("|".join([verb, str(folder), *(word.format(out=place) for word in options)]))
@@ -51,7 +64,7 @@ def statuses(folder: Path, verbs: tuple[tuple[str, ...], ...], out: Path) -> lis
     done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
     assert "fault of treadwell" not in done.stderr, done.stderr
     assert "MemoryError" not in done.stderr, done.stderr
-    found = [int(line) for line in done.stdout.splitlines() if line in ("0", "1", "2", "3")]
+    found = [int(line[7:]) for line in done.stdout.splitlines() if line.startswith("STATUS ")]
     assert len(found) == len(lines), done.stderr
     return found
 
@@ -85,29 +98,23 @@ def with_another(folder: Path, name: str, kind: str, place: Path) -> Path:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize(
-    "name",
-    [
-        "result.json", "trajectory.tum", "trajectory_truth.tum", "map.png", "map.npz", "model.mjb",
-        "physics.npz", "recording.rrd", "observations.mcap", "scenario.toml",
-    ],
-)  # fmt: skip
-def test_a_runs_verbs_refuse_what_is_no_file(
-    name: str, kind: str, run: Path, tmp_path: Path
-) -> None:
-    copy = with_another(run, name, kind, tmp_path)
-    found = statuses(copy, RUN_VERBS, tmp_path / "out")
+def test_a_runs_verbs_refuse_what_is_no_file(kind: str, run: Path, tmp_path: Path) -> None:
+    verbs = []
+    for name, read_by in READ_BY.items():
+        copy = with_another(run, name, kind, tmp_path / name)
+        verbs += [(copy, verb) for verb in read_by]
+    found = statuses(verbs, tmp_path / "out")
     assert set(found) <= {0, 1, 2}
-    assert found[0] == 1
+    verified = [status for status, (_, verb) in zip(found, verbs, strict=True) if verb == VERIFY]
+    assert verified == [1] * len(READ_BY)
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("name", ["sweep.json", "results.json", "journal.jsonl"])
-def test_a_sweeps_verbs_refuse_what_is_no_file(
-    name: str, kind: str, sweep: Path, tmp_path: Path
-) -> None:
-    copy = with_another(sweep, name, kind, tmp_path)
-    assert set(statuses(copy, SWEEP_VERBS, tmp_path / "out")) <= {0, 1, 2}
+def test_a_sweeps_verbs_refuse_what_is_no_file(kind: str, sweep: Path, tmp_path: Path) -> None:
+    names = ("sweep.json", "results.json", "journal.jsonl")
+    copies = [with_another(sweep, name, kind, tmp_path / name) for name in names]
+    verbs = [(copy, verb) for copy in copies for verb in SWEEP_VERBS]
+    assert set(statuses(verbs, tmp_path / "out")) <= {0, 1, 2}
 
 
 @pytest.mark.parametrize("kind", KINDS)

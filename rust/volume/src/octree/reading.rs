@@ -7,6 +7,9 @@ use super::key::{DEPTH, Key, child_corner};
 use super::nodes::BRICK_DEPTH;
 use super::{Octree, OctreeConfig, OctreeError};
 
+/// Bytes: a building of 1 cm voxels has a tenth.
+const LARGEST_FILE: u64 = 500_000_000;
+
 /// Goes through the nodes of a file and builds the tree. Room is taken only for what has been read.
 struct Reader<'a> {
     name: &'a str,
@@ -21,10 +24,21 @@ impl Octree {
     /// Reads a file of either format; the parameters but the resolution are OctoMap's.
     pub fn read(path: &Path) -> Result<Self, OctreeError> {
         let name = path.display().to_string();
-        let bytes = std::fs::read(path).map_err(|error| OctreeError::Access {
+        let access = |reason: String| OctreeError::Access {
             path: name.clone(),
-            reason: error.to_string(),
-        })?;
+            reason,
+        };
+        let found = std::fs::metadata(path).map_err(|error| access(error.to_string()))?;
+        // A pipe would be waited for without end, a device read without end.
+        if !found.is_file() {
+            return Err(access("it is no file".to_owned()));
+        }
+        if found.len() > LARGEST_FILE {
+            return Err(access(format!(
+                "larger than {LARGEST_FILE} bytes, which is the limit"
+            )));
+        }
+        let bytes = std::fs::read(path).map_err(|error| access(error.to_string()))?;
         Self::from_bytes(&name, &bytes)
     }
 
