@@ -116,7 +116,7 @@ def ended(way: str, delay_s: float, place: Path, seconds: float) -> tuple[str, f
     with seen.open("r+b") as file, mmap.mmap(file.fileno(), 8) as shared:
         reached_s = 1e-9 * struct.unpack_from("<q", shared)[0]
     if "Traceback" in messages or "fault of treadwell" in messages:
-        return f"BROKEN: {messages.splitlines()[-1]}", 0.0
+        return f"BROKEN: {_end(messages)}", 0.0
     left, lost = left_of(folder, reached_s)
     told_to = way != "kill -9" and process.returncode in (130, 0, 1)
     if left == "cut off" and told_to:
@@ -160,12 +160,17 @@ def _filled(folder: Path, seconds: float, seen: Path, limit: int | None) -> str:
     _, messages = process.communicate(timeout=300)
     errors = [line for line in messages.splitlines() if line.startswith("error: ")]
     if "Traceback" in messages or "fault of treadwell" in messages:
-        return f"BROKEN: {messages.splitlines()[-1]}"
+        return f"BROKEN: {_end(messages)}"
     if process.returncode == 3 and len(errors) != 1:
         return f"BROKEN: {len(errors)} errors are told"
     if process.returncode not in (0, 1, 3):
         return f"BROKEN: status {process.returncode}"
     return left_of(folder, 0.0)[0]
+
+
+def _end(messages: str) -> str:
+    """Return the last lines that a run said."""
+    return " | ".join(messages.splitlines()[-12:])
 
 
 def main() -> None:

@@ -245,14 +245,15 @@ def main() -> None:
             leave_terminal()
         raise KeyboardInterrupt
 
-    # A run that is told to end, or whose terminal is closed, ends as after Ctrl-C; `nohup` counts.
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) != signal.SIG_IGN:
-            signal.signal(number, stop)
+    status = INTERRUPTED
     try:
+        # A run that is told to end, or whose terminal is closed, ends as after Ctrl-C; `nohup` counts.
+        for number in (signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(number) != signal.SIG_IGN:
+                signal.signal(number, stop)
         status = execute(sys.argv[1:])
     except KeyboardInterrupt:
-        status = INTERRUPTED
+        pass
     except SystemExit as error:
         status = error.code if isinstance(error.code, int) else ERROR
     finally:
