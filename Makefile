@@ -79,7 +79,7 @@ deny: ## licences and sources of the crates; cargo-deny is asked where it is the
 advisories: setup ## known faults of what we build on; needs the network, cargo-deny and pip-audit
 	cargo deny check advisories
 	$(UV) export --locked --quiet --no-emit-project --format requirements-txt --output-file .uv-export.txt
-	$(RUN) --with pip-audit pip-audit --requirement .uv-export.txt --disable-pip; status=$$?; rm .uv-export.txt; exit $$status
+	$(RUN) --with pip-audit pip-audit --strict --requirement .uv-export.txt --disable-pip; status=$$?; rm .uv-export.txt; exit $$status
 
 format: setup
 	cargo fmt
