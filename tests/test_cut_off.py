@@ -123,3 +123,14 @@ def test_of_a_run_that_had_only_begun_nothing_is_expected(begun: Path) -> None:
     (begun / "result.json").write_text("{}")
     assert not is_cut_off(begun)
     assert cut_run(begun) is None
+
+
+@pytest.mark.parametrize("share", [0.0, 1e-5, 0.001, 0.02, 0.3, 0.9])
+def test_wherever_its_files_break_off_it_is_no_fault(cut: Path, share: float) -> None:
+    for name in ("observations.mcap", "recording.rrd"):
+        content = (cut / name).read_bytes()
+        (cut / name).write_bytes(content[: int(share * len(content))])
+    found = verify_run(cut)
+    assert found.problems == ()
+    assert found.cut is not None
+    assert execute(["report", str(cut)]) == 0

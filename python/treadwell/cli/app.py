@@ -247,7 +247,7 @@ def main() -> None:
 
     status = INTERRUPTED
     try:
-        # A run that is told to end, or whose terminal is closed, ends as after Ctrl-C; `nohup` counts.
+        # A run that is told to end, or whose terminal is closed, ends as after Ctrl-C.
         for number in (signal.SIGTERM, signal.SIGHUP):
             if signal.getsignal(number) != signal.SIG_IGN:
                 signal.signal(number, stop)

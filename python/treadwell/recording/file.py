@@ -48,6 +48,16 @@ def whole_length(path: Path) -> int:
     return size if finished and size - end == _FOOTER else end
 
 
+def begins_right(path: Path) -> bool:
+    """Say whether a file is a recording as far as it goes, however short it is.
+
+    Raises:
+        InputError: the file cannot be read.
+    """
+    with opened(path) as file:
+        return _MAGIC.startswith(file.read(len(_MAGIC)))
+
+
 def cut_to_whole_messages(path: Path) -> None:
     """Cut a recording that breaks off amid a message behind the last whole one."""
     try:

@@ -99,6 +99,7 @@ def read_front(path: Path) -> Front:
     """Return metadata and attachments of a log.
 
     Raises:
+        BrokenLogError: the file breaks off before the first message.
         InputError: the file is missing, or is no MCAP file.
     """
     front = Front()
@@ -117,6 +118,8 @@ def read_front(path: Path) -> Front:
                     break
                 if len(front.metadata) + len(front.attachments) > MOST_ATTACHMENTS:
                     raise ValueError(f"more than {MOST_ATTACHMENTS} attachments")
+        except EOFError as error:
+            raise BrokenLogError(f"{path}: breaks off: {_line(error)}", 0) from None
         except _FAULTS as error:
             raise InputError(f"{path}: breaks off or is no recording: {_line(error)}") from None
     return front
@@ -182,7 +185,10 @@ def read_in_order(path: Path, topics: Sequence[str]) -> Iterator[Message]:
 
 def _records(file: BinaryIO, path: Path) -> Iterator[tuple[int, bytes]]:
     """Return operation and content of each record."""
-    if file.read(len(_MAGIC)) != _MAGIC:
+    begin = file.read(len(_MAGIC))
+    if begin != _MAGIC:
+        if _MAGIC.startswith(begin):
+            raise EOFError("there is no end")
         raise ValueError("it does not begin like an MCAP file")
     size = path.stat().st_size
     opcode = 0

@@ -15,7 +15,7 @@ from treadwell.physics.parts import AUDIT
 from treadwell.physics.recorded_audit import in_parts, replay_limited
 from treadwell.processor import likely_reason
 from treadwell.recording.cut_off import RESULT, CutRun, cut_run
-from treadwell.recording.file import whole_length
+from treadwell.recording.file import begins_right, whole_length
 from treadwell.recording.log_file import BrokenLogError, read_front, read_messages
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import PICTURE, read_map
@@ -208,7 +208,7 @@ def _recording(path: Path, problems: list[str], *, early: bool) -> None:
     except InputError as error:
         problems.append(str(error))
         return
-    if early and (whole or not size):
+    if early and begins_right(path):
         return  # it may break off amid a message: what came before is read
     if whole < size or whole == 0:
         problems.append(
@@ -220,13 +220,15 @@ def _recording(path: Path, problems: list[str], *, early: bool) -> None:
 def _observations(
     path: Path, result: Result | None, ticks: int | None, problems: list[str], *, early: bool
 ) -> None:
-    if early and path.is_file() and not path.stat().st_size:
-        return  # it was cut off before the first of it was written
     try:
         front = read_front(path)
         header = header_of(front, path)
         count = _count(read_observations(path), early=early)
         others = Counter(m.topic for m in _whole(read_messages(path, _BESIDE), early=early))
+    except BrokenLogError as error:
+        if not early:  # else it was cut off before the first message
+            problems.append(str(error))
+        return
     except InputError as error:
         problems.append(str(error))
         return
