@@ -193,7 +193,7 @@ def main() -> None:
             delay_s = draw.uniform(0.0, 2 * LATEST_S)
             left, lost = ended(way, delay_s, Path(place), options.seconds)
         losses.append(lost)
-        broken += [f"{way}: {left}"] if left.startswith("BROKEN") else []
+        _note(broken, way, left)
         counts[way, left.partition(":")[0]] += 1
         _progress("ended", number, options.ends, broken)
     for way in WAYS if options.ends else ():
@@ -207,7 +207,7 @@ def main() -> None:
         size = round(1e3 * 10 ** draw.uniform(0.0, 4.7))
         with tempfile.TemporaryDirectory() as place:
             left = filled(size, Path(place), options.seconds, disk=number % 2 == 0)
-        broken += [f"{size} bytes: {left}"] if left.startswith("BROKEN") else []
+        _note(broken, f"{size} bytes", left)
         left_by_disks[left.partition(":")[0]] += 1
         _progress("filled", number, options.disks, broken)
     if options.disks:
@@ -219,9 +219,16 @@ def main() -> None:
     sys.exit(bool(broken))
 
 
+def _note(broken: list[str], how: str, left: str) -> None:
+    """Keep what is broken, and say so at once."""
+    if left.startswith("BROKEN"):
+        broken.append(f"{how}: {left}")
+        sys.stderr.write(broken[-1] + "\n")
+
+
 def _progress(what: str, number: int, of: int, broken: list[str]) -> None:
-    if broken or (number + 1) % 10 == 0 or number + 1 == of:
-        sys.stderr.write(f"{what} {number + 1} of {of}, {len(broken)} broken {broken[-1:]}\n")
+    if (number + 1) % 10 == 0 or number + 1 == of:
+        sys.stderr.write(f"{what} {number + 1} of {of}, {len(broken)} broken\n")
 
 
 if __name__ == "__main__":
