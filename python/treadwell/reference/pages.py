@@ -31,7 +31,10 @@ def _index() -> str:
     lines = [MADE, "# Reference", ""]
     lines += ["- [components](components.md): what each name in `[navigation]` stands for"]
     lines += [f"- [{title}]({name}.md)" for name, (title, _) in _FILES.items()]
-    lines += ["", "Parameters, also by `treadwell list parameters [NAME]`. Where its bounds do not say"]
+    lines += [
+        "",
+        "Parameters, also by `treadwell list parameters [NAME]`. Where its bounds do not say",
+    ]
     lines += ["otherwise, a number is 0 or from 1e-9 to 1e9 in size.", ""]
     for table in all_tables():
         lines.append(f"- [`[{table.key}]`](parameters/{table.name}.md): {_about(table)}")
