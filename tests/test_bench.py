@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from treadwell._core import OccupancyGrid, WorldModel
 from treadwell.cli.app import execute
 from treadwell.errors import InputError, TreadwellError
+from treadwell.timing import benches
 from treadwell.timing.benches import agreement, occupancy, step, times
 from treadwell.timing.episode import FROZEN, frozen, stepped
 from treadwell.timing.frames import read_frames, write_frames
@@ -207,3 +208,17 @@ def test_an_occupancy_grid_refuses_what_is_no_cloud() -> None:
         OccupancyGrid((4, 4, 4), (0.0, 0.0, 0.0), settings='{"clearing": "some"}')
     with pytest.raises(InputError, match="one of fog, averaging"):
         WorldModel("fig")
+
+
+def test_a_map_far_from_the_origin_is_the_same() -> None:
+    frames, kinds, heights = room("88x72", 8), [], []
+    for x, y, z in ((0.0, 0.0, 0.0), (500_000.0, 5_000_000.0, 100.0)):
+        segmenter, model = benches._chains(frames)["exact"]
+        for index in range(8):
+            seen, pose, camera = benches._standing(frames, index)
+            planes = segmenter.segment(seen, camera)
+            assert model.insert(planes, (pose[0] + x, pose[1] + y, pose[2] + z, pose[3]))
+        kinds.append(model.view().kind)
+        heights.append(model.view().height - z)
+    assert np.array_equal(*kinds)
+    assert np.allclose(*heights, atol=1e-4, equal_nan=True)

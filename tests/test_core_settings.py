@@ -2,14 +2,17 @@
 
 import json
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
 from core_builders import settings_text
+from robot_builders import qrio_copy
 from user_parts import Straight
 
 from treadwell.core_settings import core_settings, user_components
 from treadwell.course.build import build_course
+from treadwell.episode import Episode
 from treadwell.errors import InputError
 from treadwell.robot.load import load_robot
 from treadwell.scenario.loading import load_scenario
@@ -100,3 +103,12 @@ def test_components_of_the_users_are_loaded_and_given_ones_beat_the_files() -> N
     mine = Straight()
     assert user_components(named, {"planner": mine}) == {"planner": mine}
     assert user_components(load_scenario("slalom"), {}) == {}
+
+
+@pytest.mark.parametrize("number", ["1e-300", "1e308", "-0.0", "0"])
+def test_a_gait_that_cannot_be_is_bad_input_of_the_robots(tmp_path: Path, number: str) -> None:
+    toml = qrio_copy(tmp_path) / "robot.toml"
+    text = toml.read_text(encoding="utf-8")
+    toml.write_text(text.replace("step_time = 0.5", f"step_time = {number}"), encoding="utf-8")
+    with pytest.raises(InputError, match=r"robot .*qrio: walker: gait\.step_time must be > 0"):
+        Episode("open_floor", robot=str(toml.parent))

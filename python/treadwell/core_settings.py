@@ -182,7 +182,8 @@ def build_core(
         static_map: what `told_map` returned.
 
     Raises:
-        InputError: a parameter is unknown or cannot be; the message names file, key and spelling.
+        InputError: a parameter is unknown or cannot be, or the robot's gait has one that cannot;
+            the message names file, key and spelling.
     """
     try:
         return Pilot(settings, static_map=static_map, **components)
@@ -190,4 +191,6 @@ def build_core(
         words = re.findall(r"`(\w+)`", str(error))
         unknown = "unknown field" in str(error) and len(words) > 1
         hint = nearest(words[0], words[1:]) if unknown else ""
-        raise InputError(f"{scenario.path or scenario.name}: {error}{hint}") from None
+        of_robot = str(error).startswith(("walker: ", "robot: "))
+        where = f"robot {scenario.robot}" if of_robot else scenario.path or scenario.name
+        raise InputError(f"{where}: {error}{hint}") from None

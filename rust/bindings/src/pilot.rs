@@ -88,13 +88,9 @@ impl PyPilot {
             behaviour: behaviour.map(components::behaviour),
         };
         let static_map = static_map.map(|octree| octree.tree());
-        let pilot = Pilot::new(&settings, static_map.as_ref(), given).map_err(|error| {
-            if error.is_bad_setting() {
-                bad_setting(py, &error)
-            } else {
-                failed(py, &error)
-            }
-        })?;
+        // Before the first tick whatever is refused is what the user gave: a setting, the robot, the map.
+        let pilot = run(py, || Pilot::new(&settings, static_map.as_ref(), given))?
+            .map_err(|error| bad_setting(py, &error))?;
         Ok(Self {
             pilot,
             observation: observation::empty(),

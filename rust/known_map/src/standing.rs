@@ -37,8 +37,9 @@ pub(crate) fn standing(
         .flat_map(|y| (-reach..=reach).map(move |x| [x, y]))
         .filter(|[x, y]| ((x * x + y * y) as f64).sqrt() * side_m <= radius_m)
         .collect();
-    let steps = (tuning.step / side_m).round().max(1.0) as i64;
-    let body = steps + 1..=(height_m / side_m).ceil() as i64;
+    // Above the highest layer nothing is solid.
+    let steps = ((tuning.step / side_m).round().max(1.0) as i64).min(layers);
+    let body = steps + 1..=((height_m / side_m).ceil() as i64).min(layers);
     let mut places = Vec::new();
     for (x, y, z) in
         (0..layers).flat_map(|z| (0..rows).flat_map(move |y| (0..cols).map(move |x| (x, y, z))))
@@ -96,5 +97,11 @@ mod tests {
         assert!(any([1.2, 1.6], 0.44) && any([1.75, 1.85], 0.0));
         assert!(!any([1.9, 1.96], 0.0));
         assert!(places.iter().all(|place| place.top_m[2] > -1e-9));
+        // A step over everything: only the highest of each column is left, at once.
+        let over = StandingTuning {
+            step: 1e9,
+            ..StandingTuning::default()
+        };
+        assert!(standing(&solid, room, &over).len() < places.len());
     }
 }

@@ -64,10 +64,3 @@ impl From<MakeError> for PilotError {
         }
     }
 }
-
-impl PilotError {
-    /// Whether it is the user's settings that are bad, not the program or its input.
-    pub const fn is_bad_setting(&self) -> bool {
-        matches!(self, Self::Config(_) | Self::Body(_) | Self::Settings(_))
-    }
-}

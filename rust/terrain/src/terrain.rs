@@ -3,7 +3,7 @@
 use geometry::distance::{CellDistances, NOTHING_NEAR};
 use geometry::{Cell, CellArea, Lattice};
 use mapping::FloorView;
-use settings::{above_to, settings, within};
+use settings::{settings, within};
 
 use crate::{CellSettings, Needs, SlopeCells, StairCells, StandingAt};
 
@@ -13,9 +13,9 @@ settings! {
         /// Room may seem this much less than it was, or half a cell less where that is less, before a way is given up.
         slack: f64 = 0.03, "m", within(0.0, 1.0);
         /// A straight way is looked at in pieces of this share of a cell.
-        piece: f64 = 0.25, "1", above_to(0.0, 1.0);
+        piece: f64 = 0.25, "1", within(0.01, 1.0);
         /// A line of places between two points is looked at in steps of this share of a cell where only what stands there matters.
-        stride: f64 = 0.5, "1", above_to(0.0, 1.0);
+        stride: f64 = 0.5, "1", within(0.01, 1.0);
     }
 }
 

@@ -31,7 +31,8 @@ impl Underfoot {
         let window = CellArea {
             min: lattice.cell_at(x - reach, y - reach),
             max: lattice.cell_at(x + reach, y + reach),
-        };
+        }
+        .within(self.heights.area());
         for cell in window.cells() {
             let [cx, cy] = lattice.center_of(cell);
             if geometry::hypot(cx - x, cy - y) <= reach
@@ -54,5 +55,20 @@ impl Underfoot {
     pub(crate) fn height_at(&self, index: usize) -> Option<f32> {
         let height = self.heights.values()[index];
         (!height.is_nan()).then_some(height)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_covers_more_than_the_window_covers_the_window() {
+        let lattice = Lattice {
+            origin_m: [-1.0, -1.0],
+            cell_m: 0.04,
+        };
+        let area = Underfoot::new(50, 1e9).stand([0.0, 0.0, 0.1], &lattice);
+        assert_eq!(area.cells().count(), 50 * 50);
     }
 }
