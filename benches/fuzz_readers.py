@@ -15,7 +15,7 @@ from treadwell.exports.export import export
 from treadwell.judging.result import read_result
 from treadwell.mjcf.build import build_files
 from treadwell.mjcf.xml import check_xml
-from treadwell.physics.audit import load_audit
+from treadwell.physics.recorded_audit import load_audit
 from treadwell.recording.file import whole_length
 from treadwell.recording.observation_log import read_answers, read_observations, read_truth
 from treadwell.recording.trajectory import read_trajectory

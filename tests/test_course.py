@@ -124,8 +124,8 @@ STAIRS = st.fixed_dictionaries(
         "tread": st.floats(0.08, 0.3),
         "landing": st.floats(0.1, 0.5),
         "width": st.floats(0.2, 0.8),
-        "turn": st.floats(-0.3, 0.3),
-        "yaw": st.floats(-3.0, 3.0),
+        "turn": st.floats(-0.3, 0.3, allow_subnormal=False),
+        "yaw": st.floats(-3.0, 3.0, allow_subnormal=False),
         "descent": st.booleans(),
     }
 )
