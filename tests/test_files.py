@@ -1,6 +1,7 @@
 """Claims about files: strangers' are bounded and files at all; ours are whole or not there."""
 
 import os
+import tracemalloc
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -18,6 +19,15 @@ def test_a_small_file_is_read(tmp_path: Path) -> None:
     assert read_text(tmp_path / "x", 2) == "ä"
     with pytest.raises(InputError, match="larger than 1 bytes"):
         read_content(tmp_path / "x", 1)
+
+
+def test_a_small_file_takes_little_memory_whatever_is_allowed(tmp_path: Path) -> None:
+    (tmp_path / "x").write_text("ä")
+    tracemalloc.start()
+    assert read_text(tmp_path / "x", 1 << 40) == "ä"
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 1_000_000
 
 
 def test_what_is_no_file_or_no_text_is_refused(tmp_path: Path) -> None:

@@ -43,7 +43,9 @@ def read_content(path: Path, most_bytes: int) -> bytes:
     """
     with opened(path) as file:
         try:
-            content = file.read(most_bytes + 1)
+            # Room is made for as much as is asked for: not for more than there is.
+            size = os.fstat(file.fileno()).st_size
+            content = file.read(min(size, most_bytes) + 1)
         except OSError as error:
             raise InputError(f"{path}: cannot be read: {error.strerror}") from None
     if len(content) > most_bytes:
