@@ -174,7 +174,10 @@ def test_what_is_no_finished_sweep_is_bad_input(sweeps: list[Path], tmp_path: Pa
     with pytest.raises(InputError, match="an episode that is not"):
         candidates([tmp_path])
     whole = json.loads((sweeps[0] / "results.json").read_text())
-    for key, value, what in (("falls", "1", "falls: found '1'"), ("core_ms", NAN, "NaN is no finite")):
+    for key, value, what in (
+        ("falls", "1", "falls: found '1'"),
+        ("core_ms", NAN, "NaN is no finite"),
+    ):
         bad = whole | {"episodes": [whole["episodes"][0] | {key: value}]}
         (tmp_path / "results.json").write_text(json.dumps(bad))
         with pytest.raises(InputError, match=what):
