@@ -1,5 +1,6 @@
 """Changes files by their structure: values, keys and types of tables, records of logs."""
 
+import copy
 import json
 import struct
 import tomllib
@@ -72,7 +73,7 @@ def _change(made: dict[str, Any], place: Any, path: tuple[Any, ...], random: Any
     elif kind == 5 and isinstance(old, int | float) and not isinstance(old, bool):
         place[key] = type(old)(old * float(random.choice([-1.0, 0.5, 2.0, 10.0, 1000.0])))
     else:
-        place[key] = VALUES[int(random.integers(len(VALUES)))]
+        place[key] = copy.deepcopy(VALUES[int(random.integers(len(VALUES)))])
 
 
 def toml_of(content: bytes, random: np.random.Generator) -> bytes:

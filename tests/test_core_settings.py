@@ -105,10 +105,21 @@ def test_components_of_the_users_are_loaded_and_given_ones_beat_the_files() -> N
     assert user_components(load_scenario("slalom"), {}) == {}
 
 
-@pytest.mark.parametrize("number", ["1e-300", "1e308", "-0.0", "0"])
-def test_a_gait_that_cannot_be_is_bad_input_of_the_robots(tmp_path: Path, number: str) -> None:
+@pytest.mark.parametrize(
+    ("gait", "said"),
+    [
+        ("step_time = 1e-300", "step_time must be > 0 and <= 60"),
+        ("step_time = 1e308", "step_time must be > 0 and <= 60"),
+        ("step_time = -0.0", "step_time must be > 0 and <= 60"),
+        ("step_time = 0.5\nreference_pull = 1e9", "reference_pull must be from 0 to 100"),
+        ("step_time = 0.5\nmax_extension = 0.001", "max_extension must be >= 0.5 and < 1"),
+    ],
+)
+def test_a_gait_that_cannot_be_is_bad_input_of_the_robots(
+    tmp_path: Path, gait: str, said: str
+) -> None:
     toml = qrio_copy(tmp_path) / "robot.toml"
     text = toml.read_text(encoding="utf-8")
-    toml.write_text(text.replace("step_time = 0.5", f"step_time = {number}"), encoding="utf-8")
-    with pytest.raises(InputError, match=r"robot .*qrio: walker: gait\.step_time must be > 0"):
+    toml.write_text(text.replace("step_time = 0.5", gait), encoding="utf-8")
+    with pytest.raises(InputError, match=rf"robot .*qrio: walker: gait\.{said}"):
         Episode("open_floor", robot=str(toml.parent))

@@ -144,8 +144,8 @@ proptest! {
             let mut turned = rays.clone();
             turned.rotate_left(turn % rays.len().max(1));
             turned.reverse();
-            one.insert(*eye, rays, Update::PerFrame).unwrap();
-            other.insert(*eye, &turned, Update::PerFrame).unwrap();
+            let _beyond = one.insert(*eye, rays, Update::PerFrame).unwrap();
+            let _beyond = other.insert(*eye, &turned, Update::PerFrame).unwrap();
         }
         prop_assert!(one.to_bytes(Format::Full) == other.to_bytes(Format::Full));
     }

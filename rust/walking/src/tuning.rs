@@ -59,7 +59,7 @@ settings! {
     /// The closed form of the legs' inverse kinematics.
     pub struct LegTuning("gait.tuning.leg") {
         /// By how much axes may miss the point in which the closed form lets them meet: the sole then is that far from where it should be.
-        miss: f64 = 1e-3, "m", POSITIVE;
+        miss: f64 = 1e-3, "m", above_to(0.0, 10.0);
         /// Steepest slant of a hip's yaw axis.
         steepest: f64 = 1.2, "rad", between(0.0, 1.57);
         /// Share of the thigh that is left between hip and ankle of the shortest leg, beyond the difference of thigh and shank.
@@ -83,11 +83,11 @@ settings! {
     /// How the torso turns, and the swing foot with its tilt.
     pub struct PostureTuning("gait.tuning.posture") {
         /// How fast the torso turns to the mean heading of the feet.
-        turn_rate: f64 = 8.0, "1/s", NOT_NEGATIVE;
+        turn_rate: f64 = 8.0, "1/s", within(0.0, 100.0);
         /// How fast the correction of the swing foot for the tilt comes and goes.
-        tilt_fade: f64 = 6.0, "1/s", NOT_NEGATIVE;
+        tilt_fade: f64 = 6.0, "1/s", within(0.0, 100.0);
         /// Tilt of the torso that is not worth a correction of the swing foot.
-        tilt_deadband: f64 = 0.02, "rad", NOT_NEGATIVE;
+        tilt_deadband: f64 = 0.02, "rad", within(0.0, 3.2);
     }
 }
 
@@ -97,9 +97,9 @@ settings! {
         /// How many moments ahead are looked at.
         moments: usize = 24, "1", within(1.0, 1000.0);
         /// Time from one of those moments to the next.
-        apart: f64 = 0.04, "s", POSITIVE;
+        apart: f64 = 0.04, "s", above_to(0.0, 60.0);
         /// Time constant of the smoothing of the height.
-        smooth_time: f64 = 0.06, "s", POSITIVE;
+        smooth_time: f64 = 0.06, "s", above_to(0.0, 60.0);
         /// Time constants by which the smoothed height is taken to be late.
         late: f64 = 2.5, "1", NOT_NEGATIVE;
         /// How much faster than up the height to come to goes down.
@@ -113,9 +113,9 @@ settings! {
         /// Share of what bears, from its middle to each end, in which the point where the foot carries lies.
         support_room: f64 = 0.5, "1", SHARE;
         /// Feet are side by side when they are nearer than this to where they are to stand.
-        beside: f64 = 0.01, "m", POSITIVE;
+        beside: f64 = 0.01, "m", above_to(0.0, 10.0);
         /// Feet are side by side when their headings differ by less than this.
-        beside_turn: f64 = 0.03, "rad", POSITIVE;
+        beside_turn: f64 = 0.03, "rad", above_to(0.0, 3.2);
         /// A walk that turns begins with the foot on that side, as one that goes aside does: a turn by 1 rad counts as so much.
         turn_counts: f64 = 0.1, "m/rad", NOT_NEGATIVE;
     }
@@ -135,7 +135,7 @@ settings! {
         /// Share of the swing after which the landing stays where it is.
         committed: f64 = 0.85, "1", SHARE;
         /// Fastest that a landing is moved.
-        speed: f64 = 1.0, "m/s", POSITIVE;
+        speed: f64 = 1.0, "m/s", above_to(0.0, 10.0);
         /// Growth of the error until the landing, less 1, that is reckoned with at least, at the end of a step.
         least_growth: f64 = 0.01, "1", POSITIVE;
     }
@@ -145,9 +145,9 @@ settings! {
     /// How an ankle yields.
     pub struct AnklesTuning("gait.tuning.ankles") {
         /// Time over which the measured forces are smoothed.
-        smooth_time: f64 = 0.02, "s", POSITIVE;
+        smooth_time: f64 = 0.02, "s", above_to(0.0, 60.0);
         /// How fast a foot in the air gets level again.
-        level_rate: f64 = 10.0, "1/s", NOT_NEGATIVE;
+        level_rate: f64 = 10.0, "1/s", within(0.0, 100.0);
     }
 }
 
@@ -181,7 +181,7 @@ settings! {
         /// Share of the swing after which a load on the foot is a landing.
         landing_share: f64 = 0.6, "1", SHARE;
         /// How far off the edge that it met a foot goes back.
-        clear: f64 = 0.025, "m", NOT_NEGATIVE;
+        clear: f64 = 0.025, "m", within(0.0, 10.0);
         /// A foot of which more than this share lies beyond the edge that it met stands well there: pressed at its
         /// middle it may as well lie on a cable.
         stands_share: f64 = 1.0, "1", SHARE;
@@ -194,11 +194,11 @@ settings! {
         /// Share of the time after which a foot has left the ground for sure.
         left_share: f64 = 0.25, "1", SHARE;
         /// How far a foot may be behind its path.
-        lag: f64 = 0.02, "s", NOT_NEGATIVE;
+        lag: f64 = 0.02, "s", within(0.0, 60.0);
         /// How short a leg may be while its foot is still sent further down: the hips come down more slowly than a foot.
-        short: f64 = 0.001, "m", NOT_NEGATIVE;
+        short: f64 = 0.001, "m", within(0.0, 10.0);
         /// How far before what it met a foot then comes down.
-        clear: f64 = 0.003, "m", POSITIVE;
+        clear: f64 = 0.003, "m", above_to(0.0, 10.0);
     }
 }
 
