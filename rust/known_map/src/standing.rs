@@ -98,10 +98,7 @@ mod tests {
         assert!(!any([1.9, 1.96], 0.0));
         assert!(places.iter().all(|place| place.top_m[2] > -1e-9));
         // A step over everything: only the highest of each column is left, at once.
-        let over = StandingTuning {
-            step: 1e9,
-            ..StandingTuning::default()
-        };
+        let over = StandingTuning { step: 1e9 };
         assert!(standing(&solid, room, &over).len() < places.len());
     }
 }

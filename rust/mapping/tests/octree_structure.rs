@@ -101,8 +101,21 @@ impl File {
         file
     }
 
-    /// Changes a part; says how.
+    /// Changes a part.
     fn change(&mut self, draws: &mut Draws) {
+        let line = draws.below(self.lines.len());
+        let at = self.starts[draws.below(self.starts.len())];
+        match draws.below(12) {
+            kind @ 0..5 => self.change_header(kind, line, draws),
+            kind => self.change_body(kind, at, draws),
+        }
+        self.starts.retain(|&start| start < self.body.len());
+        if self.starts.is_empty() || self.lines.is_empty() {
+            *self = Self::new(Format::Full, draws);
+        }
+    }
+
+    fn change_header(&mut self, kind: usize, line: usize, draws: &mut Draws) {
         const WORDS: [&str; 14] = [
             "0",
             "-1",
@@ -119,9 +132,7 @@ impl File {
             "10.0",
             "\u{0}",
         ];
-        let line = draws.below(self.lines.len());
-        let at = self.starts[draws.below(self.starts.len())];
-        match draws.below(12) {
+        match kind {
             0 => {
                 let word = self.lines[line]
                     .split(' ')
@@ -136,9 +147,17 @@ impl File {
                 let other = draws.below(self.lines.len());
                 self.lines.swap(line, other);
             }
-            4 => {
-                self.lines[3] = format!("size {}", self.nodes + draws.below(5) - 2.min(self.nodes))
+            _ => {
+                let nodes = self.nodes + draws.below(5) - 2.min(self.nodes);
+                if let Some(size) = self.lines.get_mut(3) {
+                    *size = format!("size {nodes}");
+                }
             }
+        }
+    }
+
+    fn change_body(&mut self, kind: usize, at: usize, draws: &mut Draws) {
+        match kind {
             5 => self.body.truncate(at),
             6 => self.body.extend(draws.next().to_le_bytes()),
             7 => {
@@ -160,10 +179,6 @@ impl File {
                 let off = at + draws.below(5).min(self.body.len() - 1 - at);
                 self.body[off] = draws.next() as u8;
             }
-        }
-        self.starts.retain(|&start| start < self.body.len());
-        if self.starts.is_empty() || self.lines.is_empty() {
-            *self = Self::new(Format::Full, draws);
         }
     }
 

@@ -1,8 +1,6 @@
 //! What a stereo camera is like.
 
-use settings::{
-    ConfigError, NOT_NEGATIVE, POSITIVE, SHARE, at_least, require, settings, within,
-};
+use settings::{ConfigError, NOT_NEGATIVE, POSITIVE, SHARE, at_least, require, settings, within};
 
 settings! {
     /// The errors of a stereo camera that matches windows.
