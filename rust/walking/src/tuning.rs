@@ -1,8 +1,6 @@
 //! The finer settings of the gait: `[gait.tuning]` of robot.toml.
 
-use settings::{
-    NOT_NEGATIVE, POSITIVE, SHARE, above_to, at_least, between, settings, within,
-};
+use settings::{NOT_NEGATIVE, POSITIVE, SHARE, above_to, at_least, between, settings, within};
 
 /// Most steps that may be looked ahead: room for them in an array.
 pub(crate) const MOST_STEPS: usize = 8;
