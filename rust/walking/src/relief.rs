@@ -101,6 +101,7 @@ impl<'a> Mapped<'a> {
             max: view.lattice.cell_at(at.x + around_m, at.y + around_m),
         };
         let sloped = area
+            .within(view.gradients.area())
             .cells()
             .any(|cell| view.gradients.get(cell).is_some_and(|g| *g != [0.0; 2]));
         sloped.then(|| Self {

@@ -105,7 +105,7 @@ mod tests {
         for (tuning, said) in [
             (
                 json!({"pelvis": {"apart": 0.0}}),
-                "gait.tuning.pelvis.apart must be > 0, got 0",
+                "gait.tuning.pelvis.apart must be > 0 and <= 60, got 0",
             ),
             (
                 json!({"swing": {"rise": [0.4, 0.2]}}),

@@ -1,8 +1,6 @@
 //! The finer settings of the gait: `[gait.tuning]` of robot.toml.
 
-use settings::{
-    NOT_NEGATIVE, POSITIVE, SHARE, above, above_to, at_least, between, settings, within,
-};
+use settings::{NOT_NEGATIVE, POSITIVE, SHARE, above_to, at_least, between, settings, within};
 
 /// Most steps that may be looked ahead: room for them in an array.
 pub(crate) const MOST_STEPS: usize = 8;
@@ -220,6 +218,6 @@ settings! {
         /// Places along a sole, and along the way from one foot to the other, at which the slope is asked for.
         places: usize = 6, "1", within(1.0, 1000.0);
         /// The map is looked at so far around the robot: farther than it steps.
-        around: f64 = 0.3, "m", above(0.0);
+        around: f64 = 0.3, "m", above_to(0.0, 10.0);
     }
 }

@@ -210,8 +210,16 @@ fn the_camera_looks_where_the_command_says() {
 #[test]
 fn a_bad_setting_is_refused_by_its_key() {
     for (key, value, message) in [
-        ("step_time", 0.0, "gait.step_time must be > 0, got 0"),
-        ("dcm_gain", 0.5, "gait.dcm_gain must be > 1, got 0.5"),
+        (
+            "step_time",
+            0.0,
+            "gait.step_time must be > 0 and <= 60, got 0",
+        ),
+        (
+            "dcm_gain",
+            0.5,
+            "gait.dcm_gain must be > 1 and < 100, got 0.5",
+        ),
         (
             "double_support",
             0.9,
