@@ -184,7 +184,7 @@ mod tests {
             (refused(|c| c.confirm_directions = 13), "confirm_directions"),
             (refused(|c| c.recovery_rates[1] = 2.5), "recovery_rates.1"),
             (refused(|c| c.mixture = [0.5, 0.1, 0.1]), "mixture"),
-            (refused(|c| c.mixture = [0.9, 0.1, 1e-12]), "mixture"),
+            (refused(|c| c.mixture = [0.9, 0.1, 1e-12]), "mixture.2"),
             (refused(|c| c.reach[1] = 1e9), "mixture"),
             (refused(|c| c.range_noise = 1e-12), "range_noise"),
             (refused(|c| c.short_rate = 1e12), "short_rate"),
