@@ -53,6 +53,8 @@ WAYS: Final = {
     "INT twice": (signal.SIGINT, signal.SIGINT),
 }
 TICK_S: Final = 0.01
+LARGEST_DISK: Final = 6e7
+"""Bytes: of a whole run and what it wants to have spare."""
 LATEST_S: Final = 5.0
 """Of the clock, after the folder was made, that a run is ended at."""
 
@@ -204,7 +206,7 @@ def main() -> None:
         rows.append(worst | {"wanted": "0.5 s"})
     left_by_disks: Counter[str] = Counter()
     for number in range(options.disks):
-        size = round(1e3 * 10 ** draw.uniform(0.0, 4.7))
+        size = round(draw.uniform(1e3, LARGEST_DISK))
         with tempfile.TemporaryDirectory() as place:
             left = filled(size, Path(place), options.seconds, disk=number % 2 == 0)
         _note(broken, f"{size} bytes", left)
