@@ -24,6 +24,8 @@ def cluster(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Two nodes of one processor each, on this machine."""
     if not os.environ.get("CI"):
         pytest.importorskip("ray", reason="the extra `ray` is not installed")
+    # As `ray_engine` has it; `make test` is `uv run`. Ray reads it when it is imported.
+    monkeypatch.setenv("RAY_ENABLE_UV_RUN_RUNTIME_ENV", "0")
     import ray
     from ray.cluster_utils import Cluster
 

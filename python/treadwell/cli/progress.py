@@ -77,7 +77,8 @@ class ProgressLine:
         if self._status is not None:
             from rich.text import Text
 
-            self._status.update(Text(f"{self._title}  {text}"))
+            with suppress(OSError):  # the terminal may be gone
+                self._status.update(Text(f"{self._title}  {text}"))
         elif not self._terminal and (time_s >= self._next_s or state != self._state):
             self._next_s = (time_s // SECONDS_A_LINE + 1) * SECONDS_A_LINE
             self._state = state

@@ -77,7 +77,8 @@ class SweepProgress:
             self._begin = (done, now)
         text = f"{successes} of {done} succeeded{self._left(done, now)}"
         if self._bar is not None and self._task is not None:
-            self._bar.update(self._task, completed=done, description=text)
+            with suppress(OSError):  # the terminal may be gone
+                self._bar.update(self._task, completed=done, description=text)
             return
         if row is not None and not row.success:
             write_message(f"{row.key.text}: {row.outcome} {row.reason or ''}")

@@ -49,6 +49,9 @@ def ray_engine(workers: int | None) -> Engine:
     Raises:
         InputError: Ray is not installed, or there is no such cluster.
     """
+    # Under `uv run` Ray would start each worker by the same command, in a folder that it packs and
+    # that has no lock: nothing would ever begin. The nodes have an environment of their own.
+    os.environ.setdefault("RAY_ENABLE_UV_RUN_RUNTIME_ENV", "0")
     try:
         import ray
     except ImportError:
