@@ -6,6 +6,7 @@ python benches/cut_runs.py --disks 100
 
 import argparse
 import mmap
+import os
 import random
 import resource
 import signal
@@ -78,7 +79,13 @@ def started(folder: Path, seconds: float, seen: Path, limit: int | None) -> "sub
     command = [sys.executable, "-c", RUN, str(seen), "run", "slalom", "--out", str(folder)]
     command += ["--set", f"time_limit={seconds}"]
     return subprocess.Popen(
-        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, preexec_fn=prepare
+        command,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=prepare,
+        # Where a disk is full Python leaves half a compiled module behind, and does not notice.
+        env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"},
     )
 
 

@@ -59,6 +59,8 @@ def start(folder: Path, *options: str, limit: int | None = None) -> Iterator[sub
         stderr=subprocess.PIPE,
         text=True,
         preexec_fn=tighten,
+        # Python would leave half a compiled module behind, and never look at it again.
+        env=os.environ | ({} if limit is None else {"PYTHONDONTWRITEBYTECODE": "1"}),
     )
     with process:
         try:
