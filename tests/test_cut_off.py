@@ -119,7 +119,9 @@ def test_of_a_run_that_had_only_begun_nothing_is_expected(begun: Path) -> None:
     found = verify_run(begun)
     assert found.problems == ()
     assert found.cut is not None
-    assert found.cut.sentence() == "cut off, killed or without power: it has no result.json"
+    assert found.cut.sentence() == (
+        "cut off, killed or without power unless it still runs: it has no result.json"
+    )
     (begun / "result.json").write_text("{}")
     assert not is_cut_off(begun)
     assert cut_run(begun) is None

@@ -1,5 +1,6 @@
 """Claims about `verify`: a whole run passes, and everything that is wrong is named."""
 
+import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -195,3 +196,29 @@ def test_a_run_that_is_not_there_is_named(tmp_path: Path) -> None:
     (found,) = verify([tmp_path / "nowhere"])
     assert not found.passed
     assert "nowhere" in found.problems[0]
+
+
+@pytest.mark.parametrize(
+    ("outcome", "lacking", "whole"),
+    [
+        ("goal_reached", 1, False),
+        ("interrupted", 1, True),
+        ("interrupted", 2, False),
+        ("error", 20, True),
+    ],
+)
+def test_only_a_run_that_ended_early_may_lack_its_last_ticks(
+    copy: Path, outcome: str, lacking: int, whole: bool
+) -> None:
+    told = json.loads((copy / "result.json").read_text())
+    told |= {"outcome": outcome, "simulated_seconds": 0.01 * (TICKS + lacking)}
+    (copy / "result.json").write_text(json.dumps(told))
+    assert verify_run(copy).passed == whole
+
+
+@pytest.mark.parametrize("outcome", ["interrupted", "error"])
+def test_half_a_log_is_no_early_end(copy: Path, outcome: str) -> None:
+    told = json.loads((copy / "result.json").read_text()) | {"outcome": outcome}
+    told["simulated_seconds"] = 0.01 * (TICKS + 400)
+    (copy / "result.json").write_text(json.dumps(told))
+    assert not verify_run(copy).passed

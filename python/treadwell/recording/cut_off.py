@@ -48,7 +48,7 @@ class CutRun:
     def sentence(self) -> str:
         """Return what is told of it in one line."""
         when = "" if self.seconds is None else f" at {self.seconds:.2f} s"
-        return f"cut off{when}, killed or without power: it has no {RESULT}"
+        return f"cut off{when}, killed or without power unless it still runs: it has no {RESULT}"
 
 
 def is_cut_off(folder: Path) -> bool:

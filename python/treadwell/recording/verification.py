@@ -1,5 +1,6 @@
 """`treadwell verify`: a run's files are whole, belong together, and plain MuJoCo agrees."""
 
+import math
 import os
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -28,8 +29,6 @@ from treadwell.recording.trajectory import ESTIMATE, TRUTH, read_trajectory
 from treadwell.scenario.loading import read_toml
 from treadwell.version import __version__
 
-_EARLY: Final = ("error", "interrupted")
-"""Outcomes of runs whose files may end at different ticks."""
 _PNG: Final = b"\x89PNG\r\n\x1a\n"
 _LARGEST_PICTURE: Final = 100_000_000
 """Bytes."""
@@ -62,6 +61,27 @@ class Verification:
         return not self.problems and self.cut is None
 
 
+@dataclass(frozen=True, slots=True)
+class _Slack:
+    """What the files of a run may lack at their end because of how it ended.
+
+    Attributes:
+        ticks: control ticks by which two files may differ.
+        may_break_off: whether a file may end amid a record.
+    """
+
+    ticks: float = 0
+    may_break_off: bool = False
+
+
+_OF_A_CUT_RUN: Final = _Slack(math.inf, may_break_off=True)
+_BY_OUTCOME: Final = {
+    # A tick was cut short, or the disk took no more of what waited, a second at most.
+    "interrupted": _Slack(1),
+    "error": _Slack(round(1.0 / TICK_SECONDS), may_break_off=True),
+}
+
+
 def verify(run_dirs: Iterable[Path]) -> list[Verification]:
     """Verify the folders of runs, one after the other. Nothing in them can make it fail.
 
@@ -82,14 +102,14 @@ def verify_run(folder: Path) -> Verification:
     problems: list[str] = []
     cut = cut_run(folder)
     result = _result(folder, problems) if cut is None else None
-    early = cut is not None or (result is not None and result.outcome in _EARLY)
+    slack = _Slack() if result is None else _BY_OUTCOME.get(result.outcome, _Slack())
+    slack = slack if cut is None else _OF_A_CUT_RUN
     rows = [] if _unwritten(folder, ESTIMATE, cut) else _trajectories(folder, problems)
     begun = cut is None or in_parts(folder) or (folder / AUDIT).exists()
     ticks, difference, steps_a_tick = _audit(folder, result, problems) if begun else (None, None, 0)
     if result is not None and ticks is not None:
         simulated = round(result.simulated_seconds / _TICK)
-        # Where writing failed, or a tick was cut short, not every file has the last ticks.
-        if not (ticks <= simulated + 1 if early else ticks == simulated):
+        if abs(ticks - simulated) > slack.ticks:
             problems.append(
                 f"physics.npz: {ticks} control ticks, but result.json has {simulated}: "
                 "they are of different runs"
@@ -101,7 +121,7 @@ def verify_run(folder: Path) -> Verification:
     if not _unwritten(folder, MAP, cut):
         _map(folder, problems)
     _scenario(folder, result, problems)
-    _recordings(folder, result, ticks, problems, early=early)
+    _recordings(folder, result, ticks, problems, slack)
     steps = (ticks or 0) * steps_a_tick if difference is None else difference
     return Verification(folder, tuple(problems), steps, difference, cut)
 
@@ -186,7 +206,7 @@ def _scenario(folder: Path, result: Result | None, problems: list[str]) -> None:
 
 
 def _recordings(
-    folder: Path, result: Result | None, ticks: int | None, problems: list[str], *, early: bool
+    folder: Path, result: Result | None, ticks: int | None, problems: list[str], slack: _Slack
 ) -> None:
     """Look at what `--no-record` leaves out: both files or none."""
     observations, recording = folder / OBSERVATIONS, folder / RECORDING
@@ -194,21 +214,21 @@ def _recordings(
     if not any(there):
         return
     for path, is_there in zip((observations, recording), there, strict=True):
-        if not is_there and not early:
+        if not is_there and slack is not _OF_A_CUT_RUN:
             problems.append(f"{path}: is missing, though the run was recorded")
     if there[1]:
-        _recording(recording, problems, early=early)
+        _recording(recording, problems, slack)
     if there[0]:
-        _observations(observations, result, ticks, problems, early=early)
+        _observations(observations, result, ticks, problems, slack)
 
 
-def _recording(path: Path, problems: list[str], *, early: bool) -> None:
+def _recording(path: Path, problems: list[str], slack: _Slack) -> None:
     try:
         whole, size = whole_length(path), path.stat().st_size
     except InputError as error:
         problems.append(str(error))
         return
-    if early and begins_right(path):
+    if slack.may_break_off and begins_right(path):
         return  # it may break off amid a message: what came before is read
     if whole < size or whole == 0:
         problems.append(
@@ -218,8 +238,9 @@ def _recording(path: Path, problems: list[str], *, early: bool) -> None:
 
 
 def _observations(
-    path: Path, result: Result | None, ticks: int | None, problems: list[str], *, early: bool
+    path: Path, result: Result | None, ticks: int | None, problems: list[str], slack: _Slack
 ) -> None:
+    early = slack.may_break_off
     try:
         front = read_front(path)
         header = header_of(front, path)
@@ -232,7 +253,7 @@ def _observations(
     except InputError as error:
         problems.append(str(error))
         return
-    fewest = count - 1 if early else count  # a tick's messages follow one another
+    fewest = count - 1 if slack.ticks else count  # a tick's messages follow one another
     if CORE in front.attachments and any(not fewest <= others[t] <= count for t in _BESIDE):
         found = ", ".join(f"{others[topic]} of {topic}" for topic in _BESIDE)
         problems.append(f"{path}: {count} observations, but {found}")
@@ -249,7 +270,7 @@ def _observations(
         wrong = [key for key, value in of_result.items() if header.get(key) != value]
         if wrong:
             problems.append(f"{path}: {', '.join(wrong)} not as in {RESULT}")
-    if ticks is not None and count != ticks and not early:
+    if ticks is not None and abs(count - ticks) > slack.ticks:
         problems.append(f"{path}: {count} observations, but {ticks} control ticks")
 
 
