@@ -2,9 +2,11 @@
 
 mod averaging;
 mod bevel;
+mod elevation;
 mod felt_place;
 mod laid_bevels;
 mod model;
+mod multi_level;
 mod overlay;
 mod part;
 pub mod surface;
@@ -12,8 +14,13 @@ mod two_maps;
 
 pub use averaging::{Averaging, AveragingConfig, AveragingTuning};
 pub use bevel::Bevel;
+pub use elevation::{
+    CellMeasurement, CellSizes, Elevation, ElevationConfig, ElevationTuning,
+    ExtendedElevationConfig, Gathered, HeightEstimate, RangeNoise, SightLines, SurfaceRule,
+};
 pub use felt_place::FeltPlace;
 pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};
+pub use multi_level::{MultiLevel, MultiLevelConfig, MultiLevelTuning, Patch};
 pub use overlay::{FeltConfig, Overlay};
 pub use part::{WorldModelNeeds, WorldModelPart};
 pub use surface::{Fog, FogConfig, FogTuning, OverheadTuning};
@@ -23,4 +30,11 @@ pub use two_maps::{
 pub use volume::{Clearing, Update};
 
 /// The world models that come with the crate: a new one is a file or folder beside these, and its lines here.
-pub const PARTS: &[WorldModelPart] = &[surface::PART, averaging::PART, two_maps::PART];
+pub const PARTS: &[WorldModelPart] = &[
+    surface::PART,
+    averaging::PART,
+    two_maps::PART,
+    elevation::PART,
+    elevation::EXTENDED,
+    multi_level::PART,
+];

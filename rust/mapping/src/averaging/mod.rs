@@ -167,8 +167,7 @@ impl WorldModel for Averaging {
             })
         };
         let shift = height_shift(
-            &self.frame,
-            pair,
+            self.frame.points.iter().filter_map(pair),
             (config.match_gate, config.min_pairs),
             &config.tuning.matching,
         );

@@ -288,8 +288,7 @@ impl WorldModel for Fog {
             None
         } else {
             height_shift(
-                &self.frame,
-                pair,
+                self.frame.points.iter().filter_map(pair),
                 (config.match_gate, config.min_pairs),
                 &config.tuning.matching,
             )

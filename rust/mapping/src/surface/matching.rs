@@ -1,6 +1,6 @@
 //! Fitting a frame to the floor that is known: 000, section IV.
 
-use super::{LabelledFrame, LabelledPoint, MatchingTuning};
+use super::MatchingTuning;
 
 /// A point of a frame and the known surface at its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,18 +12,15 @@ pub struct Pair {
 }
 
 /// The shift in height, m, that brings the frame's points onto the known surface: the least sum of squared distances
-/// among the pairs that agree. `None` with fewer than `min_pairs` of them. `pair` finds the surface at a point; none where
-/// nothing is known.
+/// among the pairs that agree. `None` with fewer than `min_pairs` of them.
 ///
 /// Points and floors further apart than `gate_m` are different surfaces. Where several shifts fit, the one that pairs of the
 /// most weight agree on wins.
 pub fn height_shift(
-    frame: &LabelledFrame,
-    pair: impl Fn(&LabelledPoint) -> Option<Pair>,
+    all: impl Iterator<Item = Pair>,
     (gate_m, min_pairs): (f64, usize),
     tuning: &MatchingTuning,
 ) -> Option<f64> {
-    let all = frame.points.iter().filter_map(pair);
     let found: Vec<Pair> = all.filter(|pair| pair.residual_m.abs() <= gate_m).collect();
     let pairs = || found.iter().copied();
     if gate_m == 0.0 {

@@ -1,6 +1,8 @@
 //! Boxes on a floor, seen by a perfect depth camera: the worlds of the map's tests and of its bench.
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its part")]
 
+pub mod terrain;
+
 use geometry::{Camera, Cell, Map, Pose, Robot};
 use mapping::{FloorView, FogConfig, Surface};
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};

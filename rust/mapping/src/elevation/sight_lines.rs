@@ -1,0 +1,155 @@
+//! What a frame's sight lines say of the places that they pass over: no ground is higher there than the lowest of them
+//! (004, section 36.3.1: visibility constraints).
+
+/// The lowest sight lines of one frame, by direction over the ground. Reused from frame to frame.
+#[derive(Debug, Clone)]
+pub struct SightLines {
+    eye_m: [f64; 3],
+    cell_m: f32,
+    sectors: usize,
+    bins: usize,
+    /// For each direction and range over the ground the least rise per metre of a sight line that goes on at least as far.
+    rises: Vec<f32>,
+}
+
+/// No sight line.
+const NONE: f32 = f32::INFINITY;
+
+impl SightLines {
+    /// For cells of this side and points up to `max_range_m` away; two directions are a cell apart at the longest range.
+    pub fn new(cell_m: f64, max_range_m: f64) -> Self {
+        /// More would not fit into memory.
+        const MOST: f64 = 4096.0;
+        let bins = (max_range_m / cell_m).ceil().clamp(1.0, MOST) as usize;
+        let sectors = (std::f64::consts::TAU * max_range_m / cell_m).ceil();
+        Self {
+            eye_m: [0.0; 3],
+            cell_m: cell_m as f32,
+            sectors: sectors.clamp(4.0, MOST) as usize,
+            bins,
+            rises: Vec::new(),
+        }
+    }
+
+    /// Begins a frame that is seen from here.
+    pub fn begin(&mut self, eye_m: [f64; 3]) {
+        self.eye_m = eye_m;
+        self.rises.clear();
+        self.rises.resize(self.sectors * self.bins, NONE);
+    }
+
+    /// Takes in the sight line to a point.
+    #[inline]
+    pub fn add(&mut self, at_m: [f64; 3]) {
+        let [x, y, z] = self.from_eye(at_m);
+        let range_m = (x * x + y * y).sqrt();
+        let bin = (range_m / self.cell_m) as usize;
+        if range_m <= 0.0 {
+            return;
+        }
+        let at = self.sector(x, y) * self.bins + bin.min(self.bins - 1);
+        self.rises[at] = self.rises[at].min(z / range_m);
+    }
+
+    /// After the last point: a sight line tells of all places that it passed.
+    pub fn finish(&mut self) {
+        for sector in self.rises.chunks_exact_mut(self.bins) {
+            let mut least = NONE;
+            for rise in sector.iter_mut().rev() {
+                least = least.min(*rise);
+                *rise = least;
+            }
+        }
+    }
+
+    /// Height in the map frame, m, that nothing in a cell exceeds, as far as sight lines passed over it; none where none did. It is the
+    /// height at which the lowest of them enters the cell, or leaves it where it rises.
+    #[inline]
+    pub fn bound_m(&self, centre_m: [f64; 2]) -> Option<f64> {
+        let [x, y, _] = self.from_eye([centre_m[0], centre_m[1], 0.0]);
+        let range_m = (x * x + y * y).sqrt();
+        // Beyond the whole cell, whatever the direction: half of its diagonal, and the bin that holds that.
+        let half_m = std::f32::consts::FRAC_1_SQRT_2 * self.cell_m;
+        let bin = ((range_m + half_m) / self.cell_m) as usize + 1;
+        if bin >= self.bins {
+            return None;
+        }
+        let rise = self.rises[self.sector(x, y) * self.bins + bin];
+        if rise == NONE {
+            return None;
+        }
+        let reach_m = if rise < 0.0 {
+            (range_m - half_m).max(0.0)
+        } else {
+            range_m + half_m
+        };
+        Some(self.eye_m[2] + f64::from(rise * reach_m))
+    }
+
+    #[inline]
+    fn from_eye(&self, at_m: [f64; 3]) -> [f32; 3] {
+        std::array::from_fn(|axis| (at_m[axis] - self.eye_m[axis]) as f32)
+    }
+
+    /// Which direction this is: without an arc tangent, by how far along the sides of a square that stands on its corner.
+    #[inline]
+    fn sector(&self, x: f32, y: f32) -> usize {
+        let along = y / (x.abs() + y.abs());
+        let turns = if x < 0.0 {
+            2.0 - along
+        } else if along < 0.0 {
+            4.0 + along
+        } else {
+            along
+        };
+        let sector = (turns * 0.25 * self.sectors as f32) as usize;
+        sector.min(self.sectors - 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const EYE_M: [f64; 3] = [1.0, -2.0, 0.5];
+
+    fn lines(points: &[[f64; 3]]) -> SightLines {
+        let mut lines = SightLines::new(0.04, 4.0);
+        lines.begin(EYE_M);
+        for &point in points {
+            lines.add(point);
+        }
+        lines.finish();
+        lines
+    }
+
+    #[test]
+    fn a_line_bounds_the_cells_that_it_passes_and_none_beyond_its_end_or_beside_it() {
+        let lines = lines(&[[3.0, -2.0, 0.0]]);
+        let bound_m = lines.bound_m([2.0, -2.0]).unwrap();
+        assert!(bound_m > 0.25 && bound_m < 0.26, "{bound_m}");
+        assert_eq!(lines.bound_m([3.1, -2.0]), None);
+        assert_eq!(lines.bound_m([2.0, -1.5]), None);
+        assert_eq!(lines.bound_m([0.0, -2.0]), None);
+    }
+
+    proptest! {
+        #[test]
+        fn a_bound_is_never_below_a_line_that_passes_and_is_the_lowest_of_those_in_its_direction(
+            yaw in -3.1..3.1f64, near in 0.3..1.5f64, further in 0.2..2.0f64, low in -0.3..0.3f64,
+        ) {
+            let at = |range_m: f64, z: f64| [EYE_M[0] + range_m * yaw.cos(), EYE_M[1] + range_m * yaw.sin(), z];
+            let end = at(near + further, low);
+            let lines = lines(&[end, at(near + further, low + 0.2)]);
+            let [x, y, _] = at(near, 0.0);
+            if let Some(bound_m) = lines.bound_m([x, y]) {
+                let line_m = EYE_M[2] + (low - EYE_M[2]) * near / (near + further);
+                prop_assert!(bound_m >= line_m - 1e-6);
+                prop_assert!(bound_m <= line_m + 0.03 * (low - EYE_M[2]).abs() / (near + further) + 1e-6);
+            } else {
+                prop_assert!(further < 0.12);
+            }
+        }
+    }
+}
