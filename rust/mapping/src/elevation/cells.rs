@@ -72,6 +72,11 @@ impl HeightCell {
         }
     }
 
+    /// Takes in that it reaches this high at least: of what is seen from below the surface is not known.
+    pub(crate) fn raise(&mut self, least: HeightEstimate) {
+        (self.estimate, self.frames, self.lower, self.passed) = (least, 0, 0, 0);
+    }
+
     /// Takes in that a frame's sight lines passed over the cell, the lowest of them at this height, m, as sure as a variance, m², says;
     /// whether the height that was known is given up.
     pub(crate) fn pass(&mut self, bound_m: f32, variance_m2: f32, belief: Belief) -> bool {

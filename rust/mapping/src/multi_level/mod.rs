@@ -161,8 +161,9 @@ impl MultiLevel {
             let _inside = self.gathered.add(locator, point.at_m, point.range_m, noise);
         }
         let cells = self.cells.values_mut();
+        let eye_m = self.frame.eye_m[2] as f32;
         self.gathered.measure(rule, |measured| {
-            cells[measured.cell].measure(&measured, belief)
+            cells[measured.cell].measure(&measured, eye_m, belief);
         });
         if self.elevation.clearing
             && let Some(seen) = SeenThrough::new(planes, map_from_robot)
@@ -216,7 +217,10 @@ impl MultiLevel {
             .flatten()
             .filter_map(|other| self.way(other));
         let lowest_m = heights.fold(height_m, |low, (other, ..)| low.min(other));
-        if f64::from(height_m - lowest_m) > self.elevation.rise || room_m < self.headroom_m {
+        if f64::from(height_m - lowest_m) > self.elevation.rise
+            || room_m < self.headroom_m
+            || frames == 0
+        {
             (Surface::Obstacle(height_m), 0)
         } else {
             (Surface::Floor(height_m), frames)

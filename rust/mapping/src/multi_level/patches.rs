@@ -3,7 +3,7 @@
 use crate::elevation::cells::{Belief, HeightCell};
 use crate::elevation::{CellMeasurement, HeightEstimate};
 
-/// A surface and the vertical extent of what it is on.
+/// A surface and the vertical extent of what it is on. What was only seen from below its height has no surface that is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patch {
     pub(super) top: HeightCell,
@@ -22,7 +22,7 @@ impl Patch {
         self.top.estimate
     }
 
-    /// Frames that saw the surface, saturating.
+    /// Frames that saw the surface from above, saturating.
     pub const fn frames(&self) -> u16 {
         self.top.frames
     }
@@ -55,9 +55,9 @@ impl Patches {
         &self.patches[..usize::from(self.count)]
     }
 
-    /// Takes in what a frame measured of a thing: it is the one that is known where there is no room for the robot between both, else
-    /// another one.
-    pub(super) fn measure(&mut self, measured: &CellMeasurement, belief: Belief) {
+    /// Takes in what a frame measured of a thing from an eye at this height, m: it is the one that is known where there is no room for the
+    /// robot between both, else another one. From below its underside or its side is seen, not its surface.
+    pub(super) fn measure(&mut self, measured: &CellMeasurement, eye_m: f32, belief: Belief) {
         let count = usize::from(self.count);
         let known = &mut self.patches[..count];
         let (low_m, high_m) = (measured.low_m, measured.surface.height_m);
@@ -69,8 +69,25 @@ impl Patches {
         let nearest = known
             .iter_mut()
             .min_by(|a, b| apart_m(a).total_cmp(&apart_m(b)));
-        if let Some(patch) = nearest.filter(|patch| apart_m(patch) <= belief.gap_m) {
-            let before_m = patch.top.estimate.height_m;
+        let joined = nearest.filter(|patch| apart_m(patch) <= belief.gap_m);
+        let from_below = high_m > eye_m;
+        let Some(patch) = joined else {
+            let mut top = HeightCell::UNKNOWN;
+            if from_below {
+                top.estimate = measured.surface;
+            } else {
+                top.measure(measured, belief);
+            }
+            self.add(Patch { top, low_m });
+            return;
+        };
+        let before_m = patch.top.estimate.height_m;
+        if from_below {
+            patch.low_m = patch.low_m.min(low_m);
+            if high_m > before_m {
+                patch.top.raise(measured.surface);
+            }
+        } else {
             // Within the thing nothing is another thing.
             let belief = Belief {
                 gap_m: f32::INFINITY,
@@ -83,12 +100,8 @@ impl Patches {
             } else {
                 patch.low_m.min(low_m)
             };
-            self.sort();
-            return;
         }
-        let mut top = HeightCell::UNKNOWN;
-        top.measure(measured, belief);
-        self.add(Patch { top, low_m });
+        self.sort();
     }
 
     /// Takes back what `gone` says of.
@@ -139,8 +152,14 @@ mod tests {
     };
 
     fn after(things: &[[f32; 2]]) -> Vec<[f32; 2]> {
+        let from_above: Vec<_> = things.iter().map(|&thing| (thing, 9.0)).collect();
+        seen_from(&from_above)
+    }
+
+    /// The things as they are known after they were seen, each from an eye of this height.
+    fn seen_from(things: &[([f32; 2], f32)]) -> Vec<[f32; 2]> {
         let mut patches = Patches::NONE;
-        for &[low_m, high_m] in things {
+        for &([low_m, high_m], eye_m) in things {
             let measured = CellMeasurement {
                 cell: 0,
                 surface: HeightEstimate {
@@ -150,7 +169,7 @@ mod tests {
                 low_m,
                 points: 3,
             };
-            patches.measure(&measured, BELIEF);
+            patches.measure(&measured, eye_m, BELIEF);
         }
         let seen = patches.seen().iter();
         seen.map(|one| [one.low_m, one.estimate().height_m])
@@ -162,6 +181,13 @@ mod tests {
         let both = vec![[0.0, 0.0], [0.7, 0.75]];
         assert_eq!(after(&[[0.0, 0.0], [0.7, 0.75]]), both);
         assert_eq!(after(&[[0.7, 0.75], [0.0, 0.0]]), both);
+    }
+
+    #[test]
+    fn the_underside_of_a_deck_is_not_its_surface() {
+        let (under, top) = ([0.65, 0.66], [0.7, 0.71]);
+        let below = [(under, 0.4), (under, 0.4), (under, 0.4), (top, 1.2)];
+        assert_eq!(seen_from(&below), [[0.65, 0.71]]);
     }
 
     #[test]
