@@ -1,0 +1,104 @@
+"""A run of ours: what its depth camera saw, from where the robot believed it to be.
+
+Depth images come from `observations.mcap`, the camera's poses from `recording.rrd`, where each
+frame has the pose that the core gave it: the localizer's estimate, with the body's pose at the
+exposure and the correction by the ground. `trajectory.tum` has the robot's alone.
+"""
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Final
+
+from treadwell.careful_json import json_of
+from treadwell.errors import InputError
+from treadwell.exports.recorded_points import camera_poses
+from treadwell.recording.log_file import BrokenLogError, read_front
+from treadwell.recording.observation_log import NAME, ROBOT, header_of, read_observations
+from treadwell.sources.frame import Floats, PinholeCamera, RangeFrame
+
+_NUMBERS: Final = ("width", "height", "focal")
+
+
+@dataclass(slots=True, eq=False)
+class RunSource:
+    """A run's depth images.
+
+    Attributes:
+        path: the run's folder.
+        camera: the robot's.
+        poses: map from camera, by the time in ns at which the frame arrived.
+        kind: "run".
+        unused: reason -> count, of the frames so far.
+        notes: what its user should know.
+    """
+
+    path: Path
+    camera: PinholeCamera
+    poses: dict[int, Floats]
+    kind: str = "run"
+    unused: Counter[str] = field(default_factory=Counter)
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def frames(self) -> int:
+        """How many images have a pose, or one more: the first pose may be of none."""
+        return len(self.poses)
+
+    def __iter__(self) -> Iterator[RangeFrame]:
+        """Yield the images that have a pose; their time is that of the exposure.
+
+        Raises:
+            InputError: the log is broken before its first image.
+        """
+        self.unused.clear()
+        self.notes.clear()
+        shape, given = (self.camera.height, self.camera.width), 0
+        try:
+            for observation in read_observations(self.path / NAME):
+                frame = observation.depth
+                if frame is None:
+                    continue
+                # The core answers a frame at the tick at which it has it.
+                pose = self.poses.get(observation.time_ns)
+                if frame.depth.shape != shape:
+                    self.unused[f"image that is not {shape[1]}x{shape[0]}"] += 1
+                elif pose is None:
+                    self.unused["no pose in the recording"] += 1
+                else:
+                    given += 1
+                    time = 1e-9 * frame.exposure_ns
+                    yield RangeFrame(time, pose, self.camera, frame.depth, None, "picture")
+        except BrokenLogError as error:
+            if not given:
+                raise InputError(str(error)) from None
+            self.notes.append(f"{error}; what came before is used")
+
+
+def open_run(folder: Path) -> RunSource:
+    """Open a run's folder.
+
+    Raises:
+        InputError: it was made without a recording, or that is broken.
+    """
+    path = folder / NAME
+    front = read_front(path)
+    header_of(front, path)
+    if ROBOT not in front.attachments:
+        raise InputError(f"{path}: has no {ROBOT}, which says what the camera sees")
+    camera = _camera(json_of(front.attachments[ROBOT], f"{path}: {ROBOT}: is broken"), path)
+    return RunSource(folder, camera, camera_poses(folder))
+
+
+def _camera(robot: Any, path: Path) -> PinholeCamera:  # noqa: ANN401 - what JSON gives
+    """Return the camera of a robot's description: square pixels, the axis in the middle."""
+    table = robot.get("camera") if isinstance(robot, dict) else None
+    found = [table.get(key) if isinstance(table, dict) else None for key in _NUMBERS]
+    if not all(isinstance(n, int | float) and math.isfinite(n) and 0 < n <= 1e6 for n in found):
+        raise InputError(f"{path}: {ROBOT}: camera: must have {', '.join(_NUMBERS)}")
+    width, height, focal = (float(n or 0) for n in found)
+    return PinholeCamera(
+        int(width), int(height), focal, focal, (width - 1.0) / 2.0, (height - 1.0) / 2.0
+    )
