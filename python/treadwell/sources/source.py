@@ -13,6 +13,7 @@ from treadwell.sources.clouds import OneCloud, has_clouds, is_cloud, open_cloud_
 from treadwell.sources.depth_folder import open_depth_folder, open_tum
 from treadwell.sources.frame import RangeFrame
 from treadwell.sources.height_image import open_height_image
+from treadwell.sources.laser_log import is_laser_log, open_laser_log
 from treadwell.sources.run import open_run
 
 _LANDMARKS: Final = ("Odometry.dat", "Measurement.dat", "Barcodes.dat")
@@ -25,6 +26,7 @@ FORMS: Final = (
     "a folder of .pcd or .ply clouds with poses.tum",
     "one cloud (.pcd or .ply, also .gz)",
     "a height image (.png with a .toml of its name)",
+    "a laser log (CARMEN's FLASER or ROBOTLASER1, g2o's VERTEX2 or VERTEX_SE2 with ROBOTLASER1)",
 )
 """What a source may be, for messages."""
 
@@ -106,6 +108,8 @@ def _file(path: Path) -> Source:
         return open_height_image(path)
     if path.name == OBSERVATIONS:
         return open_run(path.parent)
+    if is_laser_log(path):
+        return open_laser_log(path)
     raise InputError(_none_of_these(path))
 
 
