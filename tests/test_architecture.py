@@ -49,6 +49,7 @@ TESTED_BY = {
     "sources.depth_image": "test_sources_depth.py",
     "sources.folders": "test_sources_depth.py",
     "sources.height_image": "test_sources.py",
+    "sources.bag": "test_sources_bag.py",
     "sources.laser_log": "test_sources_laser.py",
     "sources.packed": "test_sources_clouds.py",
     "sources.clouds": "test_sources_clouds.py",

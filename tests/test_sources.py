@@ -16,7 +16,17 @@ from treadwell.errors import InputError
 from treadwell.recording.observation_log import read_observations
 from treadwell.sources.source import open_source
 
-NAMES: Final = ("a.pcd", "a.ply", "a.pcd.gz", "a.png", "a.log.gz", "a.mcap", "a.bag", "a.txt")
+NAMES: Final = (
+    "a.pcd",
+    "a.ply",
+    "a.pcd.gz",
+    "a.png",
+    "a.log.gz",
+    "a.mcap",
+    "a.bag",
+    "a.db3",
+    "a.txt",
+)
 
 
 def test_a_runs_images_come_with_the_poses_that_the_robot_believed() -> None:

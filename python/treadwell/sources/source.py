@@ -9,6 +9,7 @@ from treadwell.errors import InputError
 from treadwell.files import opened
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
 from treadwell.sources import camera_file, depth_folder
+from treadwell.sources.bag import open_bag
 from treadwell.sources.clouds import OneCloud, has_clouds, is_cloud, open_cloud_folder
 from treadwell.sources.depth_folder import open_depth_folder, open_tum
 from treadwell.sources.frame import RangeFrame
@@ -27,6 +28,7 @@ FORMS: Final = (
     "one cloud (.pcd or .ply, also .gz)",
     "a height image (.png with a .toml of its name)",
     "a laser log (CARMEN's FLASER or ROBOTLASER1, g2o's VERTEX2 or VERTEX_SE2 with ROBOTLASER1)",
+    "an .mcap, or a bag of ROS 1 (.bag) or 2 (a folder with metadata.yaml, or .db3)",
 )
 """What a source may be, for messages."""
 
@@ -76,8 +78,11 @@ def open_source(
     Raises:
         InputError: it is none of these, or broken; one clear message.
     """
+    bag = open_bag(path, camera, topics, pose_within)
+    if bag is not None:
+        return bag
     if topics:
-        raise InputError("--topic: found one, and the source is no bag: it has no topics")
+        raise InputError(f"--topic: found {topics[0]}; {path} is no bag: it has no topics")
     return _folder(path, camera, pose_within) if path.is_dir() else _file(path)
 
 
