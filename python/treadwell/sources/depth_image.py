@@ -45,28 +45,35 @@ class DepthUnit:
         Raises:
             UnusableError: not one pixel was seen, or half of them farther than any camera sees.
         """
-        seen = np.isfinite(depth) & (depth > 0)
-        if not seen.any():
+        with np.errstate(over="ignore", invalid="ignore"):
+            # Large numbers of 64 bits become infinite in 32: they are not seen either.
+            metres = depth.astype(np.float32)
+            seen = (metres > 0.0) & (metres < np.inf)
+        count = int(np.count_nonzero(seen))
+        if not count:
             raise UnusableError("no point")
-        middle = float(np.median(depth[seen]))
+        metres[~seen] = np.nan
         if self.scale is None:
             self.scale = 1.0
-            if middle > FARTHEST_DEPTH_M:
+            if _lies_beyond(metres, count):
                 self.scale = MILLIMETRES
                 self.notes.append(
                     f"depths are taken for millimetres: half of the first image would lie beyond "
-                    f"{FARTHEST_DEPTH_M:g} m, at {middle:.4g}"
+                    f"{FARTHEST_DEPTH_M:g} m, at {float(np.nanmedian(metres)):.4g}"
                 )
-        if middle * self.scale > FARTHEST_DEPTH_M:
+        if self.scale != 1.0:
+            metres *= np.float32(self.scale)
+        if _lies_beyond(metres, count):
             raise UnusableError(f"depth beyond {FARTHEST_DEPTH_M:g} m")
-        with np.errstate(over="ignore", invalid="ignore"):
-            # Large numbers of 64 bits become infinite in 32.
-            metres = np.where(seen, depth * self.scale, np.nan).astype(np.float32)
-        metres[~np.isfinite(metres)] = np.nan
         return metres
 
 
-def read_depth(path: Path, camera: CameraFile, camera_path: Path) -> NDArray[np.float64]:
+def _lies_beyond(metres: NDArray[np.float32], count: int) -> bool:
+    """Whether more than half of an image's pixels, of which some are seen, lie too far away."""
+    return 2 * int(np.count_nonzero(metres > FARTHEST_DEPTH_M)) > count
+
+
+def read_depth(path: Path, camera: CameraFile, camera_path: Path) -> NDArray[Any]:
     """Return an image (h, w) in metres if its file keeps to the rules: see `DepthUnit`.
 
     Raises:
@@ -80,13 +87,13 @@ def read_depth(path: Path, camera: CameraFile, camera_path: Path) -> NDArray[np.
     shape = camera.height, camera.width
     image = (_npy if path.suffix.lower() == ".npy" else png_depth)(content, shape)
     if image.dtype.kind == "f":
-        return image.astype(np.float64)
+        return image
     if camera.depth_scale is None:
         raise InputError(
             f"{camera_path}: depth_scale: missing; it is required, as {path.name} has integers: "
             "units a metre, 1000 for millimetres"
         )
-    scaled: NDArray[np.float64] = image.astype(np.float64) / camera.depth_scale
+    scaled: NDArray[np.float32] = image.astype(np.float32) / np.float32(camera.depth_scale)
     return scaled
 
 

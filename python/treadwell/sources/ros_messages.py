@@ -48,7 +48,7 @@ def is_depth(message: Any, kind: str) -> bool:  # noqa: ANN401
     return message.encoding in _DEPTHS
 
 
-def depth_of(message: Any, kind: str, camera: PinholeCamera, scale: float) -> Floats:  # noqa: ANN401
+def depth_of(message: Any, kind: str, camera: PinholeCamera, scale: float) -> NDArray[Any]:  # noqa: ANN401
     """Return the depths (h, w) m of an image.
 
     Args:
@@ -65,8 +65,7 @@ def depth_of(message: Any, kind: str, camera: PinholeCamera, scale: float) -> Fl
     shape = camera.height, camera.width
     if kind == COMPRESSED:
         packed = bytes(message.data)[_DEPTH_HEAD:]
-        depths: Floats = png_depth(packed, shape).astype(np.float64) / scale
-        return depths
+        return _scaled(png_depth(packed, shape), scale)
     if (message.height, message.width) != shape:
         raise UnusableError(f"image that is not {camera.width}x{camera.height}")
     number = np.dtype(f"{'>' if message.is_bigendian else '<'}{_DEPTHS[message.encoding]}")
@@ -74,8 +73,13 @@ def depth_of(message: Any, kind: str, camera: PinholeCamera, scale: float) -> Fl
     if message.step < row or len(data) < message.step * (camera.height - 1) + row:
         raise UnusableError(_BROKEN)
     rows = np.lib.stride_tricks.as_strided(data, (camera.height, row), (message.step, 1))
-    image = np.ascontiguousarray(rows).view(number).astype(np.float64)
-    return image / scale if number.kind == "u" else image
+    image = np.ascontiguousarray(rows).view(number)
+    return _scaled(image, scale) if number.kind == "u" else image
+
+
+def _scaled(image: NDArray[Any], scale: float) -> NDArray[np.float32]:
+    scaled: NDArray[np.float32] = image.astype(np.float32) / np.float32(scale)
+    return scaled
 
 
 def camera_of(message: Any, topic: str) -> PinholeCamera | None:  # noqa: ANN401
