@@ -69,8 +69,12 @@ def test_a_runs_points_lie_on_the_floor_that_it_stands_on() -> None:
 
 
 def test_a_run_that_was_not_recorded_says_so() -> None:
-    with pytest.raises(InputError):
+    with pytest.raises(InputError, match="the run was made without a recording"):
         open_source(plain_run())
+
+
+def test_a_runs_log_stands_for_its_folder() -> None:
+    assert open_source(recorded_run() / "observations.mcap").kind == "run"
 
 
 @needs_data
@@ -148,6 +152,14 @@ def test_what_is_none_of_these_is_told_what_is(tmp_path: Path) -> None:
 def test_topics_are_of_bags_alone(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="--topic"):
         open_source(tmp_path, topics=["/points"])
+
+
+def test_what_has_no_use_for_a_camera_refuses_one(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="--camera: found .*; a run has no use for it"):
+        open_source(recorded_run(), camera=tmp_path)
+    for wrong in (-0.1, float("nan"), float("inf")):
+        with pytest.raises(InputError, match="must be 0 s or more"):
+            open_source(recorded_run(), pose_within=wrong)
 
 
 @pytest.mark.parametrize("name", NAMES)

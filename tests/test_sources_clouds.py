@@ -244,5 +244,5 @@ def test_clouds_of_a_folder_take_their_poses(tmp_path: Path) -> None:
 def test_a_folder_of_clouds_without_poses_says_what_it_lacks(tmp_path: Path) -> None:
     folder = cloud_folder(tmp_path / "a")
     (folder / "poses.tum").unlink()
-    with pytest.raises(InputError, match=r"poses\.tum: missing; clouds need poses"):
+    with pytest.raises(InputError, match=r"poses\.tum: missing; a line for each pose"):
         open_source(folder)

@@ -1,5 +1,6 @@
 """`camera.toml`: what a depth camera of somebody else's sees, in pixels."""
 
+import os
 from pathlib import Path
 from typing import Annotated, Final
 
@@ -50,6 +51,12 @@ def read_camera(path: Path) -> CameraFile:
     Raises:
         InputError: it is missing, no TOML, or lacks a key; a line for each fault.
     """
+    if not os.path.lexists(path):
+        raise InputError(
+            f"{path}: missing; it says what the camera sees: {', '.join(CameraFile.model_fields)} "
+            "(units a metre, as 1000 for millimetres; 5000 of the TUM benchmark). Another file may "
+            "be named by --camera"
+        )
     table = read_toml(path)
     try:
         return CameraFile.model_validate(table)

@@ -15,8 +15,8 @@ from treadwell.sources.packed import Content
 
 MOST_POINTS: Final = 10_000_000
 """Of one cloud: with its file and what is made of it they take up to 2 GB of memory."""
-LARGEST_FILE: Final = 1 << 30
-"""Bytes of a cloud's file, unpacked."""
+LARGEST_FILE: Final = 3 << 28
+"""Bytes of a cloud's file, unpacked: with its packed points and what is made of it up to 2 GB."""
 FARTHEST_M: Final = 1e8
 """No coordinate of a projection of the Earth is larger: what is beyond is no point."""
 MOST_FIELDS: Final = 1000

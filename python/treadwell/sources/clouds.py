@@ -176,11 +176,6 @@ def open_cloud_folder(folder: Path, pose_within: float) -> CloudFolder:
     Raises:
         InputError: there are no poses, or no cloud whose name is its time.
     """
-    if not (folder / POSES).exists():
-        raise InputError(
-            f"{folder / POSES}: missing; clouds need poses, a line each: time s, x y z m, "
-            "qx qy qz qw, world from sensor"
-        )
     poses = read_poses(folder / POSES)
     unnamed: Counter[str] = Counter()
     clouds = timed_files(folder, SUFFIXES, unnamed)

@@ -129,12 +129,6 @@ def open_tum(folder: Path, camera: Path | None, pose_within: float) -> DepthFold
         InputError: a file is missing or wrong.
     """
     camera_path = camera or folder / camera_file.NAME
-    if camera is None and not camera_path.exists():
-        raise InputError(
-            f"{camera_path}: missing; a folder of the TUM benchmark does not say what its camera "
-            f"sees: write width, height, fx, fy, cx, cy and depth_scale (5000 there) into it, or "
-            "name such a file by --camera"
-        )
     told = read_camera(camera_path)
     images = listed_files(folder / TUM_DEPTH)
     if not images:

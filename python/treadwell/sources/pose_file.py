@@ -1,6 +1,7 @@
 """Poses in the TUM format, `time x y z qx qy qz qw` a line, and the one that a frame takes."""
 
 import math
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -14,6 +15,7 @@ from treadwell.sources.frame import Floats, UnusableError
 
 LARGEST_FILE: Final = 200_000_000
 """Bytes: a million poses are a tenth of them."""
+_LINE: Final = "time s, x y z m, qx qy qz qw, world from sensor"
 MOST_OFF_ONE: Final = 0.01
 """By which a quaternion's length may differ from one: files keep four digits or more."""
 
@@ -85,6 +87,8 @@ def read_poses(path: Path) -> Poses:
     Raises:
         InputError: it is missing, a line is not of eight numbers, or there is none.
     """
+    if not os.path.lexists(path):
+        raise InputError(f"{path}: missing; a line for each pose of the sensor: {_LINE}")
     rows: list[list[float]] = []
     for number, line in enumerate(read_text(path, LARGEST_FILE).splitlines(), start=1):
         if not line.strip() or line.lstrip().startswith("#"):
@@ -94,9 +98,7 @@ def read_poses(path: Path) -> Poses:
         except ValueError:
             row = []
         if len(row) != 8 or not math.isfinite(row[0]):
-            raise InputError(
-                f"{path}: line {number}: must be eight numbers: time s, x y z m, qx qy qz qw"
-            )
+            raise InputError(f"{path}: line {number}: must be eight numbers: {_LINE}")
         rows.append(row)
     if not rows:
         raise InputError(f"{path}: holds not one pose")

@@ -1,5 +1,6 @@
 """Which form a stranger's recording has, and the one door to all of them."""
 
+import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -7,7 +8,9 @@ from typing import Final, Protocol
 
 from treadwell.errors import InputError
 from treadwell.files import opened
+from treadwell.recording.cut_off import RESULT
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
+from treadwell.recording.trajectory import ESTIMATE
 from treadwell.sources import camera_file, depth_folder
 from treadwell.sources.bag import open_bag
 from treadwell.sources.clouds import OneCloud, has_clouds, is_cloud, open_cloud_folder
@@ -20,6 +23,7 @@ from treadwell.sources.run import open_run
 _LANDMARKS: Final = ("Odometry.dat", "Measurement.dat", "Barcodes.dat")
 POSE_WITHIN_S: Final = 0.02
 """How far off in time a frame's pose may be, where nobody says otherwise."""
+_WITHOUT_CAMERA_FILE: Final = ("run", "cloud", "cloud folder", "height image", "laser log")
 FORMS: Final = (
     "a run's folder with its recording",
     "a folder with camera.toml, depth/ and poses.tum",
@@ -78,7 +82,17 @@ def open_source(
     Raises:
         InputError: it is none of these, or broken; one clear message.
     """
-    bag = open_bag(path, camera, topics, pose_within)
+    if not 0.0 <= pose_within < math.inf:
+        raise InputError(f"how far off a pose may be: found {pose_within}; must be 0 s or more")
+    source = _opened(path, camera, topics, pose_within)
+    if camera is not None and source.kind in _WITHOUT_CAMERA_FILE:
+        raise InputError(f"--camera: found {camera}; a {source.kind} has no use for it")
+    return source
+
+
+def _opened(path: Path, camera: Path | None, topics: Sequence[str], pose_within: float) -> Source:
+    is_run = path.name == OBSERVATIONS
+    bag = None if is_run else open_bag(path, camera, topics, pose_within)
     if bag is not None:
         return bag
     if topics:
@@ -92,6 +106,8 @@ def _folder(path: Path, camera: Path | None, pose_within: float) -> Source:
 
     if has(OBSERVATIONS):
         return open_run(path)
+    if has(RESULT) and has(ESTIMATE):
+        raise InputError(f"{path / OBSERVATIONS}: missing; the run was made without a recording")
     if has(depth_folder.TUM_DEPTH) and has(depth_folder.TUM_POSES):
         return open_tum(path, camera, pose_within)
     if has(depth_folder.DEPTH) or (has(camera_file.NAME) and has(depth_folder.POSES)):
