@@ -50,6 +50,7 @@ TESTED_BY = {
     "sources.folders": "test_sources_depth.py",
     "sources.height_image": "test_sources.py",
     "sources.bag": "test_sources_bag.py",
+    "sources.foxglove_messages": "test_sources_foxglove.py",
     "sources.laser_log": "test_sources_laser.py",
     "sources.packed": "test_sources_clouds.py",
     "sources.clouds": "test_sources_clouds.py",

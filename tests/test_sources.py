@@ -155,7 +155,7 @@ def test_topics_are_of_bags_alone(tmp_path: Path) -> None:
 
 
 def test_what_has_no_use_for_a_camera_refuses_one(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="--camera: found .*; a run has no use for it"):
+    with pytest.raises(InputError, match=r"--camera: found .*; a run has no use for it"):
         open_source(recorded_run(), camera=tmp_path)
     for wrong in (-0.1, float("nan"), float("inf")):
         with pytest.raises(InputError, match="must be 0 s or more"):

@@ -87,6 +87,9 @@ class Bag:
             self._note(f"no transform says where the frame {frame[:60]!r} is")
             raise UnusableError("no transform from the sensor's frame")
         pose = self.transforms.pose(frame, time, self.pose_within)
+        own = getattr(message, "own_pose", None)
+        if own is not None:
+            pose = pose @ own
         self._note(f"poses are in the frame {root[:60]!r}")
         if kind in (ros.IMAGE, ros.COMPRESSED):
             camera = self.cameras[topic]
@@ -97,7 +100,7 @@ class Bag:
             if np.isnan(scan[:, 0]).all():
                 raise UnusableError("no point")
             return RangeFrame(time, pose, None, None, scan, "scan")
-        return self._cloud(message, time, pose, in_root=frame.lstrip("/") == root)
+        return self._cloud(message, time, pose, in_root=own is None and frame.lstrip("/") == root)
 
     def _cloud(self, message: Any, time: float, pose: Floats, *, in_root: bool) -> RangeFrame:  # noqa: ANN401
         """Return a cloud; where its sensor was is not known of one that is in the world's frame."""

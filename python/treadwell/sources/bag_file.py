@@ -17,6 +17,7 @@ import lz4.frame
 from treadwell.errors import InputError
 from treadwell.files import opened, read_text
 from treadwell.recording.log_file import LARGEST_RECORD, read_channels, read_messages
+from treadwell.sources import foxglove_messages
 from treadwell.sources.folders import files_in
 from treadwell.sources.frame import UnusableError
 from treadwell.sources.ros_messages import TRANSFORMS
@@ -87,12 +88,16 @@ class McapFiles:
         self._paths = paths
         self.topics: dict[str, str] = {}
         self._ros1: set[str] = set()
+        self._foxglove: dict[str, str] = {}
         for path in paths:
             for topic, channel in read_channels(path).items():
                 if channel.encoding in ("cdr", "ros1"):
                     self.topics[topic] = ros2_name(channel.schema)
                 if channel.encoding == "ros1":
                     self._ros1.add(topic)
+                if channel.encoding == "protobuf" and channel.schema in foxglove_messages.KINDS:
+                    self.topics[topic] = foxglove_messages.KINDS[channel.schema]
+                    self._foxglove[topic] = channel.schema
 
     def messages(self, topics: Collection[str]) -> Iterator[Message]:
         """Yield the messages of some topics.
@@ -106,6 +111,8 @@ class McapFiles:
 
     def decode(self, topic: str, data: bytes) -> Any:  # noqa: ANN401
         """Return a message's content; see `_Decoder.decode`."""
+        if topic in self._foxglove:
+            return foxglove_messages.decode(data, self._foxglove[topic])
         decoder = self._of_ros1 if topic in self._ros1 else self._of_ros2
         return decoder.decode(data, self.topics[topic])
 

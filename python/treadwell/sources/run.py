@@ -44,7 +44,7 @@ class RunSource:
 
     @property
     def frames(self) -> int:
-        """How many images have a pose, or one more: the first pose may be of none."""
+        """How many images have a pose, or one more: the last is written again at the end."""
         return len(self.poses)
 
     def __iter__(self) -> Iterator[RangeFrame]:
