@@ -12,8 +12,10 @@ from PIL import Image
 from run_folders import plain_run, recorded_run
 from source_builders import data, needs_data, read
 
+import treadwell
 from treadwell.errors import InputError
-from treadwell.recording.observation_log import read_observations
+from treadwell.recording.observation_log import read_observations, read_truth
+from treadwell.sources.run import RunSource
 from treadwell.sources.source import open_source
 
 NAMES: Final = (
@@ -66,6 +68,24 @@ def test_a_runs_points_lie_on_the_floor_that_it_stands_on() -> None:
     floor = heights[np.abs(heights) < 0.1]
     assert len(floor) > 500
     assert abs(np.median(floor)) < 0.01
+
+
+@pytest.mark.slow
+def test_a_late_cameras_image_has_the_pose_of_its_exposure(tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    settings = ("time_limit=10", "sensors.latency=0.2")
+    treadwell.run("turns", seed=2, overrides=settings, out=folder)
+    truth = list(read_truth(folder / "observations.mcap"))
+    yaw = [np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)) for *_, x, y, z, w in truth]
+    source = open_source(folder)
+    assert isinstance(source, RunSource)
+    off = []
+    for frame in source:
+        arrived = source.poses[round(1e9 * frame.time) + 200_000_000]
+        ahead = [pose[:2, 2] for pose in (frame.world_from_sensor, arrived)]
+        off.append([np.arctan2(y, x) - yaw[round(100 * frame.time)] for x, y in ahead])
+    here, late = np.abs(np.unwrap(off, axis=0)).mean(axis=0)
+    assert here < 0.7 * late
 
 
 def test_a_run_that_was_not_recorded_says_so() -> None:

@@ -63,9 +63,9 @@ def checked_points(columns: Mapping[str, NDArray[Any]], notes: list[str]) -> Flo
         notes: is told how many are none for being too far away.
     """
     points = np.empty((len(columns["x"]), 3))
-    for number, name in enumerate("xyz"):
-        points[:, number] = columns[name]
-    with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore"):  # some NaN are told by the processor
+        for number, name in enumerate("xyz"):
+            points[:, number] = columns[name]
         far = (np.abs(points) > FARTHEST_M).any(axis=1)
     none = far | ~np.isfinite(points).all(axis=1)
     points[none] = np.nan

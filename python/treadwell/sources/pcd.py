@@ -6,6 +6,7 @@ LZF, for which there is a library.
 """
 
 import math
+import struct
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -198,10 +199,10 @@ def _compressed(content: Content, header: _Header) -> dict[str, NDArray[Any]]:
         )
         * header.points
     )
-    sizes = np.frombuffer(content.read(8), "<u4")
-    if len(sizes) < 2:
+    sizes = content.read(8)
+    if len(sizes) < 8:
         raise InputError(f"{content.path}: breaks off: 0 points of {header.points}")
-    packed, unpacked = (int(size) for size in sizes)
+    packed, unpacked = struct.unpack("<II", sizes)
     if unpacked != wanted:
         raise InputError(
             f"{content.path}: unpacks to {unpacked} bytes, {header.points} points have {wanted}"

@@ -155,11 +155,11 @@ def _colour(columns: dict[str, NDArray[Any]], element: _Element) -> NDArray[np.u
     for names in _COLOURS:
         if all(name in columns for name in names):
             kinds = {element.properties[name] for name in names}
-            parts = np.stack([columns[name] for name in names], axis=1)
-            if kinds <= {"f4", "f8"}:
-                parts = np.clip(np.nan_to_num(parts), 0.0, 1.0) * 255.0
-            elif kinds != {"u1"}:
+            if not (kinds <= {"f4", "f8"} or kinds == {"u1"}):
                 return None
-            colour: NDArray[np.uint8] = np.clip(parts, 0, 255).astype(np.uint8)
-            return colour
+            full = 255.0 if kinds <= {"f4", "f8"} else 1.0
+            parts = np.stack([columns[name] for name in names], axis=1).astype(np.float64)
+            with np.errstate(invalid="ignore"):  # some NaN are told by the processor
+                parts = np.clip(np.nan_to_num(parts) * full, 0.0, 255.0)
+            return parts.astype(np.uint8)
     return None

@@ -154,7 +154,8 @@ def scan_of(message: Any) -> NDArray[np.float32]:  # noqa: ANN401
     Raises:
         UnusableError: it is broken.
     """
-    distance = np.asarray(message.ranges, np.float64)
+    with np.errstate(invalid="ignore"):  # some NaN are told by the processor
+        distance = np.asarray(message.ranges, np.float64)
     first, step = float(message.angle_min), float(message.angle_increment)
     if not (math.isfinite(first) and math.isfinite(step)) or not len(distance):
         raise UnusableError(_BROKEN)

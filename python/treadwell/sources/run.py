@@ -2,21 +2,34 @@
 
 Depth images come from `observations.mcap`, the camera's poses from `recording.rrd`, where each
 frame has the pose that the core gave it: the localizer's estimate, with the body's pose at the
-exposure and the correction by the ground. `trajectory.tum` has the robot's alone.
+exposure and the correction by the ground. `trajectory.tum` has the robot's alone. That estimate is
+of the tick at which the frame arrived; where a camera is late, it is moved back to the exposure.
 """
 
 import math
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
+
 from treadwell.careful_json import json_of
 from treadwell.errors import InputError
 from treadwell.exports.recorded_points import camera_poses
+from treadwell.poses import pose_matrix
+from treadwell.protocols import Pose
 from treadwell.recording.log_file import BrokenLogError, read_front
-from treadwell.recording.observation_log import NAME, ROBOT, header_of, read_observations
+from treadwell.recording.messages import decode_estimate
+from treadwell.recording.observation_log import (
+    NAME,
+    ROBOT,
+    header_of,
+    read_answers,
+    read_observations,
+)
 from treadwell.sources.frame import Floats, PinholeCamera, RangeFrame
 
 _NUMBERS: Final = ("width", "height", "focal")
@@ -30,6 +43,7 @@ class RunSource:
         path: the run's folder.
         camera: the robot's.
         poses: map from camera, by the time in ns at which the frame arrived.
+        beliefs: the robot's x, y, z m and yaw rad, by the time in ns; filled where it is needed.
         kind: "run".
         unused: reason -> count, of the frames so far.
         notes: what its user should know.
@@ -38,6 +52,7 @@ class RunSource:
     path: Path
     camera: PinholeCamera
     poses: dict[int, Floats]
+    beliefs: dict[int, Pose] = field(default_factory=dict)
     kind: str = "run"
     unused: Counter[str] = field(default_factory=Counter)
     notes: list[str] = field(default_factory=list)
@@ -69,12 +84,28 @@ class RunSource:
                     self.unused["no pose in the recording"] += 1
                 else:
                     given += 1
+                    pose = self._at_exposure(pose, frame.exposure_ns, observation.time_ns)
                     time = 1e-9 * frame.exposure_ns
                     yield RangeFrame(time, pose, self.camera, frame.depth, None, "picture")
         except BrokenLogError as error:
             if not given:
                 raise InputError(str(error)) from None
             self.notes.append(f"{error}; what came before is used")
+
+    def _at_exposure(self, pose: Floats, exposure_ns: int, now_ns: int) -> Floats:
+        """Return a camera's pose with the robot where it was believed to be at the exposure."""
+        if exposure_ns == now_ns:
+            return pose
+        if not self.beliefs:
+            with suppress(BrokenLogError):
+                for _, answer in read_answers(self.path / NAME):
+                    belief = decode_estimate(answer)
+                    self.beliefs[belief.time_ns] = belief.pose
+        if not {exposure_ns, now_ns} <= self.beliefs.keys():
+            return pose
+        then, now = (pose_matrix(*self.beliefs[time_ns]) for time_ns in (exposure_ns, now_ns))
+        moved: Floats = then @ np.linalg.solve(now, pose)
+        return moved
 
 
 def open_run(folder: Path) -> RunSource:
