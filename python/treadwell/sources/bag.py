@@ -249,12 +249,16 @@ def _chosen(path: Path, file: BagFile, survey: _Survey, topics: Sequence[str]) -
 
 def _camera(path: Path, topic: str, survey: _Survey) -> PinholeCamera:
     """Return the camera of a topic's images: of the info beside them."""
-    beside = topic.removesuffix(_PACKED).rpartition("/")[0] + "/camera_info"
-    info = survey.infos.get(beside)
-    if info is None:
+    plain = topic.removesuffix(_PACKED)
+    near = plain.rpartition("/")[0]
+    there = [name for name in survey.infos if name.rpartition("/")[0] in (near, plain)]
+    beside = f"{near}/camera_info" if f"{near}/camera_info" in there else there[0] if there else ""
+    if not beside or (len(there) > 1 and not beside.endswith("/camera_info")):
         raise InputError(
-            f"{path}: {topic}: has no camera info ({beside}); name a camera.toml by --camera"
+            f"{path}: {topic}: has no camera info ({near}/camera_info); name a camera.toml by "
+            "--camera"
         )
+    info = survey.infos[beside]
     camera = ros.camera_of(info, topic)
     if camera is None:
         raise InputError(

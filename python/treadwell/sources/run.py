@@ -6,33 +6,27 @@ exposure and the correction by the ground. `trajectory.tum` has the robot's alon
 of the tick at which the frame arrived; where a camera is late, it is moved back to the exposure.
 """
 
-import math
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Final
 
 import numpy as np
 
-from treadwell.careful_json import json_of
 from treadwell.errors import InputError
 from treadwell.exports.recorded_points import camera_poses
 from treadwell.poses import pose_matrix
 from treadwell.protocols import Pose
-from treadwell.recording.log_file import BrokenLogError, read_front
+from treadwell.recording.log_file import BrokenLogError
 from treadwell.recording.messages import decode_estimate
 from treadwell.recording.observation_log import (
     NAME,
-    ROBOT,
-    header_of,
     read_answers,
     read_observations,
 )
+from treadwell.recording.recorded_camera import recorded_camera
 from treadwell.sources.frame import Floats, PinholeCamera, RangeFrame
-
-_NUMBERS: Final = ("width", "height", "focal")
 
 
 @dataclass(slots=True, eq=False)
@@ -114,22 +108,7 @@ def open_run(folder: Path) -> RunSource:
     Raises:
         InputError: it was made without a recording, or that is broken.
     """
-    path = folder / NAME
-    front = read_front(path)
-    header_of(front, path)
-    if ROBOT not in front.attachments:
-        raise InputError(f"{path}: has no {ROBOT}, which says what the camera sees")
-    camera = _camera(json_of(front.attachments[ROBOT], f"{path}: {ROBOT}: is broken"), path)
+    told = recorded_camera(folder / NAME)
+    column, row = told.centre
+    camera = PinholeCamera(told.width, told.height, told.focal, told.focal, column, row)
     return RunSource(folder, camera, camera_poses(folder))
-
-
-def _camera(robot: Any, path: Path) -> PinholeCamera:  # noqa: ANN401 - what JSON gives
-    """Return the camera of a robot's description: square pixels, the axis in the middle."""
-    table = robot.get("camera") if isinstance(robot, dict) else None
-    found = [table.get(key) if isinstance(table, dict) else None for key in _NUMBERS]
-    if not all(isinstance(n, int | float) and math.isfinite(n) and 0 < n <= 1e6 for n in found):
-        raise InputError(f"{path}: {ROBOT}: camera: must have {', '.join(_NUMBERS)}")
-    width, height, focal = (float(n or 0) for n in found)
-    return PinholeCamera(
-        int(width), int(height), focal, focal, (width - 1.0) / 2.0, (height - 1.0) / 2.0
-    )
