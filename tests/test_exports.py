@@ -239,6 +239,7 @@ def test_the_topics_have_foxgloves_schemas(messages: dict[str, list[tuple[int, A
         "/tf": "foxglove.FrameTransforms",
         "/estimate": "foxglove.PoseInFrame",
         "/truth": "foxglove.PoseInFrame",
+        "/camera/calibration": "foxglove.CameraCalibration",
         "/camera/depth": "foxglove.RawImage",
         "/camera/points": "foxglove.PointCloud",
         "/map": "foxglove.Grid",

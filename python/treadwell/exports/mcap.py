@@ -1,8 +1,9 @@
 """`run.mcap`: a run for Foxglove, in its own open schemas (protobuf).
 
 Frames: `map`, below it `robot` (believed), `robot_true` and `camera`. Topics: `/tf`, `/estimate`
-and `/truth` (poses), `/camera/depth` (metres, 32FC1), `/camera/points`, `/map` (the final floor
-map), `/behaviour` (a line at every change of state). A message's time is its arrival.
+and `/truth` (poses), `/camera/depth` (metres, 32FC1) with `/camera/calibration`, `/camera/points`,
+`/map` (the final floor map), `/behaviour` (a line at every change of state). A message's time is
+its arrival.
 """
 
 from collections.abc import Iterator, Sequence
@@ -25,6 +26,7 @@ from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import read_map
 from treadwell.recording.observation_log import NAME as OBSERVATIONS
 from treadwell.recording.observation_log import read_observations
+from treadwell.recording.recorded_camera import RecordedCamera, recorded_camera
 from treadwell.recording.recorder import NAME as RECORDING
 from treadwell.recording.trajectory import quaternion
 
@@ -128,10 +130,27 @@ def _observations(path: Path) -> Iterator[Observation]:
 
 
 def _depth(schemas: Any, path: Path) -> Iterator[Told]:  # noqa: ANN401
+    camera = recorded_camera(path)
     for observation in _observations(path):
         if observation.depth is not None:
             time_ns, depth = observation.depth.arrival_ns, observation.depth.depth
+            yield Told(time_ns, "/camera/calibration", _calibration(schemas, time_ns, camera))
             yield Told(time_ns, "/camera/depth", _image(schemas, time_ns, depth))
+
+
+def _calibration(schemas: Any, time_ns: int, camera: RecordedCamera) -> Any:  # noqa: ANN401
+    focal, (column, row) = camera.focal, camera.centre
+    return schemas.CameraCalibration(
+        timestamp=_time(schemas, time_ns),
+        frame_id="camera",
+        width=camera.width,
+        height=camera.height,
+        distortion_model="",
+        D=[],
+        K=[focal, 0.0, column, 0.0, focal, row, 0.0, 0.0, 1.0],
+        R=[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        P=[focal, 0.0, column, 0.0, 0.0, focal, row, 0.0, 0.0, 0.0, 1.0, 0.0],
+    )
 
 
 def _seen(schemas: Any, frame: SeenPoints) -> Iterator[Told]:  # noqa: ANN401

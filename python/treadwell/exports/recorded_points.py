@@ -5,7 +5,7 @@ frame, and the camera's pose.
 """
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -41,15 +41,28 @@ def seen_points(folder: Path) -> Iterator[SeenPoints]:
     Raises:
         InputError: the recording is missing or broken.
     """
-    path = folder / NAME
-    if not path.is_file():
-        raise InputError(f"{path}: there is no recording; the run was made without one")
-    points, cameras = _read(path)
+    points, cameras = _read(folder / NAME, (_POINTS, _CAMERA))
     for time_ns in sorted(points.keys() & cameras.keys()):
         yield SeenPoints(time_ns, points[time_ns], cameras[time_ns])
 
 
-def _read(path: Path) -> tuple[dict[int, NDArray[np.float64]], dict[int, NDArray[np.float64]]]:
+def camera_poses(folder: Path) -> dict[int, NDArray[np.float64]]:
+    """Return where the camera of a run was, as the robot believed it, by the frame's arrival in ns.
+
+    Returns:
+        map_from_camera, (4, 4) each.
+
+    Raises:
+        InputError: the recording is missing or broken.
+    """
+    return _read(folder / NAME, (_CAMERA,))[1]
+
+
+def _read(
+    path: Path, wanted: Sequence[str]
+) -> tuple[dict[int, NDArray[np.float64]], dict[int, NDArray[np.float64]]]:
+    if not path.is_file():
+        raise InputError(f"{path}: there is no recording; the run was made without one")
     from rerun.chunk import RrdReader
     from rerun.error_utils import RerunWarning
 
@@ -62,7 +75,7 @@ def _read(path: Path) -> tuple[dict[int, NDArray[np.float64]], dict[int, NDArray
             stream = RrdReader(str(path)).stream()
         for chunk in stream.to_chunks():
             entity = str(chunk.entity_path)
-            if entity not in (_POINTS, _CAMERA) or chunk.is_static:
+            if entity not in wanted or chunk.is_static:
                 continue
             table = chunk.to_record_batch()
             times = table.column("time").cast("int64").to_pylist()

@@ -18,7 +18,7 @@ import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
 from mcap.opcode import Opcode
-from mcap.records import Attachment, Channel, Chunk, Metadata
+from mcap.records import Attachment, Channel, Chunk, Metadata, Schema
 
 from treadwell.errors import InputError
 from treadwell.files import opened
@@ -74,6 +74,13 @@ class Message(NamedTuple):
     data: bytes
 
 
+class ChannelKind(NamedTuple):
+    """What the messages of a topic are: name of their type, and how they are encoded."""
+
+    schema: str
+    encoding: str
+
+
 @dataclass(frozen=True, slots=True)
 class Front:
     """What stands before the first message.
@@ -125,6 +132,39 @@ def read_front(path: Path) -> Front:
     return front
 
 
+def read_channels(path: Path) -> dict[str, ChannelKind]:
+    """Return what the messages of each topic are; of a log that breaks off as far as it is whole.
+
+    Raises:
+        BrokenLogError: it breaks off before its first channel, or is no MCAP file.
+        InputError: the file is missing.
+    """
+    found: dict[str, ChannelKind] = {}
+    schemas: dict[int, str] = {}
+    with opened(path) as file:
+        allowance = _allowance(path.stat().st_size)
+        try:
+            for opcode, content in _records(file, path):
+                records = [(opcode, content)]
+                if opcode == Opcode.CHUNK:
+                    records = list(_parts(_unpacked(content), allowance))
+                for kind, record in records:
+                    if kind == Opcode.SCHEMA:
+                        schema = Schema.read(ReadDataStream(BytesIO(record)))
+                        schemas[schema.id] = schema.name
+                    elif kind == Opcode.CHANNEL:
+                        channel = Channel.read(ReadDataStream(BytesIO(record)))
+                        name = schemas.get(channel.schema_id, "")
+                        found[channel.topic] = ChannelKind(name, channel.message_encoding)
+                if len(found) + len(schemas) > 2 * MOST_CHANNELS:
+                    raise ValueError(f"more than {MOST_CHANNELS} channels")
+        except _FAULTS as error:
+            if not found:
+                what = f"{path}: breaks off or is no recording: {_line(error)}"
+                raise BrokenLogError(what, 0) from None
+    return found
+
+
 def read_messages(path: Path, topics: Sequence[str]) -> Iterator[Message]:
     """Return the messages of some topics, in the order in which they were written.
 
@@ -135,7 +175,7 @@ def read_messages(path: Path, topics: Sequence[str]) -> Iterator[Message]:
     channels: dict[int, str | None] = {}
     with opened(path) as file:
         whole, size = 0, path.stat().st_size
-        allowance = _Allowance(MOST_TIMES * size + BESIDES[0], size // LEAST_PACKED + BESIDES[1])
+        allowance = _allowance(size)
         try:
             for opcode, content in _records(file, path):
                 if opcode == Opcode.CHUNK:
@@ -230,9 +270,22 @@ def _unpacked(content: bytes) -> bytes:
     return data
 
 
+def _allowance(size: int) -> _Allowance:
+    """Return what a file of some bytes may unpack to."""
+    return _Allowance(MOST_TIMES * size + BESIDES[0], size // LEAST_PACKED + BESIDES[1])
+
+
 def _messages(
     data: bytes, channels: dict[int, str | None], topics: Sequence[str], allowance: _Allowance
 ) -> Iterator[Message]:
+    for opcode, content in _parts(data, allowance):
+        message = _taken(opcode, content, channels, topics)
+        if message is not None:
+            yield message
+
+
+def _parts(data: bytes, allowance: _Allowance) -> Iterator[tuple[int, bytes]]:
+    """Return operation and content of each record of a chunk."""
     at, end, told = 0, len(data), 0
     allowance.data -= end
     while at < end:
@@ -248,9 +301,7 @@ def _messages(
         told += opcode != Opcode.MESSAGE
         if told > 2 * MOST_CHANNELS:
             raise ValueError(f"a chunk that tells more than {MOST_CHANNELS} channels and schemas")
-        message = _taken(opcode, data[at : at + length], channels, topics)
-        if message is not None:
-            yield message
+        yield opcode, data[at : at + length]
         at += length
 
 
