@@ -310,6 +310,34 @@ class WorldModel:
     def seconds(self) -> float: ...
 
 @final
+class RangeMap:
+    def __new__(
+        cls, name: str, *, settings: str = "{}", headroom: float | None = None
+    ) -> RangeMap: ...
+    @property
+    def needs_surfaces(self) -> bool: ...
+    def set_camera(
+        self,
+        size: tuple[int, int],
+        focal: tuple[float, float],
+        centre: tuple[float, float],
+        *,
+        segmenter: str,
+        pool: int,
+        baseline: float,
+    ) -> None: ...
+    def insert_depth(
+        self, depth: NDArray[np.float32], map_from_sensor: NDArray[np.float64], ground: float
+    ) -> bool: ...
+    def insert_points(
+        self, points: NDArray[np.float32], map_from_sensor: NDArray[np.float64], ground: float
+    ) -> bool: ...
+    def view(self) -> FloorView: ...
+    def occupied(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    @property
+    def seconds(self) -> float: ...
+
+@final
 class OccupancyGrid:
     def __new__(
         cls,

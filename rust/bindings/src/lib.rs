@@ -14,6 +14,7 @@ mod octree;
 mod pilot;
 mod pose;
 mod products;
+mod range_map;
 mod ranges;
 mod segmenter;
 mod servos;
@@ -44,6 +45,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<products::PyBodyState>()?;
     module.add_class::<products::PyFloorView>()?;
     module.add_class::<products::PyPlanes>()?;
+    module.add_class::<range_map::PyRangeMap>()?;
     module.add_class::<ranges::PyRangeField>()?;
     module.add_class::<segmenter::PySegmenter>()?;
     module.add_class::<servos::PyPhysics>()?;

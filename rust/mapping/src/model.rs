@@ -220,6 +220,11 @@ pub trait WorldModel: Send + Sync {
     /// The floor, obstacle and unknown view, as of the last insertion.
     fn view(&self) -> &FloorView;
 
+    /// Whether it takes the frame's surfaces, not its points alone: such a model has no use for points of which no surfaces are known.
+    fn needs_surfaces(&self) -> bool {
+        true
+    }
+
     /// Takes in what a foot met. A model by itself knows only what is seen; [`Overlay`](crate::Overlay) keeps it for any.
     fn feel(&mut self, _felt: FeltPlace) {}
 

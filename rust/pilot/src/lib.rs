@@ -5,6 +5,7 @@ mod feeling;
 mod goals;
 mod parts;
 mod perception;
+mod range_map;
 mod registry;
 mod settings;
 mod tables;
@@ -17,6 +18,7 @@ pub use parts::{
     BEHAVIOURS, LOCALIZERS, ListedPart, PLANNERS, SEGMENTERS, Slot, WORLD_MODELS, components,
 };
 pub use perception::{Perception, PerceptionConfig, PerceptionTuning};
+pub use range_map::{RangeMap, SightNeeds};
 pub use registry::Components;
 pub use settings::{GoalSettings, Navigation, Settings, StartSettings};
 pub use tables::tables;

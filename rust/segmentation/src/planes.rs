@@ -78,6 +78,30 @@ impl Planes {
             reliable: false,
         }
     }
+
+    /// Points of a range sensor in the robot's frame, m, of which no surfaces are known; NaN where nothing was seen. Their places are
+    /// trusted: nothing corrects the sensor's pose.
+    pub fn of_points(
+        points_in_robot_m: Vec<[f32; 3]>,
+        robot_from_camera: Pose<Robot, Camera>,
+    ) -> Self {
+        Self {
+            robot_from_camera,
+            reliable: true,
+            points_in_robot_m,
+            ..Self::new(0)
+        }
+        .sized()
+    }
+
+    /// The product with as many labels as it has points.
+    fn sized(mut self) -> Self {
+        let pixels = self.points_in_robot_m.len();
+        self.labels.resize(pixels, 0);
+        self.floor_height_m.resize(pixels, f32::NAN);
+        self.at_step.resize(pixels, false);
+        self
+    }
 }
 
 /// Height of the floor at a place `(x_m, y_m)` of the robot's frame, above the robot's ground, m; none where it is not known.

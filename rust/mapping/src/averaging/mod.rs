@@ -190,4 +190,8 @@ impl WorldModel for Averaging {
     fn view(&self) -> &FloorView {
         &self.view
     }
+
+    fn needs_surfaces(&self) -> bool {
+        false
+    }
 }

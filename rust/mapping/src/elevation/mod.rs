@@ -352,4 +352,8 @@ impl WorldModel for Elevation {
     fn view(&self) -> &FloorView {
         &self.view
     }
+
+    fn needs_surfaces(&self) -> bool {
+        false
+    }
 }

@@ -39,8 +39,9 @@ impl SensedFrame {
         for (point, &at_step) in planes.points_in_robot_m.iter().zip(&planes.at_step) {
             let at = Vector3::from(point.map(f64::from));
             let squared = (at - eye).norm_squared();
-            // Not so for what is no number, either.
-            if at_step || !(squared <= most) {
+            // What is no number is not near, either.
+            let near = squared <= most;
+            if at_step || !near {
                 continue;
             }
             self.points.push(SensedPoint {

@@ -41,7 +41,7 @@ impl SightLines {
     /// Takes in the sight line to a point.
     #[inline]
     pub fn add(&mut self, at_m: [f64; 3]) {
-        let [x, y, z] = self.from_eye(at_m);
+        let [x, y, z] = self.seen_from_eye(at_m);
         let range_m = (x * x + y * y).sqrt();
         let bin = (range_m / self.cell_m) as usize;
         if range_m <= 0.0 {
@@ -66,7 +66,7 @@ impl SightLines {
     /// height at which the lowest of them enters the cell, or leaves it where it rises.
     #[inline]
     pub fn bound_m(&self, centre_m: [f64; 2]) -> Option<f64> {
-        let [x, y, _] = self.from_eye([centre_m[0], centre_m[1], 0.0]);
+        let [x, y, _] = self.seen_from_eye([centre_m[0], centre_m[1], 0.0]);
         let range_m = (x * x + y * y).sqrt();
         // Beyond the whole cell, whatever the direction: half of its diagonal, and the bin that holds that.
         let half_m = std::f32::consts::FRAC_1_SQRT_2 * self.cell_m;
@@ -87,7 +87,7 @@ impl SightLines {
     }
 
     #[inline]
-    fn from_eye(&self, at_m: [f64; 3]) -> [f32; 3] {
+    fn seen_from_eye(&self, at_m: [f64; 3]) -> [f32; 3] {
         std::array::from_fn(|axis| (at_m[axis] - self.eye_m[axis]) as f32)
     }
 
@@ -139,7 +139,7 @@ mod tests {
         fn a_bound_is_never_below_a_line_that_passes_and_is_the_lowest_of_those_in_its_direction(
             yaw in -3.1..3.1f64, near in 0.3..1.5f64, further in 0.2..2.0f64, low in -0.3..0.3f64,
         ) {
-            let at = |range_m: f64, z: f64| [EYE_M[0] + range_m * yaw.cos(), EYE_M[1] + range_m * yaw.sin(), z];
+            let at = |range_m: f64, z: f64| [EYE_M[0] + range_m * libm::cos(yaw), EYE_M[1] + range_m * libm::sin(yaw), z];
             let end = at(near + further, low);
             let lines = lines(&[end, at(near + further, low + 0.2)]);
             let [x, y, _] = at(near, 0.0);

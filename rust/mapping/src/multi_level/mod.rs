@@ -293,6 +293,10 @@ impl WorldModel for MultiLevel {
         &self.view
     }
 
+    fn needs_surfaces(&self) -> bool {
+        false
+    }
+
     /// Cubes of a cell's side over the vertical extent of each surface.
     fn occupied(&self) -> Vec<Voxel> {
         let (lattice, side_m) = (self.window.lattice(), self.elevation.cell);

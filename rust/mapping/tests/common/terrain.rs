@@ -50,11 +50,11 @@ pub fn look(
         let (mut above, mut under) = (met - 0.004, met);
         for _ in 0..20 {
             let middle = 0.5 * (above + under);
-            if below(middle) {
-                under = middle
+            *(if below(middle) {
+                &mut under
             } else {
-                above = middle
-            }
+                &mut above
+            }) = middle;
         }
         let disparity = camera.disparity_px(under) + sigma_px * luck.normal();
         let depth = camera.focal_px * camera.baseline_m / disparity;
