@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from treadwell.cli import list_verbs, run_verbs, sweep_verbs
+from treadwell.cli import map as map_verb
 from treadwell.cli.options import (
     JsonOption,
     NoUserCodeOption,
@@ -109,6 +110,11 @@ app.command(
     short_help="Show the scenarios, robots, components, ... there are.",
     epilog=list_verbs.LIST_EXAMPLE,
 )(list_verbs.list_)
+app.command(
+    "map",
+    short_help="Make a map of range data of others, or of a run.",
+    epilog=map_verb.EXAMPLE,
+)(map_verb.map_)
 app.command(
     short_help="Write a JSON schema of a file, for editors.", epilog=list_verbs.SCHEMA_EXAMPLE
 )(list_verbs.schema)

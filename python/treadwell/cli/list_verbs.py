@@ -29,6 +29,7 @@ class Described(StrEnum):
     SCENARIO = "scenario"
     ROBOT = "robot"
     RESULT = "result"
+    MAP = "map"
 
 
 def list_(

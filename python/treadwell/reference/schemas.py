@@ -6,6 +6,7 @@ from typing import Any, Final
 from treadwell.additions import known
 from treadwell.components import CLASS_NAME, COMPONENTS
 from treadwell.judging.result import Result
+from treadwell.map_making.document import MapResult
 from treadwell.reference.parameters import all_tables
 from treadwell.robot.file import RobotFile
 from treadwell.scenario.model import Scenario
@@ -56,10 +57,17 @@ def result_schema() -> dict[str, Any]:
     return _titled(Result.model_json_schema(mode="serialization"), "A result.json of treadwell")
 
 
+def map_schema() -> dict[str, Any]:
+    """Return the schema of the `result.json` of a map."""
+    schema = MapResult.model_json_schema(mode="serialization")
+    return _titled(schema, "The result.json of a map of treadwell")
+
+
 SCHEMAS: Final[dict[str, Callable[[], dict[str, Any]]]] = {
     "scenario": scenario_schema,
     "robot": robot_schema,
     "result": result_schema,
+    "map": map_schema,
 }
 """What there is a schema of -> what makes it."""
 

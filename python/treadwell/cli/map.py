@@ -1,0 +1,150 @@
+"""The verb `map`: a map of range data that was recorded elsewhere, or in a run."""
+
+import sys
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Annotated, Final, Self
+
+import typer
+
+from treadwell.cli.options import JsonOption, NoUserCodeOption, SeedOption
+from treadwell.cli.output import INTERRUPTED, PASSED, write_json, write_message, write_table
+
+if TYPE_CHECKING:
+    from treadwell.map_making.document import MapResult
+
+EXAMPLE: Final = "Example: treadwell map terrain.pcd --world-model elevation --set elevation.cell=0.1"
+_EVERY: Final = 500
+"""Frames between two lines where there is no terminal."""
+
+
+def map_(  # noqa: PLR0913 - one an option
+    source: Annotated[
+        Path,
+        typer.Argument(
+            metavar="SOURCE",
+            help="A run, depth images or clouds with poses, one cloud, a height image, a laser "
+            "log, a bag.",
+        ),
+    ],
+    *,
+    world_model: Annotated[
+        str | None,
+        typer.Option(
+            "--world-model", metavar="NAME", help="Default: fog of pictures, elevation of clouds."
+        ),
+    ] = None,
+    localizer: Annotated[
+        str | None,
+        typer.Option("--localizer", metavar="NAME", help="truth: poses are taken as they are."),
+    ] = None,
+    robot: Annotated[
+        str | None,
+        typer.Option("--robot", metavar="NAME", help="A robot's name or folder: its height counts."),
+    ] = None,
+    camera: Annotated[
+        Path | None,
+        typer.Option("--camera", metavar="FILE", help="A camera.toml instead of the source's own."),
+    ] = None,
+    topics: Annotated[
+        list[str] | None,
+        typer.Option("--topic", metavar="NAME", help="Of a bag, what to read. Repeatable."),
+    ] = None,
+    seed: SeedOption = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="KEY=VALUE", help="elevation.cell=0.1, map.up=-y. Repeatable."
+        ),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", help="Its folder; default: a new one in runs/."),
+    ] = None,
+    record: Annotated[
+        bool, typer.Option("--record/--no-record", help="Keep the recording.")
+    ] = True,
+    no_user_code: NoUserCodeOption = False,
+    as_json: JsonOption = False,
+) -> int:
+    """Make a map of range data that was recorded elsewhere, or in a run, without MuJoCo."""
+    from treadwell.errors import InputError
+    from treadwell.map_making.making import make_map
+    from treadwell.map_making.request import read_request
+
+    del no_user_code  # a map is made by what is built in
+    if localizer not in (None, "truth"):
+        raise InputError(
+            f"--localizer: found {localizer}; must be truth: the poses of the data are taken as "
+            "they are"
+        )
+    request = read_request(
+        source,
+        world_model=world_model,
+        robot=robot,
+        camera=camera,
+        topics=topics or (),
+        seed=seed or 0,
+        settings=settings or (),
+    )
+    with FrameLine(source.name) as progress:
+        made = make_map(request, out=out, record=record, progress=progress)
+    result = made.result
+    if as_json:
+        write_json(result.model_dump(mode="json", by_alias=True))
+    else:
+        _show(result)
+    for note in result.notes:
+        write_message(f"note:      {note}")
+    write_message(f"map:       {made.folder / 'map.png'}")
+    if record:
+        write_message(f"recording: treadwell inspect {made.folder}")
+    return INTERRUPTED if result.interrupted else PASSED
+
+
+def _show(result: "MapResult") -> None:
+    cells = result.cells
+    rows: list[tuple[str, object]] = [
+        ("source", f"{result.source.kind}, {result.source.path}"),
+        ("frames used", f"{result.frames_used} of {result.frames}"),
+        *((f"unused: {reason}", count) for reason, count in result.unused.items()),
+        ("cells of", f"{1e3 * result.cell:g} mm"),
+        ("floor, obstacle", f"{cells.floor}, {cells.obstacle} cells"),
+        ("a frame, median", f"{result.timing_ms['map'].median:.2f} ms"),
+        *((f"set by the data: {key}", value) for key, value in result.assumed.items()),
+    ]
+    write_table(f"{result.source.path} by {result.world_model}", ("", ""), rows)
+
+
+class FrameLine:
+    """Shows on standard error how a map gets on: one line on a terminal, else one in a hundred."""
+
+    def __init__(self, title: str) -> None:
+        """Show nothing yet."""
+        self._title, self._terminal = title, sys.stderr.isatty()
+        self._shown = False
+
+    def __enter__(self) -> Self:
+        """Begin."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Let the line vanish."""
+        if self._terminal and self._shown:
+            sys.stderr.write("\r\x1b[K")
+            sys.stderr.flush()
+
+    def update(self, frame: int, frames: int, used: int) -> None:
+        """Show how many frames were read, of how many."""
+        line = f"{self._title}: frame {frame} of {frames}, {used} used"
+        if self._terminal:
+            sys.stderr.write(f"\r\x1b[K{line}")
+            sys.stderr.flush()
+            self._shown = True
+        elif frame % _EVERY == 0:
+            write_message(line)

@@ -1,0 +1,110 @@
+"""`result.json` of a map (schema `treadwell.map/1`)."""
+
+from typing import Any, Final
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
+
+from treadwell.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
+
+SCHEMA: Final = "treadwell.map/1"
+
+
+class Strict(BaseModel):
+    """A table that allows nothing but its keys."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class MappedSource(Strict):
+    """What was mapped."""
+
+    kind: str
+    """Which form of recording it is."""
+    path: str
+    """Where it lies."""
+
+
+class MappedCells(Strict):
+    """How many cells the map has of each kind."""
+
+    floor: int
+    """Level ground, or the top of what is not higher than what lies beside it by more than a step."""
+    obstacle: int
+    """What stands out."""
+    unknown: int
+    """Within the map's bounds, and never seen."""
+
+
+class Times(Strict):
+    """Milliseconds of the clock a frame."""
+
+    median: float
+    """Half took no longer."""
+    p99: float
+    """All but one in a hundred."""
+    max: float
+    """The longest."""
+    count: int
+    """Of how many frames."""
+
+
+class MapResult(Strict):
+    """What came of a map."""
+
+    schema_: str = Field(SCHEMA, alias="schema")
+    """`treadwell.map/1`."""
+    version: str
+    """Of treadwell."""
+    source: MappedSource
+    """What was mapped."""
+    world_model: str
+    """What kept the map."""
+    robot: str | None
+    """Whose height counted; none where nobody's did."""
+    seed: int
+    """Of all that is random."""
+    frames: int
+    """Frames that the source has, as far as it was read."""
+    frames_used: int
+    """Frames in the map."""
+    unused: dict[str, int]
+    """Reason -> frames that were left out."""
+    interrupted: bool
+    """Whether it was ended before the source was."""
+    cells: MappedCells
+    """Cells of the map by kind."""
+    cell: float
+    """Side of a cell, m."""
+    origin: tuple[float, float]
+    """Lower-left corner of the map, m, in the source's world, turned so that z is up."""
+    settings: dict[str, Any]
+    """Table -> key -> value, of the core's settings: the user's, and those that follow from the data."""
+    assumed: dict[str, Any]
+    """Key -> value, of the settings that follow from the data."""
+    notes: list[str]
+    """What was found in the data that its user should know."""
+    timing_ms: dict[str, Times]
+    """Stage -> times: `map` is one frame from the sensor's data to the map's view."""
+
+
+def counted(found: RememberedMap) -> MappedCells:
+    """Return how many cells a map has of each kind."""
+    return MappedCells(
+        floor=int((found.kind == FLOOR).sum()),
+        obstacle=int((found.kind == OBSTACLE).sum()),
+        unknown=int((found.kind == UNKNOWN).sum()),
+    )
+
+
+def times(seconds: list[float]) -> Times:
+    """Return the times of frames, of seconds of the clock."""
+    if not seconds:
+        return Times(median=0.0, p99=0.0, max=0.0, count=0)
+    each = 1e3 * np.array(seconds)
+    return Times(
+        median=round(float(np.median(each)), 4),
+        p99=round(float(np.percentile(each, 99)), 4),
+        max=round(float(each.max()), 4),
+        count=len(seconds),
+    )

@@ -1,0 +1,238 @@
+"""A map from beginning to end: read, feed, and write everything that comes of it."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+from typing import Final, Protocol
+
+import numpy as np
+
+from treadwell.errors import InputError, RecordingError
+from treadwell.files import write_text
+from treadwell.interruption import Interruption
+from treadwell.map_making.document import MappedSource, MapResult, counted, times
+from treadwell.map_making.mapper import Mapper
+from treadwell.map_making.placing import sensed
+from treadwell.map_making.recording import MapRecording
+from treadwell.map_making.request import MapRequest
+from treadwell.map_memory import RememberedMap
+from treadwell.recording.cut_off import RESULT
+from treadwell.recording.map_file import NAME as MAP
+from treadwell.recording.map_file import PICTURE, write_map
+from treadwell.recording.recorder import NAME as RECORDING
+from treadwell.recording.run_folder import run_folder
+from treadwell.recording.trajectory import ESTIMATE, Trajectory
+from treadwell.sources.frame import Floats, RangeFrame
+from treadwell.sources.source import Source, open_source
+from treadwell.version import __version__
+
+_SURE: Final = 0.7
+"""Of the mean of the pictures' downward directions, the part along an axis that tells it is down."""
+
+
+class FrameProgress(Protocol):
+    """Is told how a map gets on."""
+
+    def update(self, frame: int, frames: int, used: int) -> None:
+        """Take in that so many of all frames (0: not known) were read, and so many used."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class MadeMap:
+    """What came of a map.
+
+    Attributes:
+        result: as in `result.json`.
+        map: the map.
+        folder: where everything lies.
+    """
+
+    result: MapResult
+    map: RememberedMap
+    folder: Path
+
+
+def make_map(
+    request: MapRequest,
+    *,
+    out: Path | None = None,
+    record: bool = True,
+    progress: FrameProgress | None = None,
+) -> MadeMap:
+    """Make a map of recorded range data and write its folder: the same as `treadwell map`.
+
+    A signal ends it with the frames that it has.
+
+    Args:
+        request: what is to be made of which data.
+        out: the folder; it must be new or empty. None: a new one in `runs/`.
+        record: False leaves out the recording.
+        progress: is told how it gets on.
+
+    Raises:
+        InputError: anything that the user gave is bad, or no frame can be used; nothing is left.
+        RecordingError: a file cannot be written.
+    """
+    source = open_source(
+        request.source,
+        camera=request.camera,
+        topics=request.topics,
+        pose_within=request.data.pose_within,
+    )
+    frames = iter(source)
+    first = next(frames, None)
+    if first is None:
+        raise InputError(f"{source.path}: no frame can be used{_reasons(source)}")
+    mapper = Mapper(request, first)
+    with Interruption() as interruption:
+        name = f"map-{_stem(request.source)}"
+        with run_folder(out, name, mapper.world_model, request.seed) as folder, _writing(folder):
+            making = _Making(mapper, source, folder, progress)
+            making.recording = _recording(request, mapper, folder) if record else None
+            going_on = making.find_usable(first, frames)
+        with _writing(folder):
+            if going_on:
+                making.feed(frames, interruption)
+            interruption.hold()
+            return making.write(request)
+
+
+class _Making:
+    """What is known on the way."""
+
+    def __init__(
+        self, mapper: Mapper, source: Source, folder: Path, progress: FrameProgress | None
+    ) -> None:
+        self._mapper, self._source, self._folder = mapper, source, folder
+        self._progress = progress
+        self.recording: MapRecording | None = None
+        self._poses: list[tuple[float, Floats]] = []
+        self._read = 0
+        self._seconds: list[float] = []
+        self._interrupted = False
+
+    def find_usable(self, first: RangeFrame, others: Iterator[RangeFrame]) -> bool:
+        """Feed frames up to the first that is used; say whether there are more.
+
+        Raises:
+            InputError: none is.
+        """
+        frame: RangeFrame | None = first
+        while frame is not None and not self._insert(frame):
+            frame = next(others, None)
+        if not self._poses:
+            raise InputError(
+                f"{self._source.path}: no frame can be used{_reasons(self._source, self._mapper)}"
+            )
+        return frame is not None
+
+    def feed(self, frames: Iterator[RangeFrame], interruption: Interruption) -> None:
+        """Feed the frames to the map, as long as no signal comes."""
+        try:
+            interruption.check()
+            for frame in frames:
+                self._insert(frame)
+                interruption.check()
+        except KeyboardInterrupt:
+            self._interrupted = True
+
+    def _insert(self, frame: RangeFrame) -> bool:
+        started = perf_counter()
+        self._read += 1
+        pose = self._mapper.insert(frame)
+        if pose is not None:
+            self._poses.append((frame.time, pose))
+            if self.recording is not None:
+                self.recording.frame(frame.time, pose, sensed(frame))
+        if self._progress is not None:
+            passed = self._read + sum(self._source.unused.values())
+            self._progress.update(passed, max(self._source.frames, passed), len(self._poses))
+        self._seconds.append(perf_counter() - started)
+        return pose is not None
+
+    def write(self, request: MapRequest) -> MadeMap:
+        """Write map, picture, way and `result.json`."""
+        mapper, folder = self._mapper, self._folder
+        unused = self._source.unused + mapper.unused
+        found, voxels = mapper.map(), mapper.voxels()
+        if self.recording is not None:
+            self.recording.finish(found, mapper.place.offset, voxels)
+        write_map(folder / MAP, found, voxels)
+        way = Trajectory()
+        for time, pose in self._poses:
+            placed = pose.copy()
+            placed[:3, 3] += mapper.place.offset
+            way.add(round(1e9 * time), placed)
+        way.write(folder / ESTIMATE)
+        result = MapResult(
+            schema="treadwell.map/1",
+            version=__version__,
+            source=MappedSource(kind=self._source.kind, path=str(request.source)),
+            world_model=mapper.world_model,
+            robot=mapper.robot,
+            seed=request.seed,
+            frames=self._read + sum(self._source.unused.values()),
+            frames_used=len(self._poses),
+            unused=dict(sorted(unused.items())),
+            interrupted=self._interrupted,
+            cells=counted(found),
+            cell=found.cell,
+            origin=found.origin,
+            settings=mapper.sizes.parameters,
+            assumed=mapper.sizes.assumed,
+            notes=[*self._source.notes, *self._level(request)],
+            timing_ms={"map": times(mapper.seconds), "frame": times(self._seconds)},
+        )
+        self._draw(result, found, folder)
+        write_text(folder / RESULT, result.model_dump_json(indent=2, by_alias=True) + "\n")
+        return MadeMap(result, found, folder)
+
+    def _draw(self, result: MapResult, found: RememberedMap, folder: Path) -> None:
+        # Late: matplotlib takes its time.
+        from treadwell.map_making.picture import draw_map
+
+        used = f"{result.frames_used} of {result.frames} frame{'s' * (result.frames != 1)}"
+        title = f"{_stem(Path(result.source.path))} · {result.world_model} · {used}"
+        title += f"\ncells of {1e3 * result.cell:g} mm"
+        known = self._source.kind not in ("cloud", "height image")
+        way = np.array([pose[:2, 3] for _, pose in self._poses]) + self._mapper.place.offset[:2]
+        surfaces = not self._mapper.is_points
+        shown = way if known else way[:0]
+        draw_map(folder / PICTURE, title, found, shown, surfaces=surfaces)
+
+
+    def _level(self, request: MapRequest) -> list[str]:
+        """Return a note where pictures were not taken upright, with the axis that may be up."""
+        if request.data.up != "z" or not self._mapper.sees_pictures:
+            return []
+        mean = np.mean([pose[:3, 1] for _, pose in self._poses], axis=0)
+        axis = int(np.abs(mean).argmax())
+        if np.abs(mean[axis]) < _SURE or (axis, mean[axis] < 0.0) == (2, True):
+            return []
+        up = f"{'-' if mean[axis] > 0 else ''}{'xyz'[axis]}"
+        return [f"the pictures were taken with the world's {up} up, not z: --set map.up={up}"]
+
+
+def _recording(request: MapRequest, mapper: Mapper, folder: Path) -> MapRecording:
+    return MapRecording(folder / RECORDING, _stem(request.source), mapper.sizes.cell)
+
+
+@contextmanager
+def _writing(folder: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise RecordingError(f"{folder}: cannot be written: {error.strerror or error}") from error
+
+
+def _reasons(source: Source, mapper: Mapper | None = None) -> str:
+    counts = source.unused + (mapper.unused if mapper is not None else type(source.unused)())
+    told = ", ".join(f"{reason}: {count}" for reason, count in counts.most_common())
+    return f" ({told})" if told else ""
+
+
+def _stem(path: Path) -> str:
+    return path.resolve().name.split(".")[0] or "source"

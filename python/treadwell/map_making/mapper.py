@@ -1,0 +1,169 @@
+"""Feeds frames to a world model of the core."""
+
+import json
+from collections import Counter
+from time import perf_counter
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from treadwell._core import RangeMap
+from treadwell.errors import InputError
+from treadwell.map_making.placing import Placing, ground_below, placing, sensed
+from treadwell.map_making.points_map import PointsMap
+from treadwell.map_making.request import PICTURES, POINTS, SCANS, MapRequest
+from treadwell.map_making.sizing import Sizing, sizing
+from treadwell.map_memory import MapMemory, RememberedMap
+from treadwell.sources.frame import Floats, RangeFrame
+
+NEEDS_A_ROBOT: Final = {"extended_elevation": "extended_elevation", "multi_level": "multi_level"}
+"""World model -> the table that says, or the robot does, how much room there must be."""
+ROBOT: Final = "qrio"
+"""Whose height counts where a world model needs one and no robot is named."""
+NOTHING_SEEN: Final = "nothing was seen"
+NOT_TAKEN: Final = "the world model did not take it"
+
+
+class Mapper:
+    """Keeps a map of a source's frames; made for the first of them."""
+
+    def __init__(self, request: MapRequest, first: RangeFrame) -> None:
+        """Choose model and settings by what the data is like.
+
+        Args:
+            request: what the user asks for.
+            first: the source's first frame.
+
+        Raises:
+            InputError: a setting cannot be used, or the model has no use for such data.
+        """
+        self._request = request
+        self.world_model = self._named(first)
+        rough = placing(request.data.up, first.world_from_sensor, 1.0)
+        self.sizes: Sizing = sizing(self.world_model, request.parameters, first, rough)
+        self.place: Placing = placing(
+            request.data.up, first.world_from_sensor, self.sizes.cell or 1.0
+        )
+        self.robot = request.robot
+        self.unused: Counter[str] = Counter()
+        self.seconds: list[float] = []
+        self._memory = MapMemory()
+        self._points = PointsMap(self.sizes.cell) if first.layout == "scan" else None
+        self._core = RangeMap(
+            POINTS if self._points else self.world_model,
+            settings=json.dumps(self.sizes.parameters),
+            headroom=self._headroom(),
+        )
+        self._camera: tuple[int, int] | None = None
+        if self._core.needs_surfaces and first.layout == "cloud":
+            raise InputError(
+                f"--world-model: found {self.world_model}, which finds its floors in pictures; "
+                f"of clouds a map is made by {POINTS} and its like"
+            )
+
+    @property
+    def is_points(self) -> bool:
+        """Whether the map shows points alone, as of scans."""
+        return self._points is not None
+
+    @property
+    def sees_pictures(self) -> bool:
+        """Whether the frames are depth images."""
+        return self._camera is not None
+
+    def insert(self, frame: RangeFrame) -> Floats | None:
+        """Take in a frame; return its sensor's pose (4, 4) in the map, None where it was not used."""
+        pose = self.place.pose(frame.world_from_sensor)
+        some = sensed(frame)
+        if not len(some):
+            self.unused[NOTHING_SEEN] += 1
+            return None
+        started = perf_counter()
+        if not self._take(frame, pose, ground_below(some, pose)):
+            self.unused[NOT_TAKEN] += 1
+            return None
+        if self._points is None:
+            view = self._core.view()
+            self._memory.update(view.origin, view.cell, view.kind, view.height, view.sightings)
+        self.seconds.append(perf_counter() - started)
+        return pose
+
+    def map(self) -> RememberedMap:
+        """Return the map in the frame of the world whose z is up: the offset is in its origin."""
+        found = self._memory.map() if self._points is None else self._points.map()
+        x, y, z = self.place.offset.tolist()
+        return RememberedMap(
+            (found.origin[0] + x, found.origin[1] + y),
+            found.cell or self.sizes.cell,
+            found.kind,
+            (found.height + np.float32(z)).astype(np.float32),
+            found.sightings,
+        )
+
+    def voxels(self) -> NDArray[np.float32]:
+        """Return middle and side of each occupied cube, (n, 4) m."""
+        middles, sides = self._core.occupied()
+        moved = middles.reshape(-1, 3) + self.place.offset
+        return np.column_stack([moved, sides]).astype(np.float32)
+
+    def _take(self, frame: RangeFrame, pose: Floats, ground: float) -> bool:
+        if frame.depth is not None and frame.camera is not None:
+            self._see_through(frame)
+            depth = np.ascontiguousarray(frame.depth, np.float32)
+            return self._core.insert_depth(depth, pose, ground)
+        points = frame.points if frame.points is not None else np.zeros((0, 3), np.float32)
+        if self._points is not None:
+            return self._points.insert(points @ pose[:3, :3].T + pose[:3, 3])
+        eye = pose.copy()
+        if self.sizes.altitude:
+            above = np.array([0.0, 0.0, self.sizes.altitude])
+            eye[:3, 3] += above
+            points = points - (above @ pose[:3, :3]).astype(np.float32)
+        return self._core.insert_points(np.ascontiguousarray(points, np.float32), eye, ground)
+
+    def _see_through(self, frame: RangeFrame) -> None:
+        """Give the core the camera of the pictures, once."""
+        camera = frame.camera
+        if camera is None or self._camera is not None:
+            return
+        self._camera = (camera.width, camera.height)
+        data = self._request.data
+        pool = max(1, -(-camera.width // data.columns))
+        self._core.set_camera(
+            self._camera,
+            (camera.fx, camera.fy),
+            (camera.cx, camera.cy),
+            segmenter=self._request.segmenter,
+            pool=pool,
+            baseline=data.baseline,
+        )
+
+    def _named(self, first: RangeFrame) -> str:
+        named = self._request.world_model
+        if first.layout == "scan":
+            if named not in (None, SCANS):
+                raise InputError(
+                    f"--world-model: found {named}; scans of a laser that sweeps a plane are shown "
+                    f"as {SCANS}"
+                )
+            return SCANS
+        if named is None:
+            return PICTURES if first.layout == "picture" else POINTS
+        if ":" in named:
+            raise InputError(
+                f"--world-model: found {named}; a map is made by the models that are built in"
+            )
+        return named
+
+    def _headroom(self) -> float | None:
+        """Return the robot's height, m, where one is named or the model needs one."""
+        table = NEEDS_A_ROBOT.get(self.world_model)
+        needed = table and "headroom" not in self.sizes.parameters.get(table, {})
+        if self.robot is None and not needed:
+            return None
+        # Late: a map without a robot needs no MuJoCo.
+        from treadwell.robot.load import load_robot
+
+        self.robot = self.robot or ROBOT
+        return float(load_robot(self.robot).description["body"]["height"])

@@ -1,0 +1,125 @@
+"""What a user asks of a map: a world model, settings, and how the data is to be taken."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Final, Literal
+
+from pydantic import Field, ValidationError
+
+from treadwell.errors import InputError
+from treadwell.reference.parameters import all_tables
+from treadwell.scenario.messages import describe, nearest, report, shortened
+from treadwell.scenario.model import Navigation
+from treadwell.scenario.overrides import assign, parse_setting, split_key
+from treadwell.scenario.types import Table
+from treadwell.sources.source import POSE_WITHIN_S
+
+Up = Literal["x", "-x", "y", "-y", "z", "-z"]
+PICTURES, POINTS, SCANS = "fog", "elevation", "points"
+"""World models where none is named: of depth images, of clouds; how scans are shown."""
+_SLOTS: Final = ("world_model", "segmenter")
+
+
+class MapTable(Table):
+    """How recorded data is taken: `--set map.KEY=VALUE`."""
+
+    pose_within: Annotated[float, Field(ge=0.0, le=1e6)] = POSE_WITHIN_S
+    """How far off in time a frame's pose may be, s."""
+    up: Up = "z"
+    """Which axis of the poses' world points up; the map's z does."""
+    baseline: Annotated[float, Field(ge=1e-3, le=10.0)] = 0.075
+    """Depths are taken to be as precise as eyes so far apart see them, m."""
+    columns: Annotated[int, Field(ge=16, le=4096)] = 160
+    """Surfaces are found in pictures of up to so many columns: blocks of wider ones are one pixel."""
+
+
+@dataclass(frozen=True, slots=True)
+class MapRequest:
+    """What is to be made of which data.
+
+    Attributes:
+        source: a file or folder.
+        world_model: its name; None: what suits the data.
+        robot: a robot's name or folder, whose height counts; None without.
+        camera: a `camera.toml` that takes the place of the source's own.
+        topics: of a bag, those to read.
+        seed: of all that is random.
+        segmenter: what finds surfaces in pictures.
+        parameters: table -> key -> value, as in a scenario's `[navigation]`.
+        data: how the data is taken.
+    """
+
+    source: Path
+    world_model: str | None
+    robot: str | None
+    camera: Path | None
+    topics: tuple[str, ...]
+    seed: int
+    segmenter: str
+    parameters: dict[str, dict[str, Any]]
+    data: MapTable
+
+
+def read_request(  # noqa: PLR0913 - one an option
+    source: Path,
+    *,
+    world_model: str | None = None,
+    robot: str | None = None,
+    camera: Path | None = None,
+    topics: Sequence[str] = (),
+    seed: int = 0,
+    settings: Sequence[str] = (),
+) -> MapRequest:
+    """Return a request that is checked.
+
+    Args:
+        source: a file or folder.
+        world_model: a name; None: what suits the data.
+        robot: a robot's name or folder.
+        camera: a `camera.toml`.
+        topics: of a bag.
+        seed: of all that is random.
+        settings: `KEY=VALUE`: `elevation.cell=0.1`, `navigation.elevation.cell=0.1`,
+            `map.up=-y`.
+
+    Raises:
+        InputError: with one message that names everything that is wrong.
+    """
+    raw: dict[str, Any] = {}
+    for setting in settings:
+        key, value = parse_setting(setting)
+        words = split_key(key)
+        if words[0] not in ("map", "navigation"):
+            _is_a_table(words[0])
+            key = f"navigation.{key}"
+        assign(raw, key, value)
+    tables = dict(raw.get("navigation", {}))
+    named = tables.pop("world_model", None) if world_model is None else world_model
+    if named is not None:
+        tables["world_model"] = named
+    try:
+        navigation = Navigation.model_validate(tables)
+        data = MapTable.model_validate(raw.get("map", {}))
+    except ValidationError as error:
+        found = dict(tables) if error.title == "Navigation" else raw.get("map", {})
+        lines = [describe(detail, found) for detail in error.errors(include_url=False)]
+        raise InputError(report("--set", list(dict.fromkeys(lines)))) from None
+    return MapRequest(
+        source=source,
+        world_model=named,
+        robot=robot,
+        camera=camera,
+        topics=tuple(topics),
+        seed=seed,
+        segmenter=navigation.segmenter,
+        parameters=navigation.parameters(),
+        data=data,
+    )
+
+
+def _is_a_table(word: str) -> None:
+    names = sorted({table.key.split(".")[1] for table in all_tables() if "." in table.key})
+    if word not in (*names, *_SLOTS):
+        allowed = f"map, navigation, or one of its tables{nearest(word, ['map', *names])}"
+        raise InputError(f"--set {shortened(word)}: unknown; must begin with {allowed}")
