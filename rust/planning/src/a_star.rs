@@ -4,6 +4,7 @@ mod ceilings;
 mod choice;
 mod felt;
 mod path_search;
+mod replanners;
 
 use geometry::{Map, Pose, Robot};
 use mapping::FloorView;
@@ -17,6 +18,7 @@ use terrain::{
 
 use crate::climb_links::{ClimbLinks, Scene};
 use crate::outside_window::OutsideWindow;
+use crate::path::chosen_search::ChosenSearch;
 use crate::path::viewpoints::Viewpoints;
 use crate::plan::place_of;
 use crate::search::Search;
@@ -35,6 +37,8 @@ pub struct AStar {
     pub(crate) terrain: Terrain,
     pub(crate) links: ClimbLinks,
     pub(crate) search: Search,
+    /// How the way to the goal is looked for.
+    pub(crate) chosen: ChosenSearch,
     pub(crate) viewpoints: Viewpoints,
     goal_level: GoalLevel,
     landings: LongerLandings,
@@ -83,6 +87,7 @@ impl AStar {
             rules: Rules::default(),
             links: ClimbLinks::default(),
             search: Search::default(),
+            chosen: ChosenSearch::default(),
             goal_level: GoalLevel::default(),
             landings: LongerLandings::default(),
             followed: None,
@@ -182,6 +187,7 @@ impl Planner for AStar {
 
     fn forget(&mut self) {
         self.followed = None;
+        self.chosen.forget();
         self.viewpoints.forget();
         self.goal_level = GoalLevel::default();
         self.outside.forget();

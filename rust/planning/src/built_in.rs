@@ -1,8 +1,12 @@
-//! The planners that come with the crate: A*, plain or along the lines with most room, guided by the known map where there is one.
+//! The planners that come with the crate: A*, plain or along the lines with most room, and with other searches; guided by the known map
+//! where there is one.
 
 use settings::{MakeError, Part, TableDescription, read};
 
 use crate::part::{PlannerNeeds, PlannerPart};
+use crate::search::ara_star::AraStarConfig;
+use crate::search::d_star_lite::DStarLiteConfig;
+use crate::search::field_d_star::FieldDStarConfig;
 use crate::{AStar, AStarConfig, GuideConfig, Guided, Planner, VoronoiConfig};
 
 /// How `a_star` is listed and made.
@@ -26,6 +30,42 @@ pub(crate) const VORONOI: PlannerPart = Part {
     make: |needs| {
         let along = near(needs)?.along_voronoi(read(needs.tables, "voronoi")?)?;
         guided(along, needs)
+    },
+};
+
+/// How `d_star_lite` is listed and made.
+pub(crate) const D_STAR_LITE: PlannerPart = Part {
+    name: "d_star_lite",
+    about: "the way of a_star, repaired where cells change; with delayed, Delayed D*",
+    source: Some("Koenig and Likhachev 2002; Ferguson and Stentz 2005 (004, refs 36.29 to 36.31)"),
+    tables: &[TableDescription::of::<DStarLiteConfig>()],
+    make: |needs| {
+        let config = read(needs.tables, "d_star_lite")?;
+        guided(near(needs)?.by_d_star_lite(&config)?, needs)
+    },
+};
+
+/// How `field_d_star` is listed and made.
+pub(crate) const FIELD_D_STAR: PlannerPart = Part {
+    name: "field_d_star",
+    about: "a way that is not bound to eight directions, repaired where cells change",
+    source: Some("Ferguson and Stentz 2005 (004, ref 36.30)"),
+    tables: &[TableDescription::of::<FieldDStarConfig>()],
+    make: |needs| {
+        let config = read(needs.tables, "field_d_star")?;
+        guided(near(needs)?.by_field_d_star(&config)?, needs)
+    },
+};
+
+/// How `ara_star` is listed and made.
+pub(crate) const ARA_STAR: PlannerPart = Part {
+    name: "ara_star",
+    about: "the best way that a budget of expansions allows, and how good it is at least",
+    source: Some("Likhachev, Gordon and Thrun 2003 (004, ref 36.31)"),
+    tables: &[TableDescription::of::<AraStarConfig>()],
+    make: |needs| {
+        let config = read(needs.tables, "ara_star")?;
+        guided(near(needs)?.by_ara_star(config)?, needs)
     },
 };
 

@@ -49,4 +49,10 @@ pub use terrain::{TerrainConfig, VoronoiConfig};
 pub use tuning::PlanningTuning;
 
 /// The planners that come with the crate: a new one is a file beside these, and its lines here.
-pub const PARTS: &[PlannerPart] = &[built_in::A_STAR, built_in::VORONOI];
+pub const PARTS: &[PlannerPart] = &[
+    built_in::A_STAR,
+    built_in::VORONOI,
+    built_in::D_STAR_LITE,
+    built_in::FIELD_D_STAR,
+    built_in::ARA_STAR,
+];

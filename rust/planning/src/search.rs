@@ -1,9 +1,17 @@
 //! A* on a grid with eight neighbours, links between cells, and flat arrays; a diagonal step needs both of its corners free.
 
+pub mod ara_star;
+pub mod d_star_lite;
+pub mod field_d_star;
+mod fixed_cost;
+mod interpolation;
+pub mod kept;
 pub mod links;
 pub(crate) mod neighbours;
 mod queue;
 pub(crate) mod steps;
+#[cfg(test)]
+pub(crate) mod testing;
 
 use std::f64::consts::SQRT_2;
 
@@ -22,12 +30,26 @@ pub struct Route {
     pub cells: Vec<u32>,
     /// Its cost in cells, what ending there costs included.
     pub cost: f64,
+    /// Where it is not bound to the middles of cells, its corners: column and row, whole numbers in the middle of a cell. Empty otherwise.
+    pub corners: Vec<[f64; 2]>,
 }
 
 /// Octile distance: the shortest way between two points on an open grid with eight neighbours.
 pub fn octile(dx: f64, dy: f64) -> f64 {
     let (dx, dy) = (dx.abs(), dy.abs());
     dx.max(dy) + (SQRT_2 - 1.0) * dx.min(dy)
+}
+
+/// What the steps from cell to cell along a way cost, in cells: what ending it costs is no part of it.
+fn cost_along(cells: &[u32], weights: &[f32], cols: usize) -> f64 {
+    let grid = Cells::new(weights, cols);
+    let steps = cells.windows(2).map(|pair| {
+        let [from, to] = [pair[0], pair[1]].map(|cell| cell as usize);
+        let straight = from % cols == to % cols || from / cols == to / cols;
+        let length = if straight { 1.0 } else { SQRT_2 };
+        0.5 * length * f64::from(grid.weight_to_leave(from) + weights[to])
+    });
+    steps.sum()
 }
 
 /// What is searched.
@@ -138,6 +160,7 @@ impl Search {
         last.map(|end| Route {
             cells: known.back_from(end),
             cost: best,
+            corners: Vec::new(),
         })
     }
 }

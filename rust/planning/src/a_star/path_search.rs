@@ -61,7 +61,7 @@ impl AStar {
         let tuning = &config.tuning.path_search;
         let search = &mut self.search;
         let ends = PathEnds::new(terrain, &self.outside, goal, height_m, by);
-        let known = run(search, terrain, links, &ends, start, Fit::Holds);
+        let known = (self.chosen).run(search, (terrain, links), &ends, start);
         let straight = ends.away(start) + tuning.far_more / terrain.lattice.cell_m;
         let is_around =
             (self.followed.as_ref()).is_some_and(|followed| followed.end == PathEnd::Border);

@@ -85,6 +85,32 @@ impl<'a> PathEnds<'a> {
         on_level.then(|| self.pull * self.away_m(index) / self.terrain.lattice.cell_m + blind)
     }
 
+    /// All cells where a path may end, with what that costs, in cells.
+    pub(crate) fn all(&self) -> Vec<(u32, f64)> {
+        let terrain = self.terrain;
+        let side_m = self.goal.radius_m + terrain.lattice.cell_m;
+        let middle_m = [self.goal.x_m, self.goal.y_m];
+        let [low, high] = [-side_m, side_m].map(|by_m| {
+            let corner = terrain
+                .lattice
+                .cell_at(middle_m[0] + by_m, middle_m[1] + by_m);
+            let within = |at: i32, count: usize| usize::try_from(at).unwrap_or(0).min(count - 1);
+            [
+                within(corner.col, terrain.cols),
+                within(corner.row, terrain.rows),
+            ]
+        });
+        let cell = |row: usize, col: usize| row * terrain.cols + col;
+        let square =
+            (low[1]..=high[1]).flat_map(|row| (low[0]..=high[0]).map(move |col| (row, col)));
+        let mut cells: Vec<usize> = square.map(|(row, col)| cell(row, col)).collect();
+        if self.around || !self.inside {
+            cells = (0..terrain.weights.len()).collect();
+        }
+        let end = |cell: usize| Some((cell as u32, self.cost(cell)?));
+        cells.into_iter().filter_map(end).collect()
+    }
+
     /// Whether a cell lies in the goal's disc.
     pub(crate) fn holds(&self, index: usize) -> bool {
         self.away_m(index) <= self.goal.radius_m || self.middle == Some(index)

@@ -22,6 +22,9 @@ impl Path {
         end_m: impl Fn(usize) -> [f64; 2],
         tuning: &LegsTuning,
     ) {
+        if let (Some(&last), false) = (route.cells.last(), route.corners.is_empty()) {
+            return self.walk_corners(terrain, &route.corners, end_m(last as usize));
+        }
         let mut first = 0;
         for (i, pair) in route.cells.windows(2).enumerate() {
             let Some(way) = links.between(terrain, pair[0], pair[1], worst) else {
@@ -47,6 +50,18 @@ impl Path {
         if !(here && cells.len() == 1) {
             let points_m = &mut self.points_m;
             walk(points_m, terrain, tuning.straighter, (cells, end_m));
+        }
+    }
+
+    /// Walks a way that is not bound to the middles of cells: it is as straight as it should be.
+    fn walk_corners(&mut self, terrain: &Terrain, corners: &[[f64; 2]], end_m: [f64; 2]) {
+        let lattice = &terrain.lattice;
+        let place_m = |corner: &[f64; 2]| {
+            [0, 1].map(|axis| lattice.origin_m[axis] + (corner[axis] + 0.5) * lattice.cell_m)
+        };
+        let between = corners.get(1..corners.len() - 1).unwrap_or_default();
+        for place_m in between.iter().map(place_m).chain([end_m]) {
+            lay(&mut self.points_m, place_m, lattice.cell_m);
         }
     }
 

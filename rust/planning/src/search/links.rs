@@ -47,6 +47,11 @@ impl Links {
         self.all.len() - 1
     }
 
+    /// Whether there is none.
+    pub const fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
     /// Number of nodes: the cells, and those beyond them.
     pub const fn nodes(&self) -> usize {
         self.nodes

@@ -46,6 +46,15 @@ impl<'a> Cells<'a> {
         }
     }
 
+    /// The cell so many columns and rows from another, where that may be entered, and what a length costs there.
+    #[inline]
+    pub(crate) fn free_at(&self, cell: usize, cols: isize, rows: isize) -> Option<(usize, f32)> {
+        let col = (cell % self.cols).checked_add_signed(cols)?;
+        let at = (cell / self.cols).checked_add_signed(rows)? * self.cols + col;
+        let weight = *self.weights.get(at)?;
+        (col < self.cols && weight.is_finite()).then_some((at, weight))
+    }
+
     /// What a length costs in a cell, which may be where a way starts that nothing may enter.
     #[inline]
     pub(crate) fn weight_to_leave(&self, cell: usize) -> f32 {
