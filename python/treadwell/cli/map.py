@@ -13,7 +13,9 @@ from treadwell.cli.output import INTERRUPTED, PASSED, write_json, write_message,
 if TYPE_CHECKING:
     from treadwell.map_making.document import MapResult
 
-EXAMPLE: Final = "Example: treadwell map terrain.pcd --world-model elevation --set elevation.cell=0.1"
+EXAMPLE: Final = (
+    "Example: treadwell map terrain.pcd --world-model elevation --set elevation.cell=0.1"
+)
 _EVERY: Final = 500
 """Frames between two lines where there is no terminal."""
 
@@ -40,7 +42,9 @@ def map_(  # noqa: PLR0913 - one an option
     ] = None,
     robot: Annotated[
         str | None,
-        typer.Option("--robot", metavar="NAME", help="A robot's name or folder: its height counts."),
+        typer.Option(
+            "--robot", metavar="NAME", help="A robot's name or folder: its height counts."
+        ),
     ] = None,
     camera: Annotated[
         Path | None,

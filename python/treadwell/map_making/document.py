@@ -29,7 +29,7 @@ class MappedCells(Strict):
     """How many cells the map has of each kind."""
 
     floor: int
-    """Level ground, or the top of what is not higher than what lies beside it by more than a step."""
+    """Ground, or the top of what is higher than what lies beside it by no more than a step."""
     obstacle: int
     """What stands out."""
     unknown: int
@@ -79,7 +79,7 @@ class MapResult(Strict):
     origin: tuple[float, float]
     """Lower-left corner of the map, m, in the source's world, turned so that z is up."""
     settings: dict[str, Any]
-    """Table -> key -> value, of the core's settings: the user's, and those that follow from the data."""
+    """Table -> key -> value, of the core: the user's, and those that follow from the data."""
     assumed: dict[str, Any]
     """Key -> value, of the settings that follow from the data."""
     notes: list[str]

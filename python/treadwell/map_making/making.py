@@ -29,7 +29,7 @@ from treadwell.sources.source import Source, open_source
 from treadwell.version import __version__
 
 _SURE: Final = 0.7
-"""Of the mean of the pictures' downward directions, the part along an axis that tells it is down."""
+"""Of the mean of the pictures' downward directions, the part along an axis that is down."""
 
 
 class FrameProgress(Protocol):
@@ -202,7 +202,6 @@ class _Making:
         surfaces = not self._mapper.is_points
         shown = way if known else way[:0]
         draw_map(folder / PICTURE, title, found, shown, surfaces=surfaces)
-
 
     def _level(self, request: MapRequest) -> list[str]:
         """Return a note where pictures were not taken upright, with the axis that may be up."""

@@ -73,7 +73,7 @@ class Mapper:
         return self._camera is not None
 
     def insert(self, frame: RangeFrame) -> Floats | None:
-        """Take in a frame; return its sensor's pose (4, 4) in the map, None where it was not used."""
+        """Take in a frame; return its sensor's pose (4, 4) in the map, None if it was not used."""
         pose = self.place.pose(frame.world_from_sensor)
         some = sensed(frame)
         if not len(some):
@@ -166,4 +166,4 @@ class Mapper:
         from treadwell.robot.load import load_robot
 
         self.robot = self.robot or ROBOT
-        return float(load_robot(self.robot).description["body"]["height"])
+        return float(load_robot(self.robot).description()["body"]["height"])

@@ -63,8 +63,8 @@ def sensed(frame: RangeFrame) -> NDArray[np.float32]:
     rows, cols = np.indices(depth.shape) * step
     x = (cols - camera.cx) / camera.fx * depth
     y = (rows - camera.cy) / camera.fy * depth
-    points = np.stack([x, y, depth], axis=-1).reshape(-1, 3)
-    return points[np.isfinite(points).all(axis=1)].astype(np.float32)
+    seen = np.stack([x, y, depth], axis=-1).reshape(-1, 3)
+    return seen[np.isfinite(seen).all(axis=1)].astype(np.float32)
 
 
 def ground_below(points: NDArray[np.float32], map_from_sensor: Floats) -> float:

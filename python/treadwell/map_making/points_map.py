@@ -1,4 +1,4 @@
-"""Scans of a laser that sweeps a plane, shown as the points that they are: no model of the ground."""
+"""Scans of a laser that sweeps a plane, shown as points: no model of the ground."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -54,10 +54,10 @@ class MapRecording:
         """
         rr = self._rr
         self._stream.set_time("time", timestamp=time)
-        self._stream.log("world/sensor", rr.Transform3D(mat3x3=pose[:3, :3], translation=pose[:3, 3]))
         self._stream.log(
-            "world/sensor/points", rr.Points3D(points, radii=_RADIUS * self._cell)
+            "world/sensor", rr.Transform3D(mat3x3=pose[:3, :3], translation=pose[:3, 3])
         )
+        self._stream.log("world/sensor/points", rr.Points3D(points, radii=_RADIUS * self._cell))
 
     def finish(self, found: RememberedMap, offset: Floats, voxels: NDArray[np.float32]) -> None:
         """Write the map, and close the file.

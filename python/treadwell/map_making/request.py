@@ -31,7 +31,7 @@ class MapTable(Table):
     baseline: Annotated[float, Field(ge=1e-3, le=10.0)] = 0.075
     """Depths are taken to be as precise as eyes so far apart see them, m."""
     columns: Annotated[int, Field(ge=16, le=4096)] = 160
-    """Surfaces are found in pictures of up to so many columns: blocks of wider ones are one pixel."""
+    """Surfaces are found in pictures of so many columns at most: blocks of wider ones are one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +61,7 @@ class MapRequest:
     data: MapTable
 
 
-def read_request(  # noqa: PLR0913 - one an option
+def read_request(
     source: Path,
     *,
     world_model: str | None = None,

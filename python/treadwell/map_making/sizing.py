@@ -7,7 +7,7 @@ import numpy as np
 
 from treadwell.map_making.placing import Placing, sensed
 from treadwell.reference.parameters import all_tables
-from treadwell.sources.frame import RangeFrame
+from treadwell.sources.frame import Floats, RangeFrame
 
 _TABLES: Final = {
     "fog": "fog",
@@ -23,7 +23,7 @@ _COUNTS: Final = {"fog": "cells", "averaging": "cells", "elevation": "window"}
 _SCAN_CELL_M: Final = 0.05
 """Side of the cells in which a laser's points are shown, where nobody says."""
 ALTITUDE: Final = 10.0
-"""How high above a cloud, in its reach, the eye is put where nobody knows from where it was seen."""
+"""How high above a cloud, in its reach, the eye is put where nobody says where it was."""
 _MOST_CELLS: Final = 2000
 _POINTS_APART: Final = 1.5
 """Side of a cell, in distances between a cloud's points, at which most cells have one."""
@@ -65,45 +65,50 @@ def sizing(
         return Sizing(float(made.get(table or "", {}).get("cell", _SCAN_CELL_M)), made)
     own = made.setdefault(table, {})
     defaults = _defaults(table)
-    found = Sizing(float(own.get("cell", defaults["cell"])), made)
-
-    def assume(key: str, value: object) -> None:
-        if key not in own:
-            own[key] = value
-            found.assumed[f"navigation.{table}.{key}"] = value
-
     pose = placing.pose(first.world_from_sensor)
-    points = sensed(first).astype(np.float64) @ pose[:3, :3].T
-    reach, spacing = _extent(points, first)
-    if "cell" not in own and _POINTS_APART * spacing > found.cell:
-        found.cell = _round(_POINTS_APART * spacing)
-        assume("cell", found.cell)
-    count = _COUNTS[table]
-    if "cell" not in own and 2.0 * reach > found.cell * _MOST_CELLS:
-        found.cell = _round(2.0 * reach / _MOST_CELLS, up=True)
-        assume("cell", found.cell)
-    cells = int(np.ceil(2.0 * reach / found.cell)) + 4
-    if cells > defaults[count]:
-        assume(count, min(cells, _MOST_CELLS))
-    scale = found.cell / defaults["cell"]
-    if "rise" in defaults and scale > 1.0:
-        assume("rise", round(defaults["rise"] * scale, 6))
-    if "fill" in defaults and scale > 1.0:
-        assume("fill", round(defaults["fill"] * scale, 6))
-    far = 2.0 * reach if first.origin_known else 2.0 * ALTITUDE * max(reach, 1.0)
-    assume("max_range", max(float(defaults["max_range"]), round(far, 3)))
-    assume("match_gate", 0.0)
-    assume("footprint", 0.0)
+    reach, spacing = _extent(sensed(first).astype(np.float64) @ pose[:3, :3].T, first)
+    found = Sizing(_cell(own, float(defaults["cell"]), reach, spacing), made)
     if not first.origin_known:
         found.altitude = ALTITUDE * max(reach, 1.0)
-    if table == "elevation" and not first.origin_known:
-        assume("clearing", value=False)
-        assume("sigma_per_metre", 0.0)
+    follow = _following(found, defaults, reach, _COUNTS[table])
+    for key, value in follow.items():
+        if key in defaults and key not in own and value != defaults[key]:
+            own[key] = value
+            found.assumed[f"navigation.{table}.{key}"] = value
     return found
 
 
-def _extent(points: "np.ndarray[Any, np.dtype[np.float64]]", frame: RangeFrame) -> tuple[float, float]:
-    """Return how far points reach from the sensor over the ground, and how far apart they lie, m."""
+def _cell(own: dict[str, Any], default: float, reach: float, spacing: float) -> float:
+    """Return the side of a cell, m: the user's, or what the data asks for."""
+    if "cell" in own:
+        return float(own["cell"])
+    cell = default
+    if _POINTS_APART * spacing > cell:
+        cell = _round(_POINTS_APART * spacing)
+    return _round(2.0 * reach / _MOST_CELLS, up=True) if 2.0 * reach > cell * _MOST_CELLS else cell
+
+
+def _following(found: Sizing, defaults: dict[str, Any], reach: float, count: str) -> dict[str, Any]:
+    """Return key -> value of what follows from cell, reach and eye."""
+    scale = max(1.0, found.cell / defaults["cell"])
+    cells = min(int(np.ceil(2.0 * reach / found.cell)) + 4, _MOST_CELLS)
+    far = 2.0 * max(reach, found.altitude)
+    values: dict[str, Any] = {
+        "cell": found.cell,
+        count: max(cells, defaults[count]),
+        "max_range": max(defaults["max_range"], round(far, 3)),
+        "match_gate": 0.0,
+        "footprint": 0.0,
+    }
+    scaled = {key: defaults[key] * scale for key in ("rise", "fill") if key in defaults}
+    values |= {key: round(value, 6) for key, value in scaled.items()}
+    if found.altitude and isinstance(defaults.get("clearing"), bool):
+        values |= {"clearing": False, "sigma_per_metre": 0.0}
+    return values
+
+
+def _extent(points: Floats, frame: RangeFrame) -> tuple[float, float]:
+    """Return how far points reach from the sensor over the ground, and how far apart they lie."""
     if not len(points):
         return 0.0, 0.0
     over_ground = points[:, :2]
