@@ -1,0 +1,14 @@
+//! What points and cells are: ground, obstacle, vegetation, surface, line (handbook, section 36.3.5).
+
+mod cloud;
+mod ground_filter;
+#[cfg(test)]
+mod synthetic;
+
+pub use cloud::{CloudError, Point3};
+pub use ground_filter::{Ground, GroundFilter, GroundFilterConfig};
+
+use settings::TableDescription;
+
+/// The tables of settings of this crate.
+pub const TABLES: &[TableDescription] = &[TableDescription::of::<GroundFilterConfig>()];
