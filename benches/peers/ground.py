@@ -61,9 +61,7 @@ def main() -> None:
             found = apply(points)
             seconds = process_time() - started
             wrong = errors(truth, found)
-            line = ", ".join(
-                f"{what} {value:.2f} %" for what, value in errors(truth, found).items()
-            )
+            line = ", ".join(f"{what} {value:.2f} %" for what, value in wrong.items())
             print(f"{name} {filter_name}: {line}; {seconds:.2f} s")
 
 
