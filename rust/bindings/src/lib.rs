@@ -29,6 +29,7 @@ use pyo3::prelude::*;
 /// Puts everything into a module. A core of the user's own calls it for its `_core`, after it added its components.
 pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(classes::ground_points, module)?)?;
+    module.add_function(wrap_pyfunction!(classes::point_classes, module)?)?;
     module.add_function(wrap_pyfunction!(clearance::swept_clearance, module)?)?;
     module.add_function(wrap_pyfunction!(distance::distances, module)?)?;
     module.add_function(wrap_pyfunction!(distance::squared_distances, module)?)?;

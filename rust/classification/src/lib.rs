@@ -2,13 +2,20 @@
 
 mod cloud;
 mod ground_filter;
+mod moments;
+mod neighbours;
 #[cfg(test)]
 mod synthetic;
 
 pub use cloud::{CloudError, Point3};
 pub use ground_filter::{Ground, GroundFilter, GroundFilterConfig};
+pub use moments::{MomentsConfig, PointClass, PointClasses, Saliency};
+pub use neighbours::Neighbours;
 
 use settings::TableDescription;
 
 /// The tables of settings of this crate.
-pub const TABLES: &[TableDescription] = &[TableDescription::of::<GroundFilterConfig>()];
+pub const TABLES: &[TableDescription] = &[
+    TableDescription::of::<GroundFilterConfig>(),
+    TableDescription::of::<MomentsConfig>(),
+];
