@@ -3,6 +3,7 @@
 mod cloud;
 mod ground_filter;
 mod moments;
+mod negative_obstacles;
 mod neighbours;
 #[cfg(test)]
 mod synthetic;
@@ -10,6 +11,9 @@ mod synthetic;
 pub use cloud::{CloudError, Point3};
 pub use ground_filter::{Ground, GroundFilter, GroundFilterConfig};
 pub use moments::{MomentsConfig, PointClass, PointClasses, Saliency};
+pub use negative_obstacles::{
+    NegativeObstacle, NegativeObstacles, NegativeObstaclesConfig, RangePicture,
+};
 pub use neighbours::Neighbours;
 
 use settings::TableDescription;
@@ -18,4 +22,5 @@ use settings::TableDescription;
 pub const TABLES: &[TableDescription] = &[
     TableDescription::of::<GroundFilterConfig>(),
     TableDescription::of::<MomentsConfig>(),
+    TableDescription::of::<NegativeObstaclesConfig>(),
 ];

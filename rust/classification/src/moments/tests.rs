@@ -93,7 +93,6 @@ mod slow {
     #[test]
     fn a_scale_by_density_is_as_good_at_a_quarter_of_the_points_and_no_fixed_one_is() {
         let by_density = at_densities(&MomentsConfig::default(), 20);
-        println!("by density {by_density:.3?}");
         assert!(
             by_density.iter().all(|right| *right >= 0.9),
             "{by_density:?}"
@@ -107,7 +106,6 @@ mod slow {
                 ..MomentsConfig::default()
             };
             let of_fixed = at_densities(&fixed, 4);
-            println!("{radius_m} m everywhere {of_fixed:.3?}");
             assert!(spread(of_fixed) > 0.03, "{radius_m} m: {of_fixed:?}");
         }
     }
