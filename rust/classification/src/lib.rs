@@ -2,6 +2,8 @@
 
 mod cloud;
 mod ground_filter;
+mod learned_ground;
+mod load_bearing;
 mod moments;
 mod negative_obstacles;
 mod neighbours;
@@ -10,6 +12,8 @@ mod synthetic;
 
 pub use cloud::{CloudError, Point3};
 pub use ground_filter::{Ground, GroundFilter, GroundFilterConfig};
+pub use learned_ground::{Canopy, LearnedGround, LearnedGroundConfig};
+pub use load_bearing::{LoadBearing, LoadBearingConfig, Ray, Support};
 pub use moments::{MomentsConfig, PointClass, PointClasses, Saliency};
 pub use negative_obstacles::{
     NegativeObstacle, NegativeObstacles, NegativeObstaclesConfig, RangePicture,
@@ -21,6 +25,8 @@ use settings::TableDescription;
 /// The tables of settings of this crate.
 pub const TABLES: &[TableDescription] = &[
     TableDescription::of::<GroundFilterConfig>(),
+    TableDescription::of::<LearnedGroundConfig>(),
+    TableDescription::of::<LoadBearingConfig>(),
     TableDescription::of::<MomentsConfig>(),
     TableDescription::of::<NegativeObstaclesConfig>(),
 ];

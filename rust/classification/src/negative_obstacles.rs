@@ -79,9 +79,8 @@ impl NegativeObstacles {
     pub fn find(&self, picture: &RangePicture) -> Vec<NegativeObstacle> {
         let wide = self.config.columns.min(picture.cols);
         let stride = wide.div_ceil(2).max(1);
-        (0..)
-            .map(|strip| strip * stride)
-            .take_while(|first| first + wide <= picture.cols)
+        (0..(picture.cols + 1).saturating_sub(wide))
+            .step_by(stride)
             .flat_map(|first| {
                 let steps = self.steps(picture, [first, first + wide]);
                 self.along(&steps, [first, first + wide])
