@@ -4,6 +4,8 @@ mod cloud;
 mod ground_filter;
 mod learned_ground;
 mod load_bearing;
+mod markov_chain;
+mod markov_field;
 mod moments;
 mod negative_obstacles;
 mod neighbours;
@@ -14,6 +16,8 @@ pub use cloud::{CloudError, Point3};
 pub use ground_filter::{Ground, GroundFilter, GroundFilterConfig};
 pub use learned_ground::{Canopy, LearnedGround, LearnedGroundConfig};
 pub use load_bearing::{LoadBearing, LoadBearingConfig, Ray, Support};
+pub use markov_chain::{ChainError, MarkovChain, MarkovChainConfig};
+pub use markov_field::{MarkovField, MarkovFieldConfig};
 pub use moments::{MomentsConfig, PointClass, PointClasses, Saliency};
 pub use negative_obstacles::{
     NegativeObstacle, NegativeObstacles, NegativeObstaclesConfig, RangePicture,
@@ -27,6 +31,8 @@ pub const TABLES: &[TableDescription] = &[
     TableDescription::of::<GroundFilterConfig>(),
     TableDescription::of::<LearnedGroundConfig>(),
     TableDescription::of::<LoadBearingConfig>(),
+    TableDescription::of::<MarkovChainConfig>(),
+    TableDescription::of::<MarkovFieldConfig>(),
     TableDescription::of::<MomentsConfig>(),
     TableDescription::of::<NegativeObstaclesConfig>(),
 ];

@@ -155,4 +155,4 @@ fn saliency(points: &[Point3], place: Point3, near: &[usize], radius_m: f64) -> 
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
