@@ -29,6 +29,7 @@ LEAST: dict[str, list[str]] = {
     "odometry.py": ["--seeds", "0", "--workers", "1", "--seconds", "0.3"],
     "peers/bonxai.py": ["SOURCES", "--frames", "1"],
     "peers/distance.py": ["--side", "60"],
+    "peers/ground.py": ["--samples", "samp21"],
     "peers/occupancy.py": ["--frames", "1"],
     "peers/octree.py": ["--frames", "1", "--cells", "0.04"],
     "peers/rays.py": ["--cells", "0.04"],
@@ -48,6 +49,7 @@ LEAST: dict[str, list[str]] = {
 """What each is given, so that it takes a second or two."""
 NEEDS = {
     "peers/distance.py": "cv2",
+    "peers/ground.py": "CSF",
     "peers/occupancy.py": "pyoctomap",
     "peers/octree.py": "pyoctomap",
     "peers/rays.py": "pyoctomap",
@@ -68,7 +70,7 @@ def test_a_bench_runs_to_its_end(script: str, tmp_path: Path) -> None:
     sources = os.environ.get("BONXAI_SOURCES", "")
     if script == "peers/bonxai.py" and not sources:
         pytest.skip("BONXAI_SOURCES does not say where Bonxai's sources are")
-    if script == "real_data.py" and not os.environ.get("TREADWELL_DATA"):
+    if script in ("real_data.py", "peers/ground.py") and not os.environ.get("TREADWELL_DATA"):
         pytest.skip("TREADWELL_DATA does not say where data are")
     short = tmp_path / "short.toml"
     short.write_text(SHORT, encoding="utf-8")

@@ -41,7 +41,9 @@ __all__ = [
     "WorldModel",
     "components",
     "distances",
+    "ground_points",
     "parameters",
+    "point_classes",
     "squared_distances",
     "swept_clearance",
     "tables",
@@ -57,7 +59,9 @@ _Footstep = tuple[str, float, float, float, float, float, float]
 
 def components() -> list[tuple[str, str, str, str | None]]: ...
 def distances(blocked: NDArray[np.bool_], /) -> NDArray[np.float32]: ...
+def ground_points(points: NDArray[np.float64], settings: str = "{}") -> NDArray[np.bool_]: ...
 def parameters() -> str: ...
+def point_classes(points: NDArray[np.float64], settings: str = "{}") -> NDArray[np.uint8]: ...
 def squared_distances(blocked: NDArray[np.bool_], /) -> NDArray[np.uint32]: ...
 def swept_clearance(
     path: NDArray[np.float64], outline: NDArray[np.float64], radius: float

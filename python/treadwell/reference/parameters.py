@@ -38,7 +38,7 @@ class ParameterTable:
     """A table of settings, as in `[navigation.fog]`.
 
     Attributes:
-        key: `navigation.fog`, or `gait` of robot.toml.
+        key: `navigation.fog`, `gait` of robot.toml, or `classification.moments` of a function.
         about: what it is for.
         parameters: in the order of the code.
         schema: JSON schema of the table.
@@ -80,7 +80,8 @@ def find_parameters(name: str | None = None) -> list[Parameter]:
     every = [row for table in all_tables() for row in table.parameters]
     if name is None:
         return every
-    dotted = name if name.startswith(("navigation.", "gait")) else f"navigation.{name}"
+    first, dot, rest = name.partition(".")
+    dotted = next((table.key for table in all_tables() if table.name == first), first) + dot + rest
     found = [row for row in every if row.key == dotted or row.key.startswith(f"{dotted}.")]
     if not found:
         names = [table.name for table in all_tables()]

@@ -1,6 +1,7 @@
 //! The Python module `treadwell._core`: converts and forwards, decides nothing. One file a class.
 
 mod body_senses;
+mod classes;
 mod clearance;
 mod components;
 mod depth_camera;
@@ -28,6 +29,8 @@ use pyo3::prelude::*;
 
 /// Puts everything into a module. A core of the user's own calls it for its `_core`, after it added its components.
 pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(classes::ground_points, module)?)?;
+    module.add_function(wrap_pyfunction!(classes::point_classes, module)?)?;
     module.add_function(wrap_pyfunction!(clearance::swept_clearance, module)?)?;
     module.add_function(wrap_pyfunction!(distance::distances, module)?)?;
     module.add_function(wrap_pyfunction!(distance::squared_distances, module)?)?;

@@ -26,10 +26,12 @@ pub(crate) fn tables() -> Vec<&'static str> {
     all.iter().map(|table| last(table.key)).collect()
 }
 
-/// All tables of settings as JSON: key, about, parameters, schema.
+/// All tables of settings as JSON, those of what is not part of a run as well: key, about, parameters, schema.
 #[pyfunction]
 pub(crate) fn parameters() -> String {
-    let all: Vec<_> = pilot::tables()
+    let mut all = pilot::tables();
+    all.extend_from_slice(classification::TABLES);
+    let all: Vec<_> = all
         .iter()
         .map(|table| {
             serde_json::json!({

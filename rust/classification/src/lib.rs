@@ -1,0 +1,38 @@
+//! What points and cells are: ground, obstacle, vegetation, surface, line (handbook, section 36.3.5).
+
+mod cloud;
+mod ground_filter;
+mod learned_ground;
+mod load_bearing;
+mod markov_chain;
+mod markov_field;
+mod moments;
+mod negative_obstacles;
+mod neighbours;
+#[cfg(test)]
+mod synthetic;
+
+pub use cloud::{CloudError, Point3};
+pub use ground_filter::{Ground, GroundFilter, GroundFilterConfig};
+pub use learned_ground::{Canopy, LearnedGround, LearnedGroundConfig};
+pub use load_bearing::{LoadBearing, LoadBearingConfig, Ray, Support};
+pub use markov_chain::{ChainError, MarkovChain, MarkovChainConfig};
+pub use markov_field::{MarkovField, MarkovFieldConfig};
+pub use moments::{MomentsConfig, PointClass, PointClasses, Saliency};
+pub use negative_obstacles::{
+    NegativeObstacle, NegativeObstacles, NegativeObstaclesConfig, RangePicture,
+};
+pub use neighbours::Neighbours;
+
+use settings::TableDescription;
+
+/// The tables of settings of this crate.
+pub const TABLES: &[TableDescription] = &[
+    TableDescription::of::<GroundFilterConfig>(),
+    TableDescription::of::<LearnedGroundConfig>(),
+    TableDescription::of::<LoadBearingConfig>(),
+    TableDescription::of::<MarkovChainConfig>(),
+    TableDescription::of::<MarkovFieldConfig>(),
+    TableDescription::of::<MomentsConfig>(),
+    TableDescription::of::<NegativeObstaclesConfig>(),
+];
