@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 from source_builders import data, needs_data
 
-from treadwell.cli.app import main
+from treadwell.cli.app import execute
 from treadwell.errors import InputError
 from treadwell.exports.export import export
 from treadwell.map_making.making import MadeMap, make_map
@@ -110,7 +110,7 @@ def test_fog_finds_floors_in_pictures_of_a_camera_with_its_axis_off_the_middle(
 
 def test_the_folder_holds_map_picture_way_and_result(pictures: Path, tmp_path: Path) -> None:
     out = tmp_path / "map"
-    assert main(["map", str(pictures), "--out", str(out), "--world-model", "elevation"]) == 0
+    assert execute(["map", str(pictures), "--out", str(out), "--world-model", "elevation"]) == 0
     names = {path.name for path in out.iterdir()}
     assert names == {"map.npz", "map.png", "recording.rrd", "result.json", "trajectory.tum"}
     result = json.loads((out / "result.json").read_text())

@@ -16,7 +16,8 @@ pub use averaging::{Averaging, AveragingConfig, AveragingTuning};
 pub use bevel::Bevel;
 pub use elevation::{
     CellMeasurement, CellSizes, Elevation, ElevationConfig, ElevationTuning,
-    ExtendedElevationConfig, Gathered, HeightEstimate, RangeNoise, SightLines, SurfaceRule,
+    ExtendedElevationConfig, Gathered, HeightEstimate, RangeCells, RangeNoise, SightLines,
+    SurfaceRule,
 };
 pub use felt_place::FeltPlace;
 pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};

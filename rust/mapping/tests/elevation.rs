@@ -7,7 +7,7 @@ mod common;
 use common::terrain::{self, Luck};
 use common::{Block, DEPTH_CAMERA, HEIGHT, WIDTH, camera, interior, look, look_through};
 use geometry::{Cell, Map, Pose, Robot};
-use mapping::{Elevation, ElevationConfig, HeightEstimate, Surface, WorldModel};
+use mapping::{CellSizes, Elevation, ElevationConfig, HeightEstimate, Surface, WorldModel};
 use segmentation::Planes;
 
 fn here() -> Pose<Map, Robot> {
@@ -62,6 +62,87 @@ fn noise_free_terrain_is_right_to_a_cell_times_its_slope_over_root_twelve() {
     let errors = errors.map(|([x, _], e)| f64::from(e.height_m) - slope * x);
     let found = root_mean_square(errors);
     assert!(found <= 0.04 * slope / 12_f64.sqrt(), "{found}");
+}
+
+#[test]
+fn cells_that_grow_with_the_distance_hold_about_as_many_points_each() {
+    // H24. Level ground, from 0.5 m to the end of view; the regular grid beside it.
+    let config = ElevationConfig {
+        cells: CellSizes::ByRange,
+        fill: 0.0,
+        clearing: false,
+        ..ElevationConfig::default()
+    };
+    let pose = camera(0.5, 0.45, 0.0);
+    let planes = terrain::look(DEPTH_CAMERA, |_, _| 0.0, pose, 0.0, &mut Luck(1));
+    let map = seen(config, &planes, 1);
+    let mean = |cells: &[(f64, u32)], from: f64, to: f64| {
+        let inside = cells
+            .iter()
+            .filter(|(range_m, _)| (from..to).contains(range_m));
+        let (sum, count) = inside.fold((0, 0), |(sum, count), (_, n)| (sum + n, count + 1));
+        f64::from(sum) / f64::from(count.max(1))
+    };
+    let spread = |cells: &[(f64, u32)]| {
+        let edges = [0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 3.6];
+        let means = edges.windows(2).map(|two| mean(cells, two[0], two[1]));
+        let means: Vec<_> = means.filter(|mean| *mean > 0.0).collect();
+        let (low, high) = means
+            .iter()
+            .fold((f64::INFINITY, 0.0_f64), |(low, high), &mean| {
+                (low.min(mean), high.max(mean))
+            });
+        assert_eq!(means.len(), 6);
+        high / low
+    };
+    let by_range: Vec<_> = map.by_range().unwrap().points().collect();
+    let mut regular = std::collections::BTreeMap::new();
+    for [x, y, _] in planes
+        .points_in_robot_m
+        .iter()
+        .filter(|p| p[0].is_finite() && p[0] < 4.0)
+    {
+        let cell = map.view().lattice.cell_at(f64::from(*x), f64::from(*y));
+        *regular.entry((cell.col, cell.row)).or_insert(0) += 1;
+    }
+    let range = |&(col, row): &(i32, i32)| {
+        let [x, y] = map.view().lattice.center_of(Cell::new(col, row));
+        geometry::hypot(x, y)
+    };
+    let regular: Vec<_> = regular.iter().map(|(cell, &n)| (range(cell), n)).collect();
+    let (ours, theirs) = (spread(&by_range), spread(&regular));
+    assert!(ours <= 3.0 && theirs > 20.0, "{ours} {theirs}");
+}
+
+#[test]
+fn sampling_cells_anew_where_the_robot_moves_costs_what_is_said() {
+    let ground = |x: f64, y: f64| 0.03 * libm::sin(6.0 * x) * libm::cos(5.0 * y);
+    let config = ElevationConfig {
+        cells: CellSizes::ByRange,
+        ..ElevationConfig::default()
+    };
+    let planes = terrain::look(
+        DEPTH_CAMERA,
+        ground,
+        camera(0.5, 0.5, 0.0),
+        0.0,
+        &mut Luck(1),
+    );
+    let mut map = seen(config, &planes, 1);
+    assert_eq!(map.by_range().unwrap().resampling_error_m(), 0.0);
+    // A step further, with nothing new to see.
+    let blind = Planes::of_points(vec![], planes.robot_from_camera);
+    let pose = Pose::<Map, Robot>::from_yaw(0.05, 0.0, 0.0, 0.0);
+    let _ = map.insert(&blind, &pose).unwrap();
+    let said = map.by_range().unwrap().resampling_error_m();
+    assert!(said > 1e-4 && said < 0.01, "{said}");
+    let errors = map.view().cells.area().cells().filter_map(|cell| {
+        let [x, y] = map.view().lattice.center_of(cell);
+        let near = geometry::hypot(x, y) < 1.5 && geometry::hypot(x, y) > 0.4;
+        Some(height(map.view().cell(cell)).filter(|_| near)? - ground(x, y))
+    });
+    let found = root_mean_square(errors);
+    assert!(found < 3.0 * said + 0.004, "{found} {said}");
 }
 
 #[test]

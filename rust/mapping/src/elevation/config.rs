@@ -26,7 +26,7 @@ settings! {
     /// The elevation grid of the handbook (004, section 36.3.1): a height a cell, kept by a Kalman filter. A key that
     /// `[navigation.averaging]` has as well means the same there and has the same default.
     pub struct ElevationConfig("navigation.elevation") {
-        /// Side of a cell.
+        /// Side of a cell; with `cells = "by_range"` of one a metre away, and of what is shown of them.
         cell: f64 = 0.04, "m", within(0.001, 10.0);
         /// Cells along each side of the window.
         window: usize = 100, "1", within(4.0, FogConfig::MOST_CELLS as f64);
@@ -65,6 +65,8 @@ settings! {
     pub struct ElevationTuning("navigation.elevation.tuning") {
         /// The robot may wander this many cells from the middle of the window before the window follows.
         wander: f64 = 0.75, "1", within(0.5, 100.0);
+        /// With `cells = "by_range"`, how far from the robot's middle cells begin.
+        nearest: f64 = 0.1, "m", within(0.01, 10.0);
         /// Frames in a row that must contradict a height before it is given up for a lower one, or for none.
         patience: u8 = 3, "1", at_least(1.0);
         /// Of a cell's points in a frame, the share that lies on the highest surface in it at least, and two of them: fewer are mismatches.

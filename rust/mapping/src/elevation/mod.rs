@@ -9,6 +9,7 @@
 //! With room for a robot, a gap, above what is lower, it is the lower height that counts: the extended elevation map of Pfaff, Triebel and Burgard
 //! 2007 (Fig. 36.11c).
 
+mod by_range;
 pub(crate) mod cells;
 mod config;
 pub(crate) mod edges;
@@ -28,6 +29,7 @@ use volume::Locator;
 use crate::part::WorldModelPart;
 use crate::surface::{Pair, Underfoot, Window, check_poses, height_shift};
 use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
+pub use by_range::RangeCells;
 use cells::{Belief, HeightCell};
 pub use config::{CellSizes, ElevationConfig, ElevationTuning};
 use edges::{EdgeRule, upper_surface};
@@ -59,6 +61,8 @@ pub struct Elevation {
     cells: Grid<HeightCell>,
     filled: Grid<Filled>,
     pyramid: Pyramid,
+    /// What is known, where cells grow with the distance; those of the window are samples of it.
+    by_range: Option<RangeCells>,
     underfoot: Underfoot,
     frame: SensedFrame,
     gathered: Gathered,
@@ -90,6 +94,8 @@ impl Elevation {
                 wander,
                 config.tuning.dense,
             ),
+            by_range: (config.cells == CellSizes::ByRange)
+                .then(|| RangeCells::new(config.cell, config.tuning.nearest, config.max_range)),
             underfoot: Underfoot::new(n, config.footprint),
             frame: SensedFrame::default(),
             gathered: Gathered::default(),
@@ -105,6 +111,11 @@ impl Elevation {
     /// Height of a cell as the filter has it; none where nothing was measured, and outside.
     pub fn estimate(&self, cell: Cell) -> Option<HeightEstimate> {
         Some(self.cells.get(cell)?.known()?.estimate)
+    }
+
+    /// The cells that grow with the distance, where the map has such.
+    pub const fn by_range(&self) -> Option<&RangeCells> {
+        self.by_range.as_ref()
     }
 
     /// Height, m, that the ground of a cell does not exceed: that of the lowest sight line over it. None where none passed.
@@ -170,12 +181,24 @@ impl Elevation {
     }
 
     /// Takes in the frame that was read; the cells that it changed.
-    fn take_in(&mut self, locator: &Locator<2>) -> CellArea {
+    fn take_in(&mut self, robot_m: [f64; 3], locator: &Locator<2>) -> CellArea {
         let (rule, belief, noise) = (self.rule(), self.belief(), self.config.noise());
         let (size, area) = (self.view.size(), self.view.cells.area());
+        if let Some(known) = &mut self.by_range {
+            known.insert(robot_m, &self.frame, (noise, rule, belief));
+            let lattice = self.window.lattice();
+            for (index, cell) in self.cells.values_mut().iter_mut().enumerate() {
+                let found = known.at(lattice.center_of(cell_of(index, size)));
+                *cell = found.unwrap_or(HeightCell::UNKNOWN);
+            }
+            return area;
+        }
         self.gathered.begin(size[0] * size[1]);
         for point in &self.frame.points {
-            let _inside = self.gathered.add(locator, point.at_m, point.range_m, noise);
+            let [x_m, y_m, z_m] = point.at_m;
+            if let Some(cell) = locator.index_at([x_m, y_m]) {
+                (self.gathered).add(cell, z_m as f32, noise.variance_m2(point.range_m));
+            }
         }
         let mut touched = CellArea::EMPTY;
         let cells = self.cells.values_mut();
@@ -337,7 +360,7 @@ impl WorldModel for Elevation {
             if let Some(shift_m) = shift {
                 self.frame.raise(shift_m);
             }
-            let touched = self.take_in(&locator);
+            let touched = self.take_in(robot_m, &locator);
             // Beside what was filled or cleared, too.
             changed.join(touched.grown(self.fill_rule().cells + 1 + self.edge_rule().reach));
         }

@@ -77,7 +77,10 @@ impl Pyramid {
             let locator = Locator::of_cells(&level.window.lattice(), size);
             gathered.begin(size[0] * size[1]);
             for point in &frame.points {
-                let _inside = gathered.add(&locator, point.at_m, point.range_m, noise);
+                let [x_m, y_m, z_m] = point.at_m;
+                if let Some(cell) = locator.index_at([x_m, y_m]) {
+                    gathered.add(cell, z_m as f32, noise.variance_m2(point.range_m));
+                }
             }
             gathered.measure(rule, |measured| {
                 level.cells.values_mut()[measured.cell].measure(&measured, belief);

@@ -158,7 +158,10 @@ impl MultiLevel {
         };
         self.gathered.begin(self.cells.values().len());
         for point in &self.frame.points {
-            let _inside = self.gathered.add(locator, point.at_m, point.range_m, noise);
+            let [x_m, y_m, z_m] = point.at_m;
+            if let Some(cell) = locator.index_at([x_m, y_m]) {
+                (self.gathered).add(cell, z_m as f32, noise.variance_m2(point.range_m));
+            }
         }
         let cells = self.cells.values_mut();
         let eye_m = self.frame.eye_m[2] as f32;
