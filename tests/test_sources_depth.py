@@ -1,6 +1,8 @@
 """Claims about depth images of a stranger's folder, their poses and their camera."""
 
+from itertools import pairwise
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 import pytest
@@ -20,7 +22,11 @@ from source_builders import (
 )
 
 from treadwell.errors import InputError
+from treadwell.sources.frame import moved
 from treadwell.sources.source import open_source
+
+WIDTH_OF_KINECT: Final = 640
+HEIGHT_OF_KINECT: Final = 480
 
 
 @needs_data
@@ -252,3 +258,27 @@ def test_a_list_names_files_of_its_folder_alone(tmp_path: Path, name: str) -> No
     (folder / "depth.txt").write_text(f"1.0 {name}\n")
     with pytest.raises(InputError, match=r"depth\.txt: line 1: must"):
         open_source(folder)
+
+
+@needs_data
+def test_what_one_real_view_sees_another_sees_there_too() -> None:
+    _, frames = read(data("rgbd_room"))
+    rows, columns = np.mgrid[0:HEIGHT_OF_KINECT:4, 0:WIDTH_OF_KINECT:4]
+    for first, second in pairwise(frames):
+        camera = first.camera
+        assert camera is not None
+        assert first.depth is not None
+        assert second.depth is not None
+        depth = first.depth[rows, columns].ravel().astype(float)
+        across = (columns.ravel() - camera.cx) / camera.fx
+        down = (rows.ravel() - camera.cy) / camera.fy
+        points = np.stack([across * depth, down * depth, depth], axis=1)
+        there = moved(np.linalg.inv(second.world_from_sensor) @ first.world_from_sensor, points)
+        there = there[np.isfinite(there[:, 2]) & (there[:, 2] > 0.3)]
+        column = np.round(camera.fx * there[:, 0] / there[:, 2] + camera.cx).astype(int)
+        row = np.round(camera.fy * there[:, 1] / there[:, 2] + camera.cy).astype(int)
+        inside = (column >= 0) & (column < camera.width) & (row >= 0) & (row < camera.height)
+        assert inside.mean() > 0.3
+        off = second.depth[row[inside], column[inside]] - there[inside, 2]
+        # A pose taken the wrong way round puts half of the points 0.5 to 1 m off.
+        assert np.nanmedian(np.abs(off)) < 0.11

@@ -182,7 +182,7 @@ class RosbagsFile:
         return Reader1(self._path)
 
     def _broken(self, error: Exception) -> InputError:
-        what = " ".join(str(error).split())[:200] or type(error).__name__
+        what = " ".join(str(error).split())[:200] or "its records are damaged"
         return InputError(f"{self._path}: breaks off or is no bag: {what}")
 
 
