@@ -1,5 +1,6 @@
 """Claims about depth images of a stranger's folder, their poses and their camera."""
 
+import gzip
 from itertools import pairwise
 from pathlib import Path
 from typing import Final
@@ -23,6 +24,7 @@ from source_builders import (
 
 from treadwell.errors import InputError
 from treadwell.sources.frame import moved
+from treadwell.sources.pose_file import read_poses
 from treadwell.sources.source import open_source
 
 WIDTH_OF_KINECT: Final = 640
@@ -216,6 +218,19 @@ def test_times_and_places_as_others_write_them_are_kept(tmp_path: Path) -> None:
     np.testing.assert_array_equal(place, [5000000.123, -4000000.5, 3.0])
     turn = frames[0].world_from_sensor[:3, :3]
     np.testing.assert_allclose(turn, [[0, -1, 0], [1, 0, 0], [0, 0, 1]], atol=1e-12)
+
+
+@needs_data
+def test_real_poses_of_the_tum_benchmark_are_read(tmp_path: Path) -> None:
+    packed = data("evo_trajectories/freiburg1_xyz-groundtruth.txt.gz").read_bytes()
+    path = tmp_path / "groundtruth.txt"
+    path.write_bytes(gzip.decompress(packed))
+    poses = read_poses(path)
+    assert len(poses.rows) == 3000
+    middle = poses.nearest(1305031102.1753 + 1e-4, 0.02)
+    row = poses.rows[np.argmin(np.abs(poses.rows[:, 0] - 1305031102.1754))]
+    np.testing.assert_array_equal(middle[:3, 3], row[1:4])
+    np.testing.assert_allclose(middle[:3, :3] @ middle[:3, :3].T, np.eye(3), atol=1e-12)
 
 
 def tum_folder(folder: Path) -> Path:
