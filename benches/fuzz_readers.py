@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from PIL import Image
 
 from treadwell._core import Octree
 from treadwell.comparing.sides import candidates
@@ -23,6 +24,7 @@ from treadwell.replaying.source import open_source
 from treadwell.reporting.sweep_data import read_sweep
 from treadwell.robot.reading import read_robot_file
 from treadwell.scenario.loading import load_scenario
+from treadwell.sources.source import open_source as open_recording
 from treadwell.sweeps.folder import read_asked
 from treadwell.sweeps.journal import Journal
 from treadwell.sweeps.row import row_of
@@ -34,6 +36,11 @@ WORLD = b"""<mujoco><asset><mesh name="m" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/></as
 <geom type="mesh" mesh="m"/>
 </worldbody></mujoco>"""
 OBJ = b"v 0 0 0\nv 0.2 0 0\nv 0 0.2 0\nv 0 0 0.2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+CAMERA = "width = 16\nheight = 12\nfx = 20.0\nfy = 20.0\ncx = 7.5\ncy = 5.5\ndepth_scale = 1000\n"
+LASER = b"""VERTEX2 0 1.0 2.0 0.5
+ROBOTLASER1 0 -1.57 3.14 1.57 50.0 0.1 0 3 1.0 2.0 81.83 0 1 2 0.5 1 2 0.5 0 0 0 0 0 5.5 h 0.5
+FLASER 3 1.0 2.0 3.0 5 6 0.0 5.1 6 0.0 976053557.5 host 0.5
+"""
 SHARED = ("good.mcap", "run", "sweep")
 """What readers find beside the changed file."""
 EXPORTS = ("octomap", "map_server", "ply", "tum")
@@ -106,6 +113,28 @@ def _map(path: Path) -> None:
         export(folder, to, path.parent / "exported")
 
 
+def _source(path: Path) -> None:
+    """Read what a map can be made of, whichever form it has."""
+    for frame in open_recording(path):
+        assert np.isfinite(frame.world_from_sensor).all()
+
+
+def _bag(path: Path) -> None:
+    for frame in open_recording(path, topics=["/camera/points"]):
+        assert np.isfinite(frame.world_from_sensor).all()
+
+
+def _depths(path: Path) -> None:
+    """Read a folder of one depth image."""
+    folder = path.parent / "depths"
+    (folder / "depth").mkdir(parents=True, exist_ok=True)
+    shutil.copyfile(path, folder / "depth" / f"1.0{path.suffix}")
+    (folder / "camera.toml").write_text(CAMERA, encoding="utf-8")
+    (folder / "poses.tum").write_text("1.0 0 0 0 0 0 0 1\n", encoding="utf-8")
+    _source(folder)
+    (folder / "depth" / f"1.0{path.suffix}").unlink()
+
+
 def _physics(path: Path) -> None:
     load_audit(_placed(path, "run"))
 
@@ -129,6 +158,12 @@ READERS: dict[str, tuple[str, Reader]] = {
     "suite": ("suite.toml", lambda path: find_suite(str(path))),
     "map": ("map.npz", _map),
     "physics": ("physics.npz", _physics),
+    "pcd": ("x.pcd", _source),
+    "ply": ("cloud.ply", _source),
+    "laser log": ("x.log", _source),
+    "bag": ("run.mcap", _bag),
+    "depth image": ("depth.png", _depths),
+    "depth array": ("depth.npy", _depths),
 }
 """Kind -> its file's name, and what reads it."""
 BUILT = (_world, _mesh)
@@ -163,6 +198,21 @@ def seeds(folder: Path) -> None:
     (folder / "x.stl").write_bytes(bytes(80) + (20).to_bytes(4, "little") + body)
     tree.write(str(folder / "x.ot"))
     tree.write(str(folder / "x.bt"))
+    _recordings(folder, run)
+
+
+def _recordings(folder: Path, run: Path) -> None:
+    """Write what a map can be made of."""
+    export(run, "ply", folder)
+    export(run, "mcap", folder)
+    points = np.random.default_rng(0).uniform(-1, 1, (50, 3)).astype("<f4")
+    head = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 50\nHEIGHT 1\n"
+    head += "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 50\nDATA binary\n"
+    (folder / "x.pcd").write_bytes(head.encode() + points.tobytes())
+    (folder / "x.log").write_bytes(LASER)
+    depth = 2.0 + 0.01 * np.arange(192).reshape(12, 16)
+    Image.fromarray((1000 * depth).astype(np.uint16)).save(folder / "depth.png")
+    np.save(folder / "depth.npy", depth.astype(np.float32))
 
 
 def share(good: Path, here: Path) -> None:

@@ -167,6 +167,9 @@ def test_a_file_may_take_the_place_of_the_cameras_info(tmp_path: Path) -> None:
     _, (frame,) = read(path, camera=camera)
     assert frame.camera is not None
     assert frame.camera.fx == 77.0
+    path = write_bag(tmp_path / "b", "mcap", [*way(), bags.cloud(2 * SECOND)])
+    with pytest.raises(InputError, match="/points has no use for it"):
+        open_source(path, camera=camera)
 
 
 @pytest.mark.parametrize("changed", [{"fx": 0.0}, {"cx": np.nan}, {"width": 0}])

@@ -1,6 +1,9 @@
 """Claims about depth images of a stranger's folder, their poses and their camera."""
 
+import gzip
+from itertools import pairwise
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 import pytest
@@ -20,7 +23,12 @@ from source_builders import (
 )
 
 from treadwell.errors import InputError
+from treadwell.sources.frame import moved
+from treadwell.sources.pose_file import read_poses
 from treadwell.sources.source import open_source
+
+WIDTH_OF_KINECT: Final = 640
+HEIGHT_OF_KINECT: Final = 480
 
 
 @needs_data
@@ -212,6 +220,19 @@ def test_times_and_places_as_others_write_them_are_kept(tmp_path: Path) -> None:
     np.testing.assert_allclose(turn, [[0, -1, 0], [1, 0, 0], [0, 0, 1]], atol=1e-12)
 
 
+@needs_data
+def test_real_poses_of_the_tum_benchmark_are_read(tmp_path: Path) -> None:
+    packed = data("evo_trajectories/freiburg1_xyz-groundtruth.txt.gz").read_bytes()
+    path = tmp_path / "groundtruth.txt"
+    path.write_bytes(gzip.decompress(packed))
+    poses = read_poses(path)
+    assert len(poses.rows) == 3000
+    middle = poses.nearest(1305031102.1753 + 1e-4, 0.02)
+    row = poses.rows[np.argmin(np.abs(poses.rows[:, 0] - 1305031102.1754))]
+    np.testing.assert_array_equal(middle[:3, 3], row[1:4])
+    np.testing.assert_allclose(middle[:3, :3] @ middle[:3, :3].T, np.eye(3), atol=1e-12)
+
+
 def tum_folder(folder: Path) -> Path:
     (folder / "depth").mkdir(parents=True)
     (folder / "rgb").mkdir()
@@ -252,3 +273,27 @@ def test_a_list_names_files_of_its_folder_alone(tmp_path: Path, name: str) -> No
     (folder / "depth.txt").write_text(f"1.0 {name}\n")
     with pytest.raises(InputError, match=r"depth\.txt: line 1: must"):
         open_source(folder)
+
+
+@needs_data
+def test_what_one_real_view_sees_another_sees_there_too() -> None:
+    _, frames = read(data("rgbd_room"))
+    rows, columns = np.mgrid[0:HEIGHT_OF_KINECT:4, 0:WIDTH_OF_KINECT:4]
+    for first, second in pairwise(frames):
+        camera = first.camera
+        assert camera is not None
+        assert first.depth is not None
+        assert second.depth is not None
+        depth = first.depth[rows, columns].ravel().astype(float)
+        across = (columns.ravel() - camera.cx) / camera.fx
+        down = (rows.ravel() - camera.cy) / camera.fy
+        points = np.stack([across * depth, down * depth, depth], axis=1)
+        there = moved(np.linalg.inv(second.world_from_sensor) @ first.world_from_sensor, points)
+        there = there[np.isfinite(there[:, 2]) & (there[:, 2] > 0.3)]
+        column = np.round(camera.fx * there[:, 0] / there[:, 2] + camera.cx).astype(int)
+        row = np.round(camera.fy * there[:, 1] / there[:, 2] + camera.cy).astype(int)
+        inside = (column >= 0) & (column < camera.width) & (row >= 0) & (row < camera.height)
+        assert inside.mean() > 0.3
+        off = second.depth[row[inside], column[inside]] - there[inside, 2]
+        # A pose taken the wrong way round puts half of the points 0.5 to 1 m off.
+        assert np.nanmedian(np.abs(off)) < 0.11

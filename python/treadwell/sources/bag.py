@@ -154,6 +154,8 @@ def open_bag(
         if file.topics[topic] in (ros.IMAGE, ros.COMPRESSED):
             own = told.camera() if told is not None else _camera(path, topic, survey)
             cameras[topic] = own
+    if camera is not None and not cameras:
+        raise InputError(f"--camera: found {camera}; {', '.join(chosen)} has no use for it")
     frames = sum(survey.ranges[topic] for topic in chosen)
     return Bag(
         kind,

@@ -28,7 +28,8 @@ if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
 
 METADATA: Final = "metadata.yaml"
-_LARGEST_METADATA: Final = 10_000_000
+_BEGIN: Final = b"#ROSBAG V2.0\n"
+_LARGEST_METADATA: Final = 1_000_000
 Message = tuple[str, int, bytes]
 """Topic, when it was recorded in ns, content."""
 
@@ -182,7 +183,7 @@ class RosbagsFile:
         return Reader1(self._path)
 
     def _broken(self, error: Exception) -> InputError:
-        what = " ".join(str(error).split())[:200] or type(error).__name__
+        what = " ".join(str(error).split())[:200] or "its records are damaged"
         return InputError(f"{self._path}: breaks off or is no bag: {what}")
 
 
@@ -214,7 +215,10 @@ def open_bag_file(path: Path) -> tuple[str, BagFile] | None:
     suffix = path.suffix.lower()
     if suffix not in (".mcap", ".bag", ".db3"):
         return None
-    opened(path).close()
+    with opened(path) as file:
+        if suffix == ".bag" and file.read(len(_BEGIN)) != _BEGIN:
+            # The library reads all of a file that has no end of a line.
+            raise InputError(f"{path}: is no bag of ROS 1: it must begin with #ROSBAG V2.0")
     if suffix == ".mcap":
         return "mcap", McapFiles([path])
     return ("ros1 bag" if suffix == ".bag" else "ros2 bag"), RosbagsFile(

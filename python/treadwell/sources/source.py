@@ -60,7 +60,12 @@ class Source(Protocol):
         ...
 
     def __iter__(self) -> Iterator[RangeFrame]:
-        """Yield the frames that can be used, in the order of time."""
+        """Yield the frames that can be used, in the order in which they lie there.
+
+        Raises:
+            InputError: what was not looked at before is broken: the points of one cloud, a file
+                that breaks off before its first frame.
+        """
         ...
 
 
