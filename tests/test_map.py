@@ -120,7 +120,7 @@ def test_the_folder_holds_map_picture_way_and_result(pictures: Path, tmp_path: P
     counts = [int((stored.kind == kind).sum()) for kind in (FLOOR, OBSTACLE)]
     assert counts == [result["cells"]["floor"], result["cells"]["obstacle"]]
     assert result["timing_ms"]["map"]["count"] == 4
-    for form in ("map_server", "octomap", "tum"):
+    for form in ("map_server", "octomap", "ply"):
         assert export(out, form, tmp_path / form)
 
 
@@ -129,7 +129,7 @@ def test_coordinates_of_millions_of_metres_keep_their_millimetres(tmp_path: Path
     x, y = (axis.ravel() for axis in np.meshgrid(step, step))
     z = 250.0 + 0.05 * (x > 2.0)
     cloud = np.column_stack([x + 512_700.0, y + 5_403_700.0, z])
-    head = "ply\nformat binary_little_endian 1.0\nelement vertex {}\n".format(len(cloud))
+    head = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(cloud)}\n"
     head += "".join(f"property double {axis}\n" for axis in "xyz") + "end_header\n"
     path = tmp_path / "far.ply"
     path.write_bytes(head.encode() + cloud.astype("<f8").tobytes())
@@ -170,6 +170,7 @@ def test_a_turn_brings_its_axis_up_and_turns_nothing_inside_out(up: str) -> None
 def test_a_signal_ends_a_map_with_the_frames_that_it_has(pictures: Path, tmp_path: Path) -> None:
     class Impatient:
         def update(self, frame: int, frames: int, used: int) -> None:
+            assert used <= frame <= frames
             if frame == 2:
                 raise KeyboardInterrupt
 

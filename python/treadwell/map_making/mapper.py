@@ -14,8 +14,9 @@ from treadwell.map_making.placing import Placing, ground_below, placing, sensed
 from treadwell.map_making.points_map import PointsMap
 from treadwell.map_making.request import PICTURES, POINTS, SCANS, MapRequest
 from treadwell.map_making.sizing import Sizing, sizing
+from treadwell.map_making.standing_out import StandingOut
 from treadwell.map_memory import MapMemory, RememberedMap
-from treadwell.sources.frame import Floats, RangeFrame
+from treadwell.sources.frame import Floats, RangeFrame, moved
 
 NEEDS_A_ROBOT: Final = {"extended_elevation": "extended_elevation", "multi_level": "multi_level"}
 """World model -> the table that says, or the robot does, how much room there must be."""
@@ -41,7 +42,9 @@ class Mapper:
         self._request = request
         self.world_model = self._named(first)
         rough = placing(request.data.up, first.world_from_sensor, 1.0)
-        self.sizes: Sizing = sizing(self.world_model, request.parameters, first, rough)
+        self.sizes: Sizing = sizing(
+            self.world_model, request.parameters, (first, rough), request.data.ground
+        )
         self.place: Placing = placing(
             request.data.up, first.world_from_sensor, self.sizes.cell or 1.0
         )
@@ -50,6 +53,9 @@ class Mapper:
         self.seconds: list[float] = []
         self._memory = MapMemory()
         self._points = PointsMap(self.sizes.cell) if first.layout == "scan" else None
+        self._standing_out = (
+            StandingOut(request.ground_filter) if self.sizes.filters_ground else None
+        )
         self._core = RangeMap(
             POINTS if self._points else self.world_model,
             settings=json.dumps(self.sizes.parameters),
@@ -92,6 +98,8 @@ class Mapper:
     def map(self) -> RememberedMap:
         """Return the map in the frame of the world whose z is up: the offset is in its origin."""
         found = self._memory.map() if self._points is None else self._points.map()
+        if self._standing_out is not None:
+            found = self._standing_out.over(found)
         x, y, z = self.place.offset.tolist()
         return RememberedMap(
             (found.origin[0] + x, found.origin[1] + y),
@@ -115,6 +123,10 @@ class Mapper:
         points = frame.points if frame.points is not None else np.zeros((0, 3), np.float32)
         if self._points is not None:
             return self._points.insert(points @ pose[:3, :3].T + pose[:3, 3])
+        if self._standing_out is not None:
+            seen = np.isfinite(points).all(axis=1)
+            ground_ones = self._standing_out.ground(moved(pose, points[seen].astype(np.float64)))
+            points = points[seen][ground_ones]
         eye = pose.copy()
         if self.sizes.altitude:
             above = np.array([0.0, 0.0, self.sizes.altitude])

@@ -10,7 +10,7 @@ from treadwell.errors import RecordingError
 from treadwell.map_memory import FLOOR, OBSTACLE, RememberedMap
 from treadwell.recording.file import write_fault
 from treadwell.recording.quiet import first_import
-from treadwell.sources.frame import Floats
+from treadwell.sources.frame import Floats, moved
 
 _RADIUS: Final = 0.25
 """Of a cell's side, the radius with which a frame's points are drawn."""
@@ -42,6 +42,7 @@ class MapRecording:
         except OSError as error:
             raise RecordingError(f"{path}: {write_fault(path, error)}") from error
         self._stream.send_recording_name(name)
+        self._begin_s: float | None = None
         self._stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
 
     def frame(self, time: float, pose: Floats, points: NDArray[np.float32]) -> None:
@@ -53,11 +54,14 @@ class MapRecording:
             points: (n, 3) m, in the sensor's frame.
         """
         rr = self._rr
-        self._stream.set_time("time", timestamp=time)
+        self._begin_s = time if self._begin_s is None else self._begin_s
+        self._stream.set_time("time", duration=time - self._begin_s)
+        # Named as a run's, so that what reads those reads these.
         self._stream.log(
-            "world/sensor", rr.Transform3D(mat3x3=pose[:3, :3], translation=pose[:3, 3])
+            "world/camera", rr.Transform3D(mat3x3=pose[:3, :3], translation=pose[:3, 3])
         )
-        self._stream.log("world/sensor/points", rr.Points3D(points, radii=_RADIUS * self._cell))
+        placed = moved(pose, points).astype(np.float32)
+        self._stream.log("world/points", rr.Points3D(placed, radii=_RADIUS * self._cell))
 
     def finish(self, found: RememberedMap, offset: Floats, voxels: NDArray[np.float32]) -> None:
         """Write the map, and close the file.

@@ -18,6 +18,7 @@ from treadwell.sources.source import POSE_WITHIN_S
 Up = Literal["x", "-x", "y", "-y", "z", "-z"]
 PICTURES, POINTS, SCANS = "fog", "elevation", "points"
 """World models where none is named: of depth images, of clouds; how scans are shown."""
+_TOP: Final = ("map", "navigation", "classification")
 _SLOTS: Final = ("world_model", "segmenter")
 
 
@@ -28,6 +29,9 @@ class MapTable(Table):
     """How far off in time a frame's pose may be, s."""
     up: Up = "z"
     """Which axis of the poses' world points up; the map's z does."""
+    ground: Literal["auto", "filter", "all"] = "auto"
+    """Of a cloud, which points are ground: `filter` tells it from what stands on it (`[ground_filter]`
+    of the reference), `all` takes every point; `auto` filters clouds that were seen from above."""
     baseline: Annotated[float, Field(ge=1e-3, le=10.0)] = 0.075
     """Depths are taken to be as precise as eyes so far apart see them, m."""
     columns: Annotated[int, Field(ge=16, le=4096)] = 160
@@ -48,6 +52,7 @@ class MapRequest:
         segmenter: what finds surfaces in pictures.
         parameters: table -> key -> value, as in a scenario's `[navigation]`.
         data: how the data is taken.
+        ground_filter: key -> value, how a cloud's ground is told from what stands on it.
     """
 
     source: Path
@@ -59,6 +64,7 @@ class MapRequest:
     segmenter: str
     parameters: dict[str, dict[str, Any]]
     data: MapTable
+    ground_filter: dict[str, Any]
 
 
 def read_request(
@@ -90,7 +96,7 @@ def read_request(
     for setting in settings:
         key, value = parse_setting(setting)
         words = split_key(key)
-        if words[0] not in ("map", "navigation"):
+        if words[0] not in _TOP:
             _is_a_table(words[0])
             key = f"navigation.{key}"
         assign(raw, key, value)
@@ -115,11 +121,24 @@ def read_request(
         segmenter=navigation.segmenter,
         parameters=navigation.parameters(),
         data=data,
+        ground_filter=_filter(raw.get("classification", {})),
     )
+
+
+def _filter(raw: object) -> dict[str, Any]:
+    """Return the table of the ground filter; the core refuses what it does not know in it."""
+    if not isinstance(raw, dict) or set(raw) - {"ground_filter"}:
+        raise InputError("--set classification: only classification.ground_filter.KEY can be set")
+    table = raw.get("ground_filter", {})
+    if not isinstance(table, dict):
+        raise InputError("--set classification.ground_filter: must be followed by a key")
+    return table
 
 
 def _is_a_table(word: str) -> None:
     names = sorted({table.key.split(".")[1] for table in all_tables() if "." in table.key})
     if word not in (*names, *_SLOTS):
-        allowed = f"map, navigation, or one of its tables{nearest(word, ['map', *names])}"
+        allowed = (
+            f"map, classification, navigation, or one of its tables{nearest(word, ['map', *names])}"
+        )
         raise InputError(f"--set {shortened(word)}: unknown; must begin with {allowed}")

@@ -22,6 +22,9 @@ _COUNTS: Final = {"fog": "cells", "averaging": "cells", "elevation": "window"}
 """Table -> the key with the number of cells along a side of the window."""
 _SCAN_CELL_M: Final = 0.05
 """Side of the cells in which a laser's points are shown, where nobody says."""
+_ROBOT_M: Final = 0.25
+"""About as wide as a robot: points further apart are those of a landscape from above."""
+_ANY_SLOPE_M: Final = 1e6
 ALTITUDE: Final = 10.0
 """How high above a cloud, in its reach, the eye is put where nobody says where it was."""
 _MOST_CELLS: Final = 2000
@@ -41,24 +44,37 @@ class Sizing:
         assumed: key -> value, of what the user did not set.
         altitude: m above the sensor's frame, where the eye of a cloud is put of which nobody knows
             from where it was seen; 0 where it is known.
+        filters_ground: whether a cloud's ground is told from what stands on it.
     """
 
     cell: float
     parameters: dict[str, dict[str, Any]]
     assumed: dict[str, Any] = field(default_factory=dict)
     altitude: float = 0.0
+    filters_ground: bool = False
 
 
 def sizing(
-    world_model: str, parameters: dict[str, dict[str, Any]], first: RangeFrame, placing: Placing
+    world_model: str,
+    parameters: dict[str, dict[str, Any]],
+    seen: tuple[RangeFrame, Placing],
+    ground: str,
 ) -> Sizing:
     """Return the settings for a source whose first frame is this one.
 
     Cells are as large as the points of a cloud lie apart, where that is more than the default; the
     window holds what a frame sees. Nothing shifts or turns what has a pose that is known, and no
     robot stands below the sensor. Where it is not known from where a cloud was seen, nothing is
-    cleared by lines of sight.
+    cleared by lines of sight. The ground of a cloud from above, whose points lie further apart than
+    a robot is wide, is told from what stands on it.
+
+    Args:
+        world_model: its name.
+        parameters: table -> key -> value, the user's.
+        seen: the first frame, and how its world lies to the map's.
+        ground: `auto`, `filter` or `all`.
     """
+    first, placing = seen
     table = _TABLES.get(world_model)
     made = {key: dict(values) for key, values in parameters.items()}
     if table is None or first.layout == "scan":
@@ -70,6 +86,10 @@ def sizing(
     found = Sizing(_cell(own, float(defaults["cell"]), reach, spacing), made)
     if not first.origin_known:
         found.altitude = ALTITUDE * max(reach, 1.0)
+    apart = not first.origin_known and spacing > _ROBOT_M
+    found.filters_ground = first.layout == "cloud" and (
+        ground == "filter" or (ground == "auto" and apart)
+    )
     follow = _following(found, defaults, reach, _COUNTS[table])
     for key, value in follow.items():
         if key in defaults and key not in own and value != defaults[key]:
@@ -102,6 +122,8 @@ def _following(found: Sizing, defaults: dict[str, Any], reach: float, count: str
     }
     scaled = {key: defaults[key] * scale for key in ("rise", "fill") if key in defaults}
     values |= {key: round(value, 6) for key, value in scaled.items()}
+    if found.filters_ground:
+        values["rise"] = _ANY_SLOPE_M  # what stands on the ground is known by itself
     if found.altitude and isinstance(defaults.get("clearing"), bool):
         values |= {"clearing": False, "sigma_per_metre": 0.0}
     return values
