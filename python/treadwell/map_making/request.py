@@ -30,8 +30,8 @@ class MapTable(Table):
     up: Up = "z"
     """Which axis of the poses' world points up; the map's z does."""
     ground: Literal["auto", "filter", "all"] = "auto"
-    """Of a cloud, which points are ground: `filter` tells it from what stands on it (`[ground_filter]`
-    of the reference), `all` takes every point; `auto` filters clouds that were seen from above."""
+    """Which points of a cloud are ground: `filter` tells it from what stands on it, by
+    `classification.ground_filter`; `all` takes every point; `auto` filters landscapes from above."""
     baseline: Annotated[float, Field(ge=1e-3, le=10.0)] = 0.075
     """Depths are taken to be as precise as eyes so far apart see them, m."""
     columns: Annotated[int, Field(ge=16, le=4096)] = 160

@@ -33,7 +33,7 @@ class StandingOut:
         return ground
 
     def over(self, found: RememberedMap) -> RememberedMap:
-        """Return the map of the ground with obstacles where more points were kept than ground is."""
+        """Return the map of the ground with what stands on it as obstacles."""
         rows, cols = found.kind.shape
         at = np.floor((self._others[:, :2] - np.array(found.origin)) / found.cell).astype(np.intp)
         inside = ((at >= 0) & (at < [cols, rows])).all(axis=1)

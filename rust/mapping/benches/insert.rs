@@ -6,7 +6,10 @@ mod common;
 use common::{Block, DEPTH_CAMERA, camera, look, look_through};
 use criterion::{Criterion, criterion_group, criterion_main};
 use geometry::{Map, Pose, Robot};
-use mapping::{Clearing, Fog, FogConfig, TwoMaps, TwoMapsConfig, Update, WorldModel};
+use mapping::{
+    Clearing, Elevation, ElevationConfig, Fog, FogConfig, MultiLevel, MultiLevelConfig, TwoMaps,
+    TwoMapsConfig, Update, WorldModel,
+};
 
 /// A sill, steps and boxes.
 fn course() -> [Block; 6] {
@@ -102,5 +105,55 @@ fn insert_into_two_maps(criterion: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, insert, insert_into_two_maps);
+/// Models of heights, 320x240 into 256 x 256 cells of 2 cm.
+fn insert_heights(criterion: &mut Criterion) {
+    let blocks = course();
+    let frames: Vec<_> = (0..50)
+        .map(|i| {
+            let pose = Pose::<Map, Robot>::from_yaw(0.008 * f64::from(i), 0.0, 0.0, 0.0);
+            let eye = camera(0.5, 0.52, 0.5 * libm::sin(0.3 * f64::from(i)));
+            (look_through(DEPTH_CAMERA, &blocks, &pose, eye), pose)
+        })
+        .collect();
+    let heights = ElevationConfig {
+        cell: 0.02,
+        window: 256,
+        ..ElevationConfig::default()
+    };
+    let plain = ElevationConfig {
+        clearing: false,
+        fill: 0.0,
+        ..heights.clone()
+    };
+    let levels = |config: &ElevationConfig| {
+        MultiLevel::new(MultiLevelConfig::default(), config.clone(), Some(0.58))
+    };
+    let models: [(&str, Result<Box<dyn WorldModel>, _>); 4] = [
+        (
+            "elevation, plain",
+            Elevation::new(plain.clone()).map(|made| Box::new(made) as _),
+        ),
+        (
+            "elevation",
+            Elevation::new(heights.clone()).map(|made| Box::new(made) as _),
+        ),
+        (
+            "multi-level, plain",
+            levels(&plain).map(|made| Box::new(made) as _),
+        ),
+        (
+            "multi-level",
+            levels(&heights).map(|made| Box::new(made) as _),
+        ),
+    ];
+    for (name, model) in models {
+        let Ok(mut model) = model else { return };
+        let mut next = frames.iter().cycle();
+        let _ = criterion.bench_function(&format!("{name} insert 320x240"), |bencher| {
+            bencher.iter(|| next.next().map(|(planes, pose)| model.insert(planes, pose)));
+        });
+    }
+}
+
+criterion_group!(benches, insert, insert_into_two_maps, insert_heights);
 criterion_main!(benches);

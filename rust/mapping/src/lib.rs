@@ -17,7 +17,7 @@ pub use bevel::Bevel;
 pub use elevation::{
     CellMeasurement, CellSizes, Elevation, ElevationConfig, ElevationTuning,
     ExtendedElevationConfig, Gathered, HeightEstimate, RangeCells, RangeNoise, SightLines,
-    SurfaceRule,
+    SlopeTuning, SurfaceRule,
 };
 pub use felt_place::FeltPlace;
 pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};

@@ -5,6 +5,7 @@ use settings::schemars::JsonSchema;
 use settings::{NOT_NEGATIVE, POSITIVE, above_to, at_least, choices, settings, within};
 
 use super::RangeNoise;
+use super::slope::{MOST_REACH, SlopeRule};
 use crate::{FogConfig, surface::MatchingTuning};
 
 /// How large the cells are.
@@ -75,6 +76,8 @@ settings! {
         edge: f64 = 0.012, "m", NOT_NEGATIVE;
         /// Of the height between two surfaces, the share by which each may be uneven from cell to cell.
         uneven: f64 = 0.15, "1", within(0.0, 0.5);
+        /// How slopes are told from steps.
+        slopes: SlopeTuning;
         /// Points in the area of a coarse cell, a finer cell in it, with which the finer ones are dense enough.
         dense: f64 = 2.0, "1", POSITIVE;
         /// How a frame's height is fitted to the heights that are known.
@@ -82,7 +85,32 @@ settings! {
     }
 }
 
+settings! {
+    /// How slopes are told from steps.
+    pub struct SlopeTuning("navigation.elevation.tuning.slopes") {
+        /// How far to each side the ground must rise evenly to be a slope.
+        reach: f64 = 0.12, "m", within(0.001, 100.0);
+        /// Of the mean difference from cell to cell, the share by which each may differ from it.
+        uneven: f64 = 0.6, "1", NOT_NEGATIVE;
+        /// What each may differ by in any case.
+        noise: f64 = 0.001, "m", NOT_NEGATIVE;
+        /// Ground that rises by less per metre is level.
+        least: f64 = 0.04, "1", NOT_NEGATIVE;
+    }
+}
+
 impl ElevationConfig {
+    /// When ground counts as a slope.
+    pub(crate) fn slope_rule(&self) -> SlopeRule {
+        let slopes = &self.tuning.slopes;
+        let cells = (slopes.reach / self.cell + 0.5) as usize;
+        SlopeRule {
+            reach: cells.clamp(1, MOST_REACH) as i32,
+            uneven: slopes.uneven as f32,
+            noise_m: slopes.noise as f32,
+        }
+    }
+
     /// How sure a measured height is.
     pub(crate) fn noise(&self) -> RangeNoise {
         RangeNoise {

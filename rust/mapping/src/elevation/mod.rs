@@ -20,6 +20,7 @@ mod gathered;
 mod pyramid;
 pub(crate) mod sensed;
 mod sight_lines;
+pub(crate) mod slope;
 
 use geometry::{Cell, CellArea, Grid, Map, Pose, Robot, runs};
 use segmentation::Planes;
@@ -31,7 +32,7 @@ use crate::surface::{Pair, Underfoot, Window, check_poses, height_shift};
 use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
 pub use by_range::RangeCells;
 use cells::{Belief, HeightCell};
-pub use config::{CellSizes, ElevationConfig, ElevationTuning};
+pub use config::{CellSizes, ElevationConfig, ElevationTuning, SlopeTuning};
 use edges::{EdgeRule, upper_surface};
 pub use estimate::{HeightEstimate, RangeNoise};
 pub use extended::ExtendedElevationConfig;
@@ -41,6 +42,7 @@ pub use gathered::{CellMeasurement, Gathered, SurfaceRule};
 use pyramid::Pyramid;
 use sensed::{SensedFrame, SensedPoint};
 pub use sight_lines::SightLines;
+use slope::gradient;
 
 /// How it is listed and made.
 pub(crate) const PART: WorldModelPart = Part {
@@ -101,7 +103,10 @@ impl Elevation {
             gathered: Gathered::default(),
             lines: SightLines::new(config.cell, config.max_range),
             bounds_m: Grid::filled(n, n, f32::INFINITY),
-            view: FloorView::unknown(window.lattice(), n),
+            view: FloorView {
+                least_gradient: config.tuning.slopes.least,
+                ..FloorView::unknown(window.lattice(), n)
+            },
             window,
             gap_m,
             config,
@@ -295,12 +300,7 @@ impl Elevation {
         };
         let size = self.view.size();
         let cell = cell_of(index, size);
-        let away = |[cols, rows]: [i32; 2]| {
-            let at = self
-                .cells
-                .index(Cell::new(cell.col + cols, cell.row + rows))?;
-            Some(self.height(at)?.0)
-        };
+        let away = |away: [i32; 2]| self.height_at(index, away);
         let height_m = upper_surface(own_m, away, self.edge_rule()).unwrap_or(own_m);
         let beside = CellArea::of(cell).grown(1);
         let heights = runs(beside, size)
@@ -317,11 +317,27 @@ impl Elevation {
     /// Brings the view up to date in an area.
     fn refresh(&mut self, area: CellArea) {
         let size = self.view.size();
+        let (rule, cell_m) = (self.config.slope_rule(), self.config.cell as f32);
         for index in runs(area, size).flatten() {
             let (surface, frames) = self.surface(index);
             self.view.cells.values_mut()[index] = surface;
             self.view.sightings.values_mut()[index] = frames;
+            self.view.gradients.values_mut()[index] = match surface {
+                Surface::Floor(_) if frames > 0 => {
+                    gradient(|away| self.height_at(index, away), cell_m, rule)
+                }
+                _ => [0.0; 2],
+            };
         }
+    }
+
+    /// Height of the cell so many columns and rows away from one, m.
+    fn height_at(&self, index: usize, [cols, rows]: [i32; 2]) -> Option<f32> {
+        let cell = cell_of(index, self.view.size());
+        let at = self
+            .cells
+            .index(Cell::new(cell.col + cols, cell.row + rows))?;
+        Some(self.height(at)?.0)
     }
 }
 
@@ -362,7 +378,11 @@ impl WorldModel for Elevation {
             }
             let touched = self.take_in(robot_m, &locator);
             // Beside what was filled or cleared, too.
-            changed.join(touched.grown(self.fill_rule().cells + 1 + self.edge_rule().reach));
+            changed.join(touched.grown(
+                self.fill_rule().cells
+                    + 1
+                    + self.edge_rule().reach.max(self.config.slope_rule().reach),
+            ));
         }
         self.refresh(changed.within(self.view.cells.area()));
         Ok(Insertion {

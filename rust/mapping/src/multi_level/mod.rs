@@ -16,6 +16,7 @@ use volume::Locator;
 
 use crate::elevation::cells::Belief;
 use crate::elevation::sensed::{SensedFrame, SensedPoint};
+use crate::elevation::slope::gradient;
 use crate::elevation::{ElevationConfig, Gathered, SurfaceRule, cell_of};
 use crate::part::WorldModelPart;
 use crate::surface::{Pair, Underfoot, Window, check_poses, height_shift};
@@ -91,7 +92,10 @@ impl MultiLevel {
             frame: SensedFrame::default(),
             gathered: Gathered::default(),
             reached: Reached::new(n),
-            view: FloorView::unknown(window.lattice(), n),
+            view: FloorView {
+                least_gradient: elevation.tuning.slopes.least,
+                ..FloorView::unknown(window.lattice(), n)
+            },
             window,
             config,
             elevation,
@@ -230,6 +234,15 @@ impl MultiLevel {
         }
     }
 
+    /// Height of the way in the cell so many columns and rows away from one, m.
+    fn height_at(&self, index: usize, [cols, rows]: [i32; 2]) -> Option<f32> {
+        let cell = cell_of(index, self.view.size());
+        let at = self
+            .cells
+            .index(Cell::new(cell.col + cols, cell.row + rows))?;
+        Some(self.way(at)?.0)
+    }
+
     /// Makes the view of what is reached from where the robot stands.
     fn refresh(&mut self, robot_m: [f64; 3]) {
         let start = self.window.lattice().cell_at(robot_m[0], robot_m[1]);
@@ -244,10 +257,17 @@ impl MultiLevel {
         let joined_m = self.joined_m();
         self.reached
             .spread((start, robot_m[2] as f32), joined_m, nearest);
+        let (rule, cell_m) = (self.elevation.slope_rule(), self.elevation.cell as f32);
         for index in 0..self.cells.values().len() {
             let (surface, frames) = self.surface(index);
             self.view.cells.values_mut()[index] = surface;
             self.view.sightings.values_mut()[index] = frames;
+            self.view.gradients.values_mut()[index] = match surface {
+                Surface::Floor(_) if frames > 0 => {
+                    gradient(|away| self.height_at(index, away), cell_m, rule)
+                }
+                _ => [0.0; 2],
+            };
         }
     }
 }
