@@ -94,6 +94,8 @@ settings! {
         uneven: f64 = 0.6, "1", NOT_NEGATIVE;
         /// What each may differ by in any case.
         noise: f64 = 0.001, "m", NOT_NEGATIVE;
+        /// Heights that are known less well do not tell.
+        sure: f64 = 0.01, "m", POSITIVE;
         /// Ground that rises by less per metre is level.
         least: f64 = 0.04, "1", NOT_NEGATIVE;
     }

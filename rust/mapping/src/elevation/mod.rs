@@ -324,11 +324,22 @@ impl Elevation {
             self.view.sightings.values_mut()[index] = frames;
             self.view.gradients.values_mut()[index] = match surface {
                 Surface::Floor(_) if frames > 0 => {
-                    gradient(|away| self.height_at(index, away), cell_m, rule)
+                    gradient(|away| self.sure_height_at(index, away), cell_m, rule)
                 }
                 _ => [0.0; 2],
             };
         }
+    }
+
+    /// Height of the cell so many columns and rows away from one, m, where it was measured and is known well.
+    fn sure_height_at(&self, index: usize, [cols, rows]: [i32; 2]) -> Option<f32> {
+        let cell = cell_of(index, self.view.size());
+        let at = self
+            .cells
+            .get(Cell::new(cell.col + cols, cell.row + rows))?;
+        let sure = self.config.tuning.slopes.sure as f32;
+        let known = at.known()?.estimate;
+        (known.variance_m2 <= sure * sure).then_some(known.height_m)
     }
 
     /// Height of the cell so many columns and rows away from one, m.
@@ -378,11 +389,16 @@ impl WorldModel for Elevation {
             }
             let touched = self.take_in(robot_m, &locator);
             // Beside what was filled or cleared, too.
-            changed.join(touched.grown(
-                self.fill_rule().cells
-                    + 1
-                    + self.edge_rule().reach.max(self.config.slope_rule().reach),
-            ));
+            changed.join(
+                touched.grown(
+                    self.fill_rule().cells
+                        + 1
+                        + self
+                            .edge_rule()
+                            .reach
+                            .max(2 * self.config.slope_rule().reach),
+                ),
+            );
         }
         self.refresh(changed.within(self.view.cells.area()));
         Ok(Insertion {
