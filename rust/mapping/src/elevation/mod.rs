@@ -42,7 +42,7 @@ pub use gathered::{CellMeasurement, Gathered, SurfaceRule};
 use pyramid::Pyramid;
 use sensed::{SensedFrame, SensedPoint};
 pub use sight_lines::SightLines;
-use slope::gradient;
+use slope::Slopes;
 
 /// How it is listed and made.
 pub(crate) const PART: WorldModelPart = Part {
@@ -71,6 +71,7 @@ pub struct Elevation {
     lines: SightLines,
     /// Above which nothing is, as far as sight lines tell, m; infinite where none passed.
     bounds_m: Grid<f32>,
+    slopes: Slopes,
     view: FloorView,
 }
 
@@ -103,6 +104,7 @@ impl Elevation {
             gathered: Gathered::default(),
             lines: SightLines::new(config.cell, config.max_range),
             bounds_m: Grid::filled(n, n, f32::INFINITY),
+            slopes: Slopes::default(),
             view: FloorView {
                 least_gradient: config.tuning.slopes.least,
                 ..FloorView::unknown(window.lattice(), n)
@@ -317,29 +319,22 @@ impl Elevation {
     /// Brings the view up to date in an area.
     fn refresh(&mut self, area: CellArea) {
         let size = self.view.size();
-        let (rule, cell_m) = (self.config.slope_rule(), self.config.cell as f32);
         for index in runs(area, size).flatten() {
             let (surface, frames) = self.surface(index);
             self.view.cells.values_mut()[index] = surface;
             self.view.sightings.values_mut()[index] = frames;
-            self.view.gradients.values_mut()[index] = match surface {
-                Surface::Floor(_) if frames > 0 => {
-                    gradient(|away| self.sure_height_at(index, away), cell_m, rule)
-                }
-                _ => [0.0; 2],
-            };
         }
-    }
-
-    /// Height of the cell so many columns and rows away from one, m, where it was measured and is known well.
-    fn sure_height_at(&self, index: usize, [cols, rows]: [i32; 2]) -> Option<f32> {
-        let cell = cell_of(index, self.view.size());
-        let at = self
-            .cells
-            .get(Cell::new(cell.col + cols, cell.row + rows))?;
         let sure = self.config.tuning.slopes.sure as f32;
-        let known = at.known()?.estimate;
-        (known.variance_m2 <= sure * sure).then_some(known.height_m)
+        let (cells, view) = (&self.cells, &mut self.view);
+        let height = |index: usize| {
+            let known = cells.values()[index].known()?.estimate;
+            (known.variance_m2 <= sure * sure).then_some(known.height_m)
+        };
+        let rule = (self.config.cell as f32, self.config.slope_rule());
+        self.slopes
+            .find((size, area), height, rule, |index, gradient| {
+                view.gradients.values_mut()[index] = gradient;
+            });
     }
 
     /// Height of the cell so many columns and rows away from one, m.

@@ -1,5 +1,7 @@
 //! How much the ground of a cell rises: where it does so evenly, and not by a step.
 
+use geometry::{CellArea, runs};
+
 /// When ground counts as a slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SlopeRule {
@@ -14,46 +16,101 @@ pub(crate) struct SlopeRule {
 /// Most cells to each side.
 pub(crate) const MOST_REACH: usize = 8;
 
-/// Rise per metre of the cells around one along the map's axes; `height` is that of the cell so many columns and rows away, m. Along each
-/// axis the most even of the cells before, around and behind count, so that a slope has its gradient up to its end. Nothing where too
-/// few are known, or where the ground rises by steps.
-pub(crate) fn gradient(
-    height: impl Fn([i32; 2]) -> Option<f32>,
-    cell_m: f32,
-    rule: SlopeRule,
-) -> [f32; 2] {
-    let reach = rule.reach.clamp(1, MOST_REACH as i32);
-    let Some(base_m) = height([0, 0]) else {
-        return [0.0; 2];
-    };
-    let along = |axis: usize| {
-        // Heights above the cell's own by line across the axis, each the mean of the line.
-        let mut lines = [(0.0_f32, 0_u32); 4 * MOST_REACH + 1];
-        for far in -2 * reach..=2 * reach {
-            let (sum, known) = &mut lines[(far + 2 * reach) as usize];
-            for beside in -reach..=reach {
-                let at = if axis == 0 {
-                    [far, beside]
+/// Finds gradients. Keeps its buffers.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Slopes {
+    heights_m: Vec<f32>,
+    /// For each cell sum and number of the heights beside it: those of its column, and those of its row.
+    beside: [Vec<(f32, u32)>; 2],
+}
+
+impl Slopes {
+    /// Tells `take` of each cell of an area, by where it is stored, how much the ground rises per metre along the map's axes; `height` is that
+    /// of a cell, m. Along each axis the most even of the cells before, around and behind count, so that a slope has its gradient up
+    /// to its end. Nothing where too few are known, or where the ground rises by steps.
+    pub(crate) fn find(
+        &mut self,
+        (size, area): ([usize; 2], CellArea),
+        height: impl Fn(usize) -> Option<f32>,
+        (cell_m, rule): (f32, SlopeRule),
+        mut take: impl FnMut(usize, [f32; 2]),
+    ) {
+        let reach = rule.reach.clamp(1, MOST_REACH as i32);
+        self.heights_m.clear();
+        self.heights_m.resize(size[0] * size[1], f32::NAN);
+        for index in runs(area.grown(2 * reach), size).flatten() {
+            self.heights_m[index] = height(index).unwrap_or(f32::NAN);
+        }
+        self.sum_up(size, area.grown(2 * reach), reach as usize);
+        for index in runs(area, size).flatten() {
+            let rises = if self.heights_m[index].is_nan() {
+                [None; 2]
+            } else {
+                [0, 1].map(|axis| self.rise(size, (index, axis), reach as usize, rule))
+            };
+            let gradient = match rises {
+                [Some(x), Some(y)] => [x / cell_m, y / cell_m],
+                _ => [0.0; 2],
+            };
+            take(index, gradient);
+        }
+    }
+
+    /// Sums up the heights beside each cell of an area.
+    fn sum_up(&mut self, size: [usize; 2], area: CellArea, reach: usize) {
+        let [cols, rows] = size;
+        for (axis, beside) in self.beside.iter_mut().enumerate() {
+            beside.clear();
+            beside.resize(cols * rows, (0.0, 0));
+            for index in runs(area, size).flatten() {
+                let (at, count, step) = if axis == 0 {
+                    (index / cols, rows, cols)
                 } else {
-                    [beside, far]
+                    (index % cols, cols, 1)
                 };
-                if let Some(found) = height(at) {
-                    *sum += found - base_m;
-                    *known += 1;
+                let (low, high) = (at.saturating_sub(reach), (at + reach).min(count - 1));
+                let first = index - (at - low) * step;
+                let (mut sum, mut known) = (0.0, 0);
+                for other in 0..=high - low {
+                    let height_m = self.heights_m[first + other * step];
+                    if !height_m.is_nan() {
+                        sum += height_m;
+                        known += 1;
+                    }
                 }
+                beside[index] = (sum, known);
             }
         }
-        let count = (2 * reach + 1) as usize;
-        let windows = [1, 0, 2].map(|shift| shift * reach as usize);
+    }
+
+    /// The rise of a cell along an axis from one cell to the next, m.
+    fn rise(
+        &self,
+        [cols, rows]: [usize; 2],
+        (index, axis): (usize, usize),
+        reach: usize,
+        rule: SlopeRule,
+    ) -> Option<f32> {
+        let (at, count, step) = if axis == 0 {
+            (index % cols, cols, 1)
+        } else {
+            (index / cols, rows, cols)
+        };
+        let mut lines = [(0.0_f32, 0_u32); 4 * MOST_REACH + 1];
+        for (far, line) in lines[..=4 * reach].iter_mut().enumerate() {
+            let there = (at + far)
+                .checked_sub(2 * reach)
+                .filter(|there| *there < count);
+            if let Some(there) = there {
+                *line = self.beside[axis][index + there * step - at * step];
+            }
+        }
+        let windows = [reach, 0, 2 * reach];
         let even = windows
             .iter()
-            .filter_map(|&begin| even_rise(&lines[begin..begin + count], rule));
+            .filter_map(|&begin| even_rise(&lines[begin..=begin + 2 * reach], rule));
         even.min_by(|a, b| a.1.total_cmp(&b.1))
-            .map(|(rise, _)| rise / cell_m)
-    };
-    match [along(0), along(1)] {
-        [Some(x), Some(y)] => [x, y],
-        _ => [0.0; 2],
+            .map(|(rise, _)| rise)
     }
 }
 
@@ -78,7 +135,23 @@ fn even_rise(lines: &[(f32, u32)], rule: SlopeRule) -> Option<(f32, f32)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use geometry::Cell;
     use proptest::prelude::*;
+
+    /// The gradient of the middle of 13 x 13 cells.
+    fn gradient(
+        height: impl Fn([i32; 2]) -> Option<f32>,
+        cell_m: f32,
+        rule: SlopeRule,
+    ) -> [f32; 2] {
+        let middle = CellArea::of(Cell::new(6, 6));
+        let height = |index: usize| height([index as i32 % 13 - 6, index as i32 / 13 - 6]);
+        let mut found = [f32::NAN; 2];
+        Slopes::default().find(([13; 2], middle), height, (cell_m, rule), |_, gradient| {
+            found = gradient;
+        });
+        found
+    }
 
     const RULE: SlopeRule = SlopeRule {
         reach: 3,

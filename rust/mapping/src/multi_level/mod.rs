@@ -16,7 +16,7 @@ use volume::Locator;
 
 use crate::elevation::cells::Belief;
 use crate::elevation::sensed::{SensedFrame, SensedPoint};
-use crate::elevation::slope::gradient;
+use crate::elevation::slope::Slopes;
 use crate::elevation::{ElevationConfig, Gathered, SurfaceRule, cell_of};
 use crate::part::WorldModelPart;
 use crate::surface::{Pair, Underfoot, Window, check_poses, height_shift};
@@ -60,6 +60,9 @@ pub struct MultiLevel {
     frame: SensedFrame,
     gathered: Gathered,
     reached: Reached,
+    /// Of each cell height and frames of the surface by which the robot comes, and the room above it, m.
+    ways: Vec<Option<(f32, u16, f32)>>,
+    slopes: Slopes,
     view: FloorView,
 }
 
@@ -92,6 +95,8 @@ impl MultiLevel {
             frame: SensedFrame::default(),
             gathered: Gathered::default(),
             reached: Reached::new(n),
+            ways: vec![None; n * n],
+            slopes: Slopes::default(),
             view: FloorView {
                 least_gradient: elevation.tuning.slopes.least,
                 ..FloorView::unknown(window.lattice(), n)
@@ -214,7 +219,7 @@ impl MultiLevel {
     }
 
     fn surface(&self, index: usize) -> (Surface, u16) {
-        let Some((height_m, frames, room_m)) = self.way(index) else {
+        let Some((height_m, frames, room_m)) = self.ways[index] else {
             let stood = self.underfoot.height_at(index);
             return (stood.map_or(Surface::Unknown, Surface::Floor), 0);
         };
@@ -222,7 +227,7 @@ impl MultiLevel {
         let beside = CellArea::of(cell_of(index, size)).grown(1);
         let heights = geometry::runs(beside, size)
             .flatten()
-            .filter_map(|other| self.way(other));
+            .filter_map(|other| self.ways[other]);
         let lowest_m = heights.fold(height_m, |low, (other, ..)| low.min(other));
         if f64::from(height_m - lowest_m) > self.elevation.rise
             || room_m < self.headroom_m
@@ -232,15 +237,6 @@ impl MultiLevel {
         } else {
             (Surface::Floor(height_m), frames)
         }
-    }
-
-    /// Height of the way in the cell so many columns and rows away from one, m.
-    fn height_at(&self, index: usize, [cols, rows]: [i32; 2]) -> Option<f32> {
-        let cell = cell_of(index, self.view.size());
-        let at = self
-            .cells
-            .index(Cell::new(cell.col + cols, cell.row + rows))?;
-        Some(self.way(at)?.0)
     }
 
     /// Makes the view of what is reached from where the robot stands.
@@ -257,18 +253,21 @@ impl MultiLevel {
         let joined_m = self.joined_m();
         self.reached
             .spread((start, robot_m[2] as f32), joined_m, nearest);
-        let (rule, cell_m) = (self.elevation.slope_rule(), self.elevation.cell as f32);
+        for index in 0..self.cells.values().len() {
+            self.ways[index] = self.way(index);
+        }
         for index in 0..self.cells.values().len() {
             let (surface, frames) = self.surface(index);
             self.view.cells.values_mut()[index] = surface;
             self.view.sightings.values_mut()[index] = frames;
-            self.view.gradients.values_mut()[index] = match surface {
-                Surface::Floor(_) if frames > 0 => {
-                    gradient(|away| self.height_at(index, away), cell_m, rule)
-                }
-                _ => [0.0; 2],
-            };
         }
+        let place = (self.view.size(), self.view.cells.area());
+        let (ways, view) = (&self.ways, &mut self.view);
+        let height = |index: usize| ways[index].map(|way| way.0);
+        let rule = (self.elevation.cell as f32, self.elevation.slope_rule());
+        self.slopes.find(place, height, rule, |index, gradient| {
+            view.gradients.values_mut()[index] = gradient;
+        });
     }
 }
 
