@@ -18,7 +18,7 @@ impl Meadow {
     }
 
     /// Where a ray ends: at the first stem, which comes after a way that is exponential in the stems it could meet, or on the ground.
-    fn ray(&self, from: Point3, aim: [f64; 2], noise: &mut Noise) -> Ray {
+    fn ray(&self, from: Point3, aim: [f64; 2], noise: &mut Noise) -> SensorRay {
         let aim = [aim[0], aim[1], self.ground_m(aim[0], aim[1])];
         let along = [0, 1, 2].map(|axis| aim[axis] - from[axis]);
         let level_m = (along[0] * along[0] + along[1] * along[1]).sqrt();
@@ -34,7 +34,7 @@ impl Meadow {
             .unwrap_or(1.0);
         let share = (enters + free_m / level_m).min(1.0);
         let range_m = (level_m * level_m + along[2] * along[2]).sqrt();
-        Ray {
+        SensorRay {
             from,
             to: at(share + noise.normal(0.01) / range_m),
         }
@@ -148,11 +148,11 @@ fn no_ground_lies_where_a_ray_went_on() {
     };
     let one = || LoadBearing::new(LoadBearingConfig::default(), lattice, [10, 1]).unwrap();
     // A tuft that returns at one height, as ground would, and rays that go through it lower down.
-    let tuft = [Ray {
+    let tuft = [SensorRay {
         from: [-1.0, 0.05, 1.0],
         to: [0.55, 0.05, 0.2],
     }; 6];
-    let below = [Ray {
+    let below = [SensorRay {
         from: [-1.0, 0.05, 0.3],
         to: [0.95, 0.05, 0.0],
     }; 6];
