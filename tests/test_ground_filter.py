@@ -56,7 +56,9 @@ def test_bad_clouds_and_settings_are_refused_by_name() -> None:
         ground_points(np.array([[0.0, 0.0, 0.0], [0.0, np.nan, 0.0]]))
     with pytest.raises(ValueError, match=r"points must be \(n, 3\)"):
         ground_points(np.zeros((4, 2)))
-    with pytest.raises(InputError, match=r"classification.ground_filter.slope must be > 0, got -1"):
+    with pytest.raises(
+        InputError, match=r"classification\.ground_filter\.slope must be > 0, got -1"
+    ):
         ground_points(np.zeros((4, 3)), '{"slope": -1.0}')
     with pytest.raises(InputError, match="unknown field `steepness`"):
         ground_points(np.zeros((4, 3)), '{"steepness": 1.0}')

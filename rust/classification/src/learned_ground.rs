@@ -20,7 +20,7 @@ settings! {
 /// Number of features: the constant, how dense the canopy is, how far it reaches above its lowest part, and their product.
 const FEATURES: usize = 4;
 
-type Weights = SVector<f64, FEATURES>;
+type FeatureWeights = SVector<f64, FEATURES>;
 
 /// How the canopy of a cell looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,9 +44,9 @@ impl From<Support> for Canopy {
 }
 
 impl Canopy {
-    fn features(&self) -> Weights {
+    fn features(&self) -> FeatureWeights {
         let [cover, thickness_m] = [self.cover, self.thickness_m];
-        Weights::from([1.0, cover, thickness_m, cover * thickness_m])
+        FeatureWeights::from([1.0, cover, thickness_m, cover * thickness_m])
     }
 }
 
@@ -56,7 +56,7 @@ impl Canopy {
 #[derive(Debug, Clone)]
 pub struct LearnedGround {
     config: LearnedGroundConfig,
-    weights: Weights,
+    weights: FeatureWeights,
     covariance: SMatrix<f64, FEATURES, FEATURES>,
 }
 
@@ -67,7 +67,7 @@ impl LearnedGround {
         let variance = config.prior * config.prior;
         Ok(Self {
             config,
-            weights: Weights::zeros(),
+            weights: FeatureWeights::zeros(),
             covariance: SMatrix::identity() * variance,
         })
     }
@@ -153,7 +153,7 @@ mod tests {
             let mut noise = Noise::new(seed);
             let mut learned = LearnedGround::new(config.clone()).unwrap();
             let mut information = SMatrix::<f64, FEATURES, FEATURES>::identity() / (config.prior * config.prior);
-            let mut moments = Weights::zeros();
+            let mut moments = FeatureWeights::zeros();
             for _ in 0..steps {
                 let (canopy, ground_m) = cell(&mut noise);
                 learned.learn(&canopy, ground_m);

@@ -9,13 +9,17 @@ mod markov_field;
 mod moments;
 mod negative_obstacles;
 mod neighbours;
+mod primitives;
+mod robust_planes;
+mod slope_statistics;
 #[cfg(test)]
 mod synthetic;
+mod trained;
 
 pub use cloud::{CloudError, Point3};
 pub use ground_filter::{Ground, GroundFilter, GroundFilterConfig};
 pub use learned_ground::{Canopy, LearnedGround, LearnedGroundConfig};
-pub use load_bearing::{LoadBearing, LoadBearingConfig, Ray, Support};
+pub use load_bearing::{LoadBearing, LoadBearingConfig, SensorRay, Support};
 pub use markov_chain::{ChainError, MarkovChain, MarkovChainConfig};
 pub use markov_field::{MarkovField, MarkovFieldConfig};
 pub use moments::{MomentsConfig, PointClass, PointClasses, Saliency};
@@ -23,6 +27,13 @@ pub use negative_obstacles::{
     NegativeObstacle, NegativeObstacles, NegativeObstaclesConfig, RangePicture,
 };
 pub use neighbours::Neighbours;
+pub use primitives::{
+    Ball, BallTree, BallTreeConfig, Cylinder, CylinderConfig, Cylinders, GroundMesh,
+    GroundMeshConfig, TreeError,
+};
+pub use robust_planes::{FoundPlane, RobustPlanes, RobustPlanesConfig};
+pub use slope_statistics::{HeightStatistics, SlopeStatistics, SlopeStatisticsConfig};
+pub use trained::{TrainedClasses, TrainedConfig, TrainingError};
 
 use settings::TableDescription;
 
@@ -35,4 +46,10 @@ pub const TABLES: &[TableDescription] = &[
     TableDescription::of::<MarkovFieldConfig>(),
     TableDescription::of::<MomentsConfig>(),
     TableDescription::of::<NegativeObstaclesConfig>(),
+    TableDescription::of::<RobustPlanesConfig>(),
+    TableDescription::of::<GroundMeshConfig>(),
+    TableDescription::of::<BallTreeConfig>(),
+    TableDescription::of::<CylinderConfig>(),
+    TableDescription::of::<SlopeStatisticsConfig>(),
+    TableDescription::of::<TrainedConfig>(),
 ];

@@ -28,7 +28,7 @@ settings! {
 
 /// A ray of a range sensor and where it ended, in a frame with z up.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ray {
+pub struct SensorRay {
     /// Where the sensor was, m.
     pub from: Point3,
     /// What it hit, m.
@@ -50,7 +50,7 @@ pub struct Support {
 
 /// All that is known of a cell's column.
 #[derive(Debug, Clone, Default)]
-struct Column {
+struct CellReturns {
     returns_m: Vec<f64>,
     /// The lowest height at which a ray went through and on: the ground is below it.
     passed_m: Option<f64>,
@@ -64,7 +64,7 @@ struct Column {
 pub struct LoadBearing {
     config: LoadBearingConfig,
     lattice: Lattice,
-    columns: Grid<Column>,
+    columns: Grid<CellReturns>,
 }
 
 impl LoadBearing {
@@ -75,7 +75,7 @@ impl LoadBearing {
         [cols, rows]: [usize; 2],
     ) -> Result<Self, ConfigError> {
         config.check()?;
-        let columns = Grid::filled(cols, rows, Column::default());
+        let columns = Grid::filled(cols, rows, CellReturns::default());
         Ok(Self {
             config,
             lattice,
@@ -84,7 +84,7 @@ impl LoadBearing {
     }
 
     /// Takes in rays.
-    pub fn insert(&mut self, rays: &[Ray]) {
+    pub fn insert(&mut self, rays: &[SensorRay]) {
         for ray in rays {
             let end = self.lattice.cell_at(ray.to[0], ray.to[1]);
             if let Some(column) = self.columns.get_mut(end) {
@@ -95,7 +95,7 @@ impl LoadBearing {
     }
 
     /// Notes where a ray leaves the columns before its end.
-    fn pass(&mut self, ray: &Ray, end: Cell) {
+    fn pass(&mut self, ray: &SensorRay, end: Cell) {
         let along = [0, 1, 2].map(|axis| ray.to[axis] - ray.from[axis]);
         let cells = along[0].abs().max(along[1].abs()) / self.lattice.cell_m;
         // Twice a cell: no column is left out that the ray crosses in its middle.
@@ -149,7 +149,7 @@ impl LoadBearing {
     }
 
     /// The lowest returns that agree and lie below a height and below every ray that went on.
-    fn lowest(&self, column: &Column, highest_m: f64) -> Option<Support> {
+    fn lowest(&self, column: &CellReturns, highest_m: f64) -> Option<Support> {
         let config = &self.config;
         let mut all_m = column.returns_m.clone();
         all_m.sort_by(f64::total_cmp);

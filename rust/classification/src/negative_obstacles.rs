@@ -52,7 +52,7 @@ const NEGLIGIBLE_M: f64 = 1e-9;
 
 /// What some columns of a picture show in one row.
 #[derive(Debug, Clone, Copy)]
-struct Step {
+struct FanStep {
     place_m: [f64; 2],
     away_m: f64,
     height_m: f64,
@@ -89,7 +89,7 @@ impl NegativeObstacles {
     }
 
     /// What the columns show, row by row from near to far.
-    fn steps(&self, picture: &RangePicture, [first, end]: [usize; 2]) -> Vec<Step> {
+    fn steps(&self, picture: &RangePicture, [first, end]: [usize; 2]) -> Vec<FanStep> {
         let least = self.config.measured * (end - first) as f64;
         let rows = picture.hits.chunks_exact(picture.cols.max(1)).rev();
         rows.filter_map(|row| {
@@ -105,7 +105,7 @@ impl NegativeObstacles {
             let range_m = hypot(away_m, below_eye_m);
             // An error of the range moves the hit along the ray: its height by the ray's steepness.
             let sigma_m = (self.config.noise * range_m * below_eye_m).max(NEGLIGIBLE_M);
-            Some(Step {
+            Some(FanStep {
                 place_m: [x, y],
                 away_m,
                 height_m,
@@ -116,8 +116,8 @@ impl NegativeObstacles {
     }
 
     /// The ditches on the way from near to far.
-    fn along(&self, steps: &[Step], cols: [usize; 2]) -> Vec<NegativeObstacle> {
-        let low = |step: &Step| step.height_m < -self.config.depth / 2.0;
+    fn along(&self, steps: &[FanStep], cols: [usize; 2]) -> Vec<NegativeObstacle> {
+        let low = |step: &FanStep| step.height_m < -self.config.depth / 2.0;
         let mut found = Vec::new();
         let mut at = 0;
         while at < steps.len() {
@@ -137,9 +137,9 @@ impl NegativeObstacles {
     /// What lies between an edge and where the ground goes on, where it is a ditch.
     fn ditch(
         &self,
-        edge: &Step,
-        below: &[Step],
-        beyond: Option<&Step>,
+        edge: &FanStep,
+        below: &[FanStep],
+        beyond: Option<&FanStep>,
         cols: [usize; 2],
     ) -> Option<NegativeObstacle> {
         let weight: f64 = below.iter().map(|step| 1.0 / step.variance_m2).sum();

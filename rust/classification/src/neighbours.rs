@@ -5,12 +5,12 @@ use rstar::primitives::GeomWithData;
 
 use crate::cloud::Point3;
 
-type Entry = GeomWithData<Point3, usize>;
+type NumberedPoint = GeomWithData<Point3, usize>;
 
 /// The points of a cloud by place.
 #[derive(Debug)]
 pub struct Neighbours {
-    tree: RTree<Entry>,
+    tree: RTree<NumberedPoint>,
 }
 
 impl Neighbours {
@@ -20,7 +20,7 @@ impl Neighbours {
         Self {
             tree: RTree::bulk_load(
                 entries
-                    .map(|(index, point)| Entry::new(*point, index))
+                    .map(|(index, point)| NumberedPoint::new(*point, index))
                     .collect(),
             ),
         }

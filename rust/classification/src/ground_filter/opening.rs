@@ -1,7 +1,5 @@
 //! Grey-scale openings of a raster by discs (Serra 1982): what is narrower than the disc and higher than its surroundings goes.
 
-use std::collections::VecDeque;
-
 use geometry::Grid;
 
 /// The cells that stand out of the raster: for each radius from 1 to `openings` cells the raster of before is opened, and a cell that
@@ -40,16 +38,16 @@ fn turn(heights_m: &mut Grid<f64>) {
 fn lowest_within(heights_m: &Grid<f64>, radius: usize) -> Grid<f64> {
     let (cols, rows) = (heights_m.cols(), heights_m.rows());
     let mut lowest = Grid::filled(cols, rows, f64::INFINITY);
-    let mut line = vec![0.0; cols];
-    let mut queue = VecDeque::new();
-    for away in 0..=radius.min(rows.saturating_sub(1)) {
-        let width = (radius * radius - away * away).isqrt();
-        for (row, values) in heights_m.values().chunks_exact(cols).enumerate() {
-            lowest_along(values, width, &mut queue, &mut line);
+    let mut spans = Spans::new(cols, radius);
+    for (row, values) in heights_m.values().chunks_exact(cols).enumerate() {
+        spans.read(values);
+        for away in 0..=radius {
+            let width = (radius * radius - away * away).isqrt();
+            let [one, other] = spans.lowest(width);
             let mut lower = |row: usize| {
                 let to = &mut lowest.values_mut()[row * cols..(row + 1) * cols];
-                for (least, value) in to.iter_mut().zip(&line) {
-                    *least = least.min(*value);
+                for ((least, one), other) in to.iter_mut().zip(one).zip(other) {
+                    *least = lesser(*least, lesser(*one, *other));
                 }
             };
             if row + away < rows {
@@ -63,24 +61,49 @@ fn lowest_within(heights_m: &Grid<f64>, radius: usize) -> Grid<f64> {
     lowest
 }
 
-/// The lowest of the values up to `width` away on a line, by a queue that holds only what can still be lowest.
-fn lowest_along(values: &[f64], width: usize, queue: &mut VecDeque<usize>, lowest: &mut [f64]) {
-    queue.clear();
-    let mut next = 0;
-    for (at, lowest) in lowest.iter_mut().enumerate() {
-        while next < values.len() && next <= at + width {
-            while queue
-                .back()
-                .is_some_and(|&back| values[back] >= values[next])
-            {
-                let _ = queue.pop_back();
+/// Without the rules for NaN of `f64::min`, of which there is none: one instruction for several values.
+const fn lesser(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+/// The lowest of 1, 2, 4, 8 and so on values side by side, of a row with room on both sides: two of them cover any width.
+#[derive(Debug)]
+struct Spans {
+    cols: usize,
+    radius: usize,
+    tables: Vec<Vec<f64>>,
+}
+
+impl Spans {
+    fn new(cols: usize, radius: usize) -> Self {
+        let room = cols + 2 * radius;
+        let tables = (2 * radius + 1).ilog2() + 1;
+        Self {
+            cols,
+            radius,
+            tables: (0..tables).map(|_| vec![f64::INFINITY; room]).collect(),
+        }
+    }
+
+    /// Of the values of a row.
+    fn read(&mut self, values: &[f64]) {
+        self.tables[0][self.radius..self.radius + self.cols].copy_from_slice(values);
+        for level in 1..self.tables.len() {
+            let (below, above) = self.tables.split_at_mut(level);
+            let before = &below[level - 1];
+            let pairs = before.iter().zip(&before[1 << (level - 1)..]);
+            for (least, (one, other)) in above[0].iter_mut().zip(pairs) {
+                *least = lesser(*one, *other);
             }
-            queue.push_back(next);
-            next += 1;
         }
-        while queue.front().is_some_and(|&front| front + width < at) {
-            let _ = queue.pop_front();
-        }
-        *lowest = queue.front().map_or(f64::INFINITY, |&front| values[front]);
+    }
+
+    /// Two spans for each value of the row, that together reach from `width` before it to `width` behind it.
+    fn lowest(&self, width: usize) -> [&[f64]; 2] {
+        let level = (2 * width + 1).ilog2();
+        let table = &self.tables[level as usize];
+        let first = self.radius - width;
+        let last = self.radius + width + 1 - (1 << level);
+        [first, last].map(|from| &table[from..from + self.cols])
     }
 }

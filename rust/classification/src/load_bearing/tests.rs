@@ -1,6 +1,7 @@
 //! Claims about the ground under made-up grass.
 
 use super::*;
+use crate::learned_ground::{Canopy, LearnedGround, LearnedGroundConfig};
 use crate::synthetic::Noise;
 
 /// A meadow of 2 m x 2 m: rolling ground under grass of stems that are 5 mm wide.
@@ -18,7 +19,7 @@ impl Meadow {
     }
 
     /// Where a ray ends: at the first stem, which comes after a way that is exponential in the stems it could meet, or on the ground.
-    fn ray(&self, from: Point3, aim: [f64; 2], noise: &mut Noise) -> Ray {
+    fn ray(&self, from: Point3, aim: [f64; 2], noise: &mut Noise) -> SensorRay {
         let aim = [aim[0], aim[1], self.ground_m(aim[0], aim[1])];
         let along = [0, 1, 2].map(|axis| aim[axis] - from[axis]);
         let level_m = (along[0] * along[0] + along[1] * along[1]).sqrt();
@@ -34,7 +35,7 @@ impl Meadow {
             .unwrap_or(1.0);
         let share = (enters + free_m / level_m).min(1.0);
         let range_m = (level_m * level_m + along[2] * along[2]).sqrt();
-        Ray {
+        SensorRay {
             from,
             to: at(share + noise.normal(0.01) / range_m),
         }
@@ -148,11 +149,11 @@ fn no_ground_lies_where_a_ray_went_on() {
     };
     let one = || LoadBearing::new(LoadBearingConfig::default(), lattice, [10, 1]).unwrap();
     // A tuft that returns at one height, as ground would, and rays that go through it lower down.
-    let tuft = [Ray {
+    let tuft = [SensorRay {
         from: [-1.0, 0.05, 1.0],
         to: [0.55, 0.05, 0.2],
     }; 6];
-    let below = [Ray {
+    let below = [SensorRay {
         from: [-1.0, 0.05, 0.3],
         to: [0.95, 0.05, 0.0],
     }; 6];
@@ -172,4 +173,47 @@ fn no_ground_lies_where_a_ray_went_on() {
     through.insert(&below);
     assert_eq!(height_m(&through, 5), None);
     assert!(height_m(&through, 9).is_some());
+}
+
+/// Claims that take seconds.
+mod slow {
+    use super::*;
+
+    #[test]
+    fn what_the_feet_felt_of_meadows_halves_the_error_of_the_raw_surface() {
+        for seed in 0..20 {
+            let mut noise = Noise::new(40 + seed);
+            let mut learned = LearnedGround::new(LearnedGroundConfig::default()).unwrap();
+            let (mut squares, mut raw) = (0.0, 0.0);
+            for patch in 0..2 {
+                // Grass that hides the ground nearly everywhere.
+                let meadow = Meadow {
+                    stems: noise.within(300.0, 900.0),
+                    tall_m: noise.within(0.1, 0.4),
+                    phase: noise.within(0.0, 6.0),
+                };
+                let (load_bearing, surface) = found(&meadow, 2 * seed + patch);
+                for _ in 0..100 {
+                    let cell = Cell::new(
+                        noise.within(2.0, 18.0) as i32,
+                        noise.within(2.0, 18.0) as i32,
+                    );
+                    let Some(support) = surface.get(cell).copied().flatten() else {
+                        continue;
+                    };
+                    let [x, y] = load_bearing.lattice.center_of(cell);
+                    let (canopy, truth_m) = (Canopy::from(support), meadow.ground_m(x, y));
+                    let (height_m, _) = learned.predict(&canopy); // before a foot was there
+                    squares += (height_m - truth_m) * (height_m - truth_m);
+                    raw += (canopy.raw_m - truth_m) * (canopy.raw_m - truth_m);
+                    learned.learn(&canopy, truth_m + noise.normal(0.005));
+                }
+            }
+            let ratio = f64::sqrt(squares / raw);
+            assert!(
+                ratio <= 0.5,
+                "seed {seed}: {ratio:.3} of the raw surface's error"
+            );
+        }
+    }
 }

@@ -4,7 +4,7 @@
 const NOTHING: f64 = 1e-12;
 
 #[derive(Debug, Clone, Copy)]
-struct Arc {
+struct Pipe {
     to: usize,
     left: f64,
 }
@@ -12,7 +12,7 @@ struct Arc {
 /// A network of capacities; nodes are numbered from 0 on, then come the source and the sink.
 #[derive(Debug)]
 pub(super) struct Network {
-    arcs: Vec<Arc>,
+    arcs: Vec<Pipe>,
     from: Vec<Vec<usize>>,
     levels: Vec<usize>,
     next: Vec<usize>,
@@ -50,9 +50,9 @@ impl Network {
     /// An arc, and one back.
     pub(super) fn join(&mut self, a: usize, b: usize, there: f64, back: f64) {
         self.from[a].push(self.arcs.len());
-        self.arcs.push(Arc { to: b, left: there });
+        self.arcs.push(Pipe { to: b, left: there });
         self.from[b].push(self.arcs.len());
-        self.arcs.push(Arc { to: a, left: back });
+        self.arcs.push(Pipe { to: a, left: back });
     }
 
     /// Cuts at the least cost: whether each node stays on the sink's side.
@@ -77,7 +77,7 @@ impl Network {
             let node = queue[at];
             at += 1;
             for &arc in &self.from[node] {
-                let Arc { to, left } = self.arcs[arc];
+                let Pipe { to, left } = self.arcs[arc];
                 if left > NOTHING && self.levels[to] == usize::MAX {
                     self.levels[to] = self.levels[node] + 1;
                     queue.push(to);
@@ -95,7 +95,7 @@ impl Network {
         while node != sink {
             let arcs = &self.from[node];
             let found = arcs[self.next[node]..].iter().position(|&arc| {
-                let Arc { to, left } = self.arcs[arc];
+                let Pipe { to, left } = self.arcs[arc];
                 left > NOTHING && self.levels[to] == self.levels[node].wrapping_add(1)
             });
             if let Some(skipped) = found {

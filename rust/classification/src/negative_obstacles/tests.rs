@@ -85,12 +85,12 @@ fn finder(noise_m: f64) -> NegativeObstacles {
 }
 
 #[test]
-fn the_basin_is_flagged_a_metre_ahead_and_where_it_is() {
+fn the_basin_is_flagged_a_metre_ahead_and_where_it_is_with_the_robots_own_noise() {
     let mut noise = Noise::new(1);
     let mut flagged = 0;
     for seed in 0..40 {
         let ditch = basin(noise.within(1.0, 1.2), noise.within(-0.3, 0.3));
-        let found = finder(0.01).find(&picture(Some(ditch), 0.01, &mut Noise::new(seed)));
+        let found = finder(0.02).find(&picture(Some(ditch), 0.02, &mut Noise::new(seed)));
         flagged += usize::from(!found.is_empty());
         for one in &found {
             let (sin, cos) = libm::sincos(ditch.turn);
@@ -102,7 +102,7 @@ fn the_basin_is_flagged_a_metre_ahead_and_where_it_is() {
 }
 
 #[test]
-fn a_deeper_ditch_is_flagged_with_the_robots_own_noise() {
+fn a_deeper_ditch_is_flagged_with_its_depth() {
     for seed in 0..40 {
         let ditch = Ditch {
             ahead_m: 1.0 + 0.01 * seed as f64,
