@@ -16,6 +16,7 @@ _FILES: Final = {
     ),
     "robot": ("robot.toml", "Every key of a robot's `robot.toml`: what its MJCF cannot say."),
     "result": ("result.json", "Every key of a run's `result.json`."),
+    "map": ("result.json of a map", "Every key of the `result.json` that `treadwell map` writes."),
 }
 
 

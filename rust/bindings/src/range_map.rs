@@ -6,7 +6,7 @@ use numpy::{PyArray2, PyArrayMethods};
 use pilot::{PilotError, RangeMap, SightNeeds};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use sensing::{Pinhole, RangeSensor};
+use sensing::{PinholeCamera, RangeSensor};
 
 use crate::error::{bad_setting, failed, parse, run};
 use crate::octree::{Rows, rows};
@@ -61,7 +61,7 @@ impl PyRangeMap {
             let said = "a camera's size, focal and baseline must be > 0, its centre finite";
             return Err(PyValueError::new_err(said));
         }
-        let camera = Pinhole {
+        let camera = PinholeCamera {
             size_px: size,
             focal_px: focal,
             centre_px: centre,

@@ -15,9 +15,9 @@ mod two_maps;
 pub use averaging::{Averaging, AveragingConfig, AveragingTuning};
 pub use bevel::Bevel;
 pub use elevation::{
-    CellMeasurement, CellSizes, Elevation, ElevationConfig, ElevationTuning,
+    CellMeasurement, CellSizes, Elevation, ElevationConfig, ElevationTuning, EvenSlopeTuning,
     ExtendedElevationConfig, Gathered, HeightEstimate, RangeCells, RangeNoise, SightLines,
-    SlopeTuning, SurfaceRule,
+    SurfaceRule,
 };
 pub use felt_place::FeltPlace;
 pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};

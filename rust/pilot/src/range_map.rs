@@ -3,14 +3,14 @@
 use geometry::{Camera, Map, Pose, Robot};
 use mapping::{WorldModel, WorldModelNeeds};
 use segmentation::{Planes, Segmenter, SegmenterNeeds};
-use sensing::{Frame, Pinhole, RangeSensor, Scan, ScanConfig};
+use sensing::{Frame, PinholeCamera, RangeSensor, Scan, ScanConfig};
 use settings::{Tables, read};
 
 use crate::{PilotError, SEGMENTERS, WORLD_MODELS};
 
 /// What finds surfaces in the pictures of a camera.
-struct Sight {
-    camera: Pinhole,
+struct SurfaceSight {
+    camera: PinholeCamera,
     /// For each pixel that the segmenter sees the one of the picture.
     pixels: Vec<Option<u32>>,
     segmenter: Box<dyn Segmenter>,
@@ -34,7 +34,7 @@ pub struct RangeMap {
     /// The map.
     pub model: Box<dyn WorldModel>,
     tables: Tables,
-    sight: Option<Sight>,
+    sight: Option<SurfaceSight>,
 }
 
 impl RangeMap {
@@ -54,7 +54,11 @@ impl RangeMap {
     }
 
     /// Gives the pictures a camera.
-    pub fn set_camera(&mut self, camera: Pinhole, needs: SightNeeds<'_>) -> Result<(), PilotError> {
+    pub fn set_camera(
+        &mut self,
+        camera: PinholeCamera,
+        needs: SightNeeds<'_>,
+    ) -> Result<(), PilotError> {
         let config: ScanConfig = read(&self.tables, "scan")?;
         let scan = Scan::pooled(camera.centred(needs.baseline_m), needs.pool, config);
         let made = SegmenterNeeds {
@@ -62,7 +66,7 @@ impl RangeMap {
             camera: scan.camera,
         };
         let [width, height] = camera.size_px;
-        self.sight = Some(Sight {
+        self.sight = Some(SurfaceSight {
             camera,
             pixels: camera.centred_pixels(),
             segmenter: SEGMENTERS.find(needs.segmenter)?(&made)?,
@@ -79,7 +83,7 @@ impl RangeMap {
     }
 
     /// The camera of the pictures.
-    pub fn camera(&self) -> Option<&Pinhole> {
+    pub fn camera(&self) -> Option<&PinholeCamera> {
         self.sight.as_ref().map(|sight| &sight.camera)
     }
 
@@ -172,7 +176,7 @@ mod tests {
 
     #[test]
     fn a_picture_and_its_points_give_the_same_elevation() {
-        let camera = Pinhole {
+        let camera = PinholeCamera {
             size_px: [40, 30],
             focal_px: [50.0, 48.0],
             centre_px: [18.0, 16.0],

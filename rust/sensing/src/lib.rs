@@ -11,7 +11,7 @@ mod sense_fault;
 pub use camera::Intrinsics;
 pub use frame_watch::{FrameWatch, FrameWatchConfig};
 pub use observation::{Frame, Observation, ObservationError, TICK_NS, TICK_S};
-pub use range_sensor::{Pinhole, RangeSensor};
+pub use range_sensor::{PinholeCamera, RangeSensor};
 pub use scan::{Scan, ScanConfig, ScanError, ScanTuning};
 pub use self_filter::{SelfFilter, SelfFilterConfig, SelfFilterTuning};
 pub use sense_fault::SenseFault;

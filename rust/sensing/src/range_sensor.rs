@@ -4,7 +4,7 @@ use crate::Intrinsics;
 
 /// A pinhole camera without distortion; pixel centres at integer coordinates. The frame is optical: x right, y down, z forward.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pinhole {
+pub struct PinholeCamera {
     /// Columns and rows, pixels.
     pub size_px: [usize; 2],
     /// Focal length along columns and rows, pixels.
@@ -17,14 +17,14 @@ pub struct Pinhole {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RangeSensor {
     /// Depths along the optical axis, row by row.
-    Picture(Pinhole),
+    Picture(PinholeCamera),
     /// Points of lines that a laser draws, by its angle. All are seen from the frame's origin.
     ScanLines,
     /// Points in no order, all seen from the frame's origin.
     Cloud,
 }
 
-impl Pinhole {
+impl PinholeCamera {
     /// The points of depths, m along the axis, row by row; NaN where a depth is not positive and finite.
     pub fn points<'a>(
         &'a self,
@@ -84,7 +84,7 @@ mod tests {
         fn the_centred_camera_sees_the_same_places_to_half_a_pixel(
             focal in prop::array::uniform2(30.0..60.0f64), off in prop::array::uniform2(-4.0..4.0f64), slope in -0.2..0.2f64,
         ) {
-            let camera = Pinhole {
+            let camera = PinholeCamera {
                 size_px: [32, 24],
                 focal_px: focal,
                 centre_px: [15.5 + off[0], 11.5 + off[1]],
@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn what_was_not_seen_has_no_point() {
-        let camera = Pinhole {
+        let camera = PinholeCamera {
             size_px: [4, 1],
             focal_px: [2.0, 3.0],
             centre_px: [1.0, 0.0],

@@ -7,7 +7,7 @@
 
 use geometry::Grid;
 
-use super::cells::{Belief, HeightCell};
+use super::cells::{HeightCell, Revision};
 use super::sensed::SensedFrame;
 use super::{CellMeasurement, Gathered, RangeNoise, SurfaceRule};
 
@@ -27,15 +27,15 @@ impl RangeCells {
     /// Nothing was seen: cells from `nearest_m` on up to `max_range_m` away, with sides of `cell_m` at one metre.
     pub fn new(cell_m: f64, nearest_m: f64, max_range_m: f64) -> Self {
         /// More would not fit into memory.
-        const MOST: f64 = 4096.0;
-        let cols = (std::f64::consts::TAU / cell_m).ceil().clamp(4.0, MOST);
-        let rows = ((1.0 / nearest_m - 1.0 / max_range_m) / cell_m).ceil();
-        let rows = rows.clamp(1.0, MOST);
+        const MOST: usize = 4096;
+        let cols = (std::f64::consts::TAU / cell_m).ceil() as usize;
+        let rows = ((1.0 / nearest_m - 1.0 / max_range_m) / cell_m).ceil() as usize;
+        let [cols, rows] = [cols, rows].map(|count| count.clamp(1, MOST));
         Self {
             cell_m,
             nearest_m,
             centre_m: [0.0; 2],
-            cells: Grid::filled(cols as usize, rows as usize, HeightCell::UNKNOWN),
+            cells: Grid::filled(cols, rows, HeightCell::UNKNOWN),
             gathered: Gathered::default(),
             error_m: 0.0,
         }
@@ -59,7 +59,7 @@ impl RangeCells {
         &mut self,
         robot_m: [f64; 3],
         frame: &SensedFrame,
-        (noise, rule, belief): (RangeNoise, SurfaceRule, Belief),
+        (noise, rule, revision): (RangeNoise, SurfaceRule, Revision),
     ) {
         self.move_to([robot_m[0], robot_m[1]]);
         self.gathered.begin(self.cells.values().len());
@@ -70,7 +70,7 @@ impl RangeCells {
             }
         }
         let cells = self.cells.values_mut();
-        let take = |measured: CellMeasurement| cells[measured.cell].measure(&measured, belief);
+        let take = |measured: CellMeasurement| cells[measured.cell].measure(&measured, revision);
         self.gathered.measure(rule, take);
     }
 

@@ -17,7 +17,7 @@ pub(crate) struct HeightCell {
 
 /// When a height is given up.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Belief {
+pub(crate) struct Revision {
     /// Heights further apart than so many standard deviations of both are of two surfaces.
     pub gate: f32,
     /// Frames in a row that must contradict a height before it is given up.
@@ -47,17 +47,17 @@ impl HeightCell {
     /// Takes in what a frame measured. Of the same surface it is fused; a higher one takes its place at once, since a cell at an edge
     /// has the height of what is above; a lower one once nothing else has been seen for a while. With a gap between them the lower one counts
     /// at once.
-    pub(crate) fn measure(&mut self, measured: &CellMeasurement, belief: Belief) {
+    pub(crate) fn measure(&mut self, measured: &CellMeasurement, revision: Revision) {
         let surface = measured.surface;
-        if self.frames > 0 && measured.low_m - self.estimate.height_m > belief.gap_m {
+        if self.frames > 0 && measured.low_m - self.estimate.height_m > revision.gap_m {
             return;
         }
         self.passed = 0;
-        if self.frames == 0 || self.estimate.height_m - surface.height_m > belief.gap_m {
+        if self.frames == 0 || self.estimate.height_m - surface.height_m > revision.gap_m {
             (self.estimate, self.frames, self.lower) = (surface, 1, 0);
             return;
         }
-        let same = self.estimate.innovation_squared(surface) <= belief.gate * belief.gate;
+        let same = self.estimate.innovation_squared(surface) <= revision.gate * revision.gate;
         if same {
             self.estimate = self.estimate.fused(surface);
             self.frames = self.frames.saturating_add(1);
@@ -66,7 +66,7 @@ impl HeightCell {
             (self.estimate, self.frames, self.lower) = (surface, 1, 0);
         } else {
             self.lower += 1;
-            if self.lower >= belief.patience {
+            if self.lower >= revision.patience {
                 (self.estimate, self.frames, self.lower) = (surface, 1, 0);
             }
         }
@@ -79,15 +79,15 @@ impl HeightCell {
 
     /// Takes in that a frame's sight lines passed over the cell, the lowest of them at this height, m, as sure as a variance, m², says;
     /// whether the height that was known is given up.
-    pub(crate) fn pass(&mut self, bound_m: f32, variance_m2: f32, belief: Belief) -> bool {
-        let least_m = belief.gate * (self.estimate.variance_m2 + variance_m2).sqrt();
-        self.estimate.height_m - bound_m > least_m && self.contradict(belief)
+    pub(crate) fn pass(&mut self, bound_m: f32, variance_m2: f32, revision: Revision) -> bool {
+        let least_m = revision.gate * (self.estimate.variance_m2 + variance_m2).sqrt();
+        self.estimate.height_m - bound_m > least_m && self.contradict(revision)
     }
 
     /// Takes in that a frame contradicts the height; whether it is given up.
-    pub(crate) fn contradict(&mut self, belief: Belief) -> bool {
+    pub(crate) fn contradict(&mut self, revision: Revision) -> bool {
         self.passed += 1;
-        let given_up = self.passed >= belief.patience;
+        let given_up = self.passed >= revision.patience;
         if given_up {
             *self = Self::UNKNOWN;
         }
@@ -99,7 +99,7 @@ impl HeightCell {
 mod tests {
     use super::*;
 
-    const BELIEF: Belief = Belief {
+    const REVISION: Revision = Revision {
         gate: 3.0,
         patience: 3,
         gap_m: f32::INFINITY,
@@ -118,26 +118,26 @@ mod tests {
     }
 
     fn height_after(heights_m: &[f32]) -> f32 {
-        height_with(heights_m, BELIEF)
+        height_with(heights_m, REVISION)
     }
 
-    fn height_with(heights_m: &[f32], belief: Belief) -> f32 {
+    fn height_with(heights_m: &[f32], revision: Revision) -> f32 {
         let mut cell = HeightCell::UNKNOWN;
         for &height_m in heights_m {
-            cell.measure(&seen(height_m), belief);
+            cell.measure(&seen(height_m), revision);
         }
         cell.estimate.height_m
     }
 
     #[test]
     fn with_a_gap_what_is_lower_counts_whichever_was_seen_first() {
-        let belief = Belief {
+        let revision = Revision {
             gap_m: 0.6,
-            ..BELIEF
+            ..REVISION
         };
-        assert_eq!(height_with(&[0.0, 0.7, 0.7], belief), 0.0);
-        assert_eq!(height_with(&[0.7, 0.0], belief), 0.0);
-        assert_eq!(height_with(&[0.0, 0.5], belief), 0.5);
+        assert_eq!(height_with(&[0.0, 0.7, 0.7], revision), 0.0);
+        assert_eq!(height_with(&[0.7, 0.0], revision), 0.0);
+        assert_eq!(height_with(&[0.0, 0.5], revision), 0.5);
     }
 
     #[test]
@@ -152,13 +152,13 @@ mod tests {
     #[test]
     fn what_sight_lines_pass_below_is_given_up_and_what_they_pass_above_is_not() {
         let mut cell = HeightCell::UNKNOWN;
-        cell.measure(&seen(0.3), BELIEF);
+        cell.measure(&seen(0.3), REVISION);
         for _ in 0..10 {
-            assert!(!cell.pass(0.29, 1e-6, BELIEF));
+            assert!(!cell.pass(0.29, 1e-6, REVISION));
         }
-        assert!(!cell.pass(0.1, 1e-6, BELIEF));
-        assert!(!cell.pass(0.1, 1e-6, BELIEF));
-        assert!(cell.pass(0.1, 1e-6, BELIEF));
+        assert!(!cell.pass(0.1, 1e-6, REVISION));
+        assert!(!cell.pass(0.1, 1e-6, REVISION));
+        assert!(cell.pass(0.1, 1e-6, REVISION));
         assert_eq!(cell.known(), None);
     }
 }

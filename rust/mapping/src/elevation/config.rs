@@ -77,7 +77,7 @@ settings! {
         /// Of the height between two surfaces, the share by which each may be uneven from cell to cell.
         uneven: f64 = 0.15, "1", within(0.0, 0.5);
         /// How slopes are told from steps.
-        slopes: SlopeTuning;
+        slopes: EvenSlopeTuning;
         /// Points in the area of a coarse cell, a finer cell in it, with which the finer ones are dense enough.
         dense: f64 = 2.0, "1", POSITIVE;
         /// How a frame's height is fitted to the heights that are known.
@@ -87,7 +87,7 @@ settings! {
 
 settings! {
     /// How slopes are told from steps.
-    pub struct SlopeTuning("navigation.elevation.tuning.slopes") {
+    pub struct EvenSlopeTuning("navigation.elevation.tuning.slopes") {
         /// How far to each side the ground must rise evenly to be a slope.
         reach: f64 = 0.12, "m", within(0.001, 100.0);
         /// Of the mean difference from cell to cell, the share by which each may differ from it.

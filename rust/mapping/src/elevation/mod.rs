@@ -19,30 +19,32 @@ mod filling;
 mod gathered;
 mod pyramid;
 pub(crate) mod sensed;
+mod showing;
 mod sight_lines;
 pub(crate) mod slope;
+mod taking_in;
 
-use geometry::{Cell, CellArea, Grid, Map, Pose, Robot, runs};
+use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use segmentation::Planes;
 use settings::{ConfigError, Part, Table, TableDescription, read};
 use volume::Locator;
 
 use crate::part::WorldModelPart;
-use crate::surface::{Pair, Underfoot, Window, check_poses, height_shift};
-use crate::{FloorView, Insertion, MapError, Surface, WorldModel};
+use crate::surface::{Underfoot, Window, check_poses};
+use crate::{FloorView, Insertion, MapError, WorldModel};
 pub use by_range::RangeCells;
-use cells::{Belief, HeightCell};
-pub use config::{CellSizes, ElevationConfig, ElevationTuning, SlopeTuning};
-use edges::{EdgeRule, upper_surface};
+use cells::{HeightCell, Revision};
+pub use config::{CellSizes, ElevationConfig, ElevationTuning, EvenSlopeTuning};
+use edges::EdgeRule;
 pub use estimate::{HeightEstimate, RangeNoise};
 pub use extended::ExtendedElevationConfig;
 pub(crate) use extended::PART as EXTENDED;
-use filling::{FillRule, Filled, fill};
+use filling::Filled;
 pub use gathered::{CellMeasurement, Gathered, SurfaceRule};
 use pyramid::Pyramid;
-use sensed::{SensedFrame, SensedPoint};
+use sensed::SensedFrame;
 pub use sight_lines::SightLines;
-use slope::Slopes;
+use slope::SlopeFinder;
 
 /// How it is listed and made.
 pub(crate) const PART: WorldModelPart = Part {
@@ -71,7 +73,7 @@ pub struct Elevation {
     lines: SightLines,
     /// Above which nothing is, as far as sight lines tell, m; infinite where none passed.
     bounds_m: Grid<f32>,
-    slopes: Slopes,
+    slopes: SlopeFinder,
     view: FloorView,
 }
 
@@ -104,7 +106,7 @@ impl Elevation {
             gathered: Gathered::default(),
             lines: SightLines::new(config.cell, config.max_range),
             bounds_m: Grid::filled(n, n, f32::INFINITY),
-            slopes: Slopes::default(),
+            slopes: SlopeFinder::default(),
             view: FloorView {
                 least_gradient: config.tuning.slopes.least,
                 ..FloorView::unknown(window.lattice(), n)
@@ -149,8 +151,8 @@ impl Elevation {
         }
     }
 
-    const fn belief(&self) -> Belief {
-        Belief {
+    const fn revision(&self) -> Revision {
+        Revision {
             gate: self.config.gate as f32,
             patience: self.config.tuning.patience,
             gap_m: self.gap_m,
@@ -170,180 +172,6 @@ impl Elevation {
         self.underfoot.shift(cols, rows);
         self.view.shift(cols, rows, self.window.lattice());
         self.view.cells.area()
-    }
-
-    /// The shift that brings the frame onto the heights that are known.
-    fn shift_m(&self, locator: &Locator<2>) -> Option<f64> {
-        let pair = |point: &SensedPoint| {
-            let [x_m, y_m, z_m] = point.at_m;
-            let known = self.cells.values()[locator.index_at([x_m, y_m])?].known()?;
-            Some(Pair {
-                residual_m: f64::from(known.estimate.height_m) - z_m,
-                weight: 1,
-            })
-        };
-        let pairs = self.frame.points.iter().filter_map(pair);
-        let gate = (self.config.match_gate, self.config.min_pairs);
-        height_shift(pairs, gate, &self.config.tuning.matching)
-    }
-
-    /// Takes in the frame that was read; the cells that it changed.
-    fn take_in(&mut self, robot_m: [f64; 3], locator: &Locator<2>) -> CellArea {
-        let (rule, belief, noise) = (self.rule(), self.belief(), self.config.noise());
-        let (size, area) = (self.view.size(), self.view.cells.area());
-        if let Some(known) = &mut self.by_range {
-            known.insert(robot_m, &self.frame, (noise, rule, belief));
-            let lattice = self.window.lattice();
-            for (index, cell) in self.cells.values_mut().iter_mut().enumerate() {
-                let found = known.at(lattice.center_of(cell_of(index, size)));
-                *cell = found.unwrap_or(HeightCell::UNKNOWN);
-            }
-            return area;
-        }
-        self.gathered.begin(size[0] * size[1]);
-        for point in &self.frame.points {
-            let [x_m, y_m, z_m] = point.at_m;
-            if let Some(cell) = locator.index_at([x_m, y_m]) {
-                (self.gathered).add(cell, z_m as f32, noise.variance_m2(point.range_m));
-            }
-        }
-        let mut touched = CellArea::EMPTY;
-        let cells = self.cells.values_mut();
-        self.gathered.measure(rule, |measured| {
-            cells[measured.cell].measure(&measured, belief);
-            touched.include(cell_of(measured.cell, size));
-        });
-        self.pyramid.insert(&self.frame, noise, rule, belief);
-        if self.config.clearing {
-            touched.join(self.look_below_sight_lines(belief, noise));
-        }
-        if self.config.fill > 0.0 {
-            self.fill_gaps(touched.grown(self.fill_rule().cells).within(area));
-        }
-        touched
-    }
-
-    /// Takes back what sight lines pass below; the cells in which something was.
-    fn look_below_sight_lines(&mut self, belief: Belief, noise: RangeNoise) -> CellArea {
-        let eye_m = self.frame.eye_m;
-        self.lines.begin(eye_m);
-        for point in &self.frame.points {
-            self.lines.add(point.at_m);
-        }
-        self.lines.finish();
-        let (size, lattice) = (self.view.size(), self.window.lattice());
-        let mut cleared = CellArea::EMPTY;
-        for (index, cell) in self.cells.values_mut().iter_mut().enumerate() {
-            if self.gathered.holds(index) {
-                continue;
-            }
-            let at = cell_of(index, size);
-            let centre_m = lattice.center_of(at);
-            let Some(bound_m) = self.lines.bound_m(centre_m) else {
-                continue;
-            };
-            let lowest = &mut self.bounds_m.values_mut()[index];
-            *lowest = lowest.min(bound_m as f32);
-            if cell.known().is_some() {
-                let range_m = geometry::hypot(centre_m[0] - eye_m[0], centre_m[1] - eye_m[1]);
-                if cell.pass(bound_m as f32, noise.variance_m2(range_m as f32), belief) {
-                    cleared.include(at);
-                }
-            }
-        }
-        cleared
-    }
-
-    /// What may be filled.
-    fn fill_rule(&self) -> FillRule {
-        FillRule {
-            cells: (self.config.fill / self.config.cell + 0.5) as i32,
-            gate: self.config.gate as f32,
-            slope: (self.config.rise / self.config.cell.max(self.config.fill)) as f32,
-        }
-    }
-
-    /// Fills the gaps of an area that lie between cells that the frame saw.
-    fn fill_gaps(&mut self, area: CellArea) {
-        let (rule, eye_m, lattice) = (self.fill_rule(), self.frame.eye_m, self.window.lattice());
-        let size = self.view.size();
-        for index in runs(area, size).flatten() {
-            if self.cells.values()[index].known().is_none() {
-                let cell = cell_of(index, size);
-                if let Some(found) = fill(&self.cells, &lattice, (cell, eye_m), rule) {
-                    self.filled.values_mut()[index] = found;
-                }
-            }
-        }
-    }
-
-    /// Height of a cell and how many frames saw it: measured, filled, or that of a coarser grid.
-    fn height(&self, index: usize) -> Option<(f32, u16)> {
-        if let Some(known) = self.cells.values()[index].known() {
-            return Some((known.estimate.height_m, known.frames));
-        }
-        let filled = self.filled.values()[index];
-        if !filled.height_m.is_nan() {
-            return Some((filled.height_m, filled.frames));
-        }
-        let centre_m = self
-            .window
-            .lattice()
-            .center_of(cell_of(index, self.view.size()));
-        let coarse = self.pyramid.at(centre_m)?;
-        Some((coarse.estimate.height_m, coarse.frames))
-    }
-
-    /// What a cell counts as: an obstacle where it lies too far above one beside it.
-    fn surface(&self, index: usize) -> (Surface, u16) {
-        let Some((own_m, frames)) = self.height(index) else {
-            let stood = self.underfoot.height_at(index);
-            return (stood.map_or(Surface::Unknown, Surface::Floor), 0);
-        };
-        let size = self.view.size();
-        let cell = cell_of(index, size);
-        let away = |away: [i32; 2]| self.height_at(index, away);
-        let height_m = upper_surface(own_m, away, self.edge_rule()).unwrap_or(own_m);
-        let beside = CellArea::of(cell).grown(1);
-        let heights = runs(beside, size)
-            .flatten()
-            .filter_map(|other| self.height(other));
-        let lowest_m = heights.fold(height_m, |low, (other, _)| low.min(other));
-        if f64::from(height_m - lowest_m) > self.config.rise {
-            (Surface::Obstacle(height_m), 0)
-        } else {
-            (Surface::Floor(height_m), frames)
-        }
-    }
-
-    /// Brings the view up to date in an area.
-    fn refresh(&mut self, area: CellArea) {
-        let size = self.view.size();
-        for index in runs(area, size).flatten() {
-            let (surface, frames) = self.surface(index);
-            self.view.cells.values_mut()[index] = surface;
-            self.view.sightings.values_mut()[index] = frames;
-        }
-        let sure = self.config.tuning.slopes.sure as f32;
-        let (cells, view) = (&self.cells, &mut self.view);
-        let height = |index: usize| {
-            let known = cells.values()[index].known()?.estimate;
-            (known.variance_m2 <= sure * sure).then_some(known.height_m)
-        };
-        let rule = (self.config.cell as f32, self.config.slope_rule());
-        self.slopes
-            .find((size, area), height, rule, |index, gradient| {
-                view.gradients.values_mut()[index] = gradient;
-            });
-    }
-
-    /// Height of the cell so many columns and rows away from one, m.
-    fn height_at(&self, index: usize, [cols, rows]: [i32; 2]) -> Option<f32> {
-        let cell = cell_of(index, self.view.size());
-        let at = self
-            .cells
-            .index(Cell::new(cell.col + cols, cell.row + rows))?;
-        Some(self.height(at)?.0)
     }
 }
 

@@ -4,14 +4,17 @@
 use geometry::Grid;
 use volume::Locator;
 
-use super::cells::{Belief, HeightCell};
+use super::cells::{HeightCell, Revision};
 use super::sensed::SensedFrame;
 use super::{Gathered, RangeNoise, SurfaceRule};
 use crate::surface::Window;
 
+/// Cells of the finer grid in a cell.
+const FINER: u32 = 4;
+
 /// One grid of the pyramid.
 #[derive(Debug, Clone)]
-struct Level {
+struct CoarseGrid {
     window: Window,
     cells: Grid<HeightCell>,
     /// Most points of a frame in each cell.
@@ -23,7 +26,7 @@ struct Level {
 /// The coarser grids, the finest of them first.
 #[derive(Debug, Clone)]
 pub(super) struct Pyramid {
-    levels: Vec<Level>,
+    levels: Vec<CoarseGrid>,
     gathered: Gathered,
 }
 
@@ -38,12 +41,11 @@ impl Pyramid {
         let level = |level: usize| {
             let times = 1_usize << level;
             let cells = cells.div_ceil(times) + 1;
-            Level {
+            CoarseGrid {
                 window: Window::new(cell_m * times as f64, cells, wander),
                 cells: Grid::filled(cells, cells, HeightCell::UNKNOWN),
                 points: Grid::filled(cells, cells, 0),
-                // A cell holds four of the finer grid.
-                dense: (4.0 * dense).ceil() as u32,
+                dense: (f64::from(FINER) * dense).ceil() as u32,
             }
         };
         Self {
@@ -69,7 +71,7 @@ impl Pyramid {
         frame: &SensedFrame,
         noise: RangeNoise,
         rule: SurfaceRule,
-        belief: Belief,
+        revision: Revision,
     ) {
         let Self { levels, gathered } = self;
         for level in levels {
@@ -83,7 +85,7 @@ impl Pyramid {
                 }
             }
             gathered.measure(rule, |measured| {
-                level.cells.values_mut()[measured.cell].measure(&measured, belief);
+                level.cells.values_mut()[measured.cell].measure(&measured, revision);
                 let most = &mut level.points.values_mut()[measured.cell];
                 *most = measured.points.max(*most);
             });

@@ -12,21 +12,23 @@ pub struct SightLines {
     rises: Vec<f32>,
 }
 
+/// Directions and ranges at most: more would not fit into memory.
+const MOST: usize = 4096;
+/// Sides of the square around the eye by which directions are told.
+const SIDES: usize = 4;
 /// No sight line.
 const NONE: f32 = f32::INFINITY;
 
 impl SightLines {
     /// For cells of this side and points up to `max_range_m` away; two directions are a cell apart at the longest range.
     pub fn new(cell_m: f64, max_range_m: f64) -> Self {
-        /// More would not fit into memory.
-        const MOST: f64 = 4096.0;
-        let bins = (max_range_m / cell_m).ceil().clamp(1.0, MOST) as usize;
+        let bins = (max_range_m / cell_m).ceil() as usize;
         let sectors = (std::f64::consts::TAU * max_range_m / cell_m).ceil();
         Self {
             eye_m: [0.0; 3],
             cell_m: cell_m as f32,
-            sectors: sectors.clamp(4.0, MOST) as usize,
-            bins,
+            sectors: (sectors as usize).clamp(SIDES, MOST),
+            bins: bins.clamp(1, MOST),
             rises: Vec::new(),
         }
     }
@@ -98,11 +100,11 @@ impl SightLines {
         let turns = if x < 0.0 {
             2.0 - along
         } else if along < 0.0 {
-            4.0 + along
+            SIDES as f32 + along
         } else {
             along
         };
-        let sector = (turns * 0.25 * self.sectors as f32) as usize;
+        let sector = (turns / SIDES as f32 * self.sectors as f32) as usize;
         sector.min(self.sectors - 1)
     }
 }

@@ -18,13 +18,13 @@ pub(crate) const MOST_REACH: usize = 8;
 
 /// Finds gradients. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Slopes {
+pub(crate) struct SlopeFinder {
     heights_m: Vec<f32>,
     /// For each cell sum and number of the heights beside it: those of its column, and those of its row.
     beside: [Vec<(f32, u32)>; 2],
 }
 
-impl Slopes {
+impl SlopeFinder {
     /// Tells `take` of each cell of an area, by where it is stored, how much the ground rises per metre along the map's axes; `height` is that
     /// of a cell, m. Along each axis the most even of the cells before, around and behind count, so that a slope has its gradient up
     /// to its end. Nothing where too few are known, or where the ground rises by steps.
@@ -147,7 +147,7 @@ mod tests {
         let middle = CellArea::of(Cell::new(6, 6));
         let height = |index: usize| height([index as i32 % 13 - 6, index as i32 / 13 - 6]);
         let mut found = [f32::NAN; 2];
-        Slopes::default().find(([13; 2], middle), height, (cell_m, rule), |_, gradient| {
+        SlopeFinder::default().find(([13; 2], middle), height, (cell_m, rule), |_, gradient| {
             found = gradient;
         });
         found

@@ -14,9 +14,9 @@ use segmentation::Planes;
 use settings::{ConfigError, Part, Table, TableDescription, read, require};
 use volume::Locator;
 
-use crate::elevation::cells::Belief;
+use crate::elevation::cells::Revision;
 use crate::elevation::sensed::{SensedFrame, SensedPoint};
-use crate::elevation::slope::Slopes;
+use crate::elevation::slope::SlopeFinder;
 use crate::elevation::{ElevationConfig, Gathered, SurfaceRule, cell_of};
 use crate::part::WorldModelPart;
 use crate::surface::{Pair, Underfoot, Window, check_poses, height_shift};
@@ -62,7 +62,7 @@ pub struct MultiLevel {
     reached: Reached,
     /// Of each cell height and frames of the surface by which the robot comes, and the room above it, m.
     ways: Vec<Option<(f32, u16, f32)>>,
-    slopes: Slopes,
+    slopes: SlopeFinder,
     view: FloorView,
 }
 
@@ -96,7 +96,7 @@ impl MultiLevel {
             gathered: Gathered::default(),
             reached: Reached::new(n),
             ways: vec![None; n * n],
-            slopes: Slopes::default(),
+            slopes: SlopeFinder::default(),
             view: FloorView {
                 least_gradient: elevation.tuning.slopes.least,
                 ..FloorView::unknown(window.lattice(), n)
@@ -112,8 +112,8 @@ impl MultiLevel {
         self.cells.get(cell).map_or(&[], Patches::seen)
     }
 
-    const fn belief(&self) -> Belief {
-        Belief {
+    const fn revision(&self) -> Revision {
+        Revision {
             gate: self.elevation.gate as f32,
             patience: self.elevation.tuning.patience,
             gap_m: self.headroom_m,
@@ -159,11 +159,11 @@ impl MultiLevel {
         map_from_robot: &Pose<Map, Robot>,
         locator: &Locator<2>,
     ) {
-        let (belief, noise) = (self.belief(), self.elevation.noise());
+        let (revision, noise) = (self.revision(), self.elevation.noise());
         let rule = SurfaceRule {
-            gate: belief.gate,
+            gate: revision.gate,
             share: self.elevation.tuning.surface_share as f32,
-            gap_m: belief.gap_m,
+            gap_m: revision.gap_m,
         };
         self.gathered.begin(self.cells.values().len());
         for point in &self.frame.points {
@@ -175,17 +175,17 @@ impl MultiLevel {
         let cells = self.cells.values_mut();
         let eye_m = self.frame.eye_m[2] as f32;
         self.gathered.measure(rule, |measured| {
-            cells[measured.cell].measure(&measured, eye_m, belief);
+            cells[measured.cell].measure(&measured, eye_m, revision);
         });
         if self.elevation.clearing
             && let Some(seen) = SeenThrough::new(planes, map_from_robot)
         {
-            self.look_through(&seen, belief);
+            self.look_through(&seen, revision);
         }
     }
 
     /// Takes back surfaces behind which the frame saw something. Those of cells that it measured something in are left to that.
-    fn look_through(&mut self, seen: &SeenThrough<'_>, belief: Belief) {
+    fn look_through(&mut self, seen: &SeenThrough<'_>, revision: Revision) {
         let (size, lattice) = (self.view.size(), self.window.lattice());
         let (noise, behind) = (self.elevation.noise(), self.config.tuning.behind as f32);
         for (index, patches) in self.cells.values_mut().iter_mut().enumerate() {
@@ -200,7 +200,7 @@ impl MultiLevel {
                 };
                 let sigma_m = (noise.variance_m2(range_m) + patch.estimate().variance_m2).sqrt();
                 let gone = beyond_m > behind * sigma_m + lattice.cell_m as f32;
-                gone && patch.top.contradict(belief)
+                gone && patch.top.contradict(revision)
             });
         }
     }

@@ -1,6 +1,6 @@
 //! The surfaces of a cell, one above the other: what a multi-level surface map keeps (004, Fig. 36.11d).
 
-use crate::elevation::cells::{Belief, HeightCell};
+use crate::elevation::cells::{HeightCell, Revision};
 use crate::elevation::{CellMeasurement, HeightEstimate};
 
 /// A surface and the vertical extent of what it is on. What was only seen from below its height has no surface that is known.
@@ -57,7 +57,7 @@ impl Patches {
 
     /// Takes in what a frame measured of a thing from an eye at this height, m: it is the one that is known where there is no room for the
     /// robot between both, else another one. From below its underside or its side is seen, not its surface.
-    pub(super) fn measure(&mut self, measured: &CellMeasurement, eye_m: f32, belief: Belief) {
+    pub(super) fn measure(&mut self, measured: &CellMeasurement, eye_m: f32, revision: Revision) {
         let count = usize::from(self.count);
         let known = &mut self.patches[..count];
         let (low_m, high_m) = (measured.low_m, measured.surface.height_m);
@@ -69,14 +69,14 @@ impl Patches {
         let nearest = known
             .iter_mut()
             .min_by(|a, b| apart_m(a).total_cmp(&apart_m(b)));
-        let joined = nearest.filter(|patch| apart_m(patch) <= belief.gap_m);
+        let joined = nearest.filter(|patch| apart_m(patch) <= revision.gap_m);
         let from_below = high_m > eye_m;
         let Some(patch) = joined else {
             let mut top = HeightCell::UNKNOWN;
             if from_below {
                 top.estimate = measured.surface;
             } else {
-                top.measure(measured, belief);
+                top.measure(measured, revision);
             }
             self.add(Patch { top, low_m });
             return;
@@ -89,11 +89,11 @@ impl Patches {
             }
         } else {
             // Within the thing nothing is another thing.
-            let belief = Belief {
+            let revision = Revision {
                 gap_m: f32::INFINITY,
-                ..belief
+                ..revision
             };
-            patch.top.measure(measured, belief);
+            patch.top.measure(measured, revision);
             let lowered = patch.top.frames == 1 && patch.top.estimate.height_m < before_m;
             patch.low_m = if lowered {
                 low_m
@@ -145,7 +145,7 @@ impl Patches {
 mod tests {
     use super::*;
 
-    const BELIEF: Belief = Belief {
+    const REVISION: Revision = Revision {
         gate: 3.0,
         patience: 3,
         gap_m: 0.5,
@@ -169,7 +169,7 @@ mod tests {
                 low_m,
                 points: 3,
             };
-            patches.measure(&measured, eye_m, BELIEF);
+            patches.measure(&measured, eye_m, REVISION);
         }
         let seen = patches.seen().iter();
         seen.map(|one| [one.low_m, one.estimate().height_m])
