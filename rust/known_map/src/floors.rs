@@ -1,5 +1,7 @@
 //! The floors of the known map, on all its levels, and the way over them to a goal.
 
+mod repair;
+
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -213,6 +215,16 @@ impl Floors {
                 queue.push(Reverse(((away_m as f32).to_bits(), place)));
             }
         }
+        self.spread(queue, blocked, field);
+    }
+
+    /// Finds what leads more cheaply over places in a queue, which holds their costs as bits.
+    fn spread(
+        &self,
+        mut queue: BinaryHeap<Reverse<(u32, u32)>>,
+        blocked: &[bool],
+        field: &mut CostField,
+    ) {
         while let Some(Reverse((bits, place))) = queue.pop() {
             let cost_m = f32::from_bits(bits);
             if cost_m > field.cost_m[place as usize] {

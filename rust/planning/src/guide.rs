@@ -109,14 +109,19 @@ impl Guided {
         })
     }
 
-    /// Takes note of what stands in the window that the map does not have, on the robot's level, and looks for the way anew.
-    fn look_again(&mut self, robot_m: [f64; 3], goal: &Goal) {
+    /// Takes note of what stands in the window that the map does not have, on the robot's level, and repairs the way.
+    fn look_again(&mut self, robot_m: [f64; 3]) {
+        let mut changed = vec![];
         for place in 0..self.floors.count() as u32 {
             if let Some(spare_m) = self.spare_m(place, robot_m) {
-                self.blocked[place as usize] = spare_m < 0.0;
+                let is_blocked = spare_m < 0.0;
+                let was_blocked = std::mem::replace(&mut self.blocked[place as usize], is_blocked);
+                if is_blocked != was_blocked {
+                    changed.push(place);
+                }
             }
         }
-        (self.floors).aim(&target(goal), &self.blocked, &mut self.field);
+        (self.floors).repair(&changed, &self.blocked, &mut self.field);
         self.sent = None;
     }
 
@@ -233,7 +238,7 @@ impl Planner for Guided {
             return Ok(plan);
         }
         // What breaks a way is avoided by the plan that has it, not by the one after the next frame.
-        self.look_again(at_m, goal);
+        self.look_again(at_m);
         let (plan, _) = self.plan_near(&near, goal)?;
         Ok(plan)
     }

@@ -20,9 +20,9 @@ pub(crate) enum ChosenSearch {
     /// A*, unless the way before is provably still a cheapest one.
     AStar(Kept),
     /// D* Lite or Delayed D*; where its cells lie, and the share of changed cells from which it begins anew.
-    DStarLite(Box<DStarLite>, Window, f64),
+    DStarLite(Box<DStarLite>, SearchedCells, f64),
     /// Field D*, likewise.
-    FieldDStar(Box<FieldDStar>, Window, f64),
+    FieldDStar(Box<FieldDStar>, SearchedCells, f64),
     /// ARA*.
     AraStar(Box<AraStar>, AraStarConfig),
 }
@@ -36,12 +36,12 @@ impl Default for ChosenSearch {
 impl ChosenSearch {
     pub(crate) fn d_star_lite(config: &DStarLiteConfig) -> Self {
         let search = Box::new(DStarLite::new(config.delayed));
-        Self::DStarLite(search, Window::default(), config.anew)
+        Self::DStarLite(search, SearchedCells::default(), config.anew)
     }
 
     pub(crate) fn field_d_star(config: &FieldDStarConfig) -> Self {
         let search = Box::new(FieldDStar::new(config.pieces));
-        Self::FieldDStar(search, Window::default(), config.anew)
+        Self::FieldDStar(search, SearchedCells::default(), config.anew)
     }
 
     pub(crate) fn ara_star(config: AraStarConfig) -> Self {
@@ -122,12 +122,12 @@ impl ChosenSearch {
 
 /// Where the cells of a search lie.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Window {
+pub(crate) struct SearchedCells {
     lattice: Lattice,
     size: [usize; 2],
 }
 
-impl Window {
+impl SearchedCells {
     /// Lies where the terrain does; says by how many columns and rows it has moved, where it has and nothing else has changed.
     fn move_to(&mut self, terrain: &Terrain) -> Option<(isize, isize)> {
         let now = Self {

@@ -40,7 +40,7 @@ pub struct BoundedRoute {
 pub struct AraStar {
     known: Known,
     /// What is to be expanded in this pass, by estimate; what is dearer than `known` says is out of date.
-    open: BinaryHeap<Reverse<Entry>>,
+    open: BinaryHeap<Reverse<OpenCell>>,
     /// In which pass of which search a cell was expanded last.
     closed: Vec<u64>,
     /// Counts the passes of all searches.
@@ -53,13 +53,13 @@ pub struct AraStar {
 
 /// A cell to expand: its estimate and what the way to it costs, as bits (numbers that are not negative are ordered like them).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Entry {
+struct OpenCell {
     estimate: u64,
     cost: u64,
     cell: u32,
 }
 
-impl Entry {
+impl OpenCell {
     fn new(cell: u32, cost: f64, estimate: f64) -> Self {
         let [estimate, cost] = [estimate, cost].map(f64::to_bits);
         Self {
@@ -97,7 +97,7 @@ impl AraStar {
         self.inconsistent.clear();
         self.expanded = 0;
         let mut epsilon = config.epsilon;
-        let first = Entry::new(start as u32, 0.0, epsilon * heuristic(start));
+        let first = OpenCell::new(start as u32, 0.0, epsilon * heuristic(start));
         self.open.push(Reverse(first));
         let mut best = Best {
             cost: f64::INFINITY,
@@ -175,7 +175,7 @@ impl AraStar {
                     self.inconsistent.push(next as u32);
                 } else {
                     let estimate = cost + epsilon * heuristic(next);
-                    let entry = Entry::new(next as u32, cost, estimate);
+                    let entry = OpenCell::new(next as u32, cost, estimate);
                     self.open.push(Reverse(entry));
                 }
             };
@@ -210,7 +210,7 @@ impl AraStar {
         cells.dedup();
         let entry = |cell: u32| {
             let cost = self.known.cost(cell as usize);
-            Reverse(Entry::new(
+            Reverse(OpenCell::new(
                 cell,
                 cost,
                 cost + epsilon * heuristic(cell as usize),

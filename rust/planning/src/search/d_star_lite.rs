@@ -31,22 +31,22 @@ settings! {
 }
 
 /// The order in which cells are looked at again: estimate of the whole way through a cell, then the way from it.
-type Key = (Cost, Cost);
+type QueueKey = (Cost, Cost);
 /// Of a cell that is not to be looked at.
-const NOT_QUEUED: Key = (Cost::MAX, Cost::MAX);
+const NOT_QUEUED: QueueKey = (Cost::MAX, Cost::MAX);
 
 /// What is known of a cell.
 #[derive(Debug, Clone, Copy)]
-struct Field {
+struct CellCosts {
     /// Cost of the way from it to an end, as it was found.
     found: Cost,
-    /// The same by what its neighbours say; where the two differ, the cell is looked at again.
+    /// That cost by what its neighbours say; where the two differ, the cell is looked at again.
     ahead: Cost,
     /// Where it stands in the queue.
-    key: Key,
+    key: QueueKey,
 }
 
-const UNKNOWN: Field = Field {
+const UNKNOWN: CellCosts = CellCosts {
     found: NEVER,
     ahead: NEVER,
     key: NOT_QUEUED,
@@ -78,9 +78,9 @@ pub struct DStarLite {
     pub(super) ends: Vec<Cost>,
     /// The cells where a way may end.
     end_cells: Vec<(u32, f64)>,
-    field: Vec<Field>,
+    field: Vec<CellCosts>,
     /// Entries that are not what `field` says are out of date.
-    queue: BinaryHeap<Reverse<(Key, u32)>>,
+    queue: BinaryHeap<Reverse<(QueueKey, u32)>>,
     pub(super) start: usize,
     /// How far the start has moved: estimates of before are too high by no more than this.
     moved: Cost,
@@ -222,8 +222,8 @@ impl DStarLite {
         }
     }
 
-    fn key(&self, cell: usize) -> Key {
-        let Field { found, ahead, .. } = self.field[cell];
+    fn key(&self, cell: usize) -> QueueKey {
+        let CellCosts { found, ahead, .. } = self.field[cell];
         let least = found.min(ahead);
         (least + self.away(cell) + self.moved, least)
     }

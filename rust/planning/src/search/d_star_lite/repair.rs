@@ -1,8 +1,8 @@
 //! What is looked at again, until the way from the start is the cheapest.
 
 use super::{
-    ANYWHERE, Cells, Cost, DStarLite, Field, Key, NEVER, NOT_QUEUED, Reverse, STRAIGHT, around,
-    step,
+    ANYWHERE, CellCosts, Cells, Cost, DStarLite, NEVER, NOT_QUEUED, QueueKey, Reverse, STRAIGHT,
+    around, step,
 };
 
 /// The queue may hold so many entries a cell, those that are out of date included, before these are thrown out.
@@ -38,7 +38,7 @@ impl DStarLite {
         self.put(cell, key);
     }
 
-    fn put(&mut self, cell: usize, key: Key) {
+    fn put(&mut self, cell: usize, key: QueueKey) {
         if self.field[cell].key == key {
             return;
         }
@@ -54,7 +54,7 @@ impl DStarLite {
     }
 
     /// The cell that is to be looked at next.
-    fn first(&mut self) -> Option<(Key, usize)> {
+    fn first(&mut self) -> Option<(QueueKey, usize)> {
         while let Some(&Reverse((key, cell))) = self.queue.peek() {
             if self.field[cell as usize].key == key {
                 return Some((key, cell as usize));
@@ -155,7 +155,7 @@ impl DStarLite {
     pub(super) fn raise_on_way(&mut self) -> bool {
         let (mut here, mut any) = (self.start, false);
         loop {
-            let Field { found, ahead, key } = self.field[here];
+            let CellCosts { found, ahead, key } = self.field[here];
             if found < ahead {
                 // Costs that hold fall along the way: one that goes in a circle comes to one that does not a second time.
                 if any && key != NOT_QUEUED {
