@@ -11,7 +11,7 @@ from treadwell.cli.options import JsonOption, NoUserCodeOption, SeedOption
 from treadwell.cli.output import INTERRUPTED, PASSED, write_json, write_message, write_table
 
 if TYPE_CHECKING:
-    from treadwell.map_making.document import MapResult
+    from treadwell.map_result import MapResult
 
 EXAMPLE: Final = (
     "Example: treadwell map terrain.pcd --world-model elevation --set elevation.cell=0.1"

@@ -12,7 +12,7 @@ import numpy as np
 from treadwell.errors import InputError, RecordingError
 from treadwell.files import write_text
 from treadwell.interruption import Interruption
-from treadwell.map_making.document import MappedSource, MapResult, counted, times
+from treadwell.map_result import MappedSource, MapResult, counted, times
 from treadwell.map_making.mapper import Mapper
 from treadwell.map_making.placing import sensed
 from treadwell.map_making.recording import MapRecording

@@ -6,7 +6,7 @@ from typing import Any, Final
 from treadwell.additions import known
 from treadwell.components import CLASS_NAME, COMPONENTS
 from treadwell.judging.result import Result
-from treadwell.map_making.document import MapResult
+from treadwell.map_result import MapResult
 from treadwell.reference.parameters import all_tables
 from treadwell.robot.file import RobotFile
 from treadwell.scenario.model import Scenario

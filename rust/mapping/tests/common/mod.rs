@@ -1,6 +1,7 @@
 //! Boxes on a floor, seen by a perfect depth camera: the worlds of the map's tests and of its bench.
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its part")]
 
+pub mod heights;
 pub mod terrain;
 
 use geometry::{Camera, Cell, Map, Pose, Robot};

@@ -13,7 +13,7 @@ SCHEMA: Final = "treadwell.map/1"
 class Strict(BaseModel):
     """A table that allows nothing but its keys."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
 
 
 class MappedSource(Strict):
