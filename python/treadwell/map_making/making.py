@@ -12,12 +12,12 @@ import numpy as np
 from treadwell.errors import InputError, RecordingError
 from treadwell.files import write_text
 from treadwell.interruption import Interruption
-from treadwell.map_result import MappedSource, MapResult, counted, times
 from treadwell.map_making.mapper import Mapper
 from treadwell.map_making.placing import sensed
 from treadwell.map_making.recording import MapRecording
 from treadwell.map_making.request import MapRequest
 from treadwell.map_memory import RememberedMap
+from treadwell.map_result import MappedSource, MapResult, counted, times
 from treadwell.recording.cut_off import RESULT
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import PICTURE, write_map

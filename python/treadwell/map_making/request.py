@@ -31,7 +31,7 @@ class MapTable(Table):
     """Which axis of the poses' world points up; the map's z does."""
     ground: Literal["auto", "filter", "all"] = "auto"
     """Which points of a cloud are ground: `filter` tells it from what stands on it, by
-    `classification.ground_filter`; `all` takes every point; `auto` filters landscapes from above."""
+    `classification.ground_filter`; `all` takes all; `auto` filters landscapes from above."""
     baseline: Annotated[float, Field(ge=1e-3, le=10.0)] = 0.075
     """Depths are taken to be as precise as eyes so far apart see them, m."""
     columns: Annotated[int, Field(ge=16, le=4096)] = 160
