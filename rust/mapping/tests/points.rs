@@ -89,12 +89,6 @@ fn no_less_true_than_a_sample_a_cell_with_two_thirds_of_the_elements_of_the_grid
         let (ours, theirs) = (error_m(&adaptive), error_m(&each));
         assert!(ours <= theirs, "{ours} {theirs}");
         let (few, many) = (adaptive.count(), occupied.len());
-        println!(
-            "seed {seed}: {few} samples, {} without joining, {many} cells of a grid, error {:.2} mm, {:.2} mm",
-            each.count(),
-            1e3 * ours,
-            1e3 * theirs
-        );
         assert!(3 * few <= 2 * many, "{few} {many}");
     }
 }
@@ -173,12 +167,6 @@ fn scattered_plants_cost_less_than_a_wall_as_high() {
         let bush = costs([0.96, -0.64], [1.14, -0.36]);
         let level = costs([0.3, -0.9], [0.7, 0.9]);
         let mean = |costs: &[f32]| costs.iter().sum::<f32>() / costs.len() as f32;
-        println!(
-            "seed {seed}: wall {:.3}, bush {:.3}, level {:.3}",
-            mean(&wall),
-            mean(&bush),
-            mean(&level)
-        );
         let least = wall.iter().copied().fold(1.0, f32::min);
         assert!(
             mean(&bush) < 0.7 * mean(&wall),

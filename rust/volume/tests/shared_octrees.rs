@@ -25,7 +25,9 @@ fn insert(tree: &mut Octree, (eye_m, ends): &Frame) {
 
 fn of(frames: &[&Frame]) -> Octree {
     let mut made = tree();
-    frames.iter().for_each(|frame| insert(&mut made, frame));
+    for frame in frames {
+        insert(&mut made, frame);
+    }
     made
 }
 
@@ -112,10 +114,6 @@ fn a_hundred_distinct_maps_after_a_loop_with_resampling_take_a_third_of_full_cop
     let maps = || particles.iter().map(|one| &one.0);
     let alone: usize = maps().map(|map| Octree::bytes_together([map])).sum();
     let together = Octree::bytes_together(maps());
-    println!(
-        "together {together} B, {alone} B as copies: {:.3}",
-        together as f64 / alone as f64
-    );
     let mut known: Vec<_> = maps().map(leaves).collect();
     known.sort();
     known.dedup();
