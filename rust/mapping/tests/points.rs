@@ -120,7 +120,7 @@ fn the_order_of_insertion_of_far_places_does_not_matter_to_what_is_known_there()
         samples.end_frame();
         let mut all = Vec::new();
         samples.spans(1, 0.5, |column, span| {
-            all.push((column, span.high_m.to_bits()))
+            all.push((column, span.high_m.to_bits()));
         });
         all.sort_unstable();
         all

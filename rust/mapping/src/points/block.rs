@@ -1,20 +1,8 @@
 //! A block of the sparse grid: the samples of 4 x 4 x 4 cells, fewer where the surface is flat.
 
+use super::cells::EDGE;
 use super::moments::Moments;
 use super::sample::Sample;
-
-/// Cells along a side.
-pub(super) const EDGE: usize = 4;
-
-/// Which bit a cell has, by its place in the block; cells above each other are neighbours.
-pub(super) const fn cell_in_block([col, row, layer]: [usize; 3]) -> usize {
-    (row * EDGE + col) * EDGE + layer
-}
-
-/// The place in the block of a bit's cell.
-pub(super) const fn place_in_block(cell: usize) -> [usize; 3] {
-    [cell / EDGE % EDGE, cell / (EDGE * EDGE), cell % EDGE]
-}
 
 /// The cells of the column that a cell is in.
 const fn column_of(cell: usize) -> u64 {

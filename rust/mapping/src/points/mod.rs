@@ -8,6 +8,7 @@
 //! Planners see, of each column of cells, the surface that is reached from where the robot stands, as with [`crate::MultiLevel`].
 
 mod block;
+mod cells;
 mod columns;
 mod config;
 mod moments;

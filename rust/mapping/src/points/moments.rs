@@ -67,7 +67,7 @@ impl Moments {
         }
     }
 
-    /// The same points, moved, m.
+    /// Moments of the points when all are moved by so much, m.
     #[must_use]
     pub fn moved(&self, by_m: [f32; 3]) -> Self {
         Self {

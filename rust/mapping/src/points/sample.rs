@@ -1,6 +1,6 @@
 //! A sample of a surface: where it is, how it lies, and which cells of its block it covers.
 
-use super::block::{EDGE, cell_in_block, place_in_block};
+use super::cells::{EDGE, cell_in_block, place_in_block};
 use super::moments::{Moments, Shape};
 
 /// A sample: a Gaussian over the points that were fused in it.
@@ -128,19 +128,17 @@ impl Sample {
     pub(super) fn split(&self, cell_m: f32) -> impl Iterator<Item = Self> + use<> {
         let whole = *self;
         let share = self.cells.count_ones();
-        (0..u64::BITS as usize).filter_map(move |cell| {
-            (whole.cells >> cell & 1 == 1).then(|| {
-                let moments = Moments {
-                    weight: whole.moments.weight / share as f32,
-                    count: (whole.moments.count / share).max(1),
-                    mean_m: whole.at_cell(cell, cell_m),
-                    covariance_m2: [0.0; 6],
-                };
-                let frames = whole.frames;
-                let mut one = Self::of(moments, 1 << cell, whole.from_above);
-                (one.frames, one.fresh) = (frames, false);
-                one
-            })
+        let own = (0..u64::BITS as usize).filter(move |cell| whole.cells >> cell & 1 == 1);
+        own.map(move |cell| {
+            let moments = Moments {
+                weight: whole.moments.weight / share as f32,
+                count: (whole.moments.count / share).max(1),
+                mean_m: whole.at_cell(cell, cell_m),
+                covariance_m2: [0.0; 6],
+            };
+            let mut one = Self::of(moments, 1 << cell, whole.from_above);
+            (one.frames, one.fresh) = (whole.frames, false);
+            one
         })
     }
 

@@ -1,6 +1,7 @@
 //! All samples: blocks of a sparse grid, into which points go one by one.
 
-use super::block::{Block, EDGE, cell_in_block};
+use super::block::Block;
+use super::cells::{EDGE, cell_in_block};
 use super::moments::Moments;
 use super::sample::{Sample, Span};
 use super::sparse::{GridKey, SparseGrid};
@@ -98,12 +99,11 @@ impl Samples {
                 ask(self.blocks.position(other), other, place, local(other));
             }
         }
-        let (position, key, place, sample) = match best {
-            Some((position, key, place, sample, _)) => (position, key, place, Some(sample)),
-            None => {
-                let fresh = self.blocks.position_or_insert(key, Block::default);
-                (fresh, key, place, None)
-            }
+        let (position, key, place, sample) = if let Some((position, key, place, sample, _)) = best {
+            (position, key, place, Some(sample))
+        } else {
+            let fresh = self.blocks.position_or_insert(key, Block::default);
+            (fresh, key, place, None)
         };
         let point = Moments::of(local(key), variance_m2);
         let (_, block) = self.blocks.at_mut(position);
