@@ -114,7 +114,7 @@ impl Points {
     }
 
     /// What going through a cell costs, by what stands on its ground: how high that is, in heights that can be climbed, the less the more it is
-    /// scattered in all directions and the fewer rays it stops. From 0, level ground, to 1; none where nothing was seen.
+    /// scattered in all directions. From 0, level ground, to 1; none where nothing was seen.
     ///
     /// The moments are those of all samples around, so that what is no surface, as plants, is told by its true distribution in three dimensions
     /// (004, section 36.3.2; Lalonde et al. 2006).
