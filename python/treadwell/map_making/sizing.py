@@ -16,6 +16,7 @@ _TABLES: Final = {
     "elevation": "elevation",
     "extended_elevation": "elevation",
     "multi_level": "elevation",
+    "points": "elevation",
 }
 """World model -> the table that has its cells."""
 _COUNTS: Final = {"fog": "cells", "averaging": "cells", "elevation": "window"}

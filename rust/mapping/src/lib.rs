@@ -9,6 +9,7 @@ mod model;
 mod multi_level;
 mod overlay;
 mod part;
+mod points;
 pub mod surface;
 mod two_maps;
 
@@ -24,6 +25,9 @@ pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldM
 pub use multi_level::{MultiLevel, MultiLevelConfig, MultiLevelTuning, Patch};
 pub use overlay::{FeltConfig, Overlay};
 pub use part::{WorldModelNeeds, WorldModelPart};
+pub use points::{
+    GridKey, Moments, Points, PointsConfig, PointsTuning, Sample, Samples, Shape, Span, SparseGrid,
+};
 pub use surface::{Fog, FogConfig, FogTuning, OverheadTuning};
 pub use two_maps::{
     BeamsTuning, EmptySightTuning, KnownSurfacesTuning, TwoMaps, TwoMapsConfig, TwoMapsTuning,
@@ -38,4 +42,5 @@ pub const PARTS: &[WorldModelPart] = &[
     elevation::PART,
     elevation::EXTENDED,
     multi_level::PART,
+    points::PART,
 ];

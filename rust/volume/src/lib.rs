@@ -25,6 +25,7 @@
 
 mod bins;
 mod columns;
+mod evidence;
 mod fan;
 mod frustum;
 mod locator;
@@ -43,6 +44,7 @@ mod solid;
 mod sweep;
 mod voxels;
 
+pub use evidence::{EvidenceConfig, EvidenceGrid, WideBeam};
 pub use locator::Locator;
 pub use modes::{Clearing, Update};
 pub use occupancy::OccupancyGrid;

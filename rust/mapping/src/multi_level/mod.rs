@@ -6,8 +6,8 @@
 
 mod config;
 mod patches;
-mod reached;
-mod seen_through;
+pub(crate) mod reached;
+pub(crate) mod seen_through;
 
 use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use segmentation::Planes;

@@ -6,7 +6,7 @@ use geometry::{Cell, Grid};
 
 /// The heights that the robot comes by on its way to each cell. Reused from frame to frame.
 #[derive(Debug, Clone)]
-pub(super) struct Reached {
+pub(crate) struct Reached {
     heights_m: Grid<f32>,
     queue: VecDeque<Cell>,
 }
@@ -24,7 +24,7 @@ const BESIDE: [[i32; 2]; 8] = [
 ];
 
 impl Reached {
-    pub(super) fn new(cells: usize) -> Self {
+    pub(crate) fn new(cells: usize) -> Self {
         Self {
             heights_m: Grid::filled(cells, cells, f32::NAN),
             queue: VecDeque::new(),
@@ -34,7 +34,7 @@ impl Reached {
     /// Goes from `start`, where the robot stands at a height, m, to all cells, the nearest first. `surface` is the height of the surface of
     /// a cell that is nearest to a height by which one comes; where there is none, or none that is within `joined_m`, the way goes on at
     /// the height that it had.
-    pub(super) fn spread(
+    pub(crate) fn spread(
         &mut self,
         (start, height_m): (Cell, f32),
         joined_m: f32,
@@ -68,7 +68,7 @@ impl Reached {
 
     /// The height by which one comes to the cell that is stored at an index, m; NaN where the start lies outside.
     #[inline]
-    pub(super) fn height_m(&self, index: usize) -> f32 {
+    pub(crate) fn height_m(&self, index: usize) -> f32 {
         self.heights_m.values()[index]
     }
 }

@@ -7,7 +7,7 @@ use sensing::Intrinsics;
 
 /// Looks places up in a frame that is a picture.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct SeenThrough<'a> {
+pub(crate) struct SeenThrough<'a> {
     camera: Intrinsics,
     camera_from_map: Isometry3<f64>,
     eye_in_robot: [f64; 3],
@@ -16,7 +16,7 @@ pub(super) struct SeenThrough<'a> {
 
 impl<'a> SeenThrough<'a> {
     /// None where the frame is no picture: what a sight line passes is not known by its pixel then.
-    pub(super) fn new(planes: &'a Planes, map_from_robot: &Pose<Map, Robot>) -> Option<Self> {
+    pub(crate) fn new(planes: &'a Planes, map_from_robot: &Pose<Map, Robot>) -> Option<Self> {
         Some(Self {
             camera: planes.camera?,
             camera_from_map: (*map_from_robot * planes.robot_from_camera).inner.inverse(),
@@ -28,7 +28,7 @@ impl<'a> SeenThrough<'a> {
     /// How far a place of the map frame is from the eye and how much further the line of sight through it goes, both m; none outside of
     /// the picture, and where nothing was seen.
     #[inline]
-    pub(super) fn beyond_m(&self, at_m: [f64; 3]) -> Option<(f32, f32)> {
+    pub(crate) fn beyond_m(&self, at_m: [f64; 3]) -> Option<(f32, f32)> {
         let at = self.camera_from_map * Point3::from(at_m);
         if at.z <= 0.0 {
             return None;

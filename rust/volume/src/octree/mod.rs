@@ -31,7 +31,8 @@ use config::Beam;
 use insertion::Workspace;
 use nodes::Nodes;
 
-/// What is known of the space around the origin of the map frame: 2^16 voxels along each axis.
+/// What is known of the space around the origin of the map frame: 2^16 voxels along each axis. Clones share what neither has written
+/// into since, so that a hundred particles may have a map each.
 #[derive(Debug, Clone)]
 pub struct Octree {
     /// The parameters.
@@ -135,6 +136,16 @@ impl Octree {
     /// Bytes that the tree takes, without what is kept for insertion.
     pub fn bytes(&self) -> usize {
         self.nodes.bytes()
+    }
+
+    /// Bytes that several trees take together, without what is kept for insertion: what clones share counts once (Fairfield et al. 2007;
+    /// 004, ref. 36.19).
+    pub fn bytes_together<'a>(trees: impl IntoIterator<Item = &'a Self>) -> usize {
+        let mut places = std::collections::BTreeSet::new();
+        let each = trees
+            .into_iter()
+            .map(|tree| tree.nodes.own_bytes(&mut places));
+        each.sum()
     }
 
     /// Voxels a metre.

@@ -1,5 +1,8 @@
 //! The tree itself: what is uniform is one leaf, what is not known is absent, and the lowest levels are bricks.
 
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
 use super::brick::{Brick, EDGE, cube, index};
 use super::config::Beam;
 use super::key::{Key, child_of};
@@ -28,12 +31,13 @@ struct Slot {
     child: usize,
 }
 
-/// Always pruned: no branch has eight equal leaves, no brick is uniform or unknown.
+/// Always pruned: no branch has eight equal leaves, no brick is uniform or unknown. A clone shares branches and bricks with what it was made
+/// from, each until one of both writes into it.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Nodes {
     pub(super) root: NodeLink,
-    branches: Vec<[NodeLink; 8]>,
-    bricks: Vec<Brick>,
+    branches: Vec<Arc<[NodeLink; 8]>>,
+    bricks: Vec<Arc<Brick>>,
     free_branches: Vec<u32>,
     free_bricks: Vec<u32>,
 }
@@ -51,7 +55,7 @@ impl Nodes {
 
     #[inline]
     pub(super) fn brick_mut(&mut self, at: u32) -> &mut Brick {
-        &mut self.bricks[at as usize]
+        Arc::make_mut(&mut self.bricks[at as usize])
     }
 
     /// What is known of a voxel.
@@ -73,6 +77,30 @@ impl Nodes {
         let branches = self.branches.len() - self.free_branches.len();
         let bricks = self.bricks.len() - self.free_bricks.len();
         branches * size_of::<[NodeLink; 8]>() + bricks * size_of::<Brick>()
+    }
+
+    /// Adds where its branches and bricks lie to `places`; bytes of those that were not in it yet, and of the lists that find them.
+    pub(super) fn own_bytes(&self, places: &mut BTreeSet<usize>) -> usize {
+        // Beside what is shared stand two counts of those that share it.
+        const COUNTS: usize = 2 * size_of::<usize>();
+        let lists = (self.branches.capacity() + self.bricks.capacity()) * size_of::<usize>()
+            + (self.free_branches.capacity() + self.free_bricks.capacity()) * size_of::<u32>();
+        let mut own = |place: usize, bytes: usize| {
+            if places.insert(place) {
+                bytes + COUNTS
+            } else {
+                0
+            }
+        };
+        let branches = self.branches.iter();
+        let branches: usize = branches
+            .map(|one| own(Arc::as_ptr(one).addr(), size_of::<[NodeLink; 8]>()))
+            .sum();
+        let bricks = self.bricks.iter();
+        let bricks: usize = bricks
+            .map(|one| own(Arc::as_ptr(one).addr(), size_of::<Brick>()))
+            .sum();
+        lists + branches + bricks
     }
 
     /// The brick of a voxel, made of what is known there. It has to be [`Self::prune`]d when its voxels have been changed.
@@ -181,7 +209,7 @@ impl Nodes {
 
     fn set(&mut self, slot: Slot, link: NodeLink) {
         match slot.branch {
-            Some(at) => self.branches[at as usize][slot.child] = link,
+            Some(at) => Arc::make_mut(&mut self.branches[at as usize])[slot.child] = link,
             None => self.root = link,
         }
     }
@@ -195,7 +223,8 @@ pub(super) fn voxel_in_brick(key: Key) -> usize {
 }
 
 /// Stores something where something was given back, or behind all.
-fn store<T>(all: &mut Vec<T>, free: &mut Vec<u32>, item: T) -> u32 {
+fn store<T>(all: &mut Vec<Arc<T>>, free: &mut Vec<u32>, item: T) -> u32 {
+    let item = Arc::new(item);
     if let Some(at) = free.pop() {
         all[at as usize] = item;
         return at;
