@@ -24,7 +24,14 @@ pub(crate) fn upper_surface(
     rule: EdgeRule,
 ) -> Option<f32> {
     let along = |way: [i32; 2], steps: i32| height([steps * way[0], steps * way[1]]);
-    let uppers = WAYS.iter().filter_map(|&way| {
+    // Every pair holds the cell two steps away, or one that is as high.
+    let may_differ = |way: &&[i32; 2]| match (along(**way, -2), along(**way, 2)) {
+        (Some(before), Some(behind)) => {
+            (before - behind).abs() >= (1.0 - 2.0 * rule.uneven) * rule.least_m
+        }
+        _ => false,
+    };
+    let uppers = WAYS.iter().filter(may_differ).filter_map(|&way| {
         let pair = |sign: i32, steps: i32| {
             Some([along(way, sign * steps)?, along(way, sign * (steps + 1))?])
         };

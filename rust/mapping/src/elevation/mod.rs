@@ -73,6 +73,8 @@ pub struct Elevation {
     lines: SightLines,
     /// Above which nothing is, as far as sight lines tell, m; infinite where none passed.
     bounds_m: Grid<f32>,
+    /// Height and frames of each cell, as far as the last refresh asked for them; NaN where nothing is known.
+    heights: Vec<(f32, u16)>,
     slopes: SlopeFinder,
     view: FloorView,
 }
@@ -106,6 +108,7 @@ impl Elevation {
             gathered: Gathered::default(),
             lines: SightLines::new(config.cell, config.max_range),
             bounds_m: Grid::filled(n, n, f32::INFINITY),
+            heights: Vec::new(),
             slopes: SlopeFinder::default(),
             view: FloorView {
                 least_gradient: config.tuning.slopes.least,

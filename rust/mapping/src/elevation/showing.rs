@@ -1,6 +1,6 @@
 //! What is shown of what is known: floor, obstacle or unknown, and slopes.
 
-use geometry::{Cell, CellArea, runs};
+use geometry::{CellArea, runs};
 
 use super::edges::upper_surface;
 use super::{Elevation, cell_of};
@@ -26,19 +26,27 @@ impl Elevation {
 
     /// What a cell counts as: an obstacle where it lies too far above one beside it.
     fn surface(&self, index: usize) -> (Surface, u16) {
-        let Some((own_m, frames)) = self.height(index) else {
+        let (own_m, frames) = self.heights[index];
+        if own_m.is_nan() {
             let stood = self.underfoot.height_at(index);
             return (stood.map_or(Surface::Unknown, Surface::Floor), 0);
-        };
+        }
         let size = self.view.size();
-        let cell = cell_of(index, size);
-        let away = |away: [i32; 2]| self.height_at(index, away);
+        let (col, row) = (index % size[0], index / size[0]);
+        let away = |[cols, rows]: [i32; 2]| {
+            let at = [col as i32 + cols, row as i32 + rows];
+            let inside = (0..2).all(|axis| at[axis] >= 0 && (at[axis] as usize) < size[axis]);
+            let height_m =
+                inside.then(|| self.heights[at[1] as usize * size[0] + at[0] as usize].0);
+            height_m.filter(|height_m| !height_m.is_nan())
+        };
         let height_m = upper_surface(own_m, away, self.edge_rule()).unwrap_or(own_m);
-        let beside = CellArea::of(cell).grown(1);
+        let beside = CellArea::of(cell_of(index, size)).grown(1);
         let heights = runs(beside, size)
             .flatten()
-            .filter_map(|other| self.height(other));
-        let lowest_m = heights.fold(height_m, |low, (other, _)| low.min(other));
+            .map(|other| self.heights[other].0);
+        // What is no number is not lower.
+        let lowest_m = heights.fold(height_m, f32::min);
         if f64::from(height_m - lowest_m) > self.config.rise {
             (Surface::Obstacle(height_m), 0)
         } else {
@@ -49,6 +57,11 @@ impl Elevation {
     /// Brings the view up to date in an area.
     pub(super) fn refresh(&mut self, area: CellArea) {
         let size = self.view.size();
+        self.heights.resize(size[0] * size[1], (f32::NAN, 0));
+        let reach = (1 + self.edge_rule().reach).max(2);
+        for index in runs(area.grown(reach), size).flatten() {
+            self.heights[index] = self.height(index).unwrap_or((f32::NAN, 0));
+        }
         for index in runs(area, size).flatten() {
             let (surface, frames) = self.surface(index);
             self.view.cells.values_mut()[index] = surface;
@@ -65,14 +78,5 @@ impl Elevation {
             .find((size, area), height, rule, |index, gradient| {
                 view.gradients.values_mut()[index] = gradient;
             });
-    }
-
-    /// Height of the cell so many columns and rows away from one, m.
-    fn height_at(&self, index: usize, [cols, rows]: [i32; 2]) -> Option<f32> {
-        let cell = cell_of(index, self.view.size());
-        let at = self
-            .cells
-            .index(Cell::new(cell.col + cols, cell.row + rows))?;
-        Some(self.height(at)?.0)
     }
 }
