@@ -127,6 +127,24 @@ def test_a_cut_audit_is_refused(
         replay_audit(tmp_path)
 
 
+def test_an_array_whose_header_is_not_closed_is_refused(
+    qrio: Robot, flat: mujoco.MjModel, tmp_path: Path
+) -> None:
+    """What numpy says of headers that its own older versions did not write is no ValueError."""
+    eventful(qrio, flat).save_audit(tmp_path)
+    path = tmp_path / "physics.npz"
+    with ZipFile(path) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    header = members["qpos.npy"]
+    members["qpos.npy"] = header.replace(b")", b"(", 1)
+    assert members["qpos.npy"] != header
+    with ZipFile(path, "w") as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+    with pytest.raises(InputError, match=r"physics\.npz: is missing or broken"):
+        replay_audit(tmp_path)
+
+
 def arrays(folder: Path) -> dict[str, np.ndarray]:
     with np.load(folder / "physics.npz") as file:
         return dict(file)

@@ -77,7 +77,7 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
         ),
         (
             {"world_model": "haze"},
-            r"navigation\.world_model must be one of fog, averaging, octree, elevation, .*, got haze",
+            r"navigation\.world_model must be one of fog, averaging, octree, .*, got haze",
         ),
         ({"segmenter": "x"}, r"segmenter must be one of scan_line, .*, ransac, histogram, got x"),
         ({"segmenter": "hough", "hough": {"angle": 0}}, r"\.hough\.angle must be from 0\.03"),

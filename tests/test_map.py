@@ -82,7 +82,9 @@ def cells(made: MadeMap, x: tuple[float, float], y: tuple[float, float]) -> NDAr
     return inside
 
 
-@pytest.mark.parametrize("world_model", ["elevation", "extended_elevation", "multi_level", "points"])
+@pytest.mark.parametrize(
+    "world_model", ["elevation", "extended_elevation", "multi_level", "points"]
+)
 def test_models_of_heights_have_floor_and_box_where_they_are(
     pictures: Path, tmp_path: Path, world_model: str
 ) -> None:

@@ -18,7 +18,11 @@ from treadwell.map_making.standing_out import StandingOut
 from treadwell.map_memory import MapMemory, RememberedMap
 from treadwell.sources.frame import Floats, RangeFrame, moved
 
-NEEDS_A_ROBOT: Final = {"extended_elevation": "extended_elevation", "multi_level": "multi_level", "points": "points"}
+NEEDS_A_ROBOT: Final = {
+    "extended_elevation": "extended_elevation",
+    "multi_level": "multi_level",
+    "points": "points",
+}
 """World model -> the table that says, or the robot does, how much room there must be."""
 ROBOT: Final = "qrio"
 """Whose height counts where a world model needs one and no robot is named."""

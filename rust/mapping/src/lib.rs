@@ -26,7 +26,8 @@ pub use multi_level::{MultiLevel, MultiLevelConfig, MultiLevelTuning, Patch};
 pub use overlay::{FeltConfig, Overlay};
 pub use part::{WorldModelNeeds, WorldModelPart};
 pub use points::{
-    GridKey, Moments, Points, PointsConfig, PointsTuning, Sample, Samples, Shape, Span, SparseGrid,
+    GridKey, Moments, Points, PointsConfig, PointsTuning, Sample, Shape, Span, SparseGrid,
+    SurfaceSamples,
 };
 pub use surface::{Fog, FogConfig, FogTuning, OverheadTuning};
 pub use two_maps::{

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use common::{Block, DEPTH_CAMERA, camera, interior, look_through};
 use geometry::{Cell, Map, Pose, Robot, SplitMix64};
-use mapping::{ElevationConfig, Points, PointsConfig, Samples, Surface, WorldModel};
+use mapping::{ElevationConfig, Points, PointsConfig, Surface, SurfaceSamples, WorldModel};
 use segmentation::Planes;
 
 const CELL_M: f64 = 0.04;
@@ -50,9 +50,9 @@ fn truth_m([x, y]: [f64; 2]) -> f64 {
 }
 
 /// Points on the ground of 2 m by 2 m, each with noise of 4 mm; and the cells of a 3D grid in which they lie.
-fn ground(seed: u64, flat_m: f64) -> (Samples, BTreeSet<[i64; 3]>) {
+fn ground(seed: u64, flat_m: f64) -> (SurfaceSamples, BTreeSet<[i64; 3]>) {
     let mut random = SplitMix64::new(seed);
-    let mut samples = Samples::new(CELL_M, 3.0, flat_m);
+    let mut samples = SurfaceSamples::new(CELL_M, 3.0, flat_m);
     let mut occupied = BTreeSet::new();
     for _frame in 0..12 {
         for _ in 0..10_000 {
@@ -68,7 +68,7 @@ fn ground(seed: u64, flat_m: f64) -> (Samples, BTreeSet<[i64; 3]>) {
 }
 
 /// Root mean square of the errors of the heights that columns have, m, but for those that the step runs through.
-fn error_m(samples: &Samples) -> f64 {
+fn error_m(samples: &SurfaceSamples) -> f64 {
     let (mut sum, mut count) = (0.0, 0);
     samples.spans(3, 0.5, |column, span| {
         let centre = column.map(|at| (f64::from(at) + 0.5) * CELL_M);
@@ -96,7 +96,7 @@ fn no_less_true_than_a_sample_a_cell_with_two_thirds_of_the_elements_of_the_grid
 #[test]
 fn what_they_take_is_in_proportion_to_what_was_seen_not_to_the_space_around_it() {
     let bytes = |apart_m: f64, places: usize| {
-        let mut samples = Samples::new(CELL_M, 3.0, 0.004);
+        let mut samples = SurfaceSamples::new(CELL_M, 3.0, 0.004);
         for place in 0..places {
             let x_m = apart_m * place as f64;
             samples.add([x_m, -x_m, 0.5 * x_m], 1e-4, true);
@@ -115,7 +115,7 @@ fn the_order_of_insertion_of_far_places_does_not_matter_to_what_is_known_there()
         .map(|at| [0.3 * f64::from(at), 1.0, 0.02])
         .collect();
     let spans = |points: &mut dyn Iterator<Item = &[f64; 3]>| {
-        let mut samples = Samples::new(CELL_M, 3.0, 0.004);
+        let mut samples = SurfaceSamples::new(CELL_M, 3.0, 0.004);
         points.for_each(|&point| samples.add(point, 1e-4, true));
         samples.end_frame();
         let mut all = Vec::new();

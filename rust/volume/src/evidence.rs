@@ -19,6 +19,10 @@ settings! {
         false_returns: f64 = 0.1, "1", between(0.0, 1.0);
         /// No more can be seen than up to here.
         max_range: f64 = 12.0, "m", POSITIVE;
+        /// Standard deviations of range and angle beyond which a measurement tells nothing.
+        reach: f64 = 3.0, "1", POSITIVE;
+        /// A range is no more precise than this share of a voxel's side.
+        coarse: f64 = 0.3, "1", POSITIVE;
         /// Evidence, as log-odds, never goes further than this from none.
         most: f64 = 8.0, "1", POSITIVE;
     }
@@ -81,8 +85,8 @@ impl EvidenceGrid {
         if !(finite && seen_m >= 0.0) {
             return;
         }
-        let far_m = (seen_m + 3.0 * config.range_sigma).min(reach_m);
-        let wide_m = 3.0 * config.beam_sigma * far_m + side_m;
+        let far_m = (seen_m + config.reach * config.range_sigma).min(reach_m);
+        let wide_m = config.reach * config.beam_sigma * far_m + side_m;
         let bounds = [cols, rows, layers];
         let range = |axis: usize| {
             let [eye, end] = [
@@ -121,7 +125,7 @@ impl EvidenceGrid {
 /// Were it occupied, the beam would return from there with the probability of a detection there, or else as if it were not.
 fn evidence(config: &EvidenceConfig, range_m: Option<f64>, away_m: f64, beside_m: f64) -> f64 {
     let side_m = config.resolution;
-    let sigma_m = config.range_sigma.max(0.3 * side_m);
+    let sigma_m = config.range_sigma.max(config.coarse * side_m);
     let wide_m = config.beam_sigma * away_m;
     let gain = libm::exp(-0.5 * (beside_m / wide_m.max(0.5 * side_m)).powi(2));
     // The share of the beam that a voxel fills: as of a square and a Gaussian's area.

@@ -11,13 +11,13 @@ const fn column_of(cell: usize) -> u64 {
 
 /// The samples of a block.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Block {
+pub(super) struct SampleBlock {
     pub(super) samples: Vec<Sample>,
     /// Something came since the last frame's end.
     pub(super) touched: bool,
 }
 
-impl Block {
+impl SampleBlock {
     /// The sample that a point, m from the block's corner, belongs to, if one is near: the position of the nearest and how near, in standard
     /// deviations. `cell` is the point's own, or the one of its column that is next to it.
     pub(super) fn nearest(

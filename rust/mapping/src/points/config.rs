@@ -8,7 +8,7 @@ settings! {
     pub struct PointsConfig("navigation.points") {
         /// Room between two things above each other with which both are kept. Left out: the robot's own height.
         headroom: Option<f64> = None, "m", within(0.01, 100.0);
-        /// Samples become one where each lies no further than this from the surface of all; 0: each cell keeps its own.
+        /// SurfaceSamples become one where each lies no further than this from the surface of all; 0: each cell keeps its own.
         flat: f64 = 0.004, "m", NOT_NEGATIVE, "004, section 36.3.2 (ref. 36.22): resolution that adapts";
         /// What is further away from the robot than this is forgotten.
         kept: f64 = 20.0, "m", within(0.1, 1e6);
@@ -20,7 +20,7 @@ settings! {
 settings! {
     /// Numbers behind the map of samples.
     pub struct PointsTuning("navigation.points.tuning") {
-        /// Samples of fewer points are not shown: single ones are mismatches.
+        /// SurfaceSamples of fewer points are not shown: single ones are mismatches.
         least_points: u32 = 3, "1", at_least(1.0);
         /// Surfaces that rise by more than this along their normal's lean, its height for a length of 1, are walls: less is ground.
         upright: f64 = 0.5, "1", within(0.05, 0.95);

@@ -1,6 +1,6 @@
-//! Samples of surfaces in a sparse three-dimensional grid, without a direction that is up (004, section 36.3.2).
+//! SurfaceSamples of surfaces in a sparse three-dimensional grid, without a direction that is up (004, section 36.3.2).
 //!
-//! A dynamic grid ([`SparseGrid`], 36.21) holds blocks of cells where something was seen. In them are [`Samples`] (36.22): a point is fused
+//! A dynamic grid ([`SparseGrid`], 36.21) holds blocks of cells where something was seen. In them are [`SurfaceSamples`] (36.22): a point is fused
 //! with the sample that is near, unless they differ, and samples that are surely on one surface become one. The samples keep the
 //! moments of their points ([`Moments`]), so that the true local distribution in three dimensions can be asked: a bush costs less than a
 //! wall of the same height ([`Points::cost`]).
@@ -33,7 +33,7 @@ use columns::Columns;
 pub use config::{PointsConfig, PointsTuning};
 pub use moments::{Moments, Shape};
 pub use sample::{Sample, Span};
-pub use samples::Samples;
+pub use samples::SurfaceSamples;
 pub use sparse::{GridKey, SparseGrid};
 
 /// How it is listed and made.
@@ -60,7 +60,7 @@ pub struct Points {
     /// Room between two things above each other with which both are kept, m.
     headroom_m: f32,
     window: Window,
-    samples: Samples,
+    samples: SurfaceSamples,
     columns: Columns,
     underfoot: Underfoot,
     frame: SensedFrame,
@@ -88,7 +88,7 @@ impl Points {
         let window = Window::new(elevation.cell, n, elevation.tuning.wander);
         Ok(Self {
             headroom_m: headroom.map_or(f32::INFINITY, |room_m| room_m as f32),
-            samples: Samples::new(elevation.cell, elevation.gate, config.flat),
+            samples: SurfaceSamples::new(elevation.cell, elevation.gate, config.flat),
             columns: Columns::default(),
             underfoot: Underfoot::new(n, elevation.footprint),
             frame: SensedFrame::default(),
@@ -101,7 +101,7 @@ impl Points {
     }
 
     /// The samples.
-    pub const fn samples(&self) -> &Samples {
+    pub const fn samples(&self) -> &SurfaceSamples {
         &self.samples
     }
 

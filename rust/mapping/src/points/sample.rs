@@ -3,6 +3,9 @@
 use super::cells::{EDGE, cell_in_block, place_in_block};
 use super::moments::{Moments, Shape};
 
+/// Of an even spread the square of half its width, in variances.
+const EVENLY: f32 = 3.0;
+
 /// A sample: a Gaussian over the points that were fused in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
@@ -157,7 +160,7 @@ impl Sample {
         let mean_m = self.moments.mean_m[2];
         // Of things that are as high as they are spread, evenly: half of that is the root of three standard deviations.
         let spread = self.moments.covariance_m2[2] - self.moments.noise_m2();
-        let half_m = (3.0 * spread.max(0.0)).sqrt();
+        let half_m = (EVENLY * spread.max(0.0)).sqrt();
         let [nx, ny, nz] = self.normal;
         let (low_m, high_m) = if self.is_surface() && nz >= upright {
             let centre = [col, row].map(|at| (at as f32 + 0.5) * cell_m);

@@ -1,15 +1,15 @@
 //! All samples: blocks of a sparse grid, into which points go one by one.
 
-use super::block::Block;
+use super::block::SampleBlock;
 use super::cells::{EDGE, cell_in_block};
 use super::moments::Moments;
 use super::sample::{Sample, Span};
 use super::sparse::{GridKey, SparseGrid};
 
-/// Samples of the surfaces that were seen, in any direction and of any extent, as many as the surfaces need (004, section 36.3.2).
+/// SurfaceSamples of the surfaces that were seen, in any direction and of any extent, as many as the surfaces need (004, section 36.3.2).
 #[derive(Debug, Clone)]
-pub struct Samples {
-    blocks: SparseGrid<Block>,
+pub struct SurfaceSamples {
+    blocks: SparseGrid<SampleBlock>,
     cell_m: f64,
     /// Points further from a sample than so many standard deviations of both are no part of it.
     gate: f32,
@@ -18,7 +18,7 @@ pub struct Samples {
     last: Option<(GridKey, usize)>,
 }
 
-impl Samples {
+impl SurfaceSamples {
     /// No samples. Cells have this side, m; `gate` and `flat_m` as of the settings `gate` and `flat`.
     pub fn new(cell_m: f64, gate: f64, flat_m: f64) -> Self {
         Self {
@@ -30,7 +30,7 @@ impl Samples {
         }
     }
 
-    /// Samples that are kept.
+    /// SurfaceSamples that are kept.
     pub fn count(&self) -> usize {
         self.blocks
             .iter()
@@ -102,7 +102,7 @@ impl Samples {
         let (position, key, place, sample) = if let Some((position, key, place, sample, _)) = best {
             (position, key, place, Some(sample))
         } else {
-            let fresh = self.blocks.position_or_insert(key, Block::default);
+            let fresh = self.blocks.position_or_insert(key, SampleBlock::default);
             (fresh, key, place, None)
         };
         let point = Moments::of(local(key), variance_m2);
