@@ -26,6 +26,7 @@ __all__ = [
     "Pilot",
     "Planes",
     "RangeField",
+    "RangeMap",
     "Scan",
     "Segmenter",
     "Servos",
