@@ -5,6 +5,7 @@ use settings::schemars::JsonSchema;
 use settings::{NOT_NEGATIVE, POSITIVE, above_to, at_least, choices, settings, within};
 
 use super::RangeNoise;
+use super::edges::EdgeRule;
 use super::slope::{MOST_REACH, SlopeRule};
 use crate::{FogConfig, surface::MatchingTuning};
 
@@ -110,6 +111,15 @@ impl ElevationConfig {
             reach: cells.clamp(1, MOST_REACH) as i32,
             uneven: slopes.uneven as f32,
             noise_m: slopes.noise as f32,
+        }
+    }
+
+    /// How a cell between two surfaces is told.
+    pub(crate) const fn edge_rule(&self) -> EdgeRule {
+        EdgeRule {
+            least_m: self.tuning.edge as f32,
+            uneven: self.tuning.uneven as f32,
+            reach: 3,
         }
     }
 

@@ -35,7 +35,6 @@ use crate::{FloorView, Insertion, MapError, WorldModel};
 pub use by_range::RangeCells;
 use cells::{HeightCell, Revision};
 pub use config::{CellSizes, ElevationConfig, ElevationTuning, EvenSlopeTuning};
-use edges::EdgeRule;
 pub use estimate::{HeightEstimate, RangeNoise};
 pub use extended::ExtendedElevationConfig;
 pub(crate) use extended::PART as EXTENDED;
@@ -146,14 +145,6 @@ impl Elevation {
         }
     }
 
-    const fn edge_rule(&self) -> EdgeRule {
-        EdgeRule {
-            least_m: self.config.tuning.edge as f32,
-            uneven: self.config.tuning.uneven as f32,
-            reach: 3,
-        }
-    }
-
     const fn revision(&self) -> Revision {
         Revision {
             gate: self.config.gate as f32,
@@ -202,17 +193,10 @@ impl WorldModel for Elevation {
         self.frame
             .read(planes, map_from_robot, self.config.max_range);
         let locator = Locator::of_cells(&self.window.lattice(), self.view.size());
-        // The ground that the robot stands on tells a frame's height best.
-        let shift = if planes.ground.is_some() {
-            None
-        } else {
-            self.shift_m(&locator)
-        };
-        let used = planes.reliable || shift.is_some();
+        let shift = planes.ground.is_none().then(|| self.shift_m(&locator));
+        let shift = shift.flatten();
+        let used = self.frame.settle(planes, shift);
         if used {
-            if let Some(shift_m) = shift {
-                self.frame.raise(shift_m);
-            }
             let touched = self.take_in(robot_m, &locator);
             // Beside what was filled or cleared, too.
             changed.join(
@@ -220,6 +204,7 @@ impl WorldModel for Elevation {
                     self.fill_rule().cells
                         + 1
                         + self
+                            .config
                             .edge_rule()
                             .reach
                             .max(2 * self.config.slope_rule().reach),

@@ -51,8 +51,17 @@ impl SensedFrame {
         }
     }
 
+    /// Whether the frame is of use: its heights may be trusted, or a shift, m, brings it onto those that are known, by which it is moved. The
+    /// ground that the robot stands on tells a frame's height best: where that is seen, no shift is asked for.
+    pub(crate) fn settle(&mut self, planes: &Planes, shift_m: Option<f64>) -> bool {
+        if let Some(shift_m) = shift_m {
+            self.raise(shift_m);
+        }
+        planes.reliable || shift_m.is_some()
+    }
+
     /// Moves the whole frame up.
-    pub(crate) fn raise(&mut self, height_m: f64) {
+    fn raise(&mut self, height_m: f64) {
         self.eye_m[2] += height_m;
         for point in &mut self.points {
             point.at_m[2] += height_m;

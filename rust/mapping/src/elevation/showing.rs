@@ -40,7 +40,7 @@ impl Elevation {
                 inside.then(|| self.heights[at[1] as usize * size[0] + at[0] as usize].0);
             height_m.filter(|height_m| !height_m.is_nan())
         };
-        let height_m = upper_surface(own_m, away, self.edge_rule()).unwrap_or(own_m);
+        let height_m = upper_surface(own_m, away, self.config.edge_rule()).unwrap_or(own_m);
         let beside = CellArea::of(cell_of(index, size)).grown(1);
         let heights = runs(beside, size)
             .flatten()
@@ -58,7 +58,7 @@ impl Elevation {
     pub(super) fn refresh(&mut self, area: CellArea) {
         let size = self.view.size();
         self.heights.resize(size[0] * size[1], (f32::NAN, 0));
-        let reach = (1 + self.edge_rule().reach).max(2);
+        let reach = (1 + self.config.edge_rule().reach).max(2);
         for index in runs(area.grown(reach), size).flatten() {
             self.heights[index] = self.height(index).unwrap_or((f32::NAN, 0));
         }

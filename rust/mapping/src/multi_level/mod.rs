@@ -291,16 +291,10 @@ impl WorldModel for MultiLevel {
         self.frame
             .read(planes, map_from_robot, self.elevation.max_range);
         let locator = Locator::of_cells(&self.window.lattice(), self.view.size());
-        let shift = if planes.ground.is_some() {
-            None
-        } else {
-            self.shift_m(&locator)
-        };
-        let used = planes.reliable || shift.is_some();
+        let shift = planes.ground.is_none().then(|| self.shift_m(&locator));
+        let shift = shift.flatten();
+        let used = self.frame.settle(planes, shift);
         if used {
-            if let Some(shift_m) = shift {
-                self.frame.raise(shift_m);
-            }
             self.take_in(planes, map_from_robot, &locator);
         }
         self.refresh(robot_m);

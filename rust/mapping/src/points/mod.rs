@@ -21,7 +21,7 @@ use segmentation::Planes;
 use settings::{ConfigError, Part, Table, TableDescription, read, require};
 use volume::Locator;
 
-use crate::elevation::edges::{EdgeRule, upper_surface};
+use crate::elevation::edges::upper_surface;
 use crate::elevation::sensed::{SensedFrame, SensedPoint};
 use crate::elevation::{ElevationConfig, cell_of};
 use crate::multi_level::reached::Reached;
@@ -238,11 +238,7 @@ impl Points {
             let beside = Cell::new(cell.col + cols, cell.row + rows);
             Some(self.way(self.view.cells.index(beside)?)?.0)
         };
-        let rule = EdgeRule {
-            least_m: self.elevation.tuning.edge as f32,
-            uneven: self.elevation.tuning.uneven as f32,
-            reach: 3,
-        };
+        let rule = self.elevation.edge_rule();
         let height_m = upper_surface(own_m, away, rule).unwrap_or(own_m);
         let heights = geometry::runs(CellArea::of(cell).grown(1), size)
             .flatten()
@@ -306,16 +302,10 @@ impl WorldModel for Points {
         self.frame
             .read(planes, map_from_robot, self.elevation.max_range);
         let locator = Locator::of_cells(&self.window.lattice(), self.view.size());
-        let shift = if planes.ground.is_some() {
-            None
-        } else {
-            self.shift_m(&locator)
-        };
-        let used = planes.reliable || shift.is_some();
+        let shift = planes.ground.is_none().then(|| self.shift_m(&locator));
+        let shift = shift.flatten();
+        let used = self.frame.settle(planes, shift);
         if used {
-            if let Some(shift_m) = shift {
-                self.frame.raise(shift_m);
-            }
             self.take_in(planes, map_from_robot);
             self.columns_anew();
         }
