@@ -23,6 +23,7 @@ use volume::Locator;
 
 use crate::elevation::edges::upper_surface;
 use crate::elevation::sensed::{SensedFrame, SensedPoint};
+use crate::elevation::slope::SlopeFinder;
 use crate::elevation::{ElevationConfig, cell_of};
 use crate::multi_level::reached::Reached;
 use crate::multi_level::seen_through::SeenThrough;
@@ -65,6 +66,7 @@ pub struct Points {
     underfoot: Underfoot,
     frame: SensedFrame,
     reached: Reached,
+    slopes: SlopeFinder,
     view: FloorView,
 }
 
@@ -93,7 +95,11 @@ impl Points {
             underfoot: Underfoot::new(n, elevation.footprint),
             frame: SensedFrame::default(),
             reached: Reached::new(n),
-            view: FloorView::unknown(window.lattice(), n),
+            slopes: SlopeFinder::default(),
+            view: FloorView {
+                least_gradient: elevation.tuning.slopes.least,
+                ..FloorView::unknown(window.lattice(), n)
+            },
             window,
             config,
             elevation,
@@ -267,6 +273,17 @@ impl Points {
             self.view.cells.values_mut()[index] = surface;
             self.view.sightings.values_mut()[index] = frames;
         }
+        let place = (self.view.size(), self.view.cells.area());
+        let rule = (self.elevation.cell as f32, self.elevation.slope_rule());
+        let (mut slopes, mut gradients) = (
+            std::mem::take(&mut self.slopes),
+            std::mem::replace(&mut self.view.gradients, Grid::filled(0, 0, [0.0; 2])),
+        );
+        let height = |index: usize| self.way(index).map(|way| way.0);
+        slopes.find(place, height, rule, |index, gradient| {
+            gradients.values_mut()[index] = gradient;
+        });
+        (self.slopes, self.view.gradients) = (slopes, gradients);
     }
 
     /// For each cell of the view what going through it costs, as [`Points::cost`] has it; NaN where nothing was seen.
