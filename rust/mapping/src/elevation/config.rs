@@ -111,6 +111,7 @@ impl ElevationConfig {
             reach: cells.clamp(1, MOST_REACH) as i32,
             uneven: slopes.uneven as f32,
             noise_m: slopes.noise as f32,
+            least: slopes.least as f32,
         }
     }
 

@@ -15,6 +15,13 @@ pub(crate) struct EdgeRule {
     pub reach: i32,
 }
 
+impl EdgeRule {
+    /// Cells two steps before and behind an edge are so far apart in height at least, m.
+    pub(crate) fn least_seen_m(&self) -> f32 {
+        (1.0 - 2.0 * self.uneven) * self.least_m
+    }
+}
+
 /// Height of the upper one of two surfaces that a cell lies between: on either side of it, along one of the ways, two cells have
 /// nearly the same height, the two pairs differ, and its own height is that of neither. `height` is that of the cell so many
 /// columns and rows away, m. None for a cell of one surface or of a slope.
@@ -26,9 +33,7 @@ pub(crate) fn upper_surface(
     let along = |way: [i32; 2], steps: i32| height([steps * way[0], steps * way[1]]);
     // Every pair holds the cell two steps away, or one that is as high.
     let may_differ = |way: &&[i32; 2]| match (along(**way, -2), along(**way, 2)) {
-        (Some(before), Some(behind)) => {
-            (before - behind).abs() >= (1.0 - 2.0 * rule.uneven) * rule.least_m
-        }
+        (Some(before), Some(behind)) => (before - behind).abs() >= rule.least_seen_m(),
         _ => false,
     };
     let uppers = WAYS.iter().filter(may_differ).filter_map(|&way| {

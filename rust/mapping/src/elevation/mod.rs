@@ -17,6 +17,7 @@ mod estimate;
 mod extended;
 mod filling;
 mod gathered;
+mod level;
 mod pyramid;
 pub(crate) mod sensed;
 mod showing;
@@ -40,6 +41,7 @@ pub use extended::ExtendedElevationConfig;
 pub(crate) use extended::PART as EXTENDED;
 use filling::Filled;
 pub use gathered::{CellMeasurement, Gathered, SurfaceRule};
+use level::LevelCells;
 use pyramid::Pyramid;
 use sensed::SensedFrame;
 pub use sight_lines::SightLines;
@@ -72,8 +74,11 @@ pub struct Elevation {
     lines: SightLines,
     /// Above which nothing is, as far as sight lines tell, m; infinite where none passed.
     bounds_m: Grid<f32>,
-    /// Height and frames of each cell, as far as the last refresh asked for them; NaN where nothing is known.
-    heights: Vec<(f32, u16)>,
+    /// Height of each cell, m, as far as the last refresh asked for it; NaN where nothing is known.
+    heights_m: Vec<f32>,
+    /// Frames that saw it.
+    seen: Vec<u16>,
+    level: LevelCells,
     slopes: SlopeFinder,
     view: FloorView,
 }
@@ -107,7 +112,9 @@ impl Elevation {
             gathered: Gathered::default(),
             lines: SightLines::new(config.cell, config.max_range),
             bounds_m: Grid::filled(n, n, f32::INFINITY),
-            heights: Vec::new(),
+            heights_m: Vec::new(),
+            seen: Vec::new(),
+            level: LevelCells::default(),
             slopes: SlopeFinder::default(),
             view: FloorView {
                 least_gradient: config.tuning.slopes.least,

@@ -26,7 +26,7 @@ impl Elevation {
 
     /// What a cell counts as: an obstacle where it lies too far above one beside it.
     fn surface(&self, index: usize) -> (Surface, u16) {
-        let (own_m, frames) = self.heights[index];
+        let own_m = self.heights_m[index];
         if own_m.is_nan() {
             let stood = self.underfoot.height_at(index);
             return (stood.map_or(Surface::Unknown, Surface::Floor), 0);
@@ -37,36 +37,48 @@ impl Elevation {
             let at = [col as i32 + cols, row as i32 + rows];
             let inside = (0..2).all(|axis| at[axis] >= 0 && (at[axis] as usize) < size[axis]);
             let height_m =
-                inside.then(|| self.heights[at[1] as usize * size[0] + at[0] as usize].0);
+                inside.then(|| self.heights_m[at[1] as usize * size[0] + at[0] as usize]);
             height_m.filter(|height_m| !height_m.is_nan())
         };
         let height_m = upper_surface(own_m, away, self.config.edge_rule()).unwrap_or(own_m);
         let beside = CellArea::of(cell_of(index, size)).grown(1);
-        let heights = runs(beside, size)
+        let heights_m = runs(beside, size)
             .flatten()
-            .map(|other| self.heights[other].0);
+            .map(|other| self.heights_m[other]);
         // What is no number is not lower.
-        let lowest_m = heights.fold(height_m, f32::min);
-        if f64::from(height_m - lowest_m) > self.config.rise {
+        let lowest_m = heights_m.fold(height_m, f32::min);
+        if height_m - lowest_m > self.config.rise as f32 {
             (Surface::Obstacle(height_m), 0)
         } else {
-            (Surface::Floor(height_m), frames)
+            (Surface::Floor(height_m), self.seen[index])
         }
     }
 
     /// Brings the view up to date in an area.
     pub(super) fn refresh(&mut self, area: CellArea) {
         let size = self.view.size();
-        self.heights.resize(size[0] * size[1], (f32::NAN, 0));
+        self.heights_m.resize(size[0] * size[1], f32::NAN);
+        self.seen.resize(size[0] * size[1], 0);
         let reach = (1 + self.config.edge_rule().reach).max(2);
         for index in runs(area.grown(reach), size).flatten() {
-            self.heights[index] = self.height(index).unwrap_or((f32::NAN, 0));
+            let known = self.height(index).unwrap_or((f32::NAN, 0));
+            (self.heights_m[index], self.seen[index]) = known;
         }
-        for index in runs(area, size).flatten() {
-            let (surface, frames) = self.surface(index);
-            self.view.cells.values_mut()[index] = surface;
-            self.view.sightings.values_mut()[index] = frames;
+        let rule = (self.config.edge_rule(), self.config.rise as f32);
+        let mut level_cells = std::mem::take(&mut self.level);
+        for run in runs(area, size) {
+            let level = level_cells.of_run(&self.heights_m, size, run.clone(), rule);
+            for (index, &level) in run.zip(level) {
+                let (surface, frames) = if level {
+                    (Surface::Floor(self.heights_m[index]), self.seen[index])
+                } else {
+                    self.surface(index)
+                };
+                self.view.cells.values_mut()[index] = surface;
+                self.view.sightings.values_mut()[index] = frames;
+            }
         }
+        self.level = level_cells;
         let sure = self.config.tuning.slopes.sure as f32;
         let (cells, view) = (&self.cells, &mut self.view);
         let height = |index: usize| {

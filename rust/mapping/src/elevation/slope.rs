@@ -11,6 +11,8 @@ pub(crate) struct SlopeRule {
     pub uneven: f32,
     /// What each may differ by in any case, m.
     pub noise_m: f32,
+    /// Ground that rises by less per metre is level.
+    pub least: f32,
 }
 
 /// Most cells to each side.
@@ -19,15 +21,23 @@ pub(crate) const MOST_REACH: usize = 8;
 /// Finds gradients. Keeps its buffers.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct SlopeFinder {
+    /// Heights of an area and of what is around it, m, row by row; 0 where none is known.
     heights_m: Vec<f32>,
-    /// For each cell sum and number of the heights beside it: those of its column, and those of its row.
-    beside: [Vec<(f32, u32)>; 2],
+    /// 1 where a height is known, 0 elsewhere.
+    known: Vec<f32>,
+    /// Mean height of each cell and those beside it, m: of its column, for the way along a row, and of its row, for the way along a column. NaN
+    /// where too few are known.
+    beside_m: [Vec<f32>; 2],
+    /// Of the cells of a row how many heights a mean is of.
+    counts: Vec<f32>,
+    /// Of the cells of a row, whether the ground may rise there.
+    may_rise: Vec<bool>,
 }
 
 impl SlopeFinder {
     /// Tells `take` of each cell of an area, by where it is stored, how much the ground rises per metre along the map's axes; `height` is that
     /// of a cell, m. Along each axis the most even of the cells before, around and behind count, so that a slope has its gradient up
-    /// to its end. Nothing where too few are known, or where the ground rises by steps.
+    /// to its end. Nothing where too few are known, where the ground rises by steps, and where it is level.
     pub(crate) fn find(
         &mut self,
         (size, area): ([usize; 2], CellArea),
@@ -35,101 +45,161 @@ impl SlopeFinder {
         (cell_m, rule): (f32, SlopeRule),
         mut take: impl FnMut(usize, [f32; 2]),
     ) {
-        let reach = rule.reach.clamp(1, MOST_REACH as i32);
-        self.heights_m.clear();
-        self.heights_m.resize(size[0] * size[1], f32::NAN);
-        for index in runs(area.grown(2 * reach), size).flatten() {
-            self.heights_m[index] = height(index).unwrap_or(f32::NAN);
-        }
-        self.sum_up(size, area.grown(2 * reach), reach as usize);
-        for index in runs(area, size).flatten() {
-            let rises = if self.heights_m[index].is_nan() {
-                [None; 2]
-            } else {
-                [0, 1].map(|axis| self.rise(size, (index, axis), reach as usize, rule))
-            };
-            let gradient = match rises {
-                [Some(x), Some(y)] => [x / cell_m, y / cell_m],
-                _ => [0.0; 2],
-            };
-            take(index, gradient);
+        let reach = rule.reach.clamp(1, MOST_REACH as i32) as usize;
+        let mut runs_down = runs(area, size).peekable();
+        let Some(first) = runs_down.peek().cloned().filter(|run| !run.is_empty()) else {
+            return;
+        };
+        let rows = runs(area, size).count();
+        let corner = [first.start % size[0], first.start / size[0]];
+        let (cols, wide) = (first.len(), first.len() + 4 * reach);
+        self.read((size, corner), [wide, rows + 4 * reach], height, 2 * reach);
+        self.sum_up([cols, rows], reach);
+        // Ground that is level along both axes by this much is level.
+        let least_m = std::f32::consts::FRAC_1_SQRT_2 * rule.least * cell_m * (2 * reach) as f32;
+        for (row, run) in runs_down.enumerate() {
+            self.look_for_rises(row, cols, (reach, least_m));
+            for (col, index) in run.enumerate() {
+                let known = self.known[(row + 2 * reach) * wide + col + 2 * reach] > 0.0;
+                let gradient = if known && self.may_rise[col] {
+                    let along = self.beside_m[0][row * wide + col..].iter();
+                    let across = self.beside_m[1][row * cols + col..].iter().step_by(cols);
+                    [
+                        steady_rise(along, reach, rule),
+                        steady_rise(across, reach, rule),
+                    ]
+                } else {
+                    [None; 2]
+                };
+                let gradient = match gradient {
+                    [Some(x), Some(y)] => [x / cell_m, y / cell_m],
+                    _ => [0.0; 2],
+                };
+                take(index, gradient);
+            }
         }
     }
 
-    /// Sums up the heights beside each cell of an area.
-    fn sum_up(&mut self, size: [usize; 2], area: CellArea, reach: usize) {
-        let [cols, rows] = size;
-        for (axis, beside) in self.beside.iter_mut().enumerate() {
-            beside.clear();
-            beside.resize(cols * rows, (0.0, 0));
-            for index in runs(area, size).flatten() {
-                let (at, count, step) = if axis == 0 {
-                    (index / cols, rows, cols)
-                } else {
-                    (index % cols, cols, 1)
-                };
-                let (low, high) = (at.saturating_sub(reach), (at + reach).min(count - 1));
-                let first = index - (at - low) * step;
-                let (mut sum, mut known) = (0.0, 0);
-                for other in 0..=high - low {
-                    let height_m = self.heights_m[first + other * step];
-                    if !height_m.is_nan() {
-                        sum += height_m;
-                        known += 1;
+    /// Reads the heights of `wide` columns and rows of cells, the first of them so many before the corner of the area.
+    fn read(
+        &mut self,
+        (size, corner): ([usize; 2], [usize; 2]),
+        wide: [usize; 2],
+        height: impl Fn(usize) -> Option<f32>,
+        before: usize,
+    ) {
+        for buffer in [&mut self.heights_m, &mut self.known] {
+            buffer.clear();
+            buffer.resize(wide[0] * wide[1], 0.0);
+        }
+        let inside = [0, 1].map(|axis| {
+            let skipped = before.saturating_sub(corner[axis]);
+            skipped..wide[axis].min(size[axis] + before - corner[axis])
+        });
+        for row in inside[1].clone() {
+            for col in inside[0].clone() {
+                let [own_col, own_row] = [col + corner[0] - before, row + corner[1] - before];
+                if let Some(height_m) = height(own_row * size[0] + own_col) {
+                    let at = row * wide[0] + col;
+                    (self.heights_m[at], self.known[at]) = (height_m, 1.0);
+                }
+            }
+        }
+    }
+
+    /// Takes the means of the heights beside each cell.
+    fn sum_up(&mut self, [cols, rows]: [usize; 2], reach: usize) {
+        let (wide, high) = (cols + 4 * reach, rows + 4 * reach);
+        let [along, across] = &mut self.beside_m;
+        let sizes = [(wide, rows, wide), (cols, high, 1)];
+        for (means_m, (length, lines, step)) in [along, across].into_iter().zip(sizes) {
+            means_m.clear();
+            means_m.resize(length * lines, 0.0);
+            for (line, means_m) in means_m.chunks_exact_mut(length).enumerate() {
+                self.counts.clear();
+                self.counts.resize(length, 0.0);
+                for beside in reach..=3 * reach {
+                    let begin = line * wide + beside * step;
+                    let heights_m = &self.heights_m[begin..][..length];
+                    for (sum, height_m) in means_m.iter_mut().zip(heights_m) {
+                        *sum += height_m;
+                    }
+                    let known = &self.known[begin..][..length];
+                    for (count, known) in self.counts.iter_mut().zip(known) {
+                        *count += known;
                     }
                 }
-                beside[index] = (sum, known);
+                // More than half of them tell where the line lies.
+                let enough = reach as f32;
+                for (mean_m, &count) in means_m.iter_mut().zip(&self.counts) {
+                    *mean_m = if count > enough {
+                        *mean_m / count
+                    } else {
+                        f32::NAN
+                    };
+                }
             }
         }
     }
 
-    /// The rise of a cell along an axis from one cell to the next, m.
-    fn rise(
-        &self,
-        [cols, rows]: [usize; 2],
-        (index, axis): (usize, usize),
-        reach: usize,
-        rule: SlopeRule,
-    ) -> Option<f32> {
-        let (at, count, step) = if axis == 0 {
-            (index % cols, cols, 1)
-        } else {
-            (index / cols, rows, cols)
-        };
-        let mut lines = [(0.0_f32, 0_u32); 4 * MOST_REACH + 1];
-        for (far, line) in lines[..=4 * reach].iter_mut().enumerate() {
-            let there = (at + far)
-                .checked_sub(2 * reach)
-                .filter(|there| *there < count);
-            if let Some(there) = there {
-                *line = self.beside[axis][index + there * step - at * step];
+    /// Tells of each cell of a row whether the ground rises by `least_m` along an axis before, around or behind it.
+    fn look_for_rises(&mut self, row: usize, cols: usize, (reach, least_m): (usize, f32)) {
+        let wide = cols + 4 * reach;
+        let [along, across] = &self.beside_m;
+        self.may_rise.clear();
+        self.may_rise.resize(cols, false);
+        for begin in [0, reach, 2 * reach] {
+            let end = begin + 2 * reach;
+            let ends = [
+                (row * wide + begin, row * wide + end, along),
+                ((row + begin) * cols, (row + end) * cols, across),
+            ];
+            for (first, last, means_m) in ends {
+                let both = means_m[first..][..cols]
+                    .iter()
+                    .zip(&means_m[last..][..cols]);
+                for (may_rise, (first_m, last_m)) in self.may_rise.iter_mut().zip(both) {
+                    *may_rise |= (last_m - first_m).abs() >= least_m;
+                }
             }
         }
-        let windows = [reach, 0, 2 * reach];
-        let even = windows
-            .iter()
-            .filter_map(|&begin| even_rise(&lines[begin..=begin + 2 * reach], rule));
-        even.min_by(|a, b| a.1.total_cmp(&b.1))
-            .map(|(rise, _)| rise)
     }
 }
 
-/// The mean difference from one line of cells to the next, m, where all are near to it, and how far the furthest is from it, m; `lines`:
-/// sums and counts.
-fn even_rise(lines: &[(f32, u32)], rule: SlopeRule) -> Option<(f32, f32)> {
-    // Half of the cells of a line tell where it lies.
-    let enough = lines.len() as u32 / 2;
-    if lines.iter().any(|&(_, known)| known <= enough) {
-        return None;
+/// The rise from one line of cells to the next, m, of the most even ones of the lines before, around and behind a cell; `means_m` begins with
+/// the first of them.
+fn steady_rise<'a>(
+    means_m: impl Iterator<Item = &'a f32>,
+    reach: usize,
+    rule: SlopeRule,
+) -> Option<f32> {
+    let mut lines = [0.0; 4 * MOST_REACH + 1];
+    for (line, mean_m) in lines[..=4 * reach].iter_mut().zip(means_m) {
+        *line = *mean_m;
     }
-    let mean = |(sum, known): (f32, u32)| sum / known as f32;
-    let (first, last) = (mean(*lines.first()?), mean(*lines.last()?));
-    let rise = (last - first) / (lines.len() - 1) as f32;
-    let steps = lines
-        .windows(2)
-        .map(|two| (mean(two[1]) - mean(two[0]) - rise).abs());
-    let uneven = steps.fold(0.0, f32::max);
-    (uneven <= rule.uneven * rise.abs() + rule.noise_m).then_some((rise, uneven))
+    let windows = [reach, 0, 2 * reach];
+    let even = windows
+        .iter()
+        .filter_map(|&begin| even_rise(&lines[begin..=begin + 2 * reach], rule));
+    even.min_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(rise, _)| rise)
+}
+
+/// The mean difference from one line of cells to the next, m, where all are near to it, and how far the furthest is from it, m.
+fn even_rise(means_m: &[f32], rule: SlopeRule) -> Option<(f32, f32)> {
+    let rise = (means_m.last()? - means_m.first()?) / (means_m.len() - 1) as f32;
+    let most = rule.uneven * rise.abs() + rule.noise_m;
+    let mut uneven = 0.0_f32;
+    for two in means_m.windows(2) {
+        let off = (two[1] - two[0] - rise).abs();
+        // What is no number is not near.
+        let near = off <= most;
+        if !near {
+            return None;
+        }
+        uneven = uneven.max(off);
+    }
+    Some((rise, uneven))
 }
 
 #[cfg(test)]
@@ -157,6 +227,7 @@ mod tests {
         reach: 3,
         uneven: 0.6,
         noise_m: 0.001,
+        least: 0.0,
     };
 
     proptest! {
