@@ -42,6 +42,7 @@ pub struct Averaging {
     underfoot: Underfoot,
     view: FloorView,
     frame: LabelledFrame,
+    pairs: Vec<Pair>,
 }
 
 impl Averaging {
@@ -57,6 +58,7 @@ impl Averaging {
             underfoot: Underfoot::new(config.cells, config.footprint),
             view: FloorView::unknown(window.lattice(), config.cells),
             frame: LabelledFrame::default(),
+            pairs: Vec::new(),
             window,
             config,
         })
@@ -157,6 +159,7 @@ impl WorldModel for Averaging {
             rough: f32::INFINITY,
         };
         self.frame.read(planes, map_from_robot, reading);
+        let mut pairs = std::mem::take(&mut self.pairs);
         let pair = |point: &LabelledPoint| {
             let [x, y, z] = point.position_m;
             let known_m = self.means.height(self.view.lattice.cell_at(x, y))?;
@@ -170,7 +173,9 @@ impl WorldModel for Averaging {
             self.frame.points.iter().filter_map(pair),
             (config.match_gate, config.min_pairs),
             &config.tuning.matching,
+            &mut pairs,
         );
+        self.pairs = pairs;
         let used = planes.reliable || shift.is_some();
         if used {
             self.frame.raise(shift.unwrap_or(0.0));

@@ -64,7 +64,7 @@ impl RangeCells {
         self.move_to([robot_m[0], robot_m[1]]);
         self.gathered.begin(self.cells.values().len());
         for point in &frame.points {
-            let [x_m, y_m, z_m] = point.at_m;
+            let [x_m, y_m, z_m] = frame.at_m(point);
             if let Some(index) = self.index_at([x_m, y_m]) {
                 (self.gathered).add(index, z_m as f32, noise.variance_m2(point.range_m));
             }

@@ -16,14 +16,14 @@ pub(crate) struct LevelCells {
 
 impl LevelCells {
     /// Whether each cell of a run within a row is level; `heights_m`: those of all cells, row by row, NaN where none is known. What is near
-    /// the border of the grid, and unknown itself, counts as not level. Of a level cell [`super::edges::upper_surface`] finds none, and no
+    /// the border of the grid, and unknown itself, counts as not level. By an `edge` [`super::edges::upper_surface`] finds none in a level cell, and no
     /// cell beside it lies more than `rise_m` lower.
     pub(crate) fn of_run(
         &mut self,
         heights_m: &[f32],
         [cols, rows]: [usize; 2],
         run: Range<usize>,
-        (edge, rise_m): (EdgeRule, f32),
+        (edge, rise_m): (Option<EdgeRule>, f32),
     ) -> &[bool] {
         self.level.clear();
         self.level.resize(run.len(), false);
@@ -48,6 +48,9 @@ impl LevelCells {
                 *level &= !lower;
             }
         }
+        let Some(edge) = edge else {
+            return &self.level;
+        };
         let (least_m, steps) = (edge.least_seen_m(), REACH as isize);
         for [across, down] in WAYS.map(|way| way.map(|steps| steps as isize)) {
             let before_m = line(-steps * down, -steps * across);
@@ -85,7 +88,7 @@ mod tests {
         ) {
             let run = row * SIZE[0] + begin..row * SIZE[0] + (begin + length).min(SIZE[0]);
             let mut cells = LevelCells::default();
-            let level = cells.of_run(&heights, SIZE, run.clone(), (EDGE, RISE_M));
+            let level = cells.of_run(&heights, SIZE, run.clone(), (Some(EDGE), RISE_M));
             prop_assert_eq!(level.len(), run.len());
             for (index, &level) in run.zip(level) {
                 let (col, row) = ((index % SIZE[0]) as i32, (index / SIZE[0]) as i32);

@@ -17,7 +17,7 @@ mod estimate;
 mod extended;
 mod filling;
 mod gathered;
-mod level;
+pub(crate) mod level;
 mod pyramid;
 pub(crate) mod sensed;
 mod showing;
@@ -28,7 +28,6 @@ mod taking_in;
 use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use segmentation::Planes;
 use settings::{ConfigError, Part, Table, TableDescription, read};
-use volume::Locator;
 
 use crate::part::WorldModelPart;
 use crate::surface::{Underfoot, Window, check_poses};
@@ -197,14 +196,14 @@ impl WorldModel for Elevation {
         let robot_m: [f64; 3] = map_from_robot.inner.translation.vector.into();
         let mut changed = self.follow(robot_m);
         changed.join(self.underfoot.stand(robot_m, &self.window.lattice()));
+        let place = (self.window.lattice(), self.view.size());
         self.frame
-            .read(planes, map_from_robot, self.config.max_range);
-        let locator = Locator::of_cells(&self.window.lattice(), self.view.size());
-        let shift = planes.ground.is_none().then(|| self.shift_m(&locator));
+            .read(planes, map_from_robot, self.config.max_range, place);
+        let shift = planes.ground.is_none().then(|| self.shift_m());
         let shift = shift.flatten();
         let used = self.frame.settle(planes, shift);
         if used {
-            let touched = self.take_in(robot_m, &locator);
+            let touched = self.take_in(robot_m);
             // Beside what was filled or cleared, too.
             changed.join(
                 touched.grown(

@@ -79,7 +79,7 @@ impl Pyramid {
             let locator = Locator::of_cells(&level.window.lattice(), size);
             gathered.begin(size[0] * size[1]);
             for point in &frame.points {
-                let [x_m, y_m, z_m] = point.at_m;
+                let [x_m, y_m, z_m] = frame.at_m(point);
                 if let Some(cell) = locator.index_at([x_m, y_m]) {
                     gathered.add(cell, z_m as f32, noise.variance_m2(point.range_m));
                 }
@@ -90,6 +90,11 @@ impl Pyramid {
                 *most = measured.points.max(*most);
             });
         }
+    }
+
+    /// Whether there is no grid in it.
+    pub(super) const fn is_empty(&self) -> bool {
+        self.levels.is_empty()
     }
 
     /// What the finest grid says of a place in which the finer grids have gaps since the sensor's points lie too far apart there.

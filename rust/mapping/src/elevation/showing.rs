@@ -16,6 +16,9 @@ impl Elevation {
         if !filled.height_m.is_nan() {
             return Some((filled.height_m, filled.frames));
         }
+        if self.pyramid.is_empty() {
+            return None;
+        }
         let centre_m = self
             .window
             .lattice()
@@ -64,7 +67,7 @@ impl Elevation {
             let known = self.height(index).unwrap_or((f32::NAN, 0));
             (self.heights_m[index], self.seen[index]) = known;
         }
-        let rule = (self.config.edge_rule(), self.config.rise as f32);
+        let rule = (Some(self.config.edge_rule()), self.config.rise as f32);
         let mut level_cells = std::mem::take(&mut self.level);
         for run in runs(area, size) {
             let level = level_cells.of_run(&self.heights_m, size, run.clone(), rule);

@@ -1,32 +1,22 @@
 //! How a frame changes what is known.
 
 use geometry::{CellArea, runs};
-use volume::Locator;
 
 use super::cells::{HeightCell, Revision};
 use super::filling::{FillRule, fill};
-use super::sensed::SensedPoint;
 use super::{Elevation, RangeNoise, cell_of};
-use crate::surface::{Pair, height_shift};
 
 impl Elevation {
     /// The shift that brings the frame onto the heights that are known.
-    pub(super) fn shift_m(&self, locator: &Locator<2>) -> Option<f64> {
-        let pair = |point: &SensedPoint| {
-            let [x_m, y_m, z_m] = point.at_m;
-            let known = self.cells.values()[locator.index_at([x_m, y_m])?].known()?;
-            Some(Pair {
-                residual_m: f64::from(known.estimate.height_m) - z_m,
-                weight: 1,
-            })
-        };
-        let pairs = self.frame.points.iter().filter_map(pair);
+    pub(super) fn shift_m(&mut self) -> Option<f64> {
+        let cells = self.cells.values();
+        let known_m = |cell: usize, _: f32| Some(cells[cell].known()?.estimate.height_m);
         let gate = (self.config.match_gate, self.config.min_pairs);
-        height_shift(pairs, gate, &self.config.tuning.matching)
+        (self.frame).shift_m(known_m, gate, &self.config.tuning.matching)
     }
 
     /// Takes in the frame that was read; the cells that it changed.
-    pub(super) fn take_in(&mut self, robot_m: [f64; 3], locator: &Locator<2>) -> CellArea {
+    pub(super) fn take_in(&mut self, robot_m: [f64; 3]) -> CellArea {
         let (rule, revision, noise) = (self.rule(), self.revision(), self.config.noise());
         let (size, area) = (self.view.size(), self.view.cells.area());
         if let Some(known) = &mut self.by_range {
@@ -40,9 +30,9 @@ impl Elevation {
         }
         self.gathered.begin(size[0] * size[1]);
         for point in &self.frame.points {
-            let [x_m, y_m, z_m] = point.at_m;
-            if let Some(cell) = locator.index_at([x_m, y_m]) {
-                (self.gathered).add(cell, z_m as f32, noise.variance_m2(point.range_m));
+            if let Some(cell) = point.cell() {
+                let variance_m2 = noise.variance_m2(point.range_m);
+                (self.gathered).add(cell, self.frame.height_m(point), variance_m2);
             }
         }
         let mut touched = CellArea::EMPTY;
@@ -66,7 +56,7 @@ impl Elevation {
         let eye_m = self.frame.eye_m;
         self.lines.begin(eye_m);
         for point in &self.frame.points {
-            self.lines.add(point.at_m);
+            self.lines.add(self.frame.at_m(point));
         }
         self.lines.finish();
         let (size, lattice) = (self.view.size(), self.window.lattice());

@@ -12,14 +12,14 @@ pub(crate) mod seen_through;
 use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use segmentation::Planes;
 use settings::{ConfigError, Part, Table, TableDescription, read, require};
-use volume::Locator;
 
 use crate::elevation::cells::Revision;
-use crate::elevation::sensed::{SensedFrame, SensedPoint};
+use crate::elevation::level::LevelCells;
+use crate::elevation::sensed::SensedFrame;
 use crate::elevation::slope::SlopeFinder;
 use crate::elevation::{ElevationConfig, Gathered, SurfaceRule, cell_of};
 use crate::part::WorldModelPart;
-use crate::surface::{Pair, Underfoot, Window, check_poses, height_shift};
+use crate::surface::{Underfoot, Window, check_poses};
 use crate::{FloorView, Insertion, MapError, Surface, Voxel, WorldModel};
 pub use config::{MultiLevelConfig, MultiLevelTuning};
 pub use patches::Patch;
@@ -60,8 +60,11 @@ pub struct MultiLevel {
     frame: SensedFrame,
     gathered: Gathered,
     reached: Reached,
-    /// Of each cell height and frames of the surface by which the robot comes, and the room above it, m.
-    ways: Vec<Option<(f32, u16, f32)>>,
+    /// Of each cell height of the surface by which the robot comes, m; NaN where none is known.
+    heights_m: Vec<f32>,
+    /// Frames that saw that surface, and the room above it, m.
+    ways: Vec<(u16, f32)>,
+    level: LevelCells,
     slopes: SlopeFinder,
     view: FloorView,
 }
@@ -95,7 +98,9 @@ impl MultiLevel {
             frame: SensedFrame::default(),
             gathered: Gathered::default(),
             reached: Reached::new(n),
-            ways: vec![None; n * n],
+            heights_m: vec![f32::NAN; n * n],
+            ways: vec![(0, f32::INFINITY); n * n],
+            level: LevelCells::default(),
             slopes: SlopeFinder::default(),
             view: FloorView {
                 least_gradient: elevation.tuning.slopes.least,
@@ -135,30 +140,17 @@ impl MultiLevel {
     }
 
     /// The shift that brings the frame onto the heights that are known.
-    fn shift_m(&self, locator: &Locator<2>) -> Option<f64> {
-        let pair = |point: &SensedPoint| {
-            let [x_m, y_m, z_m] = point.at_m;
-            let known = self.cells.values()[locator.index_at([x_m, y_m])?].seen();
-            let residuals = known
-                .iter()
-                .map(|one| f64::from(one.estimate().height_m) - z_m);
-            let nearest = residuals.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
-            Some(Pair {
-                residual_m: nearest,
-                weight: 1,
-            })
+    fn shift_m(&mut self) -> Option<f64> {
+        let cells = self.cells.values();
+        let known_m = |cell: usize, from_m: f32| {
+            let heights_m = cells[cell].seen().iter().map(|one| one.estimate().height_m);
+            heights_m.min_by(|a, b| (a - from_m).abs().total_cmp(&(b - from_m).abs()))
         };
-        let pairs = self.frame.points.iter().filter_map(pair);
         let gate = (self.elevation.match_gate, self.elevation.min_pairs);
-        height_shift(pairs, gate, &self.elevation.tuning.matching)
+        (self.frame).shift_m(known_m, gate, &self.elevation.tuning.matching)
     }
 
-    fn take_in(
-        &mut self,
-        planes: &Planes,
-        map_from_robot: &Pose<Map, Robot>,
-        locator: &Locator<2>,
-    ) {
+    fn take_in(&mut self, planes: &Planes, map_from_robot: &Pose<Map, Robot>) {
         let (revision, noise) = (self.revision(), self.elevation.noise());
         let rule = SurfaceRule {
             gate: revision.gate,
@@ -167,9 +159,9 @@ impl MultiLevel {
         };
         self.gathered.begin(self.cells.values().len());
         for point in &self.frame.points {
-            let [x_m, y_m, z_m] = point.at_m;
-            if let Some(cell) = locator.index_at([x_m, y_m]) {
-                (self.gathered).add(cell, z_m as f32, noise.variance_m2(point.range_m));
+            if let Some(cell) = point.cell() {
+                let variance_m2 = noise.variance_m2(point.range_m);
+                (self.gathered).add(cell, self.frame.height_m(point), variance_m2);
             }
         }
         let cells = self.cells.values_mut();
@@ -218,25 +210,30 @@ impl MultiLevel {
         Some((height_m, patches[nearest].frames(), room_m))
     }
 
-    fn surface(&self, index: usize) -> (Surface, u16) {
-        let Some((height_m, frames, room_m)) = self.ways[index] else {
+    fn surface(&self, index: usize, is_level: bool) -> (Surface, u16) {
+        let (height_m, (frames, room_m)) = (self.heights_m[index], self.ways[index]);
+        if height_m.is_nan() {
             let stood = self.underfoot.height_at(index);
             return (stood.map_or(Surface::Unknown, Surface::Floor), 0);
-        };
-        let size = self.view.size();
-        let beside = CellArea::of(cell_of(index, size)).grown(1);
-        let heights = geometry::runs(beside, size)
-            .flatten()
-            .filter_map(|other| self.ways[other]);
-        let lowest_m = heights.fold(height_m, |low, (other, ..)| low.min(other));
-        if f64::from(height_m - lowest_m) > self.elevation.rise
-            || room_m < self.headroom_m
-            || frames == 0
-        {
+        }
+        let blocked = !is_level && self.lies_above_one_beside(index);
+        if blocked || room_m < self.headroom_m || frames == 0 {
             (Surface::Obstacle(height_m), 0)
         } else {
             (Surface::Floor(height_m), frames)
         }
+    }
+
+    /// Whether a cell lies higher above one beside it than can be climbed.
+    fn lies_above_one_beside(&self, index: usize) -> bool {
+        let size = self.view.size();
+        let beside = CellArea::of(cell_of(index, size)).grown(1);
+        let heights_m = geometry::runs(beside, size)
+            .flatten()
+            .map(|other| self.heights_m[other]);
+        let height_m = self.heights_m[index];
+        // What is no number is not lower.
+        height_m - heights_m.fold(height_m, f32::min) > self.elevation.rise as f32
     }
 
     /// Makes the view of what is reached from where the robot stands.
@@ -254,20 +251,29 @@ impl MultiLevel {
         self.reached
             .spread((start, robot_m[2] as f32), joined_m, nearest);
         for index in 0..self.cells.values().len() {
-            self.ways[index] = self.way(index);
+            let unknown = (f32::NAN, 0, f32::INFINITY);
+            let (height_m, frames, room_m) = self.way(index).unwrap_or(unknown);
+            (self.heights_m[index], self.ways[index]) = (height_m, (frames, room_m));
         }
-        for index in 0..self.cells.values().len() {
-            let (surface, frames) = self.surface(index);
-            self.view.cells.values_mut()[index] = surface;
-            self.view.sightings.values_mut()[index] = frames;
+        let (size, area) = (self.view.size(), self.view.cells.area());
+        let mut level_cells = std::mem::take(&mut self.level);
+        for run in geometry::runs(area, size) {
+            let rise_m = self.elevation.rise as f32;
+            let level = level_cells.of_run(&self.heights_m, size, run.clone(), (None, rise_m));
+            for (index, &is_level) in run.zip(level) {
+                let (surface, frames) = self.surface(index, is_level);
+                self.view.cells.values_mut()[index] = surface;
+                self.view.sightings.values_mut()[index] = frames;
+            }
         }
-        let place = (self.view.size(), self.view.cells.area());
-        let (ways, view) = (&self.ways, &mut self.view);
-        let height = |index: usize| ways[index].map(|way| way.0);
+        self.level = level_cells;
+        let (heights_m, view) = (&self.heights_m, &mut self.view);
+        let height = |index: usize| Some(heights_m[index]).filter(|height_m| !height_m.is_nan());
         let rule = (self.elevation.cell as f32, self.elevation.slope_rule());
-        self.slopes.find(place, height, rule, |index, gradient| {
-            view.gradients.values_mut()[index] = gradient;
-        });
+        self.slopes
+            .find((size, area), height, rule, |index, gradient| {
+                view.gradients.values_mut()[index] = gradient;
+            });
     }
 }
 
@@ -288,14 +294,14 @@ impl WorldModel for MultiLevel {
         let robot_m: [f64; 3] = map_from_robot.inner.translation.vector.into();
         self.follow(robot_m);
         let _stood = self.underfoot.stand(robot_m, &self.window.lattice());
+        let place = (self.window.lattice(), self.view.size());
         self.frame
-            .read(planes, map_from_robot, self.elevation.max_range);
-        let locator = Locator::of_cells(&self.window.lattice(), self.view.size());
-        let shift = planes.ground.is_none().then(|| self.shift_m(&locator));
+            .read(planes, map_from_robot, self.elevation.max_range, place);
+        let shift = planes.ground.is_none().then(|| self.shift_m());
         let shift = shift.flatten();
         let used = self.frame.settle(planes, shift);
         if used {
-            self.take_in(planes, map_from_robot, &locator);
+            self.take_in(planes, map_from_robot);
         }
         self.refresh(robot_m);
         Ok(Insertion {

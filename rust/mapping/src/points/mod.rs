@@ -19,16 +19,15 @@ mod sparse;
 use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use segmentation::Planes;
 use settings::{ConfigError, Part, Table, TableDescription, read, require};
-use volume::Locator;
 
 use crate::elevation::edges::upper_surface;
-use crate::elevation::sensed::{SensedFrame, SensedPoint};
+use crate::elevation::sensed::SensedFrame;
 use crate::elevation::slope::SlopeFinder;
 use crate::elevation::{ElevationConfig, cell_of};
 use crate::multi_level::reached::Reached;
 use crate::multi_level::seen_through::SeenThrough;
 use crate::part::WorldModelPart;
-use crate::surface::{Pair, Underfoot, Window, check_poses, height_shift};
+use crate::surface::{Underfoot, Window, check_poses};
 use crate::{FloorView, Insertion, MapError, Surface, Voxel, WorldModel};
 use columns::Columns;
 pub use config::{PointsConfig, PointsTuning};
@@ -158,28 +157,23 @@ impl Points {
     }
 
     /// The shift that brings the frame onto the heights that are known.
-    fn shift_m(&self, locator: &Locator<2>) -> Option<f64> {
-        let pair = |point: &SensedPoint| {
-            let [x_m, y_m, z_m] = point.at_m;
-            let known = self.columns.things(locator.index_at([x_m, y_m])?);
-            let residuals = known.iter().map(|one| f64::from(one.high_m) - z_m);
-            let nearest = residuals.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
-            Some(Pair {
-                residual_m: nearest,
-                weight: 1,
-            })
+    fn shift_m(&mut self) -> Option<f64> {
+        let columns = &self.columns;
+        let known_m = |cell: usize, from_m: f32| {
+            let heights_m = columns.things(cell).iter().map(|one| one.high_m);
+            heights_m.min_by(|a, b| (a - from_m).abs().total_cmp(&(b - from_m).abs()))
         };
-        let pairs = self.frame.points.iter().filter_map(pair);
         let gate = (self.elevation.match_gate, self.elevation.min_pairs);
-        height_shift(pairs, gate, &self.elevation.tuning.matching)
+        (self.frame).shift_m(known_m, gate, &self.elevation.tuning.matching)
     }
 
     fn take_in(&mut self, planes: &Planes, map_from_robot: &Pose<Map, Robot>) {
         let noise = self.elevation.noise();
         for point in &self.frame.points {
-            let from_above = self.frame.eye_m[2] >= point.at_m[2];
+            let at_m = self.frame.at_m(point);
+            let from_above = self.frame.eye_m[2] >= at_m[2];
             let variance_m2 = noise.variance_m2(point.range_m);
-            self.samples.add(point.at_m, variance_m2, from_above);
+            self.samples.add(at_m, variance_m2, from_above);
         }
         if self.elevation.clearing
             && let Some(seen) = SeenThrough::new(planes, map_from_robot)
@@ -316,10 +310,10 @@ impl WorldModel for Points {
         let robot_m: [f64; 3] = map_from_robot.inner.translation.vector.into();
         self.follow(robot_m);
         let _stood = self.underfoot.stand(robot_m, &self.window.lattice());
+        let place = (self.window.lattice(), self.view.size());
         self.frame
-            .read(planes, map_from_robot, self.elevation.max_range);
-        let locator = Locator::of_cells(&self.window.lattice(), self.view.size());
-        let shift = planes.ground.is_none().then(|| self.shift_m(&locator));
+            .read(planes, map_from_robot, self.elevation.max_range, place);
+        let shift = planes.ground.is_none().then(|| self.shift_m());
         let shift = shift.flatten();
         let used = self.frame.settle(planes, shift);
         if used {

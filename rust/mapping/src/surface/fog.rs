@@ -39,6 +39,7 @@ pub struct Fog {
     view: FloorView,
     /// The points of the last frame, as they were taken in.
     pub(crate) frame: LabelledFrame,
+    pairs: Vec<Pair>,
 }
 
 impl Fog {
@@ -93,6 +94,7 @@ impl Fog {
                 ..FloorView::unknown(lattice, n)
             },
             frame: LabelledFrame::default(),
+            pairs: Vec::new(),
             window,
             layers,
             config,
@@ -278,6 +280,7 @@ impl WorldModel for Fog {
         };
         self.frame.read(planes, map_from_robot, reading);
         let locator = Locator::of_cells(&self.view.lattice, self.view.size());
+        let mut pairs = std::mem::take(&mut self.pairs);
         let pair = |point: &LabelledPoint| {
             let [x_m, y_m, _] = point.position_m;
             self.pair(point, locator.index_at([x_m, y_m])?)
@@ -291,8 +294,10 @@ impl WorldModel for Fog {
                 self.frame.points.iter().filter_map(pair),
                 (config.match_gate, config.min_pairs),
                 &config.tuning.matching,
+                &mut pairs,
             )
         };
+        self.pairs = pairs;
         let used = planes.reliable || shift.is_some();
         if used {
             if let Some(shift_m) = shift {

@@ -15,13 +15,15 @@ pub struct Pair {
 /// among the pairs that agree. `None` with fewer than `min_pairs` of them.
 ///
 /// Points and floors further apart than `gate_m` are different surfaces. Where several shifts fit, the one that pairs of the
-/// most weight agree on wins.
+/// most weight agree on wins. `found` is room for the pairs, reused from frame to frame.
 pub fn height_shift(
     all: impl Iterator<Item = Pair>,
     (gate_m, min_pairs): (f64, usize),
     tuning: &MatchingTuning,
+    found: &mut Vec<Pair>,
 ) -> Option<f64> {
-    let found: Vec<Pair> = all.filter(|pair| pair.residual_m.abs() <= gate_m).collect();
+    found.clear();
+    found.extend(all.filter(|pair| pair.residual_m.abs() <= gate_m));
     let pairs = || found.iter().copied();
     if gate_m == 0.0 {
         return (pairs().count() >= min_pairs).then_some(0.0);
