@@ -7,16 +7,22 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 import user_parts
+from numpy.typing import NDArray
 
 import treadwell
 from treadwell.cli.app import execute
 from treadwell.errors import InputError
 from treadwell.protocols import Plan
 from treadwell.recording.observation_log import NAME
+from treadwell.replaying import replay as replay_module
+from treadwell.replaying.findings import Findings
 from treadwell.replaying.replay import Replay
+from treadwell.replaying.result import ReplayResult
 from treadwell.replaying.source import open_source
+from treadwell.scenario.model import Scenario
 
 CASES = {
     "stairs_up": {"robot": "qrio", "seed": 3},
@@ -87,6 +93,29 @@ def test_the_result_is_the_runs_without_what_only_the_simulator_knows(
     ours, theirs = mine["localization"], runs["localization"]
     for name, spread in ours.items():
         assert spread == pytest.approx(theirs[name], abs=1e-12)
+
+
+def test_each_pose_of_the_believed_way_is_known_to_be_climbed_or_not(
+    run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The last tick of a run has a pose, but no picture."""
+    seen = []
+    write = replay_module.write_folder
+
+    def look(
+        folder: Path,
+        scenario: Scenario,
+        result: ReplayResult,
+        found: Findings,
+        voxels: NDArray[np.float32],
+    ) -> None:
+        seen.append((len(found.estimate.positions()), len(found.stairs.climbing)))
+        write(folder, scenario, result, found, voxels)
+
+    monkeypatch.setattr(replay_module, "write_folder", look)
+    replayed(run, tmp_path / "out")
+    [(poses, told)] = seen
+    assert poses == told
 
 
 def test_another_component_gets_the_same_data_and_the_first_difference_is_told(

@@ -72,6 +72,8 @@ class Findings:
             if self.frames[-1:] == [] or self.frames[-1][0] != self.ticks - 1:
                 self.ticks -= 1
                 self._frame(observation.time_ns, tick)
+                # No picture, no other stairs.
+                self.stairs.update((), climbing=bool(tick.footsteps))
                 self.ticks += 1
         for _, time_ns, pose, _ in self.frames:
             self.estimate.add(time_ns, pose)
