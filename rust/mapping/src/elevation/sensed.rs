@@ -31,6 +31,8 @@ impl SensedPoint {
 pub(crate) struct SensedFrame {
     /// The robot in the map frame, m.
     robot_m: [f64; 3],
+    /// The sensor from the robot along the axes of the map frame, m.
+    eye_from_robot_m: [f32; 3],
     /// The sensor in the map frame, m.
     pub eye_m: [f64; 3],
     /// What was seen.
@@ -88,6 +90,7 @@ impl SensedFrame {
         let robot = map_from_robot.inner.translation.vector;
         self.eye_m = (rotation * eye + robot).into();
         self.robot_m = robot.into();
+        self.eye_from_robot_m = (rotation * eye).map(|at_m| at_m as f32).into();
         let eye_m = eye.map(|at_m| at_m as f32);
         let rotation = rotation.map(|share| share as f32);
         let most = (max_range_m * max_range_m) as f32;
@@ -119,6 +122,14 @@ impl SensedFrame {
     #[inline]
     pub(crate) fn at_m(&self, point: &SensedPoint) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.robot_m[axis] + f64::from(point.from_robot_m[axis]))
+    }
+
+    /// Position of a point from the sensor along the axes of the map frame, m.
+    #[inline]
+    pub(crate) fn eye_to_m(&self, point: &SensedPoint) -> [f32; 3] {
+        let [x, y, z] = point.from_robot_m;
+        let [eye_x, eye_y, eye_z] = self.eye_from_robot_m;
+        [x - eye_x, y - eye_y, z - eye_z]
     }
 
     /// Height of a point in the map frame, m.

@@ -4,11 +4,11 @@
 /// The lowest sight lines of one frame, by direction over the ground. Reused from frame to frame.
 #[derive(Debug, Clone)]
 pub struct SightLines {
-    eye_m: [f64; 3],
     cell_m: f32,
     sectors: usize,
     bins: usize,
-    /// For each direction and range over the ground the least rise per metre of a sight line that goes on at least as far.
+    /// For each range over the ground and direction, those of a range side by side, the least rise per metre of a sight line that goes on at
+    /// least as far.
     rises: Vec<f32>,
 }
 
@@ -25,7 +25,6 @@ impl SightLines {
         let bins = (max_range_m / cell_m).ceil() as usize;
         let sectors = (std::f64::consts::TAU * max_range_m / cell_m).ceil();
         Self {
-            eye_m: [0.0; 3],
             cell_m: cell_m as f32,
             sectors: (sectors as usize).clamp(SIDES, MOST),
             bins: bins.clamp(1, MOST),
@@ -33,42 +32,42 @@ impl SightLines {
         }
     }
 
-    /// Begins a frame that is seen from here.
-    pub fn begin(&mut self, eye_m: [f64; 3]) {
-        self.eye_m = eye_m;
+    /// Begins a frame.
+    pub fn begin(&mut self) {
         self.rises.clear();
         self.rises.resize(self.sectors * self.bins, NONE);
     }
 
-    /// Takes in the sight line to a point.
+    /// Takes in the sight line to a point, given from the eye, m.
     #[inline]
-    pub fn add(&mut self, at_m: [f64; 3]) {
-        let [x, y, z] = self.seen_from_eye(at_m);
+    pub fn add(&mut self, [x, y, z]: [f32; 3]) {
         let range_m = (x * x + y * y).sqrt();
         let bin = (range_m / self.cell_m) as usize;
         if range_m <= 0.0 {
             return;
         }
-        let at = self.sector(x, y) * self.bins + bin.min(self.bins - 1);
-        self.rises[at] = self.rises[at].min(z / range_m);
+        let at = bin.min(self.bins - 1) * self.sectors + self.sector(x, y);
+        let rise = z / range_m;
+        if rise < self.rises[at] {
+            self.rises[at] = rise;
+        }
     }
 
     /// After the last point: a sight line tells of all places that it passed.
     pub fn finish(&mut self) {
-        for sector in self.rises.chunks_exact_mut(self.bins) {
-            let mut least = NONE;
-            for rise in sector.iter_mut().rev() {
-                least = least.min(*rise);
-                *rise = least;
+        for bin in (1..self.bins).rev() {
+            let (nearer, further) = self.rises.split_at_mut(bin * self.sectors);
+            let nearer = &mut nearer[(bin - 1) * self.sectors..];
+            for (rise, &beyond) in nearer.iter_mut().zip(&*further) {
+                *rise = if beyond < *rise { beyond } else { *rise };
             }
         }
     }
 
-    /// Height in the map frame, m, that nothing in a cell exceeds, as far as sight lines passed over it; none where none did. It is the
-    /// height at which the lowest of them enters the cell, or leaves it where it rises.
+    /// Height above the eye, m, that nothing in a cell exceeds, as far as sight lines passed over it; none where none did. It is the
+    /// height at which the lowest of them enters the cell, or leaves it where it rises. The middle of the cell is given from the eye, m.
     #[inline]
-    pub fn bound_m(&self, centre_m: [f64; 2]) -> Option<f64> {
-        let [x, y, _] = self.seen_from_eye([centre_m[0], centre_m[1], 0.0]);
+    pub fn bound_m(&self, [x, y]: [f32; 2]) -> Option<f32> {
         let range_m = (x * x + y * y).sqrt();
         // Beyond the whole cell, whatever the direction: half of its diagonal, and the bin that holds that.
         let half_m = std::f32::consts::FRAC_1_SQRT_2 * self.cell_m;
@@ -76,7 +75,7 @@ impl SightLines {
         if bin >= self.bins {
             return None;
         }
-        let rise = self.rises[self.sector(x, y) * self.bins + bin];
+        let rise = self.rises[bin * self.sectors + self.sector(x, y)];
         if rise == NONE {
             return None;
         }
@@ -85,12 +84,7 @@ impl SightLines {
         } else {
             range_m + half_m
         };
-        Some(self.eye_m[2] + f64::from(rise * reach_m))
-    }
-
-    #[inline]
-    fn seen_from_eye(&self, at_m: [f64; 3]) -> [f32; 3] {
-        std::array::from_fn(|axis| (at_m[axis] - self.eye_m[axis]) as f32)
+        Some(rise * reach_m)
     }
 
     /// Which direction this is: without an arc tangent, by how far along the sides of a square that stands on its corner.
@@ -114,11 +108,9 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const EYE_M: [f64; 3] = [1.0, -2.0, 0.5];
-
-    fn lines(points: &[[f64; 3]]) -> SightLines {
+    fn lines(points: &[[f32; 3]]) -> SightLines {
         let mut lines = SightLines::new(0.04, 4.0);
-        lines.begin(EYE_M);
+        lines.begin();
         for &point in points {
             lines.add(point);
         }
@@ -128,27 +120,28 @@ mod tests {
 
     #[test]
     fn a_line_bounds_the_cells_that_it_passes_and_none_beyond_its_end_or_beside_it() {
-        let lines = lines(&[[3.0, -2.0, 0.0]]);
-        let bound_m = lines.bound_m([2.0, -2.0]).unwrap();
-        assert!(bound_m > 0.25 && bound_m < 0.26, "{bound_m}");
-        assert_eq!(lines.bound_m([3.1, -2.0]), None);
-        assert_eq!(lines.bound_m([2.0, -1.5]), None);
-        assert_eq!(lines.bound_m([0.0, -2.0]), None);
+        let lines = lines(&[[2.0, 0.0, -0.5]]);
+        let bound_m = lines.bound_m([1.0, 0.0]).unwrap();
+        assert!(bound_m > -0.25 && bound_m < -0.24, "{bound_m}");
+        assert_eq!(lines.bound_m([2.1, 0.0]), None);
+        assert_eq!(lines.bound_m([1.0, 0.5]), None);
+        assert_eq!(lines.bound_m([-1.0, 0.0]), None);
     }
 
     proptest! {
         #[test]
         fn a_bound_is_never_below_a_line_that_passes_and_is_the_lowest_of_those_in_its_direction(
-            yaw in -3.1..3.1f64, near in 0.3..1.5f64, further in 0.2..2.0f64, low in -0.3..0.3f64,
+            yaw in -3.1..3.1f32, near in 0.3..1.5f32, further in 0.2..2.0f32, low in -0.8..-0.2f32,
         ) {
-            let at = |range_m: f64, z: f64| [EYE_M[0] + range_m * libm::cos(yaw), EYE_M[1] + range_m * libm::sin(yaw), z];
+            let (sin, cos) = libm::sincosf(yaw);
+            let at = |range_m: f32, z: f32| [range_m * cos, range_m * sin, z];
             let end = at(near + further, low);
             let lines = lines(&[end, at(near + further, low + 0.2)]);
             let [x, y, _] = at(near, 0.0);
             if let Some(bound_m) = lines.bound_m([x, y]) {
-                let line_m = EYE_M[2] + (low - EYE_M[2]) * near / (near + further);
+                let line_m = low * near / (near + further);
                 prop_assert!(bound_m >= line_m - 1e-6);
-                prop_assert!(bound_m <= line_m + 0.03 * (low - EYE_M[2]).abs() / (near + further) + 1e-6);
+                prop_assert!(bound_m <= line_m + 0.03 * low.abs() / (near + further) + 1e-6);
             } else {
                 prop_assert!(further < 0.12);
             }

@@ -1,6 +1,6 @@
 //! How a frame changes what is known.
 
-use geometry::{CellArea, runs};
+use geometry::{Cell, CellArea, runs};
 
 use super::cells::{HeightCell, Revision};
 use super::filling::{FillRule, fill};
@@ -53,29 +53,35 @@ impl Elevation {
 
     /// Takes back what sight lines pass below; the cells in which something was.
     fn look_below_sight_lines(&mut self, revision: Revision, noise: RangeNoise) -> CellArea {
-        let eye_m = self.frame.eye_m;
-        self.lines.begin(eye_m);
+        self.lines.begin();
         for point in &self.frame.points {
-            self.lines.add(self.frame.at_m(point));
+            self.lines.add(self.frame.eye_to_m(point));
         }
         self.lines.finish();
         let (size, lattice) = (self.view.size(), self.window.lattice());
+        let (eye_m, cell_m) = (self.frame.eye_m, lattice.cell_m as f32);
+        let [first_x, first_y] = lattice.center_of(Cell::new(0, 0));
+        let first_m = [(first_x - eye_m[0]) as f32, (first_y - eye_m[1]) as f32];
+        let cells = self.cells.values_mut().chunks_exact_mut(size[0]);
+        let bounds = self.bounds_m.values_mut().chunks_exact_mut(size[0]);
         let mut cleared = CellArea::EMPTY;
-        for (index, cell) in self.cells.values_mut().iter_mut().enumerate() {
-            if self.gathered.holds(index) {
-                continue;
-            }
-            let at = cell_of(index, size);
-            let centre_m = lattice.center_of(at);
-            let Some(bound_m) = self.lines.bound_m(centre_m) else {
-                continue;
-            };
-            let lowest = &mut self.bounds_m.values_mut()[index];
-            *lowest = lowest.min(bound_m as f32);
-            if cell.known().is_some() {
-                let range_m = geometry::hypot(centre_m[0] - eye_m[0], centre_m[1] - eye_m[1]);
-                if cell.pass(bound_m as f32, noise.variance_m2(range_m as f32), revision) {
-                    cleared.include(at);
+        for (row, (cells, bounds_m)) in cells.zip(bounds).enumerate() {
+            let y_m = first_m[1] + row as f32 * cell_m;
+            for (col, (cell, lowest_m)) in cells.iter_mut().zip(bounds_m).enumerate() {
+                if self.gathered.holds(row * size[0] + col) {
+                    continue;
+                }
+                let x_m = first_m[0] + col as f32 * cell_m;
+                let Some(bound_m) = self.lines.bound_m([x_m, y_m]) else {
+                    continue;
+                };
+                let bound_m = eye_m[2] as f32 + bound_m;
+                *lowest_m = lowest_m.min(bound_m);
+                if cell.known().is_some() {
+                    let range_m = (x_m * x_m + y_m * y_m).sqrt();
+                    if cell.pass(bound_m, noise.variance_m2(range_m), revision) {
+                        cleared.include(Cell::new(col as i32, row as i32));
+                    }
                 }
             }
         }
