@@ -1,6 +1,9 @@
 """Claims about maps of recorded range data: `treadwell map`."""
 
 import json
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -141,6 +144,25 @@ def test_coordinates_of_millions_of_metres_keep_their_millimetres(tmp_path: Path
         x_range = (512_700.0 + side[0], 512_700.0 + side[1])
         here = cells(made, x_range, (5_403_701.0, 5_403_703.0))
         np.testing.assert_allclose(made.map.height[here], height, atol=0.002)
+
+
+@pytest.mark.slow
+def test_a_cloud_of_ten_million_points_takes_two_gigabytes_at_most(tmp_path: Path) -> None:
+    x, y = np.meshgrid(np.linspace(-50, 50, 4000), np.linspace(-50, 50, 2500))
+    points = np.stack([x, y, 0.3 * np.sin(x / 5)], axis=-1).astype("<f4").reshape(-1, 3)
+    fields = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1"
+    size = f"WIDTH {len(points)}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {len(points)}"
+    header = f"VERSION .7\n{fields}\n{size}\nDATA binary\n"
+    (tmp_path / "many.pcd").write_bytes(header.encode() + points.tobytes())
+    arguments = ["map", str(tmp_path / "many.pcd"), "--world-model", "elevation", "--no-record"]
+    command = [sys.executable, "-m", "treadwell.cli.app", *arguments, "--set", "elevation.cell=0.2"]
+    process = subprocess.Popen([*command, "--out", str(tmp_path / "out")])
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    assert process.returncode == 0
+    assert usage.ru_maxrss < 2_000_000  # kB
+    cells = json.loads((tmp_path / "out" / "result.json").read_text())["cells"]
+    assert cells["floor"] > 0.99 * (100 / 0.2) ** 2
 
 
 def test_the_axis_that_points_up_is_told_and_turned(pictures: Path, tmp_path: Path) -> None:
