@@ -19,6 +19,7 @@ __all__ = [
     "DepthErrors",
     "FloorView",
     "Goal",
+    "GroundCosts",
     "Legs",
     "OccupancyGrid",
     "Octree",
@@ -562,6 +563,27 @@ class Walker:
     def arms_raised(self, value: bool, /) -> None: ...
     @property
     def stepping(self) -> tuple[int, float, str | None]: ...
+
+@final
+class GroundCosts:
+    def __new__(cls, description_json: str, settings: str = "{}") -> GroundCosts: ...
+    @property
+    def limits(self) -> dict[str, float]: ...
+    def map(
+        self,
+        heights: NDArray[np.float64],
+        cell: float,
+        head_room: NDArray[np.float64] | None = None,
+    ) -> NDArray[np.float64]: ...
+    def demand(
+        self, slope: float, roughness: float, friction: float, speed: float, curvature: float
+    ) -> tuple[float, float]: ...
+    def motion_cost(
+        self, slope: float, roughness: float, friction: float, speed: float, curvature: float
+    ) -> float: ...
+    def fastest(
+        self, slope: float, roughness: float, friction: float, curvature: float
+    ) -> float | None: ...
 
 @final
 class Legs:

@@ -4,6 +4,7 @@ mod body_senses;
 mod classes;
 mod clearance;
 mod components;
+mod costs;
 mod depth_camera;
 mod depth_errors;
 mod distance;
@@ -41,6 +42,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<body_senses::PyBodySenses>()?;
     module.add_class::<depth_camera::PyDepthCamera>()?;
     module.add_class::<depth_errors::PyDepthErrors>()?;
+    module.add_class::<costs::PyGroundCosts>()?;
     module.add_class::<legs::PyLegs>()?;
     module.add_class::<octree::PyOctree>()?;
     module.add_class::<pilot::PyPilot>()?;

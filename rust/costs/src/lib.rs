@@ -5,8 +5,8 @@ mod motion;
 mod shape;
 mod traversability;
 
-pub use limits::{LimitsConfig, RobotLimits};
-pub use motion::{Demand, MotionConfig, MotionCost, Pace};
+pub use limits::{LimitsConfig, LimitsError, RobotLimits};
+pub use motion::{Demand, MotionConfig, MotionCost, SpeedOnCurve};
 pub use shape::{GroundShape, Shapes};
 pub use traversability::{Traversability, TraversabilityConfig};
 

@@ -1,7 +1,7 @@
 //! What a robot can do, from what its folder says of it.
 
 use robot::{Body, BodyError, Side};
-use settings::{POSITIVE, SHARE, above_to, settings};
+use settings::{ConfigError, POSITIVE, SHARE, Table, above_to, settings};
 
 settings! {
     /// What a robot can do where its folder does not say it. What `[gait]` of robot.toml says goes first.
@@ -21,6 +21,17 @@ settings! {
         /// How far inside of the soles' edges the weight stays, as a share of their sizes.
         sole_margin: f64 = 0.06, "1", SHARE;
     }
+}
+
+/// A robot whose limits cannot be told.
+#[derive(Debug, thiserror::Error)]
+pub enum LimitsError {
+    /// Settings that cannot be used.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// A body that does not fit its own stance.
+    #[error(transparent)]
+    Body(#[from] BodyError),
 }
 
 /// What a robot can do. At its limits it still goes on; beyond one it does not.
@@ -48,7 +59,8 @@ pub struct RobotLimits {
 
 impl RobotLimits {
     /// Those of a robot: its size, soles and centre of mass as it stands, and its `[gait]`.
-    pub fn of(body: &Body, config: &LimitsConfig) -> Result<Self, BodyError> {
+    pub fn of(body: &Body, config: &LimitsConfig) -> Result<Self, LimitsError> {
+        config.check()?;
         let description = body.description();
         let gait = |key: &str, default: f64| {
             let said = description.gait.get(key);

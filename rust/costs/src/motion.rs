@@ -20,7 +20,7 @@ settings! {
 
 /// How a robot moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pace {
+pub struct SpeedOnCurve {
     /// Along its path, m/s.
     pub speed_mps: f64,
     /// Of its path, 1/m: one over the radius; 0 straight ahead.
@@ -62,12 +62,12 @@ impl MotionCost {
     }
 
     /// How near a motion comes to tipping and slipping on ground of this shape and friction. Infinite where a foot leaves the ground.
-    pub fn demand(&self, shape: &GroundShape, friction: f64, pace: &Pace) -> Demand {
+    pub fn demand(&self, shape: &GroundShape, friction: f64, going: &SpeedOnCurve) -> Demand {
         let [height_m, half_m] = [self.limits.com_height_m, self.limits.half_support_m];
         let waves_per_m = TAU / (self.config.wavelength * self.limits.sole_m);
         let amplitude_m = SQRT_2 * shape.roughness_m;
-        let outwards = pace.speed_mps * pace.speed_mps * pace.curvature_per_m.abs();
-        let heave = amplitude_m * waves_per_m * waves_per_m * pace.speed_mps * pace.speed_mps;
+        let outwards = going.speed_mps * going.speed_mps * going.curvature_per_m.abs();
+        let heave = amplitude_m * waves_per_m * waves_per_m * going.speed_mps * going.speed_mps;
         let weight = GRAVITY_MPS2 - heave;
         let lean = libm::atan(amplitude_m * waves_per_m);
         let tilt = libm::atan(shape.slope + amplitude_m * waves_per_m);
@@ -88,9 +88,9 @@ impl MotionCost {
     }
 
     /// What a metre costs more by the motion; infinite where the robot tips, slips, or cannot go as fast.
-    pub fn cost(&self, shape: &GroundShape, friction: f64, pace: &Pace) -> f64 {
-        let most = self.demand(shape, friction, pace).most();
-        if most > 1.0 || pace.speed_mps > self.limits.speed_mps {
+    pub fn cost(&self, shape: &GroundShape, friction: f64, going: &SpeedOnCurve) -> f64 {
+        let most = self.demand(shape, friction, going).most();
+        if most > 1.0 || going.speed_mps > self.limits.speed_mps {
             return f64::INFINITY;
         }
         self.config.unsteady * most * most
@@ -104,11 +104,11 @@ impl MotionCost {
         curvature_per_m: f64,
     ) -> Option<f64> {
         let holds = |speed_mps: f64| {
-            let pace = Pace {
+            let going = SpeedOnCurve {
                 speed_mps,
                 curvature_per_m,
             };
-            self.demand(shape, friction, &pace).most() <= 1.0
+            self.demand(shape, friction, &going).most() <= 1.0
         };
         let (mut low, mut high) = (0.0, self.limits.speed_mps);
         if !holds(low) {
@@ -148,8 +148,8 @@ mod tests {
         }
     }
 
-    fn motion(speed_mps: f64, curvature_per_m: f64) -> Pace {
-        Pace {
+    fn motion(speed_mps: f64, curvature_per_m: f64) -> SpeedOnCurve {
+        SpeedOnCurve {
             speed_mps,
             curvature_per_m,
         }
