@@ -2,11 +2,13 @@
 
 mod limits;
 mod motion;
+mod paths;
 mod shape;
 mod traversability;
 
 pub use limits::{LimitsConfig, LimitsError, RobotLimits};
 pub use motion::{Demand, MotionConfig, MotionCost, SpeedOnCurve};
+pub use paths::CheapestPaths;
 pub use shape::{GroundShape, Shapes};
 pub use traversability::{Traversability, TraversabilityConfig};
 

@@ -53,6 +53,10 @@ pub struct RobotLimits {
     pub com_height_m: f64,
     /// From below the centre of mass to the nearest edge of what it stands on, m.
     pub half_support_m: f64,
+    /// From the middle between the soles to the middle of each, m: so far the centre of mass is beside a foot when it takes the weight.
+    pub half_stance_m: f64,
+    /// Time from one landing to the next, s.
+    pub step_time_s: f64,
     /// Length of a sole, m: shorter waves of the ground are bridged by it.
     pub sole_m: f64,
 }
@@ -71,7 +75,9 @@ impl RobotLimits {
         let [left, right] = Side::BOTH.map(|side| body.torso_from_sole(&poses, side).translation);
         let center = body.center_of_mass_in_torso(&poses);
         let sole = &description.legs.get(Side::Left).sole;
-        let across_m = (left.y - right.y).abs() + sole.width;
+        let stance_m = (left.y - right.y).abs();
+        let step_time_s = gait("step_time", config.step_time);
+        let across_m = stance_m + sole.width;
         let narrower_m = across_m.min(sole.length);
         Ok(Self {
             slope: config.slope,
@@ -79,10 +85,11 @@ impl RobotLimits {
             step_m: gait("climb_rise", config.climb_rise),
             radius_m: description.body.radius,
             height_m: description.body.height,
-            speed_mps: gait("max_forward", config.max_forward)
-                / gait("step_time", config.step_time),
+            speed_mps: gait("max_forward", config.max_forward) / step_time_s,
             com_height_m: center.z - 0.5 * (left.z + right.z),
             half_support_m: narrower_m * (0.5 - config.sole_margin),
+            half_stance_m: 0.5 * stance_m,
+            step_time_s,
             sole_m: sole.length,
         })
     }

@@ -87,6 +87,15 @@ impl MotionCost {
         }
     }
 
+    /// The friction that walking so asks for: that which holds the body on the ground, and that with which each step pushes it off. While a
+    /// foot carries, the centre of mass runs away from it like a pendulum upside down (Kajita et al. 2001): at most by half a step along
+    /// and half the stance across, of its own height.
+    pub fn friction_asked(&self, shape: &GroundShape, going: &SpeedOnCurve) -> f64 {
+        let half_step_m = 0.5 * going.speed_mps * self.limits.step_time_s;
+        let push = geometry::hypot(half_step_m, self.limits.half_stance_m);
+        self.demand(shape, 1.0, going).slip + push / self.limits.com_height_m
+    }
+
     /// What a metre costs more by the motion; infinite where the robot tips, slips, or cannot go as fast.
     pub fn cost(&self, shape: &GroundShape, friction: f64, going: &SpeedOnCurve) -> f64 {
         let most = self.demand(shape, friction, going).most();
