@@ -21,8 +21,10 @@ __all__ = [
     "Goal",
     "GroundCosts",
     "Legs",
+    "LocalRegression",
     "OccupancyGrid",
     "Octree",
+    "PathWeights",
     "Physics",
     "Pilot",
     "Planes",
@@ -342,6 +344,27 @@ class RangeMap:
     def occupied(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
     @property
     def seconds(self) -> float: ...
+
+@final
+class LocalRegression:
+    def __new__(cls, inputs: int, prior: float = 0.0, settings: str = "{}") -> LocalRegression: ...
+    def learn(self, inputs: NDArray[np.float64], measured: NDArray[np.float64]) -> None: ...
+    def predict(
+        self, inputs: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+
+@final
+class PathWeights:
+    def __new__(cls, weights: NDArray[np.float64], settings: str = "{}") -> PathWeights: ...
+    @property
+    def weights(self) -> NDArray[np.float64]: ...
+    def costs(self, features: NDArray[np.float64]) -> NDArray[np.float64]: ...
+    def learn_shown(
+        self, features: NDArray[np.float64], way: NDArray[np.int64], cell: float
+    ) -> float: ...
+    def prefer(
+        self, better: NDArray[np.float64], worse: NDArray[np.float64], margin: float
+    ) -> bool: ...
 
 @final
 class OccupancyGrid:

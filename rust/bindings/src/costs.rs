@@ -31,10 +31,7 @@ pub(crate) struct PyGroundCosts {
     motion: MotionCost,
 }
 
-pub(crate) fn grid<T: Clone>(
-    array: &Bound<'_, PyArray2<f64>>,
-    value: impl Fn(f64) -> T,
-) -> Grid<T> {
+fn grid<T: Clone>(array: &Bound<'_, PyArray2<f64>>, value: impl Fn(f64) -> T) -> Grid<T> {
     let array = array.readonly();
     let array = array.as_array();
     let mut grid = Grid::filled(array.ncols(), array.nrows(), value(f64::NAN));

@@ -10,9 +10,9 @@ settings! {
     /// How weights are learned from ways.
     pub struct PathWeightsConfig("costs.path_weights") {
         /// How far a way moves the weights.
-        rate: f64 = 0.05, "1", POSITIVE, "Ratliff, Bagnell and Zinkevich 2006, equation (10)";
+        rate: f64 = 0.1, "1", POSITIVE, "Ratliff, Bagnell and Zinkevich 2006, equation (10)";
         /// How strongly weights are drawn back to those that they began with, at each way.
-        ridge: f64 = 0.002, "1", NOT_NEGATIVE, "Ratliff, Bagnell and Zinkevich 2006, equation (8)";
+        ridge: f64 = 0.0002, "1", NOT_NEGATIVE, "Ratliff, Bagnell and Zinkevich 2006, equation (8)";
         /// A way that was not shown should cost more than the one that was by this, for each metre that it is beside it.
         margin: f64 = 0.5, "1", NOT_NEGATIVE, "Ratliff, Bagnell and Zinkevich 2006, equation (6)";
         /// Nearer than this to what was shown a way counts as the same.
