@@ -7,6 +7,7 @@ mod motion;
 mod path_weights;
 mod paths;
 mod shape;
+mod slip_sense;
 mod traversability;
 
 pub use basis::{BASIS, Basis, Look};
@@ -16,6 +17,9 @@ pub use motion::{Demand, MotionConfig, MotionCost, SpeedOnCurve};
 pub use path_weights::{Features, PathWeights, PathWeightsConfig, WeightsError};
 pub use paths::CheapestPaths;
 pub use shape::{GroundShape, Shapes};
+pub use slip_sense::{
+    GAIT_STATISTICS, GaitSample, SlipSense, SlipSenseConfig, SlipSenseError, gait_statistics,
+};
 pub use traversability::{Traversability, TraversabilityConfig};
 
 use settings::TableDescription;
@@ -26,5 +30,6 @@ pub const TABLES: &[TableDescription] = &[
     TableDescription::of::<LocalRegressionConfig>(),
     TableDescription::of::<MotionConfig>(),
     TableDescription::of::<PathWeightsConfig>(),
+    TableDescription::of::<SlipSenseConfig>(),
     TableDescription::of::<TraversabilityConfig>(),
 ];

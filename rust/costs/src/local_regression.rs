@@ -12,8 +12,10 @@ settings! {
         apart: f64 = 0.3, "1", above_to(0.0, 1.0), "Schaal and Atkeson 1998, section 3.3";
         /// How fast what was learned long ago is forgotten. 1 forgets nothing.
         forgetting: f64 = 1.0, "1", above_to(0.0, 1.0), "Schaal and Atkeson 1998, equation (5)";
-        /// Standard deviation of a measurement, of that which the prior is off by.
+        /// Standard deviation of a measurement, in its unit.
         noise: f64 = 0.5, "1", POSITIVE;
+        /// Standard deviation of the weights before anything is learned: of the number itself, and of its change as an input goes from 0 to 1.
+        spread: f64 = 1.0, "1", POSITIVE;
         /// Measurements whose weight equals that of the prior.
         doubt: f64 = 1.0, "1", POSITIVE;
         /// Most models: no more are made then.
@@ -118,7 +120,8 @@ impl LocalRegression {
             self.models.push(Model {
                 center: inputs.clone(),
                 weights: DVector::zeros(size),
-                covariance: DMatrix::identity(size, size),
+                covariance: DMatrix::identity(size, size)
+                    * (self.config.spread * self.config.spread),
                 support: 0.0,
             });
         }
