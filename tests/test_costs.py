@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from treadwell._core import GroundCosts
+from treadwell._core import GroundCosts, LocalRegression, PathWeights, SlipSense, gait_statistics
 from treadwell.errors import InputError
 from treadwell.robot.load import load_robot
 
@@ -149,3 +149,63 @@ def test_on_the_same_rough_patch_there_is_a_speed_below_which_the_body_stays() -
     assert 0.3 < fastest < 1.4
     assert holds(limits, *patch, 0.9 * fastest, 0.5)
     assert not holds(limits, *patch, 1.1 * fastest + 0.05, 0.5)
+
+
+def test_a_bend_is_learned_from_noisy_measurements_and_what_was_never_met_has_the_prior() -> None:
+    random = np.random.default_rng(2)
+    inputs = random.uniform(0.0, 1.0, (400, 1))
+    truth = np.where(inputs[:, 0] < 0.4, 3.0 - 5.0 * inputs[:, 0], 1.0)
+    learned = LocalRegression(1, 7.0)
+    learned.learn(inputs, truth + random.normal(0.0, 0.2, 400))
+    told, support = learned.predict(inputs)
+    assert np.sqrt(np.mean((told - truth) ** 2)) < 0.15
+    assert (support > 5.0).all()
+    far, nothing = learned.predict(np.array([[9.0]]))
+    assert far[0] == pytest.approx(7.0)
+    assert nothing[0] == pytest.approx(0.0)
+    with pytest.raises(InputError, match="2 inputs, expected 1"):
+        learned.predict(np.zeros((3, 2)))
+    with pytest.raises(ValueError, match=r"inputs must be \(n, inputs\) and measured \(n,\)"):
+        learned.learn(inputs, truth[1:])
+
+
+def test_a_shown_way_comes_to_cost_less_than_the_straight_one() -> None:
+    features = np.zeros((21, 21, 3))
+    features[:, :, 0] = 1.0
+    features[:8, :, 1] = 1.0
+    features[13:, :, 2] = 1.0
+    shown = np.array(
+        [(10 + at, at) for at in range(7)]
+        + [(16, col) for col in range(7, 15)]
+        + [(30 - col, col) for col in range(15, 21)]
+    )
+    weights = PathWeights(np.zeros(3))
+    seemed = [weights.learn_shown(features, shown, 0.1) for _ in range(60)]
+    assert seemed[0] > seemed[-1]
+    costs = weights.costs(features)
+    assert costs[16, 10] < costs[10, 10] <= costs[3, 10]
+    assert weights.prefer(np.array([1.0, 0, 0]), np.array([1.0, 1, 0]), 1.0)
+    features[0, 0, 0] = np.nan
+    assert np.isinf(weights.costs(features)[0, 0])
+    with pytest.raises(InputError, match="a cell has 2 features, there are 3 weights"):
+        weights.costs(features[:, 1:, :2])
+
+
+def test_a_slip_sense_tells_what_changes_with_slip_and_refuses_other_shapes() -> None:
+    random = np.random.default_rng(4)
+
+    def statistics(slip: float) -> np.ndarray:
+        wave = np.sin(np.arange(100) * math.tau / 100.0)[:, None]
+        turns = random.normal(0.0, 0.02, (100, 3)) + 5.0 * slip * wave
+        legs = random.normal(0.0, 0.02, (2, 100, 2, 6))
+        return gait_statistics(turns, random.normal(0.0, 0.1, (100, 3)), *legs)
+
+    slips = random.uniform(0.0, 0.05, 120)
+    all_of = np.array([statistics(slip) for slip in slips])
+    sense = SlipSense(all_of[:80], slips[:80])
+    off = sense.slip(all_of[80:]) - slips[80:]
+    assert np.sqrt(np.mean(off**2)) < 0.2 * slips.std()
+    with pytest.raises(ValueError, match=r"statistics must be \(n, 27\)"):
+        sense.slip(np.zeros((3, 4)))
+    with pytest.raises(InputError, match="0 ticks, at least 3 are needed"):
+        gait_statistics(*np.zeros((2, 0, 3)), *np.zeros((2, 0, 2, 6)))

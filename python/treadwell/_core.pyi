@@ -34,6 +34,7 @@ __all__ = [
     "Segmenter",
     "Servos",
     "Situation",
+    "SlipSense",
     "Stair",
     "Staircase",
     "Step",
@@ -45,6 +46,7 @@ __all__ = [
     "WorldModel",
     "components",
     "distances",
+    "gait_statistics",
     "ground_points",
     "parameters",
     "point_classes",
@@ -63,6 +65,12 @@ _Footstep = tuple[str, float, float, float, float, float, float]
 
 def components() -> list[tuple[str, str, str, str | None]]: ...
 def distances(blocked: NDArray[np.bool_], /) -> NDArray[np.float32]: ...
+def gait_statistics(
+    angular_velocity: NDArray[np.float64],
+    specific_force: NDArray[np.float64],
+    leg_velocities: NDArray[np.float64],
+    leg_positions: NDArray[np.float64],
+) -> NDArray[np.float64]: ...
 def ground_points(points: NDArray[np.float64], settings: str = "{}") -> NDArray[np.bool_]: ...
 def parameters() -> str: ...
 def point_classes(points: NDArray[np.float64], settings: str = "{}") -> NDArray[np.uint8]: ...
@@ -505,6 +513,16 @@ class Staircase:
     def frames(self) -> int: ...
     @property
     def stairs(self) -> list[Stair]: ...
+
+@final
+class SlipSense:
+    def __new__(
+        cls,
+        statistics: NDArray[np.float64],
+        slip: NDArray[np.float64],
+        settings: str = "{}",
+    ) -> SlipSense: ...
+    def slip(self, statistics: NDArray[np.float64]) -> NDArray[np.float64]: ...
 
 @final
 class Stair:

@@ -22,6 +22,7 @@ mod ranges;
 mod segmenter;
 mod servos;
 mod situation;
+mod slip;
 mod stairs;
 mod truth;
 mod walker;
@@ -36,6 +37,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(clearance::swept_clearance, module)?)?;
     module.add_function(wrap_pyfunction!(distance::distances, module)?)?;
     module.add_function(wrap_pyfunction!(distance::squared_distances, module)?)?;
+    module.add_function(wrap_pyfunction!(slip::gait_statistics, module)?)?;
     module.add_function(wrap_pyfunction!(version, module)?)?;
     module.add_function(wrap_pyfunction!(lists::components, module)?)?;
     module.add_function(wrap_pyfunction!(lists::tables, module)?)?;
@@ -61,6 +63,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<situation::PyGoal>()?;
     module.add_class::<situation::PyScan>()?;
     module.add_class::<situation::PySituation>()?;
+    module.add_class::<slip::PySlipSense>()?;
     module.add_class::<stairs::PyClimb>()?;
     module.add_class::<stairs::PyStair>()?;
     module.add_class::<stairs::PyStaircase>()?;
