@@ -30,6 +30,7 @@ from walking_tasks import COURSES, EDGES, TASKS, Job, Motion, climb, told
 
 from treadwell._core import Walker
 from treadwell.course.build import build_course
+from treadwell.observation import Observation
 from treadwell.physics.motors import JointTargets
 from treadwell.physics.simulation import Simulation, Start
 from treadwell.random_streams import RandomStreams
@@ -112,10 +113,11 @@ class World:
         self.foot_height = -robot.file.legs.left.sole.position[2]
         self.rng = rng
 
-    def tick(self, motion: Motion) -> None:
+    def tick(self, motion: Motion) -> Observation:
         simulation = self.simulation
         observation = self.sensors.observe(simulation.data, simulation.time_ns, simulation.motors)
         simulation.advance(JointTargets(*self.walker.step(observation, motion, 0.0, 0.6)))
+        return observation
 
     def push(self, force: tuple[float, float]) -> None:
         self.simulation.data.xfrc_applied[self.torso, :2] = force
@@ -148,6 +150,24 @@ class World:
         x, y = data.xpos[self.soles, :2].mean(axis=0)
         forward = data.xmat[self.soles].reshape(2, 3, 3)[:, :, 0].sum(axis=0)
         return float(x), float(y), math.atan2(forward[1], forward[0])
+
+
+def first_job(robot: str, task: str, seed: int) -> Job:
+    """Return a trial with nothing out of the ordinary."""
+    return Job(
+        task=task,
+        seed=seed,
+        robot=robot,
+        impulse=0.0,
+        minutes=0.0,
+        gait={},
+        rise=0.03,
+        tread=0.12,
+        steps=4,
+        errors=Errors(0.0, 0.0),
+        pushed=0.0,
+        slope=0.0,
+    )
 
 
 def run(job: Job) -> Trial:

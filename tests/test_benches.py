@@ -39,6 +39,7 @@ LEAST: dict[str, list[str]] = {
     "rules_trial.py": ["record", "FOLDER", "--courses", "SHORT"],
     "seam.py": ["--seconds", "0.3"],
     "sense_faults.py": ["--scenarios", "SHORT", "--seeds", "0", "--faults", "imu zero"],
+    "slip_trials.py": ["--patches", "2", "--seconds", "3.2"],
     "soak.py": ["--hours", "0.0001", "--scenarios", "SHORT"],
     "speed.py": ["--scenario", "SHORT", "--seeds", "0"],
     "stairs_seen.py": ["up", "--seeds", "0"],

@@ -19,9 +19,12 @@ __all__ = [
     "DepthErrors",
     "FloorView",
     "Goal",
+    "GroundCosts",
     "Legs",
+    "LocalRegression",
     "OccupancyGrid",
     "Octree",
+    "PathWeights",
     "Physics",
     "Pilot",
     "Planes",
@@ -31,6 +34,7 @@ __all__ = [
     "Segmenter",
     "Servos",
     "Situation",
+    "SlipSense",
     "Stair",
     "Staircase",
     "Step",
@@ -42,6 +46,7 @@ __all__ = [
     "WorldModel",
     "components",
     "distances",
+    "gait_statistics",
     "ground_points",
     "parameters",
     "point_classes",
@@ -60,6 +65,12 @@ _Footstep = tuple[str, float, float, float, float, float, float]
 
 def components() -> list[tuple[str, str, str, str | None]]: ...
 def distances(blocked: NDArray[np.bool_], /) -> NDArray[np.float32]: ...
+def gait_statistics(
+    angular_velocity: NDArray[np.float64],
+    specific_force: NDArray[np.float64],
+    leg_velocities: NDArray[np.float64],
+    leg_positions: NDArray[np.float64],
+) -> NDArray[np.float64]: ...
 def ground_points(points: NDArray[np.float64], settings: str = "{}") -> NDArray[np.bool_]: ...
 def parameters() -> str: ...
 def point_classes(points: NDArray[np.float64], settings: str = "{}") -> NDArray[np.uint8]: ...
@@ -343,6 +354,27 @@ class RangeMap:
     def seconds(self) -> float: ...
 
 @final
+class LocalRegression:
+    def __new__(cls, inputs: int, prior: float = 0.0, settings: str = "{}") -> LocalRegression: ...
+    def learn(self, inputs: NDArray[np.float64], measured: NDArray[np.float64]) -> None: ...
+    def predict(
+        self, inputs: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+
+@final
+class PathWeights:
+    def __new__(cls, weights: NDArray[np.float64], settings: str = "{}") -> PathWeights: ...
+    @property
+    def weights(self) -> NDArray[np.float64]: ...
+    def costs(self, features: NDArray[np.float64]) -> NDArray[np.float64]: ...
+    def learn_shown(
+        self, features: NDArray[np.float64], way: NDArray[np.int64], cell: float
+    ) -> float: ...
+    def prefer(
+        self, better: NDArray[np.float64], worse: NDArray[np.float64], margin: float
+    ) -> bool: ...
+
+@final
 class OccupancyGrid:
     def __new__(
         cls,
@@ -483,6 +515,16 @@ class Staircase:
     def stairs(self) -> list[Stair]: ...
 
 @final
+class SlipSense:
+    def __new__(
+        cls,
+        statistics: NDArray[np.float64],
+        slip: NDArray[np.float64],
+        settings: str = "{}",
+    ) -> SlipSense: ...
+    def slip(self, statistics: NDArray[np.float64]) -> NDArray[np.float64]: ...
+
+@final
 class Stair:
     @property
     def front(self) -> _Edge: ...
@@ -562,6 +604,27 @@ class Walker:
     def arms_raised(self, value: bool, /) -> None: ...
     @property
     def stepping(self) -> tuple[int, float, str | None]: ...
+
+@final
+class GroundCosts:
+    def __new__(cls, description_json: str, settings: str = "{}") -> GroundCosts: ...
+    @property
+    def limits(self) -> dict[str, float]: ...
+    def map(
+        self,
+        heights: NDArray[np.float64],
+        cell: float,
+        head_room: NDArray[np.float64] | None = None,
+    ) -> NDArray[np.float64]: ...
+    def demand(
+        self, slope: float, roughness: float, friction: float, speed: float, curvature: float
+    ) -> tuple[float, float]: ...
+    def motion_cost(
+        self, slope: float, roughness: float, friction: float, speed: float, curvature: float
+    ) -> float: ...
+    def fastest(
+        self, slope: float, roughness: float, friction: float, curvature: float
+    ) -> float | None: ...
 
 @final
 class Legs:

@@ -38,7 +38,7 @@ class ParameterTable:
     """A table of settings, as in `[navigation.fog]`.
 
     Attributes:
-        key: `navigation.fog`, `gait` of robot.toml, or `classification.moments` of a function.
+        key: `navigation.fog`, `gait` of robot.toml, or `costs.limits` of a function.
         about: what it is for.
         parameters: in the order of the code.
         schema: JSON schema of the table.

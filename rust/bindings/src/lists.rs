@@ -31,6 +31,7 @@ pub(crate) fn tables() -> Vec<&'static str> {
 pub(crate) fn parameters() -> String {
     let mut all = pilot::tables();
     all.extend_from_slice(classification::TABLES);
+    all.extend_from_slice(costs::TABLES);
     let all: Vec<_> = all
         .iter()
         .map(|table| {
