@@ -41,6 +41,8 @@ TESTED_BY = {
     "course.check": "test_course.py",
     "course.levels": "test_course.py",
     "course.pieces": "test_course.py",
+    "course.terrain": "test_ground_elements.py",
+    "course.vegetation": "test_ground_elements.py",
     "recording.recorded_camera": "test_sources_foxglove.py",
     "recording.products": "test_recording.py",
     "recording.stair_shapes": "test_recording.py",
