@@ -46,6 +46,7 @@ TESTED_BY = {
     "recording.recorded_camera": "test_sources_foxglove.py",
     "recording.products": "test_recording.py",
     "recording.stair_shapes": "test_recording.py",
+    "measuring.true_levels": "test_score.py",
     "map_result": "test_map.py",
     "map_making.mapper": "test_map.py",
     "map_making.picture": "test_map.py",
