@@ -30,15 +30,15 @@ class Scene:
 SCENES: Final = (
     Scene("stairs_up", "stairs", ("stairs",)),
     Scene("sill", "a sill", ("sill", "left wall", "right wall", "end wall")),
-    Scene("bridge_over", "over a bridge", ("banks", "deck")),
-    Scene("bridge_under", "under a bridge", ("banks", "deck")),
-    Scene("underpass", "under a deck in a house", ()),
+    Scene("slope_up", "a slope", ("slope", "top")),
     Scene("rubble", "rubble to go around", ("rubble",)),
     Scene("terrain", "waves of the ground", ("waves",)),
-    Scene("slope_up", "a slope", ("slope", "top")),
     Scene("vegetation", "grass that gives way", ("grass",)),
     Scene("visitor", "a visitor who comes and goes", ("post",)),
     Scene("box_removed", "a box that is taken away", ("box",)),
+    Scene("underpass", "under a deck in a house", ()),
+    Scene("bridge_under", "under a bridge", ("banks", "deck")),
+    Scene("bridge_over", "over a bridge", ("banks", "deck")),
 )
 SHOWN: Final = "bridge_under"
 """The scene that is drawn as every model has it (Fig. 36.11 of the handbook)."""
