@@ -32,8 +32,8 @@ from treadwell.scenario.faults import FAULTS
 from treadwell.scenario.loading import load_scenario
 
 LONGEST_SECONDS = 120
-MOVABLE = ("stairs", "sill", "platform", "box", "cylinder", "wall", "ramp", "rubble")
-DRAWN = ("door", "scatter", "house", "yard")
+MOVABLE = ("stairs", "sill", "platform", "box", "cylinder", "wall", "ramp", "rubble", "patch")
+DRAWN = ("door", "scatter", "house", "yard", "vegetation", "terrain")
 JOINTS = frozenset(["left_knee_pitch", "right_hip_pitch", "left_ankle_roll"])
 SIZE, RISE, YAW, ANGLE = (0.02, 2.0), (0.002, 0.3), (-6.3, 6.3), (-0.3, 0.3)
 AREA = [[(-4.0, -0.7), (-4.0, -0.7)], [(1.0, 6.0), (0.7, 4.0)]]
@@ -48,6 +48,9 @@ ELEMENTS: dict[str, dict[str, Any]] = {
     "wall": {"height": SIZE, "thickness": (0.001, 0.5)},
     "ramp": {"length": SIZE, "width": SIZE, "rise": RISE, "yaw": YAW},
     "rubble": {"size": [SIZE, SIZE], "amplitude": RISE, "yaw": YAW},
+    "patch": {"size": [SIZE, SIZE], "friction": (0.0, 2.0), "shade": (0.0, 1.0), "yaw": YAW},
+    "vegetation": {"size": [SIZE, SIZE], "height": RISE, "density": (1.0, 2000.0), "yaw": YAW},
+    "terrain": {"size": [SIZE, SIZE, RISE], "wavelength": (0.05, 3.0), "yaw": YAW},
     "door": {"width": SIZE, "height": SIZE, "open": (0.0, 1.0), "yaw": YAW,
              "wall": [(0.0, 2.0), (0.0, 2.0), SIZE]},
     "scatter": {"area": AREA, "count": (1, 30), "size": [(0.02, 0.4), (0.02, 0.4)]},

@@ -74,3 +74,9 @@ def test_of_what_is_thin_the_cells_count_whose_centre_lies_over_it() -> None:
     kind[32:34] = OBSTACLE
     curtain = seen(kind, flat(0.0))["curtain"]
     assert curtain.obstacle == curtain.cells == 10
+
+
+def test_what_has_no_solid_has_no_cell() -> None:
+    built = world('[[course]]\nkind = "vegetation"', start="position = [-2.0, 0.0]")
+    found = seen(np.full((SIDE, SIDE), FLOOR, dtype=np.uint8), flat(0.0), built)
+    assert [one.cells for one in found.values()] == [0]

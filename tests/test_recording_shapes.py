@@ -6,7 +6,14 @@ import pytest
 from episode_builders import qrio, world
 
 from treadwell.recording.layout import height_colours, plane_colours
-from treadwell.recording.shapes import Shapes, colours, multiplied, robot_geoms, rotated
+from treadwell.recording.shapes import (
+    Shapes,
+    colours,
+    field_triangles,
+    multiplied,
+    robot_geoms,
+    rotated,
+)
 
 
 def test_the_robot_is_drawn_by_what_is_to_be_seen() -> None:
@@ -62,3 +69,17 @@ def test_points_without_a_plane_are_grey_and_planes_differ() -> None:
     shades = plane_colours(np.array([0, 1, 2, 3], dtype=np.uint16), ground=2)
     assert len({tuple(row) for row in shades.tolist()}) == 4
     assert len(set(shades[0].tolist())) == 1
+
+
+def test_a_height_field_is_drawn_by_its_triangles() -> None:
+    made = world('[[course]]\nkind = "terrain"\nposition = [3.0, 0.0]')
+    (geom,) = made.course.elements[0].geom_ids
+    corners, faces = field_triangles(made.model, 0)
+    normals = np.cross(
+        corners[faces[:, 1]] - corners[faces[:, 0]], corners[faces[:, 2]] - corners[faces[:, 0]]
+    )
+    assert (normals[:, 2] > 0.0).all()
+    middles = corners[faces].mean(axis=1)
+    there = middles[:, :2] + made.simulation.data.geom_xpos[geom][:2]
+    assert middles[:, 2] == pytest.approx(made.course.height_at(there), abs=1e-6)
+    assert geom in Shapes(made.model, np.array([geom]), "course").geoms

@@ -1,15 +1,18 @@
 """Claims about the score: cells and surfaces against the truth, errors of the estimate."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
-from episode_builders import BOX, STEP, grid, world
+from episode_builders import BOX, STEP, grid, qrio, world
 
+from treadwell.course.build import build_course
 from treadwell.map_memory import FLOOR, OBSTACLE, RememberedMap
 from treadwell.measuring.measures import PoseErrors, timing
 from treadwell.measuring.score import map_counts, surfaces, true_cells
 from treadwell.poses import pose_matrix
+from treadwell.scenario.loading import load_scenario
 
 CURTAIN = """
 [[course]]
@@ -74,6 +77,36 @@ def test_a_floor_at_the_height_of_a_boxes_lid_is_right_and_at_any_other_is_not()
         counts = map_counts(remembered, truth)
         assert counts.obstacle_called_floor == wrong
         assert counts.obstacle_cells_right == 1.0 - wrong
+
+
+DECK = """
+<mujoco><worldbody>
+<geom name="deck" type="box" pos="0.5 0 0.7" size="0.3 0.3 0.02"/>
+</worldbody></mujoco>
+"""
+
+
+def test_below_a_deck_the_road_is_right_and_so_is_the_deck_itself(tmp_path: Path) -> None:
+    """Of levels above each other the map has the one that the robot is on."""
+    (tmp_path / "deck.xml").write_text(DECK)
+    file = tmp_path / "bridge.toml"
+    file.write_text(
+        'schema = 1\nname = "bridge"\n[start]\nposition = [-1.0, 0.0]\n[goal]\n'
+        '[[course]]\nkind = "mjcf"\nname = "bridge"\nfile = "deck.xml"\n'
+    )
+    course = build_course(load_scenario(file), qrio())
+    remembered = grid()
+    remembered.kind[:] = FLOOR
+    remembered.sightings[:] = 5
+    for height, estimate in ((0.0, None), (0.72, 0.72), (0.36, None)):
+        remembered.height[:] = 0.0
+        over = true_cells(course, grid(), 0.58).height > 0.5
+        remembered.height[over] = height
+        right = map_counts(remembered, true_cells(course, remembered, 0.58))
+        assert (right.floor_cells_right == 1.0) == (height != 0.36)
+        found = surfaces(course, remembered, np.array([[0.5, 0.0]]))
+        if height != 0.36:
+            assert found[0].estimate == (None if estimate is None else pytest.approx(estimate))
 
 
 def test_rubble_has_no_lid() -> None:

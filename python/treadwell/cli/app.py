@@ -139,7 +139,8 @@ app.command(short_help="Write files that other tools open.", epilog=run_verbs.EX
 )
 def experiment(
     name: Annotated[
-        str, typer.Argument(metavar="NAME", help="Which experiment: fog, nao, stairs, world.")
+        str,
+        typer.Argument(metavar="NAME", help="One of: fog, models, nao, stairs, world."),
     ],
     *,
     seeds: Annotated[

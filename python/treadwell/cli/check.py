@@ -102,7 +102,7 @@ def show(document: Mapping[str, Any]) -> None:
                 e["kind"],
                 _point(e["position"]),
                 ", ".join(f"{t['part']} {1e3 * t['height']:.0f} mm" for t in e["tops"])
-                or "obstacle",
+                or ("gives way" if e["kind"] == "vegetation" else "obstacle"),
                 "" if e["present"] else "not there at first",
             )
             for e in document["elements"]

@@ -8,13 +8,21 @@ import numpy as np
 from treadwell.course.assets import mjcf_pieces, read_mjcf
 from treadwell.course.check import check_start
 from treadwell.course.course import LEVEL_TOLERANCE, Course, CourseElement, Place, levels_at
-from treadwell.course.geometry import PREFIX, add_ground, add_movable_body, add_pieces
+from treadwell.course.geometry import (
+    PREFIX,
+    STEMS,
+    add_ground,
+    add_movable_body,
+    add_pieces,
+    add_stems,
+)
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import about_z
 from treadwell.course.plan import PlannedElement, plan_course
 from treadwell.errors import InputError
 from treadwell.mjcf.build import compiled
 from treadwell.robot.load import Robot
+from treadwell.scenario.ground_elements import Patch
 from treadwell.scenario.model import Scenario
 
 
@@ -33,22 +41,22 @@ def build_course(scenario: Scenario, robot: Robot) -> Course:
     friction = scenario.physics.friction
     spec = robot.spec()
     add_ground(spec, friction)
-    names = [_add(spec, plan, scenario, friction) for plan in plans]
+    added = [_add(spec, plan, scenario, friction) for plan in plans]
     _place_root(spec, robot, scenario)
     model = compiled(spec, str(scenario.path or scenario.name))
     _scale_masses(model, robot, scenario.physics.mass_scale)
-    model.geom_friction[:, 0] = friction
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     elements = tuple(
-        _built(model, data, plan, geoms) for plan, geoms in zip(plans, names, strict=True)
+        _built(model, data, plan, names) for plan, names in zip(plans, added, strict=True)
     )
     start = _start(scenario, elements)
     texture = np.ones(model.ngeom)
     geom_element = np.full(model.ngeom, -1, dtype=np.intp)
     for index, element in enumerate(elements):
-        texture[list(element.geom_ids)] = element.texture
-        geom_element[list(element.geom_ids)] = index
+        geoms = [*element.geom_ids, *element.soft_ids]
+        texture[geoms] = element.texture
+        geom_element[geoms] = index
     course = Course(
         model=model,
         elements=elements,
@@ -61,6 +69,8 @@ def build_course(scenario: Scenario, robot: Robot) -> Course:
         geom_element=geom_element,
         events=tuple(planned.events),
     )
+    course.set_friction(model.geom_friction, friction)
+    _put_first(course)
     check_start(scenario, robot, course)
     return course
 
@@ -75,6 +85,9 @@ def _add(
         spec.attach(child, frame=spec.worldbody.add_frame(), prefix=f"{PREFIX}{plan.name}/")
         return None
     body, origin = spec.worldbody, np.zeros(3)
+    if plan.stems is not None:
+        add_stems(spec, plan.name, plan.element, plan.stems)
+        return []
     if plan.movable:
         origin = plan.origin
         body = add_movable_body(spec, plan.name, origin, present=plan.present)
@@ -113,6 +126,8 @@ def _built(
         origin=plan.origin,
         present=plan.present,
         hinge=plan.hinge,
+        soft_ids=() if plan.stems is None else (model.geom(f"{PREFIX}{plan.name}/{STEMS}").id,),
+        slippery=isinstance(plan.element, Patch),
     )
 
 
@@ -123,6 +138,22 @@ def _belongs(model: mujoco.MjModel, geom: int, prefix: str) -> bool:
     ):
         return False
     return bool(model.geom(geom).name.startswith(prefix))
+
+
+def _put_first(course: Course) -> None:
+    """Let what has a friction of its own decide it, against soles that decide theirs otherwise.
+
+    Of two geoms MuJoCo takes the larger friction, or that of the one with the higher priority. The
+    rest of what that one decides is as it is on the ground, where soles do.
+    """
+    model = course.model
+    own = [geom for element in course.elements if element.slippery for geom in element.geom_ids]
+    if own:
+        sole = int(np.argmax(model.geom_priority))
+        model.geom_priority[own] = model.geom_priority[sole] + 1
+        for field in ("condim", "solmix", "solref", "solimp"):
+            values = getattr(model, f"geom_{field}")
+            values[own] = values[sole]
 
 
 def _place_root(spec: mujoco.MjSpec, robot: Robot, scenario: Scenario) -> None:

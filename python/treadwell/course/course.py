@@ -53,6 +53,8 @@ class CourseElement:
         origin: (3,) world: where its body stands when it is where the file puts it.
         present: whether it is there from the beginning.
         hinge: what it turns about where it is the leaf of a door, else None.
+        soft_ids: its geoms that are seen and give way: nothing touches them.
+        slippery: whether its geoms have a friction of their own.
     """
 
     name: str
@@ -66,6 +68,8 @@ class CourseElement:
     origin: Floats
     present: bool
     hinge: Hinge | None = None
+    soft_ids: tuple[int, ...] = ()
+    slippery: bool = False
 
     @property
     def walkable(self) -> bool:
@@ -112,6 +116,18 @@ class Course:
         if not self._by_name:
             self._by_name.update({element.name: element for element in self.elements})
         return self._by_name.get(name)
+
+    def set_friction(self, friction: Floats, value: float) -> None:
+        """Set the sliding friction of all geoms but of those that have their own, in place.
+
+        Args:
+            friction: (ngeom, 3), MuJoCo's `geom_friction`.
+            value: of the soles on everything.
+        """
+        own = [geom for e in self.elements if e.slippery for geom in e.geom_ids]
+        kept = friction[own, 0].copy()
+        friction[:, 0] = value
+        friction[own, 0] = kept
 
     def tops(self) -> list[tuple[CourseElement, Top]]:
         """Return every walkable top that is there from the beginning, with its element."""

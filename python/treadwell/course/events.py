@@ -154,7 +154,7 @@ class Events:
                 self._blind_until = max(self._blind_until, time + event.duration)
             case ChangeFriction():
                 friction = physics.model.geom_friction.copy()
-                friction[:, 0] = event.value
+                self._course.set_friction(friction, event.value)
                 physics.set("geom_friction", friction)
             case EncoderOffset():
                 before = self.encoder_offsets.get(event.joint, 0.0)

@@ -5,15 +5,20 @@ from typing import Final
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
+from treadwell.course.height_field import FieldPiece
 from treadwell.course.outlines import Floats
 from treadwell.course.pieces import Piece
 from treadwell.scenario.element_table import ElementTable
 from treadwell.scenario.elements import Box
+from treadwell.scenario.ground_elements import Patch
 
 PREFIX: Final = "course/"
 """Before the names of a course's bodies and geoms, so that none is also a robot's."""
 GROUND: Final = "ground"
+STEMS: Final = "stems"
+"""Ends the name of the geom of all that is seen of an element and gives way."""
 PARKED: Final = -100.0
 """Height of an element that is not there, metres."""
 COLOURS: Final[dict[str, tuple[float, float, float]]] = {
@@ -26,10 +31,15 @@ COLOURS: Final[dict[str, tuple[float, float, float]]] = {
     "wall": (0.90, 0.88, 0.83),
     "door": (0.62, 0.44, 0.28),
     "rubble": (0.50, 0.47, 0.45),
+    "patch": (0.5, 0.5, 0.5),
+    "vegetation": (0.33, 0.50, 0.22),
+    "terrain": (0.62, 0.58, 0.44),
     "mesh": (0.50, 0.42, 0.60),
 }
 HANGING: Final = (0.91, 0.62, 0.20)
 """Colour of a box that hangs above the ground."""
+FLAT: Final = 1e-3
+"""Height of a field that has none, metres: MuJoCo wants one."""
 FILE_FRICTION: Final = (0.005, 0.0001)
 """Torsional and rolling friction, which only count where a geom asks for them."""
 
@@ -100,6 +110,8 @@ def colour(element: ElementTable, number: int) -> tuple[float, float, float, flo
     red, green, blue = COLOURS.get(kind, (0.6, 0.6, 0.6))
     if isinstance(element, Box) and element.base > 0.0:
         red, green, blue = HANGING
+    if isinstance(element, Patch):
+        red = green = blue = element.shade
     shade = 1.0 if number % 2 == 0 else 0.88
     return red * shade, green * shade, blue * shade, 1.0
 
@@ -132,6 +144,11 @@ def add_pieces(
         geom_name = f"{PREFIX}{name}/{piece.name}"
         names.append(geom_name)
         common = {"name": geom_name, "rgba": list(colour(element, number)), **_contact(friction)}
+        if isinstance(element, Patch):
+            common["friction"] = [element.friction, *FILE_FRICTION]
+        if isinstance(piece, FieldPiece):
+            _add_field(spec, body, piece, common)
+            continue
         if piece.shape == "hull":
             mesh = spec.add_mesh(name=geom_name)
             vertices = piece.vertices if shape is None else shape[0]
@@ -154,6 +171,59 @@ def add_pieces(
             **common,
         )
     return names
+
+
+def _add_field(
+    spec: mujoco.MjSpec, body: mujoco.MjsBody, piece: FieldPiece, common: dict[str, object]
+) -> None:
+    """Add a height field's geom; MuJoCo stretches what it is given over all of the height."""
+    field = piece.field
+    low = float(field.heights.min())
+    rows, columns = field.heights.shape
+    most = max(float(field.heights.max()) - low, FLAT)
+    spec.add_hfield(
+        name=str(common["name"]),
+        nrow=rows,
+        ncol=columns,
+        size=[*field.half, most, low - field.bottom],
+        userdata=((field.heights - low) / most).ravel().tolist(),
+    )
+    body.add_geom(
+        type=mujoco.mjtGeom.mjGEOM_HFIELD,
+        hfieldname=common["name"],
+        pos=[*field.middle, low],
+        quat=piece.quaternion.tolist(),
+        **common,
+    )
+
+
+def add_stems(
+    spec: mujoco.MjSpec, name: str, element: ElementTable, shape: tuple[Floats, NDArray[np.int32]]
+) -> None:
+    """Add what is seen of an element and gives way: one geom, a mesh that nothing touches.
+
+    Args:
+        spec: the course.
+        name: the element's.
+        element: for its colour.
+        shape: vertices (n, 3) m, world, and faces (m, 3).
+    """
+    vertices, faces = shape
+    geom_name = f"{PREFIX}{name}/{STEMS}"
+    spec.add_mesh(
+        name=geom_name,
+        uservert=vertices.ravel().tolist(),
+        userface=faces.ravel().tolist(),
+        inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
+    )
+    untouched = {**_contact(0.0), "contype": 0, "conaffinity": 0}
+    spec.worldbody.add_geom(
+        type=mujoco.mjtGeom.mjGEOM_MESH,
+        meshname=geom_name,
+        name=geom_name,
+        rgba=list(colour(element, 0)),
+        **untouched,
+    )
 
 
 def add_movable_body(

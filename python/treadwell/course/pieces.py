@@ -28,9 +28,12 @@ from treadwell.scenario.elements import (
     Sill,
     Wall,
 )
+from treadwell.scenario.ground_elements import Patch
 
 ROUND: Final = 24
 """Corners of the polygon that stands for a circle in clearances; it lies around the circle."""
+PATCH: Final = (-0.02, 0.001)
+"""Metres: from where to where a patch reaches. As thick as that a sole on it meets nothing else."""
 
 
 @dataclass(frozen=True)
@@ -186,6 +189,10 @@ def simple_pieces(  # noqa: PLR0911 - one return for each kind
             return [block("wall", outline, yaw, 0.0, element.height)], []
         case Ramp():
             return _ramp(element)
+        case Patch():
+            length, width = element.size
+            outline = rectangle(element.position, element.yaw, (-length / 2, length / 2), width)
+            return [block("plate", outline, element.yaw, *PATCH)], [level("top", outline, PATCH[1])]
         case Rubble():
             return _rubble(element, name, seed), []
     raise TypeError(f"no geometry for {type(element).__name__}")

@@ -13,6 +13,8 @@ from treadwell.course.outlines import Floats
 from treadwell.course.pieces import Piece, Top, simple_pieces
 from treadwell.course.scatter import scattered
 from treadwell.course.stairs import stairs_pieces
+from treadwell.course.terrain import terrain_pieces
+from treadwell.course.vegetation import stems
 from treadwell.course.worlds.drawing import Drawn
 from treadwell.course.worlds.house import drawn_house
 from treadwell.course.worlds.yard import drawn_yard
@@ -22,6 +24,7 @@ from treadwell.scenario.drawn_elements import House, Scatter, Yard
 from treadwell.scenario.element_table import ElementTable
 from treadwell.scenario.elements import ELEMENTS, MOVABLE, Door, Mesh, Mjcf, Stairs, Wall
 from treadwell.scenario.events import Add, Event, Move, Remove, SetDoor
+from treadwell.scenario.ground_elements import Terrain, Vegetation
 from treadwell.scenario.messages import nearest
 from treadwell.scenario.model import Scenario
 from treadwell.scenario.values import element_names
@@ -45,6 +48,7 @@ class PlannedElement:
         mjcf: the file of an MJCF world, whose pieces are known after building only.
         shape: vertices and faces of a mesh, world frame.
         hinge: what it turns about where it is the leaf of a door.
+        stems: vertices and faces, world frame, of what is seen of it and gives way.
     """
 
     name: str
@@ -57,6 +61,7 @@ class PlannedElement:
     mjcf: str | None = None
     shape: tuple[Floats, Any] | None = None
     hinge: Hinge | None = None
+    stems: tuple[Floats, Any] | None = None
 
 
 @dataclass(frozen=True)
@@ -167,12 +172,17 @@ def _planned(
             PlannedElement(name, element, tuple(frame_pieces(element)), (), origin),
             PlannedElement(name + LEAF, element, leaf, (), at, movable, hinge=hinge),
         ]
+    if isinstance(element, Vegetation):
+        seen = stems(element, name, scenario.seed)
+        return [PlannedElement(name, element, (), (), origin, stems=seen)]
     if isinstance(element, Mjcf):
         mjcf = element.file
     elif isinstance(element, Mesh):
         what = f"{scenario.path or scenario.name}: course.{name}.file: {element.file}"
         piece, vertices, faces = mesh_piece(element, scenario.folder, what)
         pieces, shape = [piece], (vertices, faces)
+    elif isinstance(element, Terrain):
+        pieces, tops = terrain_pieces(element, name, scenario.seed, scenario.folder)
     elif isinstance(element, Stairs):
         pieces, tops = stairs_pieces(element)
     else:

@@ -6,11 +6,14 @@ from typing import Final
 from treadwell.errors import InputError
 from treadwell.experiments.experiment import Experiment
 from treadwell.experiments.fog import FOG
+from treadwell.experiments.models.experiment import MODELS
 from treadwell.experiments.nao import NAO
 from treadwell.experiments.stairs import STAIRS
 from treadwell.experiments.world.experiment import WORLD
 
-EXPERIMENTS: Final[dict[str, Experiment]] = {made.name: made for made in (FOG, NAO, STAIRS, WORLD)}
+EXPERIMENTS: Final[dict[str, Experiment]] = {
+    made.name: made for made in (FOG, MODELS, NAO, STAIRS, WORLD)
+}
 
 
 def find_experiment(name: str) -> Experiment:

@@ -1,7 +1,6 @@
 """Runs an experiment: every case with every seed, and its report."""
 
 import json
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import asdict, dataclass
@@ -9,17 +8,15 @@ from pathlib import Path
 from typing import Any, Final
 
 from treadwell.episode import Episode
-from treadwell.errors import SimulationError
 from treadwell.experiments.drawn import write_scenario
 from treadwell.experiments.experiment import Case, Experiment, Picture, Table
+from treadwell.experiments.side_by_side import side_by_side
 from treadwell.files import write_text
 from treadwell.interruption import Interruption
 from treadwell.progress import Progress
 from treadwell.recording.run_folder import make_experiment_folder
 from treadwell.runner import Run, run_episode
 from treadwell.version import __version__
-from treadwell.workers.answers import Answer, Done, Raised
-from treadwell.workers.pool import Pool
 
 SCHEMA: Final = "treadwell.experiment/1"
 
@@ -129,16 +126,16 @@ def conduct(
     jobs = [_job(case, seed, folder) for case in experiment.cases for seed in case.seeds(seeds)]
     results = _one_by_one(jobs, progress) if workers == 1 else _side_by_side(jobs, workers)
     runs = tuple((job.case.name, done) for job, done in zip(jobs, results, strict=False))
+    beside, whole = _beside(experiment, workers, missing=len(runs) < len(jobs))
     with Interruption() as interruption:
         interruption.hold()  # hours of runs are not lost to a second Ctrl-C
         by_case = {
             case.name: [done for name, done in runs if name == case.name]
             for case in experiment.cases
         }
-        tables = tuple(experiment.tables(by_case))
-        missing = len(runs) < len(jobs)
+        tables = (*experiment.tables(by_case), *beside)
         pictures = tuple(experiment.pictures(by_case, folder))
-        report = Report(experiment, folder, seeds, runs, tables, pictures, interrupted=missing)
+        report = Report(experiment, folder, seeds, runs, tables, pictures, interrupted=not whole)
         write_text(folder / "experiment.md", report.markdown())
         document = json.dumps(report.document(), indent=2, allow_nan=False)
         write_text(folder / "experiment.json", document + "\n")
@@ -183,46 +180,33 @@ def _one_by_one(
 
 def _side_by_side(jobs: Sequence[Job], workers: int) -> Iterator[Run]:
     """Do the runs in processes of their own, in the order of the jobs, up to an interruption."""
-    waiting: dict[int, Run] = {}
-    following = 0
-    with Pool(_numbered, workers) as pool:
-        for numbered in enumerate(jobs):
-            pool.submit(numbered)
-        try:
-            for (number, _), answer in pool.answers():
-                waiting[number] = _run_of(answer)
-                while following in waiting:
-                    done = waiting.pop(following)
-                    told = f"{done.outcome} {done.result.reason or ''}"
-                    _tell(f"{_title(following + 1, len(jobs), jobs[following])}: {told}")
-                    following += 1
-                    yield done
-        except KeyboardInterrupt:
-            pass
+
+    def told(number: int, done: Run) -> str:
+        title = _title(number + 1, len(jobs), jobs[number])
+        return f"{title}: {done.outcome} {done.result.reason or ''}"
+
+    yield from side_by_side(_done, jobs, workers, told)
 
 
-def _numbered(numbered: tuple[int, Job]) -> Run:
-    return _done(numbered[1])
+def _beside(experiment: Experiment, workers: int, missing: bool) -> tuple[list[Table], bool]:
+    """Return the tables of what is done beside the runs, and whether all of that was done.
 
-
-def _run_of(answer: Answer) -> Run:
-    """Return the run that was done.
-
-    Raises:
-        TreadwellError: it could not be.
+    Args:
+        experiment: whose.
+        workers: processes at a time.
+        missing: whether the runs were interrupted: then nothing is begun.
     """
-    if isinstance(answer, Done):
-        run: Run = answer.value
-        return run
-    if isinstance(answer, Raised):
-        raise answer.error or SimulationError(answer.reason)
-    raise SimulationError(f"a process that runs episodes failed: {answer.reason}")
+    beside = experiment.beside
+    if beside is None or missing:
+        return [], not missing
+    items = beside.items()
+
+    def told(number: int, done: Any) -> str:  # noqa: ANN401 - as `Beside` has it
+        return f"{number + 1} of {len(items)}: {beside.told(done)}"
+
+    done = list(side_by_side(beside.work, items, workers, told, fresh=True))
+    return list(beside.tables(done)), len(done) == len(items)
 
 
 def _title(number: int, of: int, job: Job) -> str:
     return f"{number} of {of}: {job.case.name} seed {job.seed}"
-
-
-def _tell(line: str) -> None:
-    sys.stderr.write(line.rstrip() + "\n")
-    sys.stderr.flush()

@@ -86,6 +86,23 @@ class Picture:
         return f"## {self.title}\n\n![{self.title}]({self.path.name})\n"
 
 
+@dataclass(frozen=True, slots=True)
+class Beside:
+    """What an experiment does beside its runs, each piece in a fresh process.
+
+    Attributes:
+        items: makes what there is to do, each piece plain data that can be pickled.
+        work: a function of a module that does a piece.
+        told: one line of what came of a piece.
+        tables: makes the report of what came of all that were done.
+    """
+
+    items: Callable[[], Sequence[Any]]
+    work: Callable[[Any], Any]
+    told: Callable[[Any], str]
+    tables: Callable[[Sequence[Any]], Sequence[Table]]
+
+
 def _no_pictures(_results: Results, _folder: Path) -> Sequence[Picture]:
     return ()
 
@@ -100,6 +117,7 @@ class Experiment:
         cases: in the order in which they are run.
         tables: makes the report of what came out.
         pictures: draws files into a folder, and returns title and path of each.
+        beside: what is done beside the runs, where there is anything.
     """
 
     name: str
@@ -107,9 +125,10 @@ class Experiment:
     cases: tuple[Case, ...]
     tables: Callable[[Results], Sequence[Table]]
     pictures: Callable[[Results, Path], Sequence[Picture]] = _no_pictures
+    beside: Beside | None = None
 
     def narrowed(self, names: Sequence[str]) -> "Experiment":
-        """Return the experiment with these cases alone; as it is where there are none.
+        """Return the experiment with these cases and nothing beside; as it is where there are none.
 
         Raises:
             InputError: it has no such case; the message says which there are.
@@ -121,7 +140,7 @@ class Experiment:
                     f"--only: {self.name} has no case {name!r}: allowed are {', '.join(known)}"
                 )
         chosen = tuple(case for case in self.cases if case.name in names)
-        return replace(self, cases=chosen) if names else self
+        return replace(self, cases=chosen, beside=None) if names else self
 
 
 def middle(values: Sequence[float], digits: int = 1, unit: str = "") -> str:

@@ -4,13 +4,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
+import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from treadwell.errors import RecordingError
 from treadwell.experiments import fog_cases as cases
 from treadwell.experiments.experiment import Picture, Results
-from treadwell.map_memory import RememberedMap
+from treadwell.map_memory import UNKNOWN, RememberedMap
 from treadwell.measuring.map_watch import MapHistory
 from treadwell.recording.map_picture import draw_cells, height_colours, height_span
 
@@ -74,6 +75,18 @@ def _moved(results: Results) -> list[Panel]:
         for model in cases.WORLD_MODELS
         for run in results.get(cases.moved(model), ())[:1]
     ]
+
+
+def known_bounds(maps: Sequence[RememberedMap], around: float) -> Bounds:
+    """Return what is around all known cells of maps of which each has some, m."""
+    low, high = [], []
+    for found in maps:
+        rows, cols = np.nonzero(found.kind != UNKNOWN)
+        corner = np.array(found.origin)
+        low.append(corner + found.cell * np.array([cols.min(), rows.min()]))
+        high.append(corner + found.cell * np.array([cols.max() + 1, rows.max() + 1]))
+    (west, south), (east, north) = np.min(low, axis=0) - around, np.max(high, axis=0) + around
+    return float(west), float(east), float(south), float(north)
 
 
 def draw_panels(path: Path, panels: Sequence[Panel], bounds: Bounds) -> None:

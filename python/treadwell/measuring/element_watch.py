@@ -63,7 +63,8 @@ class ElementWatch:
 def _counted(element: CourseElement, trace: Trace) -> ElementCells:
     centres, _ = lattice(trace)
     half_diagonal = trace.view_cell * math.sqrt(0.5)
-    distance = np.min([signed_distance(p.outline, centres) for p in element.pieces], axis=0)
+    every = [signed_distance(p.outline, centres) for p in element.pieces]
+    distance = np.min(every, axis=0) if every else np.full(len(centres), np.inf)
     whole = distance <= -half_diagonal
     # Of what is thinner than a cell those count whose centre lies over it.
     inside = whole if whole.any() else distance <= 0.0
@@ -82,7 +83,7 @@ def _counted(element: CourseElement, trace: Trace) -> ElementCells:
 
 def _top(element: CourseElement, points: Floats) -> Floats:
     """Return the height of an element's top at points (n, 2), m."""
-    highest = max(float(piece.vertices[:, 2].max()) for piece in element.pieces)
+    highest = max((float(piece.vertices[:, 2].max()) for piece in element.pieces), default=0.0)
     height = np.full(len(points), highest)
     for top in element.tops:
         over = top.contains(points)

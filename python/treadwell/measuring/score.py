@@ -12,6 +12,7 @@ from treadwell.course.outlines import near, signed_distance
 from treadwell.course.pieces import Top
 from treadwell.judging.result import MapCounts, SurfaceEntry
 from treadwell.map_memory import FLOOR, OBSTACLE, RememberedMap
+from treadwell.measuring.true_levels import told_levels
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -34,7 +35,7 @@ class TrueCells:
 
     Attributes:
         floor: the whole cell lies on one walkable surface, clear of everything else.
-        height: m, of that surface.
+        height: m, of that surface: of several above each other the one that the map is nearest to.
         obstacle: the cell's centre lies in an obstacle that the robot could run into.
         whole: its corners do, too: as a floor cell, it is nothing else.
         lid: m, height of that obstacle's level top, NaN where it has none: a floor at that height
@@ -75,6 +76,7 @@ def true_cells(
             clear[close] &= np.abs(distance) >= half_diagonal
             level = np.where(distance <= 0.0, top.height_at(points[close]) + offset[2], 0.0)
             height[close] = np.maximum(level, height[close])
+    height = told_levels(elements, centres, height, _told(remembered))
     obstacle = np.zeros((len(_CORNERS), len(centres)), dtype=bool)
     lid = np.full(len(centres), np.nan)
     for element, offset in elements:
@@ -152,14 +154,18 @@ def surfaces(
     """
     centres = remembered.centres().reshape(-1, 2)
     usable = ((remembered.kind == FLOOR) & (remembered.sightings >= LEAST_SIGHTINGS)).ravel()
-    heights = remembered.height.ravel()
-    tops = [(e, top, offset) for e, offset in _present(course, places) for top in e.tops]
+    heights, told = remembered.height.ravel(), _told(remembered)
+    elements = _present(course, places)
+    tops = [(e, top, offset) for e, offset in elements for top in e.tops]
     entries = []
     for element, top, offset in tops:
         # What another top covers is not walked on.
         close = near(top.polygon[:, :2], centres - offset[:2], 0.0)
         free = usable.copy()
         free[close] &= ~_covered(centres[close], top, offset, tops)
+        # Nor is it this top where the map has the way below it.
+        here = top.height_at(centres[close] - offset[:2]) + offset[2]
+        free[close] &= told_levels(elements, centres[close], here, told[close]) == here
         cells = _interior(top, centres - offset[:2], remembered.cell, free)
         if not cells.any() and not _is_passed(passed, top, offset, tops):
             continue
@@ -177,6 +183,12 @@ def surfaces(
             )
         )
     return entries
+
+
+def _told(remembered: RememberedMap) -> Floats:
+    """Return the heights of the map's floors, (n,) m, row by row; NaN elsewhere."""
+    floor = remembered.kind.ravel() == FLOOR
+    return np.where(floor, remembered.height.ravel().astype(np.float64), np.nan)
 
 
 def _interior(top: Top, centres: Floats, cell: float, usable: Bools) -> Bools:

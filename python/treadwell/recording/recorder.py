@@ -196,7 +196,7 @@ class Recorder:
         mujoco.mj_kinematics(model, data)
         fixed = [e for e in course.elements if e.mocap_id is None]
         walls = [g for e in fixed if e.kind == "wall" for g in e.geom_ids]
-        others = [g for e in fixed if e.kind != "wall" for g in e.geom_ids]
+        others = [g for e in fixed if e.kind != "wall" for g in (*e.geom_ids, *e.soft_ids)]
         moving = [g for e in course.elements if e.mocap_id is not None for g in e.geom_ids]
         for name, geoms, opacity in (("course", others, 1.0), ("walls", walls, _WALLS)):
             ids = np.array(geoms, dtype=np.intp)

@@ -24,6 +24,8 @@ _ARCHETYPES: Final[dict[str, Any]] = {
     "cylinders": rr.Cylinders3D,
     "ellipsoids": rr.Ellipsoids3D,
 }
+_SURFACES: Final = (int(mujoco.mjtGeom.mjGEOM_MESH), int(mujoco.mjtGeom.mjGEOM_HFIELD))
+"""What is drawn as triangles."""
 _COLLISION_GROUP: Final = 3
 """Geoms of this group and above are for touching, not for looking at."""
 
@@ -76,7 +78,7 @@ class Shapes:
                 shades = colours(model, ids)
                 shades[:, 3] = np.round(shades[:, 3] * opacity)
                 self._batches.append(Batch(kind, ids, sizes, shades))
-        self._meshes = [int(g) for g in geoms[types == mujoco.mjtGeom.mjGEOM_MESH]]
+        self._meshes = [int(g) for g in geoms[np.isin(types, _SURFACES)]]
         self._model = model
         posed = [geom for batch in self._batches for geom in batch.geoms.tolist()]
         self.geoms = np.array([*posed, *self._meshes], dtype=np.intp)
@@ -136,13 +138,41 @@ class Shapes:
 
     def _mesh(self, geom: int) -> rr.Mesh3D:
         model = self._model
+        shade = colours(model, np.array([geom]))[0]
         mesh = int(model.geom_dataid[geom])
+        if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_HFIELD:
+            corners, triangles = field_triangles(model, mesh)
+            return rr.Mesh3D(
+                vertex_positions=corners, triangle_indices=triangles, albedo_factor=shade
+            )
         vertex, face = int(model.mesh_vertadr[mesh]), int(model.mesh_faceadr[mesh])
         return rr.Mesh3D(
             vertex_positions=model.mesh_vert[vertex : vertex + int(model.mesh_vertnum[mesh])],
             triangle_indices=model.mesh_face[face : face + int(model.mesh_facenum[mesh])],
-            albedo_factor=colours(model, np.array([geom]))[0],
+            albedo_factor=shade,
         )
+
+
+def field_triangles(
+    model: mujoco.MjModel, field: int
+) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+    """Return the surface of a height field: corners (n, 3) m, in its frame, and faces (m, 3).
+
+    Each cell is cut from its first corner to the one opposite, as MuJoCo cuts it.
+    """
+    rows, columns = int(model.hfield_nrow[field]), int(model.hfield_ncol[field])
+    begin = int(model.hfield_adr[field])
+    along, across, top, _ = model.hfield_size[field]
+    x, y = np.meshgrid(np.linspace(-along, along, columns), np.linspace(-across, across, rows))
+    z = top * model.hfield_data[begin : begin + rows * columns]
+    corners = np.column_stack([x.ravel(), y.ravel(), z]).astype(np.float32)
+    numbers = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
+    first, right = numbers[:-1, :-1].ravel(), numbers[:-1, 1:].ravel()
+    left, last = numbers[1:, :-1].ravel(), numbers[1:, 1:].ravel()
+    faces = np.concatenate(
+        [np.column_stack([first, right, last]), np.column_stack([first, last, left])]
+    )
+    return corners, faces
 
 
 def robot_geoms(model: mujoco.MjModel, root: str) -> NDArray[np.intp]:

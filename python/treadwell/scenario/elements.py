@@ -7,6 +7,7 @@ from pydantic_core import PydanticCustomError
 
 from treadwell.scenario.drawn_elements import House, Scatter, Yard
 from treadwell.scenario.element_table import ElementTable
+from treadwell.scenario.ground_elements import Patch, Terrain, Vegetation
 from treadwell.scenario.types import (
     MOST_STEPS,
     Angle,
@@ -236,7 +237,7 @@ class Mjcf(ElementTable):
 
 
 MovableElement = Annotated[
-    Stairs | Sill | Platform | Box | Cylinder | Wall | Ramp | Rubble | Mesh,
+    Stairs | Sill | Platform | Box | Cylinder | Wall | Ramp | Rubble | Patch | Mesh,
     Field(discriminator="kind"),
 ]
 """What an event can add, move or remove: one body whose place is known beforehand."""
@@ -251,6 +252,9 @@ Element = Annotated[
     | Door
     | Ramp
     | Rubble
+    | Patch
+    | Vegetation
+    | Terrain
     | Mesh
     | Scatter
     | House
@@ -269,12 +273,15 @@ MOVABLE: dict[str, type[ElementTable]] = {
     "wall": Wall,
     "ramp": Ramp,
     "rubble": Rubble,
+    "patch": Patch,
     "mesh": Mesh,
 }
 """Kind -> model of what an event can add, move or remove."""
 
 ELEMENTS: dict[str, type[ElementTable]] = {
     **MOVABLE,
+    "vegetation": Vegetation,
+    "terrain": Terrain,
     "door": Door,
     "scatter": Scatter,
     "house": House,
@@ -282,3 +289,8 @@ ELEMENTS: dict[str, type[ElementTable]] = {
     "mjcf": Mjcf,
 }
 """Kind -> model."""
+
+
+def named_file(element: ElementTable) -> str | None:
+    """Return the file that an element names, beside the scenario file; None where it has none."""
+    return element.file if isinstance(element, Mesh | Mjcf | Terrain) else None

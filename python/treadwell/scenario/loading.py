@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from treadwell.data import data_folder
 from treadwell.errors import InputError
 from treadwell.files import opened, read_content
-from treadwell.scenario.elements import Mesh, Mjcf
+from treadwell.scenario.elements import named_file
 from treadwell.scenario.events import Add
 from treadwell.scenario.messages import describe, dotted, nearest, report, shortened, shown
 from treadwell.scenario.model import SEEDS, Scenario
@@ -32,7 +32,7 @@ _TEXT_OR_COMMENT: Final = re.compile(
 """What TOML reads as one; each branch takes what it began with, so that time grows with length."""
 _AROUND_DOT: Final = re.compile(rb"[ \t]*\.[ \t]*")
 _BETWEEN_KEYS: Final = re.compile(rb"[\s,=\[\]{}]+")
-SUFFIXES: Final = {"mesh": (".stl", ".obj"), "mjcf": (".xml", ".mjcf")}
+SUFFIXES: Final = {"mesh": (".stl", ".obj"), "mjcf": (".xml", ".mjcf"), "terrain": (".png",)}
 
 
 def load_scenario(
@@ -206,11 +206,12 @@ def _check_files(scenario: Scenario, raw: dict[str, Any]) -> list[str]:
         if isinstance(event, Add)
     ]
     for path, element in [*elements, *added]:
-        if isinstance(element, Mesh | Mjcf):
-            fault = asset_fault(scenario.folder, element.file, SUFFIXES[element.kind])
+        file = named_file(element)
+        if file is not None:
+            fault = asset_fault(scenario.folder, file, SUFFIXES[element.kind])
             if fault:
                 key = dotted((*path, "file"), raw)
-                lines.append(f"{key}: found {shown(element.file)}; {fault}")
+                lines.append(f"{key}: found {shown(file)}; {fault}")
     return lines
 
 

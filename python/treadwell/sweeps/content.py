@@ -13,7 +13,7 @@ from treadwell.files import opened
 from treadwell.own_core import VARIABLE
 from treadwell.plugins import foreign_parts
 from treadwell.robot.load import Robot
-from treadwell.scenario.elements import Mesh, Mjcf
+from treadwell.scenario.elements import named_file
 from treadwell.scenario.events import Add
 from treadwell.scenario.model import Scenario
 
@@ -41,11 +41,12 @@ def line_hash(file: Path, scenario: Scenario, robot: Robot, asked: Sequence[Any]
 
 
 def named_files(scenario: Scenario) -> Iterator[Path]:
-    """Return the meshes and worlds that a scenario's elements name."""
+    """Return the meshes, worlds and heights that a scenario's elements name."""
     added = [event.element for event in scenario.event if isinstance(event, Add)]
     for element in (*scenario.course, *added):
-        if isinstance(element, Mesh | Mjcf):
-            yield scenario.folder / element.file
+        file = named_file(element)
+        if file is not None:
+            yield scenario.folder / file
 
 
 def _sources(name: str) -> list[Path]:

@@ -1,0 +1,1 @@
+"""Every model of the ground on one suite and on recorded data: the experiment `models`."""
