@@ -1,0 +1,14 @@
+//! Surfaces as triangles (004, section 36.3.3): of one depth image or cloud, where neighbours are on one surface and nowhere else; of many,
+//! fused in a volume; simplified, textured, and as files.
+
+mod cloud;
+mod joining;
+mod mesh;
+mod picture;
+mod topology;
+
+pub use cloud::{CloudMeshError, SeenFrom, mesh_of_cloud};
+pub use joining::{JoiningConfig, JoiningRule};
+pub use mesh::TriangleMesh;
+pub use picture::{SeenMesh, mesh_of_picture};
+pub use topology::{Topology, parts};
