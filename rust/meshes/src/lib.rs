@@ -2,13 +2,17 @@
 //! fused in a volume; simplified, textured, and as files.
 
 mod cloud;
+mod fusion;
 mod joining;
 mod mesh;
 mod picture;
+mod simplify;
 mod topology;
 
 pub use cloud::{CloudMeshError, SeenFrom, mesh_of_cloud};
+pub use fusion::{FusedVolume, FusionConfig, PictureRanges, SurfacePiece};
 pub use joining::{JoiningConfig, JoiningRule};
 pub use mesh::TriangleMesh;
 pub use picture::{SeenMesh, mesh_of_picture};
+pub use simplify::{SimplifyConfig, simplified};
 pub use topology::{Topology, parts};

@@ -36,6 +36,23 @@ impl Topology {
     }
 }
 
+/// The triangles at edges that are wrong, as [`Topology::wrong_edges`] counts them, and at pinched corners; by number, some more than once.
+pub(crate) fn wrong_triangles(mesh: &TriangleMesh) -> Vec<usize> {
+    let mut wrong = Vec::new();
+    for edge in edges(mesh).chunk_by(|one, other| one.corners == other.corners) {
+        let right = edge.len() == 1 || edge.len() == 2 && edge[0].forward != edge[1].forward;
+        if !right {
+            wrong.extend(edge.iter().map(|one| one.slots[0] / 3));
+        }
+    }
+    let pinched: Vec<_> = Fans::of(mesh)
+        .further(mesh)
+        .map(|(slot, _)| slot / 3)
+        .collect();
+    wrong.extend(pinched);
+    wrong
+}
+
 /// Gives each sheet a corner of its own where several touch at one: the mesh looks the same. Returns for each corner which one it was.
 pub(crate) fn unpinch(mesh: &mut TriangleMesh) -> Vec<u32> {
     let mut was: Vec<u32> = (0..mesh.corners_m.len() as u32).collect();

@@ -1,6 +1,8 @@
 //! Blocks on a floor, as a depth camera of known noise sees them.
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its part")]
 
+pub mod fused;
+
 use meshes::{JoiningConfig, JoiningRule};
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use sensing::{PinholeCamera, RangeNoise};
