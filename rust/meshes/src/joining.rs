@@ -46,6 +46,11 @@ impl JoiningRule {
         f64::from(self.noise.variance_m2(range_m as f32))
     }
 
+    /// Whether a range is that of a thing so far away, m, but for noise; not where it is no number.
+    pub(crate) fn as_far(&self, thing_m: f64, range_m: f64) -> bool {
+        (thing_m - range_m).abs() <= self.gate * self.variance_m2(range_m).sqrt()
+    }
+
     /// Whether two points, m from the eye, may be on one surface: that would not be seen at too small an angle, or the difference in range is
     /// noise.
     pub(crate) fn joins(&self, one: &Vector3<f64>, other: &Vector3<f64>) -> bool {
