@@ -17,8 +17,7 @@ pub use averaging::{Averaging, AveragingConfig, AveragingTuning};
 pub use bevel::Bevel;
 pub use elevation::{
     CellMeasurement, CellSizes, Elevation, ElevationConfig, ElevationTuning, EvenSlopeTuning,
-    ExtendedElevationConfig, Gathered, HeightEstimate, RangeCells, RangeNoise, SightLines,
-    SurfaceRule,
+    ExtendedElevationConfig, Gathered, HeightEstimate, RangeCells, SightLines, SurfaceRule,
 };
 pub use felt_place::FeltPlace;
 pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};
@@ -26,9 +25,9 @@ pub use multi_level::{MultiLevel, MultiLevelConfig, MultiLevelTuning, Patch};
 pub use overlay::{FeltConfig, Overlay};
 pub use part::{WorldModelNeeds, WorldModelPart};
 pub use points::{
-    GridKey, Moments, Points, PointsConfig, PointsTuning, Sample, Shape, Span, SparseGrid,
-    SurfaceSamples,
+    Moments, Points, PointsConfig, PointsTuning, Sample, Shape, Span, SurfaceSamples,
 };
+pub use sensing::RangeNoise;
 pub use surface::{Fog, FogConfig, FogTuning, OverheadTuning};
 pub use two_maps::{
     BeamsTuning, EmptySightTuning, KnownSurfacesTuning, TwoMaps, TwoMapsConfig, TwoMapsTuning,

@@ -3,6 +3,7 @@
 mod camera;
 mod frame_watch;
 mod observation;
+mod range_noise;
 mod range_sensor;
 mod scan;
 mod self_filter;
@@ -11,6 +12,7 @@ mod sense_fault;
 pub use camera::Intrinsics;
 pub use frame_watch::{FrameWatch, FrameWatchConfig};
 pub use observation::{Frame, Observation, ObservationError, TICK_NS, TICK_S};
+pub use range_noise::RangeNoise;
 pub use range_sensor::{PinholeCamera, RangeSensor};
 pub use scan::{Scan, ScanConfig, ScanError, ScanTuning};
 pub use self_filter::{SelfFilter, SelfFilterConfig, SelfFilterTuning};

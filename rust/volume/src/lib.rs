@@ -41,6 +41,7 @@ mod raster;
 mod ray;
 mod reaches;
 mod solid;
+mod sparse;
 mod sweep;
 mod voxels;
 
@@ -53,3 +54,4 @@ pub use placement::{Placement, Ray, Size};
 pub use probability::{ProbabilityTable, bayes};
 pub use ray::VoxelWalk;
 pub use solid::{DistanceField, LANES, Lanes, RangeField, SolidError, SolidVoxels};
+pub use sparse::{GridKey, SparseGrid};

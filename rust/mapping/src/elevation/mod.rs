@@ -35,7 +35,7 @@ use crate::{FloorView, Insertion, MapError, WorldModel};
 pub use by_range::RangeCells;
 use cells::{HeightCell, Revision};
 pub use config::{CellSizes, ElevationConfig, ElevationTuning, EvenSlopeTuning};
-pub use estimate::{HeightEstimate, RangeNoise};
+pub use estimate::HeightEstimate;
 pub use extended::ExtendedElevationConfig;
 pub(crate) use extended::PART as EXTENDED;
 use filling::Filled;
@@ -43,6 +43,7 @@ pub use gathered::{CellMeasurement, Gathered, SurfaceRule};
 use level::LevelCells;
 use pyramid::Pyramid;
 use sensed::SensedFrame;
+use sensing::RangeNoise;
 pub use sight_lines::SightLines;
 use slope::SlopeFinder;
 

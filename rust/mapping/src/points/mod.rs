@@ -1,6 +1,6 @@
 //! SurfaceSamples of surfaces in a sparse three-dimensional grid, without a direction that is up (004, section 36.3.2).
 //!
-//! A dynamic grid ([`SparseGrid`], 36.21) holds blocks of cells where something was seen. In them are [`SurfaceSamples`] (36.22): a point is fused
+//! A dynamic grid ([`volume::SparseGrid`], 36.21) holds blocks of cells where something was seen. In them are [`SurfaceSamples`] (36.22): a point is fused
 //! with the sample that is near, unless they differ, and samples that are surely on one surface become one. The samples keep the
 //! moments of their points ([`Moments`]), so that the true local distribution in three dimensions can be asked: a bush costs less than a
 //! wall of the same height ([`Points::cost`]).
@@ -14,7 +14,6 @@ mod config;
 mod moments;
 mod sample;
 mod samples;
-mod sparse;
 
 use geometry::{Cell, CellArea, Grid, Map, Pose, Robot};
 use segmentation::Planes;
@@ -34,7 +33,6 @@ pub use config::{PointsConfig, PointsTuning};
 pub use moments::{Moments, Shape};
 pub use sample::{Sample, Span};
 pub use samples::SurfaceSamples;
-pub use sparse::{GridKey, SparseGrid};
 
 /// How it is listed and made.
 pub(crate) const PART: WorldModelPart = Part {
