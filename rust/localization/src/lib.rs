@@ -5,6 +5,7 @@ mod matching;
 mod monte_carlo;
 mod odometry;
 mod part;
+mod particle_maps;
 
 pub use localizer::{Estimate, Guess, Localizer, LocalizerError};
 pub use matching::{MatchingConfig, MatchingLocalizer};
@@ -13,6 +14,7 @@ pub use monte_carlo::{
 };
 pub use odometry::{OdometryLocalizer, OdometryLocalizerConfig};
 pub use part::{LocalizerNeeds, LocalizerPart};
+pub use particle_maps::{ParticleMap, ParticleMaps, ParticleMapsRule};
 
 /// The localizers that come with the crate: a new one is a file or folder beside these, and its lines here.
 pub const PARTS: &[LocalizerPart] = &[odometry::PART, matching::PART, monte_carlo::PART];
