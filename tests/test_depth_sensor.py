@@ -6,7 +6,7 @@ import pytest
 
 from treadwell.observation import Frame
 from treadwell.senses.depth import DepthCamera, Pinhole
-from treadwell.senses.depth_sensor import DepthSensor
+from treadwell.senses.depth_sensor import DepthSensor, brightness
 
 TICK = 10_000_000
 PERIOD = 80_000_000
@@ -81,6 +81,31 @@ def test_looking_changes_nothing_in_the_state() -> None:
     mujoco.mj_getState(MODEL, data, after, FULL)
     np.testing.assert_array_equal(before, after)
     np.testing.assert_array_equal(poses, data.geom_xpos)
+
+
+def test_intensity_stands_beside_the_depth_where_it_is_asked_for() -> None:
+    model = mujoco.MjModel.from_xml_string("""
+    <mujoco><asset><material name="dark" rgba="0.1 0.2 0.3 1"/></asset><worldbody>
+      <geom type="plane" size="5 5 1" rgba="0.6 0.6 0.6 1"/>
+      <geom type="box" size="0.05 1 0.01" pos="0.06 0 0" material="dark"/>
+      <body name="eye" pos="0 0 0.5"><geom size="0.01"/><camera name="eye"/></body>
+    </worldbody></mujoco>""")
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    camera = DepthCamera(model, "eye", Pinhole(8, 6, 10.0))
+    plain = DepthSensor(camera, None, PERIOD, 0).observe(data, 0)
+    seen = DepthSensor(camera, None, PERIOD, 0, brightness(model)).observe(data, 0)
+    assert plain is not None
+    assert seen is not None
+    assert plain.intensity is None
+    assert seen.intensity is not None
+    assert seen.intensity.dtype == np.uint8
+    assert seen.intensity.shape == seen.depth.shape
+    np.testing.assert_array_equal(seen.depth, plain.depth)
+    box = seen.depth < 0.495
+    assert box.any()
+    assert (seen.intensity[box] == 51).all()
+    assert (seen.intensity[~box] == 153).all()
 
 
 def test_what_cannot_be_is_refused() -> None:

@@ -109,6 +109,20 @@ def test_latency_delays_the_pictures_and_not_their_exposure() -> None:
         assert frame.arrival_ns - frame.exposure_ns == 100_000_000
 
 
+def test_intensity_comes_beside_the_depth_and_changes_nothing_else() -> None:
+    plain, bright = [*short(1.0)], [*short(1.0, "sensors.intensity=true")]
+    assert len(plain) == len(bright) > 5
+    for without, with_it in zip(plain, bright, strict=True):
+        one, other = without.observation.depth, with_it.observation.depth
+        assert one is not None
+        assert other is not None
+        np.testing.assert_array_equal(one.depth, other.depth)
+        assert one.intensity is None
+        assert other.intensity is not None
+        assert other.intensity.shape == other.depth.shape
+        assert len(np.unique(other.intensity)) > 1
+
+
 def test_a_blinded_robot_gets_no_pictures_for_that_long() -> None:
     episode = short(2.0, 'event=[{at=0.3, do="blind", duration=1.0}]')
     times = [1e-9 * step.time_ns for step in episode]

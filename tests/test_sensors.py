@@ -28,6 +28,7 @@ class Settings:
     camera_roll_pitch_error: float | None = None
     camera_position_error: float | None = None
     mismatch_rate: float | None = None
+    intensity: bool = False
 
 
 IDEAL = Settings("ideal", "ideal", "ideal", "ideal")

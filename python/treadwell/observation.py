@@ -18,11 +18,14 @@ class Frame:
         arrival_ns: time at which the frame was handed over; never before the exposure.
         depth: (h, w) float32, metres along the optical axis, row 0 at the top, column 0 at the
             left; NaN where nothing was seen.
+        intensity: (h, w) uint8, how bright each pixel is, 0 where nothing is in view; None unless
+            the scenario asks for it (`sensors.intensity`).
     """
 
     exposure_ns: int
     arrival_ns: int
     depth: NDArray[np.float32]
+    intensity: NDArray[np.uint8] | None = None
 
     @property
     def shape(self) -> tuple[int, ...]:

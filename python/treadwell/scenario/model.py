@@ -92,6 +92,8 @@ class Sensors(Table):
     """Bound of the error of the camera's place, m, instead of the robot's own."""
     mismatch_rate: Annotated[float, Field(ge=0.0, le=1.0)] | None = None
     """Share of pixels that stereo gets grossly wrong, instead of the robot's own."""
+    intensity: bool = False
+    """Whether frames have an image of brightness beside the depth: `Frame.intensity`."""
 
 
 class Navigation(Table):

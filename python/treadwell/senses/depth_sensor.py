@@ -1,6 +1,7 @@
 """The depth camera in time: when it exposes, when its frames arrive, when it is blind."""
 
 from collections import deque
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -24,6 +25,7 @@ class DepthSensor:
         errors: _core.DepthErrors | None,
         period_ns: int,
         latency_ns: int,
+        brightness: NDArray[np.uint8] | None = None,
     ) -> None:
         """Join the parts.
 
@@ -32,6 +34,7 @@ class DepthSensor:
             errors: the sensor's; None: the exact depth is delivered.
             period_ns: from one exposure to the next.
             latency_ns: from exposure to arrival.
+            brightness: (ngeom,) of each geom; None: frames have no intensity.
         """
         if period_ns <= 0:
             raise ValueError(f"camera.period must be > 0, got {period_ns} ns")
@@ -43,7 +46,8 @@ class DepthSensor:
         self._latency_ns = latency_ns
         self._next_ns = 0
         self._blind_until_ns = 0
-        self._under_way: deque[tuple[int, NDArray[np.float32]]] = deque()
+        self._brightness = brightness
+        self._under_way: deque[Frame] = deque()
 
     def blind(self, until_ns: int) -> None:
         """Expose nothing before this time; what is under way still arrives."""
@@ -59,17 +63,31 @@ class DepthSensor:
         if time_ns >= self._next_ns:
             self._next_ns = (time_ns // self._period_ns + 1) * self._period_ns
             if time_ns >= self._blind_until_ns:
-                self._under_way.append((time_ns, self._expose(data)))
+                self._under_way.append(self._expose(data, time_ns))
         if not self._under_way:
             return None
         arrived = None
-        while self._under_way and self._under_way[0][0] + self._latency_ns <= time_ns:
-            exposure_ns, depth = self._under_way.popleft()
-            arrived = Frame(exposure_ns, time_ns, depth)
+        while self._under_way and self._under_way[0].exposure_ns + self._latency_ns <= time_ns:
+            arrived = replace(self._under_way.popleft(), arrival_ns=time_ns)
         return arrived
 
-    def _expose(self, data: mujoco.MjData) -> NDArray[np.float32]:
-        """Return the depth image (h, w) of the present state."""
+    def _expose(self, data: mujoco.MjData, time_ns: int) -> Frame:
+        """Return the images of the present state, not yet arrived."""
         if self._errors is None:
-            return self.camera.cast(data).depth.astype(np.float32)
-        return self.camera.see(data, self._errors)
+            depth = self.camera.cast(data).depth.astype(np.float32)
+        else:
+            depth = self.camera.see(data, self._errors)
+        if self._brightness is None:
+            return Frame(time_ns, time_ns, depth)
+        geom = self.camera.cast(data).geom
+        intensity = np.where(geom < 0, 0, self._brightness[geom]).astype(np.uint8)
+        return Frame(time_ns, time_ns, depth, intensity)
+
+
+def brightness(model: mujoco.MjModel) -> NDArray[np.uint8]:
+    """Return how bright each geom is by its colour, (ngeom,); light and shadow play no part."""
+    colour = model.geom_rgba[:, :3].copy()
+    painted = model.geom_matid >= 0
+    colour[painted] = model.mat_rgba[model.geom_matid[painted], :3]
+    shade: NDArray[np.uint8] = np.rint(255.0 * np.clip(colour.mean(axis=1), 0, 1)).astype(np.uint8)
+    return shade

@@ -27,7 +27,7 @@ from treadwell.senses.camera_error import (
     rotation_of,
 )
 from treadwell.senses.depth import DepthCamera, Mount, Pinhole
-from treadwell.senses.depth_sensor import DepthSensor
+from treadwell.senses.depth_sensor import DepthSensor, brightness
 from treadwell.senses.faults import SenseFault, SenseFaults
 from treadwell.senses.stereo import StereoConfig, StereoModel
 from treadwell.senses.structured_light import StructuredLightConfig, StructuredLightModel
@@ -73,6 +73,10 @@ class SensorSettings(Protocol):
     @property
     def mismatch_rate(self) -> float | None:
         """Share of pixels that stereo gets grossly wrong; None: the robot's own."""
+
+    @property
+    def intensity(self) -> bool:
+        """Whether frames have an image of brightness."""
 
 
 class SensedRobot(Protocol):
@@ -295,6 +299,7 @@ def _depth(
         errors,
         round(table.period * 1e9),
         round(settings.latency * 1e9),
+        brightness(model) if settings.intensity else None,
     )
 
 

@@ -13,7 +13,7 @@ const MOST_TIP: f64 = 2.0;
 
 /// How a cell of the ground looks from near.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Look {
+pub struct Appearance {
     /// Its shape.
     pub shape: GroundShape,
     /// How bright it is, 0 to 1.
@@ -47,7 +47,7 @@ impl Basis {
     }
 
     /// The costs of a metre that weights combine; `None` beyond a limit of the robot's, which no learning moves.
-    pub fn of(&self, look: &Look) -> Option<[f64; BASIS]> {
+    pub fn of(&self, look: &Appearance) -> Option<[f64; BASIS]> {
         let [slope, roughness, step, close] = self.traversability.parts(&look.shape)?;
         // On friction that never ends: what tips by shape alone.
         let demand = self.motion.demand(&look.shape, f64::INFINITY, &self.going);
@@ -101,7 +101,7 @@ mod tests {
             slope in 0.0..0.2f64, roughness_m in 0.0..0.01f64, shade in 0.0..1.0f64, cover in 0.0..1.0f64,
         ) {
             let shape = GroundShape { slope, roughness_m, ..GroundShape::LEVEL };
-            let all = basis().of(&Look { shape, shade, cover }).unwrap();
+            let all = basis().of(&Appearance { shape, shade, cover }).unwrap();
             prop_assert!(all.iter().all(|one| one.is_finite() && *one >= 0.0));
             let shades: f64 = all[BASIS - SHADES..].iter().sum();
             prop_assert!((shades - 1.0).abs() < 1e-12);
@@ -114,7 +114,7 @@ mod tests {
             slope: 0.9,
             ..GroundShape::LEVEL
         };
-        let look = Look {
+        let look = Appearance {
             shape,
             shade: 0.4,
             cover: 0.0,

@@ -10,7 +10,7 @@ mod shape;
 mod slip_sense;
 mod traversability;
 
-pub use basis::{BASIS, Basis, Look};
+pub use basis::{Appearance, BASIS, Basis};
 pub use limits::{LimitsConfig, LimitsError, RobotLimits};
 pub use local_regression::{LocalRegression, LocalRegressionConfig, Prediction, RegressionError};
 pub use motion::{Demand, MotionConfig, MotionCost, SpeedOnCurve};

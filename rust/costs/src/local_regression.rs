@@ -56,7 +56,7 @@ pub struct Prediction {
 
 /// One linear model about its centre.
 #[derive(Debug, Clone)]
-struct Model {
+struct ReceptiveField {
     center: DVector<f64>,
     weights: DVector<f64>,
     covariance: DMatrix<f64>,
@@ -71,7 +71,7 @@ pub struct LocalRegression {
     config: LocalRegressionConfig,
     inputs: usize,
     prior: f64,
-    models: Vec<Model>,
+    models: Vec<ReceptiveField>,
 }
 
 impl LocalRegression {
@@ -114,10 +114,10 @@ impl LocalRegression {
         if !measured.is_finite() {
             return Err(RegressionError::NotFinite { index: self.inputs });
         }
-        let covers = |model: &Model| self.counts(model, &inputs) > self.config.apart;
+        let covers = |model: &ReceptiveField| self.counts(model, &inputs) > self.config.apart;
         if self.models.len() < self.config.most && !self.models.iter().any(covers) {
             let size = self.inputs + 1;
-            self.models.push(Model {
+            self.models.push(ReceptiveField {
                 center: inputs.clone(),
                 weights: DVector::zeros(size),
                 covariance: DMatrix::identity(size, size)
@@ -163,7 +163,7 @@ impl LocalRegression {
     }
 
     /// How much a model counts there: 1 at its centre.
-    fn counts(&self, model: &Model, inputs: &DVector<f64>) -> f64 {
+    fn counts(&self, model: &ReceptiveField, inputs: &DVector<f64>) -> f64 {
         let away = (inputs - &model.center).norm_squared();
         libm::exp(-0.5 * away / (self.config.width * self.config.width))
     }

@@ -8,7 +8,7 @@
 mod ground;
 
 use costs::{
-    BASIS, Basis, Features, LocalRegression, LocalRegressionConfig, Look, PathWeights,
+    Appearance, BASIS, Basis, Features, LocalRegression, LocalRegressionConfig, PathWeights,
     PathWeightsConfig,
 };
 use ground::{
@@ -20,7 +20,7 @@ use nalgebra::DVector;
 fn features(ground: &Ground) -> Features {
     let basis = Basis::new(traversability(), motion(), WALK);
     grid(|cell| {
-        let look = Look {
+        let look = Appearance {
             shape: ground.shapes.get(cell).copied().flatten()?,
             shade: *ground.shade.get(cell).unwrap(),
             cover: *ground.cover.get(cell).unwrap(),
