@@ -280,12 +280,12 @@ MOVABLE: dict[str, type[ElementTable]] = {
 
 ELEMENTS: dict[str, type[ElementTable]] = {
     **MOVABLE,
-    "vegetation": Vegetation,
-    "terrain": Terrain,
     "door": Door,
     "scatter": Scatter,
     "house": House,
     "yard": Yard,
+    "vegetation": Vegetation,
+    "terrain": Terrain,
     "mjcf": Mjcf,
 }
 """Kind -> model."""
