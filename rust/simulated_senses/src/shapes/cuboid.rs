@@ -16,7 +16,9 @@ pub(crate) struct Between {
 
 impl Between {
     pub(crate) fn new(place: f64, half: f64) -> Self {
-        let (upper, lower) = (1.0 / (half - place), 1.0 / (-half - place));
+        // In the plane of a face one leaves by it at once, or not at all: what is not finite would be no number for a ray in the plane.
+        let upper = (1.0 / (half - place)).clamp(f64::MIN, f64::MAX);
+        let lower = (-1.0 / (half + place)).clamp(f64::MIN, f64::MAX);
         if place > half {
             Self {
                 entry: upper,
@@ -106,6 +108,17 @@ mod tests {
         assert_eq!(before.met([-1.0, 0.0, 0.0]).max(0.0), 0.0);
         // Past the face at once, and past the box at all.
         assert_eq!(before.met([1.0, 1.01, 0.0]), 0.0);
+    }
+
+    #[test]
+    fn a_box_is_met_from_the_plane_of_any_of_its_sides() {
+        for side in [-1.0, 1.0] {
+            let before = cuboid([side, -4.0, 0.0]);
+            assert_eq!(before.met([0.0, 1.0, 0.0]), 0.5);
+            assert_eq!(before.met([-0.1 * side, 1.0, 0.0]), 0.5);
+            assert_eq!(before.met([0.1 * side, 1.0, 0.0]).max(0.0), 0.0);
+            assert_eq!(before.met([-side, 0.0, 0.0]).max(0.0), 0.0);
+        }
     }
 
     #[test]
