@@ -27,6 +27,7 @@ def models_tables(results: Results) -> list[Table]:
         _others(results),
         _truth(results),
         _planes(results),
+        _edges(results),
         _gone(results),
         _times(results),
     ]
@@ -143,6 +144,15 @@ def _planes(results: Results) -> Table:
     return _by_scene(
         results, "Error on planes, median, mm", cell, "Of floor cells that lie on one surface."
     )
+
+
+def _edges(results: Results) -> Table:
+    def cell(runs: Sequence[Run]) -> str:
+        errors = _errors(runs)
+        return _share([one.within for one in errors], sum(one.edges for one in errors))
+
+    note = "As above, of each scene; a scene without steps has no such cell."
+    return _by_scene(results, "Cells at edges with a neighbour's height, %", cell, note)
 
 
 def _times(results: Results) -> Table:
