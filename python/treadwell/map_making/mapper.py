@@ -22,6 +22,7 @@ NEEDS_A_ROBOT: Final = {
     "extended_elevation": "extended_elevation",
     "multi_level": "multi_level",
     "points": "points",
+    "mesh": "mesh",
 }
 """World model -> the table that says, or the robot does, how much room there must be."""
 ROBOT: Final = "qrio"

@@ -10,6 +10,7 @@ mod distance;
 mod error;
 mod legs;
 mod lists;
+mod mesh_files;
 mod observation;
 mod octree;
 mod pilot;
@@ -34,6 +35,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(clearance::swept_clearance, module)?)?;
     module.add_function(wrap_pyfunction!(distance::distances, module)?)?;
     module.add_function(wrap_pyfunction!(distance::squared_distances, module)?)?;
+    module.add_function(wrap_pyfunction!(mesh_files::mesh_file, module)?)?;
     module.add_function(wrap_pyfunction!(version, module)?)?;
     module.add_function(wrap_pyfunction!(lists::components, module)?)?;
     module.add_function(wrap_pyfunction!(lists::tables, module)?)?;
