@@ -43,6 +43,8 @@ TESTED_BY = {
     "course.pieces": "test_course.py",
     "recording.recorded_camera": "test_sources_foxglove.py",
     "recording.products": "test_recording.py",
+    "exports.gltf": "test_mesh_export.py",
+    "recording.mesh_file": "test_mesh_export.py",
     "recording.stair_shapes": "test_recording.py",
     "map_result": "test_map.py",
     "map_making.mapper": "test_map.py",

@@ -23,7 +23,7 @@ pub use elevation::{
     ExtendedElevationConfig, Gathered, HeightEstimate, RangeCells, SightLines, SurfaceRule,
 };
 pub use felt_place::FeltPlace;
-pub use mesh::{Mesh, MeshConfig, MeshTuning};
+pub use mesh::{MeshConfig, MeshMap, MeshTuning};
 pub use meshes::TriangleMesh;
 pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};
 pub use multi_level::{MultiLevel, MultiLevelConfig, MultiLevelTuning, Patch};

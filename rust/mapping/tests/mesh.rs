@@ -7,15 +7,15 @@ mod common;
 use common::heights::here;
 use common::{Block, DEPTH_CAMERA, camera, interior, is_obstacle, look_through, terrain};
 use geometry::{Map, Pose, Robot};
-use mapping::{ElevationConfig, FloorView, Mesh, MeshConfig, Surface, WorldModel};
+use mapping::{ElevationConfig, FloorView, MeshMap, MeshConfig, Surface, WorldModel};
 use segmentation::Planes;
 
 const ROBOT_M: f64 = 0.58;
 const DECK_M: [f64; 2] = [0.65, 0.70];
 
-fn model() -> Mesh {
+fn model() -> MeshMap {
     let config = MeshConfig::default();
-    Mesh::new(config, ElevationConfig::default(), Some(ROBOT_M)).unwrap()
+    MeshMap::new(config, ElevationConfig::default(), Some(ROBOT_M)).unwrap()
 }
 
 /// Of the cells of a rectangle, the share that is floor within 2 cm of a height.
@@ -29,7 +29,7 @@ fn floor_share(view: &FloorView, min: [f64; 2], max: [f64; 2], height_m: f64) ->
     floor.count() as f64 / cells.len() as f64
 }
 
-fn see(model: &mut Mesh, blocks: &[Block], pose: &Pose<Map, Robot>, pitch: f64, pan: f64) {
+fn see(model: &mut MeshMap, blocks: &[Block], pose: &Pose<Map, Robot>, pitch: f64, pan: f64) {
     let planes = look_through(DEPTH_CAMERA, blocks, pose, camera(0.45, pitch, pan));
     assert!(model.insert(&planes, pose).unwrap().used);
 }
@@ -42,7 +42,7 @@ fn over_and_under_a_bridge_there_is_a_way() {
         Block::new([0.8, 0.6, 0.0], [1.4, 1.2, under], false),
         Block::new([0.8, -1.2, 0.0], [1.4, -0.6, under], false),
     ];
-    let from_the_road = |model: &mut Mesh| {
+    let from_the_road = |model: &mut MeshMap| {
         for step in 0..3 {
             let pose = Pose::<Map, Robot>::from_yaw(-0.4 + 0.15 * f64::from(step), 0.0, 0.0, 0.0);
             for pitch in [0.6, 0.25, -0.1, -0.35] {

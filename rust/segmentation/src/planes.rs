@@ -49,7 +49,7 @@ pub struct Planes {
     pub robot_from_camera: Pose<Robot, Camera>,
     /// The camera of which the pixels are the picture: each point lies on its pixel's line of sight. None where that is not so.
     pub camera: Option<Intrinsics>,
-    /// The same of a picture of any camera, of which no surfaces are known.
+    /// Of a picture of which no surfaces are known its camera, whichever it is.
     pub any_camera: Option<PinholeCamera>,
     /// Region of each pixel plus one, row by row; 0 where it belongs to none.
     pub labels: Vec<u16>,

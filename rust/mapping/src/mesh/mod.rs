@@ -26,7 +26,7 @@ use pieces::{PieceRule, Pieces};
 
 /// How it is listed and made.
 pub(crate) const PART: WorldModelPart = Part {
-    name: Mesh::NAME,
+    name: MeshMap::NAME,
     about: "surfaces as triangles, fused of all frames: over and under bridges, for files of other tools",
     source: Some(
         "Burgard and Hebert, World Modeling (004, section 36.3.3); Curless and Levoy 1996",
@@ -38,13 +38,13 @@ pub(crate) const PART: WorldModelPart = Part {
     make: |needs| {
         let config: MeshConfig = read(needs.tables, "mesh")?;
         let elevation = read(needs.tables, "elevation")?;
-        Ok(Box::new(Mesh::new(config, elevation, needs.headroom_m)?))
+        Ok(Box::new(MeshMap::new(config, elevation, needs.headroom_m)?))
     },
 };
 
 /// Keeps the surface and the view made of it.
 #[derive(Debug, Clone)]
-pub struct Mesh {
+pub struct MeshMap {
     config: MeshConfig,
     elevation: ElevationConfig,
     /// Room between two things above each other with which both are kept, m.
@@ -56,7 +56,7 @@ pub struct Mesh {
     frame: SensedFrame,
 }
 
-impl Mesh {
+impl MeshMap {
     /// The name by which it is chosen.
     pub const NAME: &'static str = "mesh";
 
@@ -173,7 +173,7 @@ impl Mesh {
     }
 }
 
-impl WorldModel for Mesh {
+impl WorldModel for MeshMap {
     fn forget(&mut self) {
         let height_m = Some(f64::from(self.headroom_m));
         if let Ok(fresh) = Self::new(self.config.clone(), self.elevation.clone(), height_m) {

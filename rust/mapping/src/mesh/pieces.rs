@@ -7,7 +7,7 @@ use crate::columns::Span;
 
 /// What there is of a triangle in a column of cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Piece {
+struct ColumnPiece {
     column: [i32; 2],
     /// Height of its middle, m.
     height_m: f32,
@@ -20,7 +20,7 @@ struct Piece {
 
 /// Pieces of the surface by columns. Reused from frame to frame.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Pieces(Vec<Piece>);
+pub(super) struct Pieces(Vec<ColumnPiece>);
 
 /// When triangles are ground, and when they are one thing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,7 +51,7 @@ impl Pieces {
         let across = (b - a).cross(&(c - a));
         let is_ground = across.z >= rule.upright * across.norm();
         let heights_m = piece.corners_m.map(|at| at[2]);
-        self.0.push(Piece {
+        self.0.push(ColumnPiece {
             column: [middle.x, middle.y].map(|at| libm::floor(at / rule.cell_m) as i32),
             height_m: middle.z as f32,
             ends_m: [
@@ -97,7 +97,7 @@ impl Pieces {
 }
 
 /// What a thing is whose highest corner is at a height, m.
-fn span_of(thing: &[Piece], high_m: f32, apart_m: f32) -> Span {
+fn span_of(thing: &[ColumnPiece], high_m: f32, apart_m: f32) -> Span {
     let low_m = thing[0].ends_m[0];
     // Its top is ground where there is such near its highest corner.
     let top = thing.iter().filter(|one| one.ends_m[1] > high_m - apart_m);
