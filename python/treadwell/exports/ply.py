@@ -1,5 +1,7 @@
-"""PLY files: `cloud.ply`, what the camera saw, `height_mesh.ply`, the floors with their steps,
-and `mesh.ply`, the surface of a world model that keeps one.
+"""PLY files: the cloud, the floors with their steps, the mesh.
+
+`cloud.ply`: what the camera saw. `height_mesh.ply`: the floors. `mesh.ply`: the surface of a world
+model that keeps one.
 
 Binary, little-endian, metres in the map frame. The mesh has sharp steps: every cell is a level
 square of its own, and where two neighbours differ there is an upright face between them.

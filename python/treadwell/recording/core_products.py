@@ -31,7 +31,7 @@ def occupied_by(pilot: Pilot) -> NDArray[np.float32]:
 
 
 def known_surface(pilot: Pilot) -> SurfaceMesh | None:
-    """Return the surface that the world model keeps; None where it keeps none, or the core failed."""
+    """Return the surface of the world model; None where it has none, or the core failed."""
     try:
         found = pilot.surface()
     except CoreError:

@@ -7,7 +7,7 @@ each, against the clock from outside.
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,10 +51,7 @@ def read_mesh(path: Path) -> SurfaceMesh:
     """
     try:
         with opened(path) as stream, np.load(stream, allow_pickle=False) as file:
-            for key in ("corners", "triangles"):
-                if file.zip.getinfo(f"{key}.npy").file_size > 4 * _MOST:
-                    raise ValueError(f"{key} is too large")
-            corners, triangles = file["corners"], file["triangles"]
+            corners, triangles = _array(file, "corners"), _array(file, "triangles")
     except InputError:
         raise
     except OSError as error:
@@ -74,3 +71,12 @@ def read_mesh(path: Path) -> SurfaceMesh:
     if not whole:
         raise InputError(f"{path}: its arrays do not belong together")
     return SurfaceMesh(corners, triangles)
+
+
+def _array(file: "np.lib.npyio.NpzFile", key: str) -> NDArray[Any]:
+    """Return an array; how large it is, is looked at before it is read."""
+    member = file.zip.getinfo(f"{key}.npy")  # type: ignore[union-attr]
+    if member.file_size > np.dtype(np.float32).itemsize * _MOST:
+        raise ValueError(f"{key} is too large")
+    array: NDArray[Any] = file[key]
+    return array
