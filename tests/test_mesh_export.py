@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from treadwell.cli.app import execute
 from treadwell.errors import InputError
 from treadwell.exports.export import export
 from treadwell.exports.gltf import export_gltf
@@ -42,6 +43,7 @@ def described(path: Path) -> dict[str, object]:
 def test_the_mesh_is_written_as_gltf_and_as_ply(tmp_path: Path) -> None:
     run = folder(tmp_path)
     write_mesh(run / "mesh.npz", SurfaceMesh(CORNERS, TRIANGLES))
+    assert execute(["export", str(run), "--to", "gltf"]) == 0
     (glb,) = export(run, "gltf")
     accessors = described(glb)["accessors"]
     assert isinstance(accessors, list)
