@@ -45,6 +45,8 @@ TESTED_BY = {
     "course.vegetation": "test_ground_elements.py",
     "recording.recorded_camera": "test_sources_foxglove.py",
     "recording.products": "test_recording.py",
+    "exports.gltf": "test_mesh_export.py",
+    "recording.mesh_file": "test_mesh_export.py",
     "recording.stair_shapes": "test_recording.py",
     "measuring.true_levels": "test_score.py",
     "experiments.side_by_side": "test_experiments.py",

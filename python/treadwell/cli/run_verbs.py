@@ -26,6 +26,7 @@ class To(StrEnum):
     PLY = "ply"
     TUM = "tum"
     MCAP = "mcap"
+    GLTF = "gltf"
 
 
 def inspect(

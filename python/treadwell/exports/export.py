@@ -41,12 +41,19 @@ def _mcap(source: Path, out: Path) -> Sequence[Path]:
     return export_mcap(source, out)
 
 
+def _gltf(source: Path, out: Path) -> Sequence[Path]:
+    from treadwell.exports.gltf import export_gltf
+
+    return export_gltf(source, out)
+
+
 FORMATS: Final[dict[str, Callable[[Path, Path], Sequence[Path]]]] = {
     "octomap": _octomap,
     "map_server": _map_server,
     "ply": _ply,
     "tum": _tum,
     "mcap": _mcap,
+    "gltf": _gltf,
 }
 """Name of a format -> what writes it; what a format needs is imported when it is asked for."""
 

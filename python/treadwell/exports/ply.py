@@ -1,4 +1,7 @@
-"""PLY files: `cloud.ply`, what the camera saw, and `height_mesh.ply`, the floors with their steps.
+"""PLY files: the cloud, the floors with their steps, the mesh.
+
+`cloud.ply`: what the camera saw. `height_mesh.ply`: the floors. `mesh.ply`: the surface of a world
+model that keeps one.
 
 Binary, little-endian, metres in the map frame. The mesh has sharp steps: every cell is a level
 square of its own, and where two neighbours differ there is an upright face between them.
@@ -11,6 +14,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from treadwell._core import mesh_file as core_mesh_file
 from treadwell.errors import InputError
 from treadwell.exports.map_server import seen_part
 from treadwell.exports.recorded_points import seen_points
@@ -18,6 +22,8 @@ from treadwell.files import write_bytes
 from treadwell.map_memory import UNKNOWN, RememberedMap
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import read_map
+from treadwell.recording.mesh_file import NAME as MESH
+from treadwell.recording.mesh_file import read_mesh
 from treadwell.recording.recorder import NAME as RECORDING
 
 Floats = NDArray[np.float64]
@@ -46,14 +52,19 @@ def export_ply(source: Path, out: Path) -> Sequence[Path]:
     mesh = out / "height_mesh.ply"
     vertices, faces = height_mesh(surface)
     write_bytes(mesh, mesh_file(vertices, faces))
+    written = [mesh]
+    if (source / MESH).is_file():
+        kept = read_mesh(source / MESH)
+        written.append(out / "mesh.ply")
+        write_bytes(written[-1], core_mesh_file("ply", kept.corners, kept.triangles))
     if not (source / RECORDING).is_file():
-        return [mesh]
+        return written
     points = cloud(source)
     if not len(points):
         raise InputError(f"{source / RECORDING}: not one camera frame saw anything")
     path = out / "cloud.ply"
     write_bytes(path, cloud_file(points))
-    return [path, mesh]
+    return [path, *written]
 
 
 def cloud(source: Path) -> Floats:

@@ -21,6 +21,8 @@ from treadwell.map_result import MappedSource, MapResult, counted, times
 from treadwell.recording.cut_off import RESULT
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import PICTURE, write_map
+from treadwell.recording.mesh_file import NAME as MESH
+from treadwell.recording.mesh_file import write_mesh
 from treadwell.recording.recorder import NAME as RECORDING
 from treadwell.recording.run_folder import run_folder
 from treadwell.recording.trajectory import ESTIMATE, Trajectory
@@ -161,6 +163,9 @@ class _Making:
         if self.recording is not None:
             self.recording.finish(found, mapper.place.offset, voxels)
         write_map(folder / MAP, found, voxels)
+        surface = mapper.surface()
+        if surface is not None:
+            write_mesh(folder / MESH, surface)
         way = Trajectory()
         for time, pose in self._poses:
             placed = pose.copy()

@@ -16,12 +16,14 @@ from treadwell.map_making.request import PICTURES, POINTS, SCANS, MapRequest
 from treadwell.map_making.sizing import Sizing, sizing
 from treadwell.map_making.standing_out import StandingOut
 from treadwell.map_memory import MapMemory, RememberedMap
+from treadwell.recording.mesh_file import SurfaceMesh
 from treadwell.sources.frame import Floats, RangeFrame, moved
 
 NEEDS_A_ROBOT: Final = {
     "extended_elevation": "extended_elevation",
     "multi_level": "multi_level",
     "points": "points",
+    "mesh": "mesh",
 }
 """World model -> the table that says, or the robot does, how much room there must be."""
 ROBOT: Final = "qrio"
@@ -118,6 +120,14 @@ class Mapper:
         middles, sides = self._core.occupied()
         moved = middles.reshape(-1, 3) + self.place.offset
         return np.column_stack([moved, sides]).astype(np.float32)
+
+    def surface(self) -> SurfaceMesh | None:
+        """Return the surface as triangles where the model keeps it."""
+        found = self._core.surface()
+        if found is None:
+            return None
+        corners, triangles = found
+        return SurfaceMesh((corners + self.place.offset).astype(np.float32), triangles)
 
     def _take(self, frame: RangeFrame, pose: Floats, ground: float) -> bool:
         if frame.depth is not None and frame.camera is not None:

@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from treadwell._core import Pilot, Stair
 from treadwell.errors import CoreError
+from treadwell.recording.mesh_file import SurfaceMesh
 from treadwell.trace import StairTrace
 
 
@@ -27,6 +28,15 @@ def occupied_by(pilot: Pilot) -> NDArray[np.float32]:
     """Return middle and side of each cube that the core holds to be occupied, (n, 4) m."""
     middles, sides = pilot.occupied()
     return np.column_stack([middles, sides]).astype(np.float32)
+
+
+def known_surface(pilot: Pilot) -> SurfaceMesh | None:
+    """Return the surface of the world model; None where it has none, or the core failed."""
+    try:
+        found = pilot.surface()
+    except CoreError:
+        return None
+    return None if found is None else SurfaceMesh(*found)
 
 
 def known_occupied(pilot: Pilot) -> NDArray[np.float32]:

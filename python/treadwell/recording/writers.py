@@ -9,9 +9,11 @@ from treadwell.episode import Episode, Step
 from treadwell.errors import InputError, RecordingError, TreadwellError
 from treadwell.judging.result import Result
 from treadwell.map_memory import RememberedMap
-from treadwell.recording.core_products import known_occupied
+from treadwell.recording.core_products import known_occupied, known_surface
 from treadwell.recording.map_file import NAME as MAP
 from treadwell.recording.map_file import PICTURE, write_map
+from treadwell.recording.mesh_file import NAME as MESH
+from treadwell.recording.mesh_file import write_mesh
 from treadwell.recording.messages import encode_command, encode_estimate
 from treadwell.recording.scenario_file import NAME as SCENARIO
 from treadwell.recording.scenario_file import write_scenario
@@ -182,6 +184,7 @@ class Writers:
             lambda: episode.simulation.save_audit(folder),
             lambda: self._draw(result, estimate, truth, remembered, stairs),
             lambda: write_map(folder / MAP, remembered, known_occupied(episode.pilot)),
+            self._write_mesh,
             lambda: result.write(folder / "result.json"),
         ]
         first: Exception | None = None
@@ -197,6 +200,11 @@ class Writers:
             raise problem
         if first is not None:
             raise RecordingError(f"{folder}: not everything could be written: {first}") from first
+
+    def _write_mesh(self) -> None:
+        surface = known_surface(self._episode.pilot)
+        if surface is not None:
+            write_mesh(self._folder / MESH, surface)
 
     def _draw(
         self,

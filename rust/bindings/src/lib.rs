@@ -12,6 +12,7 @@ mod error;
 mod learners;
 mod legs;
 mod lists;
+mod mesh_files;
 mod observation;
 mod octree;
 mod pilot;
@@ -38,6 +39,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(distance::distances, module)?)?;
     module.add_function(wrap_pyfunction!(distance::squared_distances, module)?)?;
     module.add_function(wrap_pyfunction!(slip::gait_statistics, module)?)?;
+    module.add_function(wrap_pyfunction!(mesh_files::mesh_file, module)?)?;
     module.add_function(wrap_pyfunction!(version, module)?)?;
     module.add_function(wrap_pyfunction!(lists::components, module)?)?;
     module.add_function(wrap_pyfunction!(lists::tables, module)?)?;

@@ -9,6 +9,7 @@ use sensing::{Frame, Observation};
 
 use crate::components;
 use crate::error::{bad_setting, failed, parse, run, unreadable};
+use crate::mesh_files::{MeshArrays, surface_arrays};
 use crate::observation;
 use crate::octree::{PyOctree, Rows, rows};
 use crate::products::{FlatPose, Floor, PyFloorView, PyPlanes, flat, floor, matrix};
@@ -196,6 +197,11 @@ impl PyPilot {
         let voxels = self.pilot.perception.world_model.occupied();
         let split = voxels.iter().map(|voxel| (voxel.centre_m, voxel.side_m));
         rows(py, split.unzip())
+    }
+
+    /// (n, 3) m and (m, 3): corners and triangles of the surface; none of a world model that keeps no surface.
+    fn surface<'py>(&self, py: Python<'py>) -> PyResult<Option<MeshArrays<'py>>> {
+        surface_arrays(py, self.pilot.perception.world_model.surface())
     }
 
     /// Via points passed so far.

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use sensing::{PinholeCamera, RangeSensor};
 
 use crate::error::{bad_setting, failed, parse, run};
+use crate::mesh_files::{MeshArrays, surface_arrays};
 use crate::octree::{Rows, rows};
 use crate::pose::rigid;
 use crate::products::PyFloorView;
@@ -127,6 +128,11 @@ impl PyRangeMap {
         let voxels = self.map.model.occupied();
         let split = voxels.iter().map(|voxel| (voxel.centre_m, voxel.side_m));
         rows(py, split.unzip())
+    }
+
+    /// (n, 3) m and (m, 3): corners and triangles of the surface; none of a world model that keeps no surface.
+    fn surface<'py>(&self, py: Python<'py>) -> PyResult<Option<MeshArrays<'py>>> {
+        surface_arrays(py, self.map.model.surface())
     }
 }
 

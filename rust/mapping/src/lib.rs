@@ -2,9 +2,11 @@
 
 mod averaging;
 mod bevel;
+mod columns;
 mod elevation;
 mod felt_place;
 mod laid_bevels;
+mod mesh;
 mod model;
 mod multi_level;
 mod overlay;
@@ -15,18 +17,19 @@ mod two_maps;
 
 pub use averaging::{Averaging, AveragingConfig, AveragingTuning};
 pub use bevel::Bevel;
+pub use columns::Span;
 pub use elevation::{
     CellMeasurement, CellSizes, Elevation, ElevationConfig, ElevationTuning, EvenSlopeTuning,
     ExtendedElevationConfig, Gathered, HeightEstimate, RangeCells, SightLines, SurfaceRule,
 };
 pub use felt_place::FeltPlace;
+pub use mesh::{MeshConfig, MeshMap, MeshTuning};
+pub use meshes::TriangleMesh;
 pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};
 pub use multi_level::{MultiLevel, MultiLevelConfig, MultiLevelTuning, Patch};
 pub use overlay::{FeltConfig, Overlay};
 pub use part::{WorldModelNeeds, WorldModelPart};
-pub use points::{
-    Moments, Points, PointsConfig, PointsTuning, Sample, Shape, Span, SurfaceSamples,
-};
+pub use points::{Moments, Points, PointsConfig, PointsTuning, Sample, Shape, SurfaceSamples};
 pub use sensing::RangeNoise;
 pub use surface::{Fog, FogConfig, FogTuning, OverheadTuning};
 pub use two_maps::{
@@ -43,4 +46,5 @@ pub const PARTS: &[WorldModelPart] = &[
     elevation::EXTENDED,
     multi_level::PART,
     points::PART,
+    mesh::PART,
 ];

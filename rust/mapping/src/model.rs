@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use geometry::{Cell, CellArea, Grid, Lattice, Map, Pose, Robot};
+use meshes::TriangleMesh;
 use segmentation::Planes;
 
 use crate::bevel::Bevel;
@@ -243,5 +244,10 @@ pub trait WorldModel: Send + Sync {
     /// What was seen to be occupied, of a model that keeps the space in three dimensions. Made anew at each call.
     fn occupied(&self) -> Vec<Voxel> {
         Vec::new()
+    }
+
+    /// The surface that was seen, as triangles in the map frame, of a model that keeps such. Made anew at each call.
+    fn surface(&self) -> Option<TriangleMesh> {
+        None
     }
 }

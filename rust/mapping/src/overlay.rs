@@ -4,6 +4,7 @@
 //! Composed over any world model, which knows nothing of it: as long as there is nothing of it, the view is the model's own.
 
 use geometry::{Grid, Map, Pose, Robot, distance_m};
+use meshes::TriangleMesh;
 use segmentation::Planes;
 use settings::{NOT_NEGATIVE, at_least, settings};
 
@@ -123,6 +124,10 @@ impl WorldModel for Overlay {
 
     fn occupied(&self) -> Vec<Voxel> {
         self.model.occupied()
+    }
+
+    fn surface(&self) -> Option<TriangleMesh> {
+        self.model.surface()
     }
 }
 

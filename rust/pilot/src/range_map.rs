@@ -135,7 +135,10 @@ impl RangeMap {
         let pose = robot_from_sensor.inner.cast::<f32>();
         let points = points_m.iter();
         let points = points.map(|&point| (pose * nalgebra::Point3::from(point)).coords.into());
-        let planes = Planes::of_points(points.collect(), robot_from_sensor);
+        let mut planes = Planes::of_points(points.collect(), robot_from_sensor);
+        if let RangeSensor::Picture(camera) = sensor {
+            planes.any_camera = Some(camera);
+        }
         Ok(self.model.insert(&planes, &map_from_robot)?.used)
     }
 }

@@ -1,7 +1,7 @@
 //! What every segmenter produces: planes, labels, and points with the height of the floor they belong to.
 
 use geometry::{Camera, Outline, Plane, Point, Pose, Robot};
-use sensing::{Intrinsics, Scan};
+use sensing::{Intrinsics, PinholeCamera, Scan};
 
 /// Why a scan could not be segmented. The segmenter's state is unchanged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -49,6 +49,8 @@ pub struct Planes {
     pub robot_from_camera: Pose<Robot, Camera>,
     /// The camera of which the pixels are the picture: each point lies on its pixel's line of sight. None where that is not so.
     pub camera: Option<Intrinsics>,
+    /// Of a picture of which no surfaces are known its camera, whichever it is.
+    pub any_camera: Option<PinholeCamera>,
     /// Region of each pixel plus one, row by row; 0 where it belongs to none.
     pub labels: Vec<u16>,
     /// Position of each pixel's point in the robot's frame, m; NaN where nothing was seen.
@@ -71,6 +73,7 @@ impl Planes {
             ground: None,
             robot_from_camera: Pose::identity(),
             camera: None,
+            any_camera: None,
             labels: vec![0; pixels],
             points_in_robot_m: vec![[f32::NAN; 3]; pixels],
             floor_height_m: vec![f32::NAN; pixels],
@@ -92,6 +95,19 @@ impl Planes {
             ..Self::new(0)
         }
         .sized()
+    }
+
+    /// The camera of which the pixels are the picture, whichever it is.
+    pub fn pinhole(&self) -> Option<PinholeCamera> {
+        let camera = self.camera.map(|camera| {
+            let (col, row) = camera.principal_point_px();
+            PinholeCamera {
+                size_px: [camera.width, camera.height],
+                focal_px: [camera.focal_px; 2],
+                centre_px: [col, row],
+            }
+        });
+        camera.or(self.any_camera)
     }
 
     /// The product with as many labels as it has points.

@@ -2,6 +2,7 @@
 
 use super::cells::{EDGE, cell_in_block, place_in_block};
 use super::moments::{Moments, Shape};
+use crate::columns::Span;
 
 /// Of an even spread the square of half its width, in variances.
 const EVENLY: f32 = 3.0;
@@ -25,17 +26,6 @@ pub struct Sample {
     fresh: bool,
     /// Frames in a row that saw through it.
     passed: u8,
-}
-
-/// What a sample is in a column of cells: from which height on up to which, m in the map frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Span {
-    /// Its lowest, m.
-    pub low_m: f32,
-    /// Its highest, m.
-    pub high_m: f32,
-    /// Frames that saw it.
-    pub frames: u16,
 }
 
 impl Sample {

@@ -3,7 +3,8 @@
 use super::block::SampleBlock;
 use super::cells::{EDGE, cell_in_block};
 use super::moments::Moments;
-use super::sample::{Sample, Span};
+use super::sample::Sample;
+use crate::columns::Span;
 use volume::{GridKey, SparseGrid};
 
 /// SurfaceSamples of the surfaces that were seen, in any direction and of any extent, as many as the surfaces need (004, section 36.3.2).

@@ -29,7 +29,7 @@ impl Distance {
             *self = Self {
                 mean_m: measured_m,
                 weight,
-                frames: 1,
+                frames: self.frames.saturating_add(1),
             };
             return;
         }

@@ -18,6 +18,9 @@ pub(super) struct SightPrism {
     pub(super) lean: f64,
     /// How far away it is, m.
     pub(super) range_m: f64,
+    places_m: [Vector3<f64>; 3],
+    /// Across the surface, of length 1.
+    normal: Vector3<f64>,
 }
 
 impl SightPrism {
@@ -39,7 +42,8 @@ impl SightPrism {
             .iter()
             .map(|&corner| Vector3::from(normals[corner as usize].map(f64::from)))
             .sum();
-        let lean = -normal.try_normalize(0.0)?.dot(&sight.try_normalize(0.0)?);
+        let normal = normal.try_normalize(0.0)?;
+        let lean = -normal.dot(&sight.try_normalize(0.0)?);
         let lean = lean.max(flattest);
         let further = reach_m(range_m) / lean;
         let (mut low_m, mut high_m) = (places_m[0], places_m[0]);
@@ -58,7 +62,41 @@ impl SightPrism {
             eye_m,
             lean,
             range_m,
+            places_m,
+            normal,
         })
+    }
+
+    /// Tells of each point of a lattice of voxels that is straight before the triangle, up to a distance, m: its key, and how far it is, m. Lines
+    /// of sight that pass close over an edge miss these.
+    pub(super) fn each_before(
+        &self,
+        voxel_m: f64,
+        most_m: f64,
+        mut take: impl FnMut([i32; 3], f64),
+    ) {
+        let [a, b, c] = self.places_m;
+        let Some(shares_of) = Matrix3::from_columns(&[b - a, c - a, self.normal]).try_inverse()
+        else {
+            return;
+        };
+        let ends = self.places_m.map(|at| at + self.normal * most_m);
+        let all = || self.places_m.iter().chain(&ends);
+        let low = all().fold(a, |low, at| low.inf(at)) / voxel_m;
+        let high = all().fold(a, |high, at| high.sup(at)) / voxel_m;
+        let range = |axis: usize| libm::ceil(low[axis]) as i32..=libm::floor(high[axis]) as i32;
+        for x in range(0) {
+            for y in range(1) {
+                for z in range(2) {
+                    let at = Vector3::from([x, y, z].map(f64::from)) * voxel_m;
+                    let [u, v, before_m] = (shares_of * (at - a)).into();
+                    let over = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
+                    if over && before_m > 0.0 && before_m <= most_m {
+                        take([x, y, z], before_m);
+                    }
+                }
+            }
+        }
     }
 
     /// Tells of each point of a lattice of voxels whose line of sight goes through the triangle: its key, and how far it is before the triangle

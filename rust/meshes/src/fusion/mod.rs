@@ -73,34 +73,68 @@ impl FusedVolume {
         }
         let normals = mesh.normals(self.config.smoothing);
         let eye_m = Vector3::from(eye_m);
-        for &triangle in &mesh.triangles {
+        let prisms = mesh.triangles.iter().filter_map(|&triangle| {
             let reach_m = |range_m| self.reach_m(range_m);
-            let parts = (mesh, &normals[..]);
-            let prism = SightPrism::new(parts, triangle, eye_m, self.flattest, reach_m);
-            if let Some(prism) = prism {
-                self.measure(&prism);
-            }
+            SightPrism::new((mesh, &normals), triangle, eye_m, self.flattest, reach_m)
+        });
+        let prisms: Vec<_> = prisms.collect();
+        for prism in &prisms {
+            self.measure(prism);
         }
+        for prism in &prisms {
+            self.measure_before(prism);
+        }
+    }
+
+    /// The block of a voxel, and where the voxel is stored in it.
+    fn voxel(&mut self, voxel: GridKey) -> (&mut DistanceBlock, usize) {
+        let key = voxel.map(|at| at.div_euclid(EDGE));
+        let position = match self.last {
+            Some((last, position)) if last == key => position,
+            _ => self.blocks.position_or_insert(key, DistanceBlock::unknown),
+        };
+        self.last = Some((key, position));
+        let index = DistanceBlock::index(voxel.map(|at| at.rem_euclid(EDGE)));
+        (self.blocks.at_mut(position).1, index)
+    }
+
+    /// Takes in what lies straight before a triangle where no line of sight told of it: near an edge lines of sight pass over it.
+    fn measure_before(&mut self, prism: &SightPrism) {
+        let (weight, most) = (self.weight(prism.range_m), self.config.memory as f32);
+        let voxel_m = self.config.voxel;
+        prism.each_before(voxel_m, self.config.solid * voxel_m, |voxel, before_m| {
+            let (block, index) = self.voxel(voxel);
+            if !block.is_fresh(index) {
+                block.voxels[index].fuse(before_m as f32, weight, most, true);
+                block.mark(index);
+            }
+        });
     }
 
     fn measure(&mut self, prism: &SightPrism) {
         let reach_m = self.reach_m(prism.range_m);
         let weight = self.weight(prism.range_m);
         let most = self.config.memory as f32;
+        // As far behind the surface as noise goes nothing is deep.
+        let solid_m = self.config.solid * self.config.voxel;
+        let noise_m = self.config.deviations * f64::from(weight.sqrt().recip());
+        let solid_m = solid_m.max(noise_m);
         prism.each(self.config.voxel, |voxel, before_m| {
             let across_m = before_m * prism.lean;
             if across_m < -reach_m || across_m > reach_m {
                 return;
             }
-            let key = voxel.map(|at| at.div_euclid(EDGE));
-            let position = match self.last {
-                Some((last, position)) if last == key => position,
-                _ => self.blocks.position_or_insert(key, DistanceBlock::unknown),
-            };
-            self.last = Some((key, position));
-            let index = DistanceBlock::index(voxel.map(|at| at.rem_euclid(EDGE)));
-            let block = self.blocks.at_mut(position).1;
-            block.voxels[index].fuse(across_m as f32, weight, most, false);
+            let (block, index) = self.voxel(voxel);
+            let voxel = &mut block.voxels[index];
+            // Deep behind a surface is only taken to be solid: what was measured nearer to another one is surer.
+            let (deep, was_deep) = (across_m < -solid_m, f64::from(voxel.mean_m) < -solid_m);
+            if deep && voxel.weight > 0.0 && !was_deep {
+                return;
+            }
+            if was_deep && !deep {
+                voxel.weight = 0.0;
+            }
+            voxel.fuse(across_m as f32, weight, most, false);
             block.mark(index);
         });
     }

@@ -1,10 +1,19 @@
-//! What stands in each cell of the window, seen from above: the samples of a column, joined where there is no room between them.
+//! What stands in each cell of the window, seen from above: the spans of a column, joined where there is no room between them.
 
-use super::sample::Span;
+/// What is in a column of cells: from which height on up to which, m in the map frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span {
+    /// Its lowest, m.
+    pub low_m: f32,
+    /// Its highest, m.
+    pub high_m: f32,
+    /// Frames that saw it.
+    pub frames: u16,
+}
 
 /// Things one above the other, cell by cell. Reused from frame to frame.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Columns {
+pub(crate) struct Columns {
     /// By cell, then by height.
     spans: Vec<(u32, Span)>,
     /// Where the things of a cell begin, and behind the last one's end.
@@ -14,17 +23,17 @@ pub(super) struct Columns {
 
 impl Columns {
     /// Begins anew.
-    pub(super) fn begin(&mut self) {
+    pub(crate) fn begin(&mut self) {
         self.spans.clear();
     }
 
     /// Puts a span into the cell that is stored at an index.
-    pub(super) fn add(&mut self, index: usize, span: Span) {
+    pub(crate) fn add(&mut self, index: usize, span: Span) {
         self.spans.push((index as u32, span));
     }
 
     /// Makes things of so many cells: spans with less room than `room_m` between them are one.
-    pub(super) fn finish(&mut self, cells: usize, room_m: f32) {
+    pub(crate) fn finish(&mut self, cells: usize, room_m: f32) {
         self.spans.sort_by(|(a, one), (b, other)| {
             (a.cmp(b))
                 .then(one.low_m.total_cmp(&other.low_m))
@@ -51,7 +60,7 @@ impl Columns {
 
     /// The things of the cell that is stored at an index, the lowest first.
     #[inline]
-    pub(super) fn things(&self, index: usize) -> &[Span] {
+    pub(crate) fn things(&self, index: usize) -> &[Span] {
         match self.starts.get(index..=index + 1) {
             Some(&[from, to]) => &self.things[from as usize..to as usize],
             _ => &[],
