@@ -7,7 +7,7 @@ mod common;
 use common::heights::here;
 use common::{Block, DEPTH_CAMERA, camera, interior, is_obstacle, look_through, terrain};
 use geometry::{Map, Pose, Robot};
-use mapping::{ElevationConfig, FloorView, MeshMap, MeshConfig, Surface, WorldModel};
+use mapping::{ElevationConfig, FloorView, MeshConfig, MeshMap, Surface, WorldModel};
 use segmentation::Planes;
 
 const ROBOT_M: f64 = 0.58;
