@@ -2,7 +2,7 @@
 
 use mapping::TriangleMesh;
 use meshes::{Appearance, gltf_file, ply_file};
-use numpy::{IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -11,10 +11,10 @@ use pyo3::types::PyBytes;
 pub(crate) type MeshArrays<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray2<u32>>);
 
 /// (n, 3) m and (m, 3): corners and the numbers of each triangle's; none of a world model that keeps no surface.
-pub(crate) fn surface_arrays<'py>(
-    py: Python<'py>,
+pub(crate) fn surface_arrays(
+    py: Python<'_>,
     surface: Option<TriangleMesh>,
-) -> PyResult<Option<MeshArrays<'py>>> {
+) -> PyResult<Option<MeshArrays<'_>>> {
     let Some(mesh) = surface else {
         return Ok(None);
     };
@@ -32,9 +32,10 @@ pub(crate) fn surface_arrays<'py>(
 pub(crate) fn mesh_file<'py>(
     py: Python<'py>,
     to: &str,
-    corners: PyReadonlyArray2<'py, f32>,
-    triangles: PyReadonlyArray2<'py, u32>,
+    corners: &Bound<'py, PyArray2<f32>>,
+    triangles: &Bound<'py, PyArray2<u32>>,
 ) -> PyResult<Bound<'py, PyBytes>> {
+    let (corners, triangles) = (corners.readonly(), triangles.readonly());
     if corners.as_array().ncols() != 3 || triangles.as_array().ncols() != 3 {
         return Err(PyValueError::new_err(
             "corners and triangles must be (n, 3)",
