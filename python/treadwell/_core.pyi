@@ -48,6 +48,7 @@ __all__ = [
     "distances",
     "gait_statistics",
     "ground_points",
+    "mesh_file",
     "parameters",
     "point_classes",
     "squared_distances",

@@ -1,7 +1,7 @@
 //! Meshes: arrays of corners and triangles, and files of them.
 
 use mapping::TriangleMesh;
-use meshes::{Appearance, gltf_file, ply_file};
+use meshes::{MeshLook, gltf_file, ply_file};
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -53,8 +53,8 @@ pub(crate) fn mesh_file<'py>(
         ));
     }
     let file = match to {
-        "ply" => ply_file(&mesh, Appearance::Plain),
-        "gltf" => gltf_file(&mesh, Appearance::Plain)
+        "ply" => ply_file(&mesh, MeshLook::Plain),
+        "gltf" => gltf_file(&mesh, MeshLook::Plain)
             .map_err(|error| PyValueError::new_err(error.to_string()))?,
         _ => return Err(PyValueError::new_err("a mesh is written as ply or gltf")),
     };

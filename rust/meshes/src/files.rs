@@ -10,7 +10,7 @@ use crate::TriangleMesh;
 
 /// What a mesh looks like.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Appearance<'a> {
+pub enum MeshLook<'a> {
     /// Nothing is known of it.
     Plain,
     /// Red, green and blue of each corner.
@@ -39,12 +39,12 @@ const CORNERS: u16 = 34962;
 const INDICES: u16 = 34963;
 
 /// A PLY file: binary, little-endian, metres. Of a picture it holds the places alone, as `s` and `t`, since PLY holds no pictures; `t` goes up.
-pub fn ply_file(mesh: &TriangleMesh, looks: Appearance<'_>) -> Vec<u8> {
+pub fn ply_file(mesh: &TriangleMesh, looks: MeshLook<'_>) -> Vec<u8> {
     let mut head = String::from("ply\nformat binary_little_endian 1.0\ncomment metres, z up\n");
     let more = match looks {
-        Appearance::Plain => "",
-        Appearance::Colours(_) => "property uchar red\nproperty uchar green\nproperty uchar blue\n",
-        Appearance::Picture { .. } => "property float s\nproperty float t\n",
+        MeshLook::Plain => "",
+        MeshLook::Colours(_) => "property uchar red\nproperty uchar green\nproperty uchar blue\n",
+        MeshLook::Picture { .. } => "property float s\nproperty float t\n",
     };
     let (corners, triangles) = (mesh.corners_m.len(), mesh.triangles.len());
     // To a string nothing fails.
@@ -57,9 +57,9 @@ pub fn ply_file(mesh: &TriangleMesh, looks: Appearance<'_>) -> Vec<u8> {
     for (number, at_m) in mesh.corners_m.iter().enumerate() {
         file.extend(at_m.iter().flat_map(|part| part.to_le_bytes()));
         match looks {
-            Appearance::Plain => {}
-            Appearance::Colours(colours) => file.extend(colours.get(number).unwrap_or(&[0; 3])),
-            Appearance::Picture { places, .. } => {
+            MeshLook::Plain => {}
+            MeshLook::Colours(colours) => file.extend(colours.get(number).unwrap_or(&[0; 3])),
+            MeshLook::Picture { places, .. } => {
                 let [s, t] = places.get(number).copied().unwrap_or_default();
                 file.extend([s, 1.0 - t].iter().flat_map(|part| part.to_le_bytes()));
             }
@@ -73,7 +73,7 @@ pub fn ply_file(mesh: &TriangleMesh, looks: Appearance<'_>) -> Vec<u8> {
 }
 
 /// A binary glTF file (`.glb`), with the picture in it; y is up, as the format wants it.
-pub fn gltf_file(mesh: &TriangleMesh, looks: Appearance<'_>) -> Result<Vec<u8>, gltf::Error> {
+pub fn gltf_file(mesh: &TriangleMesh, looks: MeshLook<'_>) -> Result<Vec<u8>, gltf::Error> {
     let mut parts = GltfParts::default();
     let corners = mesh.corners_m.len();
     let mut low = [f32::INFINITY; 3];
@@ -162,7 +162,7 @@ impl GltfParts {
     /// holds.
     fn appearance(
         &mut self,
-        looks: Appearance<'_>,
+        looks: MeshLook<'_>,
         corners: usize,
         attributes: &mut Value,
     ) -> (Value, Value) {
@@ -172,8 +172,8 @@ impl GltfParts {
         });
         let mut more = json!({});
         match looks {
-            Appearance::Plain => {}
-            Appearance::Colours(colours) => {
+            MeshLook::Plain => {}
+            MeshLook::Colours(colours) => {
                 // Four bytes each: arrays of corners are aligned.
                 let bytes: Vec<u8> = colours
                     .iter()
@@ -183,7 +183,7 @@ impl GltfParts {
                 self.arrays[at]["normalized"] = json!(true);
                 attributes["COLOR_0"] = json!(at);
             }
-            Appearance::Picture { png, places } => {
+            MeshLook::Picture { png, places } => {
                 let bytes = bytes_of(places.as_flattened());
                 attributes["TEXCOORD_0"] =
                     json!(self.array(&bytes, (CORNERS, FLOAT), ("VEC2", corners)));
@@ -216,9 +216,9 @@ mod tests {
         let colours = [[255, 0, 0], [0, 255, 0], [0, 0, 255], [9, 8, 7]];
         let png = b"no picture";
         for looks in [
-            Appearance::Plain,
-            Appearance::Colours(&colours),
-            Appearance::Picture {
+            MeshLook::Plain,
+            MeshLook::Colours(&colours),
+            MeshLook::Picture {
                 png,
                 places: &places,
             },
@@ -239,12 +239,12 @@ mod tests {
             let numbers: Vec<_> = reader.read_indices().unwrap().into_u32().collect();
             assert_eq!(numbers, mesh().triangles.as_flattened());
             match looks {
-                Appearance::Plain => assert!(reader.read_colors(0).is_none()),
-                Appearance::Colours(_) => {
+                MeshLook::Plain => assert!(reader.read_colors(0).is_none()),
+                MeshLook::Colours(_) => {
                     let read: Vec<_> = reader.read_colors(0).unwrap().into_rgb_u8().collect();
                     assert_eq!(read, colours);
                 }
-                Appearance::Picture { .. } => {
+                MeshLook::Picture { .. } => {
                     let read: Vec<_> = reader.read_tex_coords(0).unwrap().into_f32().collect();
                     assert_eq!(read, places);
                     let image = read_back.images().next().unwrap();
@@ -260,11 +260,11 @@ mod tests {
 
     #[test]
     fn a_ply_file_is_as_long_as_its_head_says() {
-        let plain = ply_file(&mesh(), Appearance::Plain);
+        let plain = ply_file(&mesh(), MeshLook::Plain);
         let end = b"end_header\n";
         let head = plain.windows(end.len()).position(|at| at == end).unwrap() + end.len();
         assert_eq!(plain.len() - head, 4 * 12 + 2 * 13);
-        let colours = ply_file(&mesh(), Appearance::Colours(&[[1, 2, 3]; 4]));
+        let colours = ply_file(&mesh(), MeshLook::Colours(&[[1, 2, 3]; 4]));
         assert!(colours.windows(3).filter(|at| *at == [1, 2, 3]).count() >= 4);
     }
 }

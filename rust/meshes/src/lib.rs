@@ -12,7 +12,7 @@ mod texture;
 mod topology;
 
 pub use cloud::{CloudMeshError, SeenFrom, mesh_of_cloud};
-pub use files::{Appearance, gltf_file, ply_file};
+pub use files::{MeshLook, gltf_file, ply_file};
 pub use fusion::{FusedVolume, FusionConfig, PictureRanges, SurfacePiece};
 pub use joining::{JoiningConfig, JoiningRule};
 pub use mesh::TriangleMesh;

@@ -19,7 +19,7 @@ settings! {
 }
 
 /// The mesh with fewer triangles. Corners stay where they are. What is a manifold remains one: the library does not see to that, so that
-/// where it would not be one the corners around stay, and it is asked again; likewise where a corner would be further from the surface than
+/// where it would not be one the corners around stay, and it is asked again, or else the triangles there are left out; likewise where a corner would be further from the surface than
 /// was allowed, as at ragged borders.
 pub fn simplified(mesh: &TriangleMesh, config: &SimplifyConfig) -> TriangleMesh {
     let wanted = (config.keep * mesh.triangles.len() as f64) as usize * 3;
@@ -57,9 +57,24 @@ pub fn simplified(mesh: &TriangleMesh, config: &SimplifyConfig) -> TriangleMesh 
             keep_far(&simple, config.error, &mut kept),
         ];
         if more == [false; 2] {
+            drop_triangles(&mut simple, wrong);
             let _ = simple.drop_unused_corners();
             return simple;
         }
+    }
+}
+
+/// Leaves out triangles that no corner helps that could be kept: rather a small hole than edges of three triangles.
+fn drop_triangles(simple: &mut TriangleMesh, mut wrong: Vec<usize>) {
+    while !wrong.is_empty() {
+        wrong.sort_unstable();
+        let mut at = 0..;
+        let mut is_wrong = || {
+            at.next()
+                .is_some_and(|index| wrong.binary_search(&index).is_ok())
+        };
+        simple.triangles.retain(|_| !is_wrong());
+        wrong = wrong_triangles(simple);
     }
 }
 
