@@ -24,7 +24,12 @@ def test_an_observation_has_no_pose() -> None:
         "foot_forces",
         "depth",
     }
-    assert {field.name for field in fields(Frame)} == {"exposure_ns", "arrival_ns", "depth"}
+    assert {field.name for field in fields(Frame)} == {
+        "exposure_ns",
+        "intensity",
+        "arrival_ns",
+        "depth",
+    }
 
 
 def test_an_observation_cannot_be_changed() -> None:
