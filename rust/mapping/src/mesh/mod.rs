@@ -211,7 +211,7 @@ impl WorldModel for MeshMap {
     }
 
     fn view(&self) -> &FloorView {
-        &self.columns.view
+        self.columns.view()
     }
 
     fn needs_surfaces(&self) -> bool {

@@ -1,5 +1,6 @@
 //! The surfaces of a cell, one above the other: what a multi-level surface map keeps (004, Fig. 36.11d).
 
+use crate::columns::Span;
 use crate::elevation::cells::{HeightCell, Revision};
 use crate::elevation::{CellMeasurement, HeightEstimate};
 
@@ -30,6 +31,16 @@ impl Patch {
     /// Vertical depth: from the lowest height at which the thing was seen to its surface, m.
     pub const fn depth_m(&self) -> f32 {
         self.top.estimate.height_m - self.low_m
+    }
+}
+
+impl From<Patch> for Span {
+    fn from(patch: Patch) -> Self {
+        Self {
+            low_m: patch.low_m,
+            high_m: patch.estimate().height_m,
+            frames: patch.frames(),
+        }
     }
 }
 

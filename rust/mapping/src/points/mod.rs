@@ -209,7 +209,7 @@ impl WorldModel for Points {
     }
 
     fn view(&self) -> &FloorView {
-        &self.columns.view
+        self.columns.view()
     }
 
     fn needs_surfaces(&self) -> bool {
