@@ -8,8 +8,6 @@ use crate::traversability::Traversability;
 pub const BASIS: usize = 12;
 /// Number of shades that are told apart, from dark to bright.
 const SHADES: usize = 5;
-/// Tipping counts no further than this: whatever lies beyond is as bad.
-const MOST_TIP: f64 = 2.0;
 
 /// How a cell of the ground looks from near.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,9 +47,7 @@ impl Basis {
     /// The costs of a metre that weights combine; `None` beyond a limit of the robot's, which no learning moves.
     pub fn of(&self, look: &Appearance) -> Option<[f64; BASIS]> {
         let [slope, roughness, step, close] = self.traversability.parts(&look.shape)?;
-        // On friction that never ends: what tips by shape alone.
-        let demand = self.motion.demand(&look.shape, f64::INFINITY, &self.going);
-        let tip = demand.tip.min(MOST_TIP);
+        let tip = self.motion.learned_tip(&look.shape, &self.going);
         let bare = 1.0 - look.cover;
         let [near, over] = [tip * tip, (2.0 * tip - 1.0).max(0.0)];
         let shape = [

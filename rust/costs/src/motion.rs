@@ -15,6 +15,8 @@ settings! {
         unsteady: f64 = 4.0, "1", NOT_NEGATIVE, "004, section 36.3.4";
         /// Length of the waves that rough ground is taken to have, in lengths of a sole: what is shorter is bridged.
         wavelength: f64 = 2.0, "1", POSITIVE;
+        /// Where costs are learned, tipping counts no further than this: whatever lies beyond is as bad.
+        most_tip: f64 = 2.0, "1", POSITIVE;
     }
 }
 
@@ -59,6 +61,12 @@ impl MotionCost {
     pub fn new(config: MotionConfig, limits: RobotLimits) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self { config, limits })
+    }
+
+    /// How near a motion comes to tipping by the shape of the ground alone, on friction that never ends, as far as learning counts it.
+    pub(crate) fn learned_tip(&self, shape: &GroundShape, going: &SpeedOnCurve) -> f64 {
+        let tip = self.demand(shape, f64::INFINITY, going).tip;
+        tip.min(self.config.most_tip)
     }
 
     /// How near a motion comes to tipping and slipping on ground of this shape and friction. Infinite where a foot leaves the ground.

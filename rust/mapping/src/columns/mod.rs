@@ -7,14 +7,26 @@ mod reached;
 mod reached_view;
 mod things;
 
-use geometry::{Cell, Lattice};
+use geometry::{Cell, Map, Pose, Robot};
+use segmentation::Planes;
 
 use crate::elevation::ElevationConfig;
 use crate::elevation::sensed::SensedFrame;
-use crate::{FloorView, Voxel};
+use crate::{FloorView, Insertion, Voxel};
 pub(crate) use reached_view::{ReachedView, WayRule};
 use things::Columns;
 pub use things::Span;
+
+/// What became of a frame before it is taken in.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Settled {
+    /// The shift in height that brought it onto what is known, m.
+    pub shift_m: Option<f64>,
+    /// Whether it is of use.
+    pub used: bool,
+    /// Whether the window moved: then the columns must be filled anew.
+    pub moved: bool,
+}
 
 /// Columns and the view made of them.
 #[derive(Debug, Clone)]
@@ -51,14 +63,25 @@ impl ColumnView {
         index.map_or(&[], |at| self.columns.things(at))
     }
 
-    /// The lattice of the window, its columns and rows.
-    pub(crate) fn place(&self) -> (Lattice, [usize; 2]) {
-        self.reached.place()
-    }
-
-    /// Moves the window to the robot, which stands there; whether it moved: then the columns must be filled anew.
-    pub(crate) fn follow(&mut self, robot_m: [f64; 3]) -> bool {
-        self.reached.follow(robot_m) != [0; 2]
+    /// Moves the window to the robot, reads a frame up to `most_m` away, and brings it onto the heights that are known.
+    pub(crate) fn settle(
+        &mut self,
+        frame: &mut SensedFrame,
+        (planes, map_from_robot): (&Planes, &Pose<Map, Robot>),
+        most_m: f64,
+    ) -> Settled {
+        let robot_m = map_from_robot.inner.translation.vector.into();
+        let moved = self.reached.follow(robot_m) != [0; 2];
+        frame.read(planes, map_from_robot, most_m, self.reached.place());
+        let things = |cell: usize| self.columns.things(cell);
+        let shift_m = planes.ground.is_none();
+        let shift_m = shift_m.then(|| self.reached.shift_m(frame, things));
+        let shift_m = shift_m.flatten();
+        Settled {
+            shift_m,
+            used: frame.settle(planes, shift_m),
+            moved,
+        }
     }
 
     /// Fills the columns anew: `spans` tells what is in them, by whole cells from the map's origin.
@@ -78,16 +101,20 @@ impl ColumnView {
         columns.finish(cells.values().len(), self.headroom_m);
     }
 
-    /// The shift that brings the frame onto the heights that are known.
-    pub(crate) fn shift_m(&self, frame: &mut SensedFrame) -> Option<f64> {
-        self.reached
-            .shift_m(frame, |cell| self.columns.things(cell))
-    }
-
-    /// Makes the view of what is reached from where the robot stands.
-    pub(crate) fn refresh(&mut self, robot_m: [f64; 3]) {
+    /// Makes the view of what is reached from where the robot stands, after a frame was taken in.
+    pub(crate) fn refresh(
+        &mut self,
+        map_from_robot: &Pose<Map, Robot>,
+        settled: Settled,
+    ) -> Insertion {
         let columns = &self.columns;
+        let robot_m = map_from_robot.inner.translation.vector.into();
         self.reached.refresh(robot_m, |cell| columns.things(cell));
+        Insertion {
+            changed: self.view().cells.area(),
+            height_shift_m: settled.shift_m.filter(|_| settled.used),
+            used: settled.used,
+        }
     }
 
     /// Cubes of a cell's side over the vertical extent of each thing in the window.

@@ -187,27 +187,15 @@ impl WorldModel for MeshMap {
         map_from_robot: &Pose<Map, Robot>,
     ) -> Result<Insertion, MapError> {
         check_poses(planes, map_from_robot)?;
-        let robot_m: [f64; 3] = map_from_robot.inner.translation.vector.into();
-        let moved = self.columns.follow(robot_m);
-        let (place, most_m) = (self.columns.place(), self.elevation.max_range);
-        self.frame.read(planes, map_from_robot, most_m, place);
-        let shift = planes.ground.is_none();
-        let shift = shift
-            .then(|| self.columns.shift_m(&mut self.frame))
-            .flatten();
-        let used = self.frame.settle(planes, shift);
-        if used {
-            self.take_in(planes, map_from_robot, shift.unwrap_or(0.0))?;
+        let (seen, most_m) = ((planes, map_from_robot), self.elevation.max_range);
+        let settled = self.columns.settle(&mut self.frame, seen, most_m);
+        if settled.used {
+            self.take_in(planes, map_from_robot, settled.shift_m.unwrap_or(0.0))?;
         }
-        if used || moved {
+        if settled.used || settled.moved {
             self.columns_anew();
         }
-        self.columns.refresh(robot_m);
-        Ok(Insertion {
-            changed: self.view().cells.area(),
-            height_shift_m: shift.filter(|_| used),
-            used,
-        })
+        Ok(self.columns.refresh(map_from_robot, settled))
     }
 
     fn view(&self) -> &FloorView {

@@ -184,28 +184,15 @@ impl WorldModel for Points {
         map_from_robot: &Pose<Map, Robot>,
     ) -> Result<Insertion, MapError> {
         check_poses(planes, map_from_robot)?;
-        let robot_m: [f64; 3] = map_from_robot.inner.translation.vector.into();
-        let moved = self.columns.follow(robot_m);
-        let (place, most_m) = (self.columns.place(), self.elevation.max_range);
-        self.frame.read(planes, map_from_robot, most_m, place);
-        let shift = planes
-            .ground
-            .is_none()
-            .then(|| self.columns.shift_m(&mut self.frame));
-        let shift = shift.flatten();
-        let used = self.frame.settle(planes, shift);
-        if used {
+        let (seen, most_m) = ((planes, map_from_robot), self.elevation.max_range);
+        let settled = self.columns.settle(&mut self.frame, seen, most_m);
+        if settled.used {
             self.take_in(planes, map_from_robot);
         }
-        if used || moved {
+        if settled.used || settled.moved {
             self.columns_anew();
         }
-        self.columns.refresh(robot_m);
-        Ok(Insertion {
-            changed: self.view().cells.area(),
-            height_shift_m: shift.filter(|_| used),
-            used,
-        })
+        Ok(self.columns.refresh(map_from_robot, settled))
     }
 
     fn view(&self) -> &FloorView {
