@@ -1,10 +1,13 @@
 """A run that is cut short: Ctrl-C, a full disk, a kill. What there is stays readable."""
 
+import errno
 import fcntl
+import io
 import itertools
 import json
 import os
 import resource
+import select
 import shutil
 import signal
 import subprocess
@@ -20,6 +23,8 @@ from pathlib import Path
 import pytest
 
 from treadwell import interruption
+from treadwell.cli import output
+from treadwell.cli.app import execute
 from treadwell.interruption import SIGNALS, Interruption
 from treadwell.recording.observation_log import read_observations
 from treadwell.recording.verification import verify_run
@@ -221,9 +226,28 @@ def test_a_run_whose_terminal_is_closed_ends_with_its_result(tmp_path: Path) -> 
 
 
 def drain(terminal: int, path: Path) -> None:
-    """Read what is written to a terminal until a recording has grown."""
+    """Read what a terminal is told until a recording has grown, be that much or nothing."""
     while not (path.is_file() and path.stat().st_size > 1_500_000):
-        os.read(terminal, 10_000)
+        if select.select([terminal], [], [], 0.05)[0]:
+            os.read(terminal, 10_000)
+
+
+class ClosedTerminal(io.StringIO):
+    """What standard output is once its terminal is closed, and before the signal has come."""
+
+    def write(self, _: str) -> int:
+        raise OSError(errno.EIO, "Input/output error")
+
+
+@pytest.mark.parametrize("arguments", [("list", "robots"), ("list", "robots", "--json")])
+def test_a_terminal_that_is_closed_under_a_result_ends_as_by_its_signal(
+    arguments: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    left = []
+    monkeypatch.setattr(output, "leave_terminal", lambda: left.append(True))
+    monkeypatch.setattr(sys, "stdout", ClosedTerminal())
+    assert execute(arguments) == 130
+    assert left
 
 
 def test_an_interruption_while_the_folder_is_opened_leaves_a_result(tmp_path: Path) -> None:

@@ -1,14 +1,16 @@
 """How the command line speaks: JSON or text on standard output, messages and errors beside it."""
 
+import errno
 import json
 import os
 import sys
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from treadwell.errors import InputError, TreadwellError
+from treadwell.interruption import leave_terminal
 from treadwell.shell_limits import RECORDED_RUN, tightness
 
 if TYPE_CHECKING:
@@ -23,10 +25,23 @@ SHOW_TRACEBACK: Final = "TREADWELL_TRACEBACK"
 """Environment variable: when it is set, an unexpected error shows where it happened."""
 
 
+@contextmanager
+def _to_somebody() -> Iterator[None]:
+    """Take a terminal closed under a word for the signal that it sends, which may be late."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno != errno.EIO:
+            raise
+        leave_terminal()
+        raise KeyboardInterrupt from error
+
+
 def write_json(document: object) -> None:
     """Write a document to standard output; nothing else goes there with `--json`."""
-    sys.stdout.write(json.dumps(document, indent=2, allow_nan=False, default=str) + "\n")
-    sys.stdout.flush()
+    with _to_somebody():
+        sys.stdout.write(json.dumps(document, indent=2, allow_nan=False, default=str) + "\n")
+        sys.stdout.flush()
 
 
 def write_message(text: str) -> None:
@@ -66,7 +81,9 @@ def write_table(title: str, header: Sequence[str], rows: Sequence[Sequence[objec
         # Text and not markup: names and descriptions are the user's.
         table.add_row(*(Text(str(cell)) for cell in row))
     # Into a file or a pipe nothing has to be broken into short lines.
-    Console(width=None if sys.stdout.isatty() else _WIDTH_OF_A_FILE).print(table)
+    console = Console(width=None if sys.stdout.isatty() else _WIDTH_OF_A_FILE)
+    with _to_somebody():
+        console.print(table)
 
 
 def guarded(command: Callable[[], Any], *, as_json: bool) -> int:
@@ -78,7 +95,8 @@ def guarded(command: Callable[[], Any], *, as_json: bool) -> int:
     """
     try:
         status = command()
-        sys.stdout.flush()
+        with _to_somebody():
+            sys.stdout.flush()
     except KeyboardInterrupt:
         return _fail("interrupted", INTERRUPTED, as_json=as_json)
     except BrokenPipeError:
@@ -111,5 +129,6 @@ def _fail(message: str, status: int, *, as_json: bool) -> int:
     if message:  # nothing when help was shown because there was no command
         write_message(f"treadwell: {message}" if status == INTERRUPTED else f"error: {message}")
     if as_json:
-        write_json({"error": message, "status": status})
+        with suppress(KeyboardInterrupt):  # the status says it
+            write_json({"error": message, "status": status})
     return status
