@@ -1,0 +1,56 @@
+//! From where to where along a line its points lie.
+
+use super::line::Line;
+
+/// A part of a line with points on it, without a large gap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretch {
+    /// Index of the line.
+    pub line: usize,
+    /// Its ends in the map frame, m.
+    pub ends_m: [[f64; 2]; 2],
+    /// Points on it.
+    pub points: usize,
+}
+
+/// The stretches of lines that have so many points at least, no two neighbours further apart than `gap_m`. A point is its nearest line's, where
+/// that is no further off than `within_m`.
+pub fn stretches(
+    lines: &[Line],
+    points_m: &[[f64; 2]],
+    (within_m, gap_m): (f64, f64),
+    least_points: usize,
+) -> Vec<Stretch> {
+    let forms: Vec<_> = lines.iter().map(Line::normal_form).collect();
+    let mut along = vec![Vec::new(); lines.len()];
+    for &at_m in points_m {
+        let off = forms
+            .iter()
+            .map(|[cos, sin, distance_m]| (at_m[0] * cos + at_m[1] * sin - distance_m).abs());
+        let nearest = off
+            .enumerate()
+            .min_by(|(_, one), (_, other)| one.total_cmp(other));
+        if let Some((index, off_m)) = nearest
+            && off_m <= within_m
+        {
+            let [cos, sin, _] = forms[index];
+            along[index].push(at_m[1] * cos - at_m[0] * sin);
+        }
+    }
+    let mut found = Vec::new();
+    for (index, along) in along.iter_mut().enumerate() {
+        along.sort_by(f64::total_cmp);
+        for part in along.chunk_by(|one_m, next_m| next_m - one_m <= gap_m) {
+            if let (Some(&first_m), Some(&last_m)) = (part.first(), part.last())
+                && part.len() >= least_points
+            {
+                found.push(Stretch {
+                    line: index,
+                    ends_m: [first_m, last_m].map(|at_m| lines[index].point_m(at_m)),
+                    points: part.len(),
+                });
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,80 @@
+//! The log of the Intel lab as lines (004, Fig. 36.5); the folder with the data is named by `TREADWELL_DATA`, and none is no failure.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::io::Read;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+use plan_view::{LineFinder, LineFinderConfig};
+
+/// The valid points of the log, m in its world; none without the data.
+fn points() -> Option<Vec<[f64; 2]>> {
+    let Ok(data) = std::env::var("TREADWELL_DATA") else {
+        eprintln!("skipped: TREADWELL_DATA is not set");
+        return None;
+    };
+    let log = Path::new(&data).join("laser2d/intel-lab.log.gz");
+    let mut gunzip = Command::new("gzip")
+        .arg("-dc")
+        .arg(log)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut text = String::new();
+    let _bytes = gunzip
+        .stdout
+        .as_mut()
+        .unwrap()
+        .read_to_string(&mut text)
+        .unwrap();
+    let _status = gunzip.wait().unwrap();
+    let (mut pose, mut points) = ([0.0; 3], Vec::new());
+    for line in text.lines() {
+        let words: Vec<&str> = line.split(' ').collect();
+        let number = |at: usize| words[at].parse::<f64>().unwrap();
+        match words[0] {
+            "VERTEX2" => pose = [number(2), number(3), number(4)],
+            "ROBOTLASER1" => {
+                for beam in 0..number(8) as usize {
+                    let (range, angle) = (
+                        number(9 + beam),
+                        pose[2] + number(2) + beam as f64 * number(4),
+                    );
+                    if range > 0.0 && range < number(5) {
+                        let (sin, cos) = libm::sincos(angle);
+                        points.push([pose[0] + range * cos, pose[1] + range * sin]);
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    Some(points)
+}
+
+/// H17. Some 470,000 points take long without optimization: `cargo test --release -p plan_view --test intel -- --ignored --nocapture`.
+#[test]
+#[ignore = "long"]
+fn ninety_percent_of_the_intel_logs_points_lie_on_few_lines() {
+    let Some(points) = points() else {
+        return;
+    };
+    for (held, most_lines) in [(0.9, 400), (1.0, 94), (1.0, 120)] {
+        let started = Instant::now();
+        let config = LineFinderConfig {
+            held,
+            most_lines,
+            ..LineFinderConfig::default()
+        };
+        let found = LineFinder::new(config).unwrap().find(&points).unwrap();
+        eprintln!(
+            "{} points, held {held}, at most {most_lines}: {} lines hold {:.4} within 2 sigma, {:.1} s",
+            points.len(),
+            found.mixture.lines().len(),
+            found.held,
+            started.elapsed().as_secs_f64(),
+        );
+    }
+}
