@@ -1,4 +1,5 @@
-//! Maps of the plane that a laser or a sonar sweeps, seen from above (004, section 36.2): what is occupied, cell by cell, and walls as lines.
+//! Maps of the plane that a laser or a sonar sweeps, seen from above (004, section 36.2): what is occupied, cell by cell, walls as
+//! lines, and places with the ways between them.
 //!
 //! ```
 //! use geometry::PlanarPose;
@@ -22,6 +23,7 @@
 mod lines;
 mod occupancy;
 mod scan;
+mod topology;
 
 pub use lines::{
     Assigned, FoundLines, Line, LineError, LineFinder, LineFinderConfig, LineMixture, Piece,
@@ -33,3 +35,4 @@ pub use occupancy::{
     probability_of_odds, updated_odds,
 };
 pub use scan::{Beam, PlanarScan};
+pub use topology::{Doorway, GraphPlan, Place, Rooms, VoronoiGraph, VoronoiGraphConfig, Way};
