@@ -32,4 +32,4 @@ pub use occupancy::{
     OccupancyMap, ScanCounts, SonarConfig, SonarModel, log_odds, odds, probability_of_log_odds,
     probability_of_odds, updated_odds,
 };
-pub use scan::{Beam, PlanarScan};
+pub use scan::{Beam, PlanarScan, SweptBeam};

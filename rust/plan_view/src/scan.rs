@@ -29,6 +29,19 @@ impl Beam {
     }
 }
 
+/// What a sensor saw in one direction, of which it looked into a part alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SweptBeam {
+    /// Direction in the sensor's frame, counter-clockwise from its x, rad.
+    pub bearing_rad: f64,
+    /// Nothing is known of what is nearer, m.
+    pub from_m: f64,
+    /// Where the beam ended, m; up to there it is free.
+    pub range_m: f64,
+    /// Whether it ended in something, or is only known so far.
+    pub hit: bool,
+}
+
 /// The beams of one sweep, all from one place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanarScan {

@@ -1,7 +1,5 @@
 //! Sonars in a corridor (004, Figs 36.2 and 36.3): 18 scans of 24 beams.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::time::Instant;
 
 use geometry::{PlanarPose, SplitMix64};
@@ -125,11 +123,14 @@ fn eighteen_scans_of_twenty_four_sonars_show_a_corridor() {
                 .filter(|p| (p - 0.5).abs() > 0.02)
                 .map(|p| p > 0.5);
             all += 1;
-            right += usize::from(said == Some(wall));
-            walls += usize::from(wall);
-            found += usize::from(wall && said == Some(true));
+            right += i32::from(said == Some(wall));
+            walls += i32::from(wall);
+            found += i32::from(wall && said == Some(true));
         }
-        shares.push((right as f64 / all as f64, found as f64 / walls as f64));
+        shares.push((
+            f64::from(right) / f64::from(all),
+            f64::from(found) / f64::from(walls),
+        ));
         for cell in whole.cells().area().cells() {
             let [x, y] = whole.lattice().center_of(cell);
             let both = [whole.probability(cell), joined.probability_at(x, y)];

@@ -23,8 +23,9 @@ impl Accumulator {
         let radius_m = geometry::distance_m(centre_m, high_m).max(reach_m);
         let width_m = 2.0 * reach_m / TOGETHER as f64;
         let bins = (2.0 * radius_m / width_m).ceil() as usize + 2 * TOGETHER;
-        // The end of a line from one side of the box to the other is no further off its neighbour's than its points may be.
-        let angles = ((std::f64::consts::PI * radius_m / reach_m).ceil() as usize).max(TOGETHER);
+        // The ends of a line from one side of the box to the other are no further off its neighbours' than a line is wide.
+        let angles =
+            ((std::f64::consts::PI * radius_m / (2.0 * reach_m)).ceil() as usize).max(TOGETHER);
         let normal = |index: usize| {
             let normal_rad = std::f64::consts::PI * index as f64 / angles as f64;
             let (sin, cos) = libm::sincos(normal_rad);
@@ -57,11 +58,14 @@ impl Accumulator {
     pub(crate) fn best(&self) -> Option<Line> {
         let mut best = (0.0, 0, 0);
         for (index, votes) in self.votes.chunks_exact(self.bins).enumerate() {
-            for (first, together) in votes.windows(TOGETHER).enumerate() {
-                let sum: f32 = together.iter().sum();
-                if sum > best.0 {
-                    best = (sum, index, first);
-                }
+            let sums = votes
+                .windows(TOGETHER)
+                .map(|together| together.iter().sum::<f32>());
+            // The largest first, which takes no branch, then where it is.
+            let most = sums.clone().fold(0.0, f32::max);
+            if most > best.0 {
+                let first = sums.clone().position(|sum| sum >= most);
+                best = (most, index, first.unwrap_or(0));
             }
         }
         let (votes, index, first) = best;

@@ -16,20 +16,20 @@ settings! {
         random: f64 = 0.05, "1", between(0.0, 1.0);
         /// A line holds points up to so many standard deviations off.
         hold: f64 = 2.0, "1", within(0.5, 8.0);
-        /// Lines are enough that hold this share of the points, though the criterion asks for more. 1: the criterion alone counts.
-        held: f64 = 1.0, "1", above_to(0.0, 1.0);
+        /// Share of the points that the lines must hold, as few of them as may be. Left out: how many there are says the criterion.
+        held: Option<f64> = None, "1", above_to(0.0, 1.0);
         /// No more lines are found.
         most_lines: usize = 400, "1", at_least(1.0);
         /// Points in a cell of this many standard deviations are one, with their number.
-        cell: f64 = 0.5, "1", within(0.01, 2.0);
+        cell: f64 = 1.0, "1", within(0.01, 2.0);
         /// Most iterations of expectation maximization at a time.
         iterations: usize = 60, "1", at_least(1.0);
         /// The iterations end where the logarithm of the likelihood grows by less a point.
-        least_gain: f64 = 1e-6, "1", POSITIVE;
-        /// Times that a proposed line is fitted to the points that it holds.
-        refits: usize = 6, "1", at_least(1.0);
+        least_gain: f64 = 1e-5, "1", POSITIVE;
+        /// Slopes that are tried for each line that is proposed.
+        slopes: usize = 24, "1", at_least(2.0);
         /// Most times that all lines are gone through: taken out, or laid where they hold more.
-        rounds: usize = 8, "1", at_least(0.0);
+        rounds: usize = 4, "1", at_least(0.0);
     }
 }
 
@@ -67,9 +67,11 @@ impl LineFinder {
 
     /// The lines of points, m; none of none.
     ///
-    /// 1. The line with the most votes of points that none holds yet is taken as long as the criterion falls, and `held` is not reached.
+    /// 1. The line with the most votes of points that none holds yet is taken as long as the Bayesian information criterion falls.
     /// 2. Expectation maximization improves all of them; lines without which the criterion is less are taken out.
-    /// 3. With `held`, each line in turn is laid where it holds most of what the others do not, and those are taken out that are not needed.
+    ///
+    /// With `held` lines are taken as long as fewer points are held, whatever the criterion says. Then each in turn is laid where it holds most
+    /// of what the others do not, and those are taken out that are not needed.
     pub fn find(&self, points_m: &[[f64; 2]]) -> Result<FoundLines, LineError> {
         let finite = |at_m: &[f64; 2]| at_m.iter().all(|part| part.is_finite());
         if let Some(bad) = points_m.iter().position(|at_m| !finite(at_m)) {
@@ -78,18 +80,13 @@ impl LineFinder {
         let config = &self.config;
         let points = thinned(points_m, config.cell * config.sigma);
         let mut search = Search::new(config, &points);
-        for _ in 0..=config.rounds {
-            let had = search.mixture.lines().len();
-            search.add();
-            let _log_likelihood = search.fit();
-            let gone = search.prune();
-            if gone == 0 && search.mixture.lines().len() == had || search.is_enough() {
-                break;
-            }
-            search.reset();
-        }
-        if config.held < 1.0 {
+        if config.held.is_some() {
+            search.add_to_hold();
+            search.fit();
             search.economize();
+            search.make_sure(points_m);
+        } else {
+            search.add_and_prune();
         }
         Ok(search.finish(points_m))
     }

@@ -8,6 +8,7 @@ mod search;
 mod split_and_merge;
 mod stretches;
 mod thinned;
+mod widest;
 
 pub use finder::{FoundLines, LineError, LineFinder, LineFinderConfig};
 pub use line::{Line, WeightedPoint};

@@ -10,7 +10,7 @@ const RANDOM: f64 = 0.05;
 const POINTS_PER_M: f64 = 50.0;
 
 /// A room's points, m, and the lines of its walls.
-pub fn room(seed: u64) -> (Vec<[f64; 2]>, Vec<Line>) {
+pub(crate) fn room(seed: u64) -> (Vec<[f64; 2]>, Vec<Line>) {
     let mut numbers = SplitMix64::new(1000 + seed);
     let walls = loop {
         let count = 4 + (numbers.uniform() * 9.0) as usize;
