@@ -12,6 +12,7 @@ from treadwell._core import RangeMap
 from treadwell.errors import InputError
 from treadwell.map_making.placing import Placing, ground_below, placing, sensed
 from treadwell.map_making.plan_view import (
+    HELD,
     LINES,
     OCCUPANCY,
     SCAN_MODELS,
@@ -70,6 +71,8 @@ class Mapper:
         self.seconds: list[float] = []
         self._memory = MapMemory()
         tables = {**self.sizes.parameters, LINES: request.lines}
+        if self.world_model == LINES and "held" not in request.lines:
+            self.sizes.assumed["plan_view.lines.held"] = HELD
         self._plan: PlanView | None = (
             plan_view(self.world_model, self.sizes.cell, tables) if first.layout == "scan" else None
         )

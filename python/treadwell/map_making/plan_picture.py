@@ -52,6 +52,7 @@ def draw_plan(
     figure = Figure(figsize=tuple(inches), dpi=_DPI)
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
+    axes.set_facecolor(_UNKNOWN if probability is not None else "white")
     marks: list[Patch | Line2D] = []
     if probability is not None:
         shade = np.where(np.isnan(probability), 0.0, 1.0 - probability)[..., None]

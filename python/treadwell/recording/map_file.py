@@ -45,7 +45,7 @@ def write_map(
     path: Path,
     surface: RememberedMap,
     voxels: NDArray[np.float32],
-    more: Mapping[str, NDArray[Any]] | None = None,
+    more: Mapping[str, Any] | None = None,
 ) -> None:
     """Write the file whole or not at all.
 

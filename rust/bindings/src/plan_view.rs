@@ -6,7 +6,7 @@ use numpy::{
 };
 use plan_view::{
     Beam, BeamLikelihood, BeamLikelihoodConfig, LineFinder, LineFinderConfig, OccupancyConfig,
-    OccupancyMap, PlanarScan, stretches,
+    OccupancyMap, PlanarScan,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -127,25 +127,20 @@ impl PyOccupancyMap {
 
 /// The lines that points (n, 2), m, lie on: `normal` (k,) rad and `distance` (k,) m of each line, `share` (k,) of the points, those with most
 /// first; `held`: share of the points that some line holds; `criterion`; and where they are: `ends` (m, 4) m, x and y of both ends of
-/// each stretch, of `line` (m,). Stretches have `least_points` and no gap larger than `gap`, m. `settings` is JSON: `[plan_view.lines]`.
+/// each stretch with points, of `line` (m,). `settings` is JSON: `[plan_view.lines]`.
 #[pyfunction]
-#[pyo3(signature = (points, settings="{}", *, gap=0.5, least_points=20))]
+#[pyo3(signature = (points, settings="{}"))]
 pub(crate) fn find_lines<'py>(
     py: Python<'py>,
     points: &Bound<'_, PyArray2<f64>>,
     settings: &str,
-    gap: f64,
-    least_points: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
     let config: LineFinderConfig = parse(py, settings)?;
-    let within_m = config.hold * config.sigma;
     let finder = LineFinder::new(config).map_err(|error| bad_setting(py, &error))?;
     let points = places(points)?;
     let found = run(py, || finder.find(&points))?.map_err(|error| bad_setting(py, &error))?;
     let lines = found.mixture.lines();
-    let drawn = run(py, || {
-        stretches(lines, &points, (within_m, gap), least_points)
-    })?;
+    let drawn = run(py, || finder.stretches(&found, &points))?;
     let made = PyDict::new(py);
     let numbers = |values: Vec<f64>| -> Bound<'py, PyArray1<f64>> { values.into_pyarray(py) };
     made.set_item(

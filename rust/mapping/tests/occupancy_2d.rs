@@ -56,6 +56,10 @@ fn a_step_is_an_obstacle_though_its_top_is_a_floor_to_others() {
         &[Block::new([0.9, -0.6, 0.0], [1.6, 0.6, 0.03], true)],
     );
     assert!(matches!(at(&model, 0.9, 0.02), Surface::Obstacle(_)));
+    assert!(
+        matches!(at(&model, 1.3, 0.02), Surface::Obstacle(_)),
+        "its top, too: a goal there is refused"
+    );
     assert_eq!(at(&model, 0.7, 0.02), Surface::Floor(0.0));
 }
 

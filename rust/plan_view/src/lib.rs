@@ -25,7 +25,7 @@ mod scan;
 
 pub use lines::{
     Assigned, FoundLines, Line, LineError, LineFinder, LineFinderConfig, LineMixture, Piece,
-    SplitAndMergeConfig, Stretch, WeightedPoint, split_and_merge, stretches,
+    SplitAndMergeConfig, Stretch, WeightedPoint, split_and_merge,
 };
 pub use occupancy::{
     BeamLikelihood, BeamLikelihoodConfig, CellBelief, LaserModel, OccupancyConfig, OccupancyError,

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use plan_view::{LineFinder, LineFinderConfig, stretches};
+use plan_view::{LineFinder, LineFinderConfig};
 
 /// The valid points of the log, m in its world; none without the data.
 fn points() -> Option<Vec<[f64; 2]>> {
@@ -69,7 +69,8 @@ fn ninety_percent_of_the_intel_logs_points_lie_on_few_lines() {
             ..LineFinderConfig::default()
         };
         let within_m = config.hold * config.sigma;
-        let found = LineFinder::new(config).unwrap().find(&points).unwrap();
+        let finder = LineFinder::new(config).unwrap();
+        let found = finder.find(&points).unwrap();
         let lines = found.mixture.lines();
         let off = |at: &[f64; 2]| {
             lines
@@ -78,7 +79,7 @@ fn ninety_percent_of_the_intel_logs_points_lie_on_few_lines() {
                 .fold(f64::INFINITY, f64::min)
         };
         let mean_m = points.iter().map(off).sum::<f64>() / points.len() as f64;
-        let drawn = stretches(lines, &points, (within_m, 0.5), 20);
+        let drawn = finder.stretches(&found, &points);
         eprintln!(
             "{} points, held {held}, at most {most_lines}: {} lines hold {:.4} within 2 sigma, mean distance {mean_m:.4} m; {} stretches, \
              {:.0} times smaller than the points; {:.1} s",

@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 use geometry::SplitMix64;
 use plan_view::{
     Line, LineError, LineFinder, LineFinderConfig, LineMixture, SplitAndMergeConfig, WeightedPoint,
-    split_and_merge, stretches,
+    split_and_merge,
 };
 use proptest::prelude::*;
 
@@ -186,37 +186,46 @@ fn the_likelihood_is_normalized_off_the_line_and_asks_the_nearest() {
     assert!((two.likelihood([1.31, 9.0]) - one.density_off(0.31 - 0.3)).abs() < 1e-9);
 }
 
-/// H16: the issue asks for 48 of 50; all walls found, no other, each where it is.
-#[test]
-fn the_criterion_finds_how_many_walls_a_room_has() {
-    let finder = LineFinder::new(LineFinderConfig {
+/// Of rooms with these seeds how many have just their walls for lines, and the others: seed, walls, lines, walls that are found.
+fn rooms_right(seeds: std::ops::Range<u64>) -> (usize, Vec<[usize; 4]>) {
+    let config = LineFinderConfig {
         sigma: 0.02,
         ..LineFinderConfig::default()
-    })
-    .unwrap();
-    let mut right = 0;
-    let mut wrong = Vec::new();
-    for seed in 0..50 {
+    };
+    let finder = LineFinder::new(config).unwrap();
+    let (mut right, mut wrong) = (0, Vec::new());
+    for seed in seeds {
         let (points, walls) = rooms::room(seed);
         let found = finder.find(&points).unwrap();
         let lines = found.mixture.lines();
-        let near = |wall: &&Line| {
-            lines.iter().any(|line| {
-                let (turn, shift) = off(line, wall);
-                turn < 0.06 && shift < 0.06
-            })
+        let is_near = |wall: &Line, line: &Line| {
+            let (turn, shift) = off(line, wall);
+            turn < 0.06 && shift < 0.06
         };
-        let there = walls.iter().filter(near).count();
+        let is_found = |wall: &&Line| lines.iter().any(|line| is_near(wall, line));
+        let there = walls.iter().filter(is_found).count();
         if lines.len() == walls.len() && there == walls.len() {
             right += 1;
         } else {
-            wrong.push((seed, walls.len(), lines.len(), there));
+            wrong.push([seed as usize, walls.len(), lines.len(), there]);
         }
     }
-    assert!(
-        right >= 48,
-        "{right}: seed, walls, lines, walls found: {wrong:?}"
-    );
+    (right, wrong)
+}
+
+/// H16: the number alone is asked for; here each line is also where its wall is.
+#[test]
+fn the_criterion_finds_how_many_walls_a_room_has() {
+    let (right, wrong) = rooms_right(0..50);
+    assert!(right >= 48, "{right}: {wrong:?}");
+}
+
+#[test]
+#[ignore = "long"]
+fn the_criterion_finds_how_many_walls_a_thousand_rooms_have() {
+    let (right, wrong) = rooms_right(50..1050);
+    eprintln!("{right} of 1000: {wrong:?}");
+    assert!(right >= 960, "{right}");
 }
 
 #[test]
@@ -236,29 +245,28 @@ fn lines_are_enough_that_hold_the_share_that_is_asked_for() {
 
 #[test]
 fn a_line_is_drawn_where_its_points_are() {
-    let line = Line {
-        normal_rad: PI / 2.0,
-        distance_m: 1.0,
-    };
-    let points: Vec<_> = (0..100)
-        .filter(|step| !(40..60).contains(step))
-        .map(|step| [0.02 * f64::from(step), 1.0])
-        .collect();
-    let found = stretches(&[line], &points, (0.05, 0.1), 3);
-    let mut ends: Vec<_> = found
+    let in_gap = |step: &i32| (40..70).contains(step);
+    let along = (0..120)
+        .filter(|step| !in_gap(step))
+        .map(|step| 0.02 * f64::from(step));
+    let points: Vec<_> = along.map(|x| [x, 1.0]).collect();
+    let finder = LineFinder::new(LineFinderConfig::default()).unwrap();
+    let found = finder.find(&points).unwrap();
+    assert_eq!(found.mixture.lines().len(), 1);
+    let stretches = finder.stretches(&found, &points);
+    let mut ends: Vec<_> = stretches
         .iter()
-        .map(|stretch| stretch.ends_m.map(|at| at[0]))
+        .flat_map(|one| one.ends_m)
+        .map(|at| at[0])
         .collect();
-    for ends in &mut ends {
-        ends.sort_by(f64::total_cmp);
-    }
-    ends.sort_by(|one, other| one[0].total_cmp(&other[0]));
-    let expected = [[0.0, 0.78], [1.2, 1.98]];
+    ends.sort_by(f64::total_cmp);
+    let expected = [0.0, 0.78, 1.4, 2.38];
+    let off = ends
+        .iter()
+        .zip(expected)
+        .map(|(found, truth)| (found - truth).abs());
     assert!(
-        ends.iter()
-            .flatten()
-            .zip(expected.iter().flatten())
-            .all(|(found, truth)| (found - truth).abs() < 1e-9),
+        ends.len() == 4 && off.fold(0.0, f64::max) < 0.01,
         "{ends:?}"
     );
 }

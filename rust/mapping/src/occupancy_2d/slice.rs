@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use geometry::{Grid, Lattice, Map, Pose, Robot};
+use geometry::{Cell, Grid, Lattice, Map, Pose, Robot};
 use plan_view::SweptBeam;
 use segmentation::Planes;
 
@@ -79,12 +79,35 @@ impl Slicer {
                 Slice::InTheWay => {}
             }
         }
-        let mut beams = Vec::new();
+        let mut beams = self.seen_over_others((planes, map_from_robot), config, lattice);
         for (index, seen) in self.seen.iter_mut().enumerate() {
             let bearing_rad = (index as f64 + 0.5) * config.beam - PI;
             seen.beams(bearing_rad, config.gap, &mut beams);
         }
         beams
+    }
+
+    /// A beam to each cell in which enough is in the way, though something lower stands before it: cameras see over that, lasers do not.
+    fn seen_over_others(
+        &self,
+        (planes, map_from_robot): (&Planes, &Pose<Map, Robot>),
+        config: &DepthSliceConfig,
+        lattice: Lattice,
+    ) -> Vec<SweptBeam> {
+        let eye = (*map_from_robot * planes.robot_from_camera.origin()).inner;
+        let cells = self.counts.area().cells().zip(self.counts.values());
+        let hit = |(cell, &count): (Cell, &u16)| {
+            let [x_m, y_m] = lattice.center_of(cell);
+            let (right_m, up_m) = (x_m - eye.x, y_m - eye.y);
+            let range_m = geometry::hypot(right_m, up_m);
+            (usize::from(count) >= config.least_points).then(|| SweptBeam {
+                bearing_rad: libm::atan2(up_m, right_m),
+                from_m: range_m,
+                range_m,
+                hit: true,
+            })
+        };
+        cells.filter_map(hit).collect()
     }
 
     /// The points of the slice, and how many are in the way in each cell.

@@ -1,10 +1,13 @@
 //! How many lines there are, and where: proposed by votes, improved by expectation maximization, counted by the Bayesian information criterion
 //! (004, section 36.2.2; Sack and Burgard 2004).
 
-use settings::{ConfigError, POSITIVE, Table, above_to, at_least, between, settings, within};
+use settings::{
+    ConfigError, NOT_NEGATIVE, POSITIVE, Table, above_to, at_least, between, settings, within,
+};
 
 use super::mixture::LineMixture;
 use super::search::Search;
+use super::stretches::{Stretch, stretches};
 use super::thinned::thinned;
 
 settings! {
@@ -30,6 +33,12 @@ settings! {
         slopes: usize = 24, "1", at_least(2.0);
         /// Most times that all lines are gone through: taken out, or laid where they hold more.
         rounds: usize = 4, "1", at_least(0.0);
+        /// A line is drawn where its points are; a gap between them that is larger ends a stretch.
+        gap: f64 = 0.5, "m", POSITIVE;
+        /// Stretches with fewer points are not drawn.
+        least_points: usize = 20, "1", at_least(1.0);
+        /// Shorter ones are not, either: there a line only crosses something.
+        least_length: f64 = 0.3, "m", NOT_NEGATIVE;
     }
 }
 
@@ -89,5 +98,10 @@ impl LineFinder {
             search.add_and_prune();
         }
         Ok(search.finish(points_m))
+    }
+
+    /// Where along the lines that were found their points, m, lie.
+    pub fn stretches(&self, found: &FoundLines, points_m: &[[f64; 2]]) -> Vec<Stretch> {
+        stretches(found.mixture.lines(), points_m, &self.config)
     }
 }

@@ -43,7 +43,8 @@ impl LineMixture {
             shares,
             sigma_m,
             length_m: geometry::hypot(sides[0], sides[1]),
-            area_m2: sides[0] * sides[1],
+            // A single wall lies in a box without a breadth, and is a line none the less: random points would fill the square.
+            area_m2: sides[0].max(sides[1]) * sides[0].max(sides[1]),
         }
     }
 
@@ -169,7 +170,7 @@ impl LineMixture {
     /// Bayesian information criterion (004, section 36.2.2), less is better: for each line an angle, a distance and a share are fitted to so
     /// many points, which is their weight.
     pub fn information_criterion(&self, log_likelihood: f64, weight: f64) -> f64 {
-        let parameters = 3.0 * self.lines.len() as f64;
+        let parameters = (3 * self.lines.len()) as f64;
         parameters * libm::log(weight.max(1.0)) - 2.0 * log_likelihood
     }
 
@@ -244,5 +245,5 @@ impl LineMixture {
     }
 }
 
-/// Standard deviations off a line beyond which a point does not belong to it: there a Gaussian is 1e-14 of its middle.
-const FAR: f64 = 8.0;
+/// Standard deviations off a line beyond which a point does not belong to it: there a Gaussian is 1e-22 of its middle.
+const FAR: f64 = 10.0;

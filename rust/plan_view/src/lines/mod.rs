@@ -14,4 +14,4 @@ pub use finder::{FoundLines, LineError, LineFinder, LineFinderConfig};
 pub use line::{Line, WeightedPoint};
 pub use mixture::{Assigned, LineMixture};
 pub use split_and_merge::{Piece, SplitAndMergeConfig, split_and_merge};
-pub use stretches::{Stretch, stretches};
+pub use stretches::Stretch;

@@ -1,5 +1,6 @@
 //! From where to where along a line its points lie.
 
+use super::finder::LineFinderConfig;
 use super::line::Line;
 
 /// A part of a line with points on it, without a large gap.
@@ -13,14 +14,13 @@ pub struct Stretch {
     pub points: usize,
 }
 
-/// The stretches of lines that have so many points at least, no two neighbours further apart than `gap_m`. A point is its nearest line's, where
-/// that is no further off than `within_m`.
-pub fn stretches(
+/// The stretches of lines with so many points, so long and with such gaps as the settings say. A point, m, is its nearest line's, if that holds it.
+pub(super) fn stretches(
     lines: &[Line],
     points_m: &[[f64; 2]],
-    (within_m, gap_m): (f64, f64),
-    least_points: usize,
+    config: &LineFinderConfig,
 ) -> Vec<Stretch> {
+    let within_m = config.hold * config.sigma;
     let forms: Vec<_> = lines.iter().map(Line::normal_form).collect();
     let mut along = vec![Vec::new(); lines.len()];
     for &at_m in points_m {
@@ -40,9 +40,10 @@ pub fn stretches(
     let mut found = Vec::new();
     for (index, along) in along.iter_mut().enumerate() {
         along.sort_by(f64::total_cmp);
-        for part in along.chunk_by(|one_m, next_m| next_m - one_m <= gap_m) {
+        for part in along.chunk_by(|one_m, next_m| next_m - one_m <= config.gap) {
             if let (Some(&first_m), Some(&last_m)) = (part.first(), part.last())
-                && part.len() >= least_points
+                && part.len() >= config.least_points
+                && last_m - first_m >= config.least_length
             {
                 found.push(Stretch {
                     line: index,

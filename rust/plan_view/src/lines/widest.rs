@@ -21,7 +21,7 @@ pub(crate) fn widest<'a>(
                 point.weight,
             ]
         })
-        .filter(|[_, off_m, _]| off_m.abs() <= 3.0 * reach_m)
+        .filter(|[_, off_m, _]| off_m.abs() <= reach_m + 2.0 * reach_m)
         .collect();
     let ends = near.iter().fold(
         [f64::INFINITY, f64::NEG_INFINITY],
