@@ -5,8 +5,8 @@ use numpy::{
     IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods, ToPyArray, ndarray,
 };
 use plan_view::{
-    Beam, BeamLikelihood, BeamLikelihoodConfig, LineFinder, LineFinderConfig, OccupancyConfig,
-    OccupancyMap, PlanarScan,
+    BeamLikelihood, BeamLikelihoodConfig, LineFinder, LineFinderConfig, OccupancyConfig,
+    OccupancyMap, PlanarScan, RangeBeam,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -36,9 +36,9 @@ fn scan_of(points_m: &[[f64; 2]], eye_m: [f64; 2]) -> PlanarScan {
         let off = [at_m[0] - eye_m[0], at_m[1] - eye_m[1]];
         let range_m = geometry::hypot(off[0], off[1]);
         if range_m.is_finite() {
-            Beam::new(libm::atan2(off[1], off[0]), Some(range_m))
+            RangeBeam::new(libm::atan2(off[1], off[0]), Some(range_m))
         } else {
-            Beam::new(0.0, None)
+            RangeBeam::new(0.0, None)
         }
     };
     PlanarScan {

@@ -11,7 +11,7 @@ settings! {
         window: usize = 100, "1", within(4.0, FogConfig::MOST_CELLS as f64);
         /// Surfaces that lie this far above or below the robot's ground are obstacles: a plane has no steps.
         low: f64 = 0.02, "m", POSITIVE;
-        /// The same for points of which no surface is known, which are less sure.
+        /// Points of which no surface is known are less sure: they are obstacles from this height or depth on.
         stray: f64 = 0.05, "m", POSITIVE;
         /// What hangs higher above the robot's ground is passed below. Left out: the robot's own height.
         high: Option<f64> = None, "m", within(0.01, 100.0);

@@ -26,7 +26,7 @@ struct SlicePoint {
 
 /// What one direction saw.
 #[derive(Debug, Clone, Default)]
-struct Seen {
+struct SeenAlong {
     nearest_hit_m: Option<f64>,
     floor_m: Vec<f32>,
 }
@@ -36,7 +36,7 @@ struct Seen {
 pub(super) struct Slicer {
     points: Vec<SlicePoint>,
     counts: Grid<u16>,
-    seen: Vec<Seen>,
+    seen: Vec<SeenAlong>,
 }
 
 impl Slicer {
@@ -45,7 +45,7 @@ impl Slicer {
         Self {
             points: Vec::new(),
             counts: Grid::filled(config.window, config.window, 0),
-            seen: vec![Seen::default(); beams],
+            seen: vec![SeenAlong::default(); beams],
         }
     }
 
@@ -168,7 +168,7 @@ impl Slicer {
     }
 }
 
-impl Seen {
+impl SeenAlong {
     /// Floor from the nearest point on, in parts where a gap is larger than `gap_m`, and what stands behind it.
     fn beams(&mut self, bearing_rad: f64, gap_m: f64, beams: &mut Vec<SweptBeam>) {
         let hit_m = self.nearest_hit_m;

@@ -1,28 +1,39 @@
 //! The search for lines: what each step of [`super::LineFinder`] does.
 
-use super::accumulator::Accumulator;
-use super::finder::{FoundLines, LineFinderConfig};
-use super::line::{Line, WeightedPoint};
+use super::config::LineFinderConfig;
+use super::line::{PlanarLine, WeightedPoint};
+use super::line_votes::LineVotes;
 use super::mixture::LineMixture;
 use super::widest::widest;
 
+/// Lines, and what they are worth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FoundLines {
+    /// The lines, those with most points first, and how the points are shared among them.
+    pub mixture: LineMixture,
+    /// Share of the points that some line holds.
+    pub held: f64,
+    /// Bayesian information criterion: less is better, of the same points.
+    pub criterion: f64,
+}
+
 /// What is known on the way.
-pub(super) struct Search<'a> {
+pub(super) struct LineSearch<'a> {
     config: &'a LineFinderConfig,
     points: &'a [WeightedPoint],
     weight: f64,
     pub(super) mixture: LineMixture,
     /// How many lines hold each point.
     holders: Vec<u16>,
-    votes: Accumulator,
+    votes: LineVotes,
     /// Share of the points to hold.
     wanted: f64,
 }
 
-impl<'a> Search<'a> {
+impl<'a> LineSearch<'a> {
     pub(super) fn new(config: &'a LineFinderConfig, points: &'a [WeightedPoint]) -> Self {
         let bounds = box_of(points);
-        let mut votes = Accumulator::new(bounds, config.hold * config.sigma);
+        let mut votes = LineVotes::new(bounds, config.hold * config.sigma);
         for point in points {
             votes.vote(point, point.weight);
         }
@@ -101,7 +112,7 @@ impl<'a> Search<'a> {
     }
 
     /// Share of the points that a line holds and just so many others.
-    fn share_alone(&self, line: &Line, others: u16) -> f64 {
+    fn share_alone(&self, line: &PlanarLine, others: u16) -> f64 {
         let alone = self.points_within(line, |holders| holders == others);
         alone.map(|point| point.weight).sum::<f64>() / self.weight
     }
@@ -111,7 +122,7 @@ impl<'a> Search<'a> {
         let of = |mixture: &LineMixture| mixture.information_criterion(0.0, self.weight) / 2.0;
         let mut more = self.mixture.clone();
         more.add(
-            Line {
+            PlanarLine {
                 normal_rad: 0.0,
                 distance_m: 0.0,
             },
@@ -121,7 +132,7 @@ impl<'a> Search<'a> {
     }
 
     /// By how much the logarithm of the likelihood grows with a line that has this share of the points.
-    fn gain(&self, line: &Line, share: f64) -> f64 {
+    fn gain(&self, line: &PlanarLine, share: f64) -> f64 {
         let [cos, sin, distance_m] = line.normal_form();
         let densities = self.mixture.densities(self.points);
         let each = self.points.iter().zip(densities).map(|(point, before)| {
@@ -133,7 +144,7 @@ impl<'a> Search<'a> {
     }
 
     /// The line that holds most of what none does.
-    fn proposed(&self) -> Option<Line> {
+    fn proposed(&self) -> Option<PlanarLine> {
         let line = self.votes.best()?;
         let open = self
             .points
@@ -146,7 +157,7 @@ impl<'a> Search<'a> {
 
     fn points_within(
         &self,
-        line: &Line,
+        line: &PlanarLine,
         counts: impl Fn(u16) -> bool,
     ) -> impl Iterator<Item = &WeightedPoint> {
         let ([cos, sin, distance_m], reach_m) = (line.normal_form(), self.reach_m());
@@ -159,7 +170,7 @@ impl<'a> Search<'a> {
     }
 
     /// Marks the points of a line as held, or as held by one line less.
-    fn hold(&mut self, line: &Line, more: bool) {
+    fn hold(&mut self, line: &PlanarLine, more: bool) {
         let ([cos, sin, distance_m], reach_m) = (line.normal_form(), self.reach_m());
         for (point, holders) in self.points.iter().zip(&mut self.holders) {
             let off_m = point.at_m[0] * cos + point.at_m[1] * sin - distance_m;
@@ -190,7 +201,7 @@ impl<'a> Search<'a> {
     /// Counts anew which points are held.
     fn reset(&mut self) {
         let lines = self.mixture.lines().to_vec();
-        let forms: Vec<_> = lines.iter().map(Line::normal_form).collect();
+        let forms: Vec<_> = lines.iter().map(PlanarLine::normal_form).collect();
         let reach_m = self.reach_m();
         for (point, holders) in self.points.iter().zip(&mut self.holders) {
             let holds = |[cos, sin, distance_m]: &&[f64; 3]| {
@@ -285,7 +296,12 @@ impl<'a> Search<'a> {
     }
 
     fn share_held(&self, points_m: &[[f64; 2]]) -> f64 {
-        let forms: Vec<_> = self.mixture.lines().iter().map(Line::normal_form).collect();
+        let forms: Vec<_> = self
+            .mixture
+            .lines()
+            .iter()
+            .map(PlanarLine::normal_form)
+            .collect();
         let reach_m = self.reach_m();
         let is_held = |at_m: &&[f64; 2]| {
             let off_m =

@@ -1,11 +1,11 @@
 //! From where to where along a line its points lie.
 
-use super::finder::LineFinderConfig;
-use super::line::Line;
+use super::config::LineFinderConfig;
+use super::line::PlanarLine;
 
 /// A part of a line with points on it, without a large gap.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch {
+pub struct LineStretch {
     /// Index of the line.
     pub line: usize,
     /// Its ends in the map frame, m.
@@ -16,12 +16,12 @@ pub struct Stretch {
 
 /// The stretches of lines with so many points, so long and with such gaps as the settings say. A point, m, is its nearest line's, if that holds it.
 pub(super) fn stretches(
-    lines: &[Line],
+    lines: &[PlanarLine],
     points_m: &[[f64; 2]],
     config: &LineFinderConfig,
-) -> Vec<Stretch> {
+) -> Vec<LineStretch> {
     let within_m = config.hold * config.sigma;
-    let forms: Vec<_> = lines.iter().map(Line::normal_form).collect();
+    let forms: Vec<_> = lines.iter().map(PlanarLine::normal_form).collect();
     let mut along = vec![Vec::new(); lines.len()];
     for &at_m in points_m {
         let off = forms
@@ -45,7 +45,7 @@ pub(super) fn stretches(
                 && part.len() >= config.least_points
                 && last_m - first_m >= config.least_length
             {
-                found.push(Stretch {
+                found.push(LineStretch {
                     line: index,
                     ends_m: [first_m, last_m].map(|at_m| lines[index].point_m(at_m)),
                     points: part.len(),

@@ -1,15 +1,15 @@
 //! The line near another one that holds most points: over all offsets exactly, over slopes by trying them.
 
-use super::line::{Line, WeightedPoint};
+use super::line::{PlanarLine, WeightedPoint};
 
 /// The line that holds most weight of points up to `reach_m` off it, near to `line`: its ends turned by up to two such distances, in `slopes`
 /// steps, then between the best of them as finely again.
 pub(crate) fn widest<'a>(
-    line: &Line,
+    line: &PlanarLine,
     points: impl Iterator<Item = &'a WeightedPoint>,
     reach_m: f64,
     slopes: usize,
-) -> Line {
+) -> PlanarLine {
     let [cos, sin, distance_m] = line.normal_form();
     // Along the line from its middle, off it, and weight, of what a turned one may hold.
     let mut near: Vec<[f64; 3]> = points
@@ -54,7 +54,7 @@ pub(crate) fn widest<'a>(
     let through = [through[0] + offset_m * cos, through[1] + offset_m * sin];
     let normal_rad = line.normal_rad - libm::atan(slope);
     let (sin, cos) = libm::sincos(normal_rad);
-    Line {
+    PlanarLine {
         normal_rad,
         distance_m: through[0] * cos + through[1] * sin,
     }

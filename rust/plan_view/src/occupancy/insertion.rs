@@ -4,8 +4,9 @@ use geometry::{Cell, CellArea, PlanarPose, wrap_angle};
 use volume::VoxelWalk;
 
 use super::map::{OccupancyError, OccupancyMap};
+use super::said::Said;
 use super::{LaserModel, SonarModel};
-use crate::scan::{Beam, PlanarScan, SweptBeam};
+use crate::scan::{PlanarScan, RangeBeam, SweptBeam};
 
 /// What became of the beams of a scan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -18,20 +19,12 @@ pub struct ScanCounts {
     pub unusable: usize,
 }
 
-/// What a scan says of a cell: that something is in it, whatever its other beams say, or that one passed it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Said {
-    Nothing,
-    Free,
-    Occupied,
-}
-
 impl OccupancyMap {
     /// Takes in a scan of a laser, as one observation: a cell in which a beam ends is occupied to it, whatever the others say; one that beams
     /// pass is free (004, equation 36.6). Beams that see further than `max_range` are free up to there.
     pub fn insert(&mut self, scan: &PlanarScan) -> Result<ScanCounts, OccupancyError> {
         let (counts, seen) = usable(scan);
-        let swept = |beam: &Beam| SweptBeam {
+        let swept = |beam: &RangeBeam| SweptBeam {
             bearing_rad: beam.bearing_rad,
             from_m: 0.0,
             range_m: beam.range_m.unwrap_or(0.0),
@@ -74,7 +67,7 @@ impl OccupancyMap {
         check(&pose)?;
         let (counts, seen) = usable(scan);
         let opening_rad = model.config().half_opening;
-        let sides = |beam: &Beam| {
+        let sides = |beam: &RangeBeam| {
             let reach_m = model.reach_m(beam.range_m);
             let turns = [-opening_rad, 0.0, opening_rad];
             turns.map(|turn_rad| (beam.bearing_rad + turn_rad, reach_m.unwrap_or(0.0)))
@@ -189,7 +182,7 @@ fn check(pose: &PlanarPose) -> Result<(), OccupancyError> {
 }
 
 /// The beams that say something, and what became of all.
-fn usable(scan: &PlanarScan) -> (ScanCounts, Vec<Beam>) {
+fn usable(scan: &PlanarScan) -> (ScanCounts, Vec<RangeBeam>) {
     let mut counts = ScanCounts::default();
     let mut seen = Vec::with_capacity(scan.beams.len());
     for beam in &scan.beams {

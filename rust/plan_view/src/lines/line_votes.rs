@@ -1,10 +1,10 @@
 //! Where lines may lie: points vote for all lines through them (Duda and Hart 1972).
 
-use super::line::{Line, WeightedPoint};
+use super::line::{PlanarLine, WeightedPoint};
 
 /// Votes for lines by angle of the normal and distance; votes can be taken back, so that the next best line is known without a new count.
 #[derive(Debug, Clone)]
-pub(crate) struct Accumulator {
+pub(crate) struct LineVotes {
     centre_m: [f64; 2],
     /// Cosine, sine and angle of each normal.
     normals: Vec<([f64; 2], f64)>,
@@ -16,7 +16,7 @@ pub(crate) struct Accumulator {
 /// Bins side by side whose votes are one line's.
 const TOGETHER: usize = 4;
 
-impl Accumulator {
+impl LineVotes {
     /// No votes; lines go through a box, its lower and upper corner in m, and hold points up to `reach_m` off.
     pub(crate) fn new([low_m, high_m]: [[f64; 2]; 2], reach_m: f64) -> Self {
         let centre_m = [0, 1].map(|axis| f64::midpoint(low_m[axis], high_m[axis]));
@@ -55,7 +55,7 @@ impl Accumulator {
     }
 
     /// The line with the most votes; none where there are none.
-    pub(crate) fn best(&self) -> Option<Line> {
+    pub(crate) fn best(&self) -> Option<PlanarLine> {
         let mut best = (0.0, 0, 0);
         for (index, votes) in self.votes.chunks_exact(self.bins).enumerate() {
             let sums = votes
@@ -72,7 +72,7 @@ impl Accumulator {
         let ([cos, sin], normal_rad) = self.normals[index];
         let middle = (first + TOGETHER / 2) as f64 - self.bins as f64 / 2.0;
         let distance_m = middle * self.width_m + self.centre_m[0] * cos + self.centre_m[1] * sin;
-        (votes > 0.0).then_some(Line {
+        (votes > 0.0).then_some(PlanarLine {
             normal_rad,
             distance_m,
         })
