@@ -6,7 +6,7 @@ use numpy::{
 };
 use plan_view::{
     BeamLikelihood, BeamLikelihoodConfig, LineFinder, LineFinderConfig, OccupancyConfig,
-    OccupancyMap, PlanarScan, RangeBeam,
+    OccupancyMap, PlanarBeam, PlanarScan,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -36,9 +36,9 @@ fn scan_of(points_m: &[[f64; 2]], eye_m: [f64; 2]) -> PlanarScan {
         let off = [at_m[0] - eye_m[0], at_m[1] - eye_m[1]];
         let range_m = geometry::hypot(off[0], off[1]);
         if range_m.is_finite() {
-            RangeBeam::new(libm::atan2(off[1], off[0]), Some(range_m))
+            PlanarBeam::new(libm::atan2(off[1], off[0]), Some(range_m))
         } else {
-            RangeBeam::new(0.0, None)
+            PlanarBeam::new(0.0, None)
         }
     };
     PlanarScan {

@@ -2,12 +2,12 @@
 //!
 //! ```
 //! use geometry::PlanarPose;
-//! use plan_view::{RangeBeam, OccupancyConfig, OccupancyMap, PlanarScan};
+//! use plan_view::{PlanarBeam, OccupancyConfig, OccupancyMap, PlanarScan};
 //!
 //! let mut map = OccupancyMap::new(OccupancyConfig::default())?;
 //! let beams = (-20..=20).map(|step| {
 //!     let bearing_rad = 0.02 * f64::from(step);
-//!     RangeBeam::new(bearing_rad, Some(2.0 / bearing_rad.cos()))
+//!     PlanarBeam::new(bearing_rad, Some(2.0 / bearing_rad.cos()))
 //! });
 //! let scan = PlanarScan { map_from_sensor: PlanarPose::new(0.0, 0.0, 0.0), beams: beams.collect() };
 //! for _ in 0..3 {
@@ -32,4 +32,4 @@ pub use occupancy::{
     OccupancyMap, ScanCounts, SonarConfig, SonarModel, log_odds, odds, probability_of_log_odds,
     probability_of_odds, updated_odds,
 };
-pub use scan::{PlanarScan, RangeBeam, SweptBeam};
+pub use scan::{PlanarBeam, PlanarScan, SweptBeam};

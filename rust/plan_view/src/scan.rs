@@ -4,14 +4,14 @@ use geometry::PlanarPose;
 
 /// One range of a scan.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RangeBeam {
+pub struct PlanarBeam {
     /// Direction in the sensor's frame, counter-clockwise from its x, rad.
     pub bearing_rad: f64,
     /// Distance to what was seen, m; none of a maximum range reading, which says only that nothing came back.
     pub range_m: Option<f64>,
 }
 
-impl RangeBeam {
+impl PlanarBeam {
     /// A beam from its direction, rad, and its range, m.
     pub const fn new(bearing_rad: f64, range_m: Option<f64>) -> Self {
         Self {
@@ -48,7 +48,7 @@ pub struct PlanarScan {
     /// Where the sensor was, in the map frame.
     pub map_from_sensor: PlanarPose,
     /// The beams, in any order.
-    pub beams: Vec<RangeBeam>,
+    pub beams: Vec<PlanarBeam>,
 }
 
 impl PlanarScan {

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use geometry::{PlanarPose, SplitMix64};
-use plan_view::{OccupancyConfig, OccupancyMap, PlanarScan, RangeBeam, SonarConfig, SonarModel};
+use plan_view::{OccupancyConfig, OccupancyMap, PlanarBeam, PlanarScan, SonarConfig, SonarModel};
 
 const WIDTH_M: f64 = 2.4;
 const LENGTH_M: f64 = 9.0;
@@ -60,7 +60,7 @@ fn scans(seed: u64, sonar: &SonarConfig) -> Vec<PlanarScan> {
             let beam = |step: i32| {
                 let bearing = f64::from(step) * std::f64::consts::TAU / 24.0;
                 let range = sonar_range_m(x, y, yaw + bearing, sonar.half_opening, &mut numbers);
-                RangeBeam::new(bearing, (range < sonar.max_range).then_some(range))
+                PlanarBeam::new(bearing, (range < sonar.max_range).then_some(range))
             };
             PlanarScan {
                 map_from_sensor: PlanarPose::new(x, y, yaw),

@@ -4,7 +4,7 @@
 use settings::{ConfigError, Table};
 
 use super::config::LineFinderConfig;
-use super::search::{FoundLines, LineSearch};
+use super::search::{FinderState, FoundLines};
 use super::stretches::{LineStretch, stretches};
 use super::thinned::thinned;
 
@@ -43,7 +43,7 @@ impl LineFinder {
         }
         let config = &self.config;
         let points = thinned(points_m, config.cell * config.sigma);
-        let mut search = LineSearch::new(config, &points);
+        let mut search = FinderState::new(config, &points);
         if config.held.is_some() {
             search.add_to_hold();
             search.fit();

@@ -18,7 +18,7 @@ pub struct FoundLines {
 }
 
 /// What is known on the way.
-pub(super) struct LineSearch<'a> {
+pub(super) struct FinderState<'a> {
     config: &'a LineFinderConfig,
     points: &'a [WeightedPoint],
     weight: f64,
@@ -30,7 +30,7 @@ pub(super) struct LineSearch<'a> {
     wanted: f64,
 }
 
-impl<'a> LineSearch<'a> {
+impl<'a> FinderState<'a> {
     pub(super) fn new(config: &'a LineFinderConfig, points: &'a [WeightedPoint]) -> Self {
         let bounds = box_of(points);
         let mut votes = LineVotes::new(bounds, config.hold * config.sigma);

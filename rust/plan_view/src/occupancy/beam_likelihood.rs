@@ -6,7 +6,7 @@ use volume::VoxelWalk;
 
 use super::OccupancyMap;
 use super::odds::probability_of_log_odds;
-use crate::scan::{PlanarScan, RangeBeam};
+use crate::scan::{PlanarBeam, PlanarScan};
 
 settings! {
     /// How a laser's range comes about in a map: it ends in the first occupied cell on its way, with noise, or anywhere.
@@ -55,7 +55,7 @@ impl BeamLikelihood {
         &self,
         map: &OccupancyMap,
         map_from_sensor: &PlanarPose,
-        beam: &RangeBeam,
+        beam: &PlanarBeam,
     ) -> f64 {
         let config = &self.config;
         let range_m = beam.range_m.map(|range_m| range_m.min(config.max_range));

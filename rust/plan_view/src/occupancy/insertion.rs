@@ -6,7 +6,7 @@ use volume::VoxelWalk;
 use super::map::{OccupancyError, OccupancyMap};
 use super::said::Said;
 use super::{LaserModel, SonarModel};
-use crate::scan::{PlanarScan, RangeBeam, SweptBeam};
+use crate::scan::{PlanarBeam, PlanarScan, SweptBeam};
 
 /// What became of the beams of a scan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -24,7 +24,7 @@ impl OccupancyMap {
     /// pass is free (004, equation 36.6). Beams that see further than `max_range` are free up to there.
     pub fn insert(&mut self, scan: &PlanarScan) -> Result<ScanCounts, OccupancyError> {
         let (counts, seen) = usable(scan);
-        let swept = |beam: &RangeBeam| SweptBeam {
+        let swept = |beam: &PlanarBeam| SweptBeam {
             bearing_rad: beam.bearing_rad,
             from_m: 0.0,
             range_m: beam.range_m.unwrap_or(0.0),
@@ -67,7 +67,7 @@ impl OccupancyMap {
         check(&pose)?;
         let (counts, seen) = usable(scan);
         let opening_rad = model.config().half_opening;
-        let sides = |beam: &RangeBeam| {
+        let sides = |beam: &PlanarBeam| {
             let reach_m = model.reach_m(beam.range_m);
             let turns = [-opening_rad, 0.0, opening_rad];
             turns.map(|turn_rad| (beam.bearing_rad + turn_rad, reach_m.unwrap_or(0.0)))
@@ -182,7 +182,7 @@ fn check(pose: &PlanarPose) -> Result<(), OccupancyError> {
 }
 
 /// The beams that say something, and what became of all.
-fn usable(scan: &PlanarScan) -> (ScanCounts, Vec<RangeBeam>) {
+fn usable(scan: &PlanarScan) -> (ScanCounts, Vec<PlanarBeam>) {
     let mut counts = ScanCounts::default();
     let mut seen = Vec::with_capacity(scan.beams.len());
     for beam in &scan.beams {
