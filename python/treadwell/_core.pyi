@@ -1,7 +1,7 @@
 """The core, compiled: an observation in, joint targets out."""
 
 from collections.abc import Sequence
-from typing import ClassVar, final
+from typing import Any, ClassVar, final
 
 import numpy as np
 from mujoco import MjData, MjModel
@@ -23,6 +23,7 @@ __all__ = [
     "Legs",
     "LocalRegression",
     "OccupancyGrid",
+    "OccupancyMap",
     "Octree",
     "PathWeights",
     "Physics",
@@ -46,6 +47,7 @@ __all__ = [
     "WorldModel",
     "components",
     "distances",
+    "find_lines",
     "gait_statistics",
     "ground_points",
     "mesh_file",
@@ -66,6 +68,7 @@ _Footstep = tuple[str, float, float, float, float, float, float]
 
 def components() -> list[tuple[str, str, str, str | None]]: ...
 def distances(blocked: NDArray[np.bool_], /) -> NDArray[np.float32]: ...
+def find_lines(points: NDArray[np.float64], settings: str = "{}") -> dict[str, Any]: ...
 def gait_statistics(
     angular_velocity: NDArray[np.float64],
     specific_force: NDArray[np.float64],
@@ -327,6 +330,17 @@ class WorldModel:
     def view(self) -> FloorView: ...
     @property
     def seconds(self) -> float: ...
+
+@final
+class OccupancyMap:
+    def __new__(cls, settings: str = "{}") -> OccupancyMap: ...
+    def insert(self, points: NDArray[np.float64], eye: tuple[float, float]) -> int: ...
+    def cells(
+        self,
+    ) -> tuple[tuple[float, float], float, NDArray[np.float32], NDArray[np.uint16]]: ...
+    def log_likelihood(
+        self, points: NDArray[np.float64], eye: tuple[float, float], settings: str = "{}"
+    ) -> tuple[float, int]: ...
 
 @final
 class RangeMap:

@@ -36,6 +36,30 @@ class MappedCells(Strict):
     """Within the map's bounds, and never seen."""
 
 
+class MappedLine(Strict):
+    """A wall, or what else is straight."""
+
+    normal: float
+    """Direction of the line's normal in the map, counter-clockwise from x, rad."""
+    distance: float
+    """Distance of the line from the origin along the normal, m."""
+    share: float
+    """Share of all points that belong to it."""
+    stretches: list[tuple[float, float, float, float]]
+    """Where its points are: x and y of both ends of each part without a large gap, m."""
+
+
+class MappedLines(Strict):
+    """The lines that the points lie on, those with most points first."""
+
+    count: int
+    """How many there are."""
+    held: float
+    """Share of the points that lie on one, within two standard deviations."""
+    each: list[MappedLine]
+    """The lines."""
+
+
 class Times(Strict):
     """Milliseconds of the clock a frame."""
 
@@ -74,6 +98,8 @@ class MapResult(Strict):
     """Whether it was ended before the source was."""
     cells: MappedCells
     """Cells of the map by kind."""
+    lines: MappedLines | None
+    """Lines, of the world model `lines`; none of others."""
     cell: float
     """Side of a cell, m."""
     origin: tuple[float, float]

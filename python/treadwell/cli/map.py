@@ -114,6 +114,11 @@ def _show(result: "MapResult") -> None:
         *((f"unused: {reason}", count) for reason, count in result.unused.items()),
         ("cells of", f"{1e3 * result.cell:g} mm"),
         ("floor, obstacle", f"{cells.floor}, {cells.obstacle} cells"),
+        *(
+            [("lines", f"{lines.count}, on which {lines.held:.1%} of the points lie")]
+            if (lines := result.lines)
+            else []
+        ),
         ("a frame, median", f"{result.timing_ms['map'].median:.2f} ms"),
         *((f"set by the data: {key}", value) for key, value in result.assumed.items()),
     ]

@@ -8,12 +8,14 @@ from time import perf_counter
 from typing import Final, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from treadwell.errors import InputError, RecordingError
 from treadwell.files import write_text
 from treadwell.interruption import Interruption
 from treadwell.map_making.mapper import Mapper
 from treadwell.map_making.placing import sensed
+from treadwell.map_making.plan_view import plan_arrays
 from treadwell.map_making.recording import MapRecording
 from treadwell.map_making.request import MapRequest
 from treadwell.map_memory import RememberedMap
@@ -162,7 +164,8 @@ class _Making:
         found, voxels = mapper.map(), mapper.voxels()
         if self.recording is not None:
             self.recording.finish(found, mapper.place.offset, voxels)
-        write_map(folder / MAP, found, voxels)
+        lines, probability = mapper.lines(), mapper.probability()
+        write_map(folder / MAP, found, voxels, plan_arrays(probability, lines))
         surface = mapper.surface()
         if surface is not None:
             write_mesh(folder / MESH, surface)
@@ -184,6 +187,7 @@ class _Making:
             unused=dict(sorted(unused.items())),
             interrupted=self._interrupted,
             cells=counted(found),
+            lines=lines,
             cell=found.cell,
             origin=found.origin,
             settings=mapper.sizes.parameters,
@@ -191,22 +195,34 @@ class _Making:
             notes=[*self._source.notes, *self._level(request)],
             timing_ms={"map": times(mapper.seconds), "frame": times(self._seconds)},
         )
-        self._draw(result, found, folder)
+        self._draw(result, found, folder, probability)
         write_text(folder / RESULT, result.model_dump_json(indent=2, by_alias=True) + "\n")
         return MadeMap(result, found, folder)
 
-    def _draw(self, result: MapResult, found: RememberedMap, folder: Path) -> None:
+    def _draw(
+        self,
+        result: MapResult,
+        found: RememberedMap,
+        folder: Path,
+        probability: NDArray[np.float32] | None,
+    ) -> None:
         # Late: matplotlib takes its time.
         from treadwell.map_making.picture import draw_map
 
         used = f"{result.frames_used} of {result.frames} frame{'s' * (result.frames != 1)}"
         title = f"{_stem(Path(result.source.path))} · {result.world_model} · {used}"
         title += f"\ncells of {1e3 * result.cell:g} mm"
+        if result.lines is not None:
+            title += f" · {result.lines.count} lines hold {result.lines.held:.1%} of the points"
         known = self._source.kind not in ("cloud", "height image")
         way = np.array([pose[:2, 3] for _, pose in self._poses]) + self._mapper.place.offset[:2]
-        surfaces = not self._mapper.is_points
         shown = way if known else way[:0]
-        draw_map(folder / PICTURE, title, found, shown, surfaces=surfaces)
+        if self._mapper.is_plan:
+            from treadwell.map_making.plan_picture import draw_plan
+
+            draw_plan(folder / PICTURE, title, found, (probability, result.lines), shown)
+            return
+        draw_map(folder / PICTURE, title, found, shown)
 
     def _level(self, request: MapRequest) -> list[str]:
         """Return a note where pictures were not taken upright, with the axis that may be up."""

@@ -11,11 +11,20 @@ from numpy.typing import NDArray
 from treadwell._core import RangeMap
 from treadwell.errors import InputError
 from treadwell.map_making.placing import Placing, ground_below, placing, sensed
-from treadwell.map_making.points_map import PointsMap
-from treadwell.map_making.request import PICTURES, POINTS, SCANS, MapRequest
+from treadwell.map_making.plan_view import (
+    HELD,
+    LINES,
+    OCCUPANCY,
+    SCAN_MODELS,
+    PlanView,
+    placed_lines,
+    plan_view,
+)
+from treadwell.map_making.request import PICTURES, POINTS, MapRequest
 from treadwell.map_making.sizing import Sizing, sizing
 from treadwell.map_making.standing_out import StandingOut
 from treadwell.map_memory import MapMemory, RememberedMap
+from treadwell.map_result import MappedLines
 from treadwell.recording.mesh_file import SurfaceMesh
 from treadwell.sources.frame import Floats, RangeFrame, moved
 
@@ -24,8 +33,11 @@ NEEDS_A_ROBOT: Final = {
     "multi_level": "multi_level",
     "points": "points",
     "mesh": "mesh",
+    "occupancy_2d": "depth_slice",
 }
 """World model -> the table that says, or the robot does, how much room there must be."""
+_HEADROOM: Final = {"depth_slice": "high"}
+"""Table -> its key for that, where it is not `headroom`."""
 ROBOT: Final = "qrio"
 """Whose height counts where a world model needs one and no robot is named."""
 NOTHING_SEEN: Final = "nothing was seen"
@@ -58,12 +70,17 @@ class Mapper:
         self.unused: Counter[str] = Counter()
         self.seconds: list[float] = []
         self._memory = MapMemory()
-        self._points = PointsMap(self.sizes.cell) if first.layout == "scan" else None
+        tables = {**self.sizes.parameters, LINES: request.lines}
+        if self.world_model == LINES and "held" not in request.lines:
+            self.sizes.assumed["plan_view.lines.held"] = HELD
+        self._plan: PlanView | None = (
+            plan_view(self.world_model, self.sizes.cell, tables) if first.layout == "scan" else None
+        )
         self._standing_out = (
             StandingOut(request.ground_filter) if self.sizes.filters_ground else None
         )
         self._core = RangeMap(
-            POINTS if self._points else self.world_model,
+            POINTS if self._plan else self.world_model,
             settings=json.dumps(self.sizes.parameters),
             headroom=self._headroom(),
         )
@@ -75,9 +92,9 @@ class Mapper:
             )
 
     @property
-    def is_points(self) -> bool:
-        """Whether the map shows points alone, as of scans."""
-        return self._points is not None
+    def is_plan(self) -> bool:
+        """Whether the map is one of a plane, of scans."""
+        return self._plan is not None
 
     @property
     def sees_pictures(self) -> bool:
@@ -95,7 +112,7 @@ class Mapper:
         if not self._take(frame, pose, ground_below(some, pose)):
             self.unused[NOT_TAKEN] += 1
             return None
-        if self._points is None:
+        if self._plan is None:
             view = self._core.view()
             self._memory.update(view.origin, view.cell, view.kind, view.height, view.sightings)
         self.seconds.append(perf_counter() - started)
@@ -103,7 +120,7 @@ class Mapper:
 
     def map(self) -> RememberedMap:
         """Return the map in the frame of the world whose z is up: the offset is in its origin."""
-        found = self._memory.map() if self._points is None else self._points.map()
+        found = self._memory.map() if self._plan is None else self._plan.map()
         if self._standing_out is not None:
             found = self._standing_out.over(found)
         x, y, z = self.place.offset.tolist()
@@ -114,6 +131,14 @@ class Mapper:
             (found.height + np.float32(z)).astype(np.float32),
             found.sightings,
         )
+
+    def probability(self) -> NDArray[np.float32] | None:
+        """Return how probably each cell of a plane is occupied, (rows, cols); NaN where unknown."""
+        return None if self._plan is None else self._plan.probability()
+
+    def lines(self) -> MappedLines | None:
+        """Return the lines, in the frame of the world, where the model has them."""
+        return None if self._plan is None else placed_lines(self._plan.lines(), self.place.offset)
 
     def voxels(self) -> NDArray[np.float32]:
         """Return middle and side of each occupied cube, (n, 4) m."""
@@ -135,8 +160,8 @@ class Mapper:
             depth = np.ascontiguousarray(frame.depth, np.float32)
             return self._core.insert_depth(depth, pose, ground)
         points = frame.points if frame.points is not None else np.zeros((0, 3), np.float32)
-        if self._points is not None:
-            return self._points.insert(points @ pose[:3, :3].T + pose[:3, 3])
+        if self._plan is not None:
+            return self._plan.insert(points @ pose[:3, :3].T + pose[:3, 3], pose[:3, 3])
         if self._standing_out is not None:
             seen = np.isfinite(points).all(axis=1)
             ground_ones = self._standing_out.ground(moved(pose, points[seen].astype(np.float64)))
@@ -168,12 +193,17 @@ class Mapper:
     def _named(self, first: RangeFrame) -> str:
         named = self._request.world_model
         if first.layout == "scan":
-            if named not in (None, SCANS):
+            if named not in (None, *SCAN_MODELS):
                 raise InputError(
-                    f"--world-model: found {named}; scans of a laser that sweeps a plane are shown "
-                    f"as {SCANS}"
+                    f"--world-model: found {named}; of scans of a laser that sweeps a plane a map "
+                    f"is made by one of {', '.join(SCAN_MODELS)}"
                 )
-            return SCANS
+            return named or OCCUPANCY
+        if named == LINES:
+            raise InputError(
+                f"--world-model: found {LINES}, which are found in scans of a laser; of pictures "
+                f"and clouds a map is made by {POINTS} and its like"
+            )
         if named is None:
             return PICTURES if first.layout == "picture" else POINTS
         if ":" in named:
@@ -185,7 +215,9 @@ class Mapper:
     def _headroom(self) -> float | None:
         """Return the robot's height, m, where one is named or the model needs one."""
         table = NEEDS_A_ROBOT.get(self.world_model)
-        needed = table and "headroom" not in self.sizes.parameters.get(table, {})
+        needed = table and _HEADROOM.get(table, "headroom") not in self.sizes.parameters.get(
+            table, {}
+        )
         if self.robot is None and not needed:
             return None
         # Late: a map without a robot needs no MuJoCo.

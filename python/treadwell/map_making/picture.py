@@ -25,9 +25,7 @@ _MARGIN: Final = 0.02
 """Share of the map's longer side that is left free around it."""
 
 
-def draw_map(
-    path: Path, title: str, found: RememberedMap, way: NDArray[np.float64], *, surfaces: bool
-) -> None:
+def draw_map(path: Path, title: str, found: RememberedMap, way: NDArray[np.float64]) -> None:
     """Draw the picture, whole or not at all.
 
     Args:
@@ -35,7 +33,6 @@ def draw_map(
         title: what was mapped, one or two lines.
         found: the map.
         way: (n, 2) m, where the sensor was; empty where nobody knows.
-        surfaces: whether cells have heights; else they are where points are.
 
     Raises:
         OSError: the file cannot be written.
@@ -58,7 +55,7 @@ def draw_map(
     axes.xaxis.set_major_locator(MaxNLocator(_TICKS))
     axes.yaxis.set_major_locator(MaxNLocator(_TICKS))
     axes.ticklabel_format(useOffset=False, style="plain")
-    if surfaces and (found.kind == FLOOR).any():
+    if (found.kind == FLOOR).any():
         bar = figure.colorbar(colours, ax=axes, shrink=0.85, pad=0.02, aspect=24)
         low, high = bar.mappable.get_clim()
         if high - low > _IN_METRES:
@@ -67,9 +64,8 @@ def draw_map(
         bar.set_label("height (m)" if high - low > _IN_METRES else "height (mm)")
         bar.outline.set_visible(False)
     axes.set_title(title, fontsize=11, loc="left", pad=10)
-    word = "obstacle" if surfaces else "points"
     patches = [
-        Patch(color=_OBSTACLE, label=word),
+        Patch(color=_OBSTACLE, label="obstacle"),
         Patch(facecolor=_UNKNOWN, edgecolor="#8a8d94", label="never seen"),
     ]
     axes.legend(

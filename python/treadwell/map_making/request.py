@@ -16,9 +16,11 @@ from treadwell.scenario.types import Table
 from treadwell.sources.source import POSE_WITHIN_S
 
 Up = Literal["x", "-x", "y", "-y", "z", "-z"]
-PICTURES, POINTS, SCANS = "fog", "elevation", "points"
-"""World models where none is named: of depth images, of clouds; how scans are shown."""
-_TOP: Final = ("map", "navigation", "classification")
+PICTURES, POINTS = "fog", "elevation"
+"""World models where none is named: of depth images, of clouds."""
+_TOP: Final = ("map", "navigation", "classification", "plan_view")
+_MAP_ALONE: Final = ("lines",)
+"""World models for recorded data that are none of a robot's."""
 _SLOTS: Final = ("world_model", "segmenter")
 
 
@@ -53,6 +55,7 @@ class MapRequest:
         parameters: table -> key -> value, as in a scenario's `[navigation]`.
         data: how the data is taken.
         ground_filter: key -> value, how a cloud's ground is told from what stands on it.
+        lines: key -> value, how lines are found among a laser's points.
     """
 
     source: Path
@@ -65,6 +68,7 @@ class MapRequest:
     parameters: dict[str, dict[str, Any]]
     data: MapTable
     ground_filter: dict[str, Any]
+    lines: dict[str, Any]
 
 
 def read_request(
@@ -102,7 +106,7 @@ def read_request(
         assign(raw, key, value)
     tables = dict(raw.get("navigation", {}))
     named = tables.pop("world_model", None) if world_model is None else world_model
-    if named is not None:
+    if named is not None and named not in _MAP_ALONE:
         tables["world_model"] = named
     try:
         navigation = Navigation.model_validate(tables)
@@ -121,24 +125,24 @@ def read_request(
         segmenter=navigation.segmenter,
         parameters=navigation.parameters(),
         data=data,
-        ground_filter=_filter(raw.get("classification", {})),
+        ground_filter=_one_table(raw, "classification", "ground_filter"),
+        lines=_one_table(raw, "plan_view", "lines"),
     )
 
 
-def _filter(raw: object) -> dict[str, Any]:
-    """Return the table of the ground filter; the core refuses what it does not know in it."""
-    if not isinstance(raw, dict) or set(raw) - {"ground_filter"}:
-        raise InputError("--set classification: only classification.ground_filter.KEY can be set")
-    table = raw.get("ground_filter", {})
+def _one_table(raw: dict[str, Any], top: str, name: str) -> dict[str, Any]:
+    """Return the one table of another part of the core, which checks what is in it."""
+    tables = raw.get(top, {})
+    if not isinstance(tables, dict) or set(tables) - {name}:
+        raise InputError(f"--set {top}: only {top}.{name}.KEY can be set")
+    table = tables.get(name, {})
     if not isinstance(table, dict):
-        raise InputError("--set classification.ground_filter: must be followed by a key")
+        raise InputError(f"--set {top}.{name}: must be followed by a key")
     return table
 
 
 def _is_a_table(word: str) -> None:
     names = sorted({table.key.split(".")[1] for table in all_tables() if "." in table.key})
     if word not in (*names, *_SLOTS):
-        allowed = (
-            f"map, classification, navigation, or one of its tables{nearest(word, ['map', *names])}"
-        )
+        allowed = f"{', '.join(_TOP)}, or a table of navigation{nearest(word, ['map', *names])}"
         raise InputError(f"--set {shortened(word)}: unknown; must begin with {allowed}")

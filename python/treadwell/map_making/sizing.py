@@ -17,10 +17,11 @@ _TABLES: Final = {
     "extended_elevation": "elevation",
     "multi_level": "elevation",
     "points": "elevation",
+    "occupancy_2d": "occupancy_2d",
 }
 """World model -> the table that has its cells."""
 _COUNTS: Final = {"fog": "cells", "averaging": "cells", "elevation": "window"}
-"""Table -> the key with the number of cells along a side of the window."""
+"""Table -> the key with the number of cells along a side of the window, where it has one."""
 _SCAN_CELL_M: Final = 0.05
 """Side of the cells in which a laser's points are shown, where nobody says."""
 _ROBOT_M: Final = 0.25
@@ -91,12 +92,23 @@ def sizing(
     found.filters_ground = first.layout == "cloud" and (
         ground == "filter" or (ground == "auto" and apart)
     )
-    follow = _following(found, defaults, reach, _COUNTS[table])
+    follow = _following(found, defaults, reach, _COUNTS.get(table, "window"))
+    if table == "occupancy_2d":
+        _set_aside(found, "depth_slice", follow)
     for key, value in follow.items():
         if key in defaults and key not in own and value != defaults[key]:
             own[key] = value
             found.assumed[f"navigation.{table}.{key}"] = value
     return found
+
+
+def _set_aside(found: Sizing, table: str, follow: dict[str, Any]) -> None:
+    """Put what follows into a second table of the model, as far as it has the keys."""
+    own, defaults = found.parameters.setdefault(table, {}), _defaults(table)
+    for key in set(follow) & set(defaults) - set(own):
+        if follow[key] != defaults[key]:
+            own[key] = follow[key]
+            found.assumed[f"navigation.{table}.{key}"] = follow[key]
 
 
 def _cell(own: dict[str, Any], default: float, reach: float, spacing: float) -> float:
@@ -116,7 +128,7 @@ def _following(found: Sizing, defaults: dict[str, Any], reach: float, count: str
     far = 2.0 * max(reach, found.altitude)
     values: dict[str, Any] = {
         "cell": found.cell,
-        count: max(cells, defaults[count]),
+        count: max(cells, defaults.get(count, 0)),
         "max_range": max(defaults["max_range"], round(far, 3)),
         "match_gate": 0.0,
         "footprint": 0.0,

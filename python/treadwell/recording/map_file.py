@@ -4,9 +4,12 @@
 `height` and `sightings` are (rows, cols), rows along +y, columns along +x: 0 unknown, 1 floor,
 2 obstacle; m, NaN where unknown; frames that saw the cell as floor. `voxels` (n, 4) float32 are
 middle and side, m, of the cubes that the core held to be occupied; empty where it kept none.
+Maps of a plane have one more: `probability` (rows, cols) float32 that a cell is occupied, NaN where
+nothing was seen; or `lines` (n, 4) m, x and y of both ends of what is on a line.
 """
 
 import zipfile
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -38,13 +41,19 @@ class StoredMap:
     voxels: NDArray[np.float32]
 
 
-def write_map(path: Path, surface: RememberedMap, voxels: NDArray[np.float32]) -> None:
+def write_map(
+    path: Path,
+    surface: RememberedMap,
+    voxels: NDArray[np.float32],
+    more: Mapping[str, Any] | None = None,
+) -> None:
     """Write the file whole or not at all.
 
     Args:
         path: of the file.
         surface: what the map last said of every cell.
         voxels: (n, 4) m: middle and side of each occupied cube.
+        more: name -> array, of what some models have beside these.
 
     Raises:
         OSError: the file cannot be written.
@@ -58,6 +67,7 @@ def write_map(path: Path, surface: RememberedMap, voxels: NDArray[np.float32]) -
             height=surface.height,
             sightings=surface.sightings,
             voxels=voxels,
+            **(more or {}),
         )
 
 

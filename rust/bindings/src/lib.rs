@@ -16,6 +16,7 @@ mod mesh_files;
 mod observation;
 mod octree;
 mod pilot;
+mod plan_view;
 mod pose;
 mod products;
 mod range_map;
@@ -38,6 +39,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(clearance::swept_clearance, module)?)?;
     module.add_function(wrap_pyfunction!(distance::distances, module)?)?;
     module.add_function(wrap_pyfunction!(distance::squared_distances, module)?)?;
+    module.add_function(wrap_pyfunction!(plan_view::find_lines, module)?)?;
     module.add_function(wrap_pyfunction!(slip::gait_statistics, module)?)?;
     module.add_function(wrap_pyfunction!(mesh_files::mesh_file, module)?)?;
     module.add_function(wrap_pyfunction!(version, module)?)?;
@@ -54,6 +56,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<octree::PyOctree>()?;
     module.add_class::<pilot::PyPilot>()?;
     module.add_class::<pilot::PyTick>()?;
+    module.add_class::<plan_view::PyOccupancyMap>()?;
     module.add_class::<products::PyBodyState>()?;
     module.add_class::<products::PyFloorView>()?;
     module.add_class::<products::PyPlanes>()?;

@@ -9,6 +9,7 @@ mod laid_bevels;
 mod mesh;
 mod model;
 mod multi_level;
+mod occupancy_2d;
 mod overlay;
 mod part;
 mod points;
@@ -27,6 +28,7 @@ pub use mesh::{MeshConfig, MeshMap, MeshTuning};
 pub use meshes::TriangleMesh;
 pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};
 pub use multi_level::{MultiLevel, MultiLevelConfig, MultiLevelTuning, Patch};
+pub use occupancy_2d::{DepthSliceConfig, Occupancy2d};
 pub use overlay::{FeltConfig, Overlay};
 pub use part::{WorldModelNeeds, WorldModelPart};
 pub use points::{Moments, Points, PointsConfig, PointsTuning, Sample, Shape, SurfaceSamples};
@@ -47,4 +49,5 @@ pub const PARTS: &[WorldModelPart] = &[
     multi_level::PART,
     points::PART,
     mesh::PART,
+    occupancy_2d::PART,
 ];

@@ -3,12 +3,12 @@
 //!
 //! ```
 //! use geometry::PlanarPose;
-//! use plan_view::{Beam, OccupancyConfig, OccupancyMap, PlanarScan};
+//! use plan_view::{PlanarBeam, OccupancyConfig, OccupancyMap, PlanarScan};
 //!
 //! let mut map = OccupancyMap::new(OccupancyConfig::default())?;
 //! let beams = (-20..=20).map(|step| {
 //!     let bearing_rad = 0.02 * f64::from(step);
-//!     Beam::new(bearing_rad, Some(2.0 / bearing_rad.cos()))
+//!     PlanarBeam::new(bearing_rad, Some(2.0 / bearing_rad.cos()))
 //! });
 //! let scan = PlanarScan { map_from_sensor: PlanarPose::new(0.0, 0.0, 0.0), beams: beams.collect() };
 //! for _ in 0..3 {
@@ -26,13 +26,13 @@ mod scan;
 mod topology;
 
 pub use lines::{
-    Assigned, FoundLines, Line, LineError, LineFinder, LineFinderConfig, LineMixture, Piece,
-    SplitAndMergeConfig, Stretch, WeightedPoint, split_and_merge, stretches,
+    Assigned, FoundLines, LineError, LineFinder, LineFinderConfig, LineMixture, LineStretch,
+    PlanarLine, ScanPiece, SplitAndMergeConfig, WeightedPoint, split_and_merge,
 };
 pub use occupancy::{
     BeamLikelihood, BeamLikelihoodConfig, CellBelief, LaserModel, OccupancyConfig, OccupancyError,
     OccupancyMap, ScanCounts, SonarConfig, SonarModel, log_odds, odds, probability_of_log_odds,
     probability_of_odds, updated_odds,
 };
-pub use scan::{Beam, PlanarScan};
+pub use scan::{PlanarBeam, PlanarScan, SweptBeam};
 pub use topology::{Doorway, GraphPlan, Place, Rooms, VoronoiGraph, VoronoiGraphConfig, Way};

@@ -4,14 +4,14 @@ use geometry::PlanarPose;
 
 /// One range of a scan.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Beam {
+pub struct PlanarBeam {
     /// Direction in the sensor's frame, counter-clockwise from its x, rad.
     pub bearing_rad: f64,
     /// Distance to what was seen, m; none of a maximum range reading, which says only that nothing came back.
     pub range_m: Option<f64>,
 }
 
-impl Beam {
+impl PlanarBeam {
     /// A beam from its direction, rad, and its range, m.
     pub const fn new(bearing_rad: f64, range_m: Option<f64>) -> Self {
         Self {
@@ -29,13 +29,26 @@ impl Beam {
     }
 }
 
+/// What a sensor saw in one direction, of which it looked into a part alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SweptBeam {
+    /// Direction in the sensor's frame, counter-clockwise from its x, rad.
+    pub bearing_rad: f64,
+    /// Nothing is known of what is nearer, m.
+    pub from_m: f64,
+    /// Where the beam ended, m; up to there it is free.
+    pub range_m: f64,
+    /// Whether it ended in something, or is only known so far.
+    pub hit: bool,
+}
+
 /// The beams of one sweep, all from one place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanarScan {
     /// Where the sensor was, in the map frame.
     pub map_from_sensor: PlanarPose,
     /// The beams, in any order.
-    pub beams: Vec<Beam>,
+    pub beams: Vec<PlanarBeam>,
 }
 
 impl PlanarScan {

@@ -1,11 +1,9 @@
 //! Sonars in a corridor (004, Figs 36.2 and 36.3): 18 scans of 24 beams.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::time::Instant;
 
 use geometry::{PlanarPose, SplitMix64};
-use plan_view::{Beam, OccupancyConfig, OccupancyMap, PlanarScan, SonarConfig, SonarModel};
+use plan_view::{OccupancyConfig, OccupancyMap, PlanarBeam, PlanarScan, SonarConfig, SonarModel};
 
 const WIDTH_M: f64 = 2.4;
 const LENGTH_M: f64 = 9.0;
@@ -62,7 +60,7 @@ fn scans(seed: u64, sonar: &SonarConfig) -> Vec<PlanarScan> {
             let beam = |step: i32| {
                 let bearing = f64::from(step) * std::f64::consts::TAU / 24.0;
                 let range = sonar_range_m(x, y, yaw + bearing, sonar.half_opening, &mut numbers);
-                Beam::new(bearing, (range < sonar.max_range).then_some(range))
+                PlanarBeam::new(bearing, (range < sonar.max_range).then_some(range))
             };
             PlanarScan {
                 map_from_sensor: PlanarPose::new(x, y, yaw),
@@ -125,11 +123,14 @@ fn eighteen_scans_of_twenty_four_sonars_show_a_corridor() {
                 .filter(|p| (p - 0.5).abs() > 0.02)
                 .map(|p| p > 0.5);
             all += 1;
-            right += usize::from(said == Some(wall));
-            walls += usize::from(wall);
-            found += usize::from(wall && said == Some(true));
+            right += i32::from(said == Some(wall));
+            walls += i32::from(wall);
+            found += i32::from(wall && said == Some(true));
         }
-        shares.push((right as f64 / all as f64, found as f64 / walls as f64));
+        shares.push((
+            f64::from(right) / f64::from(all),
+            f64::from(found) / f64::from(walls),
+        ));
         for cell in whole.cells().area().cells() {
             let [x, y] = whole.lattice().center_of(cell);
             let both = [whole.probability(cell), joined.probability_at(x, y)];

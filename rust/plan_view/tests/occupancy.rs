@@ -4,9 +4,9 @@
 
 use geometry::{Cell, Lattice, PlanarPose};
 use plan_view::{
-    Beam, BeamLikelihood, BeamLikelihoodConfig, LaserModel, OccupancyConfig, OccupancyError,
-    OccupancyMap, PlanarScan, SonarConfig, SonarModel, log_odds, odds, probability_of_log_odds,
-    probability_of_odds, updated_odds,
+    BeamLikelihood, BeamLikelihoodConfig, LaserModel, OccupancyConfig, OccupancyError,
+    OccupancyMap, PlanarBeam, PlanarScan, SonarConfig, SonarModel, log_odds, odds,
+    probability_of_log_odds, probability_of_odds, updated_odds,
 };
 use proptest::prelude::*;
 use settings::Table;
@@ -43,7 +43,7 @@ fn batch(prior: f64, measured: &[f64]) -> f64 {
 }
 
 fn scan(pose: [f64; 3], beams: impl IntoIterator<Item = (f64, f64)>) -> PlanarScan {
-    let beam = |(bearing_rad, range_m): (f64, f64)| Beam::new(bearing_rad, Some(range_m));
+    let beam = |(bearing_rad, range_m): (f64, f64)| PlanarBeam::new(bearing_rad, Some(range_m));
     PlanarScan {
         map_from_sensor: PlanarPose::new(pose[0], pose[1], pose[2]),
         beams: beams.into_iter().map(beam).collect(),
@@ -159,9 +159,9 @@ proptest! {
         let pose = PlanarPose::new(0.05, -0.02, 0.3);
         let step = 0.005;
         let seen: f64 = (0..800).map(|at| {
-            step * model.density(&map, &pose, &Beam::new(bearing, Some((f64::from(at) + 0.5) * step)))
+            step * model.density(&map, &pose, &PlanarBeam::new(bearing, Some((f64::from(at) + 0.5) * step)))
         }).sum();
-        let all = seen + model.density(&map, &pose, &Beam::new(bearing, None));
+        let all = seen + model.density(&map, &pose, &PlanarBeam::new(bearing, None));
         prop_assert!((all - 1.0).abs() < 5e-3, "{all}");
     }
 }
@@ -280,7 +280,7 @@ fn bad_beams_are_counted_and_bad_poses_refused() {
             (0.4, -2.0),
         ],
     );
-    one.beams.push(Beam::new(0.5, None));
+    one.beams.push(PlanarBeam::new(0.5, None));
     let counts = map.insert(&one).unwrap();
     assert_eq!(
         [counts.used, counts.nothing_seen, counts.unusable],

@@ -18,7 +18,7 @@ impl WeightedPoint {
 
 /// A line without ends, by its normal (004, equation 36.8).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Line {
+pub struct PlanarLine {
     /// Direction of the normal, counter-clockwise from x, rad.
     pub normal_rad: f64,
     /// Distance from the origin along the normal, m.
@@ -27,14 +27,14 @@ pub struct Line {
 
 /// Sums of weighted points, from which their line follows.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct LineSums {
+pub(crate) struct WeightedSums {
     weight: f64,
     mean: [f64; 2],
     /// Weighted sums of squares and products about the mean: xx, xy, yy.
     about: [f64; 3],
 }
 
-impl LineSums {
+impl WeightedSums {
     /// Takes in a point, keeping sums about the mean: no digits are lost far from the origin.
     pub(crate) fn add(&mut self, at_m: [f64; 2], weight: f64) {
         if weight <= 0.0 {
@@ -55,7 +55,7 @@ impl LineSums {
     }
 
     /// The line; none of points that all lie in one place.
-    pub(crate) fn line(&self) -> Option<Line> {
+    pub(crate) fn line(&self) -> Option<PlanarLine> {
         let [xx, xy, yy] = self.about;
         let spread = xx + yy;
         let told = self.weight > 0.0 && spread.is_finite() && spread > 0.0;
@@ -63,7 +63,7 @@ impl LineSums {
         let normal_rad = 0.5 * libm::atan2(-2.0 * xy, yy - xx);
         told.then(|| {
             let (sin, cos) = libm::sincos(normal_rad);
-            Line {
+            PlanarLine {
                 normal_rad,
                 distance_m: self.mean[0] * cos + self.mean[1] * sin,
             }
@@ -71,16 +71,16 @@ impl LineSums {
     }
 }
 
-impl Line {
+impl PlanarLine {
     /// The line with the least sum of squared distances to points (004, equations 36.7 and 36.8); none of fewer than two different ones.
     pub fn fit(points_m: impl IntoIterator<Item = [f64; 2]>) -> Option<Self> {
         Self::fit_weighted(points_m.into_iter().map(WeightedPoint::single))
     }
 
-    /// The same with a weight for each point, as its expectation to belong to the line (004, equations 36.14 to 36.16; the means are the line's own,
+    /// The line with the least weighted sum, the weight of a point as its expectation to belong to the line (004, equations 36.14 to 36.16; the means are the line's own,
     /// and the `r_i` of 36.15 is that of line j).
     pub fn fit_weighted(points: impl IntoIterator<Item = WeightedPoint>) -> Option<Self> {
-        let mut sums = LineSums::default();
+        let mut sums = WeightedSums::default();
         for point in points {
             sums.add(point.at_m, point.weight);
         }

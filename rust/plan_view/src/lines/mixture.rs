@@ -1,11 +1,11 @@
 //! Lines and points at random as a mixture, and expectation maximization (004, equations 36.9 to 36.16).
 
-use super::line::{Line, LineSums, WeightedPoint};
+use super::line::{PlanarLine, WeightedPoint, WeightedSums};
 
 /// Lines that points lie on, with noise, and a share of points that lie anywhere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineMixture {
-    lines: Vec<Line>,
+    lines: Vec<PlanarLine>,
     /// Share of each line in the points; last that of the random component.
     shares: Vec<f64>,
     /// Standard deviation of the points off their line, m.
@@ -29,7 +29,7 @@ impl LineMixture {
     /// Lines with equal shares, the points' standard deviation, m, the share that lies at random, and the box that all lie in: its lower
     /// and upper corner, m.
     pub fn new(
-        lines: Vec<Line>,
+        lines: Vec<PlanarLine>,
         sigma_m: f64,
         random: f64,
         [low_m, high_m]: [[f64; 2]; 2],
@@ -43,12 +43,13 @@ impl LineMixture {
             shares,
             sigma_m,
             length_m: geometry::hypot(sides[0], sides[1]),
-            area_m2: sides[0] * sides[1],
+            // A single wall lies in a box without a breadth, and is a line none the less: random points would fill the square.
+            area_m2: sides[0].max(sides[1]) * sides[0].max(sides[1]),
         }
     }
 
     /// The lines.
-    pub fn lines(&self) -> &[Line] {
+    pub fn lines(&self) -> &[PlanarLine] {
         &self.lines
     }
 
@@ -85,7 +86,7 @@ impl LineMixture {
     /// E-step for one point (004, equations 36.10 to 36.12), the random component among what it may belong to.
     pub fn assign(&self, at_m: [f64; 2]) -> Assigned {
         let mut assigned = Assigned::default();
-        let forms: Vec<_> = self.lines.iter().map(Line::normal_form).collect();
+        let forms: Vec<_> = self.lines.iter().map(PlanarLine::normal_form).collect();
         self.assign_by(&forms, at_m, &mut assigned);
         assigned
     }
@@ -114,7 +115,7 @@ impl LineMixture {
 
     /// Logarithm of the likelihood of points: the sum over them, each with its weight.
     pub fn log_likelihood(&self, points: &[WeightedPoint]) -> f64 {
-        let forms: Vec<_> = self.lines.iter().map(Line::normal_form).collect();
+        let forms: Vec<_> = self.lines.iter().map(PlanarLine::normal_form).collect();
         let mut assigned = Assigned::default();
         let each = points.iter().map(|point| {
             self.assign_by(&forms, point.at_m, &mut assigned);
@@ -126,8 +127,8 @@ impl LineMixture {
     /// One iteration: E-step, and M-step (004, equation 36.13) by weighted lines in closed form (36.14 to 36.16). Returns the logarithm of the
     /// likelihood before it, which no iteration makes smaller. A line that no point belongs to stays as it is, with a share of 0.
     pub fn improve(&mut self, points: &[WeightedPoint]) -> f64 {
-        let forms: Vec<_> = self.lines.iter().map(Line::normal_form).collect();
-        let mut sums = vec![LineSums::default(); self.lines.len()];
+        let forms: Vec<_> = self.lines.iter().map(PlanarLine::normal_form).collect();
+        let mut sums = vec![WeightedSums::default(); self.lines.len()];
         let (mut random, mut all, mut log_likelihood) = (0.0, 0.0, 0.0);
         let mut assigned = Assigned::default();
         for point in points {
@@ -169,13 +170,13 @@ impl LineMixture {
     /// Bayesian information criterion (004, section 36.2.2), less is better: for each line an angle, a distance and a share are fitted to so
     /// many points, which is their weight.
     pub fn information_criterion(&self, log_likelihood: f64, weight: f64) -> f64 {
-        let parameters = 3.0 * self.lines.len() as f64;
+        let parameters = (3 * self.lines.len()) as f64;
         parameters * libm::log(weight.max(1.0)) - 2.0 * log_likelihood
     }
 
     /// Density of each point, 1/m^2.
     pub(crate) fn densities(&self, points: &[WeightedPoint]) -> Vec<f64> {
-        let forms: Vec<_> = self.lines.iter().map(Line::normal_form).collect();
+        let forms: Vec<_> = self.lines.iter().map(PlanarLine::normal_form).collect();
         let mut assigned = Assigned::default();
         let density = |point: &WeightedPoint| {
             self.assign_by(&forms, point.at_m, &mut assigned);
@@ -195,7 +196,7 @@ impl LineMixture {
 
     /// By how much the logarithm of the likelihood falls without each of the lines, if its points are the random component's from then on.
     pub(crate) fn losses(&self, points: &[WeightedPoint]) -> Vec<f64> {
-        let forms: Vec<_> = self.lines.iter().map(Line::normal_form).collect();
+        let forms: Vec<_> = self.lines.iter().map(PlanarLine::normal_form).collect();
         let mut losses = vec![0.0; self.lines.len()];
         let mut assigned = Assigned::default();
         for point in points {
@@ -211,7 +212,7 @@ impl LineMixture {
     }
 
     /// Adds a line with this share, which all others give up in proportion.
-    pub(crate) fn add(&mut self, line: Line, share: f64) {
+    pub(crate) fn add(&mut self, line: PlanarLine, share: f64) {
         for other in &mut self.shares {
             *other *= 1.0 - share;
         }
@@ -220,7 +221,7 @@ impl LineMixture {
     }
 
     /// Takes out a line; its share goes to the random component.
-    pub(crate) fn remove(&mut self, index: usize) -> Line {
+    pub(crate) fn remove(&mut self, index: usize) -> PlanarLine {
         let share = self.shares.remove(index);
         if let Some(random) = self.shares.last_mut() {
             *random += share;
@@ -229,7 +230,7 @@ impl LineMixture {
     }
 
     /// Puts another line in the place of one.
-    pub(crate) fn replace(&mut self, index: usize, line: Line) {
+    pub(crate) fn replace(&mut self, index: usize, line: PlanarLine) {
         self.lines[index] = line;
     }
 
@@ -244,5 +245,5 @@ impl LineMixture {
     }
 }
 
-/// Standard deviations off a line beyond which a point does not belong to it: there a Gaussian is 1e-14 of its middle.
-const FAR: f64 = 8.0;
+/// Standard deviations off a line beyond which a point does not belong to it: there a Gaussian is 1e-22 of its middle.
+const FAR: f64 = 10.0;

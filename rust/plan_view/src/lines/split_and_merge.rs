@@ -2,7 +2,7 @@
 
 use settings::{ConfigError, POSITIVE, Table, at_least, settings};
 
-use super::line::Line;
+use super::line::PlanarLine;
 
 settings! {
     /// How the points of a scan are split into lines.
@@ -16,13 +16,13 @@ settings! {
 
 /// Points in a row that are one line.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Piece {
+pub struct ScanPiece {
     /// Index of the first of them.
     pub first: usize,
     /// Index of the last of them. Where two pieces meet in a corner, it is in both.
     pub last: usize,
     /// Their line.
-    pub line: Line,
+    pub line: PlanarLine,
 }
 
 /// The lines of points that were seen in this order, m: each point lies within the threshold of the line of its piece.
@@ -32,7 +32,7 @@ pub struct Piece {
 pub fn split_and_merge(
     points_m: &[[f64; 2]],
     config: &SplitAndMergeConfig,
-) -> Result<Vec<Piece>, ConfigError> {
+) -> Result<Vec<ScanPiece>, ConfigError> {
     config.check()?;
     let mut pieces = Vec::new();
     if points_m.len() > 1 {
@@ -49,7 +49,12 @@ pub fn split_and_merge(
 }
 
 /// Splits the pieces until each has a line that fits; the stack is our own, for points of which each is a corner.
-fn split(points_m: &[[f64; 2]], whole: (usize, usize), threshold_m: f64, pieces: &mut Vec<Piece>) {
+fn split(
+    points_m: &[[f64; 2]],
+    whole: (usize, usize),
+    threshold_m: f64,
+    pieces: &mut Vec<ScanPiece>,
+) {
     let mut open = vec![whole];
     while let Some((first, last)) = open.pop() {
         let line = fitted(points_m, first, last);
@@ -57,7 +62,7 @@ fn split(points_m: &[[f64; 2]], whole: (usize, usize), threshold_m: f64, pieces:
             Some(line)
                 if last - first < 2 || worst_m(points_m, first, last, &line) <= threshold_m =>
             {
-                pieces.push(Piece { first, last, line });
+                pieces.push(ScanPiece { first, last, line });
             }
             Some(_) if last - first >= 2 => {
                 let at = splitting_point(points_m, first, last);
@@ -70,14 +75,14 @@ fn split(points_m: &[[f64; 2]], whole: (usize, usize), threshold_m: f64, pieces:
 }
 
 /// Merges two pieces side by side, or gives one to those on both sides of it, as long as all points stay near enough.
-fn merge(points_m: &[[f64; 2]], threshold_m: f64, pieces: &mut Vec<Piece>) {
+fn merge(points_m: &[[f64; 2]], threshold_m: f64, pieces: &mut Vec<ScanPiece>) {
     while merged_two(points_m, threshold_m, pieces) || dissolved_one(points_m, threshold_m, pieces)
     {
     }
 }
 
 /// Merges the two pieces side by side that are one best; whether there were any.
-fn merged_two(points_m: &[[f64; 2]], threshold_m: f64, pieces: &mut Vec<Piece>) -> bool {
+fn merged_two(points_m: &[[f64; 2]], threshold_m: f64, pieces: &mut Vec<ScanPiece>) -> bool {
     let pairs = 0..pieces.len().saturating_sub(1);
     let one = |index: usize| {
         let (left, right) = (&pieces[index], &pieces[index + 1]);
@@ -95,7 +100,7 @@ fn merged_two(points_m: &[[f64; 2]], threshold_m: f64, pieces: &mut Vec<Piece>) 
 }
 
 /// Gives a piece to its neighbours that is there only since the first split was beside the corner; whether there was one.
-fn dissolved_one(points_m: &[[f64; 2]], threshold_m: f64, pieces: &mut Vec<Piece>) -> bool {
+fn dissolved_one(points_m: &[[f64; 2]], threshold_m: f64, pieces: &mut Vec<ScanPiece>) -> bool {
     for index in 1..pieces.len().saturating_sub(1) {
         let (left, middle, right) = (pieces[index - 1], pieces[index], pieces[index + 1]);
         if left.last != middle.first || middle.last != right.first {
@@ -117,19 +122,19 @@ fn dissolved_one(points_m: &[[f64; 2]], threshold_m: f64, pieces: &mut Vec<Piece
 }
 
 /// Points in a row as a piece, and how far the worst is off its line, m.
-fn piece_of(points_m: &[[f64; 2]], first: usize, last: usize) -> Option<(Piece, f64)> {
+fn piece_of(points_m: &[[f64; 2]], first: usize, last: usize) -> Option<(ScanPiece, f64)> {
     let line = fitted(points_m, first, last)?;
     Some((
-        Piece { first, last, line },
+        ScanPiece { first, last, line },
         worst_m(points_m, first, last, &line),
     ))
 }
 
-fn fitted(points_m: &[[f64; 2]], first: usize, last: usize) -> Option<Line> {
-    Line::fit(points_m[first..=last].iter().copied())
+fn fitted(points_m: &[[f64; 2]], first: usize, last: usize) -> Option<PlanarLine> {
+    PlanarLine::fit(points_m[first..=last].iter().copied())
 }
 
-fn worst_m(points_m: &[[f64; 2]], first: usize, last: usize, line: &Line) -> f64 {
+fn worst_m(points_m: &[[f64; 2]], first: usize, last: usize, line: &PlanarLine) -> f64 {
     let [cos, sin, distance_m] = line.normal_form();
     let off = |at_m: &[f64; 2]| (at_m[0] * cos + at_m[1] * sin - distance_m).abs();
     points_m[first..=last].iter().map(off).fold(0.0, f64::max)

@@ -1,10 +1,11 @@
 //! From where to where along a line its points lie.
 
-use super::line::Line;
+use super::config::LineFinderConfig;
+use super::line::PlanarLine;
 
 /// A part of a line with points on it, without a large gap.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch {
+pub struct LineStretch {
     /// Index of the line.
     pub line: usize,
     /// Its ends in the map frame, m.
@@ -13,15 +14,14 @@ pub struct Stretch {
     pub points: usize,
 }
 
-/// The stretches of lines that have so many points at least, no two neighbours further apart than `gap_m`. A point is its nearest line's, where
-/// that is no further off than `within_m`.
-pub fn stretches(
-    lines: &[Line],
+/// The stretches of lines with so many points, so long and with such gaps as the settings say. A point, m, is its nearest line's, if that holds it.
+pub(super) fn stretches(
+    lines: &[PlanarLine],
     points_m: &[[f64; 2]],
-    (within_m, gap_m): (f64, f64),
-    least_points: usize,
-) -> Vec<Stretch> {
-    let forms: Vec<_> = lines.iter().map(Line::normal_form).collect();
+    config: &LineFinderConfig,
+) -> Vec<LineStretch> {
+    let within_m = config.hold * config.sigma;
+    let forms: Vec<_> = lines.iter().map(PlanarLine::normal_form).collect();
     let mut along = vec![Vec::new(); lines.len()];
     for &at_m in points_m {
         let off = forms
@@ -40,11 +40,12 @@ pub fn stretches(
     let mut found = Vec::new();
     for (index, along) in along.iter_mut().enumerate() {
         along.sort_by(f64::total_cmp);
-        for part in along.chunk_by(|one_m, next_m| next_m - one_m <= gap_m) {
+        for part in along.chunk_by(|one_m, next_m| next_m - one_m <= config.gap) {
             if let (Some(&first_m), Some(&last_m)) = (part.first(), part.last())
-                && part.len() >= least_points
+                && part.len() >= config.least_points
+                && last_m - first_m >= config.least_length
             {
-                found.push(Stretch {
+                found.push(LineStretch {
                     line: index,
                     ends_m: [first_m, last_m].map(|at_m| lines[index].point_m(at_m)),
                     points: part.len(),

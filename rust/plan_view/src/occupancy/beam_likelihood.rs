@@ -6,7 +6,7 @@ use volume::VoxelWalk;
 
 use super::OccupancyMap;
 use super::odds::probability_of_log_odds;
-use crate::scan::{Beam, PlanarScan};
+use crate::scan::{PlanarBeam, PlanarScan};
 
 settings! {
     /// How a laser's range comes about in a map: it ends in the first occupied cell on its way, with noise, or anywhere.
@@ -51,7 +51,12 @@ impl BeamLikelihood {
 
     /// Density of a beam's range, 1/m, from a pose in the map frame; of a maximum range reading its probability. Over all ranges up to
     /// `max_range`, the reading that there is none among them, it is 1.
-    pub fn density(&self, map: &OccupancyMap, map_from_sensor: &PlanarPose, beam: &Beam) -> f64 {
+    pub fn density(
+        &self,
+        map: &OccupancyMap,
+        map_from_sensor: &PlanarPose,
+        beam: &PlanarBeam,
+    ) -> f64 {
         let config = &self.config;
         let range_m = beam.range_m.map(|range_m| range_m.min(config.max_range));
         let (sin, cos) = libm::sincos(map_from_sensor.yaw_rad + beam.bearing_rad);

@@ -6,7 +6,7 @@ settings! {
     /// The occupancy grid of the plane that a sensor sweeps (004, section 36.2.1).
     pub struct OccupancyConfig("navigation.occupancy_2d") {
         /// Side of a cell.
-        cell: f64 = 0.05, "m", within(0.001, 10.0), "004, equation 36.6: r";
+        cell: f64 = 0.04, "m", within(0.001, 10.0), "004, equation 36.6: r";
         /// Probability that a cell is occupied of which nothing is known.
         prior: f64 = 0.5, "1", between(0.0, 1.0), "004, equation 36.6: p_prior";
         /// What a scan that ends in a cell says of it.

@@ -2,9 +2,9 @@
 
 use geometry::{Cell, Grid};
 
-use super::insertion::Said;
 use super::map::{OccupancyError, OccupancyMap};
 use super::odds::log_odds;
+use super::said::Said;
 
 impl OccupancyMap {
     /// Joins what a map of other scans knows: as if its scans had been taken in here (004, Fig. 36.2), but for where either reached a limit.

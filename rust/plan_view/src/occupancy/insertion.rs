@@ -4,8 +4,9 @@ use geometry::{Cell, CellArea, PlanarPose, wrap_angle};
 use volume::VoxelWalk;
 
 use super::map::{OccupancyError, OccupancyMap};
+use super::said::Said;
 use super::{LaserModel, SonarModel};
-use crate::scan::{Beam, PlanarScan};
+use crate::scan::{PlanarBeam, PlanarScan, SweptBeam};
 
 /// What became of the beams of a scan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -18,36 +19,42 @@ pub struct ScanCounts {
     pub unusable: usize,
 }
 
-/// What a scan says of a cell: that something is in it, whatever its other beams say, or that one passed it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Said {
-    Nothing,
-    Free,
-    Occupied,
-}
-
 impl OccupancyMap {
     /// Takes in a scan of a laser, as one observation: a cell in which a beam ends is occupied to it, whatever the others say; one that beams
     /// pass is free (004, equation 36.6). Beams that see further than `max_range` are free up to there.
     pub fn insert(&mut self, scan: &PlanarScan) -> Result<ScanCounts, OccupancyError> {
-        let (model, pose) = (LaserModel::new(&self.config), scan.map_from_sensor);
-        check(&pose)?;
         let (counts, seen) = usable(scan);
+        let swept = |beam: &PlanarBeam| SweptBeam {
+            bearing_rad: beam.bearing_rad,
+            from_m: 0.0,
+            range_m: beam.range_m.unwrap_or(0.0),
+            hit: true,
+        };
+        let swept: Vec<_> = seen.iter().map(swept).collect();
+        self.insert_swept(&scan.map_from_sensor, &swept)?;
+        Ok(counts)
+    }
+
+    /// Takes in beams of which a part is known alone, from one place, as one observation; they are as [`SweptBeam`] says, with finite numbers.
+    pub fn insert_swept(
+        &mut self,
+        map_from_sensor: &PlanarPose,
+        beams: &[SweptBeam],
+    ) -> Result<(), OccupancyError> {
+        check(map_from_sensor)?;
         let (most_m, cell_m) = (self.config.max_range, self.config.cell);
-        let reach_m = |beam: &Beam| beam.range_m.unwrap_or(0.0).min(most_m) + cell_m;
-        self.cover(
-            &pose,
-            seen.iter().map(|beam| (beam.bearing_rad, reach_m(beam))),
-        )?;
-        for beam in &seen {
-            self.pass(&pose, beam, &model);
+        let reaches = |beam: &SweptBeam| (beam.bearing_rad, beam.range_m.min(most_m) + cell_m);
+        self.cover(map_from_sensor, beams.iter().map(reaches))?;
+        let model = LaserModel::new(&self.config);
+        for beam in beams {
+            self.pass(map_from_sensor, beam, &model);
         }
         let says = [self.config.prior, self.config.free, self.config.occupied];
         for index in std::mem::take(&mut self.touched) {
             let said = std::mem::replace(&mut self.said[index as usize], Said::Nothing);
             self.tell(index as usize, says[said as usize]);
         }
-        Ok(counts)
+        Ok(())
     }
 
     /// Takes in measurements of sonars, each by itself.
@@ -60,7 +67,7 @@ impl OccupancyMap {
         check(&pose)?;
         let (counts, seen) = usable(scan);
         let opening_rad = model.config().half_opening;
-        let sides = |beam: &Beam| {
+        let sides = |beam: &PlanarBeam| {
             let reach_m = model.reach_m(beam.range_m);
             let turns = [-opening_rad, 0.0, opening_rad];
             turns.map(|turn_rad| (beam.bearing_rad + turn_rad, reach_m.unwrap_or(0.0)))
@@ -86,24 +93,28 @@ impl OccupancyMap {
     }
 
     /// Marks what a beam says of the cells on its way.
-    fn pass(&mut self, pose: &PlanarPose, beam: &Beam, model: &LaserModel) {
-        let (Some(range_m), most_m) = (beam.range_m, self.config.max_range) else {
-            return;
-        };
+    fn pass(&mut self, pose: &PlanarPose, beam: &SweptBeam, model: &LaserModel) {
+        let (range_m, most_m) = (beam.range_m, self.config.max_range);
         let (sin, cos) = libm::sincos(pose.yaw_rad + beam.bearing_rad);
         let eye_m = [pose.x_m, pose.y_m];
         let far_m = range_m.min(most_m) + self.config.cell;
         let end_m = [eye_m[0] + far_m * cos, eye_m[1] + far_m * sin];
         let [from, to] = [eye_m, end_m].map(|at_m| self.in_cells(at_m));
         let size = [self.cells.cols() as i32, self.cells.rows() as i32, 1];
-        let reaches = range_m <= most_m;
+        let hit = beam.hit && range_m <= most_m;
+        // The middle of a cell that the beam crosses by its diagonal may be further off than half a side.
+        let end = self
+            .lattice
+            .cell_at(eye_m[0] + range_m * cos, eye_m[1] + range_m * sin);
         for [col, row, _] in VoxelWalk::new(from, to, size).into_iter().flatten() {
             let cell = Cell::new(col, row);
             let distance_m = geometry::distance_m(self.lattice.center_of(cell), eye_m);
             let probability = model.probability(Some(range_m), true, distance_m);
-            let said = if probability > self.config.prior && reaches {
+            let said = if hit && (cell == end || probability > self.config.prior) {
                 Said::Occupied
-            } else if probability < self.config.prior && distance_m <= most_m {
+            } else if probability < self.config.prior
+                && (beam.from_m..=most_m).contains(&distance_m)
+            {
                 Said::Free
             } else {
                 continue;
@@ -171,7 +182,7 @@ fn check(pose: &PlanarPose) -> Result<(), OccupancyError> {
 }
 
 /// The beams that say something, and what became of all.
-fn usable(scan: &PlanarScan) -> (ScanCounts, Vec<Beam>) {
+fn usable(scan: &PlanarScan) -> (ScanCounts, Vec<PlanarBeam>) {
     let mut counts = ScanCounts::default();
     let mut seen = Vec::with_capacity(scan.beams.len());
     for beam in &scan.beams {

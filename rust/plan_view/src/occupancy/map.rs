@@ -4,8 +4,8 @@ use geometry::{Cell, Grid, Lattice};
 use settings::{ConfigError, Table};
 
 use super::OccupancyConfig;
-use super::insertion::Said;
 use super::odds::{log_odds, probability_of_log_odds};
+use super::said::Said;
 
 /// Why a scan could not be taken in. The map is unchanged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

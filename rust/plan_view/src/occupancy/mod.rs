@@ -7,6 +7,7 @@ mod insertion;
 mod laser;
 mod map;
 mod odds;
+mod said;
 mod sonar;
 
 pub use beam_likelihood::{BeamLikelihood, BeamLikelihoodConfig};

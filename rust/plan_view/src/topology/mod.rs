@@ -21,7 +21,7 @@ pub use rooms::{Doorway, Rooms};
 
 settings! {
     /// The generalized Voronoi diagram as a graph (004, section 36.2.3).
-    pub struct VoronoiGraphConfig("navigation.voronoi_graph") {
+    pub struct VoronoiGraphConfig("plan_view.topology") {
         /// A branch ends where the two nearest obstacles lie less than this apart, seen from it: in corners none begins.
         angle: f64 = 2.4, "rad", between(0.0, std::f64::consts::PI);
         /// No branch ends nearer to anything than this, centre to centre: uneven walls make none.

@@ -3,14 +3,14 @@
 use std::f64::consts::TAU;
 
 use geometry::SplitMix64;
-use plan_view::Line;
+use plan_view::PlanarLine;
 
 const SIGMA_M: f64 = 0.02;
 const RANDOM: f64 = 0.05;
 const POINTS_PER_M: f64 = 50.0;
 
 /// A room's points, m, and the lines of its walls.
-pub fn room(seed: u64) -> (Vec<[f64; 2]>, Vec<Line>) {
+pub(crate) fn room(seed: u64) -> (Vec<[f64; 2]>, Vec<PlanarLine>) {
     let mut numbers = SplitMix64::new(1000 + seed);
     let walls = loop {
         let count = 4 + (numbers.uniform() * 9.0) as usize;
@@ -34,7 +34,7 @@ pub fn room(seed: u64) -> (Vec<[f64; 2]>, Vec<Line>) {
     for _ in 0..random {
         points.push([0, 1].map(|_| 8.0 * numbers.uniform() - 4.0));
     }
-    let lines = walls.iter().filter_map(|ends| Line::fit(*ends));
+    let lines = walls.iter().filter_map(|ends| PlanarLine::fit(*ends));
     (points, lines.collect())
 }
 
@@ -54,12 +54,12 @@ fn drawn(count: usize, numbers: &mut SplitMix64) -> Option<Vec<[[f64; 2]; 2]>> {
     if walls.iter().any(|wall| length(wall) < 0.6) {
         return None;
     }
-    let off = |line: &Line, wall: &[[f64; 2]; 2]| {
+    let off = |line: &PlanarLine, wall: &[[f64; 2]; 2]| {
         let [one, other] = wall.map(|at| line.signed_distance_m(at).abs());
         one.max(other)
     };
     for (index, one) in walls.iter().enumerate() {
-        let line = Line::fit(*one)?;
+        let line = PlanarLine::fit(*one)?;
         if walls[..index].iter().any(|other| off(&line, other) < 0.3) {
             return None;
         }

@@ -1,10 +1,10 @@
 //! Where lines may lie: points vote for all lines through them (Duda and Hart 1972).
 
-use super::line::{Line, WeightedPoint};
+use super::line::{PlanarLine, WeightedPoint};
 
 /// Votes for lines by angle of the normal and distance; votes can be taken back, so that the next best line is known without a new count.
 #[derive(Debug, Clone)]
-pub(crate) struct Accumulator {
+pub(crate) struct LineVotes {
     centre_m: [f64; 2],
     /// Cosine, sine and angle of each normal.
     normals: Vec<([f64; 2], f64)>,
@@ -16,15 +16,16 @@ pub(crate) struct Accumulator {
 /// Bins side by side whose votes are one line's.
 const TOGETHER: usize = 4;
 
-impl Accumulator {
+impl LineVotes {
     /// No votes; lines go through a box, its lower and upper corner in m, and hold points up to `reach_m` off.
     pub(crate) fn new([low_m, high_m]: [[f64; 2]; 2], reach_m: f64) -> Self {
         let centre_m = [0, 1].map(|axis| f64::midpoint(low_m[axis], high_m[axis]));
         let radius_m = geometry::distance_m(centre_m, high_m).max(reach_m);
         let width_m = 2.0 * reach_m / TOGETHER as f64;
         let bins = (2.0 * radius_m / width_m).ceil() as usize + 2 * TOGETHER;
-        // The end of a line from one side of the box to the other is no further off its neighbour's than its points may be.
-        let angles = ((std::f64::consts::PI * radius_m / reach_m).ceil() as usize).max(TOGETHER);
+        // The ends of a line from one side of the box to the other are no further off its neighbours' than a line is wide.
+        let angles =
+            ((std::f64::consts::PI * radius_m / (2.0 * reach_m)).ceil() as usize).max(TOGETHER);
         let normal = |index: usize| {
             let normal_rad = std::f64::consts::PI * index as f64 / angles as f64;
             let (sin, cos) = libm::sincos(normal_rad);
@@ -54,21 +55,24 @@ impl Accumulator {
     }
 
     /// The line with the most votes; none where there are none.
-    pub(crate) fn best(&self) -> Option<Line> {
+    pub(crate) fn best(&self) -> Option<PlanarLine> {
         let mut best = (0.0, 0, 0);
         for (index, votes) in self.votes.chunks_exact(self.bins).enumerate() {
-            for (first, together) in votes.windows(TOGETHER).enumerate() {
-                let sum: f32 = together.iter().sum();
-                if sum > best.0 {
-                    best = (sum, index, first);
-                }
+            let sums = votes
+                .windows(TOGETHER)
+                .map(|together| together.iter().sum::<f32>());
+            // The largest first, which takes no branch, then where it is.
+            let most = sums.clone().fold(0.0, f32::max);
+            if most > best.0 {
+                let first = sums.clone().position(|sum| sum >= most);
+                best = (most, index, first.unwrap_or(0));
             }
         }
         let (votes, index, first) = best;
         let ([cos, sin], normal_rad) = self.normals[index];
         let middle = (first + TOGETHER / 2) as f64 - self.bins as f64 / 2.0;
         let distance_m = middle * self.width_m + self.centre_m[0] * cos + self.centre_m[1] * sin;
-        (votes > 0.0).then_some(Line {
+        (votes > 0.0).then_some(PlanarLine {
             normal_rad,
             distance_m,
         })
