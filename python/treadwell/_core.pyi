@@ -43,6 +43,7 @@ __all__ = [
     "Surfaces",
     "Tick",
     "TrueStance",
+    "VoronoiGraph",
     "Walker",
     "WorldModel",
     "components",
@@ -341,6 +342,29 @@ class OccupancyMap:
     def log_likelihood(
         self, points: NDArray[np.float64], eye: tuple[float, float], settings: str = "{}"
     ) -> tuple[float, int]: ...
+
+@final
+class VoronoiGraph:
+    def __new__(
+        cls,
+        free: NDArray[np.bool_],
+        cell: float,
+        origin: tuple[float, float],
+        settings: str = "{}",
+    ) -> VoronoiGraph: ...
+    def places(
+        self,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint32]]: ...
+    def ways(self) -> list[tuple[tuple[int, int], float, NDArray[np.float64]]]: ...
+    def plan(
+        self, start: tuple[float, float], goal: tuple[float, float], clearance: float
+    ) -> NDArray[np.float64] | None: ...
+    def rooms(
+        self,
+    ) -> tuple[
+        NDArray[np.uint32], NDArray[np.float64], NDArray[np.float64], NDArray[np.uint32]
+    ]: ...
+    def is_like(self, other: VoronoiGraph) -> bool: ...
 
 @final
 class RangeMap:

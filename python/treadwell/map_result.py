@@ -60,6 +60,54 @@ class MappedLines(Strict):
     """The lines."""
 
 
+class MappedPlace(Strict):
+    """A place where ways meet or end."""
+
+    position: tuple[float, float]
+    """Where it is, m."""
+    clearance: float
+    """From there to the nearest cell that is not free, m."""
+    ways: int
+    """How many ways begin there."""
+
+
+class MappedWay(Strict):
+    """A way between two places, in the middle between what is nearest on both sides."""
+
+    places: tuple[int, int]
+    """Numbers of the places that it joins, from 0 on."""
+    length: float
+    """Its length, m."""
+    clearance: float
+    """Distance to the nearest cell that is not free where it is narrowest, m."""
+
+
+class MappedDoorway(Strict):
+    """A narrow place between two rooms."""
+
+    position: tuple[float, float]
+    """Its middle, m."""
+    width: float
+    """From one side to the other, m."""
+    rooms: tuple[int, int]
+    """Numbers of the rooms that it joins, from 1 on."""
+
+
+class MappedPlaces(Strict):
+    """The map as a graph: places, ways between them, and rooms."""
+
+    count: int
+    """How many places there are."""
+    each: list[MappedPlace]
+    """The places."""
+    ways: list[MappedWay]
+    """Ways between them."""
+    rooms: int
+    """How many rooms there are."""
+    doorways: list[MappedDoorway]
+    """Doorways between two different rooms."""
+
+
 class Times(Strict):
     """Milliseconds of the clock a frame."""
 
@@ -100,6 +148,8 @@ class MapResult(Strict):
     """Cells of the map by kind."""
     lines: MappedLines | None
     """Lines, of the world model `lines`; none of others."""
+    places: MappedPlaces | None
+    """Places and the ways between them, of the world model `topology`; none of others."""
     cell: float
     """Side of a cell, m."""
     origin: tuple[float, float]

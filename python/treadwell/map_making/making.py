@@ -8,14 +8,13 @@ from time import perf_counter
 from typing import Final, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from treadwell.errors import InputError, RecordingError
 from treadwell.files import write_text
 from treadwell.interruption import Interruption
 from treadwell.map_making.mapper import Mapper
 from treadwell.map_making.placing import sensed
-from treadwell.map_making.plan_view import plan_arrays
+from treadwell.map_making.plan_view import Seen, plan_arrays
 from treadwell.map_making.recording import MapRecording
 from treadwell.map_making.request import MapRequest
 from treadwell.map_memory import RememberedMap
@@ -165,7 +164,9 @@ class _Making:
         if self.recording is not None:
             self.recording.finish(found, mapper.place.offset, voxels)
         lines, probability = mapper.lines(), mapper.probability()
-        write_map(folder / MAP, found, voxels, plan_arrays(probability, lines))
+        topology = mapper.topology()
+        more = plan_arrays(probability, lines) | (topology.arrays() if topology else {})
+        write_map(folder / MAP, found, voxels, more)
         surface = mapper.surface()
         if surface is not None:
             write_mesh(folder / MESH, surface)
@@ -188,6 +189,7 @@ class _Making:
             interrupted=self._interrupted,
             cells=counted(found),
             lines=lines,
+            places=topology.places() if topology else None,
             cell=found.cell,
             origin=found.origin,
             settings=mapper.sizes.parameters,
@@ -195,7 +197,7 @@ class _Making:
             notes=[*self._source.notes, *self._level(request)],
             timing_ms={"map": times(mapper.seconds), "frame": times(self._seconds)},
         )
-        self._draw(result, found, folder, probability)
+        self._draw(result, found, folder, Seen(probability, lines, topology))
         write_text(folder / RESULT, result.model_dump_json(indent=2, by_alias=True) + "\n")
         return MadeMap(result, found, folder)
 
@@ -204,7 +206,7 @@ class _Making:
         result: MapResult,
         found: RememberedMap,
         folder: Path,
-        probability: NDArray[np.float32] | None,
+        seen: Seen,
     ) -> None:
         # Late: matplotlib takes its time.
         from treadwell.map_making.picture import draw_map
@@ -214,13 +216,16 @@ class _Making:
         title += f"\ncells of {1e3 * result.cell:g} mm"
         if result.lines is not None:
             title += f" · {result.lines.count} lines hold {result.lines.held:.1%} of the points"
+        if result.places is not None:
+            title += f" · {result.places.count} places, {len(result.places.ways)} ways, "
+            title += f"{result.places.rooms} rooms"
         known = self._source.kind not in ("cloud", "height image")
         way = np.array([pose[:2, 3] for _, pose in self._poses]) + self._mapper.place.offset[:2]
         shown = way if known else way[:0]
         if self._mapper.is_plan:
             from treadwell.map_making.plan_picture import draw_plan
 
-            draw_plan(folder / PICTURE, title, found, (probability, result.lines), shown)
+            draw_plan(folder / PICTURE, title, found, seen, shown)
             return
         draw_map(folder / PICTURE, title, found, shown)
 

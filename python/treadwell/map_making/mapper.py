@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 from treadwell._core import RangeMap
 from treadwell.errors import InputError
 from treadwell.map_making.placing import Placing, ground_below, placing, sensed
+from treadwell.map_making.plan_topology import Topology
 from treadwell.map_making.plan_view import (
     HELD,
     LINES,
     OCCUPANCY,
     SCAN_MODELS,
+    TOPOLOGY,
     PlanView,
     placed_lines,
     plan_view,
@@ -140,6 +142,12 @@ class Mapper:
         """Return the lines, in the frame of the world, where the model has them."""
         return None if self._plan is None else placed_lines(self._plan.lines(), self.place.offset)
 
+    def topology(self) -> Topology | None:
+        """Return places and ways, in the frame of the world, where the model has them."""
+        if self._plan is None or self.world_model != TOPOLOGY:
+            return None
+        return Topology.of(self._plan.map(), self._request.topology, self.place.offset[:2])
+
     def voxels(self) -> NDArray[np.float32]:
         """Return middle and side of each occupied cube, (n, 4) m."""
         middles, sides = self._core.occupied()
@@ -199,9 +207,9 @@ class Mapper:
                     f"is made by one of {', '.join(SCAN_MODELS)}"
                 )
             return named or OCCUPANCY
-        if named == LINES:
+        if named in (LINES, TOPOLOGY):
             raise InputError(
-                f"--world-model: found {LINES}, which are found in scans of a laser; of pictures "
+                f"--world-model: found {named}, which is made of scans of a laser; of pictures "
                 f"and clouds a map is made by {POINTS} and its like"
             )
         if named is None:

@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Final
 
+import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -14,11 +15,15 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from treadwell.files import whole_file
+from treadwell.map_making.plan_topology import Topology
+from treadwell.map_making.plan_view import Seen
 from treadwell.map_memory import OBSTACLE, RememberedMap
 from treadwell.map_result import MappedLines
 
 _UNKNOWN: Final = (0.80, 0.80, 0.82)
 _POINTS: Final = (0.72, 0.74, 0.78)
+_ROOMS: Final = tuple((r, g, b) for r, g, b, _ in matplotlib.colormaps["tab20"](range(20)).tolist())
+_TINT: Final = 0.45
 _WAY: Final = "#ff5fa2"
 _LINE: Final = "#12305c"
 _LONGER_SIDE_INCHES: Final = 11.0
@@ -30,7 +35,7 @@ def draw_plan(
     path: Path,
     title: str,
     found: RememberedMap,
-    seen: tuple[NDArray[np.float32] | None, MappedLines | None],
+    seen: Seen,
     way: NDArray[np.float64],
 ) -> None:
     """Draw the picture, whole or not at all.
@@ -39,13 +44,13 @@ def draw_plan(
         path: of the PNG file.
         title: what was mapped, one or two lines.
         found: the map.
-        seen: how probably each cell is occupied, and the lines, where the model has them.
+        seen: what the model has beside the cells.
         way: (n, 2) m, where the sensor was.
 
     Raises:
         OSError: the file cannot be written.
     """
-    probability, lines = seen
+    probability, lines = seen.probability, seen.lines
     rows, cols = found.kind.shape
     size = np.maximum(np.array([cols, rows]) * found.cell, found.cell)
     inches = np.maximum(size / size.max() * _LONGER_SIDE_INCHES, 4.0)
@@ -70,6 +75,8 @@ def draw_plan(
         axes.imshow(picture, origin="lower", extent=extent, interpolation="antialiased")
     if lines is not None:
         marks.append(_draw_lines(axes, lines))
+    if seen.topology is not None:
+        marks += _draw_topology(axes, seen.topology, extent)
     if len(way) > 1:
         marks += axes.plot(way[:, 0], way[:, 1], color=_WAY, linewidth=0.6, label="the sensor")
     _frame(axes, found)
@@ -96,6 +103,37 @@ def _draw_lines(axes: Axes, lines: MappedLines) -> Line2D:
     segments = [[(a, b), (c, d)] for line in lines.each for a, b, c, d in line.stretches]
     axes.add_collection(LineCollection(segments, colors=_LINE, linewidths=1.4))
     return Line2D([], [], color=_LINE, label=f"{lines.count} lines")
+
+
+def _draw_topology(
+    axes: Axes, topology: Topology, extent: tuple[float, float, float, float]
+) -> list[Line2D | Patch]:
+    """Draw rooms in colours, ways, and places by how many ways meet there."""
+    rooms = np.array(_ROOMS)[topology.room_of % len(_ROOMS)]
+    rooms = np.dstack([rooms, np.where(topology.room_of > 0, _TINT, 0.0)])
+    if topology.room_of.size:
+        axes.imshow(rooms, origin="lower", extent=extent, interpolation="nearest")
+    axes.add_collection(LineCollection(topology.paths, colors=_LINE, linewidths=1.2))
+    found = topology.places()
+    marks: list[Line2D | Patch] = [Line2D([], [], color=_LINE, label=f"{len(found.ways)} ways")]
+    meet = np.array([place.position for place in found.each if place.ways != 1]).reshape(-1, 2)
+    end = np.array([place.position for place in found.each if place.ways == 1]).reshape(-1, 2)
+    doors = np.array([doorway.position for doorway in found.doorways]).reshape(-1, 2)
+    for points, marker, colour, label in (
+        (meet, "o", "#d1495b", "meet points"),
+        (end, "s", "#66717e", "ends"),
+        (doors, "D", "#edae49", "doorways"),
+    ):
+        marks += axes.plot(
+            points[:, 0],
+            points[:, 1],
+            marker,
+            markersize=4,
+            color=colour,
+            label=f"{len(points)} {label}",
+        )
+    marks.append(Patch(facecolor=(*_ROOMS[1], _TINT), label=f"{found.rooms} rooms, coloured"))
+    return marks
 
 
 def _frame(axes: Axes, found: RememberedMap) -> None:

@@ -2,25 +2,43 @@
 
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any, Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from treadwell._core import OccupancyMap, find_lines
+from treadwell.map_making.plan_topology import Topology
 from treadwell.map_making.points_map import PointsMap
 from treadwell.map_memory import FLOOR, OBSTACLE, UNKNOWN, RememberedMap
 from treadwell.map_result import MappedLine, MappedLines
 
 OCCUPANCY: Final = "occupancy_2d"
 LINES: Final = "lines"
+TOPOLOGY: Final = "topology"
 POINTS: Final = "points"
-SCAN_MODELS: Final = (OCCUPANCY, LINES, POINTS)
+SCAN_MODELS: Final = (OCCUPANCY, LINES, TOPOLOGY, POINTS)
 """World models of scans; the first where none is named."""
 HELD: Final = 0.9
 """Share of the points that lines hold where nobody says how much: furniture is no line."""
 _FREE: Final = 0.45
 """A cell is free that is less probably occupied."""
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What a picture shows beside the cells.
+
+    Attributes:
+        probability: (rows, cols) how probably each cell is occupied, where the model says so.
+        lines: where the model has them.
+        topology: places and ways, where the model has them.
+    """
+
+    probability: NDArray[np.float32] | None
+    lines: MappedLines | None
+    topology: Topology | None
 
 
 class PlanView(Protocol):
@@ -183,6 +201,8 @@ def plan_view(world_model: str, cell: float, settings: Mapping[str, Mapping[str,
         InputError: a setting cannot be used.
     """
     if world_model == OCCUPANCY:
+        return ScanOccupancy({"cell": cell, **settings.get(OCCUPANCY, {})})
+    if world_model == TOPOLOGY:
         return ScanOccupancy({"cell": cell, **settings.get(OCCUPANCY, {})})
     if world_model == LINES:
         return ScanLines(cell, {"held": HELD, **settings.get(LINES, {})})

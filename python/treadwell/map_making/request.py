@@ -19,7 +19,7 @@ Up = Literal["x", "-x", "y", "-y", "z", "-z"]
 PICTURES, POINTS = "fog", "elevation"
 """World models where none is named: of depth images, of clouds."""
 _TOP: Final = ("map", "navigation", "classification", "plan_view")
-_MAP_ALONE: Final = ("lines",)
+_MAP_ALONE: Final = ("lines", "topology")
 """World models for recorded data that are none of a robot's."""
 _SLOTS: Final = ("world_model", "segmenter")
 
@@ -56,6 +56,7 @@ class MapRequest:
         data: how the data is taken.
         ground_filter: key -> value, how a cloud's ground is told from what stands on it.
         lines: key -> value, how lines are found among a laser's points.
+        topology: key -> value, what is a place, a way and a room in a laser's map.
     """
 
     source: Path
@@ -69,6 +70,7 @@ class MapRequest:
     data: MapTable
     ground_filter: dict[str, Any]
     lines: dict[str, Any]
+    topology: dict[str, Any]
 
 
 def read_request(
@@ -115,6 +117,7 @@ def read_request(
         found = dict(tables) if error.title == "Navigation" else raw.get("map", {})
         lines = [describe(detail, found) for detail in error.errors(include_url=False)]
         raise InputError(report("--set", list(dict.fromkeys(lines)))) from None
+    lines, topology = _tables(raw, "plan_view", "lines", "topology")
     return MapRequest(
         source=source,
         world_model=named,
@@ -125,20 +128,22 @@ def read_request(
         segmenter=navigation.segmenter,
         parameters=navigation.parameters(),
         data=data,
-        ground_filter=_one_table(raw, "classification", "ground_filter"),
-        lines=_one_table(raw, "plan_view", "lines"),
+        ground_filter=_tables(raw, "classification", "ground_filter")[0],
+        lines=lines,
+        topology=topology,
     )
 
 
-def _one_table(raw: dict[str, Any], top: str, name: str) -> dict[str, Any]:
-    """Return the one table of another part of the core, which checks what is in it."""
+def _tables(raw: dict[str, Any], top: str, *names: str) -> list[dict[str, Any]]:
+    """Return tables of another part of the core, which checks what is in them."""
     tables = raw.get(top, {})
-    if not isinstance(tables, dict) or set(tables) - {name}:
-        raise InputError(f"--set {top}: only {top}.{name}.KEY can be set")
-    table = tables.get(name, {})
-    if not isinstance(table, dict):
-        raise InputError(f"--set {top}.{name}: must be followed by a key")
-    return table
+    if not isinstance(tables, dict) or set(tables) - set(names):
+        allowed = " and ".join(f"{top}.{name}.KEY" for name in names)
+        raise InputError(f"--set {top}: only {allowed} can be set")
+    for name in names:
+        if not isinstance(tables.get(name, {}), dict):
+            raise InputError(f"--set {top}.{name}: must be followed by a key")
+    return [tables.get(name, {}) for name in names]
 
 
 def _is_a_table(word: str) -> None:

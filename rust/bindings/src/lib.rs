@@ -26,6 +26,7 @@ mod servos;
 mod situation;
 mod slip;
 mod stairs;
+mod topology;
 mod truth;
 mod walker;
 mod world_model;
@@ -57,6 +58,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<pilot::PyPilot>()?;
     module.add_class::<pilot::PyTick>()?;
     module.add_class::<plan_view::PyOccupancyMap>()?;
+    module.add_class::<topology::PyVoronoiGraph>()?;
     module.add_class::<products::PyBodyState>()?;
     module.add_class::<products::PyFloorView>()?;
     module.add_class::<products::PyPlanes>()?;

@@ -35,4 +35,6 @@ pub use occupancy::{
     probability_of_odds, updated_odds,
 };
 pub use scan::{PlanarBeam, PlanarScan, SweptBeam};
-pub use topology::{Doorway, GraphPlan, Place, Rooms, VoronoiGraph, VoronoiGraphConfig, Way};
+pub use topology::{
+    Doorway, GraphPlace, GraphPlan, GraphWay, Rooms, VoronoiGraph, VoronoiGraphConfig,
+};

@@ -11,7 +11,7 @@ mod skeleton;
 use geometry::{Cell, Grid, Lattice};
 use petgraph::algo::is_isomorphic;
 use petgraph::graph::UnGraph;
-use settings::{POSITIVE, at_least, between, settings};
+use settings::{ConfigError, POSITIVE, Table as _, at_least, between, settings};
 
 use graph::graph_of;
 use skeleton::Skeleton;
@@ -24,8 +24,8 @@ settings! {
     pub struct VoronoiGraphConfig("plan_view.topology") {
         /// A branch ends where the two nearest obstacles lie less than this apart, seen from it: in corners none begins.
         angle: f64 = 2.4, "rad", between(0.0, std::f64::consts::PI);
-        /// No branch ends nearer to anything than this, centre to centre: uneven walls make none.
-        clearance: f64 = 0.15, "m", at_least(0.0);
+        /// Nearer to anything than this, centre to centre, nobody goes, and the graph has no ways.
+        clearance: f64 = 0.2, "m", at_least(0.0);
         /// A branch that ends within so many times the clearance of the place that it hangs on is none: to a corner it is the root of two.
         branch: f64 = 2.0, "1", at_least(0.0);
         /// A doorway is no wider than this.
@@ -39,7 +39,7 @@ settings! {
 
 /// A place where ways meet or end.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Place {
+pub struct GraphPlace {
     /// Where it is farthest from everything, in the frame of the map, metres.
     pub position_m: [f64; 2],
     /// From there to the nearest cell that is not free, centre to centre, metres.
@@ -50,7 +50,7 @@ pub struct Place {
 
 /// A way between two places, along which the two nearest obstacles are equally far.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Way {
+pub struct GraphWay {
     /// Indices of the places that it joins, equal for a ring.
     pub places: [usize; 2],
     /// Its cells' centres from the first place to the second, those included, metres.
@@ -71,25 +71,27 @@ pub struct VoronoiGraph {
     size: [usize; 2],
     skeleton: Skeleton,
     graph: UnGraph<(), ()>,
-    places: Vec<Place>,
-    ways: Vec<Way>,
+    places: Vec<GraphPlace>,
+    ways: Vec<GraphWay>,
 }
 
 impl VoronoiGraph {
     /// Of the cells that are free. What is outside of the grid is not.
-    pub fn new(config: VoronoiGraphConfig, lattice: Lattice, free: &Grid<bool>) -> Self {
+    pub fn new(
+        config: VoronoiGraphConfig,
+        lattice: Lattice,
+        free: &Grid<bool>,
+    ) -> Result<Self, ConfigError> {
+        config.check()?;
         let size = [free.cols(), free.rows()];
         let cols = size[0] + 2;
         let mut padded = vec![false; cols * (size[1] + 2)];
         for (row, values) in free.values().chunks_exact(size[0].max(1)).enumerate() {
             padded[(row + 1) * cols + 1..][..size[0]].copy_from_slice(values);
         }
-        let skeleton = Skeleton::of(
-            &padded,
-            cols,
-            config.angle,
-            config.clearance / lattice.cell_m,
-        );
+        let least_cells = config.clearance / lattice.cell_m;
+        let skeleton = Skeleton::of(&padded, cols, config.angle, least_cells);
+        let passable = skeleton.at_least(least_cells);
         let mut found = Self {
             config,
             lattice,
@@ -99,10 +101,10 @@ impl VoronoiGraph {
             places: Vec::new(),
             ways: Vec::new(),
         };
-        let graph = graph_of(&found.skeleton, found.config.branch);
+        let graph = graph_of(&passable, found.config.branch);
         found.places = graph
             .node_indices()
-            .map(|node| Place {
+            .map(|node| GraphPlace {
                 position_m: found.center_of(graph[node].cells[0]),
                 clearance_m: found.clearance_of(graph[node].cells[0]),
                 degree: graph.neighbors(node).count() + graph.edges_connecting(node, node).count(),
@@ -117,20 +119,20 @@ impl VoronoiGraph {
             })
             .collect();
         found.graph = graph.map(|_, _| (), |_, _| ());
-        found
+        Ok(found)
     }
 
     /// Places, in the order of their cells.
-    pub fn places(&self) -> &[Place] {
+    pub fn places(&self) -> &[GraphPlace] {
         &self.places
     }
 
     /// Ways between them.
-    pub fn ways(&self) -> &[Way] {
+    pub fn ways(&self) -> &[GraphWay] {
         &self.ways
     }
 
-    /// Cells of the diagram, row by row, branches that are too short for the graph among them.
+    /// Cells of the diagram, row by row, those that are too narrow for the graph among them, and branches that are too short.
     pub fn cells(&self) -> impl Iterator<Item = Cell> {
         let kept = self.skeleton.kept.iter().enumerate();
         kept.filter(|(_, kept)| **kept)
@@ -148,7 +150,7 @@ impl VoronoiGraph {
         is_isomorphic(&self.graph, &other.graph)
     }
 
-    fn way(&self, places: [usize; 2], ends: [usize; 2], cells: &[usize]) -> Way {
+    fn way(&self, places: [usize; 2], ends: [usize; 2], cells: &[usize]) -> GraphWay {
         let all = || {
             [ends[0]]
                 .into_iter()
@@ -156,7 +158,7 @@ impl VoronoiGraph {
                 .chain([ends[1]])
         };
         let path_m: Vec<[f64; 2]> = all().map(|at| self.center_of(at)).collect();
-        Way {
+        GraphWay {
             places,
             length_m: length_m(&path_m),
             path_m,

@@ -41,7 +41,7 @@ impl NearestBlocked {
 }
 
 /// A parabola of the lower envelope of a row, and the column from which on it is the lowest.
-struct Piece {
+struct Parabola {
     col: usize,
     height: u32,
     from: i64,
@@ -66,7 +66,7 @@ fn nearest_in_column(blocked: &[bool], cols: usize) -> Vec<u32> {
     rows
 }
 
-fn lower_envelope(row: usize, rows_of: &[u32], envelope: &mut Vec<Piece>) {
+fn lower_envelope(row: usize, rows_of: &[u32], envelope: &mut Vec<Parabola>) {
     envelope.clear();
     for (col, &nearest) in rows_of.iter().enumerate() {
         if nearest == NONE {
@@ -83,12 +83,12 @@ fn lower_envelope(row: usize, rows_of: &[u32], envelope: &mut Vec<Piece>) {
             let _ = envelope.pop();
             from = 0;
         }
-        envelope.push(Piece { col, height, from });
+        envelope.push(Parabola { col, height, from });
     }
 }
 
 /// First column where the parabola over `col` is lower than the one before it.
-fn first_below(before: &Piece, col: usize, height: u32) -> i64 {
+fn first_below(before: &Parabola, col: usize, height: u32) -> i64 {
     let (old, new) = (before.col as i64, col as i64);
     let rise = new * new - old * old + i64::from(height) - i64::from(before.height);
     rise.div_euclid(2 * (new - old)) + 1

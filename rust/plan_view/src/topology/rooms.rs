@@ -28,7 +28,7 @@ pub struct Rooms {
 }
 
 /// A place to cut at: the cell of the diagram, the cells beside it on the way, and what it is cut to on both sides.
-struct Cut {
+struct DoorCut {
     at: usize,
     sides: [usize; 2],
     walls: [usize; 2],
@@ -37,7 +37,7 @@ struct Cut {
 impl VoronoiGraph {
     /// Divides the free cells into rooms.
     pub fn rooms(&self) -> Rooms {
-        let cuts: Vec<Cut> = self
+        let cuts: Vec<DoorCut> = self
             .ways
             .iter()
             .flat_map(|way| self.cuts(&way.path_m))
@@ -72,7 +72,7 @@ impl VoronoiGraph {
     }
 
     /// Narrowest places of a way: not wider than a doorway, and wider on both sides.
-    fn cuts(&self, path_m: &[[f64; 2]]) -> Vec<Cut> {
+    fn cuts(&self, path_m: &[[f64; 2]]) -> Vec<DoorCut> {
         let cells: Vec<usize> = path_m
             .iter()
             .filter_map(|&point| self.index_at(point))
@@ -109,7 +109,7 @@ impl VoronoiGraph {
     }
 
     /// From a cell to the nearest obstacle, and to the one as near that lies most on its other side.
-    fn cut(&self, at: usize, sides: [usize; 2]) -> Cut {
+    fn cut(&self, at: usize, sides: [usize; 2]) -> DoorCut {
         let nearest = &self.skeleton.nearest.blocked;
         let cols = self.skeleton.cols as f64;
         let towards = |other: u32| {
@@ -127,7 +127,7 @@ impl VoronoiGraph {
             .map(|&around| nearest[self.skeleton.beside(at, around)])
             .min_by(|&a, &b| cosine(a).total_cmp(&cosine(b)))
             .unwrap_or(nearest[at]);
-        Cut {
+        DoorCut {
             at,
             sides,
             walls: [nearest[at] as usize, opposite as usize],
@@ -135,7 +135,7 @@ impl VoronoiGraph {
     }
 
     /// Numbers of the pieces into which the cuts part the free cells; those of the cuts belong to a piece beside them.
-    fn flooded(&self, cuts: &[Cut]) -> Vec<u32> {
+    fn flooded(&self, cuts: &[DoorCut]) -> Vec<u32> {
         const CUT: u32 = u32::MAX;
         let cols = self.skeleton.cols;
         let free = |at: usize| self.skeleton.nearest.squared[at] > 0;
@@ -185,7 +185,7 @@ impl VoronoiGraph {
         labels
     }
 
-    fn doorway(&self, cut: &Cut, labels: &[u32]) -> Doorway {
+    fn doorway(&self, cut: &DoorCut, labels: &[u32]) -> Doorway {
         let [one, other] = cut.walls.map(|at| self.center_of(at));
         Doorway {
             position_m: self.center_of(cut.at),

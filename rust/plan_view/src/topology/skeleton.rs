@@ -47,6 +47,15 @@ impl Skeleton {
         }
     }
 
+    /// The part of the diagram that is so many cells away from everything.
+    pub(super) fn at_least(&self, least_cells: f64) -> Self {
+        let mut part = self.clone();
+        for (kept, &squared) in part.kept.iter_mut().zip(&self.nearest.squared) {
+            *kept &= f64::from(squared) >= least_cells * least_cells;
+        }
+        part
+    }
+
     /// Index of a cell around another one. The rim is blocked, so there is one.
     pub(super) const fn beside(&self, at: usize, around: [i32; 2]) -> usize {
         at.wrapping_add_signed(around[1] as isize * self.cols as isize + around[0] as isize)
