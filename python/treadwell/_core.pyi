@@ -335,6 +335,13 @@ class WorldModel:
 class OccupancyMap:
     def __new__(cls, settings: str = "{}") -> OccupancyMap: ...
     def insert(self, points: NDArray[np.float64], eye: tuple[float, float]) -> int: ...
+    def insert_sonar(
+        self,
+        pose: tuple[float, float, float],
+        bearings: Sequence[float],
+        ranges: Sequence[float],
+        settings: str = "{}",
+    ) -> int: ...
     def cells(
         self,
     ) -> tuple[tuple[float, float], float, NDArray[np.float32], NDArray[np.uint16]]: ...

@@ -6,7 +6,7 @@ use numpy::{
 };
 use plan_view::{
     BeamLikelihood, BeamLikelihoodConfig, LineFinder, LineFinderConfig, OccupancyConfig,
-    OccupancyMap, PlanarBeam, PlanarScan,
+    OccupancyMap, PlanarBeam, PlanarScan, SonarConfig, SonarModel,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -72,6 +72,34 @@ impl PyOccupancyMap {
         let map = &mut self.0;
         let counts = run(py, || map.insert(&scan))?.map_err(|error| bad_setting(py, &error))?;
         Ok(counts.used)
+    }
+
+    /// Takes in measurements of sonars at `pose` (x, y m and heading rad): their directions from there, rad, and ranges, m, NaN for nothing heard.
+    /// `settings` is JSON: `[plan_view.sonar]`.
+    #[pyo3(signature = (pose, bearings, ranges, settings="{}"))]
+    fn insert_sonar(
+        &mut self,
+        py: Python<'_>,
+        pose: [f64; 3],
+        bearings: Vec<f64>,
+        ranges: Vec<f64>,
+        settings: &str,
+    ) -> PyResult<usize> {
+        let config: SonarConfig = parse(py, settings)?;
+        let model = SonarModel::new(config).map_err(|error| bad_setting(py, &error))?;
+        let beam = |(bearing_rad, range_m): (f64, f64)| {
+            PlanarBeam::new(
+                bearing_rad,
+                Some(range_m).filter(|range_m| !range_m.is_nan()),
+            )
+        };
+        let scan = PlanarScan {
+            map_from_sensor: PlanarPose::new(pose[0], pose[1], pose[2]),
+            beams: bearings.into_iter().zip(ranges).map(beam).collect(),
+        };
+        let map = &mut self.0;
+        let counts = run(py, || map.insert_sonar(&scan, &model))?;
+        Ok(counts.map_err(|error| bad_setting(py, &error))?.used)
     }
 
     /// Lower-left corner, m, side of a cell, m, and for each cell [row, col] the probability that it is occupied, float32, NaN where nothing was

@@ -19,6 +19,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use settings::TableDescription;
+
 mod lines;
 mod occupancy;
 mod scan;
@@ -33,3 +35,11 @@ pub use occupancy::{
     probability_of_odds, updated_odds,
 };
 pub use scan::{PlanarBeam, PlanarScan, SweptBeam};
+
+/// The tables of settings of what is no world model of a robot's.
+pub const TABLES: &[TableDescription] = &[
+    TableDescription::of::<SonarConfig>(),
+    TableDescription::of::<BeamLikelihoodConfig>(),
+    TableDescription::of::<SplitAndMergeConfig>(),
+    TableDescription::of::<LineFinderConfig>(),
+];
