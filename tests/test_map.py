@@ -214,6 +214,8 @@ def test_a_signal_ends_a_map_with_the_frames_that_it_has(pictures: Path, tmp_pat
         (("map.upp=z",), None, "up"),
         ((), "elevatoin", "elevation"),
         ((), "mine:Model", "built in"),
+        ((), "lines", "found in scans of a laser"),
+        (("plan_view.lines=1",), "elevation", "must be followed by a key"),
     ],
 )
 def test_bad_requests_are_refused_by_name_and_leave_nothing(
