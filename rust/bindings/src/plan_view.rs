@@ -5,8 +5,9 @@ use numpy::{
     IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods, ToPyArray, ndarray,
 };
 use plan_view::{
-    BeamLikelihood, BeamLikelihoodConfig, LineFinder, LineFinderConfig, OccupancyConfig,
-    OccupancyMap, PlanarBeam, PlanarScan, SonarConfig, SonarModel,
+    AlignmentConfig, BeamLikelihood, BeamLikelihoodConfig, LineAlignment, LineFinder,
+    LineFinderConfig, OccupancyConfig, OccupancyMap, PlanarBeam, PlanarScan, SonarConfig,
+    SonarModel,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -45,6 +46,29 @@ fn scan_of(points_m: &[[f64; 2]], eye_m: [f64; 2]) -> PlanarScan {
         map_from_sensor: PlanarPose::new(eye_m[0], eye_m[1], 0.0),
         beams: points_m.iter().map(beam).collect(),
     }
+}
+
+/// Scans of points in the map, m: of which scan each is, and from where each scan was taken, m.
+fn scans_of(
+    points_m: &[[f64; 2]],
+    scan: &[usize],
+    eyes_m: &[[f64; 2]],
+) -> PyResult<Vec<PlanarScan>> {
+    let mut each = vec![Vec::new(); eyes_m.len()];
+    for (at_m, &of) in points_m.iter().zip(scan) {
+        let said = || PyValueError::new_err(format!("scan {of} has no eye"));
+        each.get_mut(of).ok_or_else(said)?.push(*at_m);
+    }
+    if scan.len() != points_m.len() {
+        return Err(PyValueError::new_err(
+            "scan must be (n,), as points are (n, 2)",
+        ));
+    }
+    Ok(each
+        .iter()
+        .zip(eyes_m)
+        .map(|(points_m, &eye_m)| scan_of(points_m, eye_m))
+        .collect())
 }
 
 /// An occupancy grid of a laser's scans that grows with what is seen. `settings` is JSON: `[navigation.occupancy_2d]`.
@@ -156,20 +180,43 @@ impl PyOccupancyMap {
 /// The lines that points (n, 2), m, lie on: `normal` (k,) rad and `distance` (k,) m of each line, `share` (k,) of the points, those with most
 /// first; `held`: share of the points that some line holds; `criterion`; and where they are: `ends` (m, 4) m, x and y of both ends of
 /// each stretch with points, of `line` (m,). `settings` is JSON: `[plan_view.lines]`.
+///
+/// With `scan` (n,), of which scan each point is, and `eyes` (s, 2) m, from where each was taken, the scans are laid onto the lines as well:
+/// `poses` (s, 3) is where each was taken then, x and y m, and by how much it is turned, rad. `alignment` is JSON: `[plan_view.alignment]`.
 #[pyfunction]
-#[pyo3(signature = (points, settings="{}"))]
+#[pyo3(signature = (points, settings="{}", *, scan=None, eyes=None, alignment="{}"))]
 pub(crate) fn find_lines<'py>(
     py: Python<'py>,
     points: &Bound<'_, PyArray2<f64>>,
     settings: &str,
+    scan: Option<Vec<usize>>,
+    eyes: Option<&Bound<'_, PyArray2<f64>>>,
+    alignment: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
     let config: LineFinderConfig = parse(py, settings)?;
     let finder = LineFinder::new(config).map_err(|error| bad_setting(py, &error))?;
-    let points = places(points)?;
-    let found = run(py, || finder.find(&points))?.map_err(|error| bad_setting(py, &error))?;
+    let mut points = places(points)?;
+    let made = PyDict::new(py);
+    let found = if let (Some(scan), Some(eyes)) = (scan, eyes) {
+        let config: AlignmentConfig = parse(py, alignment)?;
+        let align = LineAlignment::new(config).map_err(|error| bad_setting(py, &error))?;
+        let mut scans = scans_of(&points, &scan, &places(eyes)?)?;
+        let both = run(py, || align.find(&finder, &scans))?;
+        let (found, poses) = both.map_err(|error| bad_setting(py, &error))?;
+        let rows = ndarray::Array2::from_shape_fn((poses.len(), 3), |(row, at)| {
+            [poses[row].x_m, poses[row].y_m, poses[row].yaw_rad][at]
+        });
+        made.set_item("poses", rows.to_pyarray(py))?;
+        for (scan, pose) in scans.iter_mut().zip(poses) {
+            scan.map_from_sensor = pose;
+        }
+        points = scans.iter().flat_map(PlanarScan::ends_m).collect();
+        found
+    } else {
+        run(py, || finder.find(&points))?.map_err(|error| bad_setting(py, &error))?
+    };
     let lines = found.mixture.lines();
     let drawn = run(py, || finder.stretches(&found, &points))?;
-    let made = PyDict::new(py);
     let numbers = |values: Vec<f64>| -> Bound<'py, PyArray1<f64>> { values.into_pyarray(py) };
     made.set_item(
         "normal",

@@ -26,8 +26,9 @@ mod occupancy;
 mod scan;
 
 pub use lines::{
-    Assigned, FoundLines, LineError, LineFinder, LineFinderConfig, LineMixture, LineStretch,
-    PlanarLine, ScanPiece, SplitAndMergeConfig, WeightedPoint, split_and_merge,
+    AlignmentConfig, Assigned, FoundLines, LineAlignment, LineError, LineFinder, LineFinderConfig,
+    LineMixture, LineStretch, PlanarLine, ScanPiece, SplitAndMergeConfig, WeightedPoint,
+    split_and_merge,
 };
 pub use occupancy::{
     BeamLikelihood, BeamLikelihoodConfig, CellBelief, LaserModel, OccupancyConfig, OccupancyError,
@@ -42,4 +43,5 @@ pub const TABLES: &[TableDescription] = &[
     TableDescription::of::<BeamLikelihoodConfig>(),
     TableDescription::of::<SplitAndMergeConfig>(),
     TableDescription::of::<LineFinderConfig>(),
+    TableDescription::of::<AlignmentConfig>(),
 ];
