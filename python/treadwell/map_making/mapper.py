@@ -70,8 +70,8 @@ class Mapper:
         self.unused: Counter[str] = Counter()
         self.seconds: list[float] = []
         self._memory = MapMemory()
-        tables = {**self.sizes.parameters, LINES: request.lines}
-        if self.world_model == LINES and "held" not in request.lines:
+        tables = {**self.sizes.parameters, **request.plan_view}
+        if self.world_model == LINES and "held" not in request.plan_view[LINES]:
             self.sizes.assumed["plan_view.lines.held"] = HELD
         self._plan: PlanView | None = (
             plan_view(self.world_model, self.sizes.cell, tables) if first.layout == "scan" else None

@@ -55,7 +55,8 @@ class MapRequest:
         parameters: table -> key -> value, as in a scenario's `[navigation]`.
         data: how the data is taken.
         ground_filter: key -> value, how a cloud's ground is told from what stands on it.
-        lines: key -> value, how lines are found among a laser's points.
+        plan_view: `lines` and `alignment` -> key -> value, how lines are found among a laser's
+            points, and how its scans are laid onto them.
     """
 
     source: Path
@@ -68,7 +69,7 @@ class MapRequest:
     parameters: dict[str, dict[str, Any]]
     data: MapTable
     ground_filter: dict[str, Any]
-    lines: dict[str, Any]
+    plan_view: dict[str, dict[str, Any]]
 
 
 def read_request(
@@ -125,20 +126,21 @@ def read_request(
         segmenter=navigation.segmenter,
         parameters=navigation.parameters(),
         data=data,
-        ground_filter=_one_table(raw, "classification", "ground_filter"),
-        lines=_one_table(raw, "plan_view", "lines"),
+        ground_filter=_tables(raw, "classification", "ground_filter")["ground_filter"],
+        plan_view=_tables(raw, "plan_view", "lines", "alignment"),
     )
 
 
-def _one_table(raw: dict[str, Any], top: str, name: str) -> dict[str, Any]:
-    """Return the one table of another part of the core, which checks what is in it."""
+def _tables(raw: dict[str, Any], top: str, *names: str) -> dict[str, dict[str, Any]]:
+    """Return the tables of another part of the core that are set; it checks what is in them."""
     tables = raw.get(top, {})
-    if not isinstance(tables, dict) or set(tables) - {name}:
-        raise InputError(f"--set {top}: only {top}.{name}.KEY can be set")
-    table = tables.get(name, {})
-    if not isinstance(table, dict):
-        raise InputError(f"--set {top}.{name}: must be followed by a key")
-    return table
+    if not isinstance(tables, dict) or set(tables) - set(names):
+        keys = " and ".join(f"{top}.{name}.KEY" for name in names)
+        raise InputError(f"--set {top}: only {keys} can be set")
+    for name in names:
+        if not isinstance(tables.get(name, {}), dict):
+            raise InputError(f"--set {top}.{name}: must be followed by a key")
+    return {name: tables.get(name, {}) for name in names}
 
 
 def _is_a_table(word: str) -> None:
