@@ -6,8 +6,8 @@
 `FOLDER` is `TREADWELL_DATA` unless given. The log has corrected poses and no raw odometry: odometry
 is their increments with noise (5 % of the way, 2 degrees + 5 % of the turn), a seed each. Every
 tenth scan is held out: a map is made of the others at the corrected poses, and at those of the
-noisy odometry, and told is the mean logarithm of the density of the held-out ranges, 1/m. Lines are of
-all valid points, with a standard deviation of 3 cm.
+noisy odometry, and told is the mean logarithm of the density of the held-out ranges, 1/m. Lines
+are of all valid points, with a standard deviation of 3 cm.
 """
 
 import argparse

@@ -214,6 +214,8 @@ def test_a_signal_ends_a_map_with_the_frames_that_it_has(pictures: Path, tmp_pat
         (("map.upp=z",), None, "up"),
         ((), "elevatoin", "elevation"),
         ((), "mine:Model", "built in"),
+        ((), "lines", "found in scans of a laser"),
+        (("plan_view.lines=1",), "elevation", "must be followed by a key"),
     ],
 )
 def test_bad_requests_are_refused_by_name_and_leave_nothing(
@@ -251,13 +253,13 @@ def test_a_cloud_is_no_use_to_a_model_that_finds_floors_in_pictures(tmp_path: Pa
         ("rgbd_room", "elevation", 3000),
         ("isprs_ground_filter/samp11-utm.pcd.gz", "elevation", 3000),
         ("real_terrain_clouds/terrain_med.pcd.gz", "elevation", 5000),
-        ("laser2d/intel-lab.log.gz", "points", 20000),
+        ("laser2d/intel-lab.log.gz", "occupancy_2d", 200_000),
     ],
 )
 def test_data_of_others_gives_a_map_by_one_command(
     tmp_path: Path, name: str, model: str, least: int
 ) -> None:
-    chosen = None if model == "points" else model
+    chosen = None if model == "occupancy_2d" else model
     made = mapped(data(name), tmp_path / "map", world_model=chosen)
     known = made.result.cells.floor + made.result.cells.obstacle
     assert made.result.world_model == model

@@ -83,6 +83,26 @@ def test_a_log_is_mapped_as_the_lines_of_its_walls(log: Path, tmp_path: Path) ->
     assert (out / "map.png").stat().st_size > 10_000
 
 
+def test_scans_that_are_laid_onto_the_lines_have_walls_where_they_are(tmp_path: Path) -> None:
+    numbers = np.random.default_rng(0)
+    scans = []
+    for number in range(20):
+        x, y, yaw = 0.05 * number - 0.4, 0.03 * number - 0.3, 0.8 * number
+        off = numbers.normal(0.0, [0.015, 0.015, 0.005])
+        given = f"{x + off[0]} {y + off[1]} {yaw + off[2]}"
+        scans.append(line(ranges(x, y, yaw), given, 1.0 + number))
+    log = tmp_path / "off.log"
+    log.write_text("".join(scans))
+    held = []
+    for number, align in enumerate(((), ("plan_view.alignment.rounds=3",))):
+        settings = ("plan_view.lines.held=1", "plan_view.lines.most_lines=4", *align)
+        out = tmp_path / str(number)
+        found = mapped(log, out, *settings, "plan_view.lines.sigma=0.01", world_model="lines")
+        assert found.result.lines is not None
+        held.append(found.result.lines.held)
+    assert held[1] > held[0] + 0.1
+
+
 def test_lines_far_from_the_origin_are_where_their_points_are(tmp_path: Path) -> None:
     path = tmp_path / "far.log"
     poses = [(512_000.0, 5_403_000.0, 0.8 * number) for number in range(8)]
@@ -116,6 +136,7 @@ def test_scans_of_changing_size_and_ranges_that_are_none_are_mapped_as_far_as_th
         (("occupancy_2d.free=0.7",), None, "navigation.occupancy_2d.free must be < prior"),
         (("plan_view.lines.sigma=0",), "lines", "plan_view.lines.sigma must be > 0"),
         (("plan_view.line.sigma=1",), "lines", "only plan_view.lines.KEY"),
+        (("plan_view.alignment.steps=0",), "lines", "plan_view.alignment.steps"),
         (("occupancy_2d.most_cells=100",), None, "most_cells"),
     ],
 )

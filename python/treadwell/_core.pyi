@@ -69,7 +69,14 @@ _Footstep = tuple[str, float, float, float, float, float, float]
 
 def components() -> list[tuple[str, str, str, str | None]]: ...
 def distances(blocked: NDArray[np.bool_], /) -> NDArray[np.float32]: ...
-def find_lines(points: NDArray[np.float64], settings: str = "{}") -> dict[str, Any]: ...
+def find_lines(
+    points: NDArray[np.float64],
+    settings: str = "{}",
+    *,
+    scan: Sequence[int] | None = None,
+    eyes: NDArray[np.float64] | None = None,
+    alignment: str = "{}",
+) -> dict[str, Any]: ...
 def gait_statistics(
     angular_velocity: NDArray[np.float64],
     specific_force: NDArray[np.float64],
@@ -336,6 +343,13 @@ class WorldModel:
 class OccupancyMap:
     def __new__(cls, settings: str = "{}") -> OccupancyMap: ...
     def insert(self, points: NDArray[np.float64], eye: tuple[float, float]) -> int: ...
+    def insert_sonar(
+        self,
+        pose: tuple[float, float, float],
+        bearings: Sequence[float],
+        ranges: Sequence[float],
+        settings: str = "{}",
+    ) -> int: ...
     def cells(
         self,
     ) -> tuple[tuple[float, float], float, NDArray[np.float32], NDArray[np.uint16]]: ...

@@ -33,7 +33,10 @@ def map_(  # noqa: PLR0913 - one an option
     world_model: Annotated[
         str | None,
         typer.Option(
-            "--world-model", metavar="NAME", help="Default: fog of pictures, elevation of clouds."
+            "--world-model",
+            metavar="NAME",
+            help="Default: fog of pictures, elevation of clouds, occupancy_2d of a laser's scans; "
+            "of those also lines, points.",
         ),
     ] = None,
     localizer: Annotated[

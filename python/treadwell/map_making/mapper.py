@@ -72,8 +72,8 @@ class Mapper:
         self.unused: Counter[str] = Counter()
         self.seconds: list[float] = []
         self._memory = MapMemory()
-        tables = {**self.sizes.parameters, LINES: request.lines}
-        if self.world_model == LINES and "held" not in request.lines:
+        tables = {**self.sizes.parameters, **request.plan_view}
+        if self.world_model == LINES and "held" not in request.plan_view[LINES]:
             self.sizes.assumed["plan_view.lines.held"] = HELD
         self._plan: PlanView | None = (
             plan_view(self.world_model, self.sizes.cell, tables) if first.layout == "scan" else None
@@ -146,7 +146,9 @@ class Mapper:
         """Return places and ways, in the frame of the world, where the model has them."""
         if self._plan is None or self.world_model != TOPOLOGY:
             return None
-        return Topology.of(self._plan.map(), self._request.topology, self.place.offset[:2])
+        return Topology.of(
+            self._plan.map(), self._request.plan_view[TOPOLOGY], self.place.offset[:2]
+        )
 
     def voxels(self) -> NDArray[np.float32]:
         """Return middle and side of each occupied cube, (n, 4) m."""

@@ -18,6 +18,7 @@ OCCUPANCY: Final = "occupancy_2d"
 LINES: Final = "lines"
 TOPOLOGY: Final = "topology"
 POINTS: Final = "points"
+ALIGNMENT: Final = "alignment"
 SCAN_MODELS: Final = (OCCUPANCY, LINES, TOPOLOGY, POINTS)
 """World models of scans; the first where none is named."""
 HELD: Final = 0.9
@@ -147,26 +148,33 @@ class ScanOccupancy:
 class ScanLines(ScanPoints):
     """The lines that the points lie on (handbook, section 36.2.2), found when asked for."""
 
-    def __init__(self, cell: float, settings: Mapping[str, Any]) -> None:
+    def __init__(
+        self, cell: float, settings: Mapping[str, Any], alignment: Mapping[str, Any]
+    ) -> None:
         """Begin with nothing.
 
         Args:
             cell: m, side of the cells in which the points are shown.
             settings: key -> value of `[plan_view.lines]`.
+            alignment: key -> value of `[plan_view.alignment]`; where nothing is set, the scans stay
+                where they are.
 
         Raises:
             InputError: one of them cannot be used.
         """
         super().__init__(cell)
         self._settings = json.dumps(dict(settings))
-        find_lines(np.zeros((0, 2)), self._settings)
+        self._alignment = json.dumps(dict(alignment)) if alignment else None
+        self._find(np.zeros((0, 2)), [], np.zeros((0, 2)))
         self._scans: list[NDArray[np.float64]] = []
+        self._eyes: list[NDArray[np.float64]] = []
         self._found: MappedLines | None = None
 
     def insert(self, points: NDArray[np.float64], eye: NDArray[np.float64]) -> bool:
         """Take in a scan; whether it said anything."""
         seen = points[np.isfinite(points).all(axis=1), :2]
         self._scans.append(seen)
+        self._eyes.append(eye[:2])
         self._found = None
         return super().insert(points, eye)
 
@@ -174,19 +182,28 @@ class ScanLines(ScanPoints):
         """Return the lines of all scans."""
         if self._found is None:
             points = np.concatenate(self._scans) if self._scans else np.zeros((0, 2))
-            found = find_lines(np.ascontiguousarray(points), self._settings)
-            of, ends = found["line"], found["ends"]
+            of = [at for at, scan in enumerate(self._scans) for _ in scan]
+            eyes = np.array(self._eyes, np.float64).reshape(-1, 2)
+            found = self._find(np.ascontiguousarray(points), of, eyes)
+            line, ends = found["line"], found["ends"]
             each = [
                 MappedLine(
                     normal=float(found["normal"][at]),
                     distance=float(found["distance"][at]),
                     share=float(found["share"][at]),
-                    stretches=[tuple(row) for row in ends[of == at].tolist()],
+                    stretches=[tuple(row) for row in ends[line == at].tolist()],
                 )
                 for at in range(len(found["normal"]))
             ]
             self._found = MappedLines(count=len(each), held=float(found["held"]), each=each)
         return self._found
+
+    def _find(
+        self, points: NDArray[np.float64], scan: list[int], eyes: NDArray[np.float64]
+    ) -> dict[str, Any]:
+        if self._alignment is None:
+            return find_lines(points, self._settings)
+        return find_lines(points, self._settings, scan=scan, eyes=eyes, alignment=self._alignment)
 
 
 def plan_view(world_model: str, cell: float, settings: Mapping[str, Mapping[str, Any]]) -> PlanView:
@@ -195,7 +212,7 @@ def plan_view(world_model: str, cell: float, settings: Mapping[str, Mapping[str,
     Args:
         world_model: one of `SCAN_MODELS`.
         cell: m, side of a cell.
-        settings: table -> key -> value: `occupancy_2d` and `lines`.
+        settings: table -> key -> value: `occupancy_2d`, `lines` and `alignment`.
 
     Raises:
         InputError: a setting cannot be used.
@@ -205,7 +222,8 @@ def plan_view(world_model: str, cell: float, settings: Mapping[str, Mapping[str,
     if world_model == TOPOLOGY:
         return ScanOccupancy({"cell": cell, **settings.get(OCCUPANCY, {})})
     if world_model == LINES:
-        return ScanLines(cell, {"held": HELD, **settings.get(LINES, {})})
+        lines = {"held": HELD, **settings.get(LINES, {})}
+        return ScanLines(cell, lines, settings.get(ALIGNMENT, {}))
     return ScanPoints(cell)
 
 

@@ -55,8 +55,8 @@ class MapRequest:
         parameters: table -> key -> value, as in a scenario's `[navigation]`.
         data: how the data is taken.
         ground_filter: key -> value, how a cloud's ground is told from what stands on it.
-        lines: key -> value, how lines are found among a laser's points.
-        topology: key -> value, what is a place, a way and a room in a laser's map.
+        plan_view: `lines`, `alignment` and `topology` -> key -> value, how lines are found among a
+            laser's points, how its scans are laid onto them, and what is a place, a way, a room.
     """
 
     source: Path
@@ -69,8 +69,7 @@ class MapRequest:
     parameters: dict[str, dict[str, Any]]
     data: MapTable
     ground_filter: dict[str, Any]
-    lines: dict[str, Any]
-    topology: dict[str, Any]
+    plan_view: dict[str, dict[str, Any]]
 
 
 def read_request(
@@ -117,7 +116,6 @@ def read_request(
         found = dict(tables) if error.title == "Navigation" else raw.get("map", {})
         lines = [describe(detail, found) for detail in error.errors(include_url=False)]
         raise InputError(report("--set", list(dict.fromkeys(lines)))) from None
-    lines, topology = _tables(raw, "plan_view", "lines", "topology")
     return MapRequest(
         source=source,
         world_model=named,
@@ -128,22 +126,21 @@ def read_request(
         segmenter=navigation.segmenter,
         parameters=navigation.parameters(),
         data=data,
-        ground_filter=_tables(raw, "classification", "ground_filter")[0],
-        lines=lines,
-        topology=topology,
+        ground_filter=_tables(raw, "classification", "ground_filter")["ground_filter"],
+        plan_view=_tables(raw, "plan_view", "lines", "alignment", "topology"),
     )
 
 
-def _tables(raw: dict[str, Any], top: str, *names: str) -> list[dict[str, Any]]:
-    """Return tables of another part of the core, which checks what is in them."""
+def _tables(raw: dict[str, Any], top: str, *names: str) -> dict[str, dict[str, Any]]:
+    """Return the tables of another part of the core that are set; it checks what is in them."""
     tables = raw.get(top, {})
     if not isinstance(tables, dict) or set(tables) - set(names):
-        allowed = " and ".join(f"{top}.{name}.KEY" for name in names)
-        raise InputError(f"--set {top}: only {allowed} can be set")
+        keys = " and ".join(f"{top}.{name}.KEY" for name in names)
+        raise InputError(f"--set {top}: only {keys} can be set")
     for name in names:
         if not isinstance(tables.get(name, {}), dict):
             raise InputError(f"--set {top}.{name}: must be followed by a key")
-    return [tables.get(name, {}) for name in names]
+    return {name: tables.get(name, {}) for name in names}
 
 
 def _is_a_table(word: str) -> None:

@@ -5,8 +5,9 @@ use numpy::{
     IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods, ToPyArray, ndarray,
 };
 use plan_view::{
-    BeamLikelihood, BeamLikelihoodConfig, LineFinder, LineFinderConfig, OccupancyConfig,
-    OccupancyMap, PlanarBeam, PlanarScan,
+    AlignmentConfig, BeamLikelihood, BeamLikelihoodConfig, LineAlignment, LineFinder,
+    LineFinderConfig, OccupancyConfig, OccupancyMap, PlanarBeam, PlanarScan, SonarConfig,
+    SonarModel,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -47,6 +48,29 @@ fn scan_of(points_m: &[[f64; 2]], eye_m: [f64; 2]) -> PlanarScan {
     }
 }
 
+/// Scans of points in the map, m: of which scan each is, and from where each scan was taken, m.
+fn scans_of(
+    points_m: &[[f64; 2]],
+    scan: &[usize],
+    eyes_m: &[[f64; 2]],
+) -> PyResult<Vec<PlanarScan>> {
+    let mut each = vec![Vec::new(); eyes_m.len()];
+    for (at_m, &of) in points_m.iter().zip(scan) {
+        let said = || PyValueError::new_err(format!("scan {of} has no eye"));
+        each.get_mut(of).ok_or_else(said)?.push(*at_m);
+    }
+    if scan.len() != points_m.len() {
+        return Err(PyValueError::new_err(
+            "scan must be (n,), as points are (n, 2)",
+        ));
+    }
+    Ok(each
+        .iter()
+        .zip(eyes_m)
+        .map(|(points_m, &eye_m)| scan_of(points_m, eye_m))
+        .collect())
+}
+
 /// An occupancy grid of a laser's scans that grows with what is seen. `settings` is JSON: `[navigation.occupancy_2d]`.
 #[pyclass(name = "OccupancyMap", module = "treadwell._core")]
 pub(crate) struct PyOccupancyMap(OccupancyMap);
@@ -72,6 +96,34 @@ impl PyOccupancyMap {
         let map = &mut self.0;
         let counts = run(py, || map.insert(&scan))?.map_err(|error| bad_setting(py, &error))?;
         Ok(counts.used)
+    }
+
+    /// Takes in measurements of sonars at `pose` (x, y m and heading rad): their directions from there, rad, and ranges, m, NaN for nothing heard.
+    /// `settings` is JSON: `[plan_view.sonar]`.
+    #[pyo3(signature = (pose, bearings, ranges, settings="{}"))]
+    fn insert_sonar(
+        &mut self,
+        py: Python<'_>,
+        pose: [f64; 3],
+        bearings: Vec<f64>,
+        ranges: Vec<f64>,
+        settings: &str,
+    ) -> PyResult<usize> {
+        let config: SonarConfig = parse(py, settings)?;
+        let model = SonarModel::new(config).map_err(|error| bad_setting(py, &error))?;
+        let beam = |(bearing_rad, range_m): (f64, f64)| {
+            PlanarBeam::new(
+                bearing_rad,
+                Some(range_m).filter(|range_m| !range_m.is_nan()),
+            )
+        };
+        let scan = PlanarScan {
+            map_from_sensor: PlanarPose::new(pose[0], pose[1], pose[2]),
+            beams: bearings.into_iter().zip(ranges).map(beam).collect(),
+        };
+        let map = &mut self.0;
+        let counts = run(py, || map.insert_sonar(&scan, &model))?;
+        Ok(counts.map_err(|error| bad_setting(py, &error))?.used)
     }
 
     /// Lower-left corner, m, side of a cell, m, and for each cell [row, col] the probability that it is occupied, float32, NaN where nothing was
@@ -128,20 +180,43 @@ impl PyOccupancyMap {
 /// The lines that points (n, 2), m, lie on: `normal` (k,) rad and `distance` (k,) m of each line, `share` (k,) of the points, those with most
 /// first; `held`: share of the points that some line holds; `criterion`; and where they are: `ends` (m, 4) m, x and y of both ends of
 /// each stretch with points, of `line` (m,). `settings` is JSON: `[plan_view.lines]`.
+///
+/// With `scan` (n,), of which scan each point is, and `eyes` (s, 2) m, from where each was taken, the scans are laid onto the lines as well:
+/// `poses` (s, 3) is where each was taken then, x and y m, and by how much it is turned, rad. `alignment` is JSON: `[plan_view.alignment]`.
 #[pyfunction]
-#[pyo3(signature = (points, settings="{}"))]
+#[pyo3(signature = (points, settings="{}", *, scan=None, eyes=None, alignment="{}"))]
 pub(crate) fn find_lines<'py>(
     py: Python<'py>,
     points: &Bound<'_, PyArray2<f64>>,
     settings: &str,
+    scan: Option<Vec<usize>>,
+    eyes: Option<&Bound<'_, PyArray2<f64>>>,
+    alignment: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
     let config: LineFinderConfig = parse(py, settings)?;
     let finder = LineFinder::new(config).map_err(|error| bad_setting(py, &error))?;
-    let points = places(points)?;
-    let found = run(py, || finder.find(&points))?.map_err(|error| bad_setting(py, &error))?;
+    let mut points = places(points)?;
+    let made = PyDict::new(py);
+    let found = if let (Some(scan), Some(eyes)) = (scan, eyes) {
+        let config: AlignmentConfig = parse(py, alignment)?;
+        let align = LineAlignment::new(config).map_err(|error| bad_setting(py, &error))?;
+        let mut scans = scans_of(&points, &scan, &places(eyes)?)?;
+        let both = run(py, || align.find(&finder, &scans))?;
+        let (found, poses) = both.map_err(|error| bad_setting(py, &error))?;
+        let rows = ndarray::Array2::from_shape_fn((poses.len(), 3), |(row, at)| {
+            [poses[row].x_m, poses[row].y_m, poses[row].yaw_rad][at]
+        });
+        made.set_item("poses", rows.to_pyarray(py))?;
+        for (scan, pose) in scans.iter_mut().zip(poses) {
+            scan.map_from_sensor = pose;
+        }
+        points = scans.iter().flat_map(PlanarScan::ends_m).collect();
+        found
+    } else {
+        run(py, || finder.find(&points))?.map_err(|error| bad_setting(py, &error))?
+    };
     let lines = found.mixture.lines();
     let drawn = run(py, || finder.stretches(&found, &points))?;
-    let made = PyDict::new(py);
     let numbers = |values: Vec<f64>| -> Bound<'py, PyArray1<f64>> { values.into_pyarray(py) };
     made.set_item(
         "normal",

@@ -20,14 +20,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use settings::TableDescription;
+
 mod lines;
 mod occupancy;
 mod scan;
 mod topology;
 
 pub use lines::{
-    Assigned, FoundLines, LineError, LineFinder, LineFinderConfig, LineMixture, LineStretch,
-    PlanarLine, ScanPiece, SplitAndMergeConfig, WeightedPoint, split_and_merge,
+    AlignmentConfig, Assigned, FoundLines, LineAlignment, LineError, LineFinder, LineFinderConfig,
+    LineMixture, LineStretch, PlanarLine, ScanPiece, SplitAndMergeConfig, WeightedPoint,
+    split_and_merge,
 };
 pub use occupancy::{
     BeamLikelihood, BeamLikelihoodConfig, CellBelief, LaserModel, OccupancyConfig, OccupancyError,
@@ -38,3 +41,13 @@ pub use scan::{PlanarBeam, PlanarScan, SweptBeam};
 pub use topology::{
     Doorway, GraphPlace, GraphPlan, GraphWay, Rooms, VoronoiGraph, VoronoiGraphConfig,
 };
+
+/// The tables of settings of what is no world model of a robot's.
+pub const TABLES: &[TableDescription] = &[
+    TableDescription::of::<SonarConfig>(),
+    TableDescription::of::<BeamLikelihoodConfig>(),
+    TableDescription::of::<SplitAndMergeConfig>(),
+    TableDescription::of::<LineFinderConfig>(),
+    TableDescription::of::<AlignmentConfig>(),
+    TableDescription::of::<VoronoiGraphConfig>(),
+];

@@ -168,5 +168,5 @@ fn looking_up_a_cell_takes_no_longer_in_a_large_map() {
         best
     };
     let (small, large) = (time(100), time(2000));
-    assert!(large < 3.0 * small, "{small} s and {large} s");
+    assert!(large < 5.0 * small, "{small} s and {large} s");
 }

@@ -1,5 +1,6 @@
 //! Lines: the walls of a room in a few numbers, where a grid takes thousands (004, section 36.2.2).
 
+mod alignment;
 mod config;
 mod finder;
 mod line;
@@ -11,6 +12,7 @@ mod stretches;
 mod thinned;
 mod widest;
 
+pub use alignment::{AlignmentConfig, LineAlignment};
 pub use config::LineFinderConfig;
 pub use finder::{LineError, LineFinder};
 pub use line::{PlanarLine, WeightedPoint};
