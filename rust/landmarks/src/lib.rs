@@ -1,0 +1,21 @@
+//! Maps of landmarks (handbook, section 36.2.4): K small Gaussians where the robot's place is known, and FastSLAM on top where it is not.
+
+mod config;
+mod fast_slam;
+mod landmark;
+mod landmark_map;
+mod sighting;
+
+pub use config::LandmarksConfig;
+pub use fast_slam::{FastSlam, FastSlamConfig, OdometryStep};
+pub use landmark::Landmark;
+pub use landmark_map::LandmarkMap;
+pub use sighting::{ExpectedReading, LandmarkReading, RangeBearing};
+
+use settings::TableDescription;
+
+/// The tables of settings of this crate.
+pub const TABLES: &[TableDescription] = &[
+    TableDescription::of::<FastSlamConfig>(),
+    TableDescription::of::<LandmarksConfig>(),
+];
