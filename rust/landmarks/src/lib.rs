@@ -4,12 +4,14 @@ mod config;
 mod fast_slam;
 mod landmark;
 mod landmark_map;
+mod selection;
 mod sighting;
 
 pub use config::LandmarksConfig;
 pub use fast_slam::{FastSlam, FastSlamConfig, OdometryStep};
 pub use landmark::Landmark;
 pub use landmark_map::LandmarkMap;
+pub use selection::{SelectionConfig, most_useful};
 pub use sighting::{ExpectedReading, LandmarkReading, RangeBearing};
 
 use settings::TableDescription;
@@ -18,4 +20,5 @@ use settings::TableDescription;
 pub const TABLES: &[TableDescription] = &[
     TableDescription::of::<FastSlamConfig>(),
     TableDescription::of::<LandmarksConfig>(),
+    TableDescription::of::<SelectionConfig>(),
 ];

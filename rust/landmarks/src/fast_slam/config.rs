@@ -8,7 +8,7 @@ const MOST_PARTICLES: f64 = 1e5;
 settings! {
     /// Localization while landmarks are mapped: particles of the robot's way, each with a map of its own. Noise that grows is given per square root of a
     /// metre of way, of a radian of turn, and of a second.
-    pub struct FastSlamConfig("navigation.fast_slam") {
+    pub struct FastSlamConfig("landmarks.fast_slam") {
         /// How many particles there are.
         particles: usize = 50, "1", within(1.0, MOST_PARTICLES), "36.8";
         /// Seed of all that is drawn.

@@ -7,7 +7,7 @@ use super::{FastSlamConfig, OdometryStep};
 use crate::landmark_map::{LandmarkMap, Matched, Pairing};
 use crate::sighting::LandmarkReading;
 
-/// x (m), y (m), heading (rad), and what the odometry's ways, turns to the left and turns to the right are to be multiplied by.
+/// The pose, x (m), y (m) and heading (rad), and what the odometry's ways, turns to the left and turns to the right are to be multiplied by.
 type PoseAndScales = SVector<f64, 6>;
 type Covariance = SMatrix<f64, 6, 6>;
 

@@ -136,7 +136,7 @@ impl LandmarkMap {
             .zip(seen)
             .filter(|(_, seen)| !**seen)
         {
-            if landmark.is_apart(gone, config) && in_view(robot, &landmark.at_m, config) {
+            if landmark.is_apart(gone, config) && config.in_view(robot, &landmark.at_m) {
                 let landmark = Arc::make_mut(landmark);
                 landmark.look(false, config);
                 landmark.gone = gone;
@@ -248,16 +248,4 @@ impl LandmarkMap {
 
 fn distance_m(robot: &PlanarPose, at_m: &Vector2<f64>) -> f64 {
     geometry::hypot(at_m.x - robot.x_m, at_m.y - robot.y_m)
-}
-
-/// Whether a place, m, is where the sensor would see a landmark.
-fn in_view(robot: &PlanarPose, at_m: &Vector2<f64>, config: &LandmarksConfig) -> bool {
-    ExpectedReading::of(robot, at_m).is_some_and(|expected| {
-        let RangeBearing {
-            range_m,
-            bearing_rad,
-        } = expected.reading;
-        let [near_m, far_m] = config.reach;
-        (near_m..=far_m).contains(&range_m) && bearing_rad.abs() <= config.view
-    })
 }
