@@ -4,6 +4,7 @@ mod config;
 mod fast_slam;
 mod landmark;
 mod landmark_map;
+mod recognition;
 mod selection;
 mod sighting;
 
@@ -11,6 +12,7 @@ pub use config::LandmarksConfig;
 pub use fast_slam::{FastSlam, FastSlamConfig, OdometryStep};
 pub use landmark::Landmark;
 pub use landmark_map::LandmarkMap;
+pub use recognition::{LookingLike, Recognised, RecognitionConfig, recognise};
 pub use selection::{SelectionConfig, most_useful};
 pub use sighting::{ExpectedReading, LandmarkReading, RangeBearing};
 
@@ -20,5 +22,6 @@ use settings::TableDescription;
 pub const TABLES: &[TableDescription] = &[
     TableDescription::of::<FastSlamConfig>(),
     TableDescription::of::<LandmarksConfig>(),
+    TableDescription::of::<RecognitionConfig>(),
     TableDescription::of::<SelectionConfig>(),
 ];
