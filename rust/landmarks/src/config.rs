@@ -2,11 +2,7 @@
 
 use core::f64::consts::PI;
 
-use geometry::PlanarPose;
-use nalgebra::Vector2;
 use settings::{ANY, POSITIVE, SHARE, at_least, between, settings, within};
-
-use crate::sighting::ExpectedReading;
 
 settings! {
     /// Landmarks that are seen by range and bearing.
@@ -45,14 +41,5 @@ impl LandmarksConfig {
     /// The squared Mahalanobis distance within which a share of two-dimensional errors lies (chi-squared with two degrees of freedom).
     pub fn squared_distance(share: f64) -> f64 {
         -2.0 * libm::log(1.0 - share)
-    }
-
-    /// Whether a place, m, is where the sensor would see a landmark.
-    pub(crate) fn in_view(&self, robot: &PlanarPose, at_m: &Vector2<f64>) -> bool {
-        ExpectedReading::of(robot, at_m).is_some_and(|expected| {
-            let [near_m, far_m] = self.reach;
-            let seen = expected.reading;
-            (near_m..=far_m).contains(&seen.range_m) && seen.bearing_rad.abs() <= self.view
-        })
     }
 }

@@ -1,6 +1,7 @@
 //! Maps of landmarks (handbook, section 36.2.4): K small Gaussians where the robot's place is known, and FastSLAM on top where it is not.
 
 mod config;
+mod extraction;
 mod fast_slam;
 mod landmark;
 mod landmark_map;
@@ -9,6 +10,7 @@ mod selection;
 mod sighting;
 
 pub use config::LandmarksConfig;
+pub use extraction::{ExtractionConfig, StandingThing, ThingShape, standing_things};
 pub use fast_slam::{FastSlam, FastSlamConfig, OdometryStep};
 pub use landmark::Landmark;
 pub use landmark_map::LandmarkMap;
@@ -20,6 +22,7 @@ use settings::TableDescription;
 
 /// The tables of settings of this crate.
 pub const TABLES: &[TableDescription] = &[
+    TableDescription::of::<ExtractionConfig>(),
     TableDescription::of::<FastSlamConfig>(),
     TableDescription::of::<LandmarksConfig>(),
     TableDescription::of::<RecognitionConfig>(),

@@ -5,7 +5,7 @@ use geometry::PlanarPose;
 use nalgebra::{Matrix3, Vector3};
 use settings::{ConfigError, POSITIVE, Table, settings};
 
-use crate::sighting::ExpectedReading;
+use crate::sighting::{ExpectedReading, in_view};
 use crate::{Landmark, LandmarksConfig};
 
 settings! {
@@ -79,7 +79,7 @@ fn information(
     robot: &PlanarPose,
     config: &LandmarksConfig,
 ) -> Option<Matrix3<f64>> {
-    if !config.in_view(robot, &landmark.at_m) {
+    if !in_view(robot, &landmark.at_m, config) {
         return None;
     }
     let expected = ExpectedReading::of(robot, &landmark.at_m)?;
@@ -192,7 +192,7 @@ mod tests {
         config: &LandmarksConfig,
     ) -> Option<LandmarkReading> {
         let [range, bearing] = random.normals();
-        let is_seen = random.uniform() < config.seen && config.in_view(robot, at);
+        let is_seen = random.uniform() < config.seen && in_view(robot, at, config);
         let at = ExpectedReading::of(robot, at)?.reading;
         let at = RangeBearing {
             range_m: at.range_m + config.range_noise * range,

@@ -104,3 +104,12 @@ pub(crate) fn noise(config: &LandmarksConfig) -> Matrix2<f64> {
     let variances = [config.range_noise, config.bearing_noise].map(|sd| sd * sd);
     Matrix2::from_diagonal(&Vector2::from(variances))
 }
+
+/// Whether a place, m, is where the sensor would see a landmark.
+pub(crate) fn in_view(robot: &PlanarPose, at_m: &Vector2<f64>, config: &LandmarksConfig) -> bool {
+    ExpectedReading::of(robot, at_m).is_some_and(|expected| {
+        let [near_m, far_m] = config.reach;
+        let seen = expected.reading;
+        (near_m..=far_m).contains(&seen.range_m) && seen.bearing_rad.abs() <= config.view
+    })
+}

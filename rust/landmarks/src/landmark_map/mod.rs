@@ -11,7 +11,7 @@ use geometry::PlanarPose;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 use settings::{ConfigError, Table};
 
-use crate::sighting::{ExpectedReading, LandmarkReading, RangeBearing, noise};
+use crate::sighting::{ExpectedReading, LandmarkReading, RangeBearing, in_view, noise};
 use crate::{Landmark, LandmarksConfig};
 
 /// What a reading is taken for.
@@ -136,7 +136,7 @@ impl LandmarkMap {
             .zip(seen)
             .filter(|(_, seen)| !**seen)
         {
-            if landmark.is_apart(gone, config) && config.in_view(robot, &landmark.at_m) {
+            if landmark.is_apart(gone, config) && in_view(robot, &landmark.at_m, config) {
                 let landmark = Arc::make_mut(landmark);
                 landmark.look(false, config);
                 landmark.gone = gone;

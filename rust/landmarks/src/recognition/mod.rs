@@ -62,7 +62,7 @@ pub fn recognise(
     config: &RecognitionConfig,
 ) -> Result<Option<Recognised>, ConfigError> {
     config.check()?;
-    let search = Search::new(seen, known, config);
+    let search = Recogniser::new(seen, known, config);
     let mut best: Option<Recognised> = None;
     let mut other: Option<Recognised> = None;
     for found in search
@@ -96,7 +96,7 @@ pub fn recognise(
 }
 
 /// What is compared.
-struct Search<'a> {
+struct Recogniser<'a> {
     seen: &'a [LookingLike],
     known: &'a [LookingLike],
     config: &'a RecognitionConfig,
@@ -108,7 +108,7 @@ struct Search<'a> {
     needed: usize,
 }
 
-impl<'a> Search<'a> {
+impl<'a> Recogniser<'a> {
     fn new(
         seen: &'a [LookingLike],
         known: &'a [LookingLike],
