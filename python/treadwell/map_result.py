@@ -36,6 +36,23 @@ class MappedCells(Strict):
     """Within the map's bounds, and never seen."""
 
 
+class MappedLandmark(Strict):
+    """A landmark on the plane."""
+
+    x: float
+    """m."""
+    y: float
+    """m."""
+    covariance: tuple[float, float, float]
+    """Of x and y: xx, xy, yy, m²."""
+    name: int | None
+    """What the source calls it; none where names were withheld."""
+    probability: float
+    """That it is there."""
+    readings: int
+    """How many readings of it were taken in."""
+
+
 class Times(Strict):
     """Milliseconds of the clock a frame."""
 
@@ -74,8 +91,10 @@ class MapResult(Strict):
     """Whether it was ended before the source was."""
     cells: MappedCells
     """Cells of the map by kind."""
+    landmarks: list[MappedLandmark] | None = None
+    """In a map of landmarks: their places, in the frame in which the robot starts at 0, 0, 0."""
     cell: float
-    """Side of a cell, m."""
+    """Side of a cell, m; 0 of a map that has none."""
     origin: tuple[float, float]
     """Lower-left corner of the map, m, in the source's world, turned so that z is up."""
     settings: dict[str, Any]

@@ -26,14 +26,16 @@ def map_(  # noqa: PLR0913 - one an option
         typer.Argument(
             metavar="SOURCE",
             help="A run, depth images or clouds with poses, one cloud, a height image, a laser "
-            "log, a bag.",
+            "log, ranges and bearings, a bag.",
         ),
     ],
     *,
     world_model: Annotated[
         str | None,
         typer.Option(
-            "--world-model", metavar="NAME", help="Default: fog of pictures, elevation of clouds."
+            "--world-model",
+            metavar="NAME",
+            help="Default: fog of pictures, elevation of clouds, landmarks of ranges and bearings.",
         ),
     ] = None,
     localizer: Annotated[
@@ -107,17 +109,25 @@ def map_(  # noqa: PLR0913 - one an option
 
 
 def _show(result: "MapResult") -> None:
-    cells = result.cells
     rows: list[tuple[str, object]] = [
         ("source", f"{result.source.kind}, {result.source.path}"),
         ("frames used", f"{result.frames_used} of {result.frames}"),
         *((f"unused: {reason}", count) for reason, count in result.unused.items()),
-        ("cells of", f"{1e3 * result.cell:g} mm"),
-        ("floor, obstacle", f"{cells.floor}, {cells.obstacle} cells"),
+        *_of_what(result),
         ("a frame, median", f"{result.timing_ms['map'].median:.2f} ms"),
         *((f"set by the data: {key}", value) for key, value in result.assumed.items()),
     ]
     write_table(f"{result.source.path} by {result.world_model}", ("", ""), rows)
+
+
+def _of_what(result: "MapResult") -> list[tuple[str, object]]:
+    if result.landmarks is not None:
+        return [("landmarks", len(result.landmarks))]
+    cells = result.cells
+    return [
+        ("cells of", f"{1e3 * result.cell:g} mm"),
+        ("floor, obstacle", f"{cells.floor}, {cells.obstacle} cells"),
+    ]
 
 
 class FrameLine:

@@ -13,12 +13,15 @@ from treadwell.scenario.messages import describe, nearest, report, shortened
 from treadwell.scenario.model import Navigation
 from treadwell.scenario.overrides import assign, parse_setting, split_key
 from treadwell.scenario.types import Table
+from treadwell.sources.landmark_log import ROBOTS
 from treadwell.sources.source import POSE_WITHIN_S
 
 Up = Literal["x", "-x", "y", "-y", "z", "-z"]
 PICTURES, POINTS, SCANS = "fog", "elevation", "points"
 """World models where none is named: of depth images, of clouds; how scans are shown."""
-_TOP: Final = ("map", "navigation", "classification")
+LANDMARKS: Final = "landmarks"
+"""A model for maps alone, of ranges and bearings."""
+_TOP: Final = ("map", "navigation", "classification", LANDMARKS)
 _SLOTS: Final = ("world_model", "segmenter")
 
 
@@ -34,6 +37,8 @@ class MapTable(Table):
     `classification.ground_filter`; `all` takes all; `auto` filters landscapes from above."""
     baseline: Annotated[float, Field(ge=1e-3, le=10.0)] = 0.075
     """Depths are taken to be as precise as eyes so far apart see them, m."""
+    robots: Annotated[int, Field(ge=0, lt=2**31)] = ROBOTS
+    """Of ranges and bearings, the subjects up to this number are robots and no landmarks."""
     columns: Annotated[int, Field(ge=16, le=4096)] = 160
     """Surfaces are found in pictures of so many columns at most: blocks of wider ones are one."""
 
@@ -53,6 +58,7 @@ class MapRequest:
         parameters: table -> key -> value, as in a scenario's `[navigation]`.
         data: how the data is taken.
         ground_filter: key -> value, how a cloud's ground is told from what stands on it.
+        landmarks: table -> key -> value, how landmarks are found, of `[landmarks]`.
     """
 
     source: Path
@@ -65,6 +71,7 @@ class MapRequest:
     parameters: dict[str, dict[str, Any]]
     data: MapTable
     ground_filter: dict[str, Any]
+    landmarks: dict[str, Any]
 
 
 def read_request(
@@ -102,7 +109,7 @@ def read_request(
         assign(raw, key, value)
     tables = dict(raw.get("navigation", {}))
     named = tables.pop("world_model", None) if world_model is None else world_model
-    if named is not None:
+    if named not in (None, LANDMARKS):
         tables["world_model"] = named
     try:
         navigation = Navigation.model_validate(tables)
@@ -122,6 +129,7 @@ def read_request(
         parameters=navigation.parameters(),
         data=data,
         ground_filter=_filter(raw.get("classification", {})),
+        landmarks=_landmarks(raw.get(LANDMARKS, {})),
     )
 
 
@@ -135,10 +143,19 @@ def _filter(raw: object) -> dict[str, Any]:
     return table
 
 
+def _landmarks(raw: object) -> dict[str, Any]:
+    """Return the tables of the filter; the core refuses what it does not know in them."""
+    if not isinstance(raw, dict) or any(not isinstance(table, dict) for table in raw.values()):
+        raise InputError("--set landmarks: must be followed by a table and a key")
+    for table in raw:
+        if table not in ("readings", "fast_slam"):
+            raise InputError(f"--set landmarks.{shortened(table)}: must be readings or fast_slam")
+    return raw
+
+
 def _is_a_table(word: str) -> None:
     names = sorted({table.key.split(".")[1] for table in all_tables() if "." in table.key})
     if word not in (*names, *_SLOTS):
-        allowed = (
-            f"map, classification, navigation, or one of its tables{nearest(word, ['map', *names])}"
-        )
+        near = nearest(word, ["map", *names])
+        allowed = f"map, classification, landmarks, navigation, or one of its tables{near}"
         raise InputError(f"--set {shortened(word)}: unknown; must begin with {allowed}")

@@ -4,6 +4,8 @@
 `height` and `sightings` are (rows, cols), rows along +y, columns along +x: 0 unknown, 1 floor,
 2 obstacle; m, NaN where unknown; frames that saw the cell as floor. `voxels` (n, 4) float32 are
 middle and side, m, of the cubes that the core held to be occupied; empty where it kept none.
+A map of landmarks has `landmarks` (n, 7), too: x, y, m; covariance xx, xy, yy, m²; probability that
+it is there; name, NaN where it has none.
 """
 
 import zipfile
@@ -38,17 +40,24 @@ class StoredMap:
     voxels: NDArray[np.float32]
 
 
-def write_map(path: Path, surface: RememberedMap, voxels: NDArray[np.float32]) -> None:
+def write_map(
+    path: Path,
+    surface: RememberedMap,
+    voxels: NDArray[np.float32],
+    landmarks: NDArray[np.float64] | None = None,
+) -> None:
     """Write the file whole or not at all.
 
     Args:
         path: of the file.
         surface: what the map last said of every cell.
         voxels: (n, 4) m: middle and side of each occupied cube.
+        landmarks: (n, 7), of a map of landmarks.
 
     Raises:
         OSError: the file cannot be written.
     """
+    more: dict[str, Any] = {} if landmarks is None else {"landmarks": landmarks}
     with whole_file(path) as temporary, temporary.open("wb") as file:
         np.savez_compressed(
             file,
@@ -58,6 +67,7 @@ def write_map(path: Path, surface: RememberedMap, voxels: NDArray[np.float32]) -
             height=surface.height,
             sightings=surface.sightings,
             voxels=voxels,
+            **more,
         )
 
 

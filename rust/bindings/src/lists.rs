@@ -32,6 +32,7 @@ pub(crate) fn parameters() -> String {
     let mut all = pilot::tables();
     all.extend_from_slice(classification::TABLES);
     all.extend_from_slice(costs::TABLES);
+    all.extend_from_slice(landmarks::TABLES);
     let all: Vec<_> = all
         .iter()
         .map(|table| {
