@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from source_builders import data, needs_data
 
 from treadwell.cli.app import execute
@@ -153,13 +152,19 @@ def test_landmarks_are_made_of_ranges_and_bearings_alone(tmp_path: Path) -> None
         make_map(request, out=tmp_path / "map")
 
 
-def aligned(found: NDArray[np.float64], truth: NDArray[np.float64]) -> float:
-    """Return the root mean square distance, m, after the best turn and shift."""
-    here, there = found - found.mean(axis=0), truth - truth.mean(axis=0)
-    cross = (here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0]).sum()
-    angle = np.arctan2(cross, (here * there).sum())
-    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-    return float(np.sqrt(((here @ turn.T - there) ** 2).sum(axis=1).mean()))
+def test_surveyed_places_tell_how_good_a_map_is(tmp_path: Path) -> None:
+    source = folder(tmp_path / "log")
+    # Turned by a right angle and shifted; the third is 3 cm off.
+    rows = [f"{name} {10 - y} {x + (name == 8) * 0.03} 0 0" for name, (x, y) in PLACES.items()]
+    (source / "Landmark_Groundtruth.dat").write_text("\n".join(rows))
+    error = mapped(source, tmp_path / "map").result.landmark_error
+    assert error is not None
+    assert 0.0 < error < 0.05
+    nameless = mapped(source, tmp_path / "nameless", "landmarks.readings.named=false")
+    assert nameless.result.landmark_error is None
+    (source / "Landmark_Groundtruth.dat").write_text("6 1 2\n")
+    with pytest.raises(InputError, match=r"Groundtruth\.dat: line 1: must be 5 finite numbers"):
+        mapped(source, tmp_path / "broken")
 
 
 @needs_data
@@ -167,8 +172,7 @@ def test_the_landmarks_of_a_recorded_way_are_within_ten_centimetres(tmp_path: Pa
     source = data("landmarks_mrclam")
     assert open_landmark_log(source).unused == {"another robot was seen": 1053}
     made = mapped(source, tmp_path / "map")
-    rows = np.loadtxt(source / "Landmark_Groundtruth.dat")
-    found = places(made)
-    assert found.keys() == set(rows[:, 0].astype(int))
-    assert aligned(np.array([found[int(row[0])] for row in rows]), rows[:, 1:3]) <= 0.10
+    assert places(made).keys() == set(range(6, 21))
+    assert made.result.landmark_error is not None
+    assert made.result.landmark_error <= 0.10
     assert any("turns to the left are 0.6" in note for note in made.result.notes)

@@ -93,6 +93,9 @@ class MapResult(Strict):
     """Cells of the map by kind."""
     landmarks: list[MappedLandmark] | None = None
     """In a map of landmarks: their places, in the frame in which the robot starts at 0, 0, 0."""
+    landmark_error: float | None = None
+    """Root mean square distance of the landmarks from where they were surveyed after the best turn
+    and shift, m; none where nobody surveyed them, or they have no names."""
     cell: float
     """Side of a cell, m; 0 of a map that has none."""
     origin: tuple[float, float]

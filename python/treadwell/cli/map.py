@@ -122,7 +122,9 @@ def _show(result: "MapResult") -> None:
 
 def _of_what(result: "MapResult") -> list[tuple[str, object]]:
     if result.landmarks is not None:
-        return [("landmarks", len(result.landmarks))]
+        error = result.landmark_error
+        told = [] if error is None else [("from where they were surveyed", f"{error:.3f} m")]
+        return [("landmarks", len(result.landmarks)), *told]
     cells = result.cells
     return [
         ("cells of", f"{1e3 * result.cell:g} mm"),

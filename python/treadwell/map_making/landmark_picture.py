@@ -14,6 +14,7 @@ from treadwell.files import whole_file
 
 _WAY: Final = "#ff5fa2"
 _LANDMARK: Final = "#17181c"
+_SURVEYED: Final = "#1f7a8c"
 _DOUBTED: Final = "#b0b3b8"
 SHARE: Final = 0.95
 """Of where a landmark may be, what its ellipse holds."""
@@ -22,7 +23,10 @@ SURE: Final = 0.9
 
 
 def draw_landmarks(
-    path: Path, title: str, landmarks: NDArray[np.float64], way: NDArray[np.float64]
+    path: Path,
+    title: str,
+    landmarks: NDArray[np.float64],
+    places: tuple[NDArray[np.float64], NDArray[np.float64]],
 ) -> None:
     """Draw the picture, whole or not at all.
 
@@ -30,7 +34,7 @@ def draw_landmarks(
         path: of the PNG file.
         title: what was mapped.
         landmarks: (n, 7): x, y, m; covariance xx, xy, yy, m²; probability; name, NaN without.
-        way: (n, 2) m, where the robot was.
+        places: (n, 2) m each, where the robot was, and where landmarks were surveyed.
 
     Raises:
         OSError: the file cannot be written.
@@ -38,7 +42,9 @@ def draw_landmarks(
     figure = Figure(figsize=(9.0, 7.0), dpi=150)
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
+    way, surveyed = places
     axes.plot(way[:, 0], way[:, 1], color=_WAY, linewidth=0.6, alpha=0.7)
+    axes.plot(surveyed[:, 0], surveyed[:, 1], "x", color=_SURVEYED, markersize=6)
     for x, y, xx, xy, yy, probability, name in landmarks:
         colour = _LANDMARK if probability >= SURE else _DOUBTED
         axes.add_patch(_ellipse((x, y), np.array([[xx, xy], [xy, yy]]), colour))
@@ -68,6 +74,9 @@ def draw_landmarks(
             label=f"landmark: {SHARE:.0%} by the filter",
         ),
     ]
+    if len(surveyed):
+        label = "surveyed, after alignment"
+        handles.append(Line2D([], [], color=_SURVEYED, marker="x", linestyle="none", label=label))
     if (landmarks[:, 5] < SURE).any():
         label = f"less than {SURE:.0%} sure that it is there"
         handles.append(Line2D([], [], color=_DOUBTED, marker="+", linestyle="none", label=label))
@@ -75,7 +84,7 @@ def draw_landmarks(
         handles=handles,
         loc="upper center",
         bbox_to_anchor=(0.5, -0.1),
-        ncols=3,
+        ncols=4,
         frameon=False,
         fontsize=8,
     )

@@ -30,6 +30,8 @@ from treadwell.version import __version__
 
 _MARK_M: Final = 0.1
 """Size of what stands for a point in the recording."""
+_LEAST_SURVEYED: Final = 3
+"""Two points always fit but for their distance."""
 _TOLD_FROM: Final = 0.05
 """By how much odometry must be wrong, of what it says, for a note."""
 
@@ -143,8 +145,9 @@ class _Making:
         for time, (x, y, yaw) in self._way:
             way.add(round(1e9 * time), pose_matrix(x, y, 0.0, yaw))
         way.write(folder / ESTIMATE)
-        result = self._result(found, empty)
-        self._draw(result, table, folder)
+        surveyed, error = _surveyed(found, self._log.surveyed)
+        result = self._result(found, empty).model_copy(update={"landmark_error": error})
+        self._draw(result, table, surveyed, folder)
         write_text(folder / RESULT, result.model_dump_json(indent=2, by_alias=True) + "\n")
         return MadeMap(result, empty, folder)
 
@@ -179,14 +182,16 @@ class _Making:
                 notes.append(f"{name} are {scale:.2f} of what odometry says")
         return notes
 
-    def _draw(self, result: MapResult, table: Floats, folder: Path) -> None:
+    def _draw(self, result: MapResult, table: Floats, surveyed: Floats, folder: Path) -> None:
         # Late: matplotlib takes its time.
         from treadwell.map_making.landmark_picture import draw_landmarks
 
         title = f"{stem(Path(result.source.path))} · {LANDMARKS} · "
         title += f"{result.frames_used} of {result.frames} readings"
+        if result.landmark_error is not None:
+            title += f"\n{1e3 * result.landmark_error:.0f} mm from where they were surveyed"
         way = np.array([pose[:2] for _, pose in self._way])
-        draw_landmarks(folder / PICTURE, title, table, way)
+        draw_landmarks(folder / PICTURE, title, table, (way, surveyed))
 
 
 def _points(look: Look) -> "np.ndarray[tuple[int, int], np.dtype[np.float32]]":
@@ -197,6 +202,28 @@ def _points(look: Look) -> "np.ndarray[tuple[int, int], np.dtype[np.float32]]":
         np.float32
     )
     return points
+
+
+def _surveyed(
+    found: list[MappedLandmark], surveyed: dict[int, tuple[float, float]]
+) -> tuple[Floats, float | None]:
+    """Return surveyed places (n, 2) m, turned and shifted onto the map, and its error, m."""
+    pairs = [
+        ((one.x, one.y), surveyed[one.name])
+        for one in found
+        if one.name is not None and one.name in surveyed
+    ]
+    if len(pairs) < _LEAST_SURVEYED:
+        return np.zeros((0, 2)), None
+    here, there = np.array(pairs).swapaxes(0, 1)
+    middle, off = here.mean(axis=0), there - there.mean(axis=0)
+    near = here - middle
+    cross = (off[:, 0] * near[:, 1] - off[:, 1] * near[:, 0]).sum()
+    angle = np.arctan2(cross, (off * near).sum())
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    placed = off @ turn.T
+    error = float(np.sqrt(((placed - near) ** 2).sum(axis=1).mean()))
+    return placed + middle, error
 
 
 def _table(found: list[MappedLandmark]) -> Floats:

@@ -2,7 +2,9 @@
 
 `Odometry.dat`: time s, forward m/s, turn rad/s; a row holds until the next. `Measurement.dat`: time
 s, barcode, range m, bearing rad. `Barcodes.dat`: subject, barcode. Lines that begin with # are
-remarks. The first subjects are robots, which move.
+remarks. The first subjects are robots, which move. `Landmark_Groundtruth.dat`, where it is there:
+subject, x, y m, and their standard deviations; nothing is made of it but figures of how good a map
+is.
 """
 
 import math
@@ -18,6 +20,7 @@ from treadwell.errors import InputError
 from treadwell.sources.frame import Floats
 from treadwell.sources.packed import unpacked
 
+SURVEYED = "Landmark_Groundtruth.dat"
 ODOMETRY, MEASUREMENTS, BARCODES = "Odometry.dat", "Measurement.dat", "Barcodes.dat"
 LARGEST_FILE: Final = 1 << 28
 """Bytes, unpacked."""
@@ -53,6 +56,7 @@ class LandmarkLog:
         looks: in the order of time.
         frames: how many readings there are, those that cannot be used among them.
         unused: reason -> count of those.
+        surveyed: subject -> x, y m, where they were surveyed, in a frame of its own.
     """
 
     path: Path
@@ -61,6 +65,7 @@ class LandmarkLog:
     frames: int
     unused: Counter[str] = field(default_factory=Counter)
     kind: str = "landmark log"
+    surveyed: dict[int, tuple[float, float]] = field(default_factory=dict)
 
 
 def has_landmarks(path: Path) -> bool:
@@ -84,6 +89,9 @@ def open_landmark_log(path: Path, robots: int = ROBOTS) -> LandmarkLog:
     subjects = {int(barcode): int(subject) for subject, barcode in _subjects(path / BARCODES)}
     rows = _table(path / MEASUREMENTS, 4)
     log = LandmarkLog(path, np.array(odometry), [], len(rows))
+    if (path / SURVEYED).exists():
+        places = _table(path / SURVEYED, 5, ordered=False)
+        log.surveyed = {int(row[0]): (row[1], row[2]) for row in places}
     kept = []
     for time, barcode, distance, bearing in rows:
         subject = subjects.get(int(barcode)) if barcode == int(barcode) else None
