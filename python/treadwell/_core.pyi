@@ -630,6 +630,10 @@ class GroundCosts:
         self, slope: float, roughness: float, friction: float, curvature: float
     ) -> float | None: ...
 
+def standing_things(
+    points: NDArray[np.float64], eye: float, settings: str = "{}"
+) -> list[tuple[tuple[float, float, float, float], bool]]: ...
+
 @final
 class FastSlam:
     def __new__(cls, settings: str = "{}") -> FastSlam: ...

@@ -2,8 +2,10 @@
 
 use geometry::PlanarPose;
 use landmarks::{
-    FastSlam, FastSlamConfig, LandmarkReading, LandmarksConfig, OdometryStep, RangeBearing,
+    ExtractionConfig, FastSlam, FastSlamConfig, LandmarkReading, LandmarksConfig, OdometryStep,
+    RangeBearing, StandingThing, ThingShape, standing_things as find,
 };
+use nalgebra::Point3;
 use numpy::{PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -111,4 +113,35 @@ impl PyFastSlam {
         })
         .collect()
     }
+}
+
+/// Rocks and poles among points (n, 3) m, of an eye `eye` m above the origin, x ahead, y to the left, the ground in z = 0. `settings` is JSON, the table
+/// `[landmarks.extraction]`. Of each x, y, width and height, m, and whether it is a pole.
+#[pyfunction]
+#[pyo3(signature = (points, eye, settings="{}"))]
+pub(crate) fn standing_things(
+    py: Python<'_>,
+    points: &Bound<'_, PyArray2<f64>>,
+    eye: f64,
+    settings: &str,
+) -> PyResult<Vec<([f64; 4], bool)>> {
+    let config: ExtractionConfig = parse(py, settings)?;
+    if points.shape()[1] != 3 {
+        let said = format!("points must be (n, 3), got {:?}", points.shape());
+        return Err(PyValueError::new_err(said));
+    }
+    let rows = points.readonly();
+    let rows = rows.as_array();
+    let points: Vec<_> = rows
+        .rows()
+        .into_iter()
+        .map(|row| Point3::new(row[0], row[1], row[2]))
+        .collect();
+    let found = run(py, || find(&points, eye, &config))?;
+    let found = found.map_err(|error| bad_setting(py, &error))?;
+    let told = |one: StandingThing| {
+        let is_pole = one.shape == ThingShape::Pole;
+        ([one.at_m.x, one.at_m.y, one.width_m, one.height_m], is_pole)
+    };
+    Ok(found.into_iter().map(told).collect())
 }

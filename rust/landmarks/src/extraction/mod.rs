@@ -165,7 +165,7 @@ impl Cluster {
     fn hides(&self, other: &Self, eye_m: f64, config: &ExtractionConfig) -> bool {
         let [right, left] = self.sides();
         let is_before = self.nearest_m() + config.hiding < other.nearest_m();
-        let covers = |side: f64| (right - config.edge..=left + config.edge).contains(&side);
+        let covers = |side: f64| (right..=left).contains(&side);
         // What is low is looked over, down to where the other stands.
         let line_m = eye_m * (1.0 - self.nearest_m() / other.nearest_m());
         is_before && self.height_m > line_m && other.sides().into_iter().any(covers)
@@ -176,9 +176,9 @@ impl Cluster {
         let [right, left] = self.sides();
         let middle = f64::midpoint(right, left);
         let half = 0.5 * (left - right);
+        let foot_m = config.lowest + config.foot * (self.height_m - config.lowest);
         let is_front = |point: &&[f64; 3]| {
-            (point[0] - middle).abs() <= config.front * half
-                && point[2] <= config.foot * self.height_m
+            (point[0] - middle).abs() <= config.front * half && point[2] <= foot_m
         };
         let mut front: Vec<f64> = self
             .polar
