@@ -55,6 +55,8 @@ TESTED_BY = {
     "experiments.models.suite": "test_models_experiment.py",
     "experiments.models.tables": "test_models_experiment.py",
     "map_result": "test_map.py",
+    "map_making.landmark_picture": "test_landmark_map.py",
+    "map_making.landmarks": "test_landmark_map.py",
     "map_making.mapper": "test_map.py",
     "map_making.picture": "test_map.py",
     "map_making.plan_picture": "test_map_plan.py",

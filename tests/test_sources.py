@@ -155,8 +155,8 @@ def test_a_picture_with_colours_or_of_nothing_is_refused(tmp_path: Path) -> None
 
 
 @needs_data
-def test_logs_of_landmarks_are_known_and_put_off() -> None:
-    with pytest.raises(InputError, match="landmarks: maps of landmarks come in a later version"):
+def test_logs_of_landmarks_are_known_and_have_no_frames() -> None:
+    with pytest.raises(InputError, match="has no frames, but ranges and bearings to landmarks"):
         open_source(data("landmarks_mrclam"))
 
 

@@ -108,6 +108,23 @@ class MappedPlaces(Strict):
     """Doorways between two different rooms."""
 
 
+class MappedLandmark(Strict):
+    """A landmark on the plane."""
+
+    x: float
+    """m."""
+    y: float
+    """m."""
+    covariance: tuple[float, float, float]
+    """Of x and y: xx, xy, yy, m²."""
+    name: int | None
+    """What the source calls it; none where names were withheld."""
+    probability: float
+    """That it is there."""
+    readings: int
+    """How many readings of it were taken in."""
+
+
 class Times(Strict):
     """Milliseconds of the clock a frame."""
 
@@ -150,8 +167,13 @@ class MapResult(Strict):
     """Lines, of the world model `lines`; none of others."""
     places: MappedPlaces | None
     """Places and the ways between them, of the world model `topology`; none of others."""
+    landmarks: list[MappedLandmark] | None = None
+    """In a map of landmarks: their places, in the frame in which the robot starts at 0, 0, 0."""
+    landmark_error: float | None = None
+    """Root mean square distance of the landmarks from where they were surveyed after the best turn
+    and shift, m; none where nobody surveyed them, or they have no names."""
     cell: float
-    """Side of a cell, m."""
+    """Side of a cell, m; 0 of a map that has none."""
     origin: tuple[float, float]
     """Lower-left corner of the map, m, in the source's world, turned so that z is up."""
     settings: dict[str, Any]

@@ -26,7 +26,7 @@ def map_(  # noqa: PLR0913 - one an option
         typer.Argument(
             metavar="SOURCE",
             help="A run, depth images or clouds with poses, one cloud, a height image, a laser "
-            "log, a bag.",
+            "log, ranges and bearings, a bag.",
         ),
     ],
     *,
@@ -35,8 +35,8 @@ def map_(  # noqa: PLR0913 - one an option
         typer.Option(
             "--world-model",
             metavar="NAME",
-            help="Default: fog of pictures, elevation of clouds, occupancy_2d of a laser's scans; "
-            "of those also lines, points.",
+            help="Default: fog of pictures, elevation of clouds, landmarks of ranges and bearings, "
+            "occupancy_2d of a laser's scans; of those also lines, topology, points.",
         ),
     ] = None,
     localizer: Annotated[
@@ -110,22 +110,33 @@ def map_(  # noqa: PLR0913 - one an option
 
 
 def _show(result: "MapResult") -> None:
-    cells = result.cells
     rows: list[tuple[str, object]] = [
         ("source", f"{result.source.kind}, {result.source.path}"),
         ("frames used", f"{result.frames_used} of {result.frames}"),
         *((f"unused: {reason}", count) for reason, count in result.unused.items()),
-        ("cells of", f"{1e3 * result.cell:g} mm"),
-        ("floor, obstacle", f"{cells.floor}, {cells.obstacle} cells"),
-        *(
-            [("lines", f"{lines.count}, on which {lines.held:.1%} of the points lie")]
-            if (lines := result.lines)
-            else []
-        ),
+        *_of_what(result),
         ("a frame, median", f"{result.timing_ms['map'].median:.2f} ms"),
         *((f"set by the data: {key}", value) for key, value in result.assumed.items()),
     ]
     write_table(f"{result.source.path} by {result.world_model}", ("", ""), rows)
+
+
+def _of_what(result: "MapResult") -> list[tuple[str, str]]:
+    if result.landmarks is not None:
+        error = result.landmark_error
+        told = [] if error is None else [("from where they were surveyed", f"{error:.3f} m")]
+        return [("landmarks", str(len(result.landmarks))), *told]
+    told = [
+        ("cells of", f"{1e3 * result.cell:g} mm"),
+        ("floor, obstacle", f"{result.cells.floor}, {result.cells.obstacle} cells"),
+    ]
+    if result.lines is not None:
+        held = f"{result.lines.held:.1%}"
+        told.append(("lines", f"{result.lines.count}, on which {held} of the points lie"))
+    if (places := result.places) is not None:
+        told.append(("places, ways", f"{places.count}, {len(places.ways)}"))
+        told.append(("rooms, doorways", f"{places.rooms}, {len(places.doorways)}"))
+    return told
 
 
 class FrameLine:

@@ -1,22 +1,22 @@
 """A map from beginning to end: read, feed, and write everything that comes of it."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
-from typing import Final, Protocol
+from typing import Final
 
 import numpy as np
 
-from treadwell.errors import InputError, RecordingError
+from treadwell.errors import InputError
 from treadwell.files import write_text
 from treadwell.interruption import Interruption
+from treadwell.map_making.landmarks import make_landmark_map
+from treadwell.map_making.made import FrameProgress, MadeMap, stem, writing
 from treadwell.map_making.mapper import Mapper
 from treadwell.map_making.placing import sensed
 from treadwell.map_making.plan_view import Seen, plan_arrays
 from treadwell.map_making.recording import MapRecording
-from treadwell.map_making.request import MapRequest
+from treadwell.map_making.request import LANDMARKS, MapRequest
 from treadwell.map_memory import RememberedMap
 from treadwell.map_result import MappedSource, MapResult, counted, times
 from treadwell.recording.cut_off import RESULT
@@ -28,34 +28,12 @@ from treadwell.recording.recorder import NAME as RECORDING
 from treadwell.recording.run_folder import run_folder
 from treadwell.recording.trajectory import ESTIMATE, Trajectory
 from treadwell.sources.frame import Floats, RangeFrame
+from treadwell.sources.landmark_log import has_landmarks
 from treadwell.sources.source import Source, open_source
 from treadwell.version import __version__
 
 _SURE: Final = 0.7
 """Of the mean of the pictures' downward directions, the part along an axis that is down."""
-
-
-class FrameProgress(Protocol):
-    """Is told how a map gets on."""
-
-    def update(self, frame: int, frames: int, used: int) -> None:
-        """Take in that so many of all frames (0: not known) were read, and so many used."""
-        ...
-
-
-@dataclass(frozen=True, slots=True)
-class MadeMap:
-    """What came of a map.
-
-    Attributes:
-        result: as in `result.json`.
-        map: the map.
-        folder: where everything lies.
-    """
-
-    result: MapResult
-    map: RememberedMap
-    folder: Path
 
 
 def make_map(
@@ -79,6 +57,13 @@ def make_map(
         InputError: anything that the user gave is bad, or no frame can be used; nothing is left.
         RecordingError: a file cannot be written.
     """
+    if has_landmarks(request.source):
+        return make_landmark_map(request, out=out, record=record, progress=progress)
+    if request.world_model == LANDMARKS:
+        raise InputError(
+            f"--world-model: found {LANDMARKS}; {request.source} has no ranges and bearings: "
+            "a folder with Odometry.dat, Measurement.dat and Barcodes.dat has"
+        )
     source = open_source(
         request.source,
         camera=request.camera,
@@ -91,12 +76,12 @@ def make_map(
         raise InputError(f"{source.path}: no frame can be used{_reasons(source)}")
     mapper = Mapper(request, first)
     with Interruption() as interruption:
-        name = f"map-{_stem(request.source)}"
-        with run_folder(out, name, mapper.world_model, request.seed) as folder, _writing(folder):
+        name = f"map-{stem(request.source)}"
+        with run_folder(out, name, mapper.world_model, request.seed) as folder, writing(folder):
             making = _Making(mapper, source, folder, progress)
             making.recording = _recording(request, mapper, folder) if record else None
             going_on = making.find_usable(first, frames)
-        with _writing(folder):
+        with writing(folder):
             if going_on:
                 making.feed(frames, interruption)
             interruption.hold()
@@ -212,7 +197,7 @@ class _Making:
         from treadwell.map_making.picture import draw_map
 
         used = f"{result.frames_used} of {result.frames} frame{'s' * (result.frames != 1)}"
-        title = f"{_stem(Path(result.source.path))} · {result.world_model} · {used}"
+        title = f"{stem(Path(result.source.path))} · {result.world_model} · {used}"
         title += f"\ncells of {1e3 * result.cell:g} mm"
         if result.lines is not None:
             title += f" · {result.lines.count} lines hold {result.lines.held:.1%} of the points"
@@ -242,22 +227,10 @@ class _Making:
 
 
 def _recording(request: MapRequest, mapper: Mapper, folder: Path) -> MapRecording:
-    return MapRecording(folder / RECORDING, _stem(request.source), mapper.sizes.cell)
-
-
-@contextmanager
-def _writing(folder: Path) -> Iterator[None]:
-    try:
-        yield
-    except OSError as error:
-        raise RecordingError(f"{folder}: cannot be written: {error.strerror or error}") from error
+    return MapRecording(folder / RECORDING, stem(request.source), mapper.sizes.cell)
 
 
 def _reasons(source: Source, mapper: Mapper | None = None) -> str:
     counts = source.unused + (mapper.unused if mapper is not None else type(source.unused)())
     told = ", ".join(f"{reason}: {count}" for reason, count in counts.most_common())
     return f" ({told})" if told else ""
-
-
-def _stem(path: Path) -> str:
-    return path.resolve().name.split(".")[0] or "source"

@@ -63,6 +63,26 @@ class MapRecording:
         placed = moved(pose, points).astype(np.float32)
         self._stream.log("world/points", rr.Points3D(placed, radii=_RADIUS * self._cell))
 
+    def landmarks(self, landmarks: Floats) -> None:
+        """Write landmarks.
+
+        Args:
+            landmarks: (n, 7), as in `map.npz`.
+        """
+        rr = self._rr
+        places = np.column_stack([landmarks[:, :2], np.zeros(len(landmarks))])
+        names = ["" if np.isnan(name) else f"{name:.0f}" for name in landmarks[:, 6]]
+        # Half axes as the eye takes a Gaussian in: two standard deviations, along x and y.
+        spread = 2.0 * np.sqrt(np.maximum(landmarks[:, [2, 4]], 0.0))
+        thin = np.full(len(landmarks), _FLAT * self._cell)
+        self._stream.log(
+            "world/map/landmarks",
+            rr.Ellipsoids3D(
+                centers=places, half_sizes=np.column_stack([spread, thin]), labels=names
+            ),
+            static=True,
+        )
+
     def finish(self, found: RememberedMap, offset: Floats, voxels: NDArray[np.float32]) -> None:
         """Write the map, and close the file.
 

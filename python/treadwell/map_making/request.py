@@ -13,13 +13,16 @@ from treadwell.scenario.messages import describe, nearest, report, shortened
 from treadwell.scenario.model import Navigation
 from treadwell.scenario.overrides import assign, parse_setting, split_key
 from treadwell.scenario.types import Table
+from treadwell.sources.landmark_log import ROBOTS
 from treadwell.sources.source import POSE_WITHIN_S
 
 Up = Literal["x", "-x", "y", "-y", "z", "-z"]
 PICTURES, POINTS = "fog", "elevation"
 """World models where none is named: of depth images, of clouds."""
-_TOP: Final = ("map", "navigation", "classification", "plan_view")
-_MAP_ALONE: Final = ("lines", "topology")
+LANDMARKS: Final = "landmarks"
+"""A model for maps alone, of ranges and bearings."""
+_TOP: Final = ("map", "navigation", "classification", "plan_view", LANDMARKS)
+_MAP_ALONE: Final = ("lines", "topology", LANDMARKS)
 """World models for recorded data that are none of a robot's."""
 _SLOTS: Final = ("world_model", "segmenter")
 
@@ -36,6 +39,8 @@ class MapTable(Table):
     `classification.ground_filter`; `all` takes all; `auto` filters landscapes from above."""
     baseline: Annotated[float, Field(ge=1e-3, le=10.0)] = 0.075
     """Depths are taken to be as precise as eyes so far apart see them, m."""
+    robots: Annotated[int, Field(ge=0, lt=2**31)] = ROBOTS
+    """Of ranges and bearings, the subjects up to this number are robots and no landmarks."""
     columns: Annotated[int, Field(ge=16, le=4096)] = 160
     """Surfaces are found in pictures of so many columns at most: blocks of wider ones are one."""
 
@@ -57,6 +62,7 @@ class MapRequest:
         ground_filter: key -> value, how a cloud's ground is told from what stands on it.
         plan_view: `lines`, `alignment` and `topology` -> key -> value, how lines are found among a
             laser's points, how its scans are laid onto them, and what is a place, a way, a room.
+        landmarks: table -> key -> value, how landmarks are found, of `[landmarks]`.
     """
 
     source: Path
@@ -70,6 +76,7 @@ class MapRequest:
     data: MapTable
     ground_filter: dict[str, Any]
     plan_view: dict[str, dict[str, Any]]
+    landmarks: dict[str, Any]
 
 
 def read_request(
@@ -128,6 +135,7 @@ def read_request(
         data=data,
         ground_filter=_tables(raw, "classification", "ground_filter")["ground_filter"],
         plan_view=_tables(raw, "plan_view", "lines", "alignment", "topology"),
+        landmarks=_tables(raw, LANDMARKS, "readings", "fast_slam"),
     )
 
 

@@ -5,7 +5,10 @@
 2 obstacle; m, NaN where unknown; frames that saw the cell as floor. `voxels` (n, 4) float32 are
 middle and side, m, of the cubes that the core held to be occupied; empty where it kept none.
 Maps of a plane have one more: `probability` (rows, cols) float32 that a cell is occupied, NaN where
-nothing was seen; or `lines` (n, 4) m, x and y of both ends of what is on a line.
+nothing was seen; or `lines` (n, 4) m, x and y of both ends of what is on a line. Or
+`room` (rows, cols) uint32, the room of each cell, and `ways` (n, 3), the number of a way, x, y.
+A map of landmarks has `landmarks` (n, 7), too: x, y, m; covariance xx, xy, yy, m²; probability that
+it is there; name, NaN where it has none.
 """
 
 import zipfile

@@ -17,10 +17,10 @@ from treadwell.sources.clouds import OneCloud, has_clouds, is_cloud, open_cloud_
 from treadwell.sources.depth_folder import open_depth_folder, open_tum
 from treadwell.sources.frame import RangeFrame
 from treadwell.sources.height_image import open_height_image
+from treadwell.sources.landmark_log import has_landmarks
 from treadwell.sources.laser_log import is_laser_log, open_laser_log
 from treadwell.sources.run import open_run
 
-_LANDMARKS: Final = ("Odometry.dat", "Measurement.dat", "Barcodes.dat")
 POSE_WITHIN_S: Final = 0.02
 """How far off in time a frame's pose may be, where nobody says otherwise."""
 _WITHOUT_CAMERA_FILE: Final = ("run", "cloud", "cloud folder", "height image", "laser log")
@@ -32,6 +32,7 @@ FORMS: Final = (
     "one cloud (.pcd or .ply, also .gz)",
     "a height image (.png with a .toml of its name)",
     "a laser log (CARMEN's FLASER or ROBOTLASER1, g2o's VERTEX2 or VERTEX_SE2 with ROBOTLASER1)",
+    "a folder with Odometry.dat, Measurement.dat and Barcodes.dat (ranges and bearings)",
     "an .mcap, or a bag of ROS 1 (.bag) or 2 (a folder with metadata.yaml, or .db3)",
 )
 """What a source may be, for messages."""
@@ -117,10 +118,8 @@ def _folder(path: Path, camera: Path | None, pose_within: float) -> Source:
         return open_tum(path, camera, pose_within)
     if has(depth_folder.DEPTH) or (has(camera_file.NAME) and has(depth_folder.POSES)):
         return open_depth_folder(path, camera, pose_within)
-    if all(has(name) for name in _LANDMARKS):
-        raise InputError(
-            f"{path}: ranges and bearings to landmarks: maps of landmarks come in a later version"
-        )
+    if has_landmarks(path):
+        raise InputError(f"{path}: has no frames, but ranges and bearings to landmarks")
     if has_clouds(path):
         return open_cloud_folder(path, pose_within)
     raise InputError(_none_of_these(path))

@@ -9,6 +9,7 @@ mod depth_camera;
 mod depth_errors;
 mod distance;
 mod error;
+mod landmarks;
 mod learners;
 mod legs;
 mod lists;
@@ -41,6 +42,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(distance::distances, module)?)?;
     module.add_function(wrap_pyfunction!(distance::squared_distances, module)?)?;
     module.add_function(wrap_pyfunction!(plan_view::find_lines, module)?)?;
+    module.add_function(wrap_pyfunction!(landmarks::standing_things, module)?)?;
     module.add_function(wrap_pyfunction!(slip::gait_statistics, module)?)?;
     module.add_function(wrap_pyfunction!(mesh_files::mesh_file, module)?)?;
     module.add_function(wrap_pyfunction!(version, module)?)?;
@@ -51,6 +53,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<depth_camera::PyDepthCamera>()?;
     module.add_class::<depth_errors::PyDepthErrors>()?;
     module.add_class::<costs::PyGroundCosts>()?;
+    module.add_class::<landmarks::PyFastSlam>()?;
     module.add_class::<learners::PyLocalRegression>()?;
     module.add_class::<learners::PyPathWeights>()?;
     module.add_class::<legs::PyLegs>()?;

@@ -47,5 +47,5 @@ pub use outline::{Cut, Outline, OutlineError};
 pub use planar::{PlanarPose, distance_m, hypot};
 pub use plane::Plane;
 pub use pose::{Point, Pose, Vector};
-pub use random::{GOLDEN, SplitMix64, mix};
+pub use random::{GOLDEN, SplitMix64, low_variance, mix};
 pub use storage::{in_step, runs};

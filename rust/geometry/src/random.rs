@@ -33,6 +33,45 @@ impl SplitMix64 {
     pub const fn uniform(&mut self) -> f64 {
         (self.next_bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
+
+    /// Independent numbers of mean 0 and variance 1, by Box and Muller.
+    pub fn normals<const N: usize>(&mut self) -> [f64; N] {
+        let mut numbers = [0.0; N];
+        for pair in numbers.chunks_mut(2) {
+            // 1 - u is above 0.
+            let radius = (-2.0 * libm::log(1.0 - self.uniform())).sqrt();
+            let (sin, cos) = libm::sincos(core::f64::consts::TAU * self.uniform());
+            for (slot, value) in pair.iter_mut().zip([radius * cos, radius * sin]) {
+                *slot = value;
+            }
+        }
+        numbers
+    }
+}
+
+/// Low-variance resampling (Thrun, Burgard, Fox 2005, table 4.4): tells `drawn` the indices of `count` particles, each as often as it weighs give or
+/// take one, by one random number `uniform` in 0..1. The weights sum to one; without any, nothing is drawn.
+pub fn low_variance(
+    weights: impl IntoIterator<Item = f64>,
+    count: usize,
+    uniform: f64,
+    mut drawn: impl FnMut(usize),
+) {
+    let mut weights = weights.into_iter().fuse();
+    let Some(mut sum) = weights.next() else {
+        return;
+    };
+    let share = 1.0 / count as f64;
+    let start = uniform * share;
+    let mut index = 0;
+    for number in 0..count {
+        while start + number as f64 * share > sum {
+            let Some(weight) = weights.next() else { break };
+            index += 1;
+            sum += weight;
+        }
+        drawn(index);
+    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A map for each particle: each guess of the robot's way makes an octree of its own, and those live on whose maps agree with what is seen
 //! again (004, section 36.3.2, reference 36.19: Fairfield, Kantor and Wettergreen 2007). The maps share what they have in common.
 
-use geometry::SplitMix64;
+use geometry::{SplitMix64, low_variance};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use volume::octree::{Octree, OctreeError, probability};
 use volume::{Ray, Update};
@@ -82,7 +82,7 @@ impl ParticleMaps {
         }
         let metres = moved.translation.vector.norm();
         for particle in &mut self.particles {
-            let [x, y, yaw] = normals(&mut self.random);
+            let [x, y, yaw] = self.random.normals();
             let sigma_m = self.rule.sigma_per_metre * metres;
             let sigma_rad = self.rule.sigma_rad_per_metre * metres;
             let error = Isometry3::from_parts(
@@ -138,35 +138,18 @@ impl ParticleMaps {
         }
     }
 
-    /// Draws as many particles anew, by one random number (Thrun, Burgard, Fox 2005, table 4.4). Copies share their maps.
+    /// Draws as many particles anew. Copies share their maps.
     fn resample(&mut self) {
         let count = self.particles.len();
-        let share = 1.0 / count as f64;
-        let start = self.random.uniform() * share;
+        let weight = 1.0 / count as f64;
         let mut drawn = Vec::with_capacity(count);
-        let (mut index, mut sum) = (0, self.particles[0].weight);
-        for number in 0..count {
-            while start + number as f64 * share > sum && index + 1 < count {
-                index += 1;
-                sum += self.particles[index].weight;
-            }
+        let weights = self.particles.iter().map(|one| one.weight);
+        low_variance(weights, count, self.random.uniform(), |index| {
             drawn.push(ParticleMap {
-                weight: share,
+                weight,
                 ..self.particles[index].clone()
             });
-        }
+        });
         self.particles = drawn;
     }
-}
-
-/// Three independent numbers of mean 0 and variance 1, by Box and Muller.
-fn normals(random: &mut SplitMix64) -> [f64; 3] {
-    let mut pair = || {
-        // 1 - u is above 0.
-        let radius = (-2.0 * libm::log(1.0 - random.uniform())).sqrt();
-        let (sin, cos) = libm::sincos(std::f64::consts::TAU * random.uniform());
-        [radius * cos, radius * sin]
-    };
-    let [[x, y], [yaw, _]] = [pair(), pair()];
-    [x, y, yaw]
 }

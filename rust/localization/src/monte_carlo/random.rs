@@ -41,16 +41,7 @@ impl Stream {
 
     /// Independent numbers of mean 0 and variance 1, by Box and Muller.
     pub(super) fn normals<const N: usize>(&mut self) -> [f64; N] {
-        let mut numbers = [0.0; N];
-        for pair in numbers.chunks_mut(2) {
-            // 1 - u is above 0.
-            let radius = (-2.0 * libm::log(1.0 - self.uniform())).sqrt();
-            let (sin, cos) = libm::sincos(std::f64::consts::TAU * self.uniform());
-            for (slot, value) in pair.iter_mut().zip([radius * cos, radius * sin]) {
-                *slot = value;
-            }
-        }
-        numbers
+        self.0.normals()
     }
 }
 

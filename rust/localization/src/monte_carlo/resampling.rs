@@ -11,23 +11,14 @@ pub(super) fn low_variance(
     drawn: &mut Vec<Particle>,
 ) {
     drawn.clear();
-    let Some(last) = particles.len().checked_sub(1) else {
-        return;
-    };
-    let share = 1.0 / count as f64;
-    let start = stream.uniform() * share;
-    let (mut index, mut sum) = (0, particles[0].weight);
-    for number in 0..count {
-        let at = start + number as f64 * share;
-        while at > sum && index < last {
-            index += 1;
-            sum += particles[index].weight;
-        }
+    let weight = 1.0 / count as f64;
+    let weights = particles.iter().map(|particle| particle.weight);
+    geometry::low_variance(weights, count, stream.uniform(), |index| {
         drawn.push(Particle {
             pose: particles[index].pose,
-            weight: share,
+            weight,
         });
-    }
+    });
 }
 
 /// How many particles it takes so that, where they lie in `bins` cells, the Kullback-Leibler distance from what they stand for is
