@@ -155,3 +155,27 @@ def test_the_intel_log_is_a_hundred_and_twenty_lines_at_most(tmp_path: Path) -> 
     assert found is not None
     assert found.held >= 0.9
     assert found.count <= 120  # the chapter's Fig. 36.5 has 94 of other points
+
+
+def test_a_log_is_mapped_as_places_ways_and_rooms(log: Path, tmp_path: Path) -> None:
+    made = mapped(log, tmp_path / "map", world_model="topology")
+    places = made.result.places
+    assert places is not None
+    assert (places.count, places.rooms, places.doorways) == (len(places.each), 1, [])
+    for way in places.ways:
+        assert max(way.places) < places.count
+        assert way.length > 0.0
+        assert way.clearance >= 0.2 - 1e-9
+    centre = np.mean(ROOM, axis=0)
+    widest = max(places.each, key=lambda place: place.clearance)
+    assert np.hypot(*(widest.position - centre)) < 0.3
+    assert 1.2 < widest.clearance < 1.6
+    with np.load(tmp_path / "map" / "map.npz") as arrays:
+        assert arrays["room"].shape == arrays["kind"].shape
+        assert set(np.unique(arrays["ways"][:, 0])) == set(range(len(places.ways)))
+    assert (tmp_path / "map" / "map.png").stat().st_size > 10_000
+
+
+def test_settings_of_places_are_checked(log: Path, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"plan_view\.topology\.widens.*>= 1"):
+        mapped(log, tmp_path / "map", "plan_view.topology.widens=0.5", world_model="topology")

@@ -163,9 +163,9 @@ class MapResult(Strict):
     """Whether it was ended before the source was."""
     cells: MappedCells
     """Cells of the map by kind."""
-    lines: MappedLines | None
+    lines: MappedLines | None = None
     """Lines, of the world model `lines`; none of others."""
-    places: MappedPlaces | None
+    places: MappedPlaces | None = None
     """Places and the ways between them, of the world model `topology`; none of others."""
     landmarks: list[MappedLandmark] | None = None
     """In a map of landmarks: their places, in the frame in which the robot starts at 0, 0, 0."""
