@@ -13,7 +13,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # What the built package is made of: `make setup` builds anew when it changes.
 SOURCES := $(shell find rust models scenarios -type f)
 
-.PHONY: setup demo test test-core test-package fast fuzz check lint lint-package clippy deny advisories format bench clean
+.PHONY: setup demo test test-core test-package test-long fast fuzz check lint lint-package clippy deny advisories format bench clean
 
 setup: .venv/.ready ## the environment in .venv, with the command .venv/bin/treadwell
 
@@ -30,22 +30,28 @@ demo: setup ## one episode: the result, and where its pictures are
 
 # The same cases in every run: what passes for one passes for all. `make fuzz` draws new ones.
 test: export PROPTEST_RNG_SEED ?= 2004
-test: ## every check and every test: the core's and the package's side by side, since much of each waits for one processor
+test: ## every check, and every test but the long ones: the core's and the package's side by side, since much of each waits for one processor
+	$(CARGO_TEST) --release --no-run # with every processor; the package and clippy then find most of it done
 	$(MAKE) --jobs=2 --output-sync=line test-core test-package
 
 test-core: clippy deny
 	cargo fmt --check
-	$(CARGO_TEST)
-	MAKEFLAGS= cargo test --workspace --doc --quiet # it looks for make's jobs, and warns
+	$(CARGO_TEST) --release
+	MAKEFLAGS= cargo test --release --workspace --doc --quiet # it looks for make's jobs, and warns
 
 test-package: lint-package
-	$(PYTEST) --hypothesis-profile ci
+	$(PYTEST) --hypothesis-profile ci -m "not long"
+
+test-long: export PROPTEST_RNG_SEED ?= 2004
+test-long: setup ## what `make test` leaves out: further seeds, walks and builds of minutes, every bench
+	$(PYTEST) --hypothesis-profile ci -m long
 
 fast: export PROPTEST_RNG_SEED ?= 2004
 fast: setup ## the quick tests: two and a half minutes on two cores
 	$(CARGO_FAST)
-	$(PYTEST) --hypothesis-profile ci -m "not scenario and not slow"
+	$(PYTEST) --hypothesis-profile ci -m "not scenario and not slow and not long"
 
+# In `make test` crates are built once, as the package is: tests of the core run on what walks.
 NEXTEST := $(shell cargo nextest --version 2>/dev/null)
 CARGO_TEST := $(if $(NEXTEST),cargo nextest run --workspace,cargo test --workspace --lib --bins --tests)
 # Tests in a module `slow` take seconds each, as those that pytest marks so.
@@ -70,7 +76,7 @@ lint-package: setup
 	$(RUN) python -m mypy.stubtest --mypy-config-file pyproject.toml treadwell._core
 
 clippy:
-	cargo clippy --workspace --all-targets --quiet -- -D warnings
+	cargo clippy --release --workspace --all-targets --quiet -- -D warnings
 
 deny: ## licences and sources of the crates; cargo-deny is asked where it is there
 	@if cargo deny --version >/dev/null 2>&1; then cargo deny check licenses bans sources; \

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 
 BENCHES = Path(__file__).resolve().parents[1] / "benches"
 SHORT = """

@@ -14,7 +14,7 @@ pytestmark = pytest.mark.scenario
 
 @pytest.mark.parametrize(
     ("robot", "course"),
-    [("qrio", ramp_edge()), ("nao", door_sill_ramps())],
+    [("qrio", ramp_edge()), pytest.param("nao", door_sill_ramps(), marks=pytest.mark.long)],
     ids=lambda one: str(one)[:4],
 )
 def test_a_bevel_of_eleven_degrees_is_crossed_or_refused_as_too_steep(

@@ -32,6 +32,9 @@ REFUSED = {
     "stairs_blank": {"blocked"},
 }
 """Name -> words with which it may be refused."""
+LONG = {"stairs_blank"}
+"""Looked at for minutes before the refusal."""
+REFUSALS = [pytest.param(name, marks=[pytest.mark.long] * (name in LONG)) for name in REFUSED]
 SEED = 0
 
 Runner = Callable[[str], Run]
@@ -51,7 +54,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Runner:
     return once
 
 
-@pytest.mark.parametrize("name", [*CLIMBED, *REFUSED])
+@pytest.mark.parametrize("name", [*CLIMBED, *REFUSALS])
 def test_a_scenario_with_stairs_ends_as_it_expects_without_a_fall(run: Runner, name: str) -> None:
     result = run(name).result
     assert (result.failures, result.passed) == ([], True), result.reason
@@ -65,7 +68,7 @@ def test_as_many_steps_are_climbed_as_there_are(run: Runner, name: str) -> None:
     assert (result.stairs_climbed, result.stairs_descended) == CLIMBED[name]
 
 
-@pytest.mark.parametrize("name", REFUSED)
+@pytest.mark.parametrize("name", REFUSALS)
 def test_what_may_not_be_climbed_is_refused_in_the_most_specific_word(
     run: Runner, name: str
 ) -> None:

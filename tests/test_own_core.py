@@ -15,7 +15,7 @@ from treadwell.own_core import MODULE, OwnCore
 
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLE = ROOT / "examples" / "own_planner"
-pytestmark = [pytest.mark.slow, pytest.mark.timeout(900)]
+pytestmark = pytest.mark.slow
 
 
 def cargo(*words: str, folder: Path) -> None:
@@ -70,6 +70,8 @@ def treadwell(core: Path | str, *words: str, cwd: Path) -> subprocess.CompletedP
     )
 
 
+@pytest.mark.long
+@pytest.mark.timeout(900)
 def test_its_planner_is_listed_and_finds_the_way(core: Path, tmp_path: Path) -> None:
     listed = treadwell(core, "list", "components", "--json", cwd=tmp_path)
     planners = json.loads(listed.stdout)["components"]["planner"]
@@ -84,6 +86,8 @@ def test_its_planner_is_listed_and_finds_the_way(core: Path, tmp_path: Path) -> 
     assert result["configuration"]["navigation"]["planner"] == "beeline"
 
 
+@pytest.mark.long
+@pytest.mark.timeout(900)
 def test_its_parameters_are_read_by_the_crate(core: Path, tmp_path: Path) -> None:
     named = ("--set", "navigation.planner=beeline")
     for setting, message in (("spacing=0.0", "must be > 0, got 0"), ("spaces=1", "spacing")):

@@ -38,12 +38,12 @@ def test_a_make_target_exists(target: str) -> None:
 
 
 # The bench takes half a minute.
-SLOW = {"bench": [pytest.mark.slow]}
+LONG = {"bench": [pytest.mark.long]}
 
 
 @pytest.mark.parametrize(
     "words",
-    [pytest.param(words, marks=SLOW.get(words[0], [])) for words in commands("treadwell")],
+    [pytest.param(words, marks=LONG.get(words[0], [])) for words in commands("treadwell")],
     ids=" ".join,
 )
 def test_a_command_is_understood(words: list[str], tmp_path: Path) -> None:

@@ -15,8 +15,6 @@ from slip_trials import (
     walk,
 )
 
-pytestmark = pytest.mark.slow
-
 SECONDS = 5.0
 PATCHES = 16
 
@@ -32,6 +30,7 @@ def test_half_of_the_patches_are_slippery_and_darker() -> None:
     assert drawn[slippery, 1].max() < drawn[~slippery, 1].min()
 
 
+@pytest.mark.long
 def test_what_one_robot_felt_tells_the_others_slip_to_half_of_a_constants_error() -> None:
     taught, other = ROBOTS
     sense = sense_of(walks(taught, SENSE))

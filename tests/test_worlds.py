@@ -105,7 +105,7 @@ def test_about_85_of_100_are_open_by_what_is_drawn(family: str) -> None:
     assert not is_closed(kind, seed=0, share=0.0)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("family", ["random_house", "random_yard"])
 def test_the_judge_finds_a_way_in_about_85_of_100(family: str) -> None:
     """No physics. It finds one wherever none was closed, and nowhere else."""
@@ -118,7 +118,7 @@ def test_the_judge_finds_a_way_in_about_85_of_100(family: str) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["house", "yard"])
-@pytest.mark.parametrize("robot", ["qrio", "nao"])
+@pytest.mark.parametrize("robot", ["qrio", pytest.param("nao", marks=pytest.mark.long)])
 def test_the_judge_agrees_with_what_was_meant(kind: str, robot: str) -> None:
     body = load_robot(robot)
     for closed, way in [(0.0, True), (1.0, False)]:
