@@ -5,6 +5,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from source_builders import data, needs_data
 
 from treadwell.cli.app import execute
@@ -103,6 +105,13 @@ def test_the_command_makes_the_map_and_says_what_is_in_it(
         ("Measurement.dat", "1 63 2.0 0\n0 63 2.0 0\n", "Measurement.dat: line 2: time goes back"),
         ("Measurement.dat", "1 63 inf 0\n", "Measurement.dat: line 1: must be 4 finite numbers"),
         ("Measurement.dat", "1 63 1e300 0\n", "Measurement.dat: line 1: no number may be above"),
+        (
+            "Measurement.dat",
+            "1 63 2.0 0\n1e6 63 2.0 0\n",
+            "line 2: more than 100000 s after the one",
+        ),
+        ("Measurement.dat", "1e6 63 2.0 0\n", "ends more than 100000 s after Odometry.dat"),
+        ("Odometry.dat", "1e13 0 0\n", "Odometry.dat: line 1: no time may be above"),
         ("Measurement.dat", "1 63 0 0\n", "no reading can be used .range not above 0: 1"),
         ("Measurement.dat", "1 9 2.0 0\n", "no reading can be used .barcode of no subject: 1"),
         ("Measurement.dat", "1 5 2.0 0\n", "no reading can be used .another robot was seen: 1"),
@@ -119,6 +128,15 @@ def test_a_broken_log_is_refused_by_file_and_line(
     with pytest.raises(InputError, match=said):
         mapped(source, tmp_path / "map")
     assert not (tmp_path / "map").exists()
+
+
+def test_a_robot_that_is_far_away_and_stands_is_drawn(tmp_path: Path) -> None:
+    measurements = "90000 63 1 1\n90000 25 1 1\n90000.5 63 1e-9 1\n"
+    source = folder(tmp_path / "log", "0 1e6 1e6\n90000 0 0\n", measurements)
+    made = mapped(source, tmp_path / "map")
+    assert made.result.landmarks is not None
+    assert all(np.isfinite([one.x, one.y, *one.covariance]).all() for one in made.result.landmarks)
+    assert (made.folder / "map.png").is_file()
 
 
 @pytest.mark.parametrize(
@@ -176,3 +194,22 @@ def test_the_landmarks_of_a_recorded_way_are_within_ten_centimetres(tmp_path: Pa
     assert made.result.landmark_error is not None
     assert made.result.landmark_error <= 0.10
     assert any("turns to the left are 0.6" in note for note in made.result.notes)
+
+
+@given(
+    name=st.sampled_from(["Odometry.dat", "Measurement.dat", "Barcodes.dat"]),
+    text=st.text(alphabet="0123456789.-+einaf \n#", max_size=80),
+)
+@settings(
+    max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+def test_whatever_stands_in_a_log_it_is_read_or_refused(
+    tmp_path_factory: pytest.TempPathFactory, name: str, text: str
+) -> None:
+    source = folder(tmp_path_factory.mktemp("logs") / "log")
+    (source / name).write_text(text)
+    try:
+        log = open_landmark_log(source)
+    except InputError:
+        return
+    assert sum(len(look.names) for look in log.looks) + sum(log.unused.values()) == log.frames

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -16,6 +17,11 @@ _WAY: Final = "#ff5fa2"
 _LANDMARK: Final = "#17181c"
 _SURVEYED: Final = "#1f7a8c"
 _DOUBTED: Final = "#b0b3b8"
+_MARGIN: Final = 0.06
+"""Share of the longer side that is left free around."""
+_LEAST_SIDE_M: Final = 1.0
+_LEAST_SHARE: Final = 1e-6
+"""Of the largest coordinate, the shortest side that is shown."""
 SHARE: Final = 0.95
 """Of where a landmark may be, what its ellipse holds."""
 SURE: Final = 0.9
@@ -54,7 +60,7 @@ def draw_landmarks(
                 f"{name:.0f}", (x, y), (6, 5), textcoords="offset points", fontsize=8, color=colour
             )
     axes.set_aspect("equal")
-    axes.margins(0.06)
+    _frame(axes, np.vstack([landmarks[:, :2], way, surveyed]))
     axes.set_xlabel("x (m)")
     axes.set_ylabel("y (m)")
     axes.tick_params(labelsize=8)
@@ -96,6 +102,15 @@ def draw_landmarks(
             facecolor="white",
             metadata={"Software": None},
         )
+
+
+def _frame(axes: Axes, places: NDArray[np.float64]) -> None:
+    """Leave a margin, and be never so near that coordinates have no digits left to tell by."""
+    low, high = places.min(axis=0), places.max(axis=0)
+    side = max(float((high - low).max()), _LEAST_SIDE_M, _LEAST_SHARE * float(np.abs(places).max()))
+    middle, half = 0.5 * (low + high), 0.5 * (high - low) + _MARGIN * side
+    axes.set_xlim(middle[0] - half[0], middle[0] + half[0])
+    axes.set_ylim(middle[1] - half[1], middle[1] + half[1])
 
 
 def _ellipse(place: tuple[float, float], covariance: NDArray[np.float64], colour: str) -> Ellipse:

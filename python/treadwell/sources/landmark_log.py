@@ -22,12 +22,16 @@ from treadwell.sources.packed import unpacked
 
 SURVEYED = "Landmark_Groundtruth.dat"
 ODOMETRY, MEASUREMENTS, BARCODES = "Odometry.dat", "Measurement.dat", "Barcodes.dat"
-LARGEST_FILE: Final = 1 << 28
+LARGEST_FILE: Final = 1 << 26
 """Bytes, unpacked."""
 ROBOTS: Final = 5
 """How many subjects are robots, where nobody says otherwise: those of MRCLAM are the first five."""
-LARGEST: Final = 1e9
+LARGEST: Final = 1e6
 """No number of a log is further from 0, times apart."""
+LATEST_S: Final = 1e12
+"""No time is further from 0."""
+LONGEST_S: Final = 1e5
+"""No two rows lie further apart, and no reading further after the last of the odometry: a day."""
 LARGEST_NAME: Final = 2**31
 
 
@@ -88,6 +92,8 @@ def open_landmark_log(path: Path, robots: int = ROBOTS) -> LandmarkLog:
         raise InputError(f"{path / ODOMETRY}: has not one row")
     subjects = {int(barcode): int(subject) for subject, barcode in _subjects(path / BARCODES)}
     rows = _table(path / MEASUREMENTS, 4)
+    if rows and rows[-1][0] > odometry[-1][0] + LONGEST_S:
+        raise InputError(f"{path / MEASUREMENTS}: ends more than {LONGEST_S:g} s after {ODOMETRY}")
     log = LandmarkLog(path, np.array(odometry), [], len(rows))
     if (path / SURVEYED).exists():
         places = _table(path / SURVEYED, 5, ordered=False)
@@ -134,9 +140,15 @@ def _table(path: Path, columns: int, *, ordered: bool = True) -> list[list[float
                 raise InputError(f"{path}: line {number}: must be {columns} finite numbers")
             if any(abs(value) > LARGEST for value in row[ordered:]):
                 raise InputError(f"{path}: line {number}: no number may be above {LARGEST:g}")
+            if ordered and abs(row[0]) > LATEST_S:
+                raise InputError(f"{path}: line {number}: no time may be above {LATEST_S:g} s")
             rows.append(row)
             lines.append(number)
     for (before, row), number in zip(pairwise(rows), lines[1:], strict=True):
         if ordered and row[0] < before[0]:
             raise InputError(f"{path}: line {number}: time goes back, {before[0]} to {row[0]} s")
+        if ordered and row[0] - before[0] > LONGEST_S:
+            raise InputError(
+                f"{path}: line {number}: more than {LONGEST_S:g} s after the one before"
+            )
     return rows

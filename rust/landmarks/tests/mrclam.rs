@@ -17,7 +17,7 @@ use landmarks::{
 };
 use nalgebra::Vector2;
 
-use common::aligned;
+use common::{off_after_alignment, root_mean_square_and_worst};
 
 /// Barcodes of the robots, which move; the first five subjects.
 const ROBOTS: u32 = 5;
@@ -138,7 +138,7 @@ fn by_name(slam: &FastSlam, log: &Log) -> [f64; 2] {
         .collect();
     assert_eq!(pairs.len(), log.truth.len());
     let (found, truth): (Vec<_>, Vec<_>) = pairs.into_iter().unzip();
-    aligned(&found, &truth)
+    root_mean_square_and_worst(&off_after_alignment(&found, &truth))
 }
 
 /// Without names: the turn and shift that bring a pair of found ones onto a pair of true ones and the most others within `near_m` of one; then of each
@@ -181,7 +181,7 @@ fn by_place(found: &[Vector2<f64>], truth: &[Vector2<f64>], near_m: f64) -> ([f6
     }
     let used: std::collections::BTreeSet<usize> = best.2.iter().map(|one| one.0).collect();
     let (f, t): (Vec<_>, Vec<_>) = best.2.iter().map(|&(f, t)| (found[f], truth[t])).unzip();
-    let mut scored = aligned(&f, &t);
+    let mut scored = root_mean_square_and_worst(&off_after_alignment(&f, &t));
     if used.len() < truth.len() {
         scored[0] = f64::INFINITY;
     }

@@ -11,12 +11,12 @@ use core::f64::consts::FRAC_PI_2;
 
 use geometry::{PlanarPose, SplitMix64, wrap_angle};
 use landmarks::{
-    ExpectedReading, FastSlam, FastSlamConfig, LandmarkReading, LandmarksConfig, OdometryStep,
-    RangeBearing,
+    ExpectedReading, FastSlam, FastSlamConfig, Landmark, LandmarkReading, LandmarksConfig,
+    OdometryStep, RangeBearing,
 };
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-use common::aligned;
+use common::{off_after_alignment, root_mean_square_and_worst};
 
 const RANGE_NOISE_M: f64 = 0.1;
 const ROCKS: usize = 20;
@@ -40,6 +40,8 @@ struct Outcome {
     rocks: [usize; 2],
     /// Root mean square error of the rocks after alignment, m: the map as a whole lies no better than the first looks say.
     rocks_m: f64,
+    /// Mean of the rocks' squared error after alignment over their covariance; two degrees of freedom.
+    rocks_nees: f64,
     /// Root mean square error of the robot's place over the way, m: by the filter, and by odometry alone.
     way_m: [f64; 2],
     /// Mean of the squared error of the pose over its covariance; three degrees of freedom.
@@ -152,14 +154,20 @@ impl Course {
     fn outcome(&self, slam: &FastSlam, way_m: [f64; 2], nees: f64) -> Outcome {
         let found = slam.landmarks();
         let pairs = self.rocks.iter().filter_map(|rock| {
-            let near = found.iter().map(|one| one.at_m);
-            let near = near.min_by(|a, b| (a - rock).norm().total_cmp(&(b - rock).norm()))?;
-            ((near - rock).norm() < NEAR_M).then_some((near, *rock))
+            let off_m = |one: &Landmark| (one.at_m - rock).norm();
+            let near = found.iter().min_by(|a, b| off_m(a).total_cmp(&off_m(b)))?;
+            (off_m(near) < NEAR_M).then_some((near, *rock))
         });
-        let (near, rocks): (Vec<_>, Vec<_>) = pairs.unzip();
+        let (near, rocks): (Vec<&Landmark>, Vec<_>) = pairs.unzip();
+        let places: Vec<_> = near.iter().map(|one| one.at_m).collect();
+        let off = off_after_alignment(&places, &rocks);
+        let square = |(off, one): (&Vector2<f64>, &&Landmark)| {
+            (off.transpose() * one.covariance.try_inverse().unwrap() * off).x
+        };
         Outcome {
             rocks: [near.len(), found.len()],
-            rocks_m: aligned(&near, &rocks)[0],
+            rocks_m: root_mean_square_and_worst(&off)[0],
+            rocks_nees: off.iter().zip(&near).map(square).sum::<f64>() / off.len() as f64,
             way_m,
             nees,
         }

@@ -1,4 +1,4 @@
-//! Landmarks found in points: rocks and poles (004, section 36.3.5: "specific objects, such as rocks [36.36], tree trunks in forest [36.37]").
+//! Landmarks found in points: rocks and poles (004, section 36.3.5: rocks and tree trunks, references 36.36 and 36.37).
 
 #[cfg(test)]
 mod tests;
