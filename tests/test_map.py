@@ -214,7 +214,7 @@ def test_a_signal_ends_a_map_with_the_frames_that_it_has(pictures: Path, tmp_pat
         (("map.upp=z",), None, "up"),
         ((), "elevatoin", "elevation"),
         ((), "mine:Model", "built in"),
-        ((), "lines", "found in scans of a laser"),
+        ((), "lines", "made of scans of a laser"),
         (("plan_view.lines=1",), "elevation", "must be followed by a key"),
     ],
 )

@@ -132,7 +132,7 @@ def test_scans_of_changing_size_and_ranges_that_are_none_are_mapped_as_far_as_th
 @pytest.mark.parametrize(
     ("settings", "world_model", "said"),
     [
-        ((), "fog", "one of occupancy_2d, lines, points"),
+        ((), "fog", "one of occupancy_2d, lines, topology, points"),
         (("occupancy_2d.free=0.7",), None, "navigation.occupancy_2d.free must be < prior"),
         (("plan_view.lines.sigma=0",), "lines", "plan_view.lines.sigma must be > 0"),
         (("plan_view.line.sigma=1",), "lines", "only plan_view.lines.KEY"),
