@@ -145,8 +145,8 @@ def test_a_robot_that_is_far_away_and_stands_is_drawn(tmp_path: Path) -> None:
         ((), "fog", "--world-model: found fog; of ranges and bearings"),
         (("landmarks.readings.gate=2",), None, "landmarks.readings.gate"),
         (("landmarks.readings.gat=0.5",), None, "gat"),
-        (("landmarks.reading.gate=0.5",), None, "must be readings or fast_slam"),
-        (("landmarks=3",), None, "must be followed by a table and a key"),
+        (("landmarks.reading.gate=0.5",), None, "only landmarks.readings.KEY and"),
+        (("landmarks=3",), None, "only landmarks.readings.KEY and"),
         (("map.robots=-1",), None, "robots"),
     ],
 )
