@@ -82,7 +82,12 @@ def run(text: str, folder: Path) -> list[tuple[str, int, int]]:
     return [(command, wanted, got) for (command, wanted), got in zip(typed, found, strict=True)]
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+LONG = {"look_at_a_run", "own_robot", "replay", "sweep_and_compare"}
+"""Pages whose commands take more than ten seconds."""
+TYPED = [pytest.param(p, marks=[pytest.mark.long] * (p.stem in LONG), id=p.stem) for p in PAGES]
+
+
+@pytest.mark.parametrize("page", TYPED)
 def test_the_commands_of_a_page_do_what_it_says(page: Path, tmp_path: Path) -> None:
     wrong = [
         (c, wanted, got) for c, wanted, got in run(page.read_text(), tmp_path) if wanted != got

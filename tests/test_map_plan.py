@@ -148,7 +148,7 @@ def test_bad_requests_are_refused_by_name(
 
 
 @needs_data
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_intel_log_is_a_hundred_and_twenty_lines_at_most(tmp_path: Path) -> None:
     log = data("laser2d/intel-lab.log.gz")
     found = mapped(log, tmp_path / "map", world_model="lines").result.lines

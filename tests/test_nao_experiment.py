@@ -62,9 +62,9 @@ def test_the_rise_in_the_hallway_is_that_of_the_frames_in_it() -> None:
     assert row == ("30", "10", "+20", "20 to 20", "10")
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_other_filters_see_the_data_of_one_walk(tmp_path: Path) -> None:
-    overrides = ("navigation.world_model=octree", "time_limit=12.0")
+    overrides = ("navigation.world_model=octree", "time_limit=45.0")
     episode = Episode("nao_1", seed=0, overrides=overrides)
     done = run_episode(episode, out=tmp_path / "run", watch=WalkWatch)
     same = with_other_draws(done, 0)
