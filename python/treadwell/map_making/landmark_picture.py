@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse
 from numpy.typing import NDArray
 
-from treadwell.files import whole_file
+from treadwell.map_making.picture import save_picture
 
 _WAY: Final = "#ff5fa2"
 _LANDMARK: Final = "#17181c"
@@ -94,14 +94,7 @@ def draw_landmarks(
         frameon=False,
         fontsize=8,
     )
-    with whole_file(path) as temporary:
-        figure.savefig(
-            temporary,
-            format="png",
-            bbox_inches="tight",
-            facecolor="white",
-            metadata={"Software": None},
-        )
+    save_picture(figure, path)
 
 
 def _frame(axes: Axes, places: NDArray[np.float64]) -> None:

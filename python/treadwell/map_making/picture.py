@@ -76,6 +76,15 @@ def draw_map(path: Path, title: str, found: RememberedMap, way: NDArray[np.float
         frameon=False,
         fontsize=8,
     )
+    save_picture(figure, path)
+
+
+def save_picture(figure: Figure, path: Path) -> None:
+    """Write a figure as a PNG file, whole or not at all, the same bytes whoever wrote it.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
     with whole_file(path) as temporary:
         figure.savefig(
             temporary,

@@ -14,7 +14,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from treadwell.files import whole_file
+from treadwell.map_making.picture import save_picture
 from treadwell.map_making.plan_topology import Topology
 from treadwell.map_making.plan_view import Seen
 from treadwell.map_memory import OBSTACLE, RememberedMap
@@ -89,14 +89,7 @@ def draw_plan(
         frameon=False,
         fontsize=9,
     )
-    with whole_file(path) as temporary:
-        figure.savefig(
-            temporary,
-            format="png",
-            bbox_inches="tight",
-            facecolor="white",
-            metadata={"Software": None},
-        )
+    save_picture(figure, path)
 
 
 def _draw_lines(axes: Axes, lines: MappedLines) -> Line2D:

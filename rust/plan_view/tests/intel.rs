@@ -57,7 +57,7 @@ fn scans() -> Option<Vec<PlanarScan>> {
 
 /// H17. Some 470,000 points take long without optimization: `cargo test --release -p plan_view --test intel -- --ignored --nocapture`.
 #[test]
-#[ignore = "long"]
+#[ignore = "the whole log: ten seconds with optimization"]
 fn ninety_percent_of_the_intel_logs_points_lie_on_few_lines() {
     let Some(scans) = scans() else {
         return;
@@ -98,7 +98,7 @@ fn ninety_percent_of_the_intel_logs_points_lie_on_few_lines() {
 
 /// H17 with the scans laid onto the lines: the poses of the log are right to a centimetre or two.
 #[test]
-#[ignore = "long"]
+#[ignore = "the whole log: ten seconds with optimization"]
 fn fewer_lines_hold_as_much_of_the_intel_log_with_its_scans_laid_onto_them() {
     let Some(scans) = scans() else {
         return;

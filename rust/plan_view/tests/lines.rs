@@ -221,7 +221,7 @@ fn the_criterion_finds_how_many_walls_a_room_has() {
 }
 
 #[test]
-#[ignore = "long"]
+#[ignore = "a thousand rooms"]
 fn the_criterion_finds_how_many_walls_a_thousand_rooms_have() {
     let [counted, found] = rooms_right(50..1050);
     eprintln!("{counted} of 1000 counted right, in {found} each wall is a line");
