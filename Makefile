@@ -44,6 +44,7 @@ test-package: lint-package
 
 test-long: export PROPTEST_RNG_SEED ?= 2004
 test-long: setup ## what `make test` leaves out: further seeds, walks and builds of minutes, every bench
+	$(CARGO_LONG)
 	$(PYTEST) --hypothesis-profile ci -m long
 
 fast: export PROPTEST_RNG_SEED ?= 2004
@@ -54,6 +55,7 @@ fast: setup ## the quick tests: two and a half minutes on two cores
 # In `make test` crates are built once, as the package is: tests of the core run on what walks.
 NEXTEST := $(shell cargo nextest --version 2>/dev/null)
 CARGO_TEST := $(if $(NEXTEST),cargo nextest run --workspace,cargo test --workspace --lib --bins --tests)
+CARGO_LONG := $(if $(NEXTEST),cargo nextest run --workspace --release --run-ignored only,cargo test --workspace --release --lib --bins --tests -- --ignored)
 # Tests in a module `slow` take seconds each, as those that pytest marks so.
 CARGO_FAST := $(CARGO_TEST) $(if $(NEXTEST),-E 'not test(slow::)',-- --skip slow::)
 

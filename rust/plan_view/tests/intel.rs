@@ -98,7 +98,7 @@ fn ninety_percent_of_the_intel_logs_points_lie_on_few_lines() {
 
 /// H17 with the scans laid onto the lines: the poses of the log are right to a centimetre or two.
 #[test]
-#[ignore = "the whole log: ten seconds with optimization"]
+#[ignore = "the whole log, a dozen times: two minutes"]
 fn fewer_lines_hold_as_much_of_the_intel_log_with_its_scans_laid_onto_them() {
     let Some(scans) = scans() else {
         return;
