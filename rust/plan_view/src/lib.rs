@@ -39,7 +39,7 @@ pub use occupancy::{
 };
 pub use scan::{PlanarBeam, PlanarScan, SweptBeam};
 pub use topology::{
-    Doorway, GraphPlace, GraphPlan, GraphWay, Rooms, VoronoiGraph, VoronoiGraphConfig,
+    Doorway, GraphPlace, GraphPlan, GraphWay, Rooms, VoronoiCells, VoronoiGraph, VoronoiGraphConfig,
 };
 
 /// The tables of settings of what is no world model of a robot's.

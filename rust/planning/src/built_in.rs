@@ -7,6 +7,8 @@ use crate::part::{PlannerNeeds, PlannerPart};
 use crate::search::ara_star::AraStarConfig;
 use crate::search::d_star_lite::DStarLiteConfig;
 use crate::search::field_d_star::FieldDStarConfig;
+use crate::search::hierarchical::HierarchicalConfig;
+use crate::search::voronoi_graph::VoronoiGraphPlannerConfig;
 use crate::{AStar, AStarConfig, GuideConfig, Guided, Planner, VoronoiConfig};
 
 /// How `a_star` is listed and made.
@@ -66,6 +68,30 @@ pub(crate) const ARA_STAR: PlannerPart = Part {
     make: |needs| {
         let config = read(needs.tables, "ara_star")?;
         guided(near(needs)?.by_ara_star(config)?, needs)
+    },
+};
+
+/// How `voronoi_graph` is listed and made.
+pub(crate) const VORONOI_GRAPH: PlannerPart = Part {
+    name: "voronoi_graph",
+    about: "to the generalized Voronoi diagram, along it, and from it to the goal",
+    source: Some("004, section 36.2.3; Choset and Nagatani 2001 (ref 36.7)"),
+    tables: &[TableDescription::of::<VoronoiGraphPlannerConfig>()],
+    make: |needs| {
+        let config = read(needs.tables, "voronoi_graph")?;
+        guided(near(needs)?.by_voronoi_graph(config)?, needs)
+    },
+};
+
+/// How `hierarchical` is listed and made.
+pub(crate) const HIERARCHICAL: PlannerPart = Part {
+    name: "hierarchical",
+    about: "coarse to fine: a graph of places over local maps, then A* over those on its way",
+    source: Some("004, section 36.3.6; Botea, Müller and Schaeffer 2004"),
+    tables: &[TableDescription::of::<HierarchicalConfig>()],
+    make: |needs| {
+        let config = read(needs.tables, "hierarchical")?;
+        guided(near(needs)?.by_hierarchy(config)?, needs)
     },
 };
 

@@ -55,4 +55,6 @@ pub const PARTS: &[PlannerPart] = &[
     built_in::D_STAR_LITE,
     built_in::FIELD_D_STAR,
     built_in::ARA_STAR,
+    built_in::VORONOI_GRAPH,
+    built_in::HIERARCHICAL,
 ];

@@ -4,6 +4,7 @@ pub mod ara_star;
 pub mod d_star_lite;
 pub mod field_d_star;
 mod fixed_cost;
+pub mod hierarchical;
 mod interpolation;
 pub mod kept;
 pub mod links;
@@ -12,6 +13,7 @@ mod queue;
 pub(crate) mod steps;
 #[cfg(test)]
 pub(crate) mod testing;
+pub mod voronoi_graph;
 
 use std::f64::consts::SQRT_2;
 

@@ -165,6 +165,16 @@ impl Terrain {
     /// What the straight way between two points costs, m; `None` where it may not be walked. Looked at in short pieces, each weighed by
     /// the cell of its middle.
     pub fn straight_cost_m(&self, from: [f64; 2], to: [f64; 2]) -> Option<f64> {
+        self.straight_cost_over_m(&self.weights, from, to)
+    }
+
+    /// As [`Self::straight_cost_m`], with other weights for the cells.
+    pub fn straight_cost_over_m(
+        &self,
+        weights: &[f32],
+        from: [f64; 2],
+        to: [f64; 2],
+    ) -> Option<f64> {
         let length = geometry::hypot(to[0] - from[0], to[1] - from[1]);
         let pieces = (length / (self.room.piece * self.lattice.cell_m))
             .ceil()
@@ -176,7 +186,7 @@ impl Terrain {
                 from[0] + t * (to[0] - from[0]),
                 from[1] + t * (to[1] - from[1]),
             ];
-            let weight = self.weights[self.index_at(at)?];
+            let weight = weights[self.index_at(at)?];
             if weight.is_infinite() {
                 return None;
             }

@@ -1,6 +1,7 @@
 //! Topological maps (004, section 36.2.3): the generalized Voronoi diagram of the free cells as a graph of places and of ways between
 //! them, planning on it, and rooms with the doorways between them.
 
+mod cells;
 mod graph;
 mod nearest;
 mod plan;
@@ -16,6 +17,7 @@ use settings::{ConfigError, POSITIVE, Table as _, at_least, between, settings};
 use graph::graph_of;
 use skeleton::Skeleton;
 
+pub use cells::VoronoiCells;
 pub use plan::GraphPlan;
 pub use rooms::{Doorway, Rooms};
 

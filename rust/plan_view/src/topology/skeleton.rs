@@ -28,19 +28,29 @@ impl Skeleton {
             kept: free.to_vec(),
             towards: vec![NONE; free.len()],
         };
-        let mut cells: Vec<u32> = (0..free.len() as u32)
-            .filter(|&at| free[at as usize])
-            .collect();
-        cells.sort_unstable_by_key(|&at| (found.nearest.squared[at as usize], at));
-        let most_cosine = libm::cos(least_angle_rad);
-        let ridge: Vec<bool> = (0..free.len())
-            .map(|at| f64::from(found.nearest.squared[at]) >= (least_cells * least_cells).max(1.0))
-            .enumerate()
-            .map(|(at, wide)| wide && found.is_between(at, most_cosine))
-            .collect();
+        let mut cells = by_nearness(free, &found.nearest.squared);
+        let ends = DiagramEnds {
+            most_cosine: libm::cos(least_angle_rad),
+            least_squared: (least_cells * least_cells).max(1.0),
+        };
+        // A cell that stayed stays as long as none around it goes.
+        let mut asked = vec![false; free.len()];
         loop {
             let before = cells.len();
-            cells.retain(|&at| !found.take_away(at as usize, &ridge));
+            cells.retain(|&at| {
+                let at = at as usize;
+                if asked[at] {
+                    return true;
+                }
+                asked[at] = true;
+                let gone = found.take_away(at, &ends);
+                if gone {
+                    for around in AROUND {
+                        asked[found.beside(at, around)] = false;
+                    }
+                }
+                !gone
+            });
             if cells.len() == before {
                 return found;
             }
@@ -74,18 +84,22 @@ impl Skeleton {
         beside.into_iter().filter(|&at| self.kept[at])
     }
 
-    /// Whether what is nearest to a cell and to one beside it lies in directions that are far apart.
-    fn is_between(&self, at: usize, most_cosine: f64) -> bool {
-        let towards = |from: usize| {
-            let offset = self.offset(from, self.nearest.blocked[from]);
-            let length = libm::hypot(offset[0], offset[1]).max(f64::MIN_POSITIVE);
-            [offset[0] / length, offset[1] / length]
-        };
+    /// Whether the diagram may end at a cell: whether that is wide enough, and what is nearest to it and to one beside it lies in directions
+    /// that are far apart.
+    fn is_end(&self, at: usize, ends: &DiagramEnds) -> bool {
+        let NearestBlocked { blocked, squared } = &self.nearest;
+        if f64::from(squared[at]) < ends.least_squared {
+            return false;
+        }
+        let towards = |from: usize| self.offset(from, blocked[from]);
         let own = towards(at);
-        AROUND.iter().any(|&around| {
-            let beside = self.beside(at, around);
+        let others = AROUND.map(|around| self.beside(at, around));
+        let mut others = (others.into_iter())
+            .filter(|&beside| squared[beside] > 0 && blocked[beside] != blocked[at]);
+        others.any(|beside| {
             let other = towards(beside);
-            self.nearest.squared[beside] > 0 && own[0] * other[0] + own[1] * other[1] <= most_cosine
+            let lengths = (f64::from(squared[at]) * f64::from(squared[beside])).sqrt();
+            own[0] * other[0] + own[1] * other[1] <= ends.most_cosine * lengths
         })
     }
 
@@ -99,9 +113,9 @@ impl Skeleton {
     }
 
     /// Takes a cell away where it may be.
-    fn take_away(&mut self, at: usize, ridge: &[bool]) -> bool {
+    fn take_away(&mut self, at: usize, ends: &DiagramEnds) -> bool {
         let kept = self.kept_around(at);
-        if (ridge[at] && kept.count_ones() <= 1) || kept & SIDES == SIDES {
+        if kept & SIDES == SIDES || (kept.count_ones() <= 1 && self.is_end(at, ends)) {
             return false;
         }
         let own = self.nearest.squared[at];
@@ -125,4 +139,33 @@ impl Skeleton {
         self.kept[at] = false;
         true
     }
+}
+
+/// Where branches of the diagram may end.
+#[derive(Debug, Clone, Copy)]
+struct DiagramEnds {
+    /// Cosine of the least angle between the two nearest obstacles, seen from there.
+    most_cosine: f64,
+    /// Least squared distance to an obstacle, cells².
+    least_squared: f64,
+}
+
+/// The free cells, the nearest to an obstacle first, those equally near in the order of their indices.
+fn by_nearness(free: &[bool], squared: &[u32]) -> Vec<u32> {
+    let all = || (0..free.len() as u32).filter(|&at| free[at as usize]);
+    let most = all().map(|at| squared[at as usize]).max().unwrap_or(0) as usize;
+    let mut first = vec![0_u32; most + 2];
+    for at in all() {
+        first[squared[at as usize] as usize + 1] += 1;
+    }
+    for nearness in 1..first.len() {
+        first[nearness] += first[nearness - 1];
+    }
+    let mut cells = vec![0; first[most + 1] as usize];
+    for at in all() {
+        let place = &mut first[squared[at as usize] as usize];
+        cells[*place as usize] = at;
+        *place += 1;
+    }
+    cells
 }

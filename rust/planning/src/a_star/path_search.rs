@@ -35,7 +35,8 @@ impl AStar {
             ..Path::default()
         };
         let tuning = &self.config.tuning.legs;
-        path.go_along(terrain, links, (&route, worst), end_m, tuning);
+        let ground = (terrain, self.chosen.ground(terrain, &route));
+        path.go_along(ground, links, (&route, worst), end_m, tuning);
         Ok(path)
     }
 

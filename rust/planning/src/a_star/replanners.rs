@@ -7,6 +7,8 @@ use crate::path::chosen_search::ChosenSearch;
 use crate::search::ara_star::AraStarConfig;
 use crate::search::d_star_lite::DStarLiteConfig;
 use crate::search::field_d_star::FieldDStarConfig;
+use crate::search::hierarchical::HierarchicalConfig;
+use crate::search::voronoi_graph::VoronoiGraphPlannerConfig;
 
 impl AStar {
     /// The planner whose way to the goal is repaired by D* Lite, or Delayed D*, where the ground changes.
@@ -20,6 +22,23 @@ impl AStar {
     pub fn by_field_d_star(mut self, config: &FieldDStarConfig) -> Result<Self, ConfigError> {
         config.check()?;
         self.chosen = ChosenSearch::field_d_star(config);
+        Ok(self)
+    }
+
+    /// The planner whose way to the goal leads to the generalized Voronoi diagram, along it, and from it.
+    pub fn by_voronoi_graph(
+        mut self,
+        config: VoronoiGraphPlannerConfig,
+    ) -> Result<Self, ConfigError> {
+        config.check()?;
+        self.chosen = ChosenSearch::voronoi_graph(config);
+        Ok(self)
+    }
+
+    /// The planner whose way to the goal is found over a graph of places first, then over the local maps on the way.
+    pub fn by_hierarchy(mut self, config: HierarchicalConfig) -> Result<Self, ConfigError> {
+        config.check()?;
+        self.chosen = ChosenSearch::hierarchical(config);
         Ok(self)
     }
 

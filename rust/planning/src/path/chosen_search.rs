@@ -11,7 +11,9 @@ use crate::climb_links::{ClimbLinks, Fit};
 use crate::search::ara_star::{AraStar, AraStarConfig};
 use crate::search::d_star_lite::{Asked, DStarLite, DStarLiteConfig};
 use crate::search::field_d_star::{FieldDStar, FieldDStarConfig};
+use crate::search::hierarchical::{HierarchicalConfig, HierarchicalSearch};
 use crate::search::kept::{KeptRoute, WeightChange};
+use crate::search::voronoi_graph::{VoronoiGraphPlannerConfig, VoronoiGraphSearch};
 use crate::search::{Graph, Route, Search};
 
 /// The search that was chosen, with what it keeps from one plan to the next.
@@ -25,6 +27,10 @@ pub(crate) enum ChosenSearch {
     FieldDStar(Box<FieldDStar>, SearchedCells, f64),
     /// ARA*.
     AraStar(Box<AraStar>, AraStarConfig),
+    /// A* over the generalized Voronoi diagram and the ways to it and from it.
+    VoronoiGraph(VoronoiGraphSearch),
+    /// A graph of places over local maps, then A* over those on its way.
+    Hierarchical(Box<HierarchicalSearch>),
 }
 
 impl Default for ChosenSearch {
@@ -48,13 +54,29 @@ impl ChosenSearch {
         Self::AraStar(Box::default(), config)
     }
 
+    pub(crate) const fn voronoi_graph(config: VoronoiGraphPlannerConfig) -> Self {
+        Self::VoronoiGraph(VoronoiGraphSearch::new(config))
+    }
+
+    pub(crate) fn hierarchical(config: HierarchicalConfig) -> Self {
+        Self::Hierarchical(Box::new(HierarchicalSearch::new(config)))
+    }
+
+    /// The weights of the ground over which a route that was found may be straightened.
+    pub(crate) fn ground<'a>(&'a self, terrain: &'a Terrain, route: &Route) -> &'a [f32] {
+        match self {
+            Self::VoronoiGraph(search) if search.holds(route) => search.weights(),
+            _ => &terrain.weights,
+        }
+    }
+
     /// Forgets what is kept from plan to plan.
     pub(crate) fn forget(&mut self) {
         match self {
             Self::AStar(kept) => kept.forget(),
             Self::DStarLite(search, ..) => search.forget(),
             Self::FieldDStar(search, ..) => search.forget(),
-            Self::AraStar(..) => {}
+            Self::AraStar(..) | Self::VoronoiGraph(..) | Self::Hierarchical(..) => {}
         }
     }
 
@@ -74,16 +96,18 @@ impl ChosenSearch {
             start,
             ends,
         };
+        let graph = Graph {
+            weights: &terrain.weights,
+            cols: terrain.cols,
+            links: Some(&links.links),
+        };
+        let fits = |link: usize| links.way(link).fit <= Fit::Holds;
+        let (cost, remaining) = (|cell| ends.cost(cell), |cell| ends.remaining(cell));
         match self {
             Self::AStar(kept) if alone && ends.inside => {
                 let all = ends.all();
-                let remaining = |cell: usize| ends.remaining(cell);
-                let stands = kept.stands(&terrain.lattice, question(&all), remaining);
-                stands.or_else(|| {
-                    let route = by_a_star(plain);
-                    kept.keep(route.as_ref(), &terrain.lattice, question(&all));
-                    route
-                })
+                let now = question(&all);
+                kept.run(&terrain.lattice, now, remaining, || by_a_star(plain))
             }
             Self::AStar(kept) => {
                 kept.forget();
@@ -103,18 +127,23 @@ impl ChosenSearch {
             }
             Self::DStarLite(..) | Self::FieldDStar(..) => by_a_star(plain),
             Self::AraStar(search, config) => {
-                let graph = Graph {
-                    weights: &terrain.weights,
-                    cols: terrain.cols,
-                    links: Some(&links.links),
-                };
-                let fits = |link: usize| links.way(link).fit <= Fit::Holds;
-                let costs = (
-                    |cell: usize| ends.cost(cell),
-                    |cell: usize| ends.remaining(cell),
-                );
+                let costs = (cost, remaining);
                 let found = search.run(graph, fits, start, costs, config)?;
                 Some(found.route)
+            }
+            Self::VoronoiGraph(search) => {
+                let all = ends.all();
+                let begin_and_end = all.iter().map(|&(cell, _)| cell as usize).chain([start]);
+                let laid = Graph {
+                    weights: search.lay(graph, begin_and_end),
+                    ..graph
+                };
+                plain.run_linked(laid, fits, start, cost, remaining)
+            }
+            Self::Hierarchical(search) => {
+                let (with, question) = ((plain, graph.links), (cost, remaining));
+                search.read(graph.weights, graph.cols);
+                search.run(with, fits, start, &ends.all(), question)
             }
         }
     }
@@ -185,6 +214,22 @@ impl Kept {
         let route = self.way.stands(now.start, changes, remaining)?;
         self.weights.copy_from_slice(now.weights);
         Some(route)
+    }
+
+    /// The way before where it stands, else a new one, which is kept.
+    fn run(
+        &mut self,
+        lattice: &Lattice,
+        now: Asked<'_>,
+        remaining: impl Fn(usize) -> f64,
+        anew: impl FnOnce() -> Option<Route>,
+    ) -> Option<Route> {
+        let stands = self.stands(lattice, now, remaining);
+        stands.or_else(|| {
+            let route = anew();
+            self.keep(route.as_ref(), lattice, now);
+            route
+        })
     }
 
     fn keep(&mut self, route: Option<&Route>, lattice: &Lattice, now: Asked<'_>) {

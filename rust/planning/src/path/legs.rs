@@ -12,11 +12,11 @@ use crate::{Climb, Path, Sidle};
 const NO_WAY_M: f64 = 1e-9;
 
 impl Path {
-    /// Goes along a route over ways up to `worst`, and ends at `end_m` where that ends in a cell. It ends where a way begins that is in
+    /// Goes along a route over ways up to `worst`, straightened by these weights of the cells, and ends at `end_m` where that ends in a cell. It ends where a way begins that is in
     /// doubt.
     pub(crate) fn go_along(
         &mut self,
-        terrain: &Terrain,
+        (terrain, weights): (&Terrain, &[f32]),
         links: &ClimbLinks,
         (route, worst): (&Route, Fit),
         end_m: impl Fn(usize) -> [f64; 2],
@@ -30,7 +30,12 @@ impl Path {
             let Some(way) = links.between(terrain, pair[0], pair[1], worst) else {
                 continue;
             };
-            self.walk(terrain, tuning, &route.cells[first..=i], way.enter_m);
+            self.walk(
+                (terrain, weights),
+                tuning,
+                &route.cells[first..=i],
+                way.enter_m,
+            );
             if way.fit != Fit::Holds {
                 return;
             }
@@ -41,15 +46,21 @@ impl Path {
             && (last as usize) < terrain.weights.len()
         {
             let end_m = end_m(last as usize);
-            self.walk(terrain, tuning, &route.cells[first..], end_m);
+            self.walk((terrain, weights), tuning, &route.cells[first..], end_m);
         }
     }
 
-    fn walk(&mut self, terrain: &Terrain, tuning: &LegsTuning, cells: &[u32], end_m: [f64; 2]) {
+    fn walk(
+        &mut self,
+        ground: (&Terrain, &[f32]),
+        tuning: &LegsTuning,
+        cells: &[u32],
+        end_m: [f64; 2],
+    ) {
         let here = self.points_m.last() == Some(&end_m);
         if !(here && cells.len() == 1) {
             let points_m = &mut self.points_m;
-            walk(points_m, terrain, tuning.straighter, (cells, end_m));
+            walk(points_m, ground, tuning.straighter, (cells, end_m));
         }
     }
 

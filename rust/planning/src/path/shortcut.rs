@@ -6,10 +6,10 @@ use terrain::Terrain;
 const NO_WAY: f64 = f64::MAX / 1e9;
 
 /// Adds the points of the way along `cells` from the last point of `points` to `end_m` (a point of the last cell): straight where that
-/// costs no more than so many times what the cells do.
+/// costs no more, by these weights, than so many times what the cells do.
 pub(crate) fn walk(
     points: &mut Vec<[f64; 2]>,
-    terrain: &Terrain,
+    (terrain, weights): (&Terrain, &[f32]),
     straighter: f64,
     (cells, end_m): (&[u32], [f64; 2]),
 ) {
@@ -30,12 +30,12 @@ pub(crate) fn walk(
     }
     let mut along = vec![0.0; corners.len()];
     for i in 1..corners.len() {
-        let step = terrain.straight_cost_m(corners[i - 1], corners[i]);
+        let step = terrain.straight_cost_over_m(weights, corners[i - 1], corners[i]);
         along[i] = along[i - 1] + step.unwrap_or(NO_WAY);
     }
     let mut from = 0;
     while from + 1 < corners.len() {
-        let to = furthest(terrain, straighter, (&corners, &along), from);
+        let to = furthest((terrain, weights), straighter, (&corners, &along), from);
         lay(points, corners[to], terrain.lattice.cell_m);
         from = to;
     }
@@ -43,14 +43,14 @@ pub(crate) fn walk(
 
 /// A corner after `from`, as far as doubling and halving find one, that is reached straight at no higher cost.
 fn furthest(
-    terrain: &Terrain,
+    (terrain, weights): (&Terrain, &[f32]),
     straighter: f64,
     (corners, along): (&[[f64; 2]], &[f64]),
     from: usize,
 ) -> usize {
     let reaches = |to: usize| {
         terrain
-            .straight_cost_m(corners[from], corners[to])
+            .straight_cost_over_m(weights, corners[from], corners[to])
             .is_some_and(|straight| straight <= (along[to] - along[from]) * straighter)
     };
     let last = corners.len() - 1;

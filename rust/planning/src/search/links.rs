@@ -57,6 +57,11 @@ impl Links {
         self.nodes
     }
 
+    /// All links, in the order in which they were added.
+    pub fn all(&self) -> &[SearchLink] {
+        &self.all
+    }
+
     /// The links from a node with their indices.
     pub fn from(&self, node: usize) -> impl Iterator<Item = (usize, &SearchLink)> {
         let mut at = self.first.get(node).copied().unwrap_or(NONE);

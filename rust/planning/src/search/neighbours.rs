@@ -18,6 +18,17 @@ const HALF_LENGTHS: [f64; 8] = [
     FRAC_1_SQRT_2,
 ];
 
+/// The up to eight cells around one of a grid with so many cells.
+pub(crate) fn around(cell: usize, cols: usize, cells: usize) -> impl Iterator<Item = usize> {
+    let (col, row) = (cell % cols, cell / cols);
+    let rows = row.saturating_sub(1)..=(row + 1).min(cells / cols - 1);
+    rows.flat_map(move |row| {
+        let cols_of = col.saturating_sub(1)..=(col + 1).min(cols - 1);
+        cols_of.map(move |col| row * cols + col)
+    })
+    .filter(move |&beside| beside != cell)
+}
+
 /// The cells of a grid, row by row, with what a length costs there: infinite where it may not be entered.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Cells<'a> {
