@@ -9,6 +9,7 @@ from source_builders import data, needs_data
 
 from treadwell.cli.app import execute
 from treadwell.errors import InputError
+from treadwell.experiments.indoor.mapped import draw_topology
 from treadwell.map_making.making import MadeMap, make_map
 from treadwell.map_making.request import read_request
 from treadwell.map_memory import FLOOR, OBSTACLE, UNKNOWN
@@ -174,6 +175,12 @@ def test_a_log_is_mapped_as_places_ways_and_rooms(log: Path, tmp_path: Path) -> 
         assert arrays["room"].shape == arrays["kind"].shape
         assert set(np.unique(arrays["ways"][:, 0])) == set(range(len(places.ways)))
     assert (tmp_path / "map" / "map.png").stat().st_size > 10_000
+
+
+def test_the_picture_of_an_experiment_is_the_maps(log: Path, tmp_path: Path) -> None:
+    told = draw_topology(tmp_path / "places.png", log)
+    assert told.endswith("rooms: 1")
+    assert (tmp_path / "places.png").stat().st_size > 10_000
 
 
 def test_settings_of_places_are_checked(log: Path, tmp_path: Path) -> None:

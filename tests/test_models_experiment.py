@@ -169,11 +169,11 @@ def test_without_a_folder_of_data_nothing_is_mapped(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.delenv("TREADWELL_DATA", raising=False)
-    assert recorded() == []
+    assert recorded(tmp_path) == []
     monkeypatch.setenv("TREADWELL_DATA", str(tmp_path))
-    assert recorded() == []
+    assert recorded(tmp_path) == []
     (tmp_path / "rgbd_room").mkdir()
-    assert [one.model for one in recorded()] == list(WORLD_MODELS)
+    assert [one.model for one in recorded(tmp_path)] == list(WORLD_MODELS)
 
 
 def cloud(folder: Path) -> Path:
@@ -213,7 +213,7 @@ def double(number: int) -> int:
     return 2 * number
 
 
-def pieces() -> list[int]:
+def pieces(_folder: Path) -> list[int]:
     return [3, 4]
 
 

@@ -55,6 +55,7 @@ __all__ = [
     "mesh_file",
     "parameters",
     "point_classes",
+    "split_and_merge",
     "squared_distances",
     "standing_things",
     "swept_clearance",
@@ -89,6 +90,9 @@ def ground_points(points: NDArray[np.float64], settings: str = "{}") -> NDArray[
 def mesh_file(to: str, corners: NDArray[np.float32], triangles: NDArray[np.uint32]) -> bytes: ...
 def parameters() -> str: ...
 def point_classes(points: NDArray[np.float64], settings: str = "{}") -> NDArray[np.uint8]: ...
+def split_and_merge(
+    points: NDArray[np.float64], settings: str = "{}"
+) -> list[tuple[int, int, float, float]]: ...
 def squared_distances(blocked: NDArray[np.bool_], /) -> NDArray[np.uint32]: ...
 def swept_clearance(
     path: NDArray[np.float64], outline: NDArray[np.float64], radius: float

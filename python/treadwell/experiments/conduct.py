@@ -126,16 +126,22 @@ def conduct(
     jobs = [_job(case, seed, folder) for case in experiment.cases for seed in case.seeds(seeds)]
     results = _one_by_one(jobs, progress) if workers == 1 else _side_by_side(jobs, workers)
     runs = tuple((job.case.name, done) for job, done in zip(jobs, results, strict=False))
-    beside, whole = _beside(experiment, workers, missing=len(runs) < len(jobs))
+    beside, whole = _beside(experiment, folder, workers, missing=len(runs) < len(jobs))
     with Interruption() as interruption:
         interruption.hold()  # hours of runs are not lost to a second Ctrl-C
         by_case = {
             case.name: [done for name, done in runs if name == case.name]
             for case in experiment.cases
         }
-        tables = (*experiment.tables(by_case), *beside)
-        pictures = tuple(experiment.pictures(by_case, folder))
-        report = Report(experiment, folder, seeds, runs, tables, pictures, interrupted=not whole)
+        tables = list(experiment.tables(by_case))
+        pictures: list[Picture] = []
+        if experiment.beside is not None and beside:
+            tables += experiment.beside.tables(beside)
+            pictures += experiment.beside.pictures(beside)
+        pictures += experiment.pictures(by_case, folder)
+        report = Report(
+            experiment, folder, seeds, runs, tuple(tables), tuple(pictures), interrupted=not whole
+        )
         write_text(folder / "experiment.md", report.markdown())
         document = json.dumps(report.document(), indent=2, allow_nan=False)
         write_text(folder / "experiment.json", document + "\n")
@@ -188,24 +194,27 @@ def _side_by_side(jobs: Sequence[Job], workers: int) -> Iterator[Run]:
     yield from side_by_side(_done, jobs, workers, told)
 
 
-def _beside(experiment: Experiment, workers: int, missing: bool) -> tuple[list[Table], bool]:
-    """Return the tables of what is done beside the runs, and whether all of that was done.
+def _beside(
+    experiment: Experiment, folder: Path, workers: int, missing: bool
+) -> tuple[list[Any], bool]:
+    """Return what came of what is done beside the runs, and whether all of that was done.
 
     Args:
         experiment: whose.
+        folder: its folder.
         workers: processes at a time.
         missing: whether the runs were interrupted: then nothing is begun.
     """
     beside = experiment.beside
     if beside is None or missing:
         return [], not missing
-    items = beside.items()
+    items = beside.items(folder)
 
     def told(number: int, done: Any) -> str:  # noqa: ANN401 - as `Beside` has it
         return f"{number + 1} of {len(items)}: {beside.told(done)}"
 
     done = list(side_by_side(beside.work, items, workers, told, fresh=True))
-    return list(beside.tables(done)), len(done) == len(items)
+    return done, len(done) == len(items)
 
 
 def _title(number: int, of: int, job: Job) -> str:

@@ -86,21 +86,28 @@ class Picture:
         return f"## {self.title}\n\n![{self.title}]({self.path.name})\n"
 
 
+def _none_beside(_done: Sequence[Any]) -> Sequence[Picture]:
+    return ()
+
+
 @dataclass(frozen=True, slots=True)
 class Beside:
     """What an experiment does beside its runs, each piece in a fresh process.
 
     Attributes:
-        items: makes what there is to do, each piece plain data that can be pickled.
+        items: makes what there is to do, each piece plain data that can be pickled; given the
+            experiment's folder, in which a piece may leave files.
         work: a function of a module that does a piece.
         told: one line of what came of a piece.
         tables: makes the report of what came of all that were done.
+        pictures: those of the files in the folder that belong into the report.
     """
 
-    items: Callable[[], Sequence[Any]]
+    items: Callable[[Path], Sequence[Any]]
     work: Callable[[Any], Any]
     told: Callable[[Any], str]
     tables: Callable[[Sequence[Any]], Sequence[Table]]
+    pictures: Callable[[Sequence[Any]], Sequence[Picture]] = _none_beside
 
 
 def _no_pictures(_results: Results, _folder: Path) -> Sequence[Picture]:

@@ -42,6 +42,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(distance::distances, module)?)?;
     module.add_function(wrap_pyfunction!(distance::squared_distances, module)?)?;
     module.add_function(wrap_pyfunction!(plan_view::find_lines, module)?)?;
+    module.add_function(wrap_pyfunction!(plan_view::split_and_merge, module)?)?;
     module.add_function(wrap_pyfunction!(landmarks::standing_things, module)?)?;
     module.add_function(wrap_pyfunction!(slip::gait_statistics, module)?)?;
     module.add_function(wrap_pyfunction!(mesh_files::mesh_file, module)?)?;

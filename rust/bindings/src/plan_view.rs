@@ -7,7 +7,7 @@ use numpy::{
 use plan_view::{
     AlignmentConfig, BeamLikelihood, BeamLikelihoodConfig, LineAlignment, LineFinder,
     LineFinderConfig, OccupancyConfig, OccupancyMap, PlanarBeam, PlanarScan, SonarConfig,
-    SonarModel,
+    SonarModel, SplitAndMergeConfig,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -239,4 +239,24 @@ pub(crate) fn find_lines<'py>(
     let of: Vec<i64> = drawn.iter().map(|stretch| stretch.line as i64).collect();
     made.set_item("line", of.into_pyarray(py))?;
     Ok(made)
+}
+
+/// The lines of a scan whose points (n, 2), m, come in order (004, Fig. 36.4): of each the first and the last point, and its normal, rad, and
+/// distance, m. `settings` is JSON: `[plan_view.split_and_merge]`.
+#[pyfunction]
+#[pyo3(signature = (points, settings="{}"))]
+pub(crate) fn split_and_merge(
+    py: Python<'_>,
+    points: &Bound<'_, PyArray2<f64>>,
+    settings: &str,
+) -> PyResult<Vec<(usize, usize, f64, f64)>> {
+    let config: SplitAndMergeConfig = parse(py, settings)?;
+    let points = places(points)?;
+    let pieces = run(py, || plan_view::split_and_merge(&points, &config))?;
+    let pieces = pieces.map_err(|error| bad_setting(py, &error))?;
+    let ends = pieces.iter().map(|piece| {
+        let line = &piece.line;
+        (piece.first, piece.last, line.normal_rad, line.distance_m)
+    });
+    Ok(ends.collect())
 }

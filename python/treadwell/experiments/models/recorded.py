@@ -63,7 +63,7 @@ class RecordedMap:
     megabytes: float | None = None
 
 
-def recorded() -> list[Recorded]:
+def recorded(_folder: Path) -> list[Recorded]:
     """Return the maps to make: of the data that are there, by every model."""
     folder = os.environ.get("TREADWELL_DATA")
     if not folder:
