@@ -1,5 +1,6 @@
 //! Where the robot is: the localizers.
 
+mod fast_slam;
 mod localizer;
 mod matching;
 mod monte_carlo;
@@ -7,6 +8,7 @@ mod odometry;
 mod part;
 mod particle_maps;
 
+pub use fast_slam::{FastSlamLocalizer, FastSlamLocalizerConfig};
 pub use localizer::{Estimate, Guess, Localizer, LocalizerError};
 pub use matching::{MatchingConfig, MatchingLocalizer};
 pub use monte_carlo::{
@@ -17,4 +19,9 @@ pub use part::{LocalizerNeeds, LocalizerPart};
 pub use particle_maps::{ParticleMap, ParticleMaps, ParticleMapsRule};
 
 /// The localizers that come with the crate: a new one is a file or folder beside these, and its lines here.
-pub const PARTS: &[LocalizerPart] = &[odometry::PART, matching::PART, monte_carlo::PART];
+pub const PARTS: &[LocalizerPart] = &[
+    odometry::PART,
+    matching::PART,
+    monte_carlo::PART,
+    fast_slam::PART,
+];

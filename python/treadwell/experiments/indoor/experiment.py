@@ -8,6 +8,7 @@ from treadwell.experiments.indoor.figures import BESIDE
 
 SCENES: Final = {
     "navigation.world_model=occupancy_2d": ("doorway", "slalom"),
+    "navigation.localizer=fast_slam": ("rocks",),
     "navigation.planner=voronoi_graph": ("doorway", "random_house", "two_levels"),
     "navigation.planner=hierarchical": ("doorway", "random_house", "two_levels"),
 }

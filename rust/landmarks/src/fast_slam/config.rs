@@ -19,6 +19,8 @@ settings! {
         heading_noise: [f64; 3] = [0.02, 0.04, 0.002], "rad/sqrt(m), rad/sqrt(rad), rad/sqrt(s)", NOT_NEGATIVE;
         /// What the odometry's ways and turns are to be multiplied by is not known: standard deviations about 1. It is found on the way.
         scale_noise: [f64; 2] = [0.05, 0.3], "1, 1", NOT_NEGATIVE;
+        /// All bearings may be off by the same, as where the sensor is turned a little on the robot: standard deviation. It is found on the way.
+        bearing_bias: f64 = 0.0, "rad", NOT_NEGATIVE;
         /// They are drawn anew where their effective number falls below this share of them.
         resample_below: f64 = 0.5, "1", SHARE;
         /// Standard deviation below which a place is known: what is drawn has at least this.

@@ -32,6 +32,7 @@ pub struct FastSlam {
     particles: Vec<SlamParticle>,
     random: SplitMix64,
     gone: [f64; 2],
+    start_m: [f64; 2],
 }
 
 impl FastSlam {
@@ -48,6 +49,7 @@ impl FastSlam {
             random: SplitMix64::new(config.seed),
             config,
             gone: [0.0; 2],
+            start_m: [start.x_m, start.y_m],
         })
     }
 
@@ -107,7 +109,7 @@ impl FastSlam {
 
     /// Where the likeliest particle is.
     pub fn pose(&self) -> PlanarPose {
-        self.best().pose()
+        self.best().pose(self.start_m)
     }
 
     /// Where all particles together say that the robot is: mean, and covariance of x, y (m) and heading (rad).
@@ -120,7 +122,7 @@ impl FastSlam {
             Vector3::new(pose.x_m - from.x_m, pose.y_m - from.y_m, yaw_rad)
         };
         let shift: Vector3<f64> = each()
-            .map(|(one, weight)| off(&one.pose(), &about) * *weight)
+            .map(|(one, weight)| off(&one.pose(self.start_m), &about) * *weight)
             .sum();
         let mean = PlanarPose::new(
             about.x_m + shift.x,
@@ -128,7 +130,7 @@ impl FastSlam {
             wrap_angle(about.yaw_rad + shift.z),
         );
         let spread = |(one, weight): (&SlamParticle, &f64)| {
-            let off = off(&one.pose(), &mean);
+            let off = off(&one.pose(self.start_m), &mean);
             (one.covariance_of_pose() + off * off.transpose()) * *weight
         };
         (mean, each().map(spread).sum())
@@ -139,9 +141,14 @@ impl FastSlam {
         self.best().scales()
     }
 
+    /// By how much bearings are too large in the likeliest particle, rad: mean and standard deviation.
+    pub fn bearing_bias(&self) -> [f64; 2] {
+        self.best().bearing_bias()
+    }
+
     /// Place and weight of each particle; the weights sum to one.
     pub fn guesses(&self) -> impl Iterator<Item = (PlanarPose, f64)> {
-        let poses = self.particles.iter().map(SlamParticle::pose);
+        let poses = (self.particles.iter()).map(|one| one.pose(self.start_m));
         poses.zip(self.weights())
     }
 

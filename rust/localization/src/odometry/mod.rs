@@ -3,7 +3,7 @@
 mod config;
 
 use crate::part::LocalizerPart;
-use geometry::{Map, Odometry, Pose, Robot};
+use geometry::{Map, Odometry, PlanarPose, Pose, Robot, wrap_angle};
 use mapping::{FloorView, Surface};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use segmentation::Planes;
@@ -75,6 +75,16 @@ impl OdometryLocalizer {
         self.map_from_odometry = Some(Pose::wrap(
             place * turn * place.inverse() * map_from_odometry,
         ));
+    }
+
+    /// Moves and turns the map's odometry frame so that the robot is at this place with this heading; its height stays.
+    pub(crate) fn place(&mut self, body: &BodyState, pose: &PlanarPose) {
+        let map_from_robot = self.map_from_odometry(body) * body.odometry_from_robot;
+        self.turn(body, wrap_angle(pose.yaw_rad - map_from_robot.yaw_rad()));
+        let place = map_from_robot.origin().inner;
+        let mut moved = self.map_from_odometry(body).inner;
+        moved.translation.vector += Vector3::new(pose.x_m - place.x, pose.y_m - place.y, 0.0);
+        self.map_from_odometry = Some(Pose::wrap(moved));
     }
 
     /// By how much the floor under the feet lies above the robot's frame in the map, m: the mean over the places under
