@@ -130,6 +130,29 @@ def test_scans_of_changing_size_and_ranges_that_are_none_are_mapped_as_far_as_th
         assert result.unused == {"line that is no whole scan": 1, "no point": 1}
 
 
+def test_a_log_with_one_beam_is_a_map_with_one_line_and_no_place(tmp_path: Path) -> None:
+    path = tmp_path / "one.log"
+    path.write_text(line([1.0] + [0.0] * (BEAMS - 1), "0 0 0"))
+    lines = mapped(path, tmp_path / "lines", world_model="lines").result.lines
+    places = mapped(path, tmp_path / "places", world_model="topology").result.places
+    assert lines is not None
+    assert places is not None
+    assert (lines.count, places.count, places.rooms) == (1, 0, 0)
+
+
+def test_scans_before_the_first_pose_and_logs_without_any_scan_are_told(
+    log: Path, tmp_path: Path
+) -> None:
+    late = tmp_path / "late.log"
+    late.write_text("ROBOTLASER1 0 -1.57 3.14 0.0175 50 0.1 0 2 1.0 1.0 0\n" + log.read_text())
+    result = mapped(late, tmp_path / "late").result
+    assert result.unused == {"line that is no whole scan": 1}
+    edges = tmp_path / "edges.g2o"
+    edges.write_text("EDGE2 0 1 0.1 0 0 0 0 0 0 0 0\n")
+    with pytest.raises(InputError, match="has not one scan"):
+        mapped(edges, tmp_path / "edges")
+
+
 @pytest.mark.parametrize(
     ("settings", "world_model", "said"),
     [
