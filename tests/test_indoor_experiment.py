@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from treadwell._core import split_and_merge
+from treadwell._core import Embedding, split_and_merge
 from treadwell.components import COMPONENTS
 from treadwell.errors import InputError
 from treadwell.experiments.catalogue import find_experiment
@@ -15,6 +15,7 @@ from treadwell.experiments.indoor.corridor import draw_corridor, draw_sonar
 from treadwell.experiments.indoor.experiment import INDOOR, SCENES
 from treadwell.experiments.indoor.figure import FigureToDraw, drawn
 from treadwell.experiments.indoor.figures import BESIDE, FIGURES
+from treadwell.experiments.indoor.looks import draw_looks
 from treadwell.experiments.indoor.walls import draw_split_and_merge
 
 NOWHERE = Path()
@@ -42,6 +43,18 @@ def test_a_scan_is_split_as_far_as_asked(tmp_path: Path) -> None:
     told = draw_split_and_merge(tmp_path / "split.png", NOWHERE)
     coarse, middle, fine = (int(count) for count in told.split(" lines")[0].split(" / "))
     assert coarse < middle < fine == 9
+
+
+def test_looks_of_a_kind_lie_together_in_three_dimensions(tmp_path: Path) -> None:
+    told = draw_looks(tmp_path / "looks.png", NOWHERE)
+    share = told.partition("the kind of ")[2].partition("%")[0]
+    assert int(share) >= 90
+    with pytest.raises(InputError, match=r"landmarks\.embedding\.dimensions must be"):
+        Embedding(np.zeros((20, 4)), '{"dimensions": 0}')
+    with pytest.raises(InputError, match="there are 3 looks, and more than 8 are needed"):
+        Embedding(np.zeros((3, 4)))
+    with pytest.raises(ValueError, match="as many finite numbers"):
+        Embedding(np.eye(20)).place(np.zeros((1, 4)))
 
 
 def test_two_walls_are_two_lines_and_a_bad_setting_is_named() -> None:

@@ -17,6 +17,7 @@ __all__ = [
     "Climb",
     "DepthCamera",
     "DepthErrors",
+    "Embedding",
     "FastSlam",
     "FloorView",
     "Goal",
@@ -691,6 +692,11 @@ class GroundCosts:
 def standing_things(
     points: NDArray[np.float64], eye: float, settings: str = "{}"
 ) -> list[tuple[tuple[float, float, float, float], bool]]: ...
+
+@final
+class Embedding:
+    def __new__(cls, looks: NDArray[np.float64], settings: str = "{}") -> Embedding: ...
+    def place(self, looks: NDArray[np.float64]) -> NDArray[np.float64]: ...
 
 @final
 class FastSlam:

@@ -2,8 +2,9 @@
 
 use geometry::PlanarPose;
 use landmarks::{
-    ExtractionConfig, FastSlam, FastSlamConfig, LandmarkReading, LandmarksConfig, OdometryStep,
-    RangeBearing, StandingThing, ThingShape, standing_things as find,
+    Embedding, EmbeddingConfig, ExtractionConfig, FastSlam, FastSlamConfig, LandmarkReading,
+    LandmarksConfig, OdometryStep, RangeBearing, StandingThing, ThingShape,
+    standing_things as find,
 };
 use nalgebra::Point3;
 use numpy::{PyArray2, PyArrayMethods, PyUntypedArrayMethods};
@@ -144,4 +145,46 @@ pub(crate) fn standing_things(
         ([one.at_m.x, one.at_m.y, one.width_m, one.height_m], is_pole)
     };
     Ok(found.into_iter().map(told).collect())
+}
+
+/// Looks laid out in a few dimensions: learned from `looks` (n, d). `settings` is JSON: `[landmarks.embedding]`.
+#[pyclass(name = "Embedding", module = "treadwell._core", frozen)]
+pub(crate) struct PyEmbedding(Embedding);
+
+#[pymethods]
+impl PyEmbedding {
+    #[new]
+    #[pyo3(signature = (looks, settings="{}"))]
+    fn new(py: Python<'_>, looks: &Bound<'_, PyArray2<f64>>, settings: &str) -> PyResult<Self> {
+        let config: EmbeddingConfig = parse(py, settings)?;
+        let looks = rows_of(looks);
+        let learned = run(py, || Embedding::learn(config, &looks))?;
+        Ok(Self(learned.map_err(|error| bad_setting(py, &error))?))
+    }
+
+    /// Where looks (n, d) lie, (n, k).
+    fn place<'py>(
+        &self,
+        py: Python<'py>,
+        looks: &Bound<'_, PyArray2<f64>>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let looks = rows_of(looks);
+        let places = run(py, || {
+            let place = |look: &Vec<f64>| Some(self.0.place(look)?.as_slice().to_vec());
+            looks.iter().map(place).collect::<Option<Vec<_>>>()
+        })?;
+        let said =
+            || PyValueError::new_err("looks must be as many finite numbers as those learned from");
+        Ok(PyArray2::from_vec2(py, &places.ok_or_else(said)?)?)
+    }
+}
+
+fn rows_of(array: &Bound<'_, PyArray2<f64>>) -> Vec<Vec<f64>> {
+    let array = array.readonly();
+    array
+        .as_array()
+        .rows()
+        .into_iter()
+        .map(|row| row.to_vec())
+        .collect()
 }

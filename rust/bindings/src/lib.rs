@@ -54,6 +54,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<depth_camera::PyDepthCamera>()?;
     module.add_class::<depth_errors::PyDepthErrors>()?;
     module.add_class::<costs::PyGroundCosts>()?;
+    module.add_class::<landmarks::PyEmbedding>()?;
     module.add_class::<landmarks::PyFastSlam>()?;
     module.add_class::<learners::PyLocalRegression>()?;
     module.add_class::<learners::PyPathWeights>()?;

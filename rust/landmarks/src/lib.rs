@@ -1,6 +1,7 @@
 //! Maps of landmarks (handbook, section 36.2.4): K small Gaussians where the robot's place is known, and FastSLAM on top where it is not.
 
 mod config;
+mod embedding;
 mod extraction;
 mod fast_slam;
 mod landmark;
@@ -10,6 +11,7 @@ mod selection;
 mod sighting;
 
 pub use config::LandmarksConfig;
+pub use embedding::{Embedding, EmbeddingConfig, EmbeddingError};
 pub use extraction::{ExtractionConfig, StandingThing, ThingShape, standing_things};
 pub use fast_slam::{FastSlam, FastSlamConfig, OdometryStep};
 pub use landmark::Landmark;
@@ -22,6 +24,7 @@ use settings::TableDescription;
 
 /// The tables of settings of this crate.
 pub const TABLES: &[TableDescription] = &[
+    TableDescription::of::<EmbeddingConfig>(),
     TableDescription::of::<ExtractionConfig>(),
     TableDescription::of::<FastSlamConfig>(),
     TableDescription::of::<LandmarksConfig>(),

@@ -7,6 +7,7 @@ from typing import Final
 from treadwell.experiments.experiment import Beside, Picture, Table
 from treadwell.experiments.indoor.corridor import draw_corridor, draw_sonar
 from treadwell.experiments.indoor.figure import ChapterFigure, DrawnFigure, FigureToDraw, drawn
+from treadwell.experiments.indoor.looks import draw_looks
 from treadwell.experiments.indoor.mapped import draw_landmarks, draw_topology
 from treadwell.experiments.indoor.walls import draw_lines, draw_split_and_merge
 
@@ -51,6 +52,12 @@ FIGURES: Final = (
         "rocks, by FastSLAM; no figure given",
         draw_landmarks,
         "landmarks_mrclam",
+    ),
+    ChapterFigure(
+        "36.17",
+        "looks of things, learned without naming any",
+        "a compact representation by nonlinear dimension reduction; no figure given",
+        draw_looks,
     ),
 )
 
