@@ -102,7 +102,7 @@ def test_loops_are_left_open_on_request(log: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("setting", "said"),
     [
-        ("plan_view.scan_match.cell=0.0", "cell"),
+        ("plan_view.scan_matcher.cell=0.0", "cell"),
         ("plan_view.loops.reach=[1.0, 0.1]", "reach"),
         ("plan_view.loops.wrong=1", "wrong"),
         ("map.up=-y", "map.up"),

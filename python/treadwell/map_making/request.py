@@ -25,7 +25,7 @@ _TOP: Final = ("map", "navigation", "classification", "plan_view", LANDMARKS)
 _MAP_ALONE: Final = ("lines", "topology", LANDMARKS)
 """World models for recorded data that are none of a robot's."""
 _SLOTS: Final = ("world_model", "segmenter")
-SLAM_TABLES: Final = ("scan_match", "local_maps", "loops", "pose_graph")
+SLAM_TABLES: Final = ("scan_matcher", "local_maps", "loops", "pose_graph")
 """Tables of `[plan_view]` that say how scans are matched."""
 TRUTH, SCAN_MATCH = "truth", "scan_match"
 LOCALIZERS: Final = (TRUTH, SCAN_MATCH)

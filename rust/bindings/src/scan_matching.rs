@@ -15,13 +15,13 @@ use crate::plan_view::places;
 #[derive(serde::Deserialize, Default)]
 #[serde(default, deny_unknown_fields)]
 struct SlamTables {
-    scan_match: ScanMatchConfig,
+    scan_matcher: ScanMatchConfig,
     local_maps: LocalMapsConfig,
     loops: LoopsConfig,
     pose_graph: PoseGraphConfig,
 }
 
-/// Finds where a laser took its scans. `settings` is JSON: the tables `scan_match`, `local_maps`, `loops` and `pose_graph` of `[plan_view]`.
+/// Finds where a laser took its scans. `settings` is JSON: the tables `scan_matcher`, `local_maps`, `loops` and `pose_graph` of `[plan_view]`.
 #[pyclass(name = "ScanSlam", module = "treadwell._core")]
 pub(crate) struct PyScanSlam(ScanSlam);
 
@@ -32,7 +32,7 @@ impl PyScanSlam {
     fn new(py: Python<'_>, settings: &str) -> PyResult<Self> {
         let tables: SlamTables = parse(py, settings)?;
         let config = ScanSlamConfig {
-            matching: tables.scan_match,
+            matching: tables.scan_matcher,
             local_maps: tables.local_maps,
             loops: tables.loops,
             graph: tables.pose_graph,

@@ -4,7 +4,7 @@ use settings::{POSITIVE, SHARE, at_least, between, settings, within};
 
 settings! {
     /// How a scan is matched to a local map: a search over cells, then least squares on the smooth field.
-    pub struct ScanMatchConfig("plan_view.scan_match") {
+    pub struct ScanMatchConfig("plan_view.scan_matcher") {
         /// Side of a cell of the likelihood field.
         cell: f64 = 0.05, "m", within(0.001, 10.0);
         /// Standard deviation by which the likelihood falls off what was seen.
