@@ -23,6 +23,14 @@ settings! {
         plain: f64 = 0.02, "1", SHARE;
         /// The search goes so many standard deviations of the pose that odometry gives to each side.
         window: f64 = 3.0, "1", at_least(0.0);
+        /// Mean likelihood of a scan's points below which it is searched further: odometry may be worse than it is said to be.
+        sure_score: f64 = 0.65, "1", SHARE;
+        /// It is searched further as well where it fits best so near to the rim of what was searched, as a share of the way there.
+        rim: f64 = 0.7, "1", SHARE;
+        /// So many times as far.
+        wider: f64 = 3.0, "1", at_least(1.0);
+        /// What is found there must be so much likelier.
+        better: f64 = 0.05, "1", SHARE;
         /// Mean likelihood of a scan's points below which odometry is believed instead.
         least_score: f64 = 0.3, "1", SHARE;
         /// Most steps of least squares.

@@ -62,6 +62,16 @@ fn config() -> ScanSlamConfig {
     }
 }
 
+fn open_loops() -> ScanSlamConfig {
+    ScanSlamConfig {
+        loops: LoopsConfig {
+            close: false,
+            ..LoopsConfig::default()
+        },
+        ..config()
+    }
+}
+
 fn slam_of(config: ScanSlamConfig, scans: &[PlanarScan]) -> ScanSlam {
     let mut slam = ScanSlam::new(config).unwrap();
     for scan in scans {
@@ -98,13 +108,6 @@ fn bottom_wall_m(slam: &ScanSlam, map: usize) -> Option<f64> {
 fn what_is_dense_moves_with_its_local_map_when_a_loop_closes() {
     let truth = around();
     let scans = walk(&ring(), &truth, [0.05, 0.02, 0.05], 5);
-    let open = ScanSlamConfig {
-        loops: LoopsConfig {
-            close: false,
-            ..LoopsConfig::default()
-        },
-        ..config()
-    };
     let apart = |slam: &ScanSlam| {
         let of: Vec<f64> = (0..slam.local_maps().count())
             .filter_map(|map| bottom_wall_m(slam, map))
@@ -118,7 +121,7 @@ fn what_is_dense_moves_with_its_local_map_when_a_loop_closes() {
             [f64::min, f64::max].map(|which| of.iter().copied().reduce(which).unwrap());
         high - low
     };
-    let before = slam_of(open, &scans);
+    let before = slam_of(open_loops(), &scans);
     let after = slam_of(config(), &scans);
     assert!(before.closed_loops() == 0 && after.closed_loops() > 5);
     // A centimetre: one cell of a map as fine as that.
@@ -145,6 +148,35 @@ fn scans_find_back_to_where_odometry_does_not() {
         assert!(
             far_m < 0.1 && far_rad < 0.02 && slam.unmatched() == 0,
             "{far_m} m, {far_rad} rad; odometry {by_odometry:?}"
+        );
+    }
+}
+
+#[test]
+fn a_turn_of_which_odometry_knows_nothing_is_found_out() {
+    // A larger hall: near walls would draw a scan to themselves from any heading.
+    let walls: Vec<common::Wall> = ring()
+        .iter()
+        .map(|wall| wall.map(|at| at.map(|m| 2.5 * m)))
+        .collect();
+    let plain = way(&[[5.0, 2.5], [11.0, 2.5]], 0.1);
+    for turned_rad in [-0.3, -0.25, 0.25, 0.3] {
+        // As if somebody took the robot and turned it after 40 scans.
+        let turn = plain[40].compose(&PlanarPose::new(0.0, 0.0, turned_rad));
+        let mut truth = plain.clone();
+        for pose in &mut truth[41..] {
+            *pose = turn.compose(&plain[40].relative(pose));
+        }
+        let told = walk(&walls, &plain, [0.05, 0.02, 0.05], 4);
+        let mut scans = walk(&walls, &truth, [0.0; 3], 4);
+        for (scan, told) in scans.iter_mut().zip(told) {
+            scan.map_from_sensor = told.map_from_sensor;
+        }
+        let slam = slam_of(open_loops(), &scans);
+        let (_, far_rad) = worst(&slam, &truth);
+        assert!(
+            far_rad < 0.03 && slam.unmatched() == 0,
+            "{turned_rad}: {far_rad} rad"
         );
     }
 }
