@@ -28,15 +28,17 @@ mod field;
 mod local_map;
 mod loops;
 mod matcher;
+mod maxima;
 mod pose_graph;
 mod search;
 mod slam;
 mod spread;
 
 pub use config::{LocalMapsConfig, LoopsConfig, PoseGraphConfig, ScanMatchConfig};
-pub use field::{FieldMaxima, LikelihoodField};
+pub use field::LikelihoodField;
 pub use local_map::LocalMap;
 pub use matcher::{ScanMatch, ScanMatcher};
+pub use maxima::FieldMaxima;
 pub use pose_graph::{PoseGraph, PoseLink};
 pub use slam::{ScanSlam, ScanSlamConfig, ScanSlamError};
 

@@ -1,7 +1,8 @@
 //! A local map: what the scans of a stretch of the way saw, in a frame of its own.
 
 use crate::config::ScanMatchConfig;
-use crate::field::{FieldMaxima, LikelihoodField};
+use crate::field::LikelihoodField;
+use crate::maxima::FieldMaxima;
 
 /// Levels of bounds above a field's cells.
 const LEVELS: usize = 2;

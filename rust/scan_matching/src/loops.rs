@@ -6,9 +6,9 @@ use geometry::{Cell, PlanarPose};
 use settings::{ConfigError, Table};
 
 use crate::config::LoopsConfig;
-use crate::field::{BRANCH, FieldMaxima};
 use crate::local_map::LocalMap;
 use crate::matcher::{ScanMatch, ScanMatcher};
+use crate::maxima::{BRANCH, FieldMaxima};
 use crate::pose_graph::{PoseGraph, PoseLink};
 use crate::spread::{Spread, Tie, carried, spreads_from, turned};
 

@@ -7,7 +7,8 @@ use settings::{ConfigError, Table};
 
 use crate::beams;
 use crate::config::ScanMatchConfig;
-use crate::field::{FieldMaxima, LikelihoodField};
+use crate::field::LikelihoodField;
+use crate::maxima::FieldMaxima;
 use crate::search::{SearchWindow, search};
 
 /// The least share of its diagonal that a step's curvature is damped by, and the largest at which steps are still tried.
@@ -80,6 +81,37 @@ impl ScanMatcher {
         };
         let found = search(field, maxima, points_m, &window, least)?;
         self.refine(field, points_m, &found.pose, (before, covariance))
+    }
+
+    /// Where a scan fits that comes after others, searched where odometry may have led, by a pose and its covariance; further where it fits badly
+    /// there, or at the rim. None where it fits nowhere: its score is below `least_score`.
+    pub fn follow(
+        &self,
+        field: &LikelihoodField,
+        points_m: &[[f64; 2]],
+        before: &PlanarPose,
+        spread: &Matrix3<f64>,
+    ) -> Option<ScanMatch> {
+        let config = &self.config;
+        let within = |times: f64| {
+            let spread = times * times * spread;
+            let half = [0, 1, 2].map(|axis| config.window * spread[(axis, axis)].max(0.0).sqrt());
+            self.find((field, None), points_m, (before, &spread), half, 0.0)
+        };
+        let mut found = within(1.0);
+        let score = found.map_or(0.0, |found| found.score);
+        let rim = config.rim * config.window;
+        let at_rim = found.is_some_and(|found| {
+            let off = away(&found.pose, before);
+            (0..3).any(|axis| off[axis] * off[axis] > rim * rim * spread[(axis, axis)])
+        });
+        if score < config.sure_score || at_rim {
+            let other = within(config.wider);
+            found = other
+                .filter(|one| one.score > score + config.better)
+                .or(found);
+        }
+        found.filter(|found| found.score >= config.least_score)
     }
 
     /// The pose near `start` at which points fit a field best, what is known before counting too: least squares, each step from where the last

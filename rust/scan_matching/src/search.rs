@@ -2,7 +2,8 @@
 
 use geometry::{Cell, PlanarPose, wrap_angle};
 
-use crate::field::{BRANCH, FieldMaxima, LikelihoodField};
+use crate::field::LikelihoodField;
+use crate::maxima::{BRANCH, FieldMaxima};
 
 /// Where the best pose is looked for, and what is known of it before.
 #[derive(Debug, Clone, Copy)]

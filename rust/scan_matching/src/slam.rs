@@ -1,6 +1,6 @@
 //! Localization and mapping at once: each scan is matched to the local map that is being made, and loops are closed to older ones.
 
-use geometry::{PlanarPose, hypot, wrap_angle};
+use geometry::{PlanarPose, hypot};
 use nalgebra::Matrix3;
 use plan_view::PlanarScan;
 use settings::{ConfigError, Table};
@@ -8,7 +8,7 @@ use settings::{ConfigError, Table};
 use crate::config::{LocalMapsConfig, LoopsConfig, PoseGraphConfig, ScanMatchConfig};
 use crate::local_map::LocalMap;
 use crate::loops::{Loops, Newest};
-use crate::matcher::{ScanMatch, ScanMatcher};
+use crate::matcher::ScanMatcher;
 use crate::pose_graph::{PoseGraph, PoseLink};
 use crate::spread::{carried, turned};
 
@@ -204,43 +204,14 @@ impl ScanSlam {
         ]
         .map(|(noise, by)| noise[0] + noise[1] * by);
         self.spread = carried(&self.spread, &self.here, &before) + diagonal([place, heading]);
-        if let Some(found) = self.find(&before, points_m) {
+        let field = &self.maps[self.active[0].map].field;
+        if let Some(found) = self.matcher.follow(field, points_m, &before, &self.spread) {
             (self.here, self.spread) = (found.pose, found.covariance);
             return true;
         }
         self.here = before;
         self.unmatched += 1;
         points_m.is_empty()
-    }
-
-    /// Where a scan fits in the first local map that is being made, searched where odometry may have led; further where it does not fit well there.
-    fn find(&self, before: &PlanarPose, points_m: &[[f64; 2]]) -> Option<ScanMatch> {
-        let config = self.matcher.config();
-        let field = (&self.maps[self.active[0].map].field, None);
-        let within = |times: f64| {
-            let spread = times * times * self.spread;
-            let half = [0, 1, 2].map(|axis| config.window * spread[(axis, axis)].max(0.0).sqrt());
-            let known = (before, &spread);
-            self.matcher.find(field, points_m, known, half, 0.0)
-        };
-        let mut found = within(1.0);
-        let score = found.map_or(0.0, |found| found.score);
-        let at_rim = found.is_some_and(|found| {
-            let off = [
-                found.pose.x_m - before.x_m,
-                found.pose.y_m - before.y_m,
-                wrap_angle(found.pose.yaw_rad - before.yaw_rad),
-            ];
-            let rim = config.rim * config.window;
-            (0..3).any(|axis| off[axis] * off[axis] > rim * rim * self.spread[(axis, axis)])
-        });
-        if (score < config.sure_score || at_rim) && !points_m.is_empty() {
-            let other = within(config.wider);
-            found = other
-                .filter(|one| one.score > score + config.better)
-                .or(found);
-        }
-        found.filter(|found| found.score >= config.least_score)
     }
 
     /// Closes the local maps that are being made: the scan that comes is tied to them, and no part of them.
