@@ -77,7 +77,7 @@ def _short() -> Iterator[Case]:
         "segmenter=histogram",
         "world_model=averaging",
         "world_model=octree",
-        "localizer=matching",
+        "localizer=scan_match",
         "behaviour=walking",
         "a_star.footprint=oriented",
         "fog.update=per_point",

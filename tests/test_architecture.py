@@ -62,6 +62,7 @@ TESTED_BY = {
     "map_making.plan_picture": "test_map_plan.py",
     "map_making.plan_view": "test_map_plan.py",
     "map_making.points_map": "test_map_plan.py",
+    "map_making.scan_matched": "test_map_scan_match.py",
     "map_making.sizing": "test_map.py",
     "map_making.standing_out": "test_map.py",
     "map_making.recording": "test_map.py",

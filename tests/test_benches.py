@@ -25,6 +25,7 @@ LEAST: dict[str, list[str]] = {
     "extreme_numbers.py": ["scenario", "--only", "slalom goal.radius", "--seconds", "0.1"],
     "fuzz_files.py": ["--count", "3"],
     "intel_log.py": ["--seeds", "1", "--scans", "30"],
+    "intel_slam.py": ["--seeds", "1", "--scans", "30"],
     "kill_sweep.py": ["--kills", "1", "--episodes", "2"],
     "memory.py": ["--minutes", "0.02"],
     "odometry.py": ["--seeds", "0", "--workers", "1", "--seconds", "0.3"],

@@ -89,8 +89,8 @@ def test_the_package_has_the_documented_doors_and_no_others() -> None:
         ),
         ({"localizer": "truth"}, r"navigation\.localizer must be one of odometry, .*, got truth"),
         (
-            {"localizer": "matching", "matching": {"offset": 0}},
-            r"navigation\.matching\.offset must be > 0, got 0",
+            {"localizer": "scan_match", "scan_match": {"offset": 0}},
+            r"navigation\.scan_match\.offset must be > 0, got 0",
         ),
         (
             {"behaviour": "x"},

@@ -42,7 +42,7 @@ def test_the_start_is_the_true_one() -> None:
     assert start != told(seed=6)["start"]
 
 
-@pytest.mark.parametrize("localizer", ["odometry", "matching"])
+@pytest.mark.parametrize("localizer", ["odometry", "scan_match"])
 def test_a_start_that_is_not_known_is_not_told_and_odometry_cannot_do_without(
     localizer: str,
 ) -> None:

@@ -56,6 +56,8 @@ def test_parameters_are_found_by_component_and_by_key() -> None:
     assert find_parameters("gait")
     with pytest.raises(InputError, match=r"no parameters of 'fogg'.*fog"):
         find_parameters("fogg")
+    with pytest.raises(InputError, match="matching is called scan_match now"):
+        find_parameters("matching.keyframes")
 
 
 @pytest.mark.parametrize("name", sorted(SCHEMAS))

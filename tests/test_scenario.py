@@ -109,6 +109,8 @@ def test_every_kind_of_element_has_defaults(tmp_path: Path, kind: str) -> None:
         ('[navigation]\nplanner = "a_sta"', "did you mean 'a_star'?"),
         ('[navigation]\nbehaviour = "stair_climbin"', "navigation.behaviour"),
         ("[navigation.fogg]\ncell = 1", "did you mean 'fog'?"),
+        ('[navigation]\nlocalizer = "matching"', "\"matching\"; is called 'scan_match' now"),
+        ("[navigation.matching]\noffset = 1", "is called navigation.scan_match now"),
         ("[navigation.fog]\ncell = nan", "navigation.fog.cell: found nan"),
         ("[navigation]\nfog = 3", "navigation.fog: found 3"),
         ("[expect]\nmax_falls = -1", "expect.max_falls: found -1"),

@@ -38,7 +38,7 @@ class Walk:
         self.judge = SimpleNamespace(
             touch=SimpleNamespace(left=True, right=True),
             soles=(sole(0.5, 0.0), sole(0.5, 0.0)),
-            frame=SimpleNamespace(x=0.5, y=0.0, z=0.0, yaw=0.0),
+            observed=SimpleNamespace(x=0.5, y=0.0, z=0.0, yaw=0.0),
         )
         known = SimpleNamespace(stairs=list(stairs))
         self.pilot = SimpleNamespace(climbs=list, staircase=lambda: known)

@@ -29,7 +29,7 @@ def test_estimate_and_truth_are_near_each_other_and_not_the_same(
     assert trace.truth_from_robot[:3, 3] == pytest.approx(trace.map_from_robot[:3, 3], abs=0.02)
     assert (trace.truth_from_robot != trace.map_from_robot).any()
     step = episode.tick()
-    assert (trace_of(episode, step).truth_from_robot == episode.judge.frame.matrix()).all()
+    assert (trace_of(episode, step).truth_from_robot == episode.judge.observed.matrix()).all()
 
 
 def test_what_is_not_due_is_not_asked_of_the_core(

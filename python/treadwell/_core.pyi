@@ -34,6 +34,7 @@ __all__ = [
     "RangeField",
     "RangeMap",
     "Scan",
+    "ScanSlam",
     "Segmenter",
     "Servos",
     "Situation",
@@ -363,6 +364,14 @@ class OccupancyMap:
     def log_likelihood(
         self, points: NDArray[np.float64], eye: tuple[float, float], settings: str = "{}"
     ) -> tuple[float, int]: ...
+
+@final
+class ScanSlam:
+    def __new__(cls, settings: str = "{}") -> ScanSlam: ...
+    def insert(self, points: NDArray[np.float64], odometry: tuple[float, float, float]) -> None: ...
+    def finish(self) -> None: ...
+    def poses(self) -> NDArray[np.float64]: ...
+    def counts(self) -> list[int]: ...
 
 @final
 class VoronoiGraph:

@@ -26,6 +26,9 @@ SOURCES: Final[dict[str, dict[str, str | None]]] = {
 }
 """Slot -> name -> the paper that it is of; None where it is of no paper."""
 
+RENAMED: Final[dict[str, str]] = {"matching": "scan_match"}
+"""What a component and its table were called -> what they are called."""
+
 CLASS_NAME: Final = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*", re.ASCII)
 """A user's own component: `package.module:Class`."""
 

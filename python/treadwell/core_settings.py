@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 MAPPED = frozenset({"monte_carlo", "octree"})
 """Components that are told a static map."""
 
-TOLD = ("odometry", "matching", "fast_slam")
+TOLD = ("odometry", "scan_match", "fast_slam")
 """Localizers that cannot find where the robot is, but have to be told where it starts."""
 
 

@@ -125,6 +125,19 @@ class MappedLandmark(Strict):
     """How many readings of it were taken in."""
 
 
+class MappedMatching(Strict):
+    """How a laser's scans were placed by what they see."""
+
+    local_maps: int
+    """Stretches of the way, each with a map of its own."""
+    loops_closed: int
+    """Scans that were matched to an older local map as well."""
+    unmatched: int
+    """Scans that fit nowhere near, for which odometry was believed."""
+    moved: float
+    """Mean distance by which the scans were moved, m."""
+
+
 class Times(Strict):
     """Milliseconds of the clock a frame."""
 
@@ -149,6 +162,8 @@ class MapResult(Strict):
     """What was mapped."""
     world_model: str
     """What kept the map."""
+    localizer: str = "truth"
+    """`truth`: poses were taken as they are; `scan_match`: scans were placed by what they see."""
     robot: str | None
     """Whose height counted; none where nobody's did."""
     seed: int
@@ -167,6 +182,8 @@ class MapResult(Strict):
     """Lines, of the world model `lines`; none of others."""
     places: MappedPlaces | None = None
     """Places and the ways between them, of the world model `topology`; none of others."""
+    matching: MappedMatching | None = None
+    """Of the localizer `scan_match`; none of others."""
     landmarks: list[MappedLandmark] | None = None
     """In a map of landmarks: their places, in the frame in which the robot starts at 0, 0, 0."""
     landmark_error: float | None = None

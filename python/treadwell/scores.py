@@ -39,7 +39,7 @@ class Scores:
 
     def frame(self, step: Step) -> None:
         """Take in a camera frame, right after its tick."""
-        pilot, believed, truth = self._episode.pilot, step.estimate, self._episode.judge.frame
+        pilot, believed, truth = self._episode.pilot, step.estimate, self._episode.judge.observed
         self.poses.add_level(believed.pose, believed.odometry, truth)
         self.estimate.add_level(step.time_ns, believed.pose)
         self.truth.add_level(step.time_ns, truth)

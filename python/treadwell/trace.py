@@ -68,7 +68,7 @@ class Trace:
         time_ns: nanoseconds since the start.
         map_from_robot: (4, 4) where the robot believes to be.
         odometry_from_robot: (4, 4) by leg odometry alone, moved to start where the estimate did.
-        truth_from_robot: (4, 4) where it is.
+        truth_from_robot: (4, 4) where it was when it saw that.
         map_from_camera: (4, 4) the camera as the core has it; None before the first frame.
         depth: (h, w) float32, NaN where nothing was seen; None without a frame.
         points_in_robot: (n, 3) float32, robot frame; NaN where nothing was seen.

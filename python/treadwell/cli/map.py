@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from treadwell.map_result import MapResult
 
 EXAMPLE: Final = (
-    "Example: treadwell map terrain.pcd --world-model elevation --set elevation.cell=0.1"
+    "Examples: treadwell map terrain.pcd --world-model elevation --set elevation.cell=0.1; "
+    "treadwell map intel-lab.log.gz --localizer scan_match"
 )
 _EVERY: Final = 500
 """Frames between two lines where there is no terminal."""
@@ -41,7 +42,12 @@ def map_(  # noqa: PLR0913 - one an option
     ] = None,
     localizer: Annotated[
         str | None,
-        typer.Option("--localizer", metavar="NAME", help="truth: poses are taken as they are."),
+        typer.Option(
+            "--localizer",
+            metavar="NAME",
+            help="truth: poses are taken as they are (default); scan_match: they are a laser's "
+            "odometry, and its scans are placed by what they see.",
+        ),
     ] = None,
     robot: Annotated[
         str | None,
@@ -75,19 +81,14 @@ def map_(  # noqa: PLR0913 - one an option
     as_json: JsonOption = False,
 ) -> int:
     """Make a map of range data that was recorded elsewhere, or in a run, without MuJoCo."""
-    from treadwell.errors import InputError
     from treadwell.map_making.making import make_map
     from treadwell.map_making.request import read_request
 
     del no_user_code  # a map is made by what is built in
-    if localizer not in (None, "truth"):
-        raise InputError(
-            f"--localizer: found {localizer}; must be truth: the poses of the data are taken as "
-            "they are"
-        )
     request = read_request(
         source,
         world_model=world_model,
+        localizer=localizer,
         robot=robot,
         camera=camera,
         topics=topics or (),
@@ -130,6 +131,9 @@ def _of_what(result: "MapResult") -> list[tuple[str, str]]:
         ("cells of", f"{1e3 * result.cell:g} mm"),
         ("floor, obstacle", f"{result.cells.floor}, {result.cells.obstacle} cells"),
     ]
+    if (matching := result.matching) is not None:
+        told.append(("local maps, loops closed", f"{matching.local_maps}, {matching.loops_closed}"))
+        told.append(("scans moved by, mean", f"{matching.moved:.3f} m"))
     if result.lines is not None:
         held = f"{result.lines.held:.1%}"
         told.append(("lines", f"{result.lines.count}, on which {held} of the points lie"))

@@ -185,7 +185,7 @@ CASES: Final = (
     *_SLOPES,
     Case(OVER, "over_each_other", watch=ElementWatch),
     Case(TURNS, "turns", watch=PoseWatch),
-    Case(TURNS_MATCHED, "turns", _with("localizer", "matching"), watch=PoseWatch),
+    Case(TURNS_MATCHED, "turns", _with("localizer", "scan_match"), watch=PoseWatch),
     *_WALKED,
     # Where another map leads the robot is not asked; one run shows what it looks like.
     *_for_each_model(course, "obstacle_course", share_of_others=0.0),

@@ -40,6 +40,8 @@ class Judge:
         falls: how often the robot fell.
         fall: what the last fall was, one sentence, or None.
         frame: the true robot frame at the last look.
+        observed: the same at the look before, when the senses saw what the core was told last: what
+            it then believed is held against this. Of the first look, that one's.
         soles: the true soles at the last look.
         touch: which soles stood on a floor at the last look.
         path_length: m, of the true robot frame's way seen from above.
@@ -68,7 +70,8 @@ class Judge:
         self._still: tuple[float, tuple[Sole, Sole], float] | None = None
         self._place: tuple[float, GroundFrame] | None = None
         self._path_point: tuple[float, float] | None = None
-        self.frame = GroundFrame(0.0, 0.0, 0.0, 0.0)
+        self.frame = self.observed = GroundFrame(0.0, 0.0, 0.0, 0.0)
+        self._looked = False
         self.soles: tuple[Sole, Sole] | None = None
         self.touch = Touch(False, False, None)
 
@@ -84,7 +87,9 @@ class Judge:
         on_left, on_right, fallen_part = touch
         soles, tilt = self.truth.look(data)
         self.soles = soles
-        frame = self.frame = self.truth.frame(soles, (on_left, on_right))
+        frame = self.truth.frame(soles, (on_left, on_right))
+        self.observed = self.frame if self._looked else frame
+        self.frame, self._looked = frame, True
         upright = tilt <= FALLEN_TILT and fallen_part is None
         if not upright:
             self._note_fall(tilt, time_s, fallen_part)

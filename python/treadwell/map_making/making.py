@@ -16,7 +16,8 @@ from treadwell.map_making.mapper import Mapper
 from treadwell.map_making.placing import sensed
 from treadwell.map_making.plan_view import Seen, plan_arrays
 from treadwell.map_making.recording import MapRecording
-from treadwell.map_making.request import LANDMARKS, MapRequest
+from treadwell.map_making.request import LANDMARKS, TRUTH, MapRequest
+from treadwell.map_making.scan_matched import MatchedScans, no_scans
 from treadwell.map_memory import RememberedMap
 from treadwell.map_result import MappedSource, MapResult, counted, times
 from treadwell.recording.cut_off import RESULT
@@ -58,18 +59,22 @@ def make_map(
         RecordingError: a file cannot be written.
     """
     if has_landmarks(request.source):
+        if request.localizer != TRUTH:
+            raise no_scans(request.localizer, request.source)
         return make_landmark_map(request, out=out, record=record, progress=progress)
     if request.world_model == LANDMARKS:
         raise InputError(
             f"--world-model: found {LANDMARKS}; {request.source} has no ranges and bearings: "
             "a folder with Odometry.dat, Measurement.dat and Barcodes.dat has"
         )
-    source = open_source(
+    source: Source = open_source(
         request.source,
         camera=request.camera,
         topics=request.topics,
         pose_within=request.data.pose_within,
     )
+    if request.localizer != TRUTH:
+        source = MatchedScans(source, request, progress)
     frames = iter(source)
     first = next(frames, None)
     if first is None:
@@ -166,6 +171,7 @@ class _Making:
             version=__version__,
             source=MappedSource(kind=self._source.kind, path=str(request.source)),
             world_model=mapper.world_model,
+            localizer=request.localizer,
             robot=mapper.robot,
             seed=request.seed,
             frames=self._read + sum(self._source.unused.values()),
@@ -175,6 +181,7 @@ class _Making:
             cells=counted(found),
             lines=lines,
             places=topology.places() if topology else None,
+            matching=self._source.matching if isinstance(self._source, MatchedScans) else None,
             cell=found.cell,
             origin=found.origin,
             settings=mapper.sizes.parameters,
@@ -204,6 +211,9 @@ class _Making:
         if result.places is not None:
             title += f" · {result.places.count} places, {len(result.places.ways)} ways, "
             title += f"{result.places.rooms} rooms"
+        if result.matching is not None:
+            title += f" · {result.localizer}: {result.matching.loops_closed} loops closed between "
+            title += f"{result.matching.local_maps} local maps"
         known = self._source.kind not in ("cloud", "height image")
         way = np.array([pose[:2, 3] for _, pose in self._poses]) + self._mapper.place.offset[:2]
         shown = way if known else way[:0]

@@ -25,6 +25,11 @@ _TOP: Final = ("map", "navigation", "classification", "plan_view", LANDMARKS)
 _MAP_ALONE: Final = ("lines", "topology", LANDMARKS)
 """World models for recorded data that are none of a robot's."""
 _SLOTS: Final = ("world_model", "segmenter")
+SLAM_TABLES: Final = ("scan_matcher", "local_maps", "loops", "pose_graph")
+"""Tables of `[plan_view]` that say how scans are matched."""
+TRUTH, SCAN_MATCH = "truth", "scan_match"
+LOCALIZERS: Final = (TRUTH, SCAN_MATCH)
+"""Poses taken as they are; scans placed by what they see."""
 
 
 class MapTable(Table):
@@ -61,8 +66,10 @@ class MapRequest:
         data: how the data is taken.
         ground_filter: key -> value, how a cloud's ground is told from what stands on it.
         plan_view: `lines`, `alignment` and `topology` -> key -> value, how lines are found among a
-            laser's points, how its scans are laid onto them, and what is a place, a way, a room.
+            laser's points, how its scans are laid onto them, and what is a place, a way, a room;
+            and `SLAM_TABLES`, how scans are matched.
         landmarks: table -> key -> value, how landmarks are found, of `[landmarks]`.
+        localizer: one of `LOCALIZERS`.
     """
 
     source: Path
@@ -77,12 +84,14 @@ class MapRequest:
     ground_filter: dict[str, Any]
     plan_view: dict[str, dict[str, Any]]
     landmarks: dict[str, Any]
+    localizer: str = TRUTH
 
 
 def read_request(
     source: Path,
     *,
     world_model: str | None = None,
+    localizer: str | None = None,
     robot: str | None = None,
     camera: Path | None = None,
     topics: Sequence[str] = (),
@@ -94,6 +103,7 @@ def read_request(
     Args:
         source: a file or folder.
         world_model: a name; None: what suits the data.
+        localizer: one of `LOCALIZERS`; None: the first.
         robot: a robot's name or folder.
         camera: a `camera.toml`.
         topics: of a bag.
@@ -104,6 +114,11 @@ def read_request(
     Raises:
         InputError: with one message that names everything that is wrong.
     """
+    if localizer not in (None, *LOCALIZERS):
+        raise InputError(
+            f"--localizer: found {shortened(localizer)}; must be {TRUTH}, by which poses are taken "
+            f"as they are, or {SCAN_MATCH}, by which a laser's scans are placed by what they see"
+        )
     raw: dict[str, Any] = {}
     for setting in settings:
         key, value = parse_setting(setting)
@@ -134,8 +149,9 @@ def read_request(
         parameters=navigation.parameters(),
         data=data,
         ground_filter=_tables(raw, "classification", "ground_filter")["ground_filter"],
-        plan_view=_tables(raw, "plan_view", "lines", "alignment", "topology"),
+        plan_view=_tables(raw, "plan_view", "lines", "alignment", "topology", *SLAM_TABLES),
         landmarks=_tables(raw, LANDMARKS, "readings", "fast_slam"),
+        localizer=localizer or TRUTH,
     )
 
 

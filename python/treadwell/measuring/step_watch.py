@@ -101,7 +101,7 @@ class StepWatch:
             stairs = pilot.staircase().stairs
             self._remember(stairs)
             if self._is_level():
-                true = judge.frame
+                true = judge.observed
                 pose = (true.x, true.y, true.z, true.yaw)
                 self._belief = Belief([*self._measured, *stairs], step.estimate.pose, pose)
             if stairs:

@@ -6,6 +6,7 @@ from functools import cache
 from typing import Any
 
 from treadwell import _core
+from treadwell.components import RENAMED
 from treadwell.errors import InputError
 from treadwell.scenario.messages import nearest
 
@@ -83,6 +84,8 @@ def find_parameters(name: str | None = None) -> list[Parameter]:
     first, dot, rest = name.partition(".")
     dotted = next((table.key for table in all_tables() if table.name == first), first) + dot + rest
     found = [row for row in every if row.key == dotted or row.key.startswith(f"{dotted}.")]
+    if not found and first in RENAMED:
+        raise InputError(f"NAME: {first} is called {RENAMED[first]} now")
     if not found:
         names = [table.name for table in all_tables()]
         raise InputError(

@@ -3,6 +3,7 @@
 import math
 from contextlib import suppress
 from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 
 from treadwell._core import Pilot, Tick
@@ -79,7 +80,11 @@ class Findings:
             self.estimate.add(time_ns, pose)
         wanted = {number: (time_ns, a, b) for number, time_ns, a, b in self.frames}
         with suppress(BrokenLogError):  # told with the observations
-            for number, row in enumerate(read_truth(log)):
+            # A row is of after its tick, as the next one's senses see it; the first has no other.
+            rows = read_truth(log)
+            first = next(rows, None)
+            before = [] if first is None else [first]
+            for number, row in enumerate(chain(before, before, rows)):
                 if number in wanted:
                     time_ns, estimate, odometry = wanted[number]
                     truth = pose_matrix(row[0], row[1], row[2], 0.0)

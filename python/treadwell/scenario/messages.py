@@ -9,7 +9,7 @@ from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from treadwell.additions import known
-from treadwell.components import parameter_tables
+from treadwell.components import RENAMED, parameter_tables
 from treadwell.scenario.elements import ELEMENTS, MOVABLE
 from treadwell.scenario.events import EVENTS
 from treadwell.scenario.model import Expect, Goal, Navigation, Physics, Scenario, Sensors, Start
@@ -94,9 +94,7 @@ def describe(error: ErrorDetails, raw: Mapping[str, Any]) -> str:
         text = f"must be one of {', '.join(allowed)}"
         return _line(path, raw, text + nearest(found, allowed))
     if kind == "extra_forbidden":
-        allowed_keys = _keys_at(path[:-1], raw)
-        hint = nearest(path[-1], allowed_keys)
-        return f"{dotted(path, raw)}: unknown key; allowed: {', '.join(allowed_keys)}{hint}"
+        return _unknown(path, raw)
     if kind == "missing":
         return f"{dotted(path, raw)}: missing, it is required"
     text = error["msg"].replace("Input should be", "must be").replace("Value should", "must")
@@ -109,13 +107,26 @@ def describe(error: ErrorDetails, raw: Mapping[str, Any]) -> str:
             found, str(context["expected"]).replace("'", "").replace(" or ", ", ").split(", ")
         )
     elif kind == "component":
-        text += nearest(found, known(context["among"]))
+        text = _component(found, text, known(context["among"]))
     elif kind == "string_pattern_mismatch":
         text = {
             "name": "must be up to 64 letters, digits, - or _ (an element's may have spaces, "
             "and starts with a letter)"
         }.get(str(path[-1]), "must be 1 to 255 characters, none of them a control character")
     return _line(path, raw, text)
+
+
+def _unknown(path: Path, raw: Mapping[str, Any]) -> str:
+    key = dotted(path, raw)
+    if path[:-1] == ("navigation",) and path[-1] in RENAMED:
+        return f"{key}: is called navigation.{RENAMED[str(path[-1])]} now"
+    allowed = _keys_at(path[:-1], raw)
+    return f"{key}: unknown key; allowed: {', '.join(allowed)}{nearest(path[-1], allowed)}"
+
+
+def _component(found: object, text: str, allowed: Iterable[str]) -> str:
+    new = RENAMED.get(found) if isinstance(found, str) else None
+    return text + nearest(found, allowed) if new is None else f"is called '{new}' now"
 
 
 def report(file: str, lines: Sequence[str], untold: int = 0) -> str:

@@ -22,6 +22,7 @@ mod pose;
 mod products;
 mod range_map;
 mod ranges;
+mod scan_matching;
 mod segmenter;
 mod servos;
 mod situation;
@@ -63,6 +64,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<pilot::PyPilot>()?;
     module.add_class::<pilot::PyTick>()?;
     module.add_class::<plan_view::PyOccupancyMap>()?;
+    module.add_class::<scan_matching::PyScanSlam>()?;
     module.add_class::<topology::PyVoronoiGraph>()?;
     module.add_class::<products::PyBodyState>()?;
     module.add_class::<products::PyFloorView>()?;

@@ -15,7 +15,8 @@ use pyo3::types::PyDict;
 
 use crate::error::{bad_setting, parse, run};
 
-fn places(points: &Bound<'_, PyArray2<f64>>) -> PyResult<Vec<[f64; 2]>> {
+/// Rows of an array (n, 2).
+pub(crate) fn places(points: &Bound<'_, PyArray2<f64>>) -> PyResult<Vec<[f64; 2]>> {
     let points = points.readonly();
     if points.shape()[1] != 2 {
         return Err(PyValueError::new_err(format!(

@@ -24,6 +24,7 @@ use settings::TableDescription;
 
 mod lines;
 mod occupancy;
+mod pose_step;
 mod scan;
 mod topology;
 
@@ -37,6 +38,7 @@ pub use occupancy::{
     OccupancyMap, ScanCounts, SonarConfig, SonarModel, log_odds, odds, probability_of_log_odds,
     probability_of_odds, updated_odds,
 };
+pub use pose_step::PoseStep;
 pub use scan::{PlanarBeam, PlanarScan, SweptBeam};
 pub use topology::{
     Doorway, GraphPlace, GraphPlan, GraphWay, Rooms, VoronoiCells, VoronoiGraph, VoronoiGraphConfig,

@@ -1,11 +1,12 @@
 //! Scans laid onto lines: their poses moved a little so that walls that are seen again lie on each other.
 
-use geometry::{PlanarPose, wrap_angle};
+use geometry::PlanarPose;
 use settings::{ConfigError, POSITIVE, Table, at_least, settings};
 
 use super::finder::{LineError, LineFinder};
 use super::line::PlanarLine;
 use super::search::FoundLines;
+use crate::pose_step::PoseStep;
 use crate::scan::PlanarScan;
 
 settings! {
@@ -70,38 +71,28 @@ impl LineAlignment {
         let forms: Vec<_> = lines.iter().map(PlanarLine::normal_form).collect();
         let mut scan = scan.clone();
         for _ in 0..self.config.steps {
-            let Some(step) = self.step(&scan, given, &forms) else {
+            let Some(pose) = self.step(&scan, given, &forms) else {
                 break;
             };
-            let pose = &mut scan.map_from_sensor;
-            pose.x_m -= step[0];
-            pose.y_m -= step[1];
-            pose.yaw_rad = wrap_angle(pose.yaw_rad - step[2]);
+            scan.map_from_sensor = pose;
         }
         scan.map_from_sensor
     }
 
-    /// A step of Gauss and Newton: what is to be taken from x, y and heading. None where the numbers do not tell.
-    fn step(&self, scan: &PlanarScan, given: &PlanarPose, forms: &[[f64; 3]]) -> Option<[f64; 3]> {
+    /// The pose after a step of Gauss and Newton. None where the numbers do not tell.
+    fn step(
+        &self,
+        scan: &PlanarScan,
+        given: &PlanarPose,
+        forms: &[[f64; 3]],
+    ) -> Option<PlanarPose> {
         let (config, pose) = (&self.config, scan.map_from_sensor);
         let own = config.together * config.sigma * config.sigma;
-        let held = [
-            config.position_sigma,
-            config.position_sigma,
-            config.heading_sigma,
-        ];
-        let away = [
-            pose.x_m - given.x_m,
-            pose.y_m - given.y_m,
-            wrap_angle(pose.yaw_rad - given.yaw_rad),
-        ];
-        let mut normal = [[0.0; 3]; 3];
-        let mut gradient = [0.0; 3];
-        for axis in 0..3 {
-            let weight = own / (held[axis] * held[axis]);
-            normal[axis][axis] = weight;
-            gradient[axis] = weight * away[axis];
-        }
+        let [place, heading] =
+            [config.position_sigma, config.heading_sigma].map(|sigma| own / (sigma * sigma));
+        let mut step = PoseStep::default();
+        let held = [[place, 0.0, 0.0], [0.0, place, 0.0], [0.0, 0.0, heading]];
+        step.hold(&pose, given, &held);
         for [x_m, y_m] in scan.ends_m() {
             let off = |form: &[f64; 3]| x_m * form[0] + y_m * form[1] - form[2];
             let nearest = forms
@@ -112,36 +103,8 @@ impl LineAlignment {
             let (right_m, up_m) = (x_m - pose.x_m, y_m - pose.y_m);
             let share = off_m / config.far;
             let weight = 1.0 / ((1.0 + share * share) * (1.0 + share * share));
-            let by = [cos, sin, right_m * sin - up_m * cos];
-            for (row, &one) in by.iter().enumerate() {
-                gradient[row] += weight * one * off_m;
-                for (column, &other) in by.iter().enumerate() {
-                    normal[row][column] += weight * one * other;
-                }
-            }
+            step.add(weight, [cos, sin, right_m * sin - up_m * cos], off_m);
         }
-        solved(normal, gradient)
+        step.taken(&pose)
     }
-}
-
-/// The solution of three equations, by Cramer's rule; none where they have no single one.
-fn solved(normal: [[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> {
-    let determinant = |m: [[f64; 3]; 3]| {
-        m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
-            - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
-            + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
-    };
-    let whole = determinant(normal);
-    let one = |column: usize| {
-        let mut replaced = normal;
-        for (row, &value) in replaced.iter_mut().zip(&right) {
-            row[column] = value;
-        }
-        determinant(replaced) / whole
-    };
-    let solution = [one(0), one(1), one(2)];
-    solution
-        .iter()
-        .all(|value| value.is_finite())
-        .then_some(solution)
 }

@@ -1,12 +1,12 @@
-//! Settings of the localizer `matching`.
+//! Settings of the localizer `scan_match`.
 
 use settings::{POSITIVE, settings, within};
 
 use super::tuning::MatchingLocalizerTuning;
 
 settings! {
-    /// The localizer `matching`: leg odometry whose heading is kept by what stands out of the floor.
-    pub struct MatchingConfig("navigation.matching") {
+    /// The localizer `scan_match`: leg odometry whose heading is kept by what stands out of the floor.
+    pub struct MatchingConfig("navigation.scan_match") {
         /// Width of a beam: points seen in directions that differ by less are one.
         beam: f64 = 0.026, "rad", POSITIVE;
         /// What is further away than this is too blurred to match.
@@ -68,7 +68,7 @@ mod tests {
         };
         assert_eq!(
             config.check().unwrap_err().to_string(),
-            "navigation.matching.keyframes must be from 1 to 1000, got 1000000"
+            "navigation.scan_match.keyframes must be from 1 to 1000, got 1000000"
         );
     }
 }

@@ -1,4 +1,4 @@
-//! The localizer `matching`: leg odometry whose heading is kept by what stands out of the floor.
+//! The localizer `scan_match`: leg odometry whose heading is kept by what stands out of the floor.
 
 mod align;
 mod config;
@@ -28,7 +28,7 @@ use proprioception::{BodyState, ProprioceptionConfig};
 
 /// How it is listed and made.
 pub(crate) const PART: LocalizerPart = Part {
-    name: "matching",
+    name: "scan_match",
     about: "legs' odometry, its heading kept by upright surfaces that are seen again",
     source: None,
     tables: &[TableDescription::of::<MatchingConfig>()],
@@ -38,7 +38,7 @@ pub(crate) const PART: LocalizerPart = Part {
         Ok(Box::new(MatchingLocalizer::new(
             OdometryLocalizer::new(start, stance_m, odometry)?,
             read(needs.tables, "proprioception")?,
-            read(needs.tables, "matching")?,
+            read(needs.tables, "scan_match")?,
         )?))
     },
 };

@@ -1,10 +1,10 @@
-//! The finer settings of the localizer `matching`: what beams, surfaces and a match are.
+//! The finer settings of the localizer `scan_match`: what beams, surfaces and a match are.
 
 use settings::{POSITIVE, SHARE, above, at_least, settings, within};
 
 settings! {
-    /// The finer settings of the localizer `matching`.
-    pub struct MatchingLocalizerTuning("navigation.matching.tuning") {
+    /// The finer settings of the localizer `scan_match`.
+    pub struct MatchingLocalizerTuning("navigation.scan_match.tuning") {
         /// How beams are read from a frame.
         profile: ProfileTuning;
         /// How a keyframe keeps the surfaces that were seen.
@@ -16,7 +16,7 @@ settings! {
 
 settings! {
     /// How beams, directions in which something stands out of the floor, are read from a frame.
-    pub struct ProfileTuning("navigation.matching.tuning.profile") {
+    pub struct ProfileTuning("navigation.scan_match.tuning.profile") {
         /// Points lower than this above the robot's ground are left out: they are the ground's own edge.
         lowest: f64 = 0.02, "m", POSITIVE;
         /// What is nearer than this to the point below the camera is left out: it is the robot itself.
@@ -38,7 +38,7 @@ settings! {
 
 settings! {
     /// How a keyframe keeps the surfaces that were seen: the normal distributions transform, read off between the cells.
-    pub struct SurfacesTuning("navigation.matching.tuning.surfaces") {
+    pub struct SurfacesTuning("navigation.scan_match.tuning.surfaces") {
         /// Cells along each side of a keyframe's window; what was seen outside is forgotten.
         cells: usize = 64, "1", within(4.0, 1000.0);
         /// Places further away than so many cells say nothing about a place.
@@ -56,7 +56,7 @@ settings! {
 
 settings! {
     /// How a frame is laid on a keyframe's surfaces: Gauss-Newton for the heading and a small shift.
-    pub struct AlignmentTuning("navigation.matching.tuning.alignment") {
+    pub struct AlignmentTuning("navigation.scan_match.tuning.alignment") {
         /// Steps after which the search ends.
         iterations: usize = 6, "1", within(1.0, 1000.0);
         /// A step that moves by less than this, m, and turns by less than this, rad, ends the search.
