@@ -225,7 +225,8 @@ def table(each: list[Seed], closing: int) -> list[dict[str, str]]:
     if closing:
         for unit, axis, wanted in (("m", 0, "0.03"), ("degrees", 1, "0.5")):
             had, have = ([float(seed.errors[way][axis]) for seed in each] for way in (0, 1))
-            measured = f"{spread(have)}; by odometry {np.mean(had):.1f}"
+            bold = "**" * (float(np.mean(have)) > float(wanted))
+            measured = f"{bold}{spread(have)}{bold}; by odometry {np.mean(had):.1f}"
             what = f"mean error over the {closing} pairs under #LOOP EDGES, {unit}"
             rows.append({"what": what, "measured": measured, "wanted": wanted})
     had, have = ([seed.fits[way] for seed in each] for way in (0, 1))
