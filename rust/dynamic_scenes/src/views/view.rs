@@ -1,0 +1,220 @@
+//! One look of a range sensor: how far it saw in each direction.
+
+use std::f64::consts::{PI, TAU};
+
+use geometry::{Camera, Map, Point, Pose, distance_m, wrap_angle};
+use plan_view::PlanarScan;
+
+/// The pixels of a depth camera.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PictureShape {
+    /// Columns and rows.
+    pub size_px: [usize; 2],
+    /// Focal length along columns and rows, pixels.
+    pub focal_px: [f64; 2],
+    /// Column and row of the optical axis, pixels.
+    pub centre_px: [f64; 2],
+}
+
+/// How directions are numbered.
+#[derive(Debug, Clone)]
+enum Directions {
+    /// Pixels, row by row; ranges are depths along the optical axis.
+    Picture(PictureShape, Pose<Camera, Map>),
+    /// Bins of bearings all around, in the plane; ranges are distances over it.
+    Sweep {
+        eye_m: [f64; 2],
+        yaw_rad: f64,
+        step_rad: f64,
+    },
+}
+
+/// How far a sensor saw from one place, in the map frame.
+#[derive(Debug, Clone)]
+pub struct RangeView {
+    time_s: f64,
+    directions: Directions,
+    /// The range of each direction, m; NaN where nothing was seen.
+    ranges_m: Vec<f32>,
+    /// The nearest of a direction and those beside it, m; NaN where the direction itself saw nothing.
+    nearest_m: Vec<f32>,
+    /// Columns of the picture; 0 of a sweep.
+    cols: usize,
+}
+
+impl RangeView {
+    /// A depth picture: depths along the optical axis, m, row by row, NaN where nothing was seen. `beside`: directions that may be taken for one
+    /// another, pixels. Depths beyond the picture's size are left out.
+    pub fn of_picture(
+        time_s: f64,
+        map_from_camera: &Pose<Map, Camera>,
+        shape: PictureShape,
+        depths_m: Vec<f32>,
+        beside: usize,
+    ) -> Self {
+        let [cols, rows] = shape.size_px;
+        let mut ranges_m = depths_m;
+        ranges_m.resize(cols * rows, f32::NAN);
+        let along = lowest_beside(&ranges_m, [rows, cols], beside, false);
+        let mut nearest_m = transposed(&along, [rows, cols]);
+        nearest_m = lowest_beside(&nearest_m, [cols, rows], beside, false);
+        nearest_m = transposed(&nearest_m, [cols, rows]);
+        Self {
+            time_s,
+            directions: Directions::Picture(shape, map_from_camera.inverse()),
+            nearest_m: known_where(&ranges_m, nearest_m),
+            ranges_m,
+            cols,
+        }
+    }
+
+    /// A scan of the plane. Its beams go into bins of `step_rad`, of which `beside` to each side may be taken for one another; beams that saw nothing say
+    /// nothing.
+    pub fn of_scan(time_s: f64, scan: &PlanarScan, step_rad: f64, beside: usize) -> Self {
+        let count = (TAU / step_rad).ceil() as usize;
+        let mut ranges_m = vec![f32::NAN; count];
+        for beam in scan.beams.iter().filter(|beam| beam.is_usable()) {
+            if let Some(range_m) = beam.range_m {
+                let slot = &mut ranges_m[bin(beam.bearing_rad, step_rad, count)];
+                *slot = slot.min(range_m as f32); // of NaN and a number the number
+            }
+        }
+        let pose = scan.map_from_sensor;
+        Self {
+            time_s,
+            directions: Directions::Sweep {
+                eye_m: [pose.x_m, pose.y_m],
+                yaw_rad: pose.yaw_rad,
+                step_rad,
+            },
+            nearest_m: known_where(
+                &ranges_m,
+                lowest_beside(&ranges_m, [1, count], beside, true),
+            ),
+            ranges_m,
+            cols: 0,
+        }
+    }
+
+    /// When it was taken, s.
+    pub const fn time_s(&self) -> f64 {
+        self.time_s
+    }
+
+    /// Where the sensor was over the ground, m in the map frame.
+    pub fn eye_m(&self) -> [f64; 2] {
+        match &self.directions {
+            Directions::Picture(_, camera_from_map) => {
+                let eye = camera_from_map.inverse().origin().inner;
+                [eye.x, eye.y]
+            }
+            Directions::Sweep { eye_m, .. } => *eye_m,
+        }
+    }
+
+    /// How far a point of the map frame, m, is from the sensor, and how far the sensor saw in that direction: the nearest of it and those beside it, and
+    /// itself. None where the sensor saw nothing or did not look.
+    pub(super) fn towards(&self, point_m: [f64; 3]) -> Option<[f64; 3]> {
+        let (index, range_m) = self.direction(point_m)?;
+        let nearest_m = f64::from(self.nearest_m[index]);
+        (nearest_m > 0.0).then(|| [range_m, nearest_m, f64::from(self.ranges_m[index])])
+    }
+
+    /// How many of the directions right beside that of a point of the map frame, m, saw something at about its range, as `same` tells of two ranges, m: of 8
+    /// in a picture, of 2 in a sweep. None where the point lies in no direction.
+    pub(super) fn beside(
+        &self,
+        point_m: [f64; 3],
+        same: impl Fn(f64, f64) -> bool,
+    ) -> Option<usize> {
+        let (index, range_m) = self.direction(point_m)?;
+        let count = self.ranges_m.len();
+        let alike = |at: usize| same(f64::from(self.ranges_m[at]), range_m);
+        if self.cols == 0 {
+            let both = [(index + 1) % count, (index + count - 1) % count];
+            return Some(both.into_iter().filter(|at| alike(*at)).count());
+        }
+        let (row, col) = (index / self.cols, index % self.cols);
+        let rows = row.saturating_sub(1)..(row + 2).min(count / self.cols);
+        let around = rows.flat_map(|row| {
+            let cols = col.saturating_sub(1)..(col + 2).min(self.cols);
+            cols.map(move |col| row * self.cols + col)
+        });
+        Some(around.filter(|at| *at != index && alike(*at)).count())
+    }
+
+    /// Whether a point of the map frame, m, lies in the first or last columns of a picture, so many.
+    pub(crate) fn is_at_side(&self, point_m: [f64; 3], columns: usize) -> bool {
+        let col = self
+            .direction(point_m)
+            .map(|(index, _)| index % self.cols.max(1));
+        self.cols > 0 && col.is_some_and(|col| col < columns || col + columns >= self.cols)
+    }
+
+    /// The direction in which a point of the map frame, m, lies, and its range, m.
+    fn direction(&self, point_m: [f64; 3]) -> Option<(usize, f64)> {
+        Some(match &self.directions {
+            Directions::Picture(shape, camera_from_map) => {
+                let point = (*camera_from_map
+                    * Point::<Map>::new(point_m[0], point_m[1], point_m[2]))
+                .inner;
+                let [col, row] = [(point.x, 0), (point.y, 1)].map(|(off, axis)| {
+                    off / point.z * shape.focal_px[axis] + shape.centre_px[axis] + 0.5
+                });
+                let [cols, rows] = shape.size_px.map(|size| size as f64);
+                let inside =
+                    point.z > 0.0 && (0.0..cols).contains(&col) && (0.0..rows).contains(&row);
+                inside.then(|| (row as usize * shape.size_px[0] + col as usize, point.z))?
+            }
+            Directions::Sweep {
+                eye_m,
+                yaw_rad,
+                step_rad,
+            } => {
+                let [right_m, up_m] = [point_m[0] - eye_m[0], point_m[1] - eye_m[1]];
+                let bearing_rad = libm::atan2(up_m, right_m) - yaw_rad;
+                let index = bin(bearing_rad, *step_rad, self.ranges_m.len());
+                (index, distance_m([point_m[0], point_m[1]], *eye_m))
+            }
+        })
+    }
+}
+
+/// The bin of a bearing, rad.
+fn bin(bearing_rad: f64, step_rad: f64, count: usize) -> usize {
+    (((wrap_angle(bearing_rad) + PI) / step_rad) as usize).min(count - 1)
+}
+
+/// The lowest number of each value and those up to `reach` beside it in its row; NaN where none of them is a number.
+fn lowest_beside(values: &[f32], [rows, cols]: [usize; 2], reach: usize, round: bool) -> Vec<f32> {
+    let mut lowest = Vec::with_capacity(values.len());
+    for row in 0..rows {
+        let line = &values[row * cols..(row + 1) * cols];
+        for col in 0..cols {
+            let (from, to) = (col.saturating_sub(reach), (col + reach + 1).min(cols));
+            let mut low = line[from..to].iter().copied().fold(f32::NAN, f32::min);
+            if round && (col < reach || col + reach >= cols) {
+                let around = (col + cols - reach..=col + cols + reach).map(|at| line[at % cols]);
+                low = around.fold(low, f32::min);
+            }
+            lowest.push(low);
+        }
+    }
+    lowest
+}
+
+fn transposed(values: &[f32], [rows, cols]: [usize; 2]) -> Vec<f32> {
+    (0..cols)
+        .flat_map(|col| (0..rows).map(move |row| values[row * cols + col]))
+        .collect()
+}
+
+/// What was found beside, where the direction itself saw something.
+fn known_where(seen: &[f32], mut found: Vec<f32>) -> Vec<f32> {
+    for (found, seen) in found.iter_mut().zip(seen) {
+        if seen.is_nan() {
+            *found = f32::NAN;
+        }
+    }
+    found
+}
