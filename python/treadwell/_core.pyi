@@ -23,6 +23,7 @@ __all__ = [
     "GroundCosts",
     "Legs",
     "LocalRegression",
+    "MovingFilter",
     "OccupancyGrid",
     "OccupancyMap",
     "Octree",
@@ -340,6 +341,25 @@ class WorldModel:
     def view(self) -> FloorView: ...
     @property
     def seconds(self) -> float: ...
+
+@final
+class MovingFilter:
+    def __new__(cls, settings: str = "{}") -> MovingFilter: ...
+    def insert_picture(
+        self,
+        time: float,
+        depth: NDArray[np.float32],
+        map_from_camera: NDArray[np.float64],
+        *,
+        focal: tuple[float, float],
+        centre: tuple[float, float],
+        ground: float,
+        pool: int = 1,
+    ) -> None: ...
+    def insert_scan(
+        self, time: float, points: NDArray[np.float64], eye: tuple[float, float]
+    ) -> None: ...
+    def are_static(self) -> list[NDArray[np.bool_]]: ...
 
 @final
 class OccupancyMap:

@@ -17,6 +17,7 @@ from treadwell.map_making.placing import sensed
 from treadwell.map_making.plan_view import Seen, plan_arrays
 from treadwell.map_making.recording import MapRecording
 from treadwell.map_making.request import LANDMARKS, MapRequest
+from treadwell.map_making.static_frames import StaticSource
 from treadwell.map_memory import RememberedMap
 from treadwell.map_result import MappedSource, MapResult, counted, times
 from treadwell.recording.cut_off import RESULT
@@ -70,6 +71,8 @@ def make_map(
         topics=request.topics,
         pose_within=request.data.pose_within,
     )
+    if request.data.leave_out_moving:
+        source = StaticSource(source, request)
     frames = iter(source)
     first = next(frames, None)
     if first is None:

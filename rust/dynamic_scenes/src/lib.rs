@@ -2,13 +2,12 @@
 //! states, such as doors; what is static alone; and how long a plain occupancy grid takes to unlearn.
 //!
 //! ```
-//! use dynamic_scenes::{ClustersConfig, MovingThings, RangeView, TracksConfig, ViewsConfig};
+//! use dynamic_scenes::{MovingConfig, MovingThings, RangeView};
 //! use geometry::PlanarPose;
 //! use plan_view::{PlanarBeam, PlanarScan};
 //!
-//! let views = ViewsConfig::default();
-//! let (step_rad, beside) = (views.bearing_step, views.beside);
-//! let mut things = MovingThings::new(views, ClustersConfig::default(), TracksConfig::default())?;
+//! let config = MovingConfig::default();
+//! let mut things = MovingThings::new(config.clone())?;
 //! for frame in 0..60 {
 //!     let time_s = 0.1 * f64::from(frame);
 //!     let walker_m = [1.5, -1.0 + 0.3 * time_s]; // before a wall 4 m away
@@ -20,13 +19,14 @@
 //!     });
 //!     let scan = PlanarScan { map_from_sensor: PlanarPose::new(0.0, 0.0, 0.0), beams: beams.collect() };
 //!     let points: Vec<_> = scan.ends_m().map(|[x_m, y_m]| ([x_m, y_m, 0.5], 0.5)).collect();
-//!     let _of_points = things.see(RangeView::of_scan(time_s, &scan, step_rad, beside), points);
+//!     let _of_points = things.see(RangeView::of_scan(time_s, &scan, &config.views), points);
 //! }
 //! let track = &things.tracks()[0];
 //! assert!(track.moves && (track.predicted(1.0).at_m[1] - (-1.0 + 0.3 * 6.9)).abs() < 0.2);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod config;
 mod moving_things;
 mod states;
 mod static_map;
@@ -38,6 +38,7 @@ mod views;
 
 use settings::TableDescription;
 
+pub use config::MovingConfig;
 pub use moving_things::MovingThings;
 pub use states::{ChangingPart, StatefulMap, StatesConfig, learn_states};
 pub use static_map::{StaticMap, StaticMapConfig, static_map};
@@ -52,10 +53,7 @@ pub use views::{PictureShape, PointLooks, RangeView, ViewMemory, ViewsConfig};
 
 /// The tables of settings of this crate.
 pub const TABLES: &[TableDescription] = &[
-    TableDescription::of::<ViewsConfig>(),
-    TableDescription::of::<ClustersConfig>(),
-    TableDescription::of::<TracksConfig>(),
-    TableDescription::of::<GoneConfig>(),
+    TableDescription::of::<MovingConfig>(),
     TableDescription::of::<TimescalesConfig>(),
     TableDescription::of::<StatesConfig>(),
     TableDescription::of::<StaticMapConfig>(),

@@ -2,10 +2,9 @@
 
 use settings::{ConfigError, Table};
 
-use crate::tracks::{
-    ClustersConfig, MovingTrack, MovingTracks, PointOfView, TracksConfig, moving_clusters,
-};
-use crate::views::{PointLooks, RangeView, ViewMemory, ViewsConfig};
+use crate::config::MovingConfig;
+use crate::tracks::{ClustersConfig, MovingTrack, MovingTracks, PointOfView, moving_clusters};
+use crate::views::{PointLooks, RangeView, ViewMemory};
 
 /// Which points move, frame by frame, and the things that they belong to.
 #[derive(Debug, Clone)]
@@ -18,16 +17,12 @@ pub struct MovingThings {
 
 impl MovingThings {
     /// Nothing was seen yet.
-    pub fn new(
-        views: ViewsConfig,
-        clusters: ClustersConfig,
-        tracks: TracksConfig,
-    ) -> Result<Self, ConfigError> {
-        clusters.check()?;
+    pub fn new(config: MovingConfig) -> Result<Self, ConfigError> {
+        config.check()?;
         Ok(Self {
-            views: ViewMemory::new(views)?,
-            clusters,
-            tracks: MovingTracks::new(tracks)?,
+            views: ViewMemory::new(config.views)?,
+            clusters: config.clusters,
+            tracks: MovingTracks::new(config.tracks)?,
             time_s: 0.0,
         })
     }
@@ -56,7 +51,7 @@ impl MovingThings {
                 at_m,
                 height_m,
                 moves: looks.moves(config),
-                stays: looks.there > looks.through,
+                stays: looks.stays(),
                 at_side: sound && view.is_at_side(at_m, config.beside),
             }
         };

@@ -132,10 +132,10 @@ impl StaticPoints {
         }
         let all = f64::from(last.through + last.there);
         let gone = last.through >= config.looks && f64::from(last.through) >= self.gone.share * all;
-        let there = before.there + last.there;
-        (
-            before.moves(config) || gone,
-            there > before.through + last.through,
-        )
+        let all = PointLooks {
+            through: before.through + last.through,
+            there: before.there + last.there,
+        };
+        (before.moves(config) || gone, all.stays())
     }
 }

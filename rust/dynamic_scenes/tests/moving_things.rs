@@ -6,19 +6,14 @@ mod common;
 
 use common::{Person, Stereo, Wall, room, scan};
 use dynamic_scenes::{
-    ClustersConfig, GoneConfig, MovingThings, RangeView, StaticPoints, TracksConfig, ViewsConfig,
+    ClustersConfig, GoneConfig, MovingConfig, MovingThings, RangeView, StaticPoints, ViewsConfig,
 };
 use geometry::SplitMix64;
 
 const FRAME_S: f64 = 0.16;
 
 fn things() -> MovingThings {
-    MovingThings::new(
-        ViewsConfig::default(),
-        ClustersConfig::default(),
-        TracksConfig::default(),
-    )
-    .unwrap()
+    MovingThings::new(MovingConfig::default()).unwrap()
 }
 
 /// A robot that walks slowly towards the middle of a room and sways, and somebody on a way of their own.
@@ -99,7 +94,7 @@ fn two_that_cross_keep_their_tracks_and_a_still_room_has_none() {
                 (0.02, 8.0),
                 &mut numbers,
             );
-            let view = RangeView::of_scan(time_s, &scan, config.bearing_step, config.beside);
+            let view = RangeView::of_scan(time_s, &scan, &config);
             let points: Vec<_> = scan.ends_m().map(|[x, y]| ([x, y, 0.5], 0.5)).collect();
             let _of_points = things.see(view, points);
         }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use geometry::{Cell, Lattice, distance_m};
-use settings::{ANY, POSITIVE, at_least, settings};
+use settings::{ANY, NOT_NEGATIVE, POSITIVE, at_least, settings};
 
 settings! {
     /// Which points that move are one thing.
@@ -18,6 +18,8 @@ settings! {
         grown: f64 = 0.1, "m", at_least(0.0);
         /// Points in cells of this side with those that were seen through, over the ground, belong to the thing, though others were seen there: its feet, on the floor.
         foot: f64 = 0.04, "m", POSITIVE;
+        /// As `foot`, before and behind those points by this times the square of their distance: the error of their ranges.
+        foot_error: f64 = 0.02, "1/m", NOT_NEGATIVE;
         /// A thing's middle lies so many times half of its width, as it is seen, behind the mean of its points: of a round one 0.79, of a flat front 1.
         behind: f64 = 0.8, "1", at_least(0.0);
     }
@@ -72,7 +74,15 @@ pub fn moving_clusters(
     let mut seeds: BTreeMap<Cell, usize> = BTreeMap::new();
     for point in points.iter().filter(|point| point.moves && stands(point)) {
         *seeds.entry(cell_of(point)).or_default() += 1;
-        let _ = feet.insert(fine.cell_at(point.at_m[0], point.at_m[1]));
+        let off = [0, 1].map(|axis| point.at_m[axis] - eye_m[axis]);
+        let away_m = geometry::hypot(off[0], off[1]);
+        // As far along the line of sight as the range may be wrong.
+        let steps = (config.foot_error * away_m * away_m / config.foot).round() as i32;
+        for step in -steps..=steps {
+            let by = f64::from(step) * config.foot / away_m.max(f64::MIN_POSITIVE);
+            let [x_m, y_m] = [0, 1].map(|axis| point.at_m[axis] + by * off[axis]);
+            let _ = feet.insert(fine.cell_at(x_m, y_m));
+        }
     }
     let parts = joined(&seeds);
     let mut part_of: BTreeMap<Cell, usize> = BTreeMap::new();

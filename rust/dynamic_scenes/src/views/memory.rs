@@ -2,38 +2,20 @@
 
 use std::collections::VecDeque;
 
-use settings::{ConfigError, NOT_NEGATIVE, POSITIVE, SHARE, Table, at_least, settings};
+use settings::{ConfigError, Table};
 
-use super::RangeView;
-
-settings! {
-    /// When a point is seen through: an earlier or later look went on behind it.
-    pub struct ViewsConfig("navigation.moving.views") {
-        /// Looks are kept that are this far apart.
-        spacing: f64 = 0.4, "s", POSITIVE;
-        /// Looks are kept so long; what has come and stayed is part of the world after that.
-        memory: f64 = 6.0, "s", POSITIVE;
-        /// A look saw through a point if it went on for more than this behind it.
-        margin: f64 = 0.1, "m", POSITIVE;
-        /// A look saw through a point if its inverse range is less by more than this: what a stereo camera's error is.
-        inverse_margin: f64 = 0.07, "1/m", NOT_NEGATIVE;
-        /// Directions up to this far beside may be taken for that of the point, for the errors of poses and at borders.
-        beside: usize = 2, "pixels", at_least(0.0);
-        /// Bearings of a sweep are told apart by this.
-        bearing_step: f64 = 0.0175, "rad", POSITIVE;
-        /// A point of which fewer directions beside its own saw something at its range is an error of the sensor: it is of nothing.
-        company: usize = 2, "1", at_least(0.0);
-        /// So many looks must have seen through a point.
-        looks: u32 = 2, "1", at_least(1.0);
-        /// They must be such a share of those that saw through it or saw it there.
-        share: f64 = 0.5, "1", SHARE;
-    }
-}
+use super::{RangeView, ViewsConfig};
 
 impl ViewsConfig {
     /// Whether a sensor that saw as far as `seen_m` saw through something at a range.
     fn is_beyond(&self, seen_m: f64, range_m: f64) -> bool {
         seen_m - range_m > self.margin && 1.0 / range_m - 1.0 / seen_m > self.inverse_margin
+    }
+
+    /// Whether a range is another one, as well as that can be told: what is between this and beyond says nothing.
+    fn is_same(&self, one_m: f64, other_m: f64) -> bool {
+        (one_m - other_m).abs() < self.same * self.margin
+            || (1.0 / one_m - 1.0 / other_m).abs() < self.same * self.inverse_margin
     }
 
     /// Whether a point of a look's own is of something, and no error of the sensor.
@@ -60,6 +42,11 @@ impl PointLooks {
         self.through >= config.looks && f64::from(self.through) >= config.share * all
     }
 
+    /// Whether what is there was seen there, at least as often as not.
+    pub const fn stays(&self) -> bool {
+        self.there > 0 && self.there >= self.through
+    }
+
     /// Adds what a look says of a point of the map frame, m.
     pub fn add(&mut self, view: &RangeView, point_m: [f64; 3], config: &ViewsConfig) {
         let Some([range_m, nearest_m, own_m]) = view.towards(point_m) else {
@@ -67,7 +54,7 @@ impl PointLooks {
         };
         if config.is_beyond(nearest_m, range_m) {
             self.through += 1;
-        } else if !config.is_beyond(own_m, range_m) && !config.is_beyond(range_m, own_m) {
+        } else if config.is_same(own_m, range_m) {
             self.there += 1;
         }
     }

@@ -5,6 +5,8 @@ use std::f64::consts::{PI, TAU};
 use geometry::{Camera, Map, Point, Pose, distance_m, wrap_angle};
 use plan_view::PlanarScan;
 
+use super::ViewsConfig;
+
 /// The pixels of a depth camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PictureShape {
@@ -43,22 +45,30 @@ pub struct RangeView {
 }
 
 impl RangeView {
-    /// A depth picture: depths along the optical axis, m, row by row, NaN where nothing was seen. `beside`: directions that may be taken for one
-    /// another, pixels. Depths beyond the picture's size are left out.
+    /// A depth picture: depths along the optical axis, m, row by row, NaN where nothing was seen. Depths beyond the picture's size are left out.
     pub fn of_picture(
         time_s: f64,
         map_from_camera: &Pose<Map, Camera>,
         shape: PictureShape,
         depths_m: Vec<f32>,
-        beside: usize,
+        config: &ViewsConfig,
     ) -> Self {
         let [cols, rows] = shape.size_px;
         let mut ranges_m = depths_m;
         ranges_m.resize(cols * rows, f32::NAN);
-        let along = lowest_beside(&ranges_m, [rows, cols], beside, false);
-        let mut nearest_m = transposed(&along, [rows, cols]);
-        nearest_m = lowest_beside(&nearest_m, [cols, rows], beside, false);
-        nearest_m = transposed(&nearest_m, [cols, rows]);
+        let reach = config.beside;
+        let around = |row: usize, col: usize| {
+            let rows = row.saturating_sub(reach)..(row + reach + 1).min(rows);
+            let cols_of = col.saturating_sub(reach)..(col + reach + 1).min(cols);
+            rows.flat_map(move |row| cols_of.clone().map(move |col| row * cols + col))
+        };
+        let mut near = Vec::new();
+        let mut nearest = |at: usize| {
+            near.clear();
+            near.extend(around(at / cols, at % cols).map(|beside| ranges_m[beside]));
+            lowest(&mut near, config.stray)
+        };
+        let nearest_m = (0..ranges_m.len()).map(&mut nearest).collect();
         Self {
             time_s,
             directions: Directions::Picture(shape, map_from_camera.inverse()),
@@ -68,9 +78,9 @@ impl RangeView {
         }
     }
 
-    /// A scan of the plane. Its beams go into bins of `step_rad`, of which `beside` to each side may be taken for one another; beams that saw nothing say
-    /// nothing.
-    pub fn of_scan(time_s: f64, scan: &PlanarScan, step_rad: f64, beside: usize) -> Self {
+    /// A scan of the plane. Its beams go into bins of bearings; beams that saw nothing say nothing.
+    pub fn of_scan(time_s: f64, scan: &PlanarScan, config: &ViewsConfig) -> Self {
+        let (step_rad, reach) = (config.bearing_step, config.beside);
         let count = (TAU / step_rad).ceil() as usize;
         let mut ranges_m = vec![f32::NAN; count];
         for beam in scan.beams.iter().filter(|beam| beam.is_usable()) {
@@ -80,6 +90,15 @@ impl RangeView {
             }
         }
         let pose = scan.map_from_sensor;
+        let mut near = Vec::new();
+        let mut nearest = |at: usize| {
+            near.clear();
+            near.extend(
+                (0..=2 * reach).map(|by| ranges_m[(at + count * reach + by - reach) % count]),
+            );
+            lowest(&mut near, config.stray)
+        };
+        let nearest_m = (0..count).map(&mut nearest).collect();
         Self {
             time_s,
             directions: Directions::Sweep {
@@ -87,10 +106,7 @@ impl RangeView {
                 yaw_rad: pose.yaw_rad,
                 step_rad,
             },
-            nearest_m: known_where(
-                &ranges_m,
-                lowest_beside(&ranges_m, [1, count], beside, true),
-            ),
+            nearest_m: known_where(&ranges_m, nearest_m),
             ranges_m,
             cols: 0,
         }
@@ -185,28 +201,14 @@ fn bin(bearing_rad: f64, step_rad: f64, count: usize) -> usize {
     (((wrap_angle(bearing_rad) + PI) / step_rad) as usize).min(count - 1)
 }
 
-/// The lowest number of each value and those up to `reach` beside it in its row; NaN where none of them is a number.
-fn lowest_beside(values: &[f32], [rows, cols]: [usize; 2], reach: usize, round: bool) -> Vec<f32> {
-    let mut lowest = Vec::with_capacity(values.len());
-    for row in 0..rows {
-        let line = &values[row * cols..(row + 1) * cols];
-        for col in 0..cols {
-            let (from, to) = (col.saturating_sub(reach), (col + reach + 1).min(cols));
-            let mut low = line[from..to].iter().copied().fold(f32::NAN, f32::min);
-            if round && (col < reach || col + reach >= cols) {
-                let around = (col + cols - reach..=col + cols + reach).map(|at| line[at % cols]);
-                low = around.fold(low, f32::min);
-            }
-            lowest.push(low);
-        }
+/// The lowest of the numbers, but for this share of them, which may be errors; NaN without a number. Changes their order.
+fn lowest(values: &mut Vec<f32>, stray: f64) -> f32 {
+    values.retain(|value| !value.is_nan());
+    let at = (stray * values.len() as f64) as usize;
+    if at >= values.len() {
+        return f32::NAN;
     }
-    lowest
-}
-
-fn transposed(values: &[f32], [rows, cols]: [usize; 2]) -> Vec<f32> {
-    (0..cols)
-        .flat_map(|col| (0..rows).map(move |row| values[row * cols + col]))
-        .collect()
+    *values.select_nth_unstable_by(at, f32::total_cmp).1
 }
 
 /// What was found beside, where the direction itself saw something.
