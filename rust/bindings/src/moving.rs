@@ -79,7 +79,7 @@ impl PyMovingFilter {
             ([at.x, at.y, at.z], at.z - ground)
         };
         let points = depths_m.iter().enumerate().map(point).collect();
-        let view = RangeView::of_picture(time, &pose, shape, depths_m, &self.views);
+        let view = RangeView::of_picture(time, &pose, shape, depths_m);
         self.filter.insert(view, points);
         self.frames.push(([rows, cols], pool));
         Ok(())

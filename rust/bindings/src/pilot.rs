@@ -210,6 +210,24 @@ impl PyPilot {
         self.pilot.goals_passed()
     }
 
+    /// What moves and is followed: number, x, y m and their rates m/s in the map, half of its width m, and whether it surely moves.
+    #[getter]
+    fn moving_things(&self) -> Vec<(u32, [f64; 2], [f64; 2], f64, bool)> {
+        let things = self.pilot.perception.moving_things().iter();
+        things
+            .map(|track| {
+                let at_m = track.predicted(0.0).at_m;
+                (
+                    track.id,
+                    at_m,
+                    track.velocity_mps(),
+                    track.radius_m,
+                    track.moves,
+                )
+            })
+            .collect()
+    }
+
     /// How often a way was planned anew after the first.
     #[getter]
     fn replans(&self) -> u64 {

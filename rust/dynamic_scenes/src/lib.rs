@@ -51,9 +51,8 @@ pub use tracks::{
 pub use unlearning::free_looks_to_unlearn;
 pub use views::{PictureShape, PointLooks, RangeView, ViewMemory, ViewsConfig};
 
-/// The tables of settings of this crate.
+/// The tables of settings of what no robot has on its way; [`MovingConfig`] is the pilot's.
 pub const TABLES: &[TableDescription] = &[
-    TableDescription::of::<MovingConfig>(),
     TableDescription::of::<TimescalesConfig>(),
     TableDescription::of::<StatesConfig>(),
     TableDescription::of::<StaticMapConfig>(),

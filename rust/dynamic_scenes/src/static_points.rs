@@ -71,7 +71,7 @@ impl StaticPoints {
         let spacing_s = self.views_config.spacing;
         let last = self.views.last().map(RangeView::time_s);
         if last.is_none_or(|last_s| time_s - last_s >= spacing_s) {
-            self.views.push(view);
+            self.views.push(view.prepared(&self.views_config));
         }
     }
 

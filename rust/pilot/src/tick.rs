@@ -21,6 +21,7 @@ use walking::{JointTargets, WalkError, Walker};
 
 use crate::feeling;
 use crate::goals::Goals;
+use crate::moving::Moving;
 use crate::perception::{Perception, PerceptionConfig};
 use crate::registry::{self, Components, Making};
 use crate::timing::{Stage, Timing};
@@ -127,8 +128,8 @@ impl Pilot {
                 segmenter,
                 world_model,
                 making.recognizer()?,
-                self_filter,
-                scan,
+                (scan, self_filter),
+                Moving::new(read(tables, "moving")?)?,
                 perception,
             ),
             localizer: (given.localizer).map_or_else(|| making.localizer(), Ok)?,

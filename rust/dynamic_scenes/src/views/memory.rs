@@ -94,7 +94,7 @@ impl ViewMemory {
             .retain(|old| now_s - old.time_s() <= self.config.memory);
         let last_s = self.views.back().map(RangeView::time_s);
         if last_s.is_none_or(|last_s| now_s - last_s >= self.config.spacing) {
-            self.views.push_back(view);
+            self.views.push_back(view.prepared(&self.config));
         }
     }
 

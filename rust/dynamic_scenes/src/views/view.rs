@@ -51,28 +51,14 @@ impl RangeView {
         map_from_camera: &Pose<Map, Camera>,
         shape: PictureShape,
         depths_m: Vec<f32>,
-        config: &ViewsConfig,
     ) -> Self {
         let [cols, rows] = shape.size_px;
         let mut ranges_m = depths_m;
         ranges_m.resize(cols * rows, f32::NAN);
-        let reach = config.beside;
-        let around = |row: usize, col: usize| {
-            let rows = row.saturating_sub(reach)..(row + reach + 1).min(rows);
-            let cols_of = col.saturating_sub(reach)..(col + reach + 1).min(cols);
-            rows.flat_map(move |row| cols_of.clone().map(move |col| row * cols + col))
-        };
-        let mut near = Vec::new();
-        let mut nearest = |at: usize| {
-            near.clear();
-            near.extend(around(at / cols, at % cols).map(|beside| ranges_m[beside]));
-            lowest(&mut near, config.stray)
-        };
-        let nearest_m = (0..ranges_m.len()).map(&mut nearest).collect();
         Self {
             time_s,
             directions: Directions::Picture(shape, map_from_camera.inverse()),
-            nearest_m: known_where(&ranges_m, nearest_m),
+            nearest_m: Vec::new(),
             ranges_m,
             cols,
         }
@@ -80,7 +66,7 @@ impl RangeView {
 
     /// A scan of the plane. Its beams go into bins of bearings; beams that saw nothing say nothing.
     pub fn of_scan(time_s: f64, scan: &PlanarScan, config: &ViewsConfig) -> Self {
-        let (step_rad, reach) = (config.bearing_step, config.beside);
+        let step_rad = config.bearing_step;
         let count = (TAU / step_rad).ceil() as usize;
         let mut ranges_m = vec![f32::NAN; count];
         for beam in scan.beams.iter().filter(|beam| beam.is_usable()) {
@@ -90,15 +76,6 @@ impl RangeView {
             }
         }
         let pose = scan.map_from_sensor;
-        let mut near = Vec::new();
-        let mut nearest = |at: usize| {
-            near.clear();
-            near.extend(
-                (0..=2 * reach).map(|by| ranges_m[(at + count * reach + by - reach) % count]),
-            );
-            lowest(&mut near, config.stray)
-        };
-        let nearest_m = (0..count).map(&mut nearest).collect();
         Self {
             time_s,
             directions: Directions::Sweep {
@@ -106,10 +83,37 @@ impl RangeView {
                 yaw_rad: pose.yaw_rad,
                 step_rad,
             },
-            nearest_m: known_where(&ranges_m, nearest_m),
+            nearest_m: Vec::new(),
             ranges_m,
             cols: 0,
         }
+    }
+
+    /// Finds what is nearest beside each direction, so that points can be looked for behind it; until then it sees through nothing.
+    #[must_use]
+    pub(crate) fn prepared(mut self, config: &ViewsConfig) -> Self {
+        let (reach, count) = (config.beside, self.ranges_m.len());
+        let mut near = Vec::new();
+        let mut nearest = |at: usize| {
+            near.clear();
+            if self.ranges_m[at].is_nan() {
+                return f32::NAN;
+            }
+            if let Some(row) = at.checked_div(self.cols) {
+                let col = at % self.cols;
+                for row in row.saturating_sub(reach)..(row + reach + 1).min(count / self.cols) {
+                    let line = &self.ranges_m[row * self.cols..(row + 1) * self.cols];
+                    let end = (col + reach + 1).min(self.cols);
+                    near.extend_from_slice(&line[col.saturating_sub(reach)..end]);
+                }
+            } else {
+                let beside = (0..=2 * reach).map(|by| (at + count * reach + by - reach) % count);
+                near.extend(beside.map(|at| self.ranges_m[at]));
+            }
+            lowest(&mut near, config.stray)
+        };
+        self.nearest_m = (0..count).map(&mut nearest).collect();
+        self
     }
 
     /// When it was taken, s.
@@ -132,7 +136,7 @@ impl RangeView {
     /// itself. None where the sensor saw nothing or did not look.
     pub(super) fn towards(&self, point_m: [f64; 3]) -> Option<[f64; 3]> {
         let (index, range_m) = self.direction(point_m)?;
-        let nearest_m = f64::from(self.nearest_m[index]);
+        let nearest_m = f64::from(*self.nearest_m.get(index)?);
         (nearest_m > 0.0).then(|| [range_m, nearest_m, f64::from(self.ranges_m[index])])
     }
 
@@ -209,14 +213,4 @@ fn lowest(values: &mut Vec<f32>, stray: f64) -> f32 {
         return f32::NAN;
     }
     *values.select_nth_unstable_by(at, f32::total_cmp).1
-}
-
-/// What was found beside, where the direction itself saw something.
-fn known_where(seen: &[f32], mut found: Vec<f32>) -> Vec<f32> {
-    for (found, seen) in found.iter_mut().zip(seen) {
-        if seen.is_nan() {
-            *found = f32::NAN;
-        }
-    }
-    found
 }

@@ -6,7 +6,7 @@
     reason = "each test uses a part of it"
 )]
 
-use dynamic_scenes::{PictureShape, RangeView, ViewsConfig};
+use dynamic_scenes::{PictureShape, RangeView};
 use geometry::{Camera, Map, PlanarPose, Pose, SplitMix64};
 use plan_view::{PlanarBeam, PlanarScan};
 
@@ -215,13 +215,7 @@ impl Stereo {
                 of_people.push(!gross && person.is_some_and(|at| at <= depth));
             }
         }
-        let view = RangeView::of_picture(
-            time_s,
-            &map_from_camera,
-            self.shape,
-            depths_m,
-            &ViewsConfig::default(),
-        );
+        let view = RangeView::of_picture(time_s, &map_from_camera, self.shape, depths_m);
         (view, points, of_people)
     }
 }
