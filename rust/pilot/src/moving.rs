@@ -94,6 +94,27 @@ impl Moving {
         self.foreseen(map_from_robot)
     }
 
+    /// Whether something that surely moves will come near to a robot of this radius, m, so that it had better wait.
+    pub(crate) fn comes_near(&self, map_from_robot: &Pose<Map, Robot>, radius_m: f64) -> bool {
+        let config = &self.config;
+        let robot = map_from_robot.origin().inner;
+        let steps = (config.wait / config.step).ceil() as u32;
+        self.tracks()
+            .iter()
+            .filter(|track| track.moves)
+            .any(|track| {
+                let [x, y] = track.velocity_mps();
+                let near_m = radius_m + track.radius_m + config.room;
+                let away_m =
+                    |ahead_s: f64| distance_m(track.predicted(ahead_s).at_m, [robot.x, robot.y]);
+                // What goes away is no reason to wait, however near it is.
+                let comes = away_m(config.step) < away_m(0.0);
+                geometry::hypot(x, y) > config.fast
+                    && comes
+                    && (1..=steps).any(|step| away_m(f64::from(step) * config.step) < near_m)
+            })
+    }
+
     /// Where what surely moves is and will be, but for what is where the robot stands.
     fn foreseen(&self, map_from_robot: &Pose<Map, Robot>) -> Vec<ForeseenPlace> {
         let config = &self.config;

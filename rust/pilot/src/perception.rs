@@ -113,6 +113,12 @@ impl Perception {
         self.moving.tracks()
     }
 
+    /// Whether something that moves will come near to a robot with this body that believes to be there.
+    pub(crate) fn something_comes(&self, estimate: &Estimate, body: &Body) -> bool {
+        let radius_m = body.description().body.radius;
+        self.moving.comes_near(&estimate.map_from_robot, radius_m)
+    }
+
     /// Takes in a frame that a body took. Whether the robot found itself elsewhere than it believed, so that what was mapped is
     /// forgotten.
     pub(crate) fn see(

@@ -24,7 +24,7 @@ settings! {
         /// A thing is one that is followed where such a share of its places lies no further off, or nearer.
         gate: f64 = 0.997, "1", between(0.0, 1.0);
         /// Things that were not seen so long are gone.
-        forget: f64 = 1.5, "s", POSITIVE;
+        forget: f64 = 2.5, "s", POSITIVE;
         /// What they did is remembered so long.
         history: f64 = 30.0, "s", POSITIVE;
         /// A thing moves for sure that was seen in so many frames.
