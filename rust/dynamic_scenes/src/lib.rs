@@ -41,7 +41,7 @@ use settings::TableDescription;
 pub use config::MovingConfig;
 pub use moving_things::MovingThings;
 pub use states::{ChangingPart, StatefulMap, StatesConfig, learn_states};
-pub use static_map::{StaticMap, StaticMapConfig, static_map};
+pub use static_map::{StaticCells, StaticMapConfig, static_map};
 pub use static_points::{GoneConfig, StaticPoints};
 pub use timescales::{TimescaleMaps, TimescalesConfig};
 pub use tracks::{

@@ -35,7 +35,7 @@ struct CellCounts {
 
 /// What was found.
 #[derive(Debug, Clone)]
-pub struct StaticMap {
+pub struct StaticCells {
     /// Where the cells lie in the map frame.
     pub lattice: Lattice,
     /// Share of the time that each cell is statically occupied, in effect its probability; NaN of cells that no beam said anything of.
@@ -55,7 +55,7 @@ pub fn static_map(
     origin_m: [f64; 2],
     size: [usize; 2],
     config: &StaticMapConfig,
-) -> Result<StaticMap, ConfigError> {
+) -> Result<StaticCells, ConfigError> {
     config.check()?;
     let lattice = Lattice {
         origin_m,
@@ -106,7 +106,7 @@ pub fn static_map(
         })
     };
     let of_scan = |scan: &PlanarScan| scan.beams.iter().map(|beam| expected(scan, beam)).collect();
-    Ok(StaticMap {
+    Ok(StaticCells {
         lattice,
         beam_is_static: scans.iter().map(of_scan).collect(),
         occupied,

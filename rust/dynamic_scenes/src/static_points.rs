@@ -17,7 +17,7 @@ settings! {
 
 /// A frame of a recording.
 #[derive(Debug, Clone)]
-struct SeenFrame {
+struct RecordedFrame {
     time_s: f64,
     points: Vec<([f64; 3], f64)>,
     /// Of each point whether it is of something, and no error of the sensor.
@@ -31,7 +31,7 @@ pub struct StaticPoints {
     views_config: ViewsConfig,
     clusters: ClustersConfig,
     gone: GoneConfig,
-    frames: Vec<SeenFrame>,
+    frames: Vec<RecordedFrame>,
     views: Vec<RangeView>,
 }
 
@@ -62,7 +62,7 @@ impl StaticPoints {
                 && at_m.iter().all(|at| at.is_finite())
                 && self.views_config.has_company(&view, at_m)
         };
-        self.frames.push(SeenFrame {
+        self.frames.push(RecordedFrame {
             time_s,
             are_sound: points.iter().map(sound).collect(),
             points,
@@ -84,7 +84,7 @@ impl StaticPoints {
             .collect()
     }
 
-    fn of_frame(&self, frame: &SeenFrame) -> Vec<bool> {
+    fn of_frame(&self, frame: &RecordedFrame) -> Vec<bool> {
         let seen = |(&(at_m, height_m), &sound): (&([f64; 3], f64), &bool)| {
             let (moves, stays) = if sound {
                 self.fate(frame.time_s, at_m)

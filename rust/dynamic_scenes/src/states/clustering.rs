@@ -1,11 +1,11 @@
 //! Patches of a map, one a visit, in as few states as explain them.
 
 /// What a visit saw of the cells of a part: occupied, free, or nothing.
-pub(super) type Patch = Vec<Option<bool>>;
+pub(super) type VisitPatch = Vec<Option<bool>>;
 
 /// A state that patches were found in.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Cluster {
+pub(super) struct PartState {
     /// Of each cell the share of the visits in it that saw it occupied, with one half look of each kind before.
     pub(super) occupied: Vec<f64>,
     /// The visits.
@@ -14,8 +14,8 @@ pub(super) struct Cluster {
 
 /// The states of the patches, the most frequent first: the number of them, up to `most`, that has the least Bayesian information criterion. Each cell of
 /// each state is one parameter.
-pub(super) fn states(patches: &[Patch], most: usize) -> Vec<Cluster> {
-    let mut best: Option<(f64, Vec<Cluster>)> = None;
+pub(super) fn states(patches: &[VisitPatch], most: usize) -> Vec<PartState> {
+    let mut best: Option<(f64, Vec<PartState>)> = None;
     for count in 1..=most.min(patches.len()) {
         let found = in_states(patches, count);
         let criterion = criterion(patches, &found);
@@ -29,7 +29,7 @@ pub(super) fn states(patches: &[Patch], most: usize) -> Vec<Cluster> {
 }
 
 /// Patches in so many states or fewer, each in the likeliest.
-fn in_states(patches: &[Patch], count: usize) -> Vec<Cluster> {
+fn in_states(patches: &[VisitPatch], count: usize) -> Vec<PartState> {
     // Begun with patches that are the furthest from those before.
     let mut first = vec![0];
     while first.len() < count {
@@ -43,10 +43,10 @@ fn in_states(patches: &[Patch], count: usize) -> Vec<Cluster> {
         first.extend(next);
     }
     let mut of: Vec<usize> = Vec::new();
-    let mut clusters: Vec<Cluster> = first.iter().map(|&at| cluster(patches, vec![at])).collect();
+    let mut clusters: Vec<PartState> = first.iter().map(|&at| cluster(patches, vec![at])).collect();
     // Each round adds to the likelihood, so that no assignment comes twice.
     loop {
-        let likeliest = |patch: &Patch| {
+        let likeliest = |patch: &VisitPatch| {
             let ranked = clusters.iter().enumerate();
             let of = ranked.max_by(|(_, a), (_, b)| {
                 log_likelihood(patch, a).total_cmp(&log_likelihood(patch, b))
@@ -73,14 +73,14 @@ fn in_states(patches: &[Patch], count: usize) -> Vec<Cluster> {
     clusters
 }
 
-fn differing(one: &Patch, other: &Patch) -> usize {
+fn differing(one: &VisitPatch, other: &VisitPatch) -> usize {
     let pairs = one.iter().zip(other);
     pairs
         .filter(|(a, b)| matches!((a, b), (Some(a), Some(b)) if a != b))
         .count()
 }
 
-fn cluster(patches: &[Patch], members: Vec<usize>) -> Cluster {
+fn cluster(patches: &[VisitPatch], members: Vec<usize>) -> PartState {
     let cells = patches.first().map_or(0, Vec::len);
     let share = |cell: usize| {
         let seen = members.iter().filter_map(|&at| patches[at][cell]);
@@ -89,14 +89,14 @@ fn cluster(patches: &[Patch], members: Vec<usize>) -> Cluster {
         });
         occupied / all
     };
-    Cluster {
+    PartState {
         occupied: (0..cells).map(share).collect(),
         members,
     }
 }
 
 /// Logarithm of the probability of a patch in a state; cells that were not seen say nothing.
-fn log_likelihood(patch: &Patch, state: &Cluster) -> f64 {
+fn log_likelihood(patch: &VisitPatch, state: &PartState) -> f64 {
     let cells = patch.iter().zip(&state.occupied);
     let of = |(seen, p): (&Option<bool>, &f64)| {
         seen.map(|occupied| libm::log(if occupied { *p } else { 1.0 - p }))
@@ -104,8 +104,8 @@ fn log_likelihood(patch: &Patch, state: &Cluster) -> f64 {
     cells.filter_map(of).sum()
 }
 
-fn criterion(patches: &[Patch], states: &[Cluster]) -> f64 {
-    let of_state = |state: &Cluster| {
+fn criterion(patches: &[VisitPatch], states: &[PartState]) -> f64 {
+    let of_state = |state: &PartState| {
         let members = state.members.iter();
         members
             .map(|&at| log_likelihood(&patches[at], state))

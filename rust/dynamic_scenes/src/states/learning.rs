@@ -6,8 +6,8 @@ use geometry::Cell;
 use plan_view::{OccupancyError, OccupancyMap};
 use settings::{ConfigError, Table, at_least, between, settings};
 
-use super::clustering::{Patch, states};
-use super::stateful_map::StatefulMap;
+use super::clustering::{VisitPatch, states};
+use super::stateful_map::{ChangingPart, StatefulMap};
 
 settings! {
     /// Parts of a map that take on one of few states.
@@ -28,19 +28,6 @@ settings! {
         rounds: usize = 3, "1", at_least(1.0);
     }
     require (free) < (occupied);
-}
-
-/// A part of the map that changes.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ChangingPart {
-    /// Its cells, in order.
-    pub cells: Vec<Cell>,
-    /// Of each state, the most frequent first, the probability that each cell is occupied.
-    pub states: Vec<Vec<f64>>,
-    /// Of each state the share of the visits that found it.
-    pub shares: Vec<f64>,
-    /// Of each visit the state in which it found the part.
-    pub of_visits: Vec<usize>,
 }
 
 /// Learns which parts of a map change between visits, and their states. The maps of the visits are of the same cells; what they agree in is in the map that is
@@ -119,7 +106,7 @@ fn part(visits: &[OccupancyMap], cells: Vec<Cell>, config: &StatesConfig) -> Opt
             .map(|&cell| seen(visit, cell, config))
             .collect()
     };
-    let patches: Vec<Patch> = visits.iter().map(patch).collect();
+    let patches: Vec<VisitPatch> = visits.iter().map(patch).collect();
     let found = states(&patches, config.most);
     if found.len() < 2 {
         return None;

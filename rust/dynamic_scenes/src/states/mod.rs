@@ -5,5 +5,5 @@ mod clustering;
 mod learning;
 mod stateful_map;
 
-pub use learning::{ChangingPart, StatesConfig, learn_states};
-pub use stateful_map::StatefulMap;
+pub use learning::{StatesConfig, learn_states};
+pub use stateful_map::{ChangingPart, StatefulMap};

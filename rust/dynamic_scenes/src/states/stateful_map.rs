@@ -1,8 +1,20 @@
 //! A map with parts that are in one of several states, and how probable scans are in it.
 
+use geometry::Cell;
 use plan_view::{BeamLikelihood, OccupancyMap, PlanarScan, log_odds, probability_of_log_odds};
 
-use super::learning::ChangingPart;
+/// A part of the map that changes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChangingPart {
+    /// Its cells, in order.
+    pub cells: Vec<Cell>,
+    /// Of each state, the most frequent first, the probability that each cell is occupied.
+    pub states: Vec<Vec<f64>>,
+    /// Of each state the share of the visits that found it.
+    pub shares: Vec<f64>,
+    /// Of each visit the state in which it found the part.
+    pub of_visits: Vec<usize>,
+}
 
 /// An occupancy map with parts that change.
 #[derive(Debug, Clone)]

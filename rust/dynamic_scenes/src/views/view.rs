@@ -20,7 +20,7 @@ pub struct PictureShape {
 
 /// How directions are numbered.
 #[derive(Debug, Clone)]
-enum Directions {
+enum ViewDirections {
     /// Pixels, row by row; ranges are depths along the optical axis.
     Picture(PictureShape, Pose<Camera, Map>),
     /// Bins of bearings all around, in the plane; ranges are distances over it.
@@ -35,7 +35,7 @@ enum Directions {
 #[derive(Debug, Clone)]
 pub struct RangeView {
     time_s: f64,
-    directions: Directions,
+    directions: ViewDirections,
     /// The range of each direction, m; NaN where nothing was seen.
     ranges_m: Vec<f32>,
     /// The nearest of a direction and those beside it, m; NaN where the direction itself saw nothing.
@@ -57,7 +57,7 @@ impl RangeView {
         ranges_m.resize(cols * rows, f32::NAN);
         Self {
             time_s,
-            directions: Directions::Picture(shape, map_from_camera.inverse()),
+            directions: ViewDirections::Picture(shape, map_from_camera.inverse()),
             nearest_m: Vec::new(),
             ranges_m,
             cols,
@@ -78,7 +78,7 @@ impl RangeView {
         let pose = scan.map_from_sensor;
         Self {
             time_s,
-            directions: Directions::Sweep {
+            directions: ViewDirections::Sweep {
                 eye_m: [pose.x_m, pose.y_m],
                 yaw_rad: pose.yaw_rad,
                 step_rad,
@@ -124,11 +124,11 @@ impl RangeView {
     /// Where the sensor was over the ground, m in the map frame.
     pub fn eye_m(&self) -> [f64; 2] {
         match &self.directions {
-            Directions::Picture(_, camera_from_map) => {
+            ViewDirections::Picture(_, camera_from_map) => {
                 let eye = camera_from_map.inverse().origin().inner;
                 [eye.x, eye.y]
             }
-            Directions::Sweep { eye_m, .. } => *eye_m,
+            ViewDirections::Sweep { eye_m, .. } => *eye_m,
         }
     }
 
@@ -174,7 +174,7 @@ impl RangeView {
     /// The direction in which a point of the map frame, m, lies, and its range, m.
     fn direction(&self, point_m: [f64; 3]) -> Option<(usize, f64)> {
         Some(match &self.directions {
-            Directions::Picture(shape, camera_from_map) => {
+            ViewDirections::Picture(shape, camera_from_map) => {
                 let point = (*camera_from_map
                     * Point::<Map>::new(point_m[0], point_m[1], point_m[2]))
                 .inner;
@@ -186,7 +186,7 @@ impl RangeView {
                     point.z > 0.0 && (0.0..cols).contains(&col) && (0.0..rows).contains(&row);
                 inside.then(|| (row as usize * shape.size_px[0] + col as usize, point.z))?
             }
-            Directions::Sweep {
+            ViewDirections::Sweep {
                 eye_m,
                 yaw_rad,
                 step_rad,
