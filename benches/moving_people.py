@@ -172,7 +172,7 @@ def exposures(episode: Episode) -> dict[int, Exposure]:
         found[episode.simulation.time_ns] = Exposure(element, cast.depth, places)
         return see(data, errors)
 
-    camera.see = noted  # type: ignore[method-assign, assignment]
+    camera.see = noted  # type: ignore[method-assign]
     return found
 
 

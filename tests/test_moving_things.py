@@ -1,15 +1,20 @@
 """Claims about what moves on a robot's way: it is followed, foreseen, and waited for."""
 
+from typing import Any
+
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from treadwell.episode import Episode
+
+Frames = list[tuple[float, NDArray[np.float64], list[Any]]]
 
 SECONDS = 17.3
 
 
 @pytest.fixture(scope="module")
-def crossed() -> list[tuple[float, np.ndarray, list[tuple]]]:
+def crossed() -> Frames:
     """Time, true place, and what the robot follows, while somebody walks in its view."""
     episode = Episode("person_crosses", robot="qrio", seed=0)
     somebody = next(one for one in episode.course.elements if one.name == "somebody")
@@ -22,7 +27,7 @@ def crossed() -> list[tuple[float, np.ndarray, list[tuple]]]:
     return seen
 
 
-def test_nothing_is_followed_before_anything_moves(crossed: list) -> None:
+def test_nothing_is_followed_before_anything_moves(crossed: Frames) -> None:
     """Whatever the camera's errors are."""
     start = crossed[0][1]
     still = [things for _, place, things in crossed if np.allclose(place, start)]
@@ -30,7 +35,7 @@ def test_nothing_is_followed_before_anything_moves(crossed: list) -> None:
     assert not any(sure for things in still for *_, sure in things)
 
 
-def test_who_crosses_is_followed_and_its_place_a_second_ahead_is_known(crossed: list) -> None:
+def test_who_crosses_is_followed_and_its_place_a_second_ahead_is_known(crossed: Frames) -> None:
     """Within 0.2 m at 0.3 m/s, as soon as it surely moves."""
     errors = []
     for time, place, things in crossed:

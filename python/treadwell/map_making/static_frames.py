@@ -93,7 +93,7 @@ def valid(frame: RangeFrame) -> NDArray[np.bool_]:
         seen: NDArray[np.bool_] = np.isfinite(frame.depth) & (frame.depth > 0)
         return seen
     points = frame.points if frame.points is not None else np.zeros((0, 3), np.float32)
-    return np.isfinite(points).all(axis=1)[None]
+    return np.asarray(np.isfinite(points).all(axis=1), np.bool_)[None]
 
 
 def without(frame: RangeFrame, kept: NDArray[np.bool_]) -> RangeFrame:
