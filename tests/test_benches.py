@@ -28,6 +28,7 @@ LEAST: dict[str, list[str]] = {
     "intel_slam.py": ["--seeds", "1", "--scans", "30"],
     "kill_sweep.py": ["--kills", "1", "--episodes", "2"],
     "memory.py": ["--minutes", "0.02"],
+    "moving_people.py": ["--scenes", "1", "--seconds", "12"],
     "odometry.py": ["--seeds", "0", "--workers", "1", "--seconds", "0.3"],
     "peers/bonxai.py": ["SOURCES", "--frames", "1"],
     "peers/distance.py": ["--side", "60"],

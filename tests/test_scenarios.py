@@ -72,9 +72,11 @@ BRIDGE = ("bridge_over", "bridge_under")
 """Minutes each: `treadwell experiment models` walks them."""
 DRAWN = ("random_flat", "random_house", "random_stairs", "random_yard")
 """Too many courses for a test: `treadwell sweep` runs them."""
+CHANGING = ("door_shuts", "person_crosses")
+"""Met with some seeds alone: docs/results/indoor_changing.md counts them."""
 EXPECTED = {
     **WALKED,
-    **dict.fromkeys((*DRAWN, *BRIDGE), "goal_reached"),
+    **dict.fromkeys((*DRAWN, *BRIDGE, *CHANGING), "goal_reached"),
     **dict.fromkeys((*IN_A_KNOWN_HOUSE, *FAR_IN_A_KNOWN_HOUSE), "goal_reached"),
     **dict.fromkeys(LOOKED_AT, "goal_reached"),
     **dict.fromkeys(CLIMBED, "goal_reached"),

@@ -24,6 +24,7 @@ __all__ = [
     "GroundCosts",
     "Legs",
     "LocalRegression",
+    "MovingFilter",
     "OccupancyGrid",
     "OccupancyMap",
     "Octree",
@@ -217,6 +218,10 @@ class Pilot:
     @property
     def goals_passed(self) -> int: ...
     @property
+    def moving_things(
+        self,
+    ) -> list[tuple[int, tuple[float, float], tuple[float, float], float, bool]]: ...
+    @property
     def replans(self) -> int: ...
     @property
     def steps_taken(self) -> int: ...
@@ -346,6 +351,25 @@ class WorldModel:
     def view(self) -> FloorView: ...
     @property
     def seconds(self) -> float: ...
+
+@final
+class MovingFilter:
+    def __new__(cls, settings: str = "{}") -> MovingFilter: ...
+    def insert_picture(
+        self,
+        time: float,
+        depth: NDArray[np.float32],
+        map_from_camera: NDArray[np.float64],
+        *,
+        focal: tuple[float, float],
+        centre: tuple[float, float],
+        ground: float,
+        pool: int = 1,
+    ) -> None: ...
+    def insert_scan(
+        self, time: float, points: NDArray[np.float64], eye: tuple[float, float]
+    ) -> None: ...
+    def are_static(self) -> list[NDArray[np.bool_]]: ...
 
 @final
 class OccupancyMap:

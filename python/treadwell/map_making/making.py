@@ -18,6 +18,7 @@ from treadwell.map_making.plan_view import Seen, plan_arrays
 from treadwell.map_making.recording import MapRecording
 from treadwell.map_making.request import LANDMARKS, TRUTH, MapRequest
 from treadwell.map_making.scan_matched import MatchedScans, no_scans
+from treadwell.map_making.static_frames import StaticSource
 from treadwell.map_memory import RememberedMap
 from treadwell.map_result import MappedSource, MapResult, counted, times
 from treadwell.recording.cut_off import RESULT
@@ -75,6 +76,8 @@ def make_map(
     )
     if request.localizer != TRUTH:
         source = MatchedScans(source, request, progress)
+    if request.data.leave_out_moving:
+        source = StaticSource(source, request)
     frames = iter(source)
     first = next(frames, None)
     if first is None:

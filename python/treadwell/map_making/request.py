@@ -46,6 +46,9 @@ class MapTable(Table):
     """Depths are taken to be as precise as eyes so far apart see them, m."""
     robots: Annotated[int, Field(ge=0, lt=2**31)] = ROBOTS
     """Of ranges and bearings, the subjects up to this number are robots and no landmarks."""
+    leave_out_moving: bool = False
+    """Whether what moves, or was there and went, is left out of pictures and scans, which are
+    read twice; by `navigation.moving`."""
     columns: Annotated[int, Field(ge=16, le=4096)] = 160
     """Surfaces are found in pictures of so many columns at most: blocks of wider ones are one."""
 

@@ -14,6 +14,7 @@ mod learners;
 mod legs;
 mod lists;
 mod mesh_files;
+mod moving;
 mod observation;
 mod octree;
 mod pilot;
@@ -63,6 +64,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<octree::PyOctree>()?;
     module.add_class::<pilot::PyPilot>()?;
     module.add_class::<pilot::PyTick>()?;
+    module.add_class::<moving::PyMovingFilter>()?;
     module.add_class::<plan_view::PyOccupancyMap>()?;
     module.add_class::<scan_matching::PyScanSlam>()?;
     module.add_class::<topology::PyVoronoiGraph>()?;

@@ -34,6 +34,7 @@ pub(crate) fn parameters() -> String {
     all.extend_from_slice(costs::TABLES);
     all.extend_from_slice(plan_view::TABLES);
     all.extend_from_slice(scan_matching::TABLES);
+    all.extend_from_slice(dynamic_scenes::TABLES);
     all.extend_from_slice(landmarks::TABLES);
     let all: Vec<_> = all
         .iter()

@@ -22,6 +22,9 @@ type Guesses<'py> = (
     Bound<'py, PyArray1<f64>>,
 );
 
+/// Number, place m, velocity m/s, half of the width m, and whether it surely moves.
+type FollowedThing = (u32, [f64; 2], [f64; 2], f64, bool);
+
 /// The whole core: an observation in, joint targets out.
 #[pyclass(name = "Pilot", module = "treadwell._core")]
 pub(crate) struct PyPilot {
@@ -208,6 +211,24 @@ impl PyPilot {
     #[getter]
     fn goals_passed(&self) -> usize {
         self.pilot.goals_passed()
+    }
+
+    /// What moves and is followed: number, x, y m and their rates m/s in the map, half of its width m, and whether it surely moves.
+    #[getter]
+    fn moving_things(&self) -> Vec<FollowedThing> {
+        let things = self.pilot.perception.moving_things().iter();
+        things
+            .map(|track| {
+                let at_m = track.predicted(0.0).at_m;
+                (
+                    track.id,
+                    at_m,
+                    track.velocity_mps(),
+                    track.radius_m,
+                    track.moves,
+                )
+            })
+            .collect()
     }
 
     /// How often a way was planned anew after the first.

@@ -5,6 +5,7 @@ mod bevel;
 mod columns;
 mod elevation;
 mod felt_place;
+mod foreseen_place;
 mod laid_bevels;
 mod mesh;
 mod model;
@@ -24,6 +25,7 @@ pub use elevation::{
     ExtendedElevationConfig, Gathered, HeightEstimate, RangeCells, SightLines, SurfaceRule,
 };
 pub use felt_place::FeltPlace;
+pub use foreseen_place::ForeseenPlace;
 pub use mesh::{MeshConfig, MeshMap, MeshTuning};
 pub use meshes::TriangleMesh;
 pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};

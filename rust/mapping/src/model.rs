@@ -8,6 +8,7 @@ use segmentation::Planes;
 
 use crate::bevel::Bevel;
 use crate::felt_place::FeltPlace;
+use crate::foreseen_place::ForeseenPlace;
 
 /// Why a frame could not be inserted. The map is unchanged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -231,6 +232,10 @@ pub trait WorldModel: Send + Sync {
 
     /// Takes in where short slopes are, all that are known. A model by itself knows none; [`Overlay`](crate::Overlay) keeps them for any.
     fn lay(&mut self, _bevels: &[Bevel]) {}
+
+    /// Takes in where things that move will be, all that are foreseen. A model by itself knows none; [`Overlay`](crate::Overlay) shows them as obstacles
+    /// until the next time.
+    fn foresee(&mut self, _places: &[ForeseenPlace]) {}
 
     /// Drops what was seen: the robot found itself at another place than it had believed.
     fn forget(&mut self) {}

@@ -1,15 +1,17 @@
-//! What the feet met, and short slopes: the map keeps them whatever the camera makes of the place, since what is lower or shorter than a
+//! What the feet met, short slopes, and where things that move will be: the map keeps them whatever the camera makes of the place, since what is lower or shorter than a
 //! picture tells apart looks like level floor.
 //!
 //! Composed over any world model, which knows nothing of it: as long as there is nothing of it, the view is the model's own.
 
-use geometry::{Grid, Map, Pose, Robot, distance_m};
+use geometry::{CellArea, Grid, Map, Pose, Robot, distance_m};
 use meshes::TriangleMesh;
 use segmentation::Planes;
 use settings::{NOT_NEGATIVE, at_least, settings};
 
 use crate::laid_bevels::lay;
-use crate::{Bevel, FeltPlace, FloorView, Insertion, MapError, Voxel, WorldModel};
+use crate::{
+    Bevel, FeltPlace, FloorView, ForeseenPlace, Insertion, MapError, Surface, Voxel, WorldModel,
+};
 
 settings! {
     /// What the map keeps of what the feet met.
@@ -28,6 +30,7 @@ pub struct Overlay {
     model: Box<dyn WorldModel>,
     config: FeltConfig,
     bevels: Vec<Bevel>,
+    foreseen: Vec<ForeseenPlace>,
     /// The model's view with all that; `None` while there is nothing.
     view: Option<FloorView>,
 }
@@ -39,6 +42,7 @@ impl Overlay {
             model,
             config,
             bevels: Vec::new(),
+            foreseen: Vec::new(),
             view: None,
         }
     }
@@ -52,6 +56,25 @@ impl Overlay {
             for bevel in &self.bevels {
                 lay(bevel, view);
             }
+            for place in &self.foreseen {
+                block(place, view);
+            }
+        }
+    }
+}
+
+/// Makes obstacles of the cells of a view that a place holds.
+fn block(place: &ForeseenPlace, view: &mut FloorView) {
+    let ([x_m, y_m], reach_m) = (place.at_m, place.radius_m);
+    let lattice = view.lattice;
+    let mut area = CellArea::of(lattice.cell_at(x_m - reach_m, y_m - reach_m));
+    area.include(lattice.cell_at(x_m + reach_m, y_m + reach_m));
+    for cell in area.within(view.cells.area()).cells() {
+        let held = distance_m(lattice.center_of(cell), place.at_m) <= reach_m;
+        if let Some(surface) = view.cells.get_mut(cell).filter(|_| held)
+            && !matches!(surface, Surface::Obstacle(_))
+        {
+            *surface = Surface::Obstacle(place.top_m as f32);
         }
     }
 }
@@ -112,8 +135,19 @@ impl WorldModel for Overlay {
         self.renew();
     }
 
+    fn foresee(&mut self, places: &[ForeseenPlace]) {
+        if places == self.foreseen {
+            return;
+        }
+        self.foreseen.clear();
+        self.foreseen.extend_from_slice(places);
+        let _ = (self.view).get_or_insert_with(|| self.model.view().clone());
+        self.renew();
+    }
+
     fn forget(&mut self) {
         self.view = None;
+        self.foreseen.clear();
         self.bevels.clear();
         self.model.forget();
     }
@@ -135,7 +169,7 @@ impl WorldModel for Overlay {
 mod tests {
     use super::*;
     use crate::felt_place::tests::MET;
-    use crate::{Fog, FogConfig, Surface};
+    use crate::{Fog, FogConfig};
 
     fn model() -> Overlay {
         let fog = Fog::new(FogConfig::default()).unwrap();
@@ -157,6 +191,23 @@ mod tests {
         assert_eq!(map.view().felt, vec![MET]);
         assert_eq!(map.view().cells, map.model.view().cells);
         assert_eq!(map.view().at(0.5, 0.1), Surface::Unknown);
+    }
+
+    #[test]
+    fn what_is_foreseen_is_an_obstacle_until_the_next_time_and_then_as_before() {
+        let mut map = model();
+        let before = map.view().clone();
+        let place = ForeseenPlace {
+            at_m: [0.5, 0.1],
+            radius_m: 0.15,
+            top_m: 1.0,
+        };
+        map.foresee(&[place]);
+        let _ = map.insert(&blank(), &Pose::identity());
+        assert_eq!(map.view().at(0.5, 0.2), Surface::Obstacle(1.0));
+        assert_eq!(map.view().at(0.5, 0.3), Surface::Unknown);
+        map.foresee(&[]);
+        assert_eq!(map.view().cells, before.cells);
     }
 
     #[test]

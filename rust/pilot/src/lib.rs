@@ -3,6 +3,7 @@
 mod error;
 mod feeling;
 mod goals;
+mod moving;
 mod parts;
 mod perception;
 mod range_map;

@@ -1,5 +1,6 @@
 //! What a depth frame sets off: scan, planes, pose, map.
 
+use dynamic_scenes::MovingTrack;
 use geometry::{Camera, Map, Pose, Robot};
 use localization::{Estimate, Localizer};
 use mapping::{FloorView, Surface, WorldModel};
@@ -11,6 +12,7 @@ use settings::{POSITIVE, at_least, settings};
 use stairs::Recognizer;
 
 use crate::PilotError;
+use crate::moving::Moving;
 use crate::timing::{Stage, Timing};
 
 settings! {
@@ -43,6 +45,7 @@ pub struct Perception {
     /// The stairs that are seen or remembered.
     pub recognizer: Recognizer,
     scan: Scan,
+    moving: Moving,
     self_filter: SelfFilter,
     /// The planes of the last frame.
     pub planes: Planes,
@@ -87,8 +90,8 @@ impl Perception {
         segmenter: Box<dyn Segmenter>,
         world_model: Box<dyn WorldModel>,
         recognizer: Recognizer,
-        self_filter: SelfFilter,
-        scan: Scan,
+        (scan, self_filter): (Scan, SelfFilter),
+        moving: Moving,
         config: PerceptionConfig,
     ) -> Self {
         Self {
@@ -97,11 +100,23 @@ impl Perception {
             recognizer,
             planes: Planes::new(scan.disparity_px.len()),
             scan,
+            moving,
             self_filter,
             frames_used: 0,
             last_frame_ns: None,
             tuning: config.tuning,
         }
+    }
+
+    /// What moves and is followed, or came into view lately.
+    pub fn moving_things(&self) -> &[MovingTrack] {
+        self.moving.tracks()
+    }
+
+    /// Whether something that moves will come near to a robot with this body that believes to be there.
+    pub(crate) fn something_comes(&self, estimate: &Estimate, body: &Body) -> bool {
+        let radius_m = body.description().body.radius;
+        self.moving.comes_near(&estimate.map_from_robot, radius_m)
     }
 
     /// Takes in a frame that a body took. Whether the robot found itself elsewhere than it believed, so that what was mapped is
@@ -135,11 +150,16 @@ impl Perception {
         if elsewhere {
             self.world_model.forget();
             self.recognizer.forget();
+            self.moving.forget();
         }
+        let foreseen = timing.measure(Stage::Map, || {
+            self.moving.see(&mut self.planes, &estimate.map_from_robot)
+        });
         let insertion = timing.measure(Stage::Map, || {
             self.world_model
                 .insert(&self.planes, &estimate.map_from_robot)
         })?;
+        self.world_model.foresee(&foreseen);
         let _staircase = timing.measure(Stage::Stairs, || {
             let map_from_robot = &estimate.map_from_robot;
             self.recognizer.leave_slopes(self.world_model.view());

@@ -16,6 +16,7 @@ const STAGES: &[TableDescription] = &[
     TableDescription::of::<stairs::StairsConfig>(),
     TableDescription::of::<stairs::ClimbingConfig>(),
     TableDescription::of::<mapping::FeltConfig>(),
+    TableDescription::of::<dynamic_scenes::MovingConfig>(),
     TableDescription::of::<planning::TerrainConfig>(),
     TableDescription::of::<known_map::KnownMapConfig>(),
     TableDescription::of::<walking::GaitConfig>(),

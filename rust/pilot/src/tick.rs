@@ -21,6 +21,7 @@ use walking::{JointTargets, WalkError, Walker};
 
 use crate::feeling;
 use crate::goals::Goals;
+use crate::moving::Moving;
 use crate::perception::{Perception, PerceptionConfig};
 use crate::registry::{self, Components, Making};
 use crate::timing::{Stage, Timing};
@@ -127,8 +128,8 @@ impl Pilot {
                 segmenter,
                 world_model,
                 making.recognizer()?,
-                self_filter,
-                scan,
+                (scan, self_filter),
+                Moving::new(read(tables, "moving")?)?,
                 perception,
             ),
             localizer: (given.localizer).map_or_else(|| making.localizer(), Ok)?,
@@ -145,8 +146,10 @@ impl Pilot {
         })
     }
 
-    /// Tells the body's senses on what kind of ground the feet are put.
-    fn note_ground(&mut self) {
+    /// Begins a tick; tells the body's senses on what kind of ground the feet are put.
+    fn begin(&mut self, time_ns: u64) {
+        self.time_ns = Some(time_ns);
+        self.timing = Timing::default();
         self.proprioception.note_slopes(self.walker.on_slope());
         self.senses.note_uneven(self.walker.on_uneven());
     }
@@ -154,9 +157,7 @@ impl Pilot {
     /// Takes in an observation and says what the motors shall do. On an error nothing was taken in.
     pub fn tick(&mut self, measured: &Observation) -> Result<Tick<'_>, PilotError> {
         measured.check(self.body.joint_count(), &self.camera, self.time_ns)?;
-        self.time_ns = Some(measured.time_ns);
-        self.timing = Timing::default();
-        self.note_ground();
+        self.begin(measured.time_ns);
         let repaired = self.senses.repaired(measured);
         let observation = repaired.as_ref().unwrap_or(measured);
         let state = self
@@ -188,9 +189,10 @@ impl Pilot {
             last_frame_ns: self.perception.last_frame_ns,
             measured_share: self.frames.measured_share(observation.time_ns),
         };
+        let comes = self.perception.something_comes(&estimate, &self.body);
         let behaviour = self.behaviour.as_mut();
         let decision = self.timing.measure(Stage::Behave, || {
-            watch::decide(behaviour, &situation, fault.as_ref(), &self.frames)
+            watch::decide(behaviour, &situation, (fault.as_ref(), comes), &self.frames)
         })?;
         if decision.goal_passed {
             self.goals.advance();
