@@ -16,6 +16,7 @@ from treadwell.experiments.indoor.experiment import INDOOR, SCENES
 from treadwell.experiments.indoor.figure import FigureToDraw, drawn
 from treadwell.experiments.indoor.figures import BESIDE, FIGURES
 from treadwell.experiments.indoor.looks import draw_looks
+from treadwell.experiments.indoor.people import draw_people
 from treadwell.experiments.indoor.walls import draw_split_and_merge
 
 NOWHERE = Path()
@@ -55,6 +56,12 @@ def test_looks_of_a_kind_lie_together_in_three_dimensions(tmp_path: Path) -> Non
         Embedding(np.zeros((3, 4)))
     with pytest.raises(ValueError, match="as many finite numbers"):
         Embedding(np.eye(20)).place(np.zeros((1, 4)))
+
+
+@pytest.mark.long
+def test_some_of_what_a_robot_sees_among_people_is_left_out(tmp_path: Path) -> None:
+    share = draw_people(tmp_path / "people.png", NOWHERE).partition("%")[0]
+    assert 5.0 < float(share) < 30.0
 
 
 def test_two_walls_are_two_lines_and_a_bad_setting_is_named() -> None:

@@ -1,8 +1,8 @@
 //! What planning from coarse to fine saves, and what it costs: two storeys of rooms, joined by stairs, against A* over all cells
 //! (H64: within 5 % of the cheapest way in a fifth of the time).
 //!
-//! `cargo run --release -p planning --example coarse_to_fine` prints time and cost over 100 pairs of places on 2 x 2000 x 2000 cells, every
-//! fourth pair on one storey; `-- json` prints rows of `docs/results`.
+//! `cargo run --release -p planning --example coarse_to_fine` prints time and cost over 100 pairs of places on 2 x 2000 x 2000 cells, half
+//! of them on different storeys; `-- json` prints rows of `docs/results`.
 
 #![expect(clippy::print_stdout, reason = "a measurement: it prints")]
 

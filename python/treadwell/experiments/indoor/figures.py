@@ -9,6 +9,7 @@ from treadwell.experiments.indoor.corridor import draw_corridor, draw_sonar
 from treadwell.experiments.indoor.figure import ChapterFigure, DrawnFigure, FigureToDraw, drawn
 from treadwell.experiments.indoor.looks import draw_looks
 from treadwell.experiments.indoor.mapped import draw_landmarks, draw_topology
+from treadwell.experiments.indoor.people import draw_people
 from treadwell.experiments.indoor.walls import draw_lines, draw_split_and_merge
 
 _INTEL: Final = "laser2d/intel-lab.log.gz"
@@ -58,6 +59,12 @@ FIGURES: Final = (
         "looks of things, learned without naming any",
         "a compact representation by nonlinear dimension reduction; no figure given",
         draw_looks,
+    ),
+    ChapterFigure(
+        "36.20, 36.21",
+        "people left out of what was seen",
+        "points of people in the mesh before, none after; no figure given",
+        draw_people,
     ),
 )
 
