@@ -195,8 +195,7 @@ mod tests {
 
     #[test]
     fn what_is_foreseen_is_an_obstacle_until_the_next_time_and_then_as_before() {
-        let mut map = model();
-        let before = map.view().clone();
+        let (mut map, mut without) = (model(), model());
         let place = ForeseenPlace {
             at_m: [0.5, 0.1],
             radius_m: 0.15,
@@ -207,7 +206,8 @@ mod tests {
         assert_eq!(map.view().at(0.5, 0.2), Surface::Obstacle(1.0));
         assert_eq!(map.view().at(0.5, 0.3), Surface::Unknown);
         map.foresee(&[]);
-        assert_eq!(map.view().cells, before.cells);
+        let _ = without.insert(&blank(), &Pose::identity());
+        assert!(map.view().cells == without.view().cells);
     }
 
     #[test]
