@@ -70,7 +70,7 @@ IN_A_KNOWN_HOUSE = ("two_levels_unknown", "visitor_nao", "kidnapped", "underpass
 FAR_IN_A_KNOWN_HOUSE = ("two_levels", "nao_1", "nao_2", "nao_3")
 BRIDGE = ("bridge_over", "bridge_under")
 """Minutes each: `treadwell experiment models` walks them."""
-DRAWN = ("random_flat", "random_house", "random_stairs", "random_yard")
+DRAWN = ("random_flat", "random_house", "random_stairs", "random_yard", "rocks")
 """Too many courses for a test: `treadwell sweep` runs them."""
 CHANGING = ("door_shuts", "person_crosses")
 """Met with some seeds alone: docs/results/indoor_changing.md counts them."""
