@@ -37,7 +37,7 @@ test: ## every check, and every test but the long ones: the core's and the packa
 test-core: clippy deny
 	cargo fmt --check
 	$(CARGO_TEST) --release
-	MAKEFLAGS= cargo test --release --workspace --doc --quiet # it looks for make's jobs, and warns
+	MAKEFLAGS= cargo test --release $(CORE) --doc --quiet # it looks for make's jobs, and warns
 
 test-package: lint-package
 	$(PYTEST) --hypothesis-profile ci -m "not long"
@@ -54,8 +54,10 @@ fast: setup ## the quick tests: two and a half minutes on two cores
 
 # In `make test` crates are built once, as the package is: tests of the core run on what walks.
 NEXTEST := $(shell cargo nextest --version 2>/dev/null)
-CARGO_TEST := $(if $(NEXTEST),cargo nextest run --workspace,cargo test --workspace --lib --bins --tests)
-CARGO_LONG := $(if $(NEXTEST),cargo nextest run --workspace --release --run-ignored only,cargo test --workspace --release --lib --bins --tests -- --ignored)
+# The bindings have no Rust tests, and their library is the package's alone to build: a build by another would take it away under maturin.
+CORE := --workspace --exclude bindings
+CARGO_TEST := $(if $(NEXTEST),cargo nextest run $(CORE),cargo test $(CORE) --lib --bins --tests)
+CARGO_LONG := $(if $(NEXTEST),cargo nextest run $(CORE) --release --run-ignored only,cargo test $(CORE) --release --lib --bins --tests -- --ignored)
 # Tests in a module `slow` take seconds each, as those that pytest marks so.
 CARGO_FAST := $(CARGO_TEST) $(if $(NEXTEST),-E 'not test(slow::)',-- --skip slow::)
 
