@@ -7,6 +7,7 @@ mod fixed_cost;
 pub mod hierarchical;
 mod interpolation;
 pub mod kept;
+mod known;
 pub mod links;
 pub(crate) mod neighbours;
 mod queue;
@@ -17,13 +18,11 @@ pub mod voronoi_graph;
 
 use std::f64::consts::SQRT_2;
 
+use known::Known;
 use links::Links;
 use neighbours::Cells;
 use queue::{Queue, QueueEntry};
 use steps::ANYWHERE;
-
-/// No cell before this one.
-const NONE: u32 = u32::MAX;
 
 /// The cheapest way that was found.
 #[derive(Debug, Clone, PartialEq)]
@@ -164,73 +163,6 @@ impl Search {
             cost: best,
             corners: Vec::new(),
         })
-    }
-}
-
-/// What is known of a cell or node.
-#[derive(Debug, Clone, Copy)]
-struct Node {
-    /// Of the cheapest way there that was found.
-    cost: f64,
-    /// By which cell it was reached.
-    parent: u32,
-    /// In which search.
-    search: u32,
-}
-
-/// What a search knows of the cells.
-#[derive(Debug, Clone, Default)]
-struct Known {
-    /// Those of earlier searches count as unknown.
-    nodes: Vec<Node>,
-    search: u32,
-}
-
-impl Known {
-    /// Forgets all but the start.
-    fn begin(&mut self, nodes: usize, start: usize) {
-        let unknown = Node {
-            cost: f64::INFINITY,
-            parent: NONE,
-            search: 0,
-        };
-        if self.search == u32::MAX {
-            self.nodes.fill(unknown);
-            self.search = 0;
-        }
-        self.search += 1;
-        if self.nodes.len() < nodes {
-            self.nodes.resize(nodes, unknown);
-        }
-        self.reach(start, 0.0, NONE);
-    }
-
-    #[inline]
-    fn cost(&self, cell: usize) -> f64 {
-        let node = &self.nodes[cell];
-        // No branch of its own: it would be as hard to guess as the comparison that follows.
-        let known = node.search == self.search;
-        std::hint::select_unpredictable(known, node.cost, f64::INFINITY)
-    }
-
-    #[inline]
-    fn reach(&mut self, cell: usize, cost: f64, parent: u32) {
-        self.nodes[cell] = Node {
-            cost,
-            parent,
-            search: self.search,
-        };
-    }
-
-    fn back_from(&self, end: usize) -> Vec<u32> {
-        let mut cells = vec![end as u32];
-        let mut parent = self.nodes[end].parent;
-        while parent != NONE {
-            cells.push(parent);
-            parent = self.nodes[parent as usize].parent;
-        }
-        cells.reverse();
-        cells
     }
 }
 

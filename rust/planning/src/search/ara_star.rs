@@ -2,16 +2,19 @@
 //!
 //! After Likhachev, Gordon and Thrun 2003, of which Anytime D* is made (004, ref 36.31): A* with the estimate of what remains weighed by
 //! epsilon, which falls step by step to 1, and each pass goes on from what those before it found. The budget is counted in cells that are
-//! expanded, never in time, so that the same question has the same answer everywhere.
+//! expanded, never in time, so that the same question has the same answer everywhere. It searches a grid, or whatever is a [`Space`].
+
+mod grid_space;
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use settings::{POSITIVE, at_least, settings};
 
+use grid_space::GridSpace;
+
 use super::links::Links;
 use super::neighbours::Cells;
-use super::steps::ANYWHERE;
 use super::{Graph, Known, Route};
 
 settings! {
@@ -40,32 +43,47 @@ pub struct BoundedRoute {
 pub struct AraStar {
     known: Known,
     /// What is to be expanded in this pass, by estimate; what is dearer than `known` says is out of date.
-    open: BinaryHeap<Reverse<OpenCell>>,
-    /// In which pass of which search a cell was expanded last.
+    open: BinaryHeap<Reverse<OpenNode>>,
+    /// In which pass of which search a node was expanded last.
     closed: Vec<u64>,
     /// Counts the passes of all searches.
     pass: u64,
     /// What was reached more cheaply after its expansion: a matter of the next pass.
     inconsistent: Vec<u32>,
-    /// Cells expanded by the last search.
+    /// What the steps from one node reach more cheaply than was known, and the cost.
+    steps: Vec<(u32, f64)>,
+    /// Nodes expanded by the last search.
     pub expanded: usize,
 }
 
-/// A cell to expand: its estimate and what the way to it costs, as bits (numbers that are not negative are ordered like them).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct OpenCell {
-    estimate: u64,
-    cost: u64,
-    cell: u32,
+/// How far a search has come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// The last node of the best way so far.
+    pub last: u32,
+    /// What that costs, ending included.
+    pub cost: f64,
+    /// It costs no more than so many times the cheapest.
+    pub epsilon: f64,
+    /// Nodes expanded until it was found.
+    pub expanded: usize,
 }
 
-impl OpenCell {
-    fn new(cell: u32, cost: f64, estimate: f64) -> Self {
+/// A node to expand: its estimate and what the way to it costs, as bits (numbers that are not negative are ordered like them).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct OpenNode {
+    estimate: u64,
+    cost: u64,
+    node: u32,
+}
+
+impl OpenNode {
+    fn new(node: u32, cost: f64, estimate: f64) -> Self {
         let [estimate, cost] = [estimate, cost].map(f64::to_bits);
         Self {
             estimate,
             cost,
-            cell,
+            node,
         }
     }
 }
@@ -75,6 +93,18 @@ impl OpenCell {
 struct Best {
     cost: f64,
     last: Option<u32>,
+}
+
+/// What is searched: nodes by number, as many as are come upon.
+pub trait Space {
+    /// Tells of every node that a step from this one leads to, and what the step costs. `parent` is the node before it on the way.
+    fn for_each_step(&mut self, node: u32, parent: Option<u32>, reach: impl FnMut(u32, f64));
+
+    /// What it costs to end at a node, if a way may end there.
+    fn ending(&mut self, node: u32) -> Option<f64>;
+
+    /// What the way from a node costs at least, ending included.
+    fn remaining(&self, node: u32) -> f64;
 }
 
 impl AraStar {
@@ -92,12 +122,46 @@ impl AraStar {
             .map_or(0, Links::nodes)
             .max(graph.weights.len());
         self.known.begin(nodes, start);
-        self.closed.resize(nodes.max(self.closed.len()), 0);
+        let mut cells = GridSpace {
+            cells: Cells::new(graph.weights, graph.cols),
+            graph,
+            open,
+            ending,
+            heuristic,
+        };
+        self.improve(&mut cells, start as u32, config, |_, _| {})
+    }
+
+    /// A way through any space from node `start`, as [`Self::run`]. `found` is told of every way that is better than those before it: its
+    /// last node is asked of the search ([`Self::way_to`]).
+    pub fn run_in<S: Space>(
+        &mut self,
+        space: &mut S,
+        start: u32,
+        config: &AraStarConfig,
+        found: impl FnMut(&Self, &Progress),
+    ) -> Option<BoundedRoute> {
+        self.known.begin(start as usize + 1, start as usize);
+        self.improve(space, start, config, found)
+    }
+
+    /// The nodes from the start to this one, on the cheapest way that is known.
+    pub fn way_to(&self, node: u32) -> Vec<u32> {
+        self.known.back_from(node as usize)
+    }
+
+    fn improve<S: Space>(
+        &mut self,
+        space: &mut S,
+        start: u32,
+        config: &AraStarConfig,
+        mut found: impl FnMut(&Self, &Progress),
+    ) -> Option<BoundedRoute> {
         self.open.clear();
         self.inconsistent.clear();
         self.expanded = 0;
         let mut epsilon = config.epsilon;
-        let first = OpenCell::new(start as u32, 0.0, epsilon * heuristic(start));
+        let first = OpenNode::new(start, 0.0, epsilon * space.remaining(start));
         self.open.push(Reverse(first));
         let mut best = Best {
             cost: f64::INFINITY,
@@ -106,49 +170,48 @@ impl AraStar {
         let mut bound = f64::INFINITY;
         loop {
             self.pass += 1;
-            let question = (graph, &open, &ending, &heuristic);
-            let through = self.pass_with(question, &mut best, epsilon, (bound, config.expansions));
+            let through = self.pass_with(space, &mut best, epsilon, (bound, config.expansions));
             let last = best.last?;
             if through {
-                bound = epsilon.min(best.cost / self.least(&heuristic));
+                bound = epsilon.min(best.cost / self.least(space));
             }
+            let progress = Progress {
+                last,
+                cost: best.cost,
+                epsilon: bound.max(1.0),
+                expanded: self.expanded,
+            };
+            found(self, &progress);
             if !through || bound <= 1.0 || self.expanded >= config.expansions {
-                let cells = self.known.back_from(last as usize);
                 let route = Route {
-                    cells,
+                    cells: self.known.back_from(last as usize),
                     cost: best.cost,
                     corners: Vec::new(),
                 };
                 return Some(BoundedRoute {
                     route,
-                    epsilon: bound.max(1.0),
+                    epsilon: progress.epsilon,
                 });
             }
             epsilon = (bound - config.epsilon_step).max(1.0);
-            self.begin_pass(epsilon, &heuristic);
+            self.begin_pass(epsilon, space);
         }
     }
 
     /// One pass; false where the budget ended it. A first way is found whatever the budget.
-    fn pass_with(
+    fn pass_with<S: Space>(
         &mut self,
-        (graph, open, ending, heuristic): (
-            Graph<'_>,
-            impl Fn(usize) -> bool,
-            impl Fn(usize) -> Option<f64>,
-            impl Fn(usize) -> f64,
-        ),
+        space: &mut S,
         best: &mut Best,
         epsilon: f64,
         (bound, expansions): (f64, usize),
     ) -> bool {
-        let cells = Cells::new(graph.weights, graph.cols);
         while let Some(&Reverse(entry)) = self.open.peek() {
-            let (here, cost) = (entry.cell as usize, f64::from_bits(entry.cost));
+            let (here, cost) = (entry.node as usize, f64::from_bits(entry.cost));
             if best.cost <= f64::from_bits(entry.estimate) {
                 return true;
             }
-            if cost > self.known.cost(here) || self.closed[here] == self.pass {
+            if cost > self.known.cost(here) || self.closed.get(here) == Some(&self.pass) {
                 let _ = self.open.pop();
                 continue; // reached more cheaply since
             }
@@ -157,66 +220,61 @@ impl AraStar {
             }
             let _ = self.open.pop();
             self.expanded += 1;
-            self.closed[here] = self.pass;
-            if let Some(end) = ending(here)
+            self.close(here);
+            if let Some(end) = space.ending(entry.node)
                 && cost + end < best.cost
             {
-                (best.cost, best.last) = (cost + end, Some(entry.cell));
+                (best.cost, best.last) = (cost + end, Some(entry.node));
             }
-            if here >= graph.weights.len() {
-                continue; // no cell: nothing leads on
-            }
-            let mut reach = |next: usize, cost: f64| {
-                if cost >= self.known.cost(next) {
-                    return;
+            let parent = self.known.parent(here);
+            // What the steps lead to is sorted once all are known: the space may not be asked while it tells.
+            let Self { steps, known, .. } = self;
+            steps.clear();
+            space.for_each_step(entry.node, parent, |next, step| {
+                if known.reach_cheaper(next, cost + step, entry.node) {
+                    steps.push((next, cost + step));
                 }
-                self.known.reach(next, cost, entry.cell);
-                if self.closed[next] == self.pass {
-                    self.inconsistent.push(next as u32);
-                } else {
-                    let estimate = cost + epsilon * heuristic(next);
-                    let entry = OpenCell::new(next as u32, cost, estimate);
-                    self.open.push(Reverse(entry));
-                }
-            };
-            let weight = cells.weight_to_leave(here);
-            cells.for_each_neighbour((here, ANYWHERE), |next, half_length, _| {
-                let step = half_length * f64::from(weight + graph.weights[next]);
-                reach(next, cost + step);
             });
-            for (index, link) in graph.links.into_iter().flat_map(|links| links.from(here)) {
-                if open(index) {
-                    reach(link.to as usize, cost + link.cost);
+            for &(next, cost) in &self.steps {
+                if self.closed.get(next as usize) == Some(&self.pass) {
+                    self.inconsistent.push(next);
+                } else {
+                    let estimate = cost + epsilon * space.remaining(next);
+                    self.open.push(Reverse(OpenNode::new(next, cost, estimate)));
                 }
             }
         }
         true
     }
 
+    fn close(&mut self, node: usize) {
+        if self.closed.len() <= node {
+            self.closed.resize(node + 1, 0);
+        }
+        self.closed[node] = self.pass;
+    }
+
     /// The least that a way may cost that was not looked at yet.
-    fn least(&self, heuristic: &impl Fn(usize) -> f64) -> f64 {
-        let left = self.open.iter().map(|entry| entry.0.cell);
+    fn least(&self, space: &impl Space) -> f64 {
+        let left = self.open.iter().map(|entry| entry.0.node);
         let left = left.chain(self.inconsistent.iter().copied());
-        let through = left.map(|cell| self.known.cost(cell as usize) + heuristic(cell as usize));
+        let through = left.map(|node| self.known.cost(node as usize) + space.remaining(node));
         through.fold(f64::INFINITY, f64::min)
     }
 
     /// Sorts what is left by another epsilon.
-    fn begin_pass(&mut self, epsilon: f64, heuristic: &impl Fn(usize) -> f64) {
+    fn begin_pass(&mut self, epsilon: f64, space: &impl Space) {
         let left = std::mem::take(&mut self.open).into_vec();
-        let mut cells: Vec<u32> = left.into_iter().map(|entry| entry.0.cell).collect();
-        cells.append(&mut self.inconsistent);
-        cells.sort_unstable();
-        cells.dedup();
-        let entry = |cell: u32| {
-            let cost = self.known.cost(cell as usize);
-            Reverse(OpenCell::new(
-                cell,
-                cost,
-                cost + epsilon * heuristic(cell as usize),
-            ))
+        let mut nodes: Vec<u32> = left.into_iter().map(|entry| entry.0.node).collect();
+        nodes.append(&mut self.inconsistent);
+        nodes.sort_unstable();
+        nodes.dedup();
+        let entry = |node: u32| {
+            let cost = self.known.cost(node as usize);
+            let estimate = cost + epsilon * space.remaining(node);
+            Reverse(OpenNode::new(node, cost, estimate))
         };
-        self.open = cells.into_iter().map(entry).collect();
+        self.open = nodes.into_iter().map(entry).collect();
     }
 }
 
