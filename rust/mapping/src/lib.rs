@@ -6,6 +6,7 @@ mod columns;
 mod elevation;
 mod felt_place;
 mod foreseen_place;
+mod height_map;
 mod laid_bevels;
 mod mesh;
 mod model;
@@ -26,6 +27,7 @@ pub use elevation::{
 };
 pub use felt_place::FeltPlace;
 pub use foreseen_place::ForeseenPlace;
+pub use height_map::HeightMap;
 pub use mesh::{MeshConfig, MeshMap, MeshTuning};
 pub use meshes::TriangleMesh;
 pub use model::{FloorView, HeadRoom, Insertion, MapError, Surface, Voxel, WorldModel};

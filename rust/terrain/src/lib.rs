@@ -7,6 +7,7 @@
 //! ([`LongerLandings`]).
 
 mod cells;
+pub mod footholds;
 mod goal_level;
 mod longer_landings;
 mod over_slopes;

@@ -1,0 +1,68 @@
+//! What is high, asked of blocks of cells first: most questions are answered by a few of them.
+
+use geometry::{Cell, CellArea, Grid};
+use mapping::HeightMap;
+
+/// Cells a side of a block.
+const BLOCK: i32 = 8;
+
+/// The highest cell of each block of a height map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HighBlocks {
+    /// m; minus infinity where nothing was seen.
+    highest_m: Grid<f32>,
+}
+
+impl HighBlocks {
+    /// Of a height map; to be made anew when that changes.
+    pub fn new(map: &HeightMap) -> Self {
+        let heights_m = map.heights_m();
+        let side = BLOCK as usize;
+        let blocks = [heights_m.cols(), heights_m.rows()].map(|cells| cells.div_ceil(side));
+        let mut highest_m = Grid::filled(blocks[0], blocks[1], f32::NEG_INFINITY);
+        let lines = heights_m.values().chunks_exact(heights_m.cols().max(1));
+        for (row, line) in lines.enumerate() {
+            let first = (row / side) * blocks[0];
+            let into = &mut highest_m.values_mut()[first..first + blocks[0]];
+            for (highest_m, cells) in into.iter_mut().zip(line.chunks(side)) {
+                // What was not seen is no number, which `max` passes over.
+                *highest_m = cells.iter().copied().fold(*highest_m, f32::max);
+            }
+        }
+        Self { highest_m }
+    }
+
+    /// Whether anything in an area may be higher than this, m.
+    pub fn may_be_higher(&self, area: CellArea, than_m: f32) -> bool {
+        let block = |cell: Cell| Cell::new(cell.col.div_euclid(BLOCK), cell.row.div_euclid(BLOCK));
+        let blocks = CellArea {
+            min: block(area.min),
+            max: block(area.max),
+        };
+        let within = blocks.within(self.highest_m.area());
+        within
+            .cells()
+            .any(|block| self.highest_m.get(block).is_some_and(|&high| high > than_m))
+    }
+
+    /// Whether anything within this distance of a place is higher than this, m.
+    pub fn is_higher_within(
+        &self,
+        map: &HeightMap,
+        [x_m, y_m]: [f64; 2],
+        radius_m: f64,
+        than_m: f32,
+    ) -> bool {
+        let lattice = &map.lattice;
+        let area = CellArea {
+            min: lattice.cell_at(x_m - radius_m, y_m - radius_m),
+            max: lattice.cell_at(x_m + radius_m, y_m + radius_m),
+        };
+        self.may_be_higher(area, than_m)
+            && area.within(map.heights_m().area()).cells().any(|cell| {
+                let [cell_x_m, cell_y_m] = lattice.center_of(cell);
+                let high = map.height_m(cell).is_some_and(|height_m| height_m > than_m);
+                high && geometry::hypot(cell_x_m - x_m, cell_y_m - y_m) < radius_m
+            })
+    }
+}
