@@ -28,6 +28,7 @@ mod a_star;
 mod built_in;
 mod climb_links;
 mod config;
+pub mod footsteps;
 mod guide;
 mod outside_window;
 mod part;

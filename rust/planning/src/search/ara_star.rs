@@ -100,8 +100,8 @@ pub trait Space {
     /// Tells of every node that a step from this one leads to, and what the step costs. `parent` is the node before it on the way.
     fn for_each_step(&mut self, node: u32, parent: Option<u32>, reach: impl FnMut(u32, f64));
 
-    /// What it costs to end at a node, if a way may end there.
-    fn ending(&mut self, node: u32) -> Option<f64>;
+    /// What it costs to end at a node that was reached from `parent`, if a way may end there.
+    fn ending(&mut self, node: u32, parent: Option<u32>) -> Option<f64>;
 
     /// What the way from a node costs at least, ending included.
     fn remaining(&self, node: u32) -> f64;
@@ -132,22 +132,16 @@ impl AraStar {
         self.improve(&mut cells, start as u32, config, |_, _| {})
     }
 
-    /// A way through any space from node `start`, as [`Self::run`]. `found` is told of every way that is better than those before it: its
-    /// last node is asked of the search ([`Self::way_to`]).
+    /// A way through any space from node `start`, as [`Self::run`]. `found` is told of the best way so far at the end of each pass.
     pub fn run_in<S: Space>(
         &mut self,
         space: &mut S,
         start: u32,
         config: &AraStarConfig,
-        found: impl FnMut(&Self, &Progress),
+        found: impl FnMut(&mut S, &Progress),
     ) -> Option<BoundedRoute> {
         self.known.begin(start as usize + 1, start as usize);
         self.improve(space, start, config, found)
-    }
-
-    /// The nodes from the start to this one, on the cheapest way that is known.
-    pub fn way_to(&self, node: u32) -> Vec<u32> {
-        self.known.back_from(node as usize)
     }
 
     fn improve<S: Space>(
@@ -155,7 +149,7 @@ impl AraStar {
         space: &mut S,
         start: u32,
         config: &AraStarConfig,
-        mut found: impl FnMut(&Self, &Progress),
+        mut found: impl FnMut(&mut S, &Progress),
     ) -> Option<BoundedRoute> {
         self.open.clear();
         self.inconsistent.clear();
@@ -181,7 +175,7 @@ impl AraStar {
                 epsilon: bound.max(1.0),
                 expanded: self.expanded,
             };
-            found(self, &progress);
+            found(space, &progress);
             if !through || bound <= 1.0 || self.expanded >= config.expansions {
                 let route = Route {
                     cells: self.known.back_from(last as usize),
@@ -221,12 +215,12 @@ impl AraStar {
             let _ = self.open.pop();
             self.expanded += 1;
             self.close(here);
-            if let Some(end) = space.ending(entry.node)
+            let parent = self.known.parent(here);
+            if let Some(end) = space.ending(entry.node, parent)
                 && cost + end < best.cost
             {
                 (best.cost, best.last) = (cost + end, Some(entry.node));
             }
-            let parent = self.known.parent(here);
             // What the steps lead to is sorted once all are known: the space may not be asked while it tells.
             let Self { steps, known, .. } = self;
             steps.clear();

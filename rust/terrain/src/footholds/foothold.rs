@@ -88,7 +88,7 @@ impl Footholds {
         if (ground.len() as f32) < least * all {
             return Err(NoFoothold::Unseen);
         }
-        let plane = RestingPlane::of(ground).ok_or(NoFoothold::Unseen)?;
+        let plane = RestingPlane::of(ground, &raster.fit).ok_or(NoFoothold::Unseen)?;
         if plane.steepness() > libm::tan(config.most_tilt) {
             return Err(NoFoothold::TooSteep);
         }

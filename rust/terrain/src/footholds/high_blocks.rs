@@ -58,11 +58,23 @@ impl HighBlocks {
             min: lattice.cell_at(x_m - radius_m, y_m - radius_m),
             max: lattice.cell_at(x_m + radius_m, y_m + radius_m),
         };
-        self.may_be_higher(area, than_m)
-            && area.within(map.heights_m().area()).cells().any(|cell| {
-                let [cell_x_m, cell_y_m] = lattice.center_of(cell);
-                let high = map.height_m(cell).is_some_and(|height_m| height_m > than_m);
-                high && geometry::hypot(cell_x_m - x_m, cell_y_m - y_m) < radius_m
-            })
+        if !self.may_be_higher(area, than_m) {
+            return false;
+        }
+        let heights_m = map.heights_m();
+        let within = area.within(heights_m.area());
+        let cell_m = lattice.cell_m;
+        (within.min.row..=within.max.row).any(|row| {
+            let [first_x_m, row_y_m] = lattice.center_of(Cell::new(0, row));
+            let (across_m, off_m) = (row_y_m - y_m, x_m - first_x_m);
+            let half_m = (radius_m * radius_m - across_m * across_m).max(0.0).sqrt();
+            // The cells of the row whose middles lie within the circle.
+            let first = ((off_m - half_m) / cell_m).ceil().max(0.0) as usize;
+            let end = ((off_m + half_m) / cell_m).floor() as usize + 1;
+            let line = row as usize * heights_m.cols();
+            let cells = first..end.min(heights_m.cols());
+            let cells = heights_m.values().get(line + cells.start..line + cells.end);
+            cells.is_some_and(|cells| cells.iter().any(|&height_m| height_m > than_m))
+        })
     }
 }

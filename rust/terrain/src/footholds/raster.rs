@@ -2,6 +2,8 @@
 
 use geometry::PlanarPose;
 
+use super::resting_plane::PlaneFit;
+
 /// A sole: a rectangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SoleSize {
@@ -34,6 +36,8 @@ pub(super) struct CellUnder {
 pub struct SoleRaster {
     pub(super) under: Vec<CellUnder>,
     pub(super) around: Vec<CellUnder>,
+    /// The plane through all cells under it.
+    pub(super) fit: PlaneFit,
     /// Cells in each strip across.
     pub(super) strips: Vec<u16>,
     /// Extent of a strip along the sole, m.
@@ -54,6 +58,7 @@ impl SoleRaster {
         let mut raster = Self {
             under: Vec::new(),
             around: Vec::new(),
+            fit: PlaneFit::default(),
             strips: vec![0; count as usize],
             strip_m,
             half_length_m,
@@ -80,6 +85,7 @@ impl SoleRaster {
                 }
             }
         }
+        raster.fit = PlaneFit::of(&raster.under);
         raster
     }
 }

@@ -1,5 +1,7 @@
 //! The plane on which a sole rests: through all that is under it, or else through what is highest.
 
+use super::raster::CellUnder;
+
 /// Where a plane is over the sole's middle, m, and how it rises forward and to the left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct RestingPlane {
@@ -28,17 +30,17 @@ impl Ground {
 }
 
 impl RestingPlane {
-    /// The plane on which a sole rests over this ground; `None` without any.
+    /// The plane on which a sole rests over this ground; `None` without any. `fit` is that of all places under the sole.
     ///
     /// Where one plane is near enough to all of it, that one. Else what lies within the tolerance of the highest bears, and step by step
     /// what lies in one plane with it.
-    pub(super) fn of(ground: &[Ground]) -> Option<Self> {
-        let highest_m = ground.iter().map(|ground| ground.height_m);
-        let highest_m = highest_m.reduce(f32::max)?;
-        let all = Self::through(ground.iter())?;
+    pub(super) fn of(ground: &[Ground], fit: &PlaneFit) -> Option<Self> {
+        let all = fit.plane(ground).or_else(|| Self::through(ground.iter()))?;
         if ground.iter().all(|ground| all.is_near(ground)) {
             return Some(all);
         }
+        let highest_m = ground.iter().map(|ground| ground.height_m);
+        let highest_m = highest_m.reduce(f32::max)?;
         let high = |ground: &&Ground| highest_m - ground.height_m <= ground.within_m;
         let top = ground.iter().filter(high);
         let (count, sum_m) = top.fold((0.0, 0.0), |(count, sum_m), ground| {
@@ -105,6 +107,70 @@ impl RestingPlane {
         Some(Self {
             height_m: (mean_z - slope[0] * mean_x - slope[1] * mean_y) as f32,
             slope: slope.map(|part| part as f32),
+        })
+    }
+}
+
+/// The plane of least squares through places that do not change: a sum for each of its numbers.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct PlaneFit {
+    /// For each place, its part in the slope forward and to the left.
+    weights: Vec<[f32; 2]>,
+    mean_m: [f32; 2],
+}
+
+impl PlaneFit {
+    /// For places under the sole, forward and to the left of its middle, m.
+    pub(super) fn of(places: &[CellUnder]) -> Self {
+        let count = places.len().max(1) as f64;
+        let sum = |axis: usize| {
+            places
+                .iter()
+                .map(|place| f64::from(place.at_m[axis]))
+                .sum::<f64>()
+        };
+        let mean = [0, 1].map(|axis| sum(axis) / count);
+        let off = |place: &CellUnder| [0, 1].map(|axis| f64::from(place.at_m[axis]) - mean[axis]);
+        let [mut xx, mut xy, mut yy] = [0.0; 3];
+        for [x, y] in places.iter().map(off) {
+            (xx, xy, yy) = (xx + x * x, xy + x * y, yy + y * y);
+        }
+        let determinant = xx * yy - xy * xy;
+        let weights = |[x, y]: [f64; 2]| {
+            let parts = [x * yy - y * xy, y * xx - x * xy];
+            // A single row of cells spans no plane.
+            parts.map(|part| {
+                if determinant > 0.0 {
+                    (part / determinant) as f32
+                } else {
+                    0.0
+                }
+            })
+        };
+        Self {
+            weights: places.iter().map(off).map(weights).collect(),
+            mean_m: mean.map(|place_m| place_m as f32),
+        }
+    }
+
+    /// The plane through all places, if all are there.
+    fn plane(&self, ground: &[Ground]) -> Option<RestingPlane> {
+        let first = ground.first()?;
+        if ground.len() != self.weights.len() {
+            return None;
+        }
+        let (mut sum_m, mut slope) = (0.0, [0.0; 2]);
+        for (place, [forward, left]) in ground.iter().zip(&self.weights) {
+            // Small numbers, so that their sums are exact enough.
+            let above_m = place.height_m - first.height_m;
+            sum_m += above_m;
+            slope[0] += forward * above_m;
+            slope[1] += left * above_m;
+        }
+        let mean_m = first.height_m + sum_m / ground.len() as f32;
+        Some(RestingPlane {
+            height_m: mean_m - slope[0] * self.mean_m[0] - slope[1] * self.mean_m[1],
+            slope,
         })
     }
 }

@@ -41,7 +41,7 @@ where
         }
     }
 
-    fn ending(&mut self, node: u32) -> Option<f64> {
+    fn ending(&mut self, node: u32, _: Option<u32>) -> Option<f64> {
         (self.ending)(node as usize)
     }
 

@@ -1,0 +1,19 @@
+//! Where the feet go: a sequence of steps over a height map, each onto a place where a sole finds support.
+//!
+//! ARA* over the foot that stands (after 004, ref 36.31, whose search it shares with `ara_star`): a step leads to the other foot's place.
+//! What a step costs is the time that it takes. The search is led by a field over coarse cells that is rooted at the goal.
+
+mod config;
+mod goal_field;
+mod layer;
+mod limits;
+mod plan;
+mod space;
+mod step_table;
+#[cfg(test)]
+mod tests;
+
+pub use config::FootstepsConfig;
+pub use layer::FootstepLayer;
+pub use limits::StepLimits;
+pub use plan::{FootstepPlan, Manner, NoFootsteps, PlannedFootstep};

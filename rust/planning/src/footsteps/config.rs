@@ -1,0 +1,51 @@
+//! How footsteps are searched for.
+
+use settings::{POSITIVE, above_to, at_least, settings, within};
+use terrain::footholds::FootholdConfig;
+
+use crate::search::ara_star::AraStarConfig;
+
+settings! {
+    /// How footsteps are searched for: time is what a step costs.
+    pub struct FootstepsConfig("navigation.footsteps") {
+        /// Headings of a foot in a full turn.
+        headings: usize = 24, "1", within(4.0, 360.0);
+        /// Places along the way of a foot from the farthest back to the farthest forward, walked or careful, among which a step ends.
+        along: usize = 6, "1", within(2.0, 100.0);
+        /// Places across, from beside the other foot to the farthest side step.
+        across: usize = 2, "1", within(1.0, 20.0);
+        /// What it costs at most that a sole bears only in part.
+        partial_cost: f64 = 0.3, "s", within(0.0, 100.0);
+        /// Ground whose height differs by no more from that of the standing foot is walked on; other heights take careful steps.
+        walk_height: f64 = 0.006, "m", within(0.0, 1.0);
+        /// A careful step goes no higher and no lower than what the legs do, less this: heights are known to so much.
+        height_margin: f64 = 0.003, "m", within(0.0, 1.0);
+        /// Of the height to which a foot is lifted over the higher end of its step, so much is kept from what it goes over.
+        way_margin: f64 = 0.005, "m", within(0.0, 1.0);
+        /// Side of the cells of the field that leads the search.
+        field_cell: f64 = 0.04, "m", above_to(0.0, 10.0);
+        /// So many times as dear is a way in that field over ground that carries no sole: edges, and what is narrow.
+        poor_cost: f64 = 4.0, "1", at_least(1.0);
+        /// The first plan costs no more than so many times the cheapest, as far as the field is right.
+        epsilon: f64 = 5.0, "1", at_least(1.0), "Likhachev et al. 2003: ARA*: anytime A* with provable bounds on sub-optimality";
+        /// By how much that falls from pass to pass.
+        epsilon_step: f64 = 1.0, "1", POSITIVE;
+        /// Places of a foot that are expanded before the best plan so far is taken.
+        expansions: usize = 10_000, "1", at_least(1.0);
+        /// Places of a foot that are expanded before the search for a first plan is given up.
+        most_expansions: usize = 200_000, "1", at_least(1.0);
+        /// What a sole needs.
+        foothold: FootholdConfig;
+    }
+}
+
+impl FootstepsConfig {
+    /// The search's own part.
+    pub(super) fn search(&self) -> AraStarConfig {
+        AraStarConfig {
+            epsilon: self.epsilon,
+            epsilon_step: self.epsilon_step,
+            expansions: self.expansions,
+        }
+    }
+}

@@ -1,0 +1,259 @@
+//! What the way to the goal costs at least, s, over coarse cells: it leads the search for footsteps.
+
+use geometry::{Cell, CellArea, Dijkstra, Goal, Grid, Lattice, PlanarPose, same_level};
+use mapping::HeightMap;
+use terrain::footholds::HighBlocks;
+
+use super::config::FootstepsConfig;
+use super::limits::StepLimits;
+
+/// A field that is rooted at the goal.
+#[derive(Debug, Clone, Default)]
+pub(super) struct GoalField {
+    lattice: Lattice,
+    cols: i32,
+    rows: i32,
+    /// Height of each cell's middle, m; NaN where the body has no room or nothing was seen.
+    levels_m: Vec<f32>,
+    /// Whether so much of the ground around a cell lies on its level that a sole finds support there.
+    carries: Vec<bool>,
+    /// s; infinite where nothing leads on.
+    costs_s: Vec<f32>,
+    dijkstra: Dijkstra,
+    speed_mps: f64,
+    /// What the way from the start costs; it is no less from where no cost was found.
+    farthest_s: f32,
+}
+
+impl GoalField {
+    /// Finds the costs of the ways to a goal that are no longer than that from a start. False where nothing is known of the ground at the
+    /// goal.
+    pub(super) fn find(
+        &mut self,
+        (map, blocks): (&HeightMap, &HighBlocks),
+        (config, limits): (&FootstepsConfig, &StepLimits),
+        (start, goal): (&PlanarPose, &Goal),
+    ) -> bool {
+        self.read_levels((map, blocks), config, limits);
+        self.speed_mps = limits.speed_mps();
+        self.costs_s.clear();
+        self.costs_s.resize(self.levels_m.len(), f32::INFINITY);
+        self.dijkstra.clear();
+        let mut known = false;
+        for row in 0..self.rows {
+            for col in 0..self.cols {
+                let node = (row * self.cols + col) as u32;
+                let [x_m, y_m] = self.lattice.center_of(Cell::new(col, row));
+                // The goal's own cell counts whatever its radius.
+                let from_m = geometry::hypot(x_m - goal.x_m, y_m - goal.y_m);
+                let here = from_m <= goal.radius_m.max(self.lattice.cell_m);
+                if here && !self.levels_m[node as usize].is_nan() {
+                    known = true;
+                    self.dijkstra.begin_at(&mut self.costs_s, node, 0.0);
+                }
+            }
+        }
+        let prices = Prices::of(config, limits, self.lattice.cell_m);
+        let Self {
+            dijkstra,
+            costs_s,
+            levels_m,
+            carries,
+            cols,
+            rows,
+            ..
+        } = self;
+        let ground = (levels_m.as_slice(), carries.as_slice());
+        let steps = |from: u32| steps((from, *cols, *rows), ground, &prices);
+        let start = self.lattice.cell_at(start.x_m, start.y_m);
+        let col = start.col.clamp(0, (*cols - 1).max(0));
+        let row = start.row.clamp(0, (*rows - 1).max(0));
+        if known {
+            let node = (row * *cols + col) as u32;
+            dijkstra.run_to(costs_s, node, steps);
+            self.farthest_s = costs_s[node as usize];
+        }
+        known
+    }
+
+    /// What the way from a place costs at least, s: infinite where there is none.
+    pub(super) fn remaining_s(&self, x_m: f64, y_m: f64) -> f64 {
+        let half_m = 0.5 * self.lattice.cell_m;
+        let first = self.lattice.cell_at(x_m - half_m, y_m - half_m);
+        let mut least_s = f64::INFINITY;
+        for (right, up) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            let cell = Cell::new(first.col + right, first.row + up);
+            if (0..self.cols).contains(&cell.col) && (0..self.rows).contains(&cell.row) {
+                let node = (cell.row * self.cols + cell.col) as usize;
+                let cost_s = self.costs_s[node].min(self.farthest_s);
+                let [center_x_m, center_y_m] = self.lattice.center_of(cell);
+                let to_m = geometry::hypot(center_x_m - x_m, center_y_m - y_m);
+                least_s = least_s.min(f64::from(cost_s) + to_m / self.speed_mps);
+            }
+        }
+        least_s
+    }
+
+    fn read_levels(
+        &mut self,
+        (map, blocks): (&HeightMap, &HighBlocks),
+        config: &FootstepsConfig,
+        limits: &StepLimits,
+    ) {
+        let side = (config.field_cell / map.lattice.cell_m).round().max(1.0) as i32;
+        let heights_m: &Grid<f32> = map.heights_m();
+        self.lattice = Lattice {
+            origin_m: map.lattice.origin_m,
+            cell_m: f64::from(side) * map.lattice.cell_m,
+        };
+        let count = |cells: usize| cells.div_ceil(side as usize) as i32;
+        (self.cols, self.rows) = (count(heights_m.cols()), count(heights_m.rows()));
+        self.levels_m.clear();
+        self.carries.clear();
+        for row in 0..self.rows {
+            for col in 0..self.cols {
+                let level_m = level_of(map, Cell::new(col * side, row * side), side);
+                let [x_m, y_m] = self.lattice.center_of(Cell::new(col, row));
+                let body_m = level_m + limits.body_from_m as f32;
+                let no_room =
+                    blocks.is_higher_within(map, [x_m, y_m], limits.body_radius_m, body_m);
+                self.levels_m.push(if no_room { f32::NAN } else { level_m });
+            }
+        }
+        self.read_what_carries(map, config, limits);
+    }
+
+    /// Where all around is level, a sole stands; elsewhere the map is asked.
+    fn read_what_carries(
+        &mut self,
+        map: &HeightMap,
+        config: &FootstepsConfig,
+        limits: &StepLimits,
+    ) {
+        let walk_m = config.walk_height as f32;
+        let (levels_m, cols, rows) = (&self.levels_m, self.cols, self.rows);
+        for row in 0..rows {
+            for col in 0..cols {
+                let level_m = levels_m[(row * cols + col) as usize];
+                let around = |cell: Cell| {
+                    let inside = (0..cols).contains(&cell.col) && (0..rows).contains(&cell.row);
+                    !inside
+                        || same_level(
+                            levels_m[(cell.row * cols + cell.col) as usize],
+                            level_m,
+                            walk_m,
+                        )
+                };
+                let level = CellArea::of(Cell::new(col, row))
+                    .grown(1)
+                    .cells()
+                    .all(around);
+                let carries = level || {
+                    let middle_m = self.lattice.center_of(Cell::new(col, row));
+                    let sole_m = 0.5 * limits.sole.length_m;
+                    share_on_level(map, middle_m, sole_m, (level_m, walk_m))
+                        >= config.foothold.least_bearing
+                };
+                self.carries.push(carries);
+            }
+        }
+    }
+}
+
+/// Height of the middle of a coarse cell, m; where that was not seen, the mean of what was.
+fn level_of(map: &HeightMap, first: Cell, side: i32) -> f32 {
+    let middle = Cell::new(first.col + side / 2, first.row + side / 2);
+    map.height_m(middle).unwrap_or_else(|| {
+        let area = CellArea {
+            min: first,
+            max: Cell::new(first.col + side - 1, first.row + side - 1),
+        };
+        let seen = area.cells().filter_map(|cell| map.height_m(cell));
+        let (count, sum_m) = seen.fold((0.0, 0.0), |(count, sum), height| {
+            (count + 1.0, sum + height)
+        });
+        sum_m / count
+    })
+}
+
+/// Share of what lies within a distance of a place that is on a level.
+fn share_on_level(
+    map: &HeightMap,
+    [x_m, y_m]: [f64; 2],
+    radius_m: f64,
+    (level_m, within_m): (f32, f32),
+) -> f64 {
+    let lattice = &map.lattice;
+    let area = CellArea {
+        min: lattice.cell_at(x_m - radius_m, y_m - radius_m),
+        max: lattice.cell_at(x_m + radius_m, y_m + radius_m),
+    };
+    let (mut all, mut on_level) = (0, 0);
+    for cell in area.within(map.heights_m().area()).cells() {
+        let [cell_x_m, cell_y_m] = lattice.center_of(cell);
+        if geometry::hypot(cell_x_m - x_m, cell_y_m - y_m) < radius_m {
+            all += 1;
+            let here = map.height_m(cell);
+            on_level +=
+                i32::from(here.is_some_and(|height_m| same_level(height_m, level_m, within_m)));
+        }
+    }
+    f64::from(on_level) / f64::from(all.max(1))
+}
+
+/// What a step from cell to cell costs.
+struct Prices {
+    /// s, straight and diagonally.
+    way_s: [f32; 2],
+    /// Up to this, m, ground is walked on.
+    walk_m: f32,
+    /// Beyond this, m, there is no step.
+    rise_m: f32,
+    /// What a metre of climbing costs beside the way, s.
+    climb_s: f32,
+    /// So many times as dear is a way over what carries no sole.
+    poor: f32,
+}
+
+impl Prices {
+    fn of(config: &FootstepsConfig, limits: &StepLimits, cell_m: f64) -> Self {
+        let straight_s = cell_m / limits.speed_mps();
+        let rise_m = limits.careful_rise_m;
+        let more_s = (limits.careful_s(0.0, rise_m) - limits.walked_s).max(0.0);
+        Self {
+            way_s: [straight_s, std::f64::consts::SQRT_2 * straight_s].map(|cost_s| cost_s as f32),
+            walk_m: config.walk_height as f32,
+            rise_m: rise_m as f32,
+            climb_s: (more_s / rise_m) as f32,
+            poor: config.poor_cost as f32,
+        }
+    }
+}
+
+/// The eight steps from a cell, with what each costs; those that lead nowhere left out.
+fn steps<'a>(
+    (from, cols, rows): (u32, i32, i32),
+    (levels_m, carries): (&'a [f32], &'a [bool]),
+    prices: &'a Prices,
+) -> impl Iterator<Item = (u32, f32)> + 'a {
+    let (col, row) = (from as i32 % cols, from as i32 / cols);
+    let around = (-1..=1).flat_map(|up| (-1..=1).map(move |right| [right, up]));
+    around.filter_map(move |[right, up]: [i32; 2]| {
+        let to = [col + right, row + up];
+        let inside = (0..cols).contains(&to[0]) && (0..rows).contains(&to[1]);
+        if !inside || right == 0 && up == 0 {
+            return None;
+        }
+        let to = (to[1] * cols + to[0]) as usize;
+        let rise_m = (levels_m[to] - levels_m[from as usize]).abs();
+        let climb_s = if rise_m > prices.walk_m {
+            rise_m * prices.climb_s
+        } else {
+            0.0
+        };
+        let diagonal = usize::from(right != 0 && up != 0);
+        let way_s = prices.way_s[diagonal] * if carries[to] { 1.0 } else { prices.poor };
+        // What has no level has no rise.
+        (rise_m <= prices.rise_m).then_some((to as u32, way_s + climb_s))
+    })
+}

@@ -1,0 +1,293 @@
+//! Places of feet as a space that is searched: a node is the foot that stands, and the one that moves came from the node before it.
+
+use geometry::{Cell, Goal, PlanarPose};
+use mapping::HeightMap;
+use robot::Side;
+use rustc_hash::FxHashMap;
+use terrain::footholds::{Foothold, Footholds, HighBlocks};
+
+use super::config::FootstepsConfig;
+use super::goal_field::GoalField;
+use super::limits::{Reach, StepLimits};
+use super::plan::{Manner, PlannedFootstep};
+use super::step_table::{LatticeStep, StepTable};
+use crate::search::ara_star::Space;
+
+/// The node at which the robot stands on both feet.
+pub(super) const START: u32 = 0;
+
+/// A foot at a place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct StandingFoot {
+    pub(super) side: Side,
+    pub(super) pose: PlanarPose,
+    /// The cell of its middle: in its centre, but at the start.
+    pub(super) cell: Cell,
+    pub(super) heading: usize,
+    pub(super) foothold: Foothold,
+}
+
+/// A place on the lattice: cell of the map, and heading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Spot {
+    cell: Cell,
+    heading: usize,
+    /// `None` where no sole stands.
+    foothold: Option<Foothold>,
+}
+
+/// What is searched, and on which map.
+pub(super) struct FootstepSpace<'a> {
+    pub(super) map: &'a HeightMap,
+    pub(super) blocks: &'a HighBlocks,
+    pub(super) config: &'a FootstepsConfig,
+    pub(super) limits: &'a StepLimits,
+    pub(super) field: &'a GoalField,
+    pub(super) goal: Goal,
+    pub(super) table: &'a mut StepTable,
+    pub(super) footholds: &'a mut Footholds,
+    /// Both feet at the start, left and right.
+    pub(super) start: [StandingFoot; 2],
+    pub(super) spots: &'a mut Spots,
+    /// Places of a foot that were expanded.
+    pub(super) expanded: usize,
+}
+
+/// Places that were come upon. Used again.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Spots {
+    by_place: FxHashMap<(Cell, usize), u32>,
+    all: Vec<Spot>,
+    /// From which node each one was reached as it was expanded last: the steps from it were looked at with the other foot there.
+    came_from: Vec<u32>,
+}
+
+impl Spots {
+    /// Forgets all.
+    pub(super) fn clear(&mut self) {
+        self.by_place.clear();
+        self.all.clear();
+        self.came_from.clear();
+    }
+}
+
+impl FootstepSpace<'_> {
+    /// The foot that stands at a node that is not the start.
+    fn foot_at(&self, node: u32) -> Option<StandingFoot> {
+        let index = node.checked_sub(START + 1)?;
+        let spot = self.spots.all[index as usize / 2];
+        let side = Side::BOTH[index as usize % 2];
+        let [x_m, y_m] = self.map.lattice.center_of(spot.cell);
+        Some(StandingFoot {
+            side,
+            pose: PlanarPose::new(x_m, y_m, self.table.yaw_rad(spot.heading)),
+            cell: spot.cell,
+            heading: spot.heading,
+            foothold: spot.foothold?,
+        })
+    }
+
+    /// The foot of this side at a node: at the start, both stand.
+    fn foot(&self, node: u32, side: Side) -> Option<StandingFoot> {
+        match node {
+            START => Some(self.start[side.index()]),
+            _ => self.foot_at(node),
+        }
+    }
+
+    /// The node of a foot of this side at a place of the lattice, where a sole stands there.
+    fn node_of(&mut self, cell: Cell, heading: usize, side: Side) -> Option<u32> {
+        let Self {
+            spots,
+            footholds,
+            map,
+            ..
+        } = self;
+        let index = *spots.by_place.entry((cell, heading)).or_insert_with(|| {
+            spots.all.push(Spot {
+                cell,
+                heading,
+                foothold: footholds.read(map, cell, heading).ok(),
+            });
+            spots.all.len() as u32 - 1
+        });
+        let stands = spots.all[index as usize].foothold.is_some();
+        stands.then_some(START + 1 + 2 * index + side.index() as u32)
+    }
+
+    /// The step of the foot that moves from where it is to a node; `None` where it is not possible.
+    pub(super) fn step(
+        &self,
+        (standing, moving): (&StandingFoot, &StandingFoot),
+        to: u32,
+        reach: Reach,
+    ) -> Option<PlannedFootstep> {
+        let there = self.foot_at(to)?;
+        let height_m = |foot: &StandingFoot| f64::from(foot.foothold.height_m);
+        let rise_m = height_m(&there) - height_m(standing);
+        let lift_m = height_m(&there) - height_m(moving);
+        let Self { limits, config, .. } = self;
+        if rise_m.abs() > limits.careful_rise_m - config.height_margin {
+            return None;
+        }
+        let level = rise_m.abs().max(lift_m.abs()) <= config.walk_height;
+        let (manner, clearance_m) = if level && reach == Reach::Walking {
+            (Manner::Walked, limits.clearance_m[0])
+        } else {
+            (Manner::Careful, limits.clearance_m[1])
+        };
+        let lifted_m = height_m(&there).max(height_m(moving)) + clearance_m - config.way_margin;
+        let seen = (self.map, self.blocks);
+        let (from, to) = ((&moving.pose, moving.heading), (&there.pose, there.heading));
+        if !self.footholds.is_way_free(seen, from, to, lifted_m as f32) {
+            return None;
+        }
+        let middle_m = [
+            0.5 * (standing.pose.x_m + there.pose.x_m),
+            0.5 * (standing.pose.y_m + there.pose.y_m),
+        ];
+        let body_m = height_m(&there).min(height_m(standing)) + limits.body_from_m;
+        let (map, blocks) = seen;
+        if blocks.is_higher_within(map, middle_m, limits.body_radius_m, body_m as f32) {
+            return None;
+        }
+        let time_s = match manner {
+            Manner::Walked => limits.walked_s,
+            Manner::Careful => limits.careful_s(moving.pose.distance_m(&there.pose), lift_m),
+        };
+        let missing = 1.0 - f64::from(there.foothold.bearing_share);
+        let most = (1.0 - config.foothold.least_bearing).max(f64::EPSILON);
+        Some(PlannedFootstep {
+            side: there.side,
+            pose: there.pose,
+            foothold: there.foothold,
+            manner,
+            cost_s: time_s + config.partial_cost * missing / most,
+        })
+    }
+
+    /// The node at which a step of the lattice ends, and that step.
+    fn along(
+        &mut self,
+        (standing, moving): (&StandingFoot, &StandingFoot),
+        step: LatticeStep,
+    ) -> Option<(u32, PlannedFootstep)> {
+        let [right, up] = step.offset;
+        let cell = Cell::new(standing.cell.col + right, standing.cell.row + up);
+        let to = self.node_of(cell, step.heading, moving.side)?;
+        self.step((standing, moving), to, step.reach)
+            .map(|taken| (to, taken))
+    }
+
+    /// Tells of the steps of one foot.
+    fn steps_of(
+        &mut self,
+        standing: StandingFoot,
+        moving: StandingFoot,
+        steps: &[LatticeStep],
+        reach: &mut impl FnMut(u32, f64),
+    ) {
+        for &step in steps {
+            if let Some((to, taken)) = self.along((&standing, &moving), step) {
+                reach(to, taken.cost_s);
+            }
+        }
+    }
+
+    fn expand(&mut self, node: u32, parent: Option<u32>) {
+        let index = node as usize;
+        if self.spots.came_from.len() <= index {
+            self.spots.came_from.resize(index + 1, START);
+        }
+        self.spots.came_from[index] = parent.unwrap_or(START);
+    }
+
+    /// The steps to a node that was expanded, and the one that puts the feet side by side. `None` where one of them is not possible: a later
+    /// pass has found a cheaper way to a place on the way, with the other foot elsewhere.
+    pub(super) fn steps_to(&mut self, last: u32) -> Option<Vec<PlannedFootstep>> {
+        let before = |&node: &u32| (node != START).then(|| self.spots.came_from[node as usize]);
+        let mut nodes: Vec<u32> = std::iter::successors(Some(last), before).collect();
+        nodes.reverse();
+        let mut feet = self.start;
+        let mut steps = Vec::with_capacity(nodes.len());
+        for &node in nodes.iter().skip(1) {
+            let there = self.foot_at(node)?;
+            let (standing, moving) = (feet[there.side.other().index()], feet[there.side.index()]);
+            let reach = self
+                .limits
+                .reach(&standing.pose.relative(&there.pose), there.side)?;
+            steps.push(self.step((&standing, &moving), node, reach)?);
+            feet[there.side.index()] = there;
+        }
+        if let Some(standing) = self.foot_at(last) {
+            let moving = feet[standing.side.other().index()];
+            steps.push(self.closing(&standing, &moving)?);
+        }
+        Some(steps)
+    }
+
+    /// The step that ends a plan.
+    fn closing(
+        &mut self,
+        standing: &StandingFoot,
+        moving: &StandingFoot,
+    ) -> Option<PlannedFootstep> {
+        let step = self
+            .table
+            .beside(standing.heading, moving.side, self.limits)?;
+        self.along((standing, moving), step).map(|(_, taken)| taken)
+    }
+
+    fn is_at_goal(&self, foot: &StandingFoot) -> bool {
+        let goal = &self.goal;
+        let middle_m = self.table.middle_m(&foot.pose, foot.heading, foot.side);
+        geometry::distance_m(middle_m, [goal.x_m, goal.y_m]) <= goal.radius_m
+    }
+}
+
+impl Space for FootstepSpace<'_> {
+    fn for_each_step(&mut self, node: u32, parent: Option<u32>, mut reach: impl FnMut(u32, f64)) {
+        if self.expanded >= self.config.most_expansions {
+            return;
+        }
+        self.expanded += 1;
+        let Some(standing) = self.foot_at(node) else {
+            for side in Side::BOTH {
+                let [standing, moving] = [side.other(), side].map(|side| self.start[side.index()]);
+                let [x_m, y_m] = self.map.lattice.center_of(standing.cell);
+                let StandingFoot { pose, heading, .. } = standing;
+                let from_cell = PlanarPose::new(pose.x_m - x_m, pose.y_m - y_m, pose.yaw_rad);
+                let steps = self
+                    .table
+                    .steps_from(&from_cell, heading, side, self.limits);
+                self.steps_of(standing, moving, &steps, &mut reach);
+            }
+            return;
+        };
+        let side = standing.side.other();
+        let Some(moving) = parent.and_then(|parent| self.foot(parent, side)) else {
+            return;
+        };
+        let steps = std::mem::take(self.table.steps_mut(standing.heading, side));
+        self.steps_of(standing, moving, &steps, &mut reach);
+        *self.table.steps_mut(standing.heading, side) = steps;
+    }
+
+    fn ending(&mut self, node: u32, parent: Option<u32>) -> Option<f64> {
+        self.expand(node, parent);
+        let Some(standing) = self.foot_at(node) else {
+            return self.is_at_goal(&self.start[0]).then_some(0.0);
+        };
+        if !self.is_at_goal(&standing) {
+            return None;
+        }
+        let moving = self.foot(parent?, standing.side.other())?;
+        self.closing(&standing, &moving).map(|step| step.cost_s)
+    }
+
+    fn remaining(&self, node: u32) -> f64 {
+        let foot = self.foot_at(node).unwrap_or(self.start[0]);
+        let [x_m, y_m] = self.table.middle_m(&foot.pose, foot.heading, foot.side);
+        self.field.remaining_s(x_m, y_m)
+    }
+}
