@@ -20,6 +20,7 @@ __all__ = [
     "Embedding",
     "FastSlam",
     "FloorView",
+    "FootstepLayer",
     "Goal",
     "GroundCosts",
     "Legs",
@@ -741,6 +742,17 @@ class FastSlam:
     def landmarks(
         self,
     ) -> list[tuple[tuple[float, float], tuple[float, float, float], int | None, float, int]]: ...
+
+@final
+class FootstepLayer:
+    def __new__(cls, description_json: str, settings: str = "{}") -> FootstepLayer: ...
+    def plan(
+        self,
+        heights: NDArray[np.float32],
+        lattice: tuple[tuple[float, float], float],
+        start: tuple[float, float, float],
+        goal: tuple[float, float, float],
+    ) -> tuple[dict[str, Any] | None, str | None]: ...
 
 @final
 class Legs:

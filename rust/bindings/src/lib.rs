@@ -9,6 +9,7 @@ mod depth_camera;
 mod depth_errors;
 mod distance;
 mod error;
+mod footsteps;
 mod landmarks;
 mod learners;
 mod legs;
@@ -56,6 +57,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<depth_camera::PyDepthCamera>()?;
     module.add_class::<depth_errors::PyDepthErrors>()?;
     module.add_class::<costs::PyGroundCosts>()?;
+    module.add_class::<footsteps::PyFootstepLayer>()?;
     module.add_class::<landmarks::PyEmbedding>()?;
     module.add_class::<landmarks::PyFastSlam>()?;
     module.add_class::<learners::PyLocalRegression>()?;

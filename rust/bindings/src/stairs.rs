@@ -35,10 +35,7 @@ pub(crate) fn flat_footsteps(motion: &Motion) -> Vec<FlatFootstep> {
 }
 
 fn flat_footstep(step: &Footstep) -> FlatFootstep {
-    let side = match step.side {
-        Side::Left => "left".to_owned(),
-        Side::Right => "right".to_owned(),
-    };
+    let side = side_name(step.side).to_owned();
     let (PlanarPose { x_m, y_m, yaw_rad }, [from_m, to_m]) = (step.pose, step.bearing_m);
     (side, x_m, y_m, yaw_rad, step.height_m, from_m, to_m)
 }
@@ -52,6 +49,14 @@ pub(crate) fn footstep(flat: FlatFootstep) -> Result<Footstep, String> {
         height_m,
         bearing_m: [from_m, to_m],
     })
+}
+
+/// How Python names a side.
+pub(crate) const fn side_name(side: Side) -> &'static str {
+    match side {
+        Side::Left => "left",
+        Side::Right => "right",
+    }
 }
 
 /// A side as Python names it.

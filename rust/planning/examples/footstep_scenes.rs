@@ -14,8 +14,7 @@ use std::time::Instant;
 
 use geometry::{Goal, Grid, Lattice, PlanarPose, SplitMix64};
 use mapping::HeightMap;
-use planning::footsteps::{FootstepLayer, FootstepPlan, FootstepsConfig, StepLimits};
-use terrain::footholds::SoleSize;
+use planning::footsteps::{FootstepLayer, FootstepPlan, FootstepsConfig, SoleSize, StepLimits};
 
 /// The robot `qrio`.
 const LIMITS: StepLimits = StepLimits {

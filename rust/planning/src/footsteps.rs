@@ -16,4 +16,5 @@ mod tests;
 pub use config::FootstepsConfig;
 pub use layer::FootstepLayer;
 pub use limits::StepLimits;
-pub use plan::{FootstepPlan, Manner, NoFootsteps, PlannedFootstep};
+pub use plan::{FootstepPlan, NoFootsteps, PlannedFootstep, StepManner};
+pub use terrain::footholds::SoleSize;

@@ -17,7 +17,7 @@ pub(super) struct GoalField {
     levels_m: Vec<f32>,
     /// Whether so much of the ground around a cell lies on its level that a sole finds support there.
     carries: Vec<bool>,
-    /// s; infinite where nothing leads on.
+    /// What the way from each cell costs, s; infinite where nothing leads on.
     costs_s: Vec<f32>,
     dijkstra: Dijkstra,
     speed_mps: f64,
@@ -203,7 +203,7 @@ fn share_on_level(
 
 /// What a step from cell to cell costs.
 struct Prices {
-    /// s, straight and diagonally.
+    /// Of a step straight on and of a diagonal one, s.
     way_s: [f32; 2],
     /// Up to this, m, ground is walked on.
     walk_m: f32,

@@ -12,7 +12,7 @@ use super::limits::StepLimits;
 use super::plan::{FootstepPlan, NoFootsteps, PlannedFootstep};
 use super::space::{FootstepSpace, START, Spots, StandingFoot};
 use super::step_table::StepTable;
-use crate::search::ara_star::{AraStar, Progress};
+use crate::search::ara_star::{AraStar, SearchProgress};
 
 /// Plans footsteps for one robot. Its arrays are used again.
 #[derive(Debug, Clone)]
@@ -22,18 +22,18 @@ pub struct FootstepLayer {
     search: AraStar,
     field: GoalField,
     spots: Spots,
-    tables: Option<Tables>,
+    tables: Option<LatticeTables>,
 }
 
 /// What depends on the size of the cells alone: steps between them, and the cells under a sole.
 #[derive(Debug, Clone)]
-struct Tables {
+struct LatticeTables {
     cell_m: f64,
     steps: StepTable,
     footholds: Footholds,
 }
 
-impl Tables {
+impl LatticeTables {
     fn new(config: &FootstepsConfig, limits: &StepLimits, cell_m: f64) -> Self {
         let steps = StepTable::new(config, limits, cell_m);
         let foothold = config.foothold.clone();
@@ -109,7 +109,7 @@ impl FootstepLayer {
         let cell_m = map.lattice.cell_m;
         let tables = match tables {
             Some(tables) if tables.cell_m == cell_m => tables,
-            _ => tables.insert(Tables::new(config, limits, cell_m)),
+            _ => tables.insert(LatticeTables::new(config, limits, cell_m)),
         };
         let start = stand(map, tables, &feet)?;
         spots.clear();
@@ -127,7 +127,7 @@ impl FootstepLayer {
             expanded: 0,
         };
         let mut best: Option<FootstepPlan> = None;
-        let found = |space: &mut FootstepSpace<'_>, progress: &Progress| {
+        let found = |space: &mut FootstepSpace<'_>, progress: &SearchProgress| {
             if let Some(steps) = space.steps_to(progress.last) {
                 take_better(&mut best, steps, progress);
             }
@@ -173,7 +173,7 @@ impl FootstepLayer {
 /// How both feet stand where they do, whatever the map says of that: there they are.
 fn stand(
     map: &HeightMap,
-    tables: &mut Tables,
+    tables: &mut LatticeTables,
     feet: &[PlanarPose; 2],
 ) -> Result<[StandingFoot; 2], NoFootsteps> {
     let mut foot = |side: Side| {
@@ -201,7 +201,11 @@ fn stand(
 }
 
 /// Keeps the better plan of two, and what the first one cost.
-fn take_better(best: &mut Option<FootstepPlan>, steps: Vec<PlannedFootstep>, progress: &Progress) {
+fn take_better(
+    best: &mut Option<FootstepPlan>,
+    steps: Vec<PlannedFootstep>,
+    progress: &SearchProgress,
+) {
     let cost_s = steps.iter().map(|step| step.cost_s).sum();
     let first = best
         .as_ref()

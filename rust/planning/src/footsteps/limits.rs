@@ -15,7 +15,7 @@ pub struct StepLimits {
     pub foot_gap_m: f64,
     /// Longest walked step: from beside the standing foot forward, m.
     pub max_forward_m: f64,
-    /// And backward, m.
+    /// Longest walked step backward, m.
     pub max_backward_m: f64,
     /// Largest extra distance between the feet in a side step, m.
     pub max_sideways_m: f64,
@@ -86,18 +86,18 @@ impl StepLimits {
     }
 
     /// Whether the foot of one side can be put there in one step, seen from the foot that stands: carefully, and also as it walks.
-    pub fn reach(&self, step: &PlanarPose, side: Side) -> Option<Reach> {
+    pub fn reach(&self, step: &PlanarPose, side: Side) -> Option<StepReach> {
         let turn_rad = wrap_angle(step.yaw_rad);
         self.reach_across(step, side, self.across_m(turn_rad))
     }
 
-    /// The same, where least and largest distance across are known ([`Self::across_m`]) and the turn is not beyond half a circle.
+    /// [`Self::reach`] where least and largest distance across are known ([`Self::across_m`]) and the turn is not beyond half a circle.
     pub(super) fn reach_across(
         &self,
         step: &PlanarPose,
         side: Side,
         [nearest_m, farthest_m]: [f64; 2],
-    ) -> Option<Reach> {
+    ) -> Option<StepReach> {
         let turn_rad = wrap_angle(step.yaw_rad);
         let across_m = side.sign() * step.y_m;
         let between =
@@ -108,9 +108,9 @@ impl StepLimits {
             && between(step.x_m, -forward_m, forward_m);
         let walked = between(step.x_m, -self.max_backward_m, self.max_forward_m);
         within.then_some(if walked {
-            Reach::Walking
+            StepReach::Walking
         } else {
-            Reach::Careful
+            StepReach::Careful
         })
     }
 }
@@ -120,7 +120,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// How far a step goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reach {
+pub enum StepReach {
     /// No farther than the robot walks.
     Walking,
     /// Only a careful step goes there.

@@ -7,14 +7,14 @@ use thiserror::Error;
 
 /// How a step is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Manner {
+pub enum StepManner {
     /// As the robot walks.
     Walked,
     /// Up, over and down, from a stand.
     Careful,
 }
 
-impl Manner {
+impl StepManner {
     /// As it is written in results.
     pub const fn name(self) -> &'static str {
         match self {
@@ -34,7 +34,7 @@ pub struct PlannedFootstep {
     /// How it stands there.
     pub foothold: Foothold,
     /// How the step is taken.
-    pub manner: Manner,
+    pub manner: StepManner,
     /// What it costs, s.
     pub cost_s: f64,
 }

@@ -8,8 +8,8 @@ use terrain::footholds::{Foothold, Footholds, HighBlocks};
 
 use super::config::FootstepsConfig;
 use super::goal_field::GoalField;
-use super::limits::{Reach, StepLimits};
-use super::plan::{Manner, PlannedFootstep};
+use super::limits::{StepLimits, StepReach};
+use super::plan::{PlannedFootstep, StepManner};
 use super::step_table::{LatticeStep, StepTable};
 use crate::search::ara_star::Space;
 
@@ -29,7 +29,7 @@ pub(super) struct StandingFoot {
 
 /// A place on the lattice: cell of the map, and heading.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Spot {
+struct FootSpot {
     cell: Cell,
     heading: usize,
     /// `None` where no sole stands.
@@ -57,7 +57,7 @@ pub(super) struct FootstepSpace<'a> {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Spots {
     by_place: FxHashMap<(Cell, usize), u32>,
-    all: Vec<Spot>,
+    all: Vec<FootSpot>,
     /// From which node each one was reached as it was expanded last: the steps from it were looked at with the other foot there.
     came_from: Vec<u32>,
 }
@@ -104,7 +104,7 @@ impl FootstepSpace<'_> {
             ..
         } = self;
         let index = *spots.by_place.entry((cell, heading)).or_insert_with(|| {
-            spots.all.push(Spot {
+            spots.all.push(FootSpot {
                 cell,
                 heading,
                 foothold: footholds.read(map, cell, heading).ok(),
@@ -120,7 +120,7 @@ impl FootstepSpace<'_> {
         &self,
         (standing, moving): (&StandingFoot, &StandingFoot),
         to: u32,
-        reach: Reach,
+        reach: StepReach,
     ) -> Option<PlannedFootstep> {
         let there = self.foot_at(to)?;
         let height_m = |foot: &StandingFoot| f64::from(foot.foothold.height_m);
@@ -131,10 +131,10 @@ impl FootstepSpace<'_> {
             return None;
         }
         let level = rise_m.abs().max(lift_m.abs()) <= config.walk_height;
-        let (manner, clearance_m) = if level && reach == Reach::Walking {
-            (Manner::Walked, limits.clearance_m[0])
+        let (manner, clearance_m) = if level && reach == StepReach::Walking {
+            (StepManner::Walked, limits.clearance_m[0])
         } else {
-            (Manner::Careful, limits.clearance_m[1])
+            (StepManner::Careful, limits.clearance_m[1])
         };
         let lifted_m = height_m(&there).max(height_m(moving)) + clearance_m - config.way_margin;
         let seen = (self.map, self.blocks);
@@ -152,8 +152,8 @@ impl FootstepSpace<'_> {
             return None;
         }
         let time_s = match manner {
-            Manner::Walked => limits.walked_s,
-            Manner::Careful => limits.careful_s(moving.pose.distance_m(&there.pose), lift_m),
+            StepManner::Walked => limits.walked_s,
+            StepManner::Careful => limits.careful_s(moving.pose.distance_m(&there.pose), lift_m),
         };
         let missing = 1.0 - f64::from(there.foothold.bearing_share);
         let most = (1.0 - config.foothold.least_bearing).max(f64::EPSILON);

@@ -6,7 +6,7 @@ use geometry::{PlanarPose, wrap_angle};
 use robot::Side;
 
 use super::config::FootstepsConfig;
-use super::limits::{Reach, StepLimits};
+use super::limits::{StepLimits, StepReach};
 
 /// A step on the lattice.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,7 +16,7 @@ pub(super) struct LatticeStep {
     /// Heading there.
     pub(super) heading: usize,
     /// How far it goes.
-    pub(super) reach: Reach,
+    pub(super) reach: StepReach,
 }
 
 /// Headings of feet, and steps between them.

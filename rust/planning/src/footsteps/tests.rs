@@ -120,7 +120,12 @@ fn flight(x_m: f64, first_m: f64, (rise_m, tread_m, count): (f64, f64, i32)) -> 
 fn over_a_floor_it_walks_nearly_as_fast_as_legs_go() {
     let floor = map(|_, _| 0.0);
     let found = plan(&floor, PlanarPose::default(), goal(2.0, 0.3)).unwrap();
-    assert!(found.steps.iter().all(|step| step.manner == Manner::Walked));
+    assert!(
+        found
+            .steps
+            .iter()
+            .all(|step| step.manner == StepManner::Walked)
+    );
     let least_s = (2.02 - 0.08) / LIMITS.speed_mps();
     assert!(
         found.cost_s < 1.25 * least_s,
@@ -139,7 +144,7 @@ fn stairs_are_climbed_up_and_down_at_any_heading_foot_over_foot() {
             let careful = found
                 .steps
                 .iter()
-                .filter(|step| step.manner == Manner::Careful);
+                .filter(|step| step.manner == StepManner::Careful);
             assert!(
                 (4..20).contains(&careful.count()),
                 "{rise_m} {tread_m} {yaw_rad}"
@@ -318,7 +323,7 @@ fn every_step_that_a_heading_offers_is_within_reach_and_none_is_missing_straight
             assert!(
                 steps
                     .iter()
-                    .any(|step| step.heading == heading && step.reach == limits::Reach::Walking)
+                    .any(|step| step.heading == heading && step.reach == limits::StepReach::Walking)
             );
         }
     }

@@ -58,7 +58,7 @@ pub struct AraStar {
 
 /// How far a search has come.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Progress {
+pub struct SearchProgress {
     /// The last node of the best way so far.
     pub last: u32,
     /// What that costs, ending included.
@@ -138,7 +138,7 @@ impl AraStar {
         space: &mut S,
         start: u32,
         config: &AraStarConfig,
-        found: impl FnMut(&mut S, &Progress),
+        found: impl FnMut(&mut S, &SearchProgress),
     ) -> Option<BoundedRoute> {
         self.known.begin(start as usize + 1, start as usize);
         self.improve(space, start, config, found)
@@ -149,7 +149,7 @@ impl AraStar {
         space: &mut S,
         start: u32,
         config: &AraStarConfig,
-        mut found: impl FnMut(&mut S, &Progress),
+        mut found: impl FnMut(&mut S, &SearchProgress),
     ) -> Option<BoundedRoute> {
         self.open.clear();
         self.inconsistent.clear();
@@ -169,7 +169,7 @@ impl AraStar {
             if through {
                 bound = epsilon.min(best.cost / self.least(space));
             }
-            let progress = Progress {
+            let progress = SearchProgress {
                 last,
                 cost: best.cost,
                 epsilon: bound.max(1.0),

@@ -7,7 +7,7 @@ settings! {
     pub struct FootholdConfig("navigation.footsteps.foothold") {
         /// Ground that lies no further from the plane on which the sole rests bears it, and no other does.
         level: f64 = 0.006, "m", above_to(0.0, 1.0);
-        /// And no further than so many standard deviations of its height.
+        /// Where its height is less sure than that, so many standard deviations count instead.
         sigmas: f64 = 2.0, "1", within(0.0, 10.0);
         /// Least part of the sole, and of its breadth, that bears: the rest may hang over an edge.
         least_bearing: f64 = 0.75, "1", SHARE;

@@ -6,7 +6,7 @@ use mapping::HeightMap;
 use super::config::FootholdConfig;
 use super::high_blocks::HighBlocks;
 use super::raster::{CellUnder, SoleRaster, SoleSize};
-use super::resting_plane::{Ground, RestingPlane};
+use super::resting_plane::{PlaceUnder, RestingPlane};
 
 /// How a sole stands at a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +41,7 @@ pub struct Footholds {
     sole: SoleSize,
     /// One for each heading.
     rasters: Vec<SoleRaster>,
-    ground: Vec<Ground>,
+    ground: Vec<PlaceUnder>,
     strips: Vec<u16>,
 }
 
@@ -82,7 +82,7 @@ impl Footholds {
         let cells = CellsAround::of(map, middle, raster.reach).ok_or(NoFoothold::Unseen)?;
         let place = |cell: &CellUnder| cells.ground(cell, config);
         ground.clear();
-        ground.extend(raster.under.iter().map(place).filter(Ground::is_known));
+        ground.extend(raster.under.iter().map(place).filter(PlaceUnder::is_known));
         let all = raster.under.len() as f32;
         let least = config.least_bearing as f32;
         if (ground.len() as f32) < least * all {
@@ -115,7 +115,7 @@ impl Footholds {
             return Err(NoFoothold::TooLittle);
         }
         // What was not seen is higher than nothing.
-        let is_higher = |beside: Ground| plane.above_m(&beside) > beside.within_m;
+        let is_higher = |beside: PlaceUnder| plane.above_m(&beside) > beside.within_m;
         if raster.around.iter().map(place).any(is_higher) {
             return Err(NoFoothold::Higher);
         }
@@ -196,11 +196,11 @@ impl<'a> CellsAround<'a> {
         })
     }
 
-    fn ground(&self, cell: &CellUnder, config: &FootholdConfig) -> Ground {
+    fn ground(&self, cell: &CellUnder, config: &FootholdConfig) -> PlaceUnder {
         let [col, row] = cell.offset.map(|cells| cells as isize);
         let index = (self.middle + row * self.cols + col) as usize;
         let sigma_m = self.map.sigmas_m().values()[index];
-        Ground {
+        PlaceUnder {
             at_m: cell.at_m,
             height_m: self.map.heights_m().values()[index],
             strip: cell.strip,

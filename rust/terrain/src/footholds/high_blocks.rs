@@ -9,7 +9,7 @@ const BLOCK: i32 = 8;
 /// The highest cell of each block of a height map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HighBlocks {
-    /// m; minus infinity where nothing was seen.
+    /// The highest of each block, m; minus infinity where nothing was seen.
     highest_m: Grid<f32>,
 }
 

@@ -85,7 +85,8 @@ impl SoleRaster {
                 }
             }
         }
-        raster.fit = PlaneFit::of(&raster.under);
+        let places_m: Vec<[f32; 2]> = raster.under.iter().map(|cell| cell.at_m).collect();
+        raster.fit = PlaneFit::of(&places_m);
         raster
     }
 }

@@ -1,7 +1,5 @@
 //! The plane on which a sole rests: through all that is under it, or else through what is highest.
 
-use super::raster::CellUnder;
-
 /// Where a plane is over the sole's middle, m, and how it rises forward and to the left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct RestingPlane {
@@ -12,7 +10,7 @@ pub(super) struct RestingPlane {
 /// A place under the sole, forward and to the left of its middle, its height and how far it may lie from the plane, m; and in which
 /// strip across the sole it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Ground {
+pub(super) struct PlaceUnder {
     pub(super) at_m: [f32; 2],
     pub(super) height_m: f32,
     pub(super) strip: usize,
@@ -22,7 +20,7 @@ pub(super) struct Ground {
 /// How often what bears is found anew by the plane through what bore before.
 const ROUNDS: usize = 4;
 
-impl Ground {
+impl PlaceUnder {
     /// Whether its height was seen.
     pub(super) fn is_known(&self) -> bool {
         !self.height_m.is_nan()
@@ -34,14 +32,14 @@ impl RestingPlane {
     ///
     /// Where one plane is near enough to all of it, that one. Else what lies within the tolerance of the highest bears, and step by step
     /// what lies in one plane with it.
-    pub(super) fn of(ground: &[Ground], fit: &PlaneFit) -> Option<Self> {
+    pub(super) fn of(ground: &[PlaceUnder], fit: &PlaneFit) -> Option<Self> {
         let all = fit.plane(ground).or_else(|| Self::through(ground.iter()))?;
         if ground.iter().all(|ground| all.is_near(ground)) {
             return Some(all);
         }
         let highest_m = ground.iter().map(|ground| ground.height_m);
         let highest_m = highest_m.reduce(f32::max)?;
-        let high = |ground: &&Ground| highest_m - ground.height_m <= ground.within_m;
+        let high = |ground: &&PlaceUnder| highest_m - ground.height_m <= ground.within_m;
         let top = ground.iter().filter(high);
         let (count, sum_m) = top.fold((0.0, 0.0), |(count, sum_m), ground| {
             (count + 1.0, sum_m + ground.height_m)
@@ -61,7 +59,7 @@ impl RestingPlane {
     }
 
     /// How much higher than the plane a place is, m.
-    pub(super) fn above_m(&self, ground: &Ground) -> f32 {
+    pub(super) fn above_m(&self, ground: &PlaceUnder) -> f32 {
         let [forward, left] = ground.at_m;
         ground.height_m - (self.height_m + self.slope[0] * forward + self.slope[1] * left)
     }
@@ -71,12 +69,12 @@ impl RestingPlane {
         geometry::hypot(f64::from(self.slope[0]), f64::from(self.slope[1]))
     }
 
-    fn is_near(&self, ground: &Ground) -> bool {
+    fn is_near(&self, ground: &PlaceUnder) -> bool {
         self.above_m(ground).abs() <= ground.within_m
     }
 
     /// The plane of least squares; level where the places do not span one. `None` without a place.
-    fn through<'a>(ground: impl Iterator<Item = &'a Ground> + Clone) -> Option<Self> {
+    fn through<'a>(ground: impl Iterator<Item = &'a PlaceUnder> + Clone) -> Option<Self> {
         let mut sums = [0.0_f64; 4];
         for place in ground.clone() {
             let [x, y] = place.at_m.map(f64::from);
@@ -121,18 +119,18 @@ pub(super) struct PlaneFit {
 
 impl PlaneFit {
     /// For places under the sole, forward and to the left of its middle, m.
-    pub(super) fn of(places: &[CellUnder]) -> Self {
-        let count = places.len().max(1) as f64;
+    pub(super) fn of(places_m: &[[f32; 2]]) -> Self {
+        let count = places_m.len().max(1) as f64;
         let sum = |axis: usize| {
-            places
+            places_m
                 .iter()
-                .map(|place| f64::from(place.at_m[axis]))
+                .map(|place_m| f64::from(place_m[axis]))
                 .sum::<f64>()
         };
         let mean = [0, 1].map(|axis| sum(axis) / count);
-        let off = |place: &CellUnder| [0, 1].map(|axis| f64::from(place.at_m[axis]) - mean[axis]);
+        let off = |place_m: &[f32; 2]| [0, 1].map(|axis| f64::from(place_m[axis]) - mean[axis]);
         let [mut xx, mut xy, mut yy] = [0.0; 3];
-        for [x, y] in places.iter().map(off) {
+        for [x, y] in places_m.iter().map(off) {
             (xx, xy, yy) = (xx + x * x, xy + x * y, yy + y * y);
         }
         let determinant = xx * yy - xy * xy;
@@ -148,13 +146,13 @@ impl PlaneFit {
             })
         };
         Self {
-            weights: places.iter().map(off).map(weights).collect(),
+            weights: places_m.iter().map(off).map(weights).collect(),
             mean_m: mean.map(|place_m| place_m as f32),
         }
     }
 
     /// The plane through all places, if all are there.
-    fn plane(&self, ground: &[Ground]) -> Option<RestingPlane> {
+    fn plane(&self, ground: &[PlaceUnder]) -> Option<RestingPlane> {
         let first = ground.first()?;
         if ground.len() != self.weights.len() {
             return None;

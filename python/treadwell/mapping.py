@@ -1,0 +1,153 @@
+"""The core's parts on data of one's own, without an episode.
+
+>>> import numpy as np
+>>> from treadwell import mapping
+>>> height = np.zeros((100, 250))                       # (rows along y, columns along x), metres
+>>> height[:, 100:] = 0.04                              # a step
+>>> plan = mapping.plan_footsteps(height, cell=0.01, start=(0.4, 0.5, 0.0), goal=(2.0, 0.5))
+>>> for step in plan:
+...     step.side, step.x, step.y, step.yaw, step.height
+"""
+
+import json
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from treadwell._core import FootstepLayer
+from treadwell.errors import InputError
+from treadwell.robot.load import load_robot
+
+__all__ = ["FootstepPlan", "PlannedFootstep", "plan_footsteps"]
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedFootstep:
+    """One step of a plan.
+
+    Attributes:
+        side: the foot that moves.
+        x: of the middle of its sole in the frame of the heights, m.
+        y: as `x`.
+        yaw: its heading, rad.
+        height: of the plane on which it rests, under its middle, m.
+        slope: how that plane rises forward and to the left.
+        bearing: the part of the sole that bears, from and to, from its middle forward, m.
+        bearing_share: of the sole's area.
+        manner: as the robot walks, or carefully, from a stand.
+        cost: what the step costs, s.
+    """
+
+    side: Literal["left", "right"]
+    x: float
+    y: float
+    yaw: float
+    height: float
+    slope: tuple[float, float]
+    bearing: tuple[float, float]
+    bearing_share: float
+    manner: Literal["walked", "careful"]
+    cost: float
+
+
+@dataclass(frozen=True, slots=True)
+class FootstepPlan:
+    """Steps to a goal, or why there are none. Iterating over it gives the steps.
+
+    Attributes:
+        steps: from the first on; the last one puts the feet side by side.
+        reason: why there are none, or None.
+        cost: of all steps, s; NaN without any.
+        epsilon: they cost no more than so many times the cheapest, as far as the search's
+            estimates are right.
+        first_cost: what the first plan cost that was found, s.
+        expanded: places of a foot that the search looked on from.
+    """
+
+    steps: tuple[PlannedFootstep, ...]
+    reason: str | None = None
+    cost: float = math.nan
+    epsilon: float = math.nan
+    first_cost: float = math.nan
+    expanded: int = 0
+
+    def __iter__(self) -> Iterator[PlannedFootstep]:
+        """Give the steps one after the other."""
+        return iter(self.steps)
+
+    def __len__(self) -> int:
+        """Return how many steps there are."""
+        return len(self.steps)
+
+
+def plan_footsteps(
+    height: ArrayLike,
+    *,
+    cell: float,
+    start: tuple[float, float, float],
+    goal: tuple[float, float],
+    origin: tuple[float, float] = (0.0, 0.0),
+    robot: str | Path = "qrio",
+    goal_radius: float = 0.1,
+    overrides: Mapping[str, Any] | None = None,
+) -> FootstepPlan:
+    """Plan where the feet of a robot go over ground whose heights are known.
+
+    Args:
+        height: (h, w) heights, m, of any float type: rows along y, columns along x; NaN or
+            infinite where nothing is known.
+        cell: side of a cell, m; less than half a sole's breadth.
+        start: where the robot stands, both feet side by side: x and y in metres, and its heading
+            in radians.
+        goal: where the middle between its feet is to be, m.
+        origin: x and y of the outer corner of row 0 and column 0, m.
+        robot: a robot by name, or its folder.
+        goal_radius: how near to the goal is near enough, m.
+        overrides: settings of `[navigation.footsteps]`, as in `{"expansions": 2000}`.
+
+    Returns:
+        The plan; without steps, its `reason` says why.
+
+    Raises:
+        InputError: an argument that cannot be used; it is named.
+    """
+    heights = _heights(height)
+    for name, value in (("cell", cell), ("goal_radius", goal_radius)):
+        if not (math.isfinite(value) and value > 0.0):
+            raise InputError(f"{name} must be finite and > 0, got {value!r}")
+    for name, numbers, count in (("start", start, 3), ("goal", goal, 2), ("origin", origin, 2)):
+        if len(numbers) != count or not all(map(math.isfinite, numbers)):
+            raise InputError(f"{name} must be {count} finite numbers, got {numbers!r}")
+    description = json.dumps(load_robot(robot).description())
+    layer = FootstepLayer(description, json.dumps(dict(overrides or {})))
+    lattice = ((float(origin[0]), float(origin[1])), float(cell))
+    found, reason = layer.plan(heights, lattice, start, (*goal, goal_radius))
+    if found is None:
+        return FootstepPlan((), reason)
+    steps = [
+        PlannedFootstep(side, x, y, yaw, height_there, slope, bearing, bearing_share, manner, cost)
+        for (side, manner, cost), (x, y, yaw), stands in found["steps"]
+        for height_there, slope, bearing, bearing_share in [stands]
+    ]
+    return FootstepPlan(
+        tuple(steps),
+        cost=found["cost"],
+        epsilon=found["epsilon"],
+        first_cost=found["first"][0],
+        expanded=found["expanded"],
+    )
+
+
+def _heights(height: ArrayLike) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:
+    """Heights as the core takes them."""
+    given = np.asarray(height)
+    if given.ndim != 2 or given.dtype.kind not in "fiu":
+        raise InputError(
+            f"height must be an array of numbers (rows, columns), got {given.dtype} {given.shape}"
+        )
+    return np.ascontiguousarray(given, dtype=np.float32)
