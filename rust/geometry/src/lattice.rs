@@ -149,6 +149,17 @@ impl<T> Grid<T> {
         self.index(cell).map(|index| &mut self.values[index])
     }
 
+    /// The values of a row in these columns, as far as the grid goes.
+    pub fn row(&self, row: i32, columns: std::ops::Range<i32>) -> &[T] {
+        let Some(first) = usize::try_from(row).ok().filter(|&row| row < self.rows) else {
+            return &[];
+        };
+        let column = |column: i32| column.clamp(0, self.cols as i32) as usize;
+        let (from, to) = (column(columns.start), column(columns.end));
+        let line = &self.values[first * self.cols..(first + 1) * self.cols];
+        line.get(from..to).unwrap_or(&[])
+    }
+
     /// All values, row by row.
     pub fn values(&self) -> &[T] {
         &self.values
@@ -174,6 +185,16 @@ mod tests {
             let cell = Cell::new(col, row);
             let [cx, cy] = lattice.center_of(cell);
             prop_assert_eq!(lattice.cell_at(cx, cy), cell);
+        }
+
+        #[test]
+        fn a_row_holds_the_cells_of_its_columns(row in -2..6i32, from in -3..8i32, to in -3..8i32) {
+            let mut grid = Grid::filled(5, 3, 0);
+            for (i, value) in grid.values_mut().iter_mut().enumerate() {
+                *value = i as i32 + 1;
+            }
+            let expected: Vec<i32> = (from..to).filter_map(|col| grid.get(Cell::new(col, row)).copied()).collect();
+            prop_assert_eq!(grid.row(row, from..to), expected);
         }
 
         #[test]

@@ -184,21 +184,21 @@ fn share_on_level(
     (level_m, within_m): (f32, f32),
 ) -> f64 {
     let lattice = &map.lattice;
-    let area = CellArea {
-        min: lattice.cell_at(x_m - radius_m, y_m - radius_m),
-        max: lattice.cell_at(x_m + radius_m, y_m + radius_m),
-    };
+    let [low, high] = [-radius_m, radius_m].map(|off_m| lattice.cell_at(x_m + off_m, y_m + off_m));
     let (mut all, mut on_level) = (0, 0);
-    for cell in area.within(map.heights_m().area()).cells() {
-        let [cell_x_m, cell_y_m] = lattice.center_of(cell);
-        if geometry::hypot(cell_x_m - x_m, cell_y_m - y_m) < radius_m {
-            all += 1;
-            let here = map.height_m(cell);
-            on_level +=
-                i32::from(here.is_some_and(|height_m| same_level(height_m, level_m, within_m)));
-        }
+    for row in low.row..=high.row {
+        let [first_x_m, row_y_m] = lattice.center_of(Cell::new(0, row));
+        let (across_m, off_m) = (row_y_m - y_m, x_m - first_x_m);
+        let half_m = (radius_m * radius_m - across_m * across_m).max(0.0).sqrt();
+        // The cells of the row whose middles lie within the circle.
+        let first = ((off_m - half_m) / lattice.cell_m).ceil() as i32;
+        let last = ((off_m + half_m) / lattice.cell_m).floor() as i32;
+        let heights_m = map.heights_m().row(row, first..last.saturating_add(1));
+        let level = |height_m: &&f32| same_level(**height_m, level_m, within_m);
+        all += heights_m.len();
+        on_level += heights_m.iter().filter(level).count();
     }
-    f64::from(on_level) / f64::from(all.max(1))
+    on_level as f64 / all.max(1) as f64
 }
 
 /// What a step from cell to cell costs.

@@ -40,9 +40,11 @@ impl HighBlocks {
             max: block(area.max),
         };
         let within = blocks.within(self.highest_m.area());
-        within
-            .cells()
-            .any(|block| self.highest_m.get(block).is_some_and(|&high| high > than_m))
+        let columns = within.min.col..within.max.col + 1;
+        (within.min.row..=within.max.row).any(|row| {
+            let highest_m = self.highest_m.row(row, columns.clone());
+            highest_m.iter().any(|&highest_m| highest_m > than_m)
+        })
     }
 
     /// Whether anything within this distance of a place is higher than this, m.
@@ -69,12 +71,10 @@ impl HighBlocks {
             let (across_m, off_m) = (row_y_m - y_m, x_m - first_x_m);
             let half_m = (radius_m * radius_m - across_m * across_m).max(0.0).sqrt();
             // The cells of the row whose middles lie within the circle.
-            let first = ((off_m - half_m) / cell_m).ceil().max(0.0) as usize;
-            let end = ((off_m + half_m) / cell_m).floor() as usize + 1;
-            let line = row as usize * heights_m.cols();
-            let cells = first..end.min(heights_m.cols());
-            let cells = heights_m.values().get(line + cells.start..line + cells.end);
-            cells.is_some_and(|cells| cells.iter().any(|&height_m| height_m > than_m))
+            let first = ((off_m - half_m) / cell_m).ceil() as i32;
+            let last = ((off_m + half_m) / cell_m).floor() as i32;
+            let cells = heights_m.row(row, first..last.saturating_add(1));
+            cells.iter().any(|&height_m| height_m > than_m)
         })
     }
 }
