@@ -215,7 +215,7 @@ fn a_landing_turns_a_flight_by_a_quarter() {
 }
 
 #[test]
-fn started_elsewhere_beside_the_cells_the_way_costs_two_careful_steps_more_at_most() {
+fn started_elsewhere_beside_the_cells_the_way_costs_three_careful_steps_more_at_most() {
     let mut random = SplitMix64::new(7);
     let stairs = map(|x_m, _| flight(x_m, 1.0, (0.04, 0.2, 3)));
     let from = |x_m: f64, y_m: f64| {
@@ -227,7 +227,7 @@ fn started_elsewhere_beside_the_cells_the_way_costs_two_careful_steps_more_at_mo
         let [x_m, y_m] = random.normals::<2>().map(|normal| 0.01 * normal);
         let apart_s = (from(x_m, y_m).cost_s - straight_s).abs();
         let careful_s = LIMITS.careful_s(LIMITS.careful_forward_m, 0.04);
-        assert!(apart_s < 2.0 * careful_s, "{x_m} {y_m}: {apart_s} s");
+        assert!(apart_s < 3.0 * careful_s, "{x_m} {y_m}: {apart_s} s");
     }
 }
 
