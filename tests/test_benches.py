@@ -27,6 +27,7 @@ LEAST: dict[str, list[str]] = {
     "intel_log.py": ["--seeds", "1", "--scans", "30"],
     "intel_slam.py": ["--seeds", "1", "--scans", "30"],
     "kill_sweep.py": ["--kills", "1", "--episodes", "2"],
+    "learn_labels.py": ["learned.txt", "--houses", "12"],
     "memory.py": ["--minutes", "0.02"],
     "moving_people.py": ["--scenes", "1", "--seconds", "12"],
     "odometry.py": ["--seeds", "0", "--workers", "1", "--seconds", "0.3"],

@@ -36,6 +36,7 @@ __all__ = [
     "RangeMap",
     "Scan",
     "ScanSlam",
+    "SceneLabels",
     "Segmenter",
     "Servos",
     "Situation",
