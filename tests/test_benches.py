@@ -39,6 +39,7 @@ LEAST: dict[str, list[str]] = {
     "peers/rays.py": ["--cells", "0.04"],
     "random_scenarios.py": ["--count", "1", "--first-seed", "9"],
     "real_data.py": ["--rows", "1"],
+    "room_labels.py": ["--houses", "2", "--looks", "2"],
     "replay_runs.py": ["--count", "1", "--seconds", "0.5"],
     "rules_trial.py": ["record", "FOLDER", "--courses", "SHORT"],
     "seam.py": ["--seconds", "0.3"],

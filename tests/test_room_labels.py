@@ -34,7 +34,7 @@ def test_nine_of_ten_surfaces_are_groups_at_four_fifths_overlap_by_structured_li
 
 
 def test_by_small_stereo_pictures_more_than_half_of_the_surfaces_are_groups() -> None:
-    found = score(range(3), "qrio", 6).regions  # 90 % is not reached: docs/results/indoor.md
+    found = score(range(3), "qrio", 6).regions  # 90 % is not reached: docs/results
     assert found.true >= 30
     assert found.correct / found.true >= 0.55, found
 

@@ -69,6 +69,6 @@ def scatter(
     order = np.argsort(sign * places[:, seen_from], kind="stable")
     colours = np.array(COLOURS)[labels[order]]
     x, up = places[order][:, [0, axis]].T
-    axes.scatter(x, up, c=colours, s=3, marker="s", linewidths=0)
+    axes.scatter(x, up, c=colours, s=7, marker="s", linewidths=0)
     axes.set_aspect("equal")
     axes.tick_params(labelsize=8)
