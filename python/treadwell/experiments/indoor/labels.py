@@ -26,7 +26,7 @@ _SHOWN: Final = range(2, 12)
 _SCORED: Final = range(6)
 _LOOKS: Final = 6
 _PURE: Final = 0.7
-_FEATURES: Final = 15
+_FEATURES: Final = 17
 """Of a group."""
 _CUBE_M: Final = 0.05
 """Side of a cube that has a label: the core's own, `classification.label_map.cube`."""

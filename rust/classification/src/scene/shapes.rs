@@ -36,7 +36,7 @@ settings! {
 }
 
 /// Number of features of a group.
-pub(crate) const FEATURES: usize = 15;
+pub(crate) const FEATURES: usize = 17;
 
 /// A plane or a component of what lies on none.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,6 +63,11 @@ pub struct Group {
     pub behind_m: f64,
     /// Standard deviation of a depth there, m: what is smaller is not seen.
     pub error_m: f64,
+    /// Of the pixels left and right of it those that are farther away: its sides end freely.
+    pub free_sides: f64,
+    /// How askew it stands to the largest upright plane of the picture: the sine of twice the angle between them, 0 where they are
+    /// parallel or square. As a door that stands ajar does.
+    pub askew: f64,
 }
 
 impl Group {
@@ -89,6 +94,8 @@ impl Group {
             self.gap_m.min(config.widest_gap),
             self.behind_m.min(config.farthest_behind),
             self.error_m.min(config.largest_error),
+            self.free_sides,
+            self.askew,
         ]
     }
 }
@@ -120,6 +127,10 @@ pub(crate) fn measured(
                 .filter(|plane| plane.normal.z.abs() < config.leaning)
         })
         .collect();
+    let largest = (0..each.len())
+        .filter(|&at| standing[at].is_some())
+        .max_by_key(|&at| each[at].pixels);
+    let walls = largest.and_then(|at| standing[at]);
     for (group, own) in each.iter_mut().zip(&standing) {
         let Some(own) = own else { continue };
         let behind = standing.iter().flatten().filter_map(|other| {
@@ -128,6 +139,13 @@ pub(crate) fn measured(
                 .then_some(behind_m)
         });
         group.behind_m = behind.fold(f64::INFINITY, f64::min);
+        if let Some(walls) = walls {
+            let (along, across) = (
+                own.normal.xy().dot(&walls.normal.xy()),
+                own.normal.xy().perp(&walls.normal.xy()),
+            );
+            group.askew = (2.0 * along * across).abs();
+        }
     }
     each
 }
@@ -174,6 +192,8 @@ fn shape(
         cut: beside.cut,
         free: beside.farther as f64 / total,
         hidden: beside.nearer as f64 / total,
+        free_sides: beside.gaps_m.len() as f64 / beside.at_sides.max(1) as f64,
+        askew: 0.0,
         gap_m: beside.gap_m(),
         behind_m: f64::INFINITY,
         error_m: middle_depth_m * middle_depth_m * picture.sigma_per_m,
@@ -189,6 +209,8 @@ struct Beside {
     total: usize,
     farther: usize,
     nearer: usize,
+    /// Pixels left and right of it.
+    at_sides: usize,
     gaps_m: Vec<f64>,
 }
 
@@ -196,6 +218,7 @@ impl Beside {
     /// Takes in what lies beside a pixel on one side: the inverse depths of both over the noise, and the noise, 1/m.
     fn count(&mut self, side: usize, [own, other]: [f64; 2], sigma_per_m: f64) {
         self.total += 1;
+        self.at_sides += usize::from(side == 1 || side == 2);
         self.nearer += usize::from(other - own > self.apart);
         if own - other > self.apart {
             self.farther += 1;
