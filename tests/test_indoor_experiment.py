@@ -11,6 +11,7 @@ from treadwell.components import COMPONENTS
 from treadwell.errors import InputError
 from treadwell.experiments.catalogue import find_experiment
 from treadwell.experiments.experiment import Table
+from treadwell.experiments.indoor import labels
 from treadwell.experiments.indoor.corridor import draw_corridor, draw_sonar
 from treadwell.experiments.indoor.experiment import INDOOR, SCENES
 from treadwell.experiments.indoor.figure import FigureToDraw, drawn
@@ -44,6 +45,17 @@ def test_a_scan_is_split_as_far_as_asked(tmp_path: Path) -> None:
     told = draw_split_and_merge(tmp_path / "split.png", NOWHERE)
     coarse, middle, fine = (int(count) for count in told.split(" lines")[0].split(" / "))
     assert coarse < middle < fine == 9
+
+
+def test_a_room_is_shown_as_planes_and_components_with_their_labels(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(labels, "_SCORED", range(1))
+    told = labels.draw_groups(tmp_path / "groups.png", NOWHERE)
+    true, found = (int(words.split()[0]) for words in told[3:].split(" surfaces "))
+    assert 0.8 * true <= found <= true
+    with Image.open(tmp_path / "groups.png") as picture:
+        assert picture.width > 2 * picture.height > 300
 
 
 def test_looks_of_a_kind_lie_together_in_three_dimensions(tmp_path: Path) -> None:

@@ -37,6 +37,7 @@ __all__ = [
     "RangeMap",
     "Scan",
     "ScanSlam",
+    "SceneLabels",
     "Segmenter",
     "Servos",
     "Situation",
@@ -371,6 +372,35 @@ class MovingFilter:
         self, time: float, points: NDArray[np.float64], eye: tuple[float, float]
     ) -> None: ...
     def are_static(self) -> list[NDArray[np.bool_]]: ...
+
+@final
+class SceneLabels:
+    @property
+    def learned(self) -> str: ...
+    def __new__(
+        cls,
+        settings: str = "{}",
+        examples: tuple[NDArray[np.float64], list[int]] | None = None,
+    ) -> SceneLabels: ...
+    def insert(
+        self,
+        depth: NDArray[np.float32],
+        map_from_camera: NDArray[np.float64],
+        *,
+        focal: Sequence[float],
+        centre: Sequence[float],
+        noise: float | None = None,
+        keep: bool = True,
+    ) -> bool: ...
+    @property
+    def groups(self) -> NDArray[np.uint16]: ...
+    @property
+    def labels(self) -> NDArray[np.uint8]: ...
+    @property
+    def features(self) -> NDArray[np.float64]: ...
+    def points(self) -> tuple[NDArray[np.float64], NDArray[np.uint8], NDArray[np.uint8]]: ...
+    @staticmethod
+    def names() -> list[str]: ...
 
 @final
 class OccupancyMap:

@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 from pathlib import Path
 from time import perf_counter
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from treadwell.errors import InputError
 from treadwell.files import write_text
@@ -17,6 +18,7 @@ from treadwell.map_making.placing import sensed
 from treadwell.map_making.plan_view import Seen, plan_arrays
 from treadwell.map_making.recording import MapRecording
 from treadwell.map_making.request import LANDMARKS, TRUTH, MapRequest
+from treadwell.map_making.room_labels import RGB, MapLabels
 from treadwell.map_making.scan_matched import MatchedScans, no_scans
 from treadwell.map_making.static_frames import StaticSource
 from treadwell.map_memory import RememberedMap
@@ -87,6 +89,8 @@ def make_map(
         name = f"map-{stem(request.source)}"
         with run_folder(out, name, mapper.world_model, request.seed) as folder, writing(folder):
             making = _Making(mapper, source, folder, progress)
+            if request.data.labels:
+                making.labels = MapLabels(request, first, mapper.place, source.kind)
             making.recording = _recording(request, mapper, folder) if record else None
             going_on = making.find_usable(first, frames)
         with writing(folder):
@@ -105,6 +109,7 @@ class _Making:
         self._mapper, self._source, self._folder = mapper, source, folder
         self._progress = progress
         self.recording: MapRecording | None = None
+        self.labels: MapLabels | None = None
         self._poses: list[tuple[float, Floats]] = []
         self._read = 0
         self._seconds: list[float] = []
@@ -141,6 +146,8 @@ class _Making:
         pose = self._mapper.insert(frame)
         if pose is not None:
             self._poses.append((frame.time, pose))
+            if self.labels is not None:
+                self.labels.insert(frame, pose)
             if self.recording is not None:
                 self.recording.frame(frame.time, pose, sensed(frame))
         if self._progress is not None:
@@ -154,11 +161,12 @@ class _Making:
         mapper, folder = self._mapper, self._folder
         unused = self._source.unused + mapper.unused
         found, voxels = mapper.map(), mapper.voxels()
+        labelled = self._write_labels(request)
         if self.recording is not None:
             self.recording.finish(found, mapper.place.offset, voxels)
         lines, probability = mapper.lines(), mapper.probability()
         topology = mapper.topology()
-        more = plan_arrays(probability, lines) | (topology.arrays() if topology else {})
+        more = plan_arrays(probability, lines) | (topology.arrays() if topology else {}) | labelled
         write_map(folder / MAP, found, voxels, more)
         surface = mapper.surface()
         if surface is not None:
@@ -195,6 +203,21 @@ class _Making:
         self._draw(result, found, folder, Seen(probability, lines, topology))
         write_text(folder / RESULT, result.model_dump_json(indent=2, by_alias=True) + "\n")
         return MadeMap(result, found, folder)
+
+    def _write_labels(self, request: MapRequest) -> dict[str, NDArray[Any]]:
+        """Draw and record what is what, where it was asked for; return it as arrays of the map."""
+        if self.labels is None:
+            return {}
+        # Late: matplotlib takes its time.
+        from treadwell.map_making.label_picture import PICTURE as LABELS
+        from treadwell.map_making.label_picture import draw_labels
+
+        places, labels = self.labels.points()
+        title = f"{stem(request.source)} · what is what, in cubes"
+        draw_labels(self._folder / LABELS, title, places, labels)
+        if self.recording is not None:
+            self.recording.labels(places, RGB[labels], self._mapper.place.offset)
+        return {"label_places": places, "labels": labels}
 
     def _draw(
         self,

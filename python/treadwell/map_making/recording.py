@@ -83,6 +83,20 @@ class MapRecording:
             static=True,
         )
 
+    def labels(
+        self, places: NDArray[np.float32], colours: NDArray[np.uint8], offset: Floats
+    ) -> None:
+        """Write what is what.
+
+        Args:
+            places: (n, 3) m, in the map.
+            colours: (n, 3), of each its label's.
+            offset: (3,) m, from the frame of the recording to the map's.
+        """
+        rr = self._rr
+        points = rr.Points3D(places - offset, colors=colours, radii=_RADIUS * self._cell)
+        self._stream.log("world/map/labels", points, static=True)
+
     def finish(self, found: RememberedMap, offset: Floats, voxels: NDArray[np.float32]) -> None:
         """Write the map, and close the file.
 

@@ -27,6 +27,8 @@ _MAP_ALONE: Final = ("lines", "topology", LANDMARKS)
 _SLOTS: Final = ("world_model", "segmenter")
 SLAM_TABLES: Final = ("scan_matcher", "local_maps", "loops", "pose_graph")
 """Tables of `[plan_view]` that say how scans are matched."""
+LABEL_TABLES: Final = ("grouping", "shapes", "label_map", "markov_field")
+"""Tables of `[classification]` that say how pictures are grouped and labels smoothed."""
 TRUTH, SCAN_MATCH = "truth", "scan_match"
 LOCALIZERS: Final = (TRUTH, SCAN_MATCH)
 """Poses taken as they are; scans placed by what they see."""
@@ -49,6 +51,9 @@ class MapTable(Table):
     leave_out_moving: bool = False
     """Whether what moves, or was there and went, is left out of pictures and scans, which are
     read twice; by `navigation.moving`."""
+    labels: bool = False
+    """Whether pictures are grouped into planes and components, which are labelled floor, step,
+    wall, furniture, clutter or door: `labels.png`, by `classification.grouping`."""
     columns: Annotated[int, Field(ge=16, le=4096)] = 160
     """Surfaces are found in pictures of so many columns at most: blocks of wider ones are one."""
 
@@ -68,6 +73,7 @@ class MapRequest:
         parameters: table -> key -> value, as in a scenario's `[navigation]`.
         data: how the data is taken.
         ground_filter: key -> value, how a cloud's ground is told from what stands on it.
+        labels: table -> key -> value, how pictures are grouped and labels smoothed.
         plan_view: `lines`, `alignment` and `topology` -> key -> value, how lines are found among a
             laser's points, how its scans are laid onto them, and what is a place, a way, a room;
             and `SLAM_TABLES`, how scans are matched.
@@ -85,6 +91,7 @@ class MapRequest:
     parameters: dict[str, dict[str, Any]]
     data: MapTable
     ground_filter: dict[str, Any]
+    labels: dict[str, dict[str, Any]]
     plan_view: dict[str, dict[str, Any]]
     landmarks: dict[str, Any]
     localizer: str = TRUTH
@@ -141,6 +148,7 @@ def read_request(
         found = dict(tables) if error.title == "Navigation" else raw.get("map", {})
         lines = [describe(detail, found) for detail in error.errors(include_url=False)]
         raise InputError(report("--set", list(dict.fromkeys(lines)))) from None
+    classes = _tables(raw, "classification", "ground_filter", *LABEL_TABLES)
     return MapRequest(
         source=source,
         world_model=named,
@@ -151,7 +159,8 @@ def read_request(
         segmenter=navigation.segmenter,
         parameters=navigation.parameters(),
         data=data,
-        ground_filter=_tables(raw, "classification", "ground_filter")["ground_filter"],
+        ground_filter=classes["ground_filter"],
+        labels={name: classes[name] for name in LABEL_TABLES},
         plan_view=_tables(raw, "plan_view", "lines", "alignment", "topology", *SLAM_TABLES),
         landmarks=_tables(raw, LANDMARKS, "readings", "fast_slam"),
         localizer=localizer or TRUTH,

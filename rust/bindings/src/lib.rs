@@ -25,6 +25,7 @@ mod products;
 mod range_map;
 mod ranges;
 mod scan_matching;
+mod scene;
 mod segmenter;
 mod servos;
 mod situation;
@@ -75,6 +76,7 @@ pub fn fill(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<products::PyPlanes>()?;
     module.add_class::<range_map::PyRangeMap>()?;
     module.add_class::<ranges::PyRangeField>()?;
+    module.add_class::<scene::PySceneLabels>()?;
     module.add_class::<segmenter::PySegmenter>()?;
     module.add_class::<servos::PyPhysics>()?;
     module.add_class::<servos::PyServos>()?;

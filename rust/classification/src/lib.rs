@@ -11,6 +11,7 @@ mod negative_obstacles;
 mod neighbours;
 mod primitives;
 mod robust_planes;
+mod scene;
 mod slope_statistics;
 #[cfg(test)]
 mod synthetic;
@@ -32,6 +33,10 @@ pub use primitives::{
     GroundMeshConfig, TreeError,
 };
 pub use robust_planes::{FoundPlane, RobustPlanes, RobustPlanesConfig};
+pub use scene::{
+    DepthPicture, Group, GroupingConfig, Groups, Label, LabelError, LabelMap, LabelMapConfig,
+    LabelledCube, PictureError, SceneClasses, SceneGrouping, ShapesConfig,
+};
 pub use slope_statistics::{HeightStatistics, SlopeStatistics, SlopeStatisticsConfig};
 pub use trained::{TrainedClasses, TrainedConfig, TrainingError};
 
@@ -40,6 +45,9 @@ use settings::TableDescription;
 /// The tables of settings of this crate.
 pub const TABLES: &[TableDescription] = &[
     TableDescription::of::<GroundFilterConfig>(),
+    TableDescription::of::<GroupingConfig>(),
+    TableDescription::of::<ShapesConfig>(),
+    TableDescription::of::<LabelMapConfig>(),
     TableDescription::of::<LearnedGroundConfig>(),
     TableDescription::of::<LoadBearingConfig>(),
     TableDescription::of::<MarkovChainConfig>(),

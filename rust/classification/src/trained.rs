@@ -102,6 +102,46 @@ impl TrainedClasses {
         Ok(Self { scales, weights })
     }
 
+    /// What was learned, as text: a line of means, one of scales, and one of weights for each class; seven digits of each number.
+    pub fn text(&self) -> String {
+        let line = |values: &mut dyn Iterator<Item = f64>| {
+            let numbers: Vec<String> = values.map(|value| format!("{value:.6e}")).collect();
+            numbers.join(" ") + "\n"
+        };
+        let mut text = line(&mut self.scales.iter().map(|[mean, _]| *mean));
+        text += &line(&mut self.scales.iter().map(|[_, scale]| *scale));
+        for weights in &self.weights {
+            text += &line(&mut weights.iter().copied());
+        }
+        text
+    }
+
+    /// What was learned before, from its text; none where that is of other classes or features.
+    pub fn of_text(text: &str, classes: usize, features: usize) -> Option<Self> {
+        let rows = text.lines().map(|line| {
+            let numbers = line.split_whitespace().map(|word| word.parse().ok());
+            let finite = numbers.map(|number: Option<f64>| number.filter(|one| one.is_finite()));
+            finite.collect::<Option<Vec<f64>>>()
+        });
+        let rows = rows.collect::<Option<Vec<_>>>()?;
+        let [means, scales, weights @ ..] = rows.as_slice() else {
+            return None;
+        };
+        let terms = 1 + features + features * (features + 1) / 2;
+        let fits = means.len() == features && scales.len() == features && weights.len() == classes;
+        (fits && weights.iter().all(|row| row.len() == terms)).then(|| Self {
+            scales: means
+                .iter()
+                .zip(scales)
+                .map(|(mean, scale)| [*mean, *scale])
+                .collect(),
+            weights: weights
+                .iter()
+                .map(|row| DVector::from_column_slice(row))
+                .collect(),
+        })
+    }
+
     /// The cost of each class: the negative logarithm of its probability. For [`crate::MarkovField`] as it is.
     pub fn costs(&self, features: &[f64]) -> Vec<f64> {
         let terms = terms(&self.scales, features);

@@ -7,6 +7,7 @@ from typing import Final
 from treadwell.experiments.experiment import Beside, Picture, Table
 from treadwell.experiments.indoor.corridor import draw_corridor, draw_sonar
 from treadwell.experiments.indoor.figure import ChapterFigure, DrawnFigure, FigureToDraw, drawn
+from treadwell.experiments.indoor.labels import draw_groups
 from treadwell.experiments.indoor.looks import draw_looks
 from treadwell.experiments.indoor.mapped import draw_landmarks, draw_topology
 from treadwell.experiments.indoor.people import draw_people
@@ -59,6 +60,12 @@ FIGURES: Final = (
         "looks of things, learned without naming any",
         "a compact representation by nonlinear dimension reduction; no figure given",
         draw_looks,
+    ),
+    ChapterFigure(
+        "36.18, 36.19",
+        "a room as planes and components, and what they are",
+        "planes and vegetation beside the data, labels by a random field; no figure given",
+        draw_groups,
     ),
     ChapterFigure(
         "36.20, 36.21",
