@@ -1,49 +1,13 @@
-//! How soon footsteps are planned, and how good they are: drawn scenes by family, heights exact.
-//!
-//! `cargo run --release -p planning --example footstep_scenes` prints, for each family, how many plans were found, the time to the first plan
-//! (median and 95th of 100), what it cost against the best plan, and what the plan costs that some 50 ms of a core's expansions find; the
-//! best is the cheaper of that and what 10 s find by a field in which nothing is too dear (`-- 3`: 3 s). `-- quick` leaves the best ones out, `-- first` all but the first; `-- json` prints rows of `docs/results`.
-
-#![expect(
-    clippy::print_stdout,
-    clippy::expect_used,
-    reason = "a measurement: it prints, and ends where its settings are wrong"
-)]
-
-use std::time::Instant;
+//! Drawn scenes by family.
 
 use geometry::{Goal, Grid, Lattice, PlanarPose, SplitMix64};
 use mapping::HeightMap;
-use planning::footsteps::{FootstepLayer, FootstepPlan, FootstepsConfig, SoleSize, StepLimits};
 
-/// The robot `qrio`.
-const LIMITS: StepLimits = StepLimits {
-    sole: SoleSize {
-        length_m: 0.105,
-        width_m: 0.075,
-    },
-    stance_width_m: 0.085,
-    foot_gap_m: 0.008,
-    max_forward_m: 0.07,
-    max_backward_m: 0.05,
-    max_sideways_m: 0.1,
-    max_turn_rad: 0.3,
-    careful_forward_m: 0.135,
-    careful_rise_m: 0.055,
-    clearance_m: [0.02, 0.02],
-    walked_s: 0.5,
-    careful_air_s: 0.8,
-    careful_ground_s: 0.4,
-    careful_speed_mps: 0.195,
-    careful_lift_mps: 0.08,
-    body_radius_m: 0.14,
-    body_from_m: 0.15,
-};
-
-struct Scene {
-    map: HeightMap,
-    start: PlanarPose,
-    goal: Goal,
+/// A map, and a way that is asked for.
+pub(crate) struct Scene {
+    pub(crate) map: HeightMap,
+    pub(crate) start: PlanarPose,
+    pub(crate) goal: Goal,
 }
 
 /// Something of one height, turned by an angle around its middle: what stands on the floor, or a part of it.
@@ -221,10 +185,11 @@ fn rubble(random: &mut SplitMix64) -> Scene {
     scene(&slabs, [2.6, 0.0], random)
 }
 
-type Draw = fn(&mut SplitMix64) -> Scene;
+/// Draws one of a family.
+pub(crate) type Draw = fn(&mut SplitMix64) -> Scene;
 
 /// Families with how many scenes are drawn of each.
-const FAMILIES: [(&str, usize, Draw); 7] = [
+pub(crate) const FAMILIES: [(&str, usize, Draw); 7] = [
     ("boxes", 15, |random| {
         let slabs = boxes(10, random);
         scene(&slabs, [2.6, 0.0], random)
@@ -248,130 +213,3 @@ const FAMILIES: [(&str, usize, Draw); 7] = [
     }),
     ("rubble", 10, rubble),
 ];
-
-fn plan(scene: &Scene, layer: &mut FootstepLayer) -> (Option<FootstepPlan>, f64) {
-    let feet = layer.feet_around(&scene.start);
-    let began = Instant::now();
-    let found = layer.plan(&scene.map, feet, &scene.goal);
-    (found.ok(), began.elapsed().as_secs_f64())
-}
-
-/// The plan, and the median time of five times that it was made, s.
-fn repeated(scene: &Scene, layer: &mut FootstepLayer) -> (Option<FootstepPlan>, f64) {
-    let mut times_s = [0.0; 5];
-    let mut found = None;
-    for time_s in &mut times_s {
-        (found, *time_s) = plan(scene, layer);
-    }
-    (found, share(&mut times_s, 0.5))
-}
-
-/// Plans with at most so many expansions.
-fn layer(expansions: usize) -> FootstepLayer {
-    layer_with(expansions, FootstepsConfig::default())
-}
-
-/// Plans as cheaply as can be: nothing in the field is dearer than it may turn out to be.
-fn best_layer(expansions: usize) -> FootstepLayer {
-    let config = FootstepsConfig {
-        poor_cost: 1.0,
-        ..FootstepsConfig::default()
-    };
-    layer_with(expansions, config)
-}
-
-fn layer_with(expansions: usize, config: FootstepsConfig) -> FootstepLayer {
-    let config = FootstepsConfig {
-        expansions: expansions.clamp(1, 10_000_000),
-        most_expansions: 10_000_000,
-        ..config
-    };
-    FootstepLayer::new(config, LIMITS).expect("the settings are within their bounds")
-}
-
-fn share(of: &mut [f64], share: f64) -> f64 {
-    of.sort_by(f64::total_cmp);
-    let last = of.len().saturating_sub(1);
-    of.get((share * last as f64).round() as usize)
-        .copied()
-        .unwrap_or(f64::NAN)
-}
-
-fn main() {
-    let words: Vec<String> = std::env::args().skip(1).collect();
-    let [only_first, quick, json] =
-        ["first", "quick", "json"].map(|word| words.iter().any(|given| given == word));
-    let seconds = words.iter().find_map(|word| word.parse().ok());
-    let best_s: f64 = seconds.unwrap_or(10.0);
-    if !json {
-        println!(
-            "family, found, first plan ms median / p95, its cost / best, at 50 ms / best (worst), steps, s"
-        );
-    }
-    let mut first = layer(1);
-    for (name, count, draw) in FAMILIES {
-        let mut random = SplitMix64::new(1);
-        let (mut times_ms, mut firsts, mut soons, mut steps, mut costs_s) =
-            (vec![], vec![], vec![], vec![], vec![]);
-        let mut found = 0;
-        for _ in 0..count {
-            let scene = draw(&mut random);
-            let (plan_first, time_s) = repeated(&scene, &mut first);
-            let Some(plan_first) = plan_first else {
-                times_ms.push(1e3 * time_s);
-                continue;
-            };
-            found += 1;
-            times_ms.push(1e3 * time_s);
-            if only_first {
-                continue;
-            }
-            let speed = measured_speed(&scene);
-            let soon = plan(&scene, &mut layer((0.05 * speed) as usize)).0;
-            let best = if quick {
-                soon.clone()
-            } else {
-                cheaper(
-                    soon.clone(),
-                    plan(&scene, &mut best_layer((best_s * speed) as usize)).0,
-                )
-            };
-            let (Some(soon), Some(best)) = (soon, best) else {
-                continue;
-            };
-            firsts.push(plan_first.cost_s / best.cost_s);
-            soons.push(soon.cost_s / best.cost_s);
-            steps.push(soon.steps.len() as f64);
-            costs_s.push(soon.cost_s);
-        }
-        let times = [share(&mut times_ms, 0.5), share(&mut times_ms, 0.95)];
-        let soon = [share(&mut soons, 0.5), share(&mut soons, 1.0)];
-        let [first_cost, steps, cost_s] = [
-            share(&mut firsts, 0.5),
-            share(&mut steps, 0.5),
-            share(&mut costs_s, 0.5),
-        ];
-        if json {
-            println!(
-                "[\"{name}\", \"{found} of {count}\", \"{:.1} / {:.1}\", \"{first_cost:.2}\", \"{:.3} ({:.3})\", \"{steps:.0}\"],",
-                times[0], times[1], soon[0], soon[1]
-            );
-        } else {
-            println!(
-                "{name}: {found}/{count}, {:.1} / {:.1}, {first_cost:.2}, {:.3} ({:.3}), {steps:.0}, {cost_s:.1}",
-                times[0], times[1], soon[0], soon[1]
-            );
-        }
-    }
-}
-
-fn cheaper(a: Option<FootstepPlan>, b: Option<FootstepPlan>) -> Option<FootstepPlan> {
-    let both = a.into_iter().chain(b);
-    both.min_by(|a, b| a.cost_s.total_cmp(&b.cost_s))
-}
-
-/// Expansions a second in a scene.
-fn measured_speed(scene: &Scene) -> f64 {
-    let (found, time_s) = plan(scene, &mut layer(3000));
-    found.map_or(0.0, |plan| plan.expanded as f64 / time_s)
-}
