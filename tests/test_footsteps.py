@@ -81,6 +81,13 @@ def test_an_argument_that_cannot_be_used_is_named(more: dict[str, Any], message:
     assert message in str(refused.value)
 
 
+def test_cells_that_are_too_large_or_needlessly_small_are_the_reason() -> None:
+    for cell in (0.1, 1e-7):
+        reason = plan(np.zeros((100, 250)), cell=cell).reason
+        assert reason is not None
+        assert f"got {cell:.7f}".rstrip("0") in reason
+
+
 def test_heights_that_are_no_heights_are_refused() -> None:
     with pytest.raises(InputError, match="height must be an array of numbers"):
         plan(np.zeros((3, 3, 3)))

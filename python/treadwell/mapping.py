@@ -101,7 +101,7 @@ def plan_footsteps(
     Args:
         height: (h, w) heights, m, of any float type: rows along y, columns along x; NaN or
             infinite where nothing is known.
-        cell: side of a cell, m; less than half a sole's breadth.
+        cell: side of a cell, m: at most half a sole's breadth; 1 cm is fine enough for `qrio`.
         start: where the robot stands, both feet side by side: x and y in metres, and its heading
             in radians.
         goal: where the middle between its feet is to be, m.

@@ -9,11 +9,13 @@ settings! {
     /// How footsteps are searched for: time is what a step costs.
     pub struct FootstepsConfig("navigation.footsteps") {
         /// Headings of a foot in a full turn.
-        headings: usize = 24, "1", within(4.0, 360.0);
+        headings: usize = 24, "1", within(4.0, 72.0);
         /// Places along the way of a foot from the farthest back to the farthest forward, walked or careful, among which a step ends.
-        along: usize = 6, "1", within(2.0, 100.0);
+        along: usize = 6, "1", within(2.0, 20.0);
         /// Places across, from beside the other foot to the farthest side step.
-        across: usize = 2, "1", within(1.0, 20.0);
+        across: usize = 2, "1", within(1.0, 10.0);
+        /// Cells along a sole at most: a finer map is refused, since each foothold would take as many times longer.
+        sole_cells: usize = 200, "1", within(2.0, 1000.0);
         /// What it costs at most that a sole bears only in part.
         partial_cost: f64 = 0.3, "s", within(0.0, 100.0);
         /// Ground whose height differs by no more from that of the standing foot is walked on; other heights take careful steps.

@@ -161,11 +161,16 @@ impl FootstepLayer {
             return Err(NoFootsteps::NotFinite);
         }
         let most_m = 0.5 * self.limits.sole.width_m;
+        let least_m = self.limits.sole.length_m / self.config.sole_cells as f64;
         let got_m = map.lattice.cell_m;
-        if got_m > 0.0 && got_m <= most_m {
+        if (least_m..=most_m).contains(&got_m) {
             Ok(())
         } else {
-            Err(NoFootsteps::Cells { most_m, got_m })
+            Err(NoFootsteps::Cells {
+                least_m,
+                most_m,
+                got_m,
+            })
         }
     }
 }

@@ -60,11 +60,13 @@ pub enum NoFootsteps {
     /// Start or goal is no place.
     #[error("start and goal must be finite")]
     NotFinite,
-    /// The map has no cell, or cells that no sole covers.
+    /// The map's cells are too large for a sole, or needlessly small.
     #[error(
-        "the map needs cells that are smaller than half a sole, {most_m:.3} m: got {got_m:.3} m"
+        "the map needs cells from {least_m} m (footsteps.sole_cells) to {most_m} m (half a sole's breadth): got {got_m} m"
     )]
     Cells {
+        /// Smallest that a cell may be, m.
+        least_m: f64,
         /// Largest that a cell may be, m.
         most_m: f64,
         /// How large it is, m.

@@ -266,19 +266,16 @@ fn what_is_no_question_and_what_was_not_seen_is_said() {
         plan(&none, PlanarPose::default(), goal(0.5, 0.0)),
         Err(NoFootsteps::UnseenGoal)
     );
-    let coarse = HeightMap::new(
-        Lattice {
+    for cell_m in [0.1, 1e-6, 0.0, f64::NAN] {
+        let lattice = Lattice {
             origin_m: [0.0; 2],
-            cell_m: 0.1,
-        },
-        Grid::filled(9, 9, 0.0),
-        0.0,
-    );
-    let refused = plan(&coarse, PlanarPose::new(0.4, 0.4, 0.0), goal(0.5, 0.0)).unwrap_err();
-    assert!(
-        refused.to_string().contains("0.037 m: got 0.100 m"),
-        "{refused}"
-    );
+            cell_m,
+        };
+        let map = HeightMap::new(lattice, Grid::filled(9, 9, 0.0), 0.0);
+        let refused = plan(&map, PlanarPose::new(0.4, 0.4, 0.0), goal(0.5, 0.0)).unwrap_err();
+        let said = format!("(half a sole's breadth): got {cell_m} m");
+        assert!(refused.to_string().contains(&said), "{refused}");
+    }
 }
 
 #[test]
