@@ -12,9 +12,11 @@ mod space;
 mod step_table;
 #[cfg(test)]
 mod tests;
+mod unseen;
 
 pub use config::FootstepsConfig;
 pub use layer::FootstepLayer;
 pub use limits::StepLimits;
 pub use plan::{FootstepPlan, NoFootsteps, PlannedFootstep, StepManner};
 pub use terrain::footholds::SoleSize;
+pub use unseen::Unseen;

@@ -9,6 +9,7 @@
 mod cells;
 pub mod footholds;
 mod goal_level;
+pub mod ground_map;
 mod longer_landings;
 mod over_slopes;
 pub mod rules;

@@ -29,6 +29,8 @@ settings! {
         /// So many times as dear is a way in that field over ground that carries no sole: edges, and what is narrow. At 1 nothing in the field
         /// is too dear, and the best plan takes seconds.
         poor_cost: f64 = 3.0, "1", at_least(1.0);
+        /// So many times as dear is a way in that field over ground that was not seen, where a plan may lead there.
+        unseen_cost: f64 = 2.0, "1", at_least(1.0);
         /// The first plan costs no more than so many times the cheapest, as far as the field is right.
         epsilon: f64 = 5.0, "1", at_least(1.0), "Likhachev et al. 2003: ARA*: anytime A* with provable bounds on sub-optimality";
         /// By how much that falls from pass to pass.

@@ -6,6 +6,7 @@ use terrain::footholds::HighBlocks;
 
 use super::config::FootstepsConfig;
 use super::limits::StepLimits;
+use super::unseen::{Unseen, guess_levels};
 
 /// A field that is rooted at the goal.
 #[derive(Debug, Clone, Default)]
@@ -13,8 +14,10 @@ pub(super) struct GoalField {
     lattice: Lattice,
     cols: i32,
     rows: i32,
-    /// Height of each cell's middle, m; NaN where the body has no room or nothing was seen.
+    /// Height of each cell's middle, m; NaN where nothing is known of it, infinite where the body has no room.
     levels_m: Vec<f32>,
+    /// Whether each cell is the end of what a plan can tell: it was not seen, or the map ends there and the goal lies beyond.
+    exits: Vec<bool>,
     /// Whether so much of the ground around a cell lies on its level that a sole finds support there.
     carries: Vec<bool>,
     /// What the way from each cell costs, s; infinite where nothing leads on.
@@ -27,14 +30,21 @@ pub(super) struct GoalField {
 
 impl GoalField {
     /// Finds the costs of the ways to a goal that are no longer than that from a start. False where nothing is known of the ground at the
-    /// goal.
+    /// goal, and that counts.
     pub(super) fn find(
         &mut self,
         (map, blocks): (&HeightMap, &HighBlocks),
         (config, limits): (&FootstepsConfig, &StepLimits),
         (start, goal): (&PlanarPose, &Goal),
+        unseen: Unseen,
     ) -> bool {
         self.read_levels((map, blocks), config, limits);
+        self.exits.clear();
+        self.exits
+            .extend(self.levels_m.iter().map(|level_m| level_m.is_nan()));
+        if unseen != Unseen::Closed {
+            guess_levels(&mut self.levels_m, self.cols);
+        }
         self.speed_mps = limits.speed_mps();
         self.costs_s.clear();
         self.costs_s.resize(self.levels_m.len(), f32::INFINITY);
@@ -53,17 +63,21 @@ impl GoalField {
                 }
             }
         }
+        if unseen != Unseen::Closed && !known {
+            known = self.begin_at_rim(goal);
+        }
         let prices = Prices::of(config, limits, self.lattice.cell_m);
         let Self {
             dijkstra,
             costs_s,
             levels_m,
             carries,
+            exits,
             cols,
             rows,
             ..
         } = self;
-        let ground = (levels_m.as_slice(), carries.as_slice());
+        let ground = (levels_m.as_slice(), carries.as_slice(), exits.as_slice());
         let steps = |from: u32| steps((from, *cols, *rows), ground, &prices);
         let start = self.lattice.cell_at(start.x_m, start.y_m);
         let col = start.col.clamp(0, (*cols - 1).max(0));
@@ -94,6 +108,51 @@ impl GoalField {
         least_s
     }
 
+    /// Begins at the cells along the rim, each as far from the goal as the straight way is: the goal lies beyond.
+    fn begin_at_rim(&mut self, goal: &Goal) -> bool {
+        let mut any = false;
+        for node in 0..self.levels_m.len() {
+            let (col, row) = (node as i32 % self.cols, node as i32 / self.cols);
+            let inside = (1..self.cols - 1).contains(&col) && (1..self.rows - 1).contains(&row);
+            if inside || !self.levels_m[node].is_finite() {
+                continue;
+            }
+            let [x_m, y_m] = self.lattice.center_of(Cell::new(col, row));
+            let to_m = geometry::hypot(x_m - goal.x_m, y_m - goal.y_m);
+            let cost_s = (to_m / self.speed_mps) as f32;
+            self.dijkstra
+                .begin_at(&mut self.costs_s, node as u32, cost_s);
+            self.exits[node] = true;
+            any = true;
+        }
+        any
+    }
+
+    /// Whether the cheapest way from a place comes, within a distance, m, to where nothing is known.
+    pub(super) fn leads_out_within(&self, x_m: f64, y_m: f64, within_m: f64) -> bool {
+        let mut at = self.lattice.cell_at(x_m, y_m);
+        let index = |cell: Cell| {
+            let inside = (0..self.cols).contains(&cell.col) && (0..self.rows).contains(&cell.row);
+            inside.then(|| (cell.row * self.cols + cell.col) as usize)
+        };
+        for _ in 0..=(within_m / self.lattice.cell_m) as usize {
+            let Some(here) = index(at) else { return true };
+            if self.exits[here] {
+                return true;
+            }
+            let around = CellArea::of(at).grown(1);
+            let next = around
+                .cells()
+                .filter_map(|cell| Some((self.costs_s[index(cell)?], cell)))
+                .min_by(|a, b| a.0.total_cmp(&b.0));
+            match next {
+                Some((cost_s, cell)) if cost_s < self.costs_s[here] => at = cell,
+                _ => return false,
+            }
+        }
+        false
+    }
+
     fn read_levels(
         &mut self,
         (map, blocks): (&HeightMap, &HighBlocks),
@@ -117,7 +176,8 @@ impl GoalField {
                 let body_m = level_m + limits.body_from_m as f32;
                 let no_room =
                     blocks.is_higher_within(map, [x_m, y_m], limits.body_radius_m, body_m);
-                self.levels_m.push(if no_room { f32::NAN } else { level_m });
+                self.levels_m
+                    .push(if no_room { f32::INFINITY } else { level_m });
             }
         }
         self.read_what_carries(map, config, limits);
@@ -213,6 +273,8 @@ struct Prices {
     climb_s: f32,
     /// So many times as dear is a way over what carries no sole.
     poor: f32,
+    /// So many times as dear is a way over what was not seen.
+    unseen: f32,
 }
 
 impl Prices {
@@ -226,6 +288,7 @@ impl Prices {
             rise_m: rise_m as f32,
             climb_s: (more_s / rise_m) as f32,
             poor: config.poor_cost as f32,
+            unseen: config.unseen_cost as f32,
         }
     }
 }
@@ -233,7 +296,7 @@ impl Prices {
 /// The eight steps from a cell, with what each costs; those that lead nowhere left out.
 fn steps<'a>(
     (from, cols, rows): (u32, i32, i32),
-    (levels_m, carries): (&'a [f32], &'a [bool]),
+    (levels_m, carries, exits): (&'a [f32], &'a [bool], &'a [bool]),
     prices: &'a Prices,
 ) -> impl Iterator<Item = (u32, f32)> + 'a {
     let (col, row) = (from as i32 % cols, from as i32 / cols);
@@ -252,7 +315,12 @@ fn steps<'a>(
             0.0
         };
         let diagonal = usize::from(right != 0 && up != 0);
-        let way_s = prices.way_s[diagonal] * if carries[to] { 1.0 } else { prices.poor };
+        let times = match (exits[to], carries[to]) {
+            (true, _) => prices.unseen,
+            (false, true) => 1.0,
+            (false, false) => prices.poor,
+        };
+        let way_s = prices.way_s[diagonal] * times;
         // What has no level has no rise.
         (rise_m <= prices.rise_m).then_some((to as u32, way_s + climb_s))
     })

@@ -12,6 +12,7 @@ use super::limits::StepLimits;
 use super::plan::{FootstepPlan, NoFootsteps, PlannedFootstep};
 use super::space::{FootstepSpace, START, Spots, StandingFoot};
 use super::step_table::StepTable;
+use super::unseen::Unseen;
 use crate::search::ara_star::{AraStar, SearchProgress};
 
 /// Plans footsteps for one robot. Its arrays are used again.
@@ -91,11 +92,26 @@ impl FootstepLayer {
         feet: [PlanarPose; 2],
         goal: &Goal,
     ) -> Result<FootstepPlan, NoFootsteps> {
+        self.plan_over(map, feet, goal, Unseen::Closed)
+    }
+
+    /// [`Self::plan`] over ground of which not all was seen: where the way leads over such, a plan ends before it.
+    ///
+    /// # Errors
+    ///
+    /// Why there are no steps.
+    pub fn plan_over(
+        &mut self,
+        map: &HeightMap,
+        feet: [PlanarPose; 2],
+        goal: &Goal,
+        unseen: Unseen,
+    ) -> Result<FootstepPlan, NoFootsteps> {
         self.refuse_what_is_no_question(map, &feet, goal)?;
         let blocks = HighBlocks::new(map);
         let settings = (&self.config, &self.limits);
         let middle = self.limits.middle_of(&feet[0], Side::Left);
-        if !self.field.find((map, &blocks), settings, (&middle, goal)) {
+        if !self.field.find((map, &blocks), settings, (&middle, goal), unseen) {
             return Err(NoFootsteps::UnseenGoal);
         }
         let Self {
@@ -120,6 +136,7 @@ impl FootstepLayer {
             limits,
             field,
             goal: *goal,
+            unseen,
             table: &mut tables.steps,
             footholds: &mut tables.footholds,
             start,
@@ -129,7 +146,8 @@ impl FootstepLayer {
         let mut best: Option<FootstepPlan> = None;
         let found = |space: &mut FootstepSpace<'_>, progress: &SearchProgress| {
             if let Some(steps) = space.steps_to(progress.last) {
-                take_better(&mut best, steps, progress);
+                let reaches_goal = space.is_goal_reached(progress.last);
+                take_better(&mut best, (steps, reaches_goal), progress);
             }
         };
         let leads_on = field.remaining_s(middle.x_m, middle.y_m).is_finite();
@@ -208,16 +226,18 @@ fn stand(
 /// Keeps the better plan of two, and what the first one cost.
 fn take_better(
     best: &mut Option<FootstepPlan>,
-    steps: Vec<PlannedFootstep>,
+    (steps, reaches_goal): (Vec<PlannedFootstep>, bool),
     progress: &SearchProgress,
 ) {
     let cost_s = steps.iter().map(|step| step.cost_s).sum();
     let first = best
         .as_ref()
         .map_or((cost_s, progress.expanded), |plan| plan.first);
-    if best.as_ref().is_none_or(|plan| cost_s <= plan.cost_s) {
+    // What a plan costs that ends before the goal does not tell how good it is.
+    if best.as_ref().is_none_or(|plan| !reaches_goal || cost_s <= plan.cost_s) {
         *best = Some(FootstepPlan {
             steps,
+            reaches_goal,
             cost_s,
             epsilon: progress.epsilon,
             first,

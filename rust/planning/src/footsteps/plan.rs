@@ -42,8 +42,10 @@ pub struct PlannedFootstep {
 /// A way, step by step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FootstepPlan {
-    /// The steps; the last one puts the foot beside the other.
+    /// The steps; at the goal the last one puts the foot beside the other.
     pub steps: Vec<PlannedFootstep>,
+    /// Whether they end at the goal; else they end before ground that was not seen.
+    pub reaches_goal: bool,
     /// What they cost, s.
     pub cost_s: f64,
     /// They cost no more than so many times the cheapest, as far as the field that leads the search is right.

@@ -11,6 +11,7 @@ use super::goal_field::GoalField;
 use super::limits::{StepLimits, StepReach};
 use super::plan::{PlannedFootstep, StepManner};
 use super::step_table::{LatticeStep, StepTable};
+use super::unseen::Unseen;
 use crate::search::ara_star::Space;
 
 /// The node at which the robot stands on both feet.
@@ -44,6 +45,7 @@ pub(super) struct FootstepSpace<'a> {
     pub(super) limits: &'a StepLimits,
     pub(super) field: &'a GoalField,
     pub(super) goal: Goal,
+    pub(super) unseen: Unseen,
     pub(super) table: &'a mut StepTable,
     pub(super) footholds: &'a mut Footholds,
     /// Both feet at the start, left and right.
@@ -219,7 +221,7 @@ impl FootstepSpace<'_> {
             steps.push(self.step((&standing, &moving), node, reach)?);
             feet[there.side.index()] = there;
         }
-        if let Some(standing) = self.foot_at(last) {
+        if let Some(standing) = self.foot_at(last).filter(|foot| self.is_at_goal(foot)) {
             let moving = feet[standing.side.other().index()];
             steps.push(self.closing(&standing, &moving)?);
         }
@@ -242,6 +244,23 @@ impl FootstepSpace<'_> {
         let goal = &self.goal;
         let middle_m = self.table.middle_m(&foot.pose, foot.heading, foot.side);
         geometry::distance_m(middle_m, [goal.x_m, goal.y_m]) <= goal.radius_m
+    }
+}
+
+impl FootstepSpace<'_> {
+    /// Whether a plan that ends at this node ends at the goal.
+    pub(super) fn is_goal_reached(&self, node: u32) -> bool {
+        self.is_at_goal(&self.foot_at(node).unwrap_or(self.start[0]))
+    }
+
+    /// What the way costs on from a foot before ground that was not seen, s.
+    fn on_from_s(&self, foot: &StandingFoot) -> Option<f64> {
+        let Unseen::Priced { stop_before_m } = self.unseen else {
+            return None;
+        };
+        let [x_m, y_m] = self.table.middle_m(&foot.pose, foot.heading, foot.side);
+        let ends = self.field.leads_out_within(x_m, y_m, stop_before_m);
+        ends.then(|| self.field.remaining_s(x_m, y_m))
     }
 }
 
@@ -276,10 +295,12 @@ impl Space for FootstepSpace<'_> {
     fn ending(&mut self, node: u32, parent: Option<u32>) -> Option<f64> {
         self.expand(node, parent);
         let Some(standing) = self.foot_at(node) else {
-            return self.is_at_goal(&self.start[0]).then_some(0.0);
+            let start = self.start[0];
+            let arrived = self.is_at_goal(&start).then_some(0.0);
+            return arrived.or_else(|| self.on_from_s(&start));
         };
         if !self.is_at_goal(&standing) {
-            return None;
+            return self.on_from_s(&standing);
         }
         let moving = self.foot(parent?, standing.side.other())?;
         self.closing(&standing, &moving).map(|step| step.cost_s)

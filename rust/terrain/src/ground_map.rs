@@ -1,0 +1,301 @@
+//! Where the ground is, fine enough for a sole: the heights of the map, cut along the edges of the stairs that were recognised.
+//!
+//! The map knows heights well and edges to a cell; the recogniser knows edges to millimetres, and may take a view's end for one. So a
+//! stair is believed only where the map has its height, and the map only where no edge runs through its cells.
+
+mod config;
+mod stair_edges;
+
+use geometry::{Cell, CellArea, Grid, Lattice, PlanarPose};
+use mapping::{FloorView, HeightMap, Surface};
+use stairs::Staircase;
+
+pub use config::GroundMapConfig;
+use stair_edges::{StairEdges, Told};
+
+/// What a sole stands on now.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SoleOnGround {
+    /// Its middle in the map.
+    pub pose: PlanarPose,
+    /// Half its length and half its breadth, m.
+    pub half_m: [f64; 2],
+    /// How high the robot believes that to be, m: it counts where nothing was seen.
+    pub height_m: f32,
+}
+
+/// Heights around the robot. Its arrays are used again.
+#[derive(Debug, Clone)]
+pub struct GroundMap {
+    config: GroundMapConfig,
+    /// The highest that the legs climb, m.
+    rise_m: f32,
+    edges: StairEdges,
+    /// What a cell of the view says by itself, row by row of the part that is read.
+    plain: Grid<Plain>,
+    map: HeightMap,
+}
+
+/// What a cell of the view says by itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Plain {
+    Unseen,
+    /// Ground on which no other level borders, m.
+    Level(f32),
+    /// Ground beside another level, m: where in the cell it ends is not known.
+    Border(f32),
+    /// Something that nobody stands on, up to this height, m.
+    Obstacle(f32),
+}
+
+impl Plain {
+    /// Its height, m, where it is ground.
+    const fn ground_m(self) -> Option<f32> {
+        match self {
+            Self::Level(height_m) | Self::Border(height_m) => Some(height_m),
+            Self::Unseen | Self::Obstacle(_) => None,
+        }
+    }
+}
+
+impl GroundMap {
+    /// For legs that climb no higher than this, m.
+    pub fn new(config: GroundMapConfig, rise_m: f64) -> Self {
+        let lattice = Lattice {
+            origin_m: [0.0; 2],
+            cell_m: config.cell,
+        };
+        Self {
+            config,
+            rise_m: rise_m as f32,
+            edges: StairEdges::default(),
+            plain: Grid::filled(0, 0, Plain::Unseen),
+            map: HeightMap::new(lattice, Grid::filled(0, 0, f32::NAN), 0.0),
+        }
+    }
+
+    /// The map as it was read last.
+    pub const fn map(&self) -> &HeightMap {
+        &self.map
+    }
+
+    /// Reads the heights around a robot that stands on these soles.
+    pub fn read(
+        &mut self,
+        view: &FloorView,
+        stairs: &Staircase,
+        soles: &[SoleOnGround; 2],
+    ) -> &HeightMap {
+        let middle = [
+            0.5 * (soles[0].pose.x_m + soles[1].pose.x_m),
+            0.5 * (soles[0].pose.y_m + soles[1].pose.y_m),
+        ];
+        let area = self.area_around(view, middle);
+        self.read_plain(view, area);
+        let fine = (view.lattice.cell_m / self.config.cell).round().max(1.0) as i32;
+        let cell_m = view.lattice.cell_m / f64::from(fine);
+        let corner = |cell: Cell| {
+            let [x_m, y_m] = view.lattice.center_of(cell);
+            [
+                x_m - 0.5 * view.lattice.cell_m,
+                y_m - 0.5 * view.lattice.cell_m,
+            ]
+        };
+        let lattice = Lattice {
+            origin_m: corner(area.min),
+            cell_m,
+        };
+        let [cols, rows] =
+            [self.plain.cols(), self.plain.rows()].map(|cells| cells * fine as usize);
+        let sigma_m = self.config.sigma as f32;
+        let heights_m = Grid::filled(cols, rows, f32::NAN);
+        self.map = HeightMap::new(lattice, heights_m, sigma_m);
+        self.edges.read(stairs, view.lattice.cell_m);
+        for row in 0..self.plain.rows() as i32 {
+            for col in 0..self.plain.cols() as i32 {
+                let at = view
+                    .lattice
+                    .center_of(Cell::new(area.min.col + col, area.min.row + row));
+                self.fill(Cell::new(col, row), at, fine);
+            }
+        }
+        for sole in soles {
+            self.stand_on(sole);
+        }
+        &self.map
+    }
+
+    /// The part of the view around a place that is read.
+    fn area_around(&self, view: &FloorView, [x_m, y_m]: [f64; 2]) -> CellArea {
+        let reach_m = self.config.reach;
+        let area = CellArea {
+            min: view.lattice.cell_at(x_m - reach_m, y_m - reach_m),
+            max: view.lattice.cell_at(x_m + reach_m, y_m + reach_m),
+        };
+        area.within(view.cells.area())
+    }
+
+    fn read_plain(&mut self, view: &FloorView, area: CellArea) {
+        let size = |least: i32, most: i32| (most - least + 1).max(0) as usize;
+        let cols = size(area.min.col, area.max.col);
+        let rows = size(area.min.row, area.max.row);
+        self.plain = Grid::filled(cols, rows, Plain::Unseen);
+        let level_m = self.config.level as f32;
+        for (index, cell) in area.cells().enumerate() {
+            self.plain.values_mut()[index] = match view.cell(cell) {
+                Surface::Unknown => Plain::Unseen,
+                Surface::Obstacle(top_m) => Plain::Obstacle(top_m),
+                Surface::Floor(height_m) => {
+                    let around = CellArea::of(cell).grown(1);
+                    let borders = around.cells().any(|beside| match view.cell(beside) {
+                        Surface::Floor(other_m) => (other_m - height_m).abs() > level_m,
+                        _ => false,
+                    });
+                    if borders {
+                        Plain::Border(height_m)
+                    } else {
+                        Plain::Level(height_m)
+                    }
+                }
+            };
+        }
+    }
+
+    /// Fills the fine cells of one cell of the view.
+    fn fill(&mut self, cell: Cell, middle_m: [f64; 2], fine: i32) {
+        let plain = self.plain.get(cell).copied().unwrap_or(Plain::Unseen);
+        let told = self.edges.near(middle_m);
+        let sigma_m = self.config.sigma as f32;
+        for row in 0..fine {
+            for col in 0..fine {
+                let at = Cell::new(cell.col * fine + col, cell.row * fine + row);
+                let height_m = match plain {
+                    _ if told.is_empty() => self.plain_height_m(plain, cell),
+                    plain => {
+                        self.cut_height_m((plain, cell), &told, self.map.lattice.center_of(at))
+                    }
+                };
+                if let Some(height_m) = height_m {
+                    self.map.set(at, height_m, sigma_m);
+                }
+            }
+        }
+    }
+
+    /// The height where no stair is near, m. Where in a cell two levels meet is not known: none, where legs could step from one to the other.
+    fn plain_height_m(&self, plain: Plain, cell: Cell) -> Option<f32> {
+        match plain {
+            Plain::Unseen => None,
+            Plain::Level(height_m) => Some(height_m),
+            Plain::Obstacle(top_m) => Some(self.out_of_reach_m(top_m, cell)),
+            Plain::Border(height_m) => {
+                let level_m = self.config.level as f32;
+                let mut steps = self
+                    .around(cell, 1)
+                    .map(|(_, other_m)| (other_m - height_m).abs());
+                let climbable = steps.any(|rise_m| rise_m > level_m && rise_m <= self.rise_m);
+                (!climbable).then_some(height_m)
+            }
+        }
+    }
+
+    /// The height at a place that stairs are near to, m.
+    fn cut_height_m(
+        &self,
+        (plain, cell): (Plain, Cell),
+        told: &[Told],
+        at_m: [f64; 2],
+    ) -> Option<f32> {
+        let level_m = self.config.level as f32;
+        let vouched = |height_m: f32| {
+            let same = |(_, other_m): (i32, f32)| (other_m - height_m).abs() <= level_m;
+            self.around(cell, 1).any(same)
+        };
+        let over = told
+            .iter()
+            .filter(|one| one.covers(at_m) && vouched(one.height_m));
+        let highest_m = over.map(|one| one.height_m).reduce(f32::max);
+        if let Plain::Obstacle(top_m) = plain {
+            let riser_m = told
+                .iter()
+                .map(|one| one.height_m)
+                .fold(f32::NEG_INFINITY, f32::max)
+                + self.rise_m;
+            if top_m > riser_m {
+                return Some(self.out_of_reach_m(top_m, cell));
+            }
+        }
+        highest_m.or_else(|| {
+            // Beside an edge that is known lies what is not at that edge's height.
+            let ends = |height_m: f32| {
+                told.iter()
+                    .any(|one| (one.height_m - height_m).abs() <= level_m)
+            };
+            let beside = self
+                .around(cell, 2)
+                .filter(|&(_, height_m)| !ends(height_m));
+            let nearest = beside.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+            nearest.map(|(_, height_m)| height_m).or(match plain {
+                Plain::Level(height_m) => Some(height_m),
+                _ => None,
+            })
+        })
+    }
+
+    /// Ground in and around a cell: how far away, cells squared, and how high, m.
+    fn around(&self, cell: Cell, cells: i32) -> impl Iterator<Item = (i32, f32)> + '_ {
+        let area = CellArea::of(cell).grown(cells).within(self.plain.area());
+        area.cells().filter_map(move |other| {
+            let (cols, rows) = (other.col - cell.col, other.row - cell.row);
+            let height_m = self.plain.get(other)?.ground_m()?;
+            Some((cols * cols + rows * rows, height_m))
+        })
+    }
+
+    /// Nobody stands on what is an obstacle: it counts as higher than any step from the ground beside it.
+    fn out_of_reach_m(&self, top_m: f32, cell: Cell) -> f32 {
+        let beside = self
+            .around(cell, 2)
+            .map(|(_, height_m)| height_m)
+            .reduce(f32::max);
+        beside.map_or(top_m, |ground_m| top_m.max(ground_m + 2.0 * self.rise_m))
+    }
+
+    /// Under a sole there is ground, whether it was seen or not.
+    fn stand_on(&mut self, sole: &SoleOnGround) {
+        let sigma_m = self.config.sigma as f32;
+        let [length_m, width_m] = sole.half_m.map(|half_m| half_m + self.map.lattice.cell_m);
+        let reach_m = geometry::hypot(length_m, width_m);
+        let PlanarPose { x_m, y_m, .. } = sole.pose;
+        let lattice = self.map.lattice;
+        let area = CellArea {
+            min: lattice.cell_at(x_m - reach_m, y_m - reach_m),
+            max: lattice.cell_at(x_m + reach_m, y_m + reach_m),
+        };
+        let from_map = sole.pose.inverse();
+        let under = |cell: &Cell| {
+            let [x_m, y_m] = lattice.center_of(*cell);
+            let (ahead_m, left_m) = from_map.apply(x_m, y_m);
+            ahead_m.abs() <= length_m && left_m.abs() <= width_m
+        };
+        let seen = area
+            .cells()
+            .filter(under)
+            .filter_map(|cell| self.map.height_m(cell));
+        let height_m = median(seen.collect()).unwrap_or(sole.height_m);
+        for cell in area.cells().filter(under) {
+            if self.map.height_m(cell).is_none() {
+                self.map.set(cell, height_m, sigma_m);
+            }
+        }
+    }
+}
+
+/// The middle one of some heights, m.
+fn median(mut heights_m: Vec<f32>) -> Option<f32> {
+    heights_m.sort_by(f32::total_cmp);
+    heights_m.get(heights_m.len() / 2).copied()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,102 @@
+//! Ground read from cells of 4 cm and edges.
+
+use geometry::{Cell, Grid, Lattice, PlanarPose};
+use mapping::{FloorView, Surface};
+use proptest::prelude::*;
+use stairs::Staircase;
+
+use super::*;
+use crate::testing::stair;
+
+const RISE_M: f64 = 0.055;
+
+/// A map of 3.2 m a side with cells of 4 cm, each as high as its middle.
+fn view(surface: impl Fn(f64, f64) -> Surface) -> FloorView {
+    let lattice = Lattice {
+        origin_m: [-1.6, -1.6],
+        cell_m: 0.04,
+    };
+    let mut view = FloorView::new(lattice, Grid::filled(80, 80, Surface::Unknown), 9);
+    for cell in view.cells.area().cells() {
+        let [x_m, y_m] = lattice.center_of(cell);
+        *view.cells.get_mut(cell).unwrap() = surface(x_m, y_m);
+    }
+    view
+}
+
+/// A robot that stands on a floor at the map's origin.
+fn soles() -> [SoleOnGround; 2] {
+    [0.0425, -0.0425].map(|y_m| SoleOnGround {
+        pose: PlanarPose::new(0.0, y_m, 0.0),
+        half_m: [0.0525, 0.0375],
+        height_m: 0.0,
+    })
+}
+
+fn read(view: &FloorView, stairs: Vec<stairs::Stair<geometry::Map>>) -> HeightMap {
+    let mut ground = GroundMap::new(GroundMapConfig::default(), RISE_M);
+    let stairs = Staircase { stairs, frames: 9 };
+    ground.read(view, &stairs, &soles()).clone()
+}
+
+fn height_m(map: &HeightMap, x_m: f64, y_m: f64) -> Option<f32> {
+    map.height_m(map.lattice.cell_at(x_m, y_m))
+}
+
+proptest! {
+    #[test]
+    fn edges_run_where_the_recognizer_has_them_wherever_cells_lie(first_m in 0.3..0.4f64, tread_m in 0.11..0.25f64, rise_m in 0.015..0.05f64) {
+        let true_m = |x_m: f64| rise_m * ((x_m - first_m) / tread_m + 1.0).floor().clamp(0.0, 3.0);
+        let view = view(|x_m, _| Surface::Floor(true_m(x_m) as f32));
+        let steps = (0..3).map(|step| {
+            let (at_m, depth_m) = (first_m + f64::from(step) * tread_m, if step < 2 { tread_m } else { 0.6 });
+            stair(at_m, depth_m, rise_m * f64::from(step + 1), 1.2)
+        });
+        let map = read(&view, steps.collect());
+        let cell_m = map.lattice.cell_m;
+        for col in 0..map.heights_m().cols() as i32 {
+            let [x_m, _] = map.lattice.center_of(Cell::new(col, 0));
+            let at_edge = (0..3).any(|step| (x_m - first_m - f64::from(step) * tread_m).abs() < cell_m);
+            if (-0.5..1.2).contains(&x_m) && !at_edge {
+                let got_m = height_m(&map, x_m, 0.1);
+                prop_assert!(got_m.is_some_and(|got_m| (f64::from(got_m) - true_m(x_m)).abs() < 1e-3), "{x_m}: {got_m:?} not {}", true_m(x_m));
+            }
+        }
+    }
+}
+
+#[test]
+fn where_a_level_ends_is_not_known_without_an_edge_unless_legs_cannot_step_there() {
+    for (rise_m, known) in [(0.04, false), (0.12, true)] {
+        let view = view(|x_m, _| Surface::Floor(if x_m > 0.41 { rise_m } else { 0.0 }));
+        let map = read(&view, Vec::new());
+        assert_eq!(height_m(&map, 0.39, 0.0).is_some(), known);
+        assert_eq!(height_m(&map, 0.43, 0.0).is_some(), known);
+        assert_eq!(height_m(&map, 0.3, 0.0), Some(0.0));
+        assert_eq!(height_m(&map, 0.6, 0.0), Some(rise_m));
+    }
+}
+
+#[test]
+fn a_stair_whose_height_the_map_does_not_have_is_not_believed() {
+    let floor = view(|_, _| Surface::Floor(0.0));
+    let map = read(&floor, vec![stair(0.5, 0.3, 0.06, 0.8)]);
+    assert_eq!(height_m(&map, 0.6, 0.0), Some(0.0));
+}
+
+#[test]
+fn nobody_can_step_on_an_obstacle_and_under_the_soles_there_is_ground() {
+    let view = view(|x_m, _| {
+        if x_m < 0.2 {
+            Surface::Unknown
+        } else if (0.5..0.7).contains(&x_m) {
+            Surface::Obstacle(0.04)
+        } else {
+            Surface::Floor(0.0)
+        }
+    });
+    let map = read(&view, Vec::new());
+    assert!(height_m(&map, 0.6, 0.0).unwrap() > RISE_M as f32);
+    assert_eq!(height_m(&map, 0.03, 0.04), Some(0.0));
+    assert_eq!(height_m(&map, 0.03, 0.3), None);
+}
