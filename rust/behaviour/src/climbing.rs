@@ -16,7 +16,7 @@ mod finish;
 mod flight;
 mod footsteps;
 mod goal;
-mod head;
+pub(crate) mod head;
 mod inspection;
 mod leg;
 mod memory;
@@ -25,7 +25,7 @@ mod placement;
 mod search;
 mod setback;
 mod state;
-mod stepper;
+pub(crate) mod stepper;
 mod tuning;
 mod walk;
 

@@ -1,5 +1,6 @@
 //! What every behaviour sees and says.
 
+use geometry::PlanarPose;
 use localization::Estimate;
 use mapping::FloorView;
 use planning::{Goal, Plan};
@@ -13,6 +14,15 @@ pub enum BehaviourError {
     /// A behaviour of the user's failed.
     #[error("{0}")]
     Failed(String),
+}
+
+/// A sole, by the joints.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SoleAt {
+    /// Its middle, and its heading, in the robot's frame.
+    pub pose: PlanarPose,
+    /// Its height above the robot's ground, m.
+    pub height_m: f64,
 }
 
 /// Everything a decision may rest on.
@@ -34,6 +44,8 @@ pub struct Situation<'a> {
     pub last_goal: bool,
     /// Whether the walker stands still on both soles.
     pub standing: bool,
+    /// Where the soles are, left and right.
+    pub soles: [SoleAt; 2],
     /// How the listed footsteps go.
     pub stepping: Stepping,
     /// Where the head looks now.

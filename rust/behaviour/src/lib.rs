@@ -3,6 +3,7 @@
 mod climbing;
 mod command;
 mod decision;
+mod footsteps;
 mod machine;
 mod part;
 mod things_met;
@@ -10,9 +11,15 @@ mod walking;
 
 pub use climbing::{Pace, StairClimbing, StairClimbingConfig};
 pub use command::{Arms, Command, Footstep, Gaze, Misstep, Motion, Stepping, Velocity};
-pub use decision::{Behaviour, BehaviourError, Decision, Outcome, Situation};
+pub use decision::{Behaviour, BehaviourError, Decision, Outcome, Situation, SoleAt};
+pub use footsteps::{Footsteps, SteppingConfig};
 pub use part::{BehaviourNeeds, BehaviourPart};
 pub use walking::{WalkingBehaviour, WalkingConfig};
 
 /// The behaviours that come with the crate: a new one is a file or folder beside these, and its lines here.
-pub const PARTS: &[BehaviourPart] = &[climbing::STEP_BY_STEP, climbing::CONTINUOUS, walking::PART];
+pub const PARTS: &[BehaviourPart] = &[
+    climbing::STEP_BY_STEP,
+    climbing::CONTINUOUS,
+    walking::PART,
+    footsteps::PART,
+];

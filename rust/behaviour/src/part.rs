@@ -1,5 +1,6 @@
 //! What a behaviour is made of. Those that come with the crate stand in `lib.rs`, a line each.
 
+use planning::footsteps::StepLimits;
 use robot::Body;
 use settings::{MakeError, Part, Tables};
 use stairs::Feet;
@@ -15,6 +16,8 @@ pub struct BehaviourNeeds<'a> {
     pub body: &'a Body,
     /// Its feet, side by side as the walker stands on them.
     pub feet: Feet,
+    /// What its steps are limited by.
+    pub steps: StepLimits,
 }
 
 /// A behaviour that has a name.

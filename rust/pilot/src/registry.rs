@@ -16,6 +16,7 @@ use stairs::{Feet, Recognizer};
 use volume::octree::Octree;
 use walking::Walker;
 
+use crate::step_limits::step_limits;
 use crate::{BEHAVIOURS, LOCALIZERS, PLANNERS, PilotError, SEGMENTERS, Settings, WORLD_MODELS};
 
 /// The five components. One that is `None` is built by its name in the settings.
@@ -93,6 +94,7 @@ impl Making<'_> {
             tables: &self.settings.navigation.tables,
             body: self.body,
             feet: self.feet,
+            steps: step_limits(self.body)?,
         };
         Ok(BEHAVIOURS.find(&self.settings.navigation.behaviour)?(
             &needs,

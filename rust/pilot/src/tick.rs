@@ -2,15 +2,16 @@
 
 use std::sync::Arc;
 
-use behaviour::{Behaviour, Decision, Situation};
-use geometry::{Map, Odometry, Pose, Robot};
+use behaviour::{Behaviour, Decision, Situation, SoleAt};
+use geometry::{Map, Odometry, PlanarPose, Pose, Robot};
 use localization::{Estimate, Localizer};
 use mapping::{FeltConfig, FloorView, Overlay};
+use nalgebra::Vector3;
 use planning::{Plan, Planner};
 use proprioception::{
     BodyState, BodyStateHistory, Proprioception, ProprioceptionConfig, SenseWatch, SenseWatchConfig,
 };
-use robot::Body;
+use robot::{Body, Side};
 use sensing::{
     Frame, FrameWatch, FrameWatchConfig, Intrinsics, Observation, Scan, ScanConfig, SelfFilter,
 };
@@ -80,6 +81,20 @@ fn walk<'a>(
     let slopes = Mapped::around(view, &estimate.map_from_robot, walker.relief_tuning());
     let slopes = slopes.as_ref().map(|slopes| slopes as &dyn Slopes);
     walker.step(&decision.command, observation, state, slopes)
+}
+
+/// Where the soles are, left and right, by the joints.
+fn soles(body: &Body, state: &BodyState) -> [SoleAt; 2] {
+    Side::BOTH.map(|side| {
+        let torso_from_sole = body.torso_from_sole(&state.links, side);
+        let robot_from_sole = state.robot_from_torso.inner * torso_from_sole;
+        let at = robot_from_sole.translation.vector;
+        let ahead = robot_from_sole.rotation * Vector3::x();
+        SoleAt {
+            pose: PlanarPose::new(at.x, at.y, libm::atan2(ahead.y, ahead.x)),
+            height_m: at.z,
+        }
+    })
 }
 
 impl Pilot {
@@ -182,6 +197,7 @@ impl Pilot {
             plan: self.plan.as_ref(),
             goal: self.goals.current(),
             last_goal: self.goals.is_last(),
+            soles: soles(&self.body, state),
             standing: self.walker.standing(),
             stepping: self.walker.stepping(),
             gaze: self.walker.gaze(),

@@ -15,7 +15,7 @@ mod tests;
 mod unseen;
 
 pub use config::FootstepsConfig;
-pub use layer::FootstepLayer;
+pub use layer::{FootstepLayer, FootstepQuestion};
 pub use limits::StepLimits;
 pub use plan::{FootstepPlan, NoFootsteps, PlannedFootstep, StepManner};
 pub use terrain::footholds::SoleSize;

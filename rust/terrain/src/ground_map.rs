@@ -79,6 +79,11 @@ impl GroundMap {
         &self.map
     }
 
+    /// The same, for what else is known of it: until it is read again.
+    pub const fn map_mut(&mut self) -> &mut HeightMap {
+        &mut self.map
+    }
+
     /// Reads the heights around a robot that stands on these soles.
     pub fn read(
         &mut self,

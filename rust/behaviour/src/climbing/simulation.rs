@@ -200,6 +200,14 @@ impl Simulation {
         )
     }
 
+    fn soles(&self) -> [crate::SoleAt; 2] {
+        let (here, ground_m) = (self.pose(), self.ground_m());
+        self.feet.map(|foot| crate::SoleAt {
+            pose: here.relative(&foot.pose),
+            height_m: foot.height_m - ground_m,
+        })
+    }
+
     pub(crate) fn ground_m(&self) -> f64 {
         self.feet[0].height_m.min(self.feet[1].height_m)
     }
@@ -228,6 +236,7 @@ impl Simulation {
                 plan: self.plan.as_ref(),
                 goal: &self.goal,
                 last_goal: true,
+                soles: self.soles(),
                 standing: self.stands(),
                 gaze: self.gaze,
                 frames_used: self.frames,

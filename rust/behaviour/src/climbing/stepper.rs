@@ -47,6 +47,11 @@ impl Stepper {
         !self.footsteps.is_empty()
     }
 
+    /// Whether the walker has taken the list up.
+    pub(crate) const fn has_begun(&self) -> bool {
+        self.announced && self.set_off
+    }
+
     /// Begins a list; the robot stands at `pose` on ground of this height.
     pub(crate) fn start(&mut self, holds: Vec<Footstep>, pose: &PlanarPose, ground_m: f64) {
         self.list_from_map = pose.inverse();

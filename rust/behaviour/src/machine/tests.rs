@@ -66,6 +66,7 @@ impl World {
             plan: None,
             goal: &self.goal,
             last_goal: true,
+            soles: crate::walking::simulation::SOLES,
             standing: true,
             stepping: Stepping::default(),
             gaze: Gaze::default(),

@@ -27,6 +27,11 @@ impl WalkingBehaviour {
         self.radius_m
     }
 
+    /// How long the planner has found no way, s.
+    pub(crate) const fn no_way_s(&self) -> f64 {
+        self.no_way.s()
+    }
+
     /// Whether it stands and looks around.
     pub(crate) fn is_looking_around(&self) -> bool {
         matches!(self.machine.state(), State::LookAround(_))

@@ -24,6 +24,20 @@ pub(crate) const EXTENT: Extent = Extent {
     foot_side: 0.06,
 };
 
+/// Feet side by side.
+pub(crate) const SOLES: [crate::SoleAt; 2] = [sole_at(0.0425), sole_at(-0.0425)];
+
+const fn sole_at(y_m: f64) -> crate::SoleAt {
+    crate::SoleAt {
+        pose: PlanarPose {
+            x_m: 0.0,
+            y_m,
+            yaw_rad: 0.0,
+        },
+        height_m: 0.0,
+    }
+}
+
 /// The behaviour on a body of this extent.
 pub(crate) fn walking(config: WalkingConfig) -> WalkingBehaviour {
     WalkingBehaviour::new(config, LevelsConfig::default(), &EXTENT).unwrap()
@@ -159,6 +173,7 @@ impl Simulation {
                 plan: self.plan.as_ref(),
                 goal: &self.goal,
                 last_goal: self.last_goal,
+                soles: SOLES,
                 standing: self.standing_ticks > 60,
                 gaze: self.gaze,
                 frames_used: self.frames,

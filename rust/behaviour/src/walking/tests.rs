@@ -314,6 +314,7 @@ fn decide(
             plan: plan.as_ref(),
             goal: &goal,
             last_goal: true,
+            soles: crate::walking::simulation::SOLES,
             standing,
             gaze: Gaze::default(),
             frames_used: *frames,

@@ -2,6 +2,7 @@
 
 use settings::{POSITIVE, above_to, at_least, settings, within};
 use terrain::footholds::FootholdConfig;
+use terrain::ground_map::GroundMapConfig;
 
 use crate::search::ara_star::AraStarConfig;
 
@@ -39,6 +40,8 @@ settings! {
         expansions: usize = 10_000, "1", at_least(1.0);
         /// Places of a foot that are expanded before the search for a first plan is given up.
         most_expansions: usize = 200_000, "1", at_least(1.0);
+        /// How the ground around the robot is read.
+        ground: GroundMapConfig;
         /// What a sole needs.
         foothold: FootholdConfig;
     }

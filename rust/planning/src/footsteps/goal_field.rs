@@ -128,17 +128,17 @@ impl GoalField {
         any
     }
 
-    /// Whether the cheapest way from a place comes, within a distance, m, to where nothing is known.
-    pub(super) fn leads_out_within(&self, x_m: f64, y_m: f64, within_m: f64) -> bool {
+    /// Where the cheapest way from a place comes, within a distance, m, to what was not seen.
+    pub(super) fn exit_within(&self, x_m: f64, y_m: f64, within_m: f64) -> Option<[f64; 2]> {
         let mut at = self.lattice.cell_at(x_m, y_m);
         let index = |cell: Cell| {
             let inside = (0..self.cols).contains(&cell.col) && (0..self.rows).contains(&cell.row);
             inside.then(|| (cell.row * self.cols + cell.col) as usize)
         };
         for _ in 0..=(within_m / self.lattice.cell_m) as usize {
-            let Some(here) = index(at) else { return true };
+            let here = index(at)?;
             if self.exits[here] {
-                return true;
+                return Some(self.lattice.center_of(at));
             }
             let around = CellArea::of(at).grown(1);
             let next = around
@@ -147,10 +147,10 @@ impl GoalField {
                 .min_by(|a, b| a.0.total_cmp(&b.0));
             match next {
                 Some((cost_s, cell)) if cost_s < self.costs_s[here] => at = cell,
-                _ => return false,
+                _ => return None,
             }
         }
-        false
+        None
     }
 
     fn read_levels(

@@ -26,6 +26,17 @@ pub struct FootstepLayer {
     tables: Option<LatticeTables>,
 }
 
+/// Where a plan begins, and what it makes of what was not seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FootstepQuestion {
+    /// Where the feet stand, left and right, in the map.
+    pub feet: [PlanarPose; 2],
+    /// The foot that moves first; `None`: either.
+    pub first: Option<Side>,
+    /// What is made of ground that was not seen.
+    pub unseen: Unseen,
+}
+
 /// What depends on the size of the cells alone: steps between them, and the cells under a sole.
 #[derive(Debug, Clone)]
 struct LatticeTables {
@@ -72,6 +83,11 @@ impl FootstepLayer {
         &self.limits
     }
 
+    /// Ground whose height differs by no more is walked on, m.
+    pub const fn walk_height_m(&self) -> f64 {
+        self.config.walk_height
+    }
+
     /// Both feet side by side around a place, left and right.
     pub fn feet_around(&self, middle: &PlanarPose) -> [PlanarPose; 2] {
         Side::BOTH.map(|side| {
@@ -92,7 +108,12 @@ impl FootstepLayer {
         feet: [PlanarPose; 2],
         goal: &Goal,
     ) -> Result<FootstepPlan, NoFootsteps> {
-        self.plan_over(map, feet, goal, Unseen::Closed)
+        let question = FootstepQuestion {
+            feet,
+            first: None,
+            unseen: Unseen::Closed,
+        };
+        self.plan_over(map, &question, goal)
     }
 
     /// [`Self::plan`] over ground of which not all was seen: where the way leads over such, a plan ends before it.
@@ -103,15 +124,22 @@ impl FootstepLayer {
     pub fn plan_over(
         &mut self,
         map: &HeightMap,
-        feet: [PlanarPose; 2],
+        question: &FootstepQuestion,
         goal: &Goal,
-        unseen: Unseen,
     ) -> Result<FootstepPlan, NoFootsteps> {
+        let &FootstepQuestion {
+            feet,
+            first,
+            unseen,
+        } = question;
         self.refuse_what_is_no_question(map, &feet, goal)?;
         let blocks = HighBlocks::new(map);
         let settings = (&self.config, &self.limits);
         let middle = self.limits.middle_of(&feet[0], Side::Left);
-        if !self.field.find((map, &blocks), settings, (&middle, goal), unseen) {
+        if !self
+            .field
+            .find((map, &blocks), settings, (&middle, goal), unseen)
+        {
             return Err(NoFootsteps::UnseenGoal);
         }
         let Self {
@@ -137,6 +165,7 @@ impl FootstepLayer {
             field,
             goal: *goal,
             unseen,
+            first,
             table: &mut tables.steps,
             footholds: &mut tables.footholds,
             start,
@@ -146,8 +175,12 @@ impl FootstepLayer {
         let mut best: Option<FootstepPlan> = None;
         let found = |space: &mut FootstepSpace<'_>, progress: &SearchProgress| {
             if let Some(steps) = space.steps_to(progress.last) {
-                let reaches_goal = space.is_goal_reached(progress.last);
-                take_better(&mut best, (steps, reaches_goal), progress);
+                let exit_m = if space.is_goal_reached(progress.last) {
+                    None
+                } else {
+                    space.exit(progress.last)
+                };
+                take_better(&mut best, (steps, exit_m), progress);
             }
         };
         let leads_on = field.remaining_s(middle.x_m, middle.y_m).is_finite();
@@ -226,7 +259,7 @@ fn stand(
 /// Keeps the better plan of two, and what the first one cost.
 fn take_better(
     best: &mut Option<FootstepPlan>,
-    (steps, reaches_goal): (Vec<PlannedFootstep>, bool),
+    (steps, exit_m): (Vec<PlannedFootstep>, Option<[f64; 2]>),
     progress: &SearchProgress,
 ) {
     let cost_s = steps.iter().map(|step| step.cost_s).sum();
@@ -234,10 +267,13 @@ fn take_better(
         .as_ref()
         .map_or((cost_s, progress.expanded), |plan| plan.first);
     // What a plan costs that ends before the goal does not tell how good it is.
-    if best.as_ref().is_none_or(|plan| !reaches_goal || cost_s <= plan.cost_s) {
+    if best
+        .as_ref()
+        .is_none_or(|plan| exit_m.is_some() || cost_s <= plan.cost_s)
+    {
         *best = Some(FootstepPlan {
             steps,
-            reaches_goal,
+            exit_m,
             cost_s,
             epsilon: progress.epsilon,
             first,

@@ -103,7 +103,9 @@ impl StepLimits {
         let between =
             |value: f64, least: f64, most: f64| value > least - ROUNDING && value < most + ROUNDING;
         let forward_m = self.careful_forward_m;
-        let within = between(turn_rad, -self.max_turn_rad, self.max_turn_rad)
+        // Legs reach as far in no direction as the farthest forward and the farthest aside together.
+        let within = self.stretch(step.x_m, across_m) < 1.0 + ROUNDING
+            && between(turn_rad, -self.max_turn_rad, self.max_turn_rad)
             && between(across_m, nearest_m, farthest_m)
             && between(step.x_m, -forward_m, forward_m);
         let walked = between(step.x_m, -self.max_backward_m, self.max_forward_m);
@@ -112,6 +114,21 @@ impl StepLimits {
         } else {
             StepReach::Careful
         })
+    }
+}
+
+impl StepLimits {
+    /// How far the legs are stretched by a step so far forward and so far across, m, as a share of what they can.
+    fn stretch(&self, x_m: f64, across_m: f64) -> f64 {
+        let aside_m = (across_m - self.stance_width_m).max(0.0);
+        geometry::hypot(x_m / self.careful_forward_m, aside_m / self.max_sideways_m)
+    }
+
+    /// The farthest place within reach towards one that may be beyond: forward and across, m.
+    pub(super) fn pulled_in(&self, x_m: f64, across_m: f64) -> [f64; 2] {
+        let share = 1.0 / self.stretch(x_m, across_m).max(1.0);
+        let aside_m = (across_m - self.stance_width_m).max(0.0);
+        [x_m * share, across_m - aside_m * (1.0 - share)]
     }
 }
 

@@ -44,8 +44,8 @@ pub struct PlannedFootstep {
 pub struct FootstepPlan {
     /// The steps; at the goal the last one puts the foot beside the other.
     pub steps: Vec<PlannedFootstep>,
-    /// Whether they end at the goal; else they end before ground that was not seen.
-    pub reaches_goal: bool,
+    /// Where the way leads on over ground that was not seen, m in the map: the steps end before it. `None` where they end at the goal.
+    pub exit_m: Option<[f64; 2]>,
     /// What they cost, s.
     pub cost_s: f64,
     /// They cost no more than so many times the cheapest, as far as the field that leads the search is right.

@@ -46,6 +46,8 @@ pub(super) struct FootstepSpace<'a> {
     pub(super) field: &'a GoalField,
     pub(super) goal: Goal,
     pub(super) unseen: Unseen,
+    /// The foot that moves first, where that is not free.
+    pub(super) first: Option<Side>,
     pub(super) table: &'a mut StepTable,
     pub(super) footholds: &'a mut Footholds,
     /// Both feet at the start, left and right.
@@ -253,14 +255,32 @@ impl FootstepSpace<'_> {
         self.is_at_goal(&self.foot_at(node).unwrap_or(self.start[0]))
     }
 
-    /// What the way costs on from a foot before ground that was not seen, s.
-    fn on_from_s(&self, foot: &StandingFoot) -> Option<f64> {
-        let Unseen::Priced { stop_before_m } = self.unseen else {
+    /// Where a plan that ends at this node leaves what is known, m.
+    pub(super) fn exit(&self, node: u32) -> Option<[f64; 2]> {
+        self.exit_from(&self.foot_at(node).unwrap_or(self.start[0]))
+    }
+
+    fn exit_from(&self, foot: &StandingFoot) -> Option<[f64; 2]> {
+        let Unseen::Priced {
+            stop_before_m,
+            faces_rad,
+        } = self.unseen
+        else {
             return None;
         };
         let [x_m, y_m] = self.table.middle_m(&foot.pose, foot.heading, foot.side);
-        let ends = self.field.leads_out_within(x_m, y_m, stop_before_m);
-        ends.then(|| self.field.remaining_s(x_m, y_m))
+        let exit_m = self.field.exit_within(x_m, y_m, stop_before_m)?;
+        let bearing_rad = libm::atan2(exit_m[1] - y_m, exit_m[0] - x_m);
+        let turn_rad = geometry::wrap_angle(bearing_rad - foot.pose.yaw_rad);
+        let near = geometry::distance_m(exit_m, [x_m, y_m]) < self.limits.sole.length_m;
+        (near || turn_rad.abs() <= faces_rad).then_some(exit_m)
+    }
+
+    /// What the way costs on from a foot before ground that was not seen, s.
+    fn on_from_s(&self, foot: &StandingFoot) -> Option<f64> {
+        let [x_m, y_m] = self.table.middle_m(&foot.pose, foot.heading, foot.side);
+        self.exit_from(foot)
+            .map(|_| self.field.remaining_s(x_m, y_m))
     }
 }
 
@@ -271,7 +291,11 @@ impl Space for FootstepSpace<'_> {
         }
         self.expanded += 1;
         let Some(standing) = self.foot_at(node) else {
+            let first = self.first;
             for side in Side::BOTH {
+                if first.is_some_and(|first| first != side) {
+                    continue;
+                }
                 let [standing, moving] = [side.other(), side].map(|side| self.start[side.index()]);
                 let [x_m, y_m] = self.map.lattice.center_of(standing.cell);
                 let StandingFoot { pose, heading, .. } = standing;

@@ -13,6 +13,8 @@ pub enum Unseen {
     Priced {
         /// How far before, m.
         stop_before_m: f64,
+        /// At its end the robot faces what was not seen at least so well, rad.
+        faces_rad: f64,
     },
 }
 

@@ -1,0 +1,182 @@
+//! The behaviour `footsteps`: every foot is planned where height changes or the planner knows no way; on open floor it walks.
+//!
+//! On level ways the behaviour `walking` decides. Before a height change the robot stands, looks, and takes the steps that the layer of
+//! footsteps plans over the ground as it is known, planning anew after each. What was not seen is priced: a plan ends before it, and the
+//! robot looks.
+
+mod config;
+mod look;
+mod route;
+mod state;
+mod step;
+mod walk;
+
+use geometry::PlanarPose;
+use planning::footsteps::{FootstepLayer, FootstepsConfig};
+use settings::{MakeError, Part, Table, TableDescription, read};
+use stairs::ClimbingConfig;
+use terrain::ground_map::GroundMap;
+
+use crate::climbing::head::ClimbingHead;
+use crate::climbing::stepper::Stepper;
+use crate::machine::{Interruption, Machine, SightAgain, State as _, Tick};
+use crate::part::{BehaviourNeeds, BehaviourPart};
+use crate::{
+    Behaviour, BehaviourError, Command, Decision, Motion, Outcome, Situation, StairClimbingConfig,
+    WalkingBehaviour,
+};
+pub use config::SteppingConfig;
+use route::Failed;
+pub(crate) use state::State;
+
+/// How it is listed and made.
+pub(crate) const PART: BehaviourPart = Part {
+    name: "footsteps",
+    about: "plans every foot where height changes or no way is known, over anything that its legs allow",
+    source: None,
+    tables: &[
+        TableDescription::of::<FootstepsConfig>(),
+        TableDescription::of::<SteppingConfig>(),
+    ],
+    make: |needs| Ok(Box::new(Footsteps::of(needs)?)),
+};
+
+/// Walks to the goal where it is level, and steps where it is not.
+#[derive(Debug, Clone)]
+pub struct Footsteps {
+    config: SteppingConfig,
+    /// Told heights and the robot's own may be off by so much, m.
+    told_m: f64,
+    walking: WalkingBehaviour,
+    machine: Machine<State>,
+    head: ClimbingHead,
+    stepper: Stepper,
+    layer: FootstepLayer,
+    ground: GroundMap,
+    /// Where feet found no ground, or met something.
+    failed: Failed,
+    /// Looks since the last step.
+    looks: u32,
+    /// Times that stepping was given up, and where that was last.
+    given_up: (u32, Option<PlanarPose>),
+    /// Why there were no steps when they were planned last.
+    reason: Option<String>,
+    /// How many of the list's steps had landed when it was planned last.
+    planned_at: usize,
+}
+
+impl Footsteps {
+    fn of(needs: &BehaviourNeeds<'_>) -> Result<Self, MakeError> {
+        let walking = WalkingBehaviour::of(needs)?;
+        let climbing: ClimbingConfig = read(needs.tables, "climbing")?;
+        let head: StairClimbingConfig = read(needs.tables, "stair_climbing")?;
+        let layer: FootstepsConfig = read(needs.tables, "footsteps")?;
+        let config: SteppingConfig = read(needs.tables, "stepping")?;
+        config.check()?;
+        let eyes = &needs.body.description().head;
+        let ground = GroundMap::new(layer.ground.clone(), needs.steps.careful_rise_m);
+        let limits = (walking.config()).limits("no step could be taken", ", while it stepped");
+        Ok(Self {
+            told_m: climbing.levels.told,
+            head: ClimbingHead::new(&head, walking.config(), eyes),
+            machine: Machine::new(State::Walk, limits),
+            stepper: Stepper::new(head.tuning.stepper.clone()),
+            layer: FootstepLayer::new(layer, needs.steps)?,
+            ground,
+            config,
+            walking,
+            failed: Failed::default(),
+            looks: 0,
+            given_up: (0, None),
+            reason: None,
+            planned_at: 0,
+        })
+    }
+
+    const fn is_walking(&self) -> bool {
+        matches!(self.machine.state(), State::Walk)
+    }
+
+    fn enter(&mut self, next: State) {
+        let _ = self.machine.enter(next);
+    }
+
+    fn refuse(&mut self, reason: String) {
+        self.enter(State::refuse(reason));
+    }
+
+    /// Ends a state if something happened that must, while no foot is on its way.
+    fn interrupt(&mut self, tick: &Tick<'_>) {
+        if self.stepper.is_running() {
+            return;
+        }
+        match self.machine.interruption(tick, || false) {
+            None | Some(Interruption::Stumble | Interruption::Arrival) => {}
+            Some(Interruption::Lost | Interruption::Blind) => {
+                self.head.look_down();
+                self.enter(State::Blind);
+            }
+            Some(Interruption::Idle(reason)) => self.refuse(reason),
+        }
+    }
+
+    /// One tick of a state in which the robot does not walk.
+    fn act(&mut self, tick: &Tick<'_>) -> Motion {
+        match self.machine.state() {
+            State::Walk | State::Refuse { .. } | State::Arrive => Motion::Stand,
+            State::Look => self.look(tick),
+            State::Search => self.search(tick),
+            State::Step => self.step(tick),
+            State::Blind => self.wait_for_sight(tick),
+        }
+    }
+
+    /// One tick of standing and looking down and around until something is seen.
+    fn wait_for_sight(&mut self, tick: &Tick<'_>) -> Motion {
+        if self.head.advance(tick.situation.frames_used, tick.passed_s) {
+            self.head.look_down();
+        }
+        match self.machine.sight(tick) {
+            SightAgain::Back => self.begin_look(tick, None),
+            SightAgain::Away => {}
+            SightAgain::Hopeless(reason) => self.refuse(reason),
+        }
+        Motion::Stand
+    }
+
+    fn decision(&self, tick: &Tick<'_>, motion: Motion) -> Decision {
+        let state = self.machine.state();
+        let arrived = matches!(state, State::Arrive) && tick.situation.standing;
+        Decision {
+            command: Command {
+                motion,
+                gaze: self.head.gazer.at,
+                ..Command::default()
+            },
+            state: state.name(),
+            goal_passed: arrived && !tick.situation.last_goal,
+            outcome: if arrived && tick.situation.last_goal {
+                Some(Outcome::GoalReached)
+            } else {
+                self.machine.refusal(tick.situation.standing)
+            },
+        }
+    }
+}
+
+impl Behaviour for Footsteps {
+    fn next(&mut self, situation: &Situation<'_>) -> Result<Decision, BehaviourError> {
+        let tick = self.machine.read(situation);
+        self.machine.keep_time(&tick);
+        if self.is_walking() {
+            return self.walk(&tick);
+        }
+        self.interrupt(&tick);
+        let motion = self.act(&tick);
+        let decision = self.decision(&tick, motion);
+        if decision.goal_passed {
+            self.begin_walk(&tick);
+        }
+        Ok(decision)
+    }
+}

@@ -1,0 +1,151 @@
+//! The states `look` and `search`: the robot stands, looks at where its steps may go, and plans them.
+
+use planning::footsteps::{FootstepPlan, NoFootsteps};
+
+use super::route::told;
+use super::{Footsteps, State};
+use crate::Motion;
+use crate::machine::Tick;
+
+impl Footsteps {
+    /// Begins to look at a place of the map, m; where none is said, towards the goal and near.
+    pub(super) fn begin_look(&mut self, tick: &Tick<'_>, place_m: Option<[f64; 2]>) {
+        let ahead_m = self.config.stop_before;
+        let place_m = place_m.map_or_else(
+            || {
+                let way = tick.situation.plan.and_then(|plan| plan.way.as_ref().ok());
+                let climb = way.and_then(|path| path.climbs.first()?.steps.first());
+                let to_m = climb.map_or(tick.goal_m(), |step| step.crossing_m);
+                let bearing_rad = tick.bearing_rad(to_m);
+                let (sin, cos) = libm::sincos(bearing_rad);
+                [ahead_m * cos, ahead_m * sin]
+            },
+            |place_m| tick.in_robot(place_m),
+        );
+        self.head.look_at(place_m);
+        self.enter(State::Look);
+    }
+
+    /// One tick of a look; at its end steps are planned.
+    pub(super) fn look(&mut self, tick: &Tick<'_>) -> Motion {
+        if self.has_looked(tick) {
+            self.plan_steps(tick);
+        }
+        Motion::Stand
+    }
+
+    /// One tick of the search; at its end steps are planned.
+    pub(super) fn search(&mut self, tick: &Tick<'_>) -> Motion {
+        if self.has_looked(tick) {
+            self.plan_steps(tick);
+        }
+        Motion::Stand
+    }
+
+    fn has_looked(&mut self, tick: &Tick<'_>) -> bool {
+        let frames = tick.situation.frames_used;
+        tick.situation.standing && self.head.advance(frames, tick.passed_s)
+    }
+
+    /// Plans steps, and takes them, looks again, walks on or gives up.
+    fn plan_steps(&mut self, tick: &Tick<'_>) {
+        let feet = Self::soles(tick);
+        self.read_ground(tick, &feet);
+        match self.plan_from(tick, feet, None) {
+            Ok(plan) if !plan.steps.is_empty() => self.take(tick, &plan),
+            Ok(FootstepPlan { exit_m: None, .. }) => self.arrive(tick),
+            Ok(plan) => self.look_in_vain(tick, plan.exit_m, || {
+                "blocked: what lies ahead could not be seen".to_owned()
+            }),
+            Err(none) => self.look_in_vain(tick, None, || word(&none)),
+        }
+    }
+
+    /// Begins to take a plan's steps.
+    fn take(&mut self, tick: &Tick<'_>, plan: &FootstepPlan) {
+        let feet = Self::soles(tick);
+        let heights_m = [0, 1].map(|foot: usize| {
+            self.height_under_m(&feet[foot])
+                .unwrap_or(tick.ground_m + tick.situation.soles[foot].height_m)
+        });
+        let ground_m = heights_m[0].min(heights_m[1]);
+        let holds = plan.steps.iter().take(self.config.run).map(told);
+        if std::env::var_os("FSDBG").is_some() {
+            eprintln!(
+                "DBG {:.2} TAKE pose {:.3?} ground {ground_m:.4} z {:.4} soles {feet:.3?} exit {:?} cost {:.1} n {} expanded {}",
+                tick.elapsed_s,
+                tick.pose,
+                tick.ground_m,
+                plan.exit_m,
+                plan.cost_s,
+                plan.steps.len(),
+                plan.expanded
+            );
+            for h in holds.clone() {
+                eprintln!(
+                    "DBG   {:?} {:.3} {:.3} {:.2} h {:.4} b {:.3?}",
+                    h.side, h.pose.x_m, h.pose.y_m, h.pose.yaw_rad, h.height_m, h.bearing_m
+                );
+            }
+        }
+        self.stepper.start(holds.collect(), &tick.pose, ground_m);
+        self.planned_at = 0;
+        self.enter(State::Step);
+    }
+
+    /// After a look without a step: once more, around, and at last never more.
+    fn look_in_vain(
+        &mut self,
+        tick: &Tick<'_>,
+        at_m: Option<[f64; 2]>,
+        reason: impl FnOnce() -> String,
+    ) {
+        self.looks += 1;
+        let reason = tick.no_way_reason().unwrap_or_else(reason);
+        if std::env::var_os("FSDBG").is_some() {
+            eprintln!(
+                "DBG {:.2} VAIN {} {at_m:?} {reason}",
+                tick.elapsed_s, self.looks
+            );
+        }
+        if self.looks > self.config.tries {
+            self.give_up(tick, reason);
+        } else if self.looks > 1 {
+            let at_m = at_m.unwrap_or(tick.goal_m());
+            self.head.search(tick.bearing_rad(at_m));
+            self.enter(State::Search);
+            self.machine.go_on(State::Search);
+        } else {
+            self.begin_look(tick, at_m);
+            self.machine.go_on(State::Look);
+        }
+    }
+
+    /// Gives stepping up here: where the feet stand side by side on one level, the robot walks on if there is a way.
+    fn give_up(&mut self, tick: &Tick<'_>, reason: String) {
+        self.given_up = (self.given_up.0 + 1, Some(tick.pose));
+        if self.given_up.0 >= self.config.tries || !self.stands_to_walk(tick) {
+            self.refuse(reason);
+        } else {
+            self.reason = Some(reason);
+            self.begin_walk(tick);
+        }
+    }
+
+    /// The robot is at the goal, if that is on its level.
+    fn arrive(&mut self, tick: &Tick<'_>) {
+        let on_level = tick
+            .goal_off_level_m()
+            .is_none_or(|off_m| off_m <= 2.0 * self.told_m);
+        if on_level {
+            self.enter(State::Arrive);
+        } else {
+            self.refuse("no_path: the goal lies above or below this place".to_owned());
+        }
+    }
+}
+
+/// The refusal where there are no steps.
+fn word(none: &NoFootsteps) -> String {
+    format!("no_path: {none}")
+}

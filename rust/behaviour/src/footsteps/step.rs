@@ -1,0 +1,127 @@
+//! The state `step`: the feet move, and what they do next is planned while they do.
+
+use planning::footsteps::{FootstepPlan, StepManner};
+
+use super::Footsteps;
+use super::route::{after, told};
+use crate::climbing::stepper::Stepped;
+use crate::machine::Tick;
+use crate::{Footstep, Misstep, Motion};
+
+impl Footsteps {
+    /// One tick while the feet move.
+    pub(super) fn step(&mut self, tick: &Tick<'_>) -> Motion {
+        let landed = tick.situation.stepping.landed;
+        let ahead = landed + self.config.look_ahead;
+        let holds = &self.stepper.holds;
+        if let Some(hold) = holds.get(ahead).or(holds.last()) {
+            let place_m = tick.in_robot([hold.pose.x_m, hold.pose.y_m]);
+            self.head.turn_to(place_m, tick.passed_s);
+        }
+        if self.stepper.has_begun() && landed > self.planned_at {
+            self.planned_at = landed;
+            self.machine.gets_on();
+            self.looks = 0;
+            self.plan_on(tick, landed);
+        }
+        match self.stepper.advance(tick.situation, tick.passed_s) {
+            Stepped::Running => {}
+            Stepped::Missed(misstep, landed) => {
+                if std::env::var_os("FSDBG").is_some() {
+                    eprintln!("DBG {:.2} MISSED {misstep:?} {landed}", tick.elapsed_s);
+                }
+                self.after_misstep(tick, misstep, landed)
+            }
+            Stepped::Idle | Stepped::Done | Stepped::Stuck => self.after_list(tick),
+        }
+        self.stepper.motion()
+    }
+
+    /// Plans on from where the feet will be once the step under way has landed.
+    fn plan_on(&mut self, tick: &Tick<'_>, landed: usize) {
+        let Some(&under_way) = self.stepper.holds.get(landed) else {
+            return;
+        };
+        let feet = after(&Self::soles(tick), under_way.side, under_way.pose);
+        self.read_ground(tick, &feet);
+        let mut holds: Vec<Footstep> = self.stepper.holds[..=landed].to_vec();
+        match self.plan_from(tick, feet, Some(under_way.side.other())) {
+            Ok(plan) if self.may_walk_on(tick) && self.only_walks(&plan) => {
+                holds.extend(self.closing(&under_way));
+            }
+            Ok(plan) => {
+                holds.extend(plan.steps.iter().take(self.config.run).map(told));
+            }
+            Err(_) => {}
+        }
+        if std::env::var_os("FSDBG").is_some() {
+            let soles = Self::soles(tick);
+            eprintln!(
+                "DBG {:.2} landed {landed} soles {soles:.3?} err {:.4}",
+                tick.elapsed_s, tick.situation.stepping.height_error_m
+            );
+            for h in &holds {
+                eprintln!(
+                    "DBG   {:?} {:.3} {:.3} {:.2} h {:.4} b {:.3?}",
+                    h.side, h.pose.x_m, h.pose.y_m, h.pose.yaw_rad, h.height_m, h.bearing_m
+                );
+            }
+        }
+        self.stepper.replace(holds);
+    }
+
+    /// The step that puts the other foot beside one that lands, where there is ground at its height.
+    fn closing(&self, landing: &Footstep) -> Option<Footstep> {
+        let side = landing.side.other();
+        let pose = self.layer.limits().beside(&landing.pose, side);
+        let height_m = self.height_under_m(&pose)?;
+        let level = (height_m - landing.height_m).abs() < self.layer.walk_height_m();
+        level.then_some(Footstep {
+            side,
+            pose,
+            height_m,
+            bearing_m: landing.bearing_m,
+        })
+    }
+
+    /// Whether the next steps of a plan are those of a walk.
+    fn only_walks(&self, plan: &FootstepPlan) -> bool {
+        let mut next = plan.steps.iter().take(self.config.run);
+        next.all(|step| step.manner == StepManner::Walked)
+    }
+
+    /// All steps of the list landed: the robot walks on where it may, else it looks.
+    fn after_list(&mut self, tick: &Tick<'_>) {
+        if self.may_walk_on(tick) && self.stands_to_walk(tick) {
+            self.begin_walk(tick);
+        } else {
+            self.begin_look(tick, None);
+        }
+    }
+
+    fn after_misstep(&mut self, tick: &Tick<'_>, misstep: Misstep, landed: usize) {
+        if let Some(hold) = self.stepper.holds.get(landed) {
+            self.failed.note(hold.pose);
+        }
+        if self.failed.count() > self.config.tries as usize {
+            self.refuse(match misstep {
+                Misstep::NoGround => {
+                    "blocked: a foot found no ground where steps were planned".to_owned()
+                }
+                Misstep::Obstructed => "blocked: something was in the way of a foot".to_owned(),
+            });
+            return;
+        }
+        self.begin_look(tick, None);
+    }
+
+    /// Whether the feet stand side by side on one level.
+    pub(super) fn stands_to_walk(&self, tick: &Tick<'_>) -> bool {
+        let [left, right] = Self::soles(tick);
+        let limits = self.layer.limits();
+        let apart = limits.beside(&right, robot::Side::Left).relative(&left);
+        let near_m = self.config.side_by_side;
+        let [left_m, right_m] = tick.situation.soles.map(|sole| sole.height_m);
+        geometry::hypot(apart.x_m, apart.y_m) < near_m && (left_m - right_m).abs() < near_m
+    }
+}
