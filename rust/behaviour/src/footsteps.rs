@@ -26,7 +26,7 @@ use crate::{
     WalkingBehaviour,
 };
 pub use config::SteppingConfig;
-use route::Failed;
+use route::{CostToGo, Failed};
 pub(crate) use state::State;
 
 /// How it is listed and made.
@@ -55,6 +55,8 @@ pub struct Footsteps {
     ground: GroundMap,
     /// Where feet found no ground, or met something.
     failed: Failed,
+    /// How far it has come.
+    to_go: CostToGo,
     /// Looks since the last step.
     looks: u32,
     /// Times that stepping was given up, and where that was last.
@@ -86,6 +88,7 @@ impl Footsteps {
             config,
             walking,
             failed: Failed::default(),
+            to_go: CostToGo::default(),
             looks: 0,
             given_up: (0, None),
             reason: None,

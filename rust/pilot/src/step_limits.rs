@@ -29,6 +29,7 @@ pub fn step_limits(body: &Body) -> Result<StepLimits, WalkError> {
         max_sideways_m: gait.max_sideways,
         max_turn_rad: gait.max_turn,
         careful_forward_m: gait.climb_forward,
+        careful_sideways_m: gait.climb_sideways,
         careful_rise_m: gait.climb_rise,
         clearance_m: [gait.step_height, gait.climb_clearance],
         walked_s: gait.step_time,

@@ -84,18 +84,9 @@ impl GroundMap {
         &mut self.map
     }
 
-    /// Reads the heights around a robot that stands on these soles.
-    pub fn read(
-        &mut self,
-        view: &FloorView,
-        stairs: &Staircase,
-        soles: &[SoleOnGround; 2],
-    ) -> &HeightMap {
-        let middle = [
-            0.5 * (soles[0].pose.x_m + soles[1].pose.x_m),
-            0.5 * (soles[0].pose.y_m + soles[1].pose.y_m),
-        ];
-        let area = self.area_around(view, middle);
+    /// Reads the heights around a place, m.
+    pub fn read(&mut self, view: &FloorView, stairs: &Staircase, around_m: [f64; 2]) -> &HeightMap {
+        let area = self.area_around(view, around_m);
         self.read_plain(view, area);
         let fine = (view.lattice.cell_m / self.config.cell).round().max(1.0) as i32;
         let cell_m = view.lattice.cell_m / f64::from(fine);
@@ -123,9 +114,6 @@ impl GroundMap {
                     .center_of(Cell::new(area.min.col + col, area.min.row + row));
                 self.fill(Cell::new(col, row), at, fine);
             }
-        }
-        for sole in soles {
-            self.stand_on(sole);
         }
         &self.map
     }
@@ -266,8 +254,8 @@ impl GroundMap {
         beside.map_or(top_m, |ground_m| top_m.max(ground_m + 2.0 * self.rise_m))
     }
 
-    /// Under a sole there is ground, whether it was seen or not.
-    fn stand_on(&mut self, sole: &SoleOnGround) {
+    /// Under a sole that stands there is ground, whether it was seen or not.
+    pub fn stand_on(&mut self, sole: &SoleOnGround) {
         let sigma_m = self.config.sigma as f32;
         let [length_m, width_m] = sole.half_m.map(|half_m| half_m + self.map.lattice.cell_m);
         let reach_m = geometry::hypot(length_m, width_m);

@@ -96,6 +96,8 @@ settings! {
         climb_clearance: f64 = 0.02, "m", above_to(0.0, 10.0);
         /// Longest listed step forward or backward.
         climb_forward: f64 = 0.135, "m", above_to(0.0, 10.0);
+        /// Largest extra distance between the feet in a listed step.
+        climb_sideways: f64 = 0.05, "m", above_to(0.0, 10.0);
         /// Highest listed step up or down.
         climb_rise: f64 = 0.055, "m", above_to(0.0, 10.0);
         /// Speed at which a foot goes down that has not found the ground where it was told to be.

@@ -105,7 +105,8 @@ impl FootstepPlanner {
         local.yaw_rad = local
             .yaw_rad
             .clamp(-self.config.max_turn, self.config.max_turn);
-        let (nearest, farthest) = self.lateral_limits_m(local.yaw_rad);
+        let (nearest, _) = self.lateral_limits_m(local.yaw_rad);
+        let farthest = (self.config.stance_width + self.config.climb_sideways).max(nearest);
         local.y_m = swing.sign() * (swing.sign() * local.y_m).clamp(nearest, farthest);
         stance.compose(&local)
     }

@@ -89,8 +89,19 @@ impl Footsteps {
             }
         }
         self.stepper.start(holds.collect(), &tick.pose, ground_m);
+        let _ = self.gets_on(plan);
         self.planned_at = 0;
         self.enter(State::Step);
+    }
+
+    /// Whether a plan tells that the robot gets on: else it has been idle.
+    pub(super) fn gets_on(&mut self, plan: &FootstepPlan) -> bool {
+        let (by_s, most) = (self.layer.limits().walked_s, self.config.longer);
+        let gets_on = self.to_go.gets_on(plan.whole_s, by_s, most);
+        if gets_on {
+            self.machine.gets_on();
+        }
+        gets_on
     }
 
     /// After a look without a step: once more, around, and at last never more.

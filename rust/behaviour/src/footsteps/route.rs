@@ -9,17 +9,17 @@ use robot::Side;
 use terrain::ground_map::SoleOnGround;
 
 use super::Footsteps;
-use crate::Footstep;
 use crate::machine::Tick;
+use crate::{Footstep, Misstep};
 
 /// Where feet found no ground, or met something: nothing is planned there until the robot walks again.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Failed(Vec<PlanarPose>);
+pub(super) struct Failed(Vec<(Footstep, Misstep)>);
 
 impl Failed {
     /// A foot that was to land here did not.
-    pub(super) fn note(&mut self, pose: PlanarPose) {
-        self.0.push(pose);
+    pub(super) fn note(&mut self, hold: Footstep, misstep: Misstep) {
+        self.0.push((hold, misstep));
     }
 
     /// What was noted counts no more.
@@ -32,19 +32,28 @@ impl Failed {
         self.0.len()
     }
 
-    /// Takes the ground away under soles that failed.
+    /// Moves the ground under soles that failed out of reach: down where there was none, up where something was in the way.
     fn take_from(&self, map: &mut HeightMap, limits: &StepLimits) {
         let half_m = [0.5 * limits.sole.length_m, 0.5 * limits.sole.width_m];
-        for pose in &self.0 {
-            for cell in cells_under(map, pose, half_m).collect::<Vec<_>>() {
-                map.set(cell, f32::NAN, 0.0);
+        let out_of_reach_m = 2.0 * limits.careful_rise_m;
+        for (hold, misstep) in &self.0 {
+            let height_m = match misstep {
+                Misstep::NoGround => hold.height_m - out_of_reach_m,
+                Misstep::Obstructed => hold.height_m + out_of_reach_m,
+            };
+            for cell in cells_under(map, &hold.pose, half_m) {
+                map.set(cell, height_m as f32, 0.0);
             }
         }
     }
 }
 
 /// The cells under a sole.
-fn cells_under(map: &HeightMap, pose: &PlanarPose, half_m: [f64; 2]) -> impl Iterator<Item = Cell> {
+fn cells_under(
+    map: &HeightMap,
+    pose: &PlanarPose,
+    half_m: [f64; 2],
+) -> impl Iterator<Item = Cell> + use<> {
     let reach_m = geometry::hypot(half_m[0], half_m[1]);
     let lattice = map.lattice;
     let area = CellArea {
@@ -71,14 +80,17 @@ impl Footsteps {
     pub(super) fn read_ground(&mut self, tick: &Tick<'_>, feet: &[PlanarPose; 2]) {
         let limits = *self.layer.limits();
         let half_m = [0.5 * limits.sole.length_m, 0.5 * limits.sole.width_m];
-        let soles = [0, 1].map(|foot: usize| SoleOnGround {
-            pose: feet[foot],
-            half_m,
-            height_m: (tick.ground_m + tick.situation.soles[foot].height_m) as f32,
-        });
         let (view, stairs) = (tick.situation.view, tick.situation.stairs);
-        let _ = self.ground.read(view, stairs, &soles);
+        let around_m = [tick.pose.x_m, tick.pose.y_m];
+        let _ = self.ground.read(view, stairs, around_m);
         self.failed.take_from(self.ground.map_mut(), &limits);
+        for (pose, sole) in feet.iter().zip(&tick.situation.soles) {
+            self.ground.stand_on(&SoleOnGround {
+                pose: *pose,
+                half_m,
+                height_m: (tick.ground_m + sole.height_m) as f32,
+            });
+        }
     }
 
     /// Plans steps from feet that stand here, over the ground as it was read.
@@ -108,6 +120,30 @@ impl Footsteps {
         let map = self.ground.map();
         let cell = map.lattice.cell_at(foot.x_m, foot.y_m);
         map.height_m(cell).map(f64::from)
+    }
+}
+
+/// How far the robot has come, by what its plans cost.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct CostToGo {
+    /// The least that the way on has cost, s.
+    least_s: Option<f64>,
+    /// How often it was found to be longer than it had seemed.
+    longer: u32,
+}
+
+impl CostToGo {
+    /// Takes in what the way on costs; whether that tells that the robot gets on: it is shorter by this than before, or, so often at most,
+    /// so much longer that something new is known.
+    pub(super) fn gets_on(&mut self, whole_s: f64, by_s: f64, most: u32) -> bool {
+        let shorter = self.least_s.is_none_or(|least_s| whole_s < least_s - by_s);
+        let longer = self.least_s.is_some_and(|least_s| whole_s > least_s + by_s);
+        self.longer += u32::from(longer);
+        let counts = shorter || longer && self.longer <= most;
+        if counts {
+            self.least_s = Some(whole_s);
+        }
+        counts
     }
 }
 

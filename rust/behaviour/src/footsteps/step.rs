@@ -20,7 +20,6 @@ impl Footsteps {
         }
         if self.stepper.has_begun() && landed > self.planned_at {
             self.planned_at = landed;
-            self.machine.gets_on();
             self.looks = 0;
             self.plan_on(tick, landed);
         }
@@ -50,6 +49,7 @@ impl Footsteps {
                 holds.extend(self.closing(&under_way));
             }
             Ok(plan) => {
+                let _ = self.gets_on(&plan);
                 holds.extend(plan.steps.iter().take(self.config.run).map(told));
             }
             Err(_) => {}
@@ -101,7 +101,7 @@ impl Footsteps {
 
     fn after_misstep(&mut self, tick: &Tick<'_>, misstep: Misstep, landed: usize) {
         if let Some(hold) = self.stepper.holds.get(landed) {
-            self.failed.note(hold.pose);
+            self.failed.note(*hold, misstep);
         }
         if self.failed.count() > self.config.tries as usize {
             self.refuse(match misstep {

@@ -19,6 +19,8 @@ settings! {
         sole_cells: usize = 200, "1", within(2.0, 1000.0);
         /// What it costs at most that a sole bears only in part.
         partial_cost: f64 = 0.3, "s", within(0.0, 100.0);
+        /// What a turn of a foot costs beside its time: of two ways as long, the straight one.
+        turn_cost: f64 = 0.1, "s/rad", within(0.0, 100.0);
         /// Ground whose height differs by no more from that of the standing foot is walked on; other heights take careful steps.
         walk_height: f64 = 0.006, "m", within(0.0, 1.0);
         /// A careful step goes no higher and no lower than what the legs do, less this: heights are known to so much.

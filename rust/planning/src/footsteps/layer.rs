@@ -274,6 +274,7 @@ fn take_better(
         *best = Some(FootstepPlan {
             steps,
             exit_m,
+            whole_s: progress.cost,
             cost_s,
             epsilon: progress.epsilon,
             first,

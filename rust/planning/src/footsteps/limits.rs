@@ -23,6 +23,8 @@ pub struct StepLimits {
     pub max_turn_rad: f64,
     /// Longest careful step forward or backward, m.
     pub careful_forward_m: f64,
+    /// Largest extra distance between the feet in a careful step, m.
+    pub careful_sideways_m: f64,
     /// Highest careful step up or down, m.
     pub careful_rise_m: f64,
     /// How much higher than the higher end of its step a foot is lifted, m: of a walked one and of a careful one.
@@ -103,30 +105,46 @@ impl StepLimits {
         let between =
             |value: f64, least: f64, most: f64| value > least - ROUNDING && value < most + ROUNDING;
         let forward_m = self.careful_forward_m;
-        // Legs reach as far in no direction as the farthest forward and the farthest aside together.
-        let within = self.stretch(step.x_m, across_m) < 1.0 + ROUNDING
-            && between(turn_rad, -self.max_turn_rad, self.max_turn_rad)
+        let within = between(turn_rad, -self.max_turn_rad, self.max_turn_rad)
             && between(across_m, nearest_m, farthest_m)
             && between(step.x_m, -forward_m, forward_m);
-        let walked = between(step.x_m, -self.max_backward_m, self.max_forward_m);
-        within.then_some(if walked {
-            StepReach::Walking
-        } else {
-            StepReach::Careful
-        })
+        let walked = between(step.x_m, -self.max_backward_m, self.max_forward_m)
+            && self.stretch(step.x_m, across_m, self.walked_reach_m()) < 1.0 + ROUNDING;
+        let careful = self.stretch(step.x_m, across_m, self.careful_reach_m()) < 1.0 + ROUNDING;
+        match (within, walked, careful) {
+            (true, true, _) => Some(StepReach::Walking),
+            (true, false, true) => Some(StepReach::Careful),
+            _ => None,
+        }
     }
 }
 
 impl StepLimits {
-    /// How far the legs are stretched by a step so far forward and so far across, m, as a share of what they can.
-    fn stretch(&self, x_m: f64, across_m: f64) -> f64 {
-        let aside_m = (across_m - self.stance_width_m).max(0.0);
-        geometry::hypot(x_m / self.careful_forward_m, aside_m / self.max_sideways_m)
+    /// How far a careful step goes straight forward and, beyond standing side by side, straight aside, m.
+    const fn careful_reach_m(&self) -> [f64; 2] {
+        [self.careful_forward_m, self.careful_sideways_m]
+    }
+
+    /// How far a walked step goes straight forward or back and, beyond standing side by side, straight aside, m.
+    const fn walked_reach_m(&self) -> [f64; 2] {
+        [
+            self.max_forward_m.max(self.max_backward_m),
+            self.max_sideways_m,
+        ]
+    }
+
+    /// How far the legs are stretched by a step so far forward and so far across, m, as a share of what they can: both at once they do as far
+    /// as an ellipse goes.
+    fn stretch(&self, x_m: f64, across_m: f64, [ahead_m, aside_m]: [f64; 2]) -> f64 {
+        let wider_m = (across_m - self.stance_width_m).max(0.0);
+        geometry::hypot(x_m / ahead_m, wider_m / aside_m)
     }
 
     /// The farthest place within reach towards one that may be beyond: forward and across, m.
     pub(super) fn pulled_in(&self, x_m: f64, across_m: f64) -> [f64; 2] {
-        let share = 1.0 / self.stretch(x_m, across_m).max(1.0);
+        let walked = self.stretch(x_m, across_m, self.walked_reach_m());
+        let careful = self.stretch(x_m, across_m, self.careful_reach_m());
+        let share = 1.0 / walked.min(careful).max(1.0);
         let aside_m = (across_m - self.stance_width_m).max(0.0);
         [x_m * share, across_m - aside_m * (1.0 - share)]
     }

@@ -48,6 +48,8 @@ pub struct FootstepPlan {
     pub exit_m: Option<[f64; 2]>,
     /// What they cost, s.
     pub cost_s: f64,
+    /// What the whole way costs, as far as the field knows, s: the steps, and what leads on over ground that was not seen.
+    pub whole_s: f64,
     /// They cost no more than so many times the cheapest, as far as the field that leads the search is right.
     pub epsilon: f64,
     /// What the first plan cost, s, and after how many expansions it was found.

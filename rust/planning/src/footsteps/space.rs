@@ -159,6 +159,7 @@ impl FootstepSpace<'_> {
             StepManner::Walked => limits.walked_s,
             StepManner::Careful => limits.careful_s(moving.pose.distance_m(&there.pose), lift_m),
         };
+        let turn_rad = geometry::angle_between(standing.pose.yaw_rad, there.pose.yaw_rad).abs();
         let missing = 1.0 - f64::from(there.foothold.bearing_share);
         let most = (1.0 - config.foothold.least_bearing).max(f64::EPSILON);
         Some(PlannedFootstep {
@@ -166,7 +167,7 @@ impl FootstepSpace<'_> {
             pose: there.pose,
             foothold: there.foothold,
             manner,
-            cost_s: time_s + config.partial_cost * missing / most,
+            cost_s: time_s + config.partial_cost * missing / most + config.turn_cost * turn_rad,
         })
     }
 

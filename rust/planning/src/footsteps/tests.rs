@@ -22,6 +22,7 @@ const LIMITS: StepLimits = StepLimits {
     max_sideways_m: 0.1,
     max_turn_rad: 0.3,
     careful_forward_m: 0.135,
+    careful_sideways_m: 0.05,
     careful_rise_m: 0.055,
     clearance_m: [0.02, 0.02],
     walked_s: 0.5,
