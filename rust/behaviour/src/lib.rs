@@ -12,6 +12,7 @@ pub use climbing::{Pace, StairClimbing, StairClimbingConfig};
 pub use command::{Arms, Command, Footstep, Gaze, Misstep, Motion, Stepping, Velocity};
 pub use decision::{Behaviour, BehaviourError, Decision, Outcome, Situation};
 pub use part::{BehaviourNeeds, BehaviourPart};
+pub use planning::footsteps::StepManner;
 pub use walking::{WalkingBehaviour, WalkingConfig};
 
 /// The behaviours that come with the crate: a new one is a file or folder beside these, and its lines here.

@@ -58,8 +58,8 @@ impl Capture {
                     Some((swing.side, false)),
                 )
             }
-            // A listed step is put where it was told: beside that there may be an edge.
-            GaitPhase::Single { swing, .. } if swing.manner != Manner::Walk => (1.0, None),
+            // A careful step is put where it was told: beside that there may be an edge.
+            GaitPhase::Single { swing, .. } if !swing.manner.is_walked() => (1.0, None),
             GaitPhase::Single {
                 elapsed_s,
                 duration_s,
@@ -108,9 +108,13 @@ impl Capture {
         shift: &Vector2<f64>,
         passed_s: f64,
     ) {
+        let limit = match swing.manner {
+            Manner::Placed => self.config.tuning.listed.moved,
+            _ => self.config.capture_limit,
+        };
         let mut local = stance.relative(&swing.planned.planar);
-        local.x_m += shift.x;
-        local.y_m += shift.y;
+        local.x_m += shift.x.clamp(-limit, limit);
+        local.y_m += shift.y.clamp(-limit, limit);
         let goal = self
             .planner
             .keep_apart(stance, &stance.compose(&local), swing.side);

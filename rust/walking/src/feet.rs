@@ -3,7 +3,8 @@
 use robot::Side;
 
 use crate::config::GaitConfig;
-use crate::phase::{CarefulLanding, FootPose, GaitPhase};
+use crate::phase::{CarefulLanding, FootPose, GaitPhase, Manner};
+use crate::swing;
 
 /// Heights that are added to the planned ones.
 #[derive(Debug, Clone, Default)]
@@ -15,6 +16,8 @@ pub struct FeetControl {
     /// The foot that came down last, until it has found the ground.
     seeks: Option<Side>,
     flying: Option<(Side, f64)>,
+    /// How much higher than told a foot stands that walked in a list, m, until it is put down carefully.
+    yielded: [Option<f64>; 2],
 }
 
 /// A foot that landed before its time; its height is taken over when it is placed next.
@@ -55,7 +58,7 @@ impl FeetControl {
             swing,
         } = phase
         {
-            let landed = !swing.manner.is_listed()
+            let landed = !swing.manner.is_careful()
                 && loads_n[swing.side.index()] > config.landing_load
                 && elapsed_s / duration_s > config.tuning.stumble.landing_share;
             if landed && self.held.is_none() {
@@ -64,7 +67,7 @@ impl FeetControl {
                     height_m: None,
                 });
             }
-            self.seeks = (!swing.manner.is_listed() && self.held.is_none()).then_some(swing.side);
+            self.seeks = (!swing.manner.is_careful() && self.held.is_none()).then_some(swing.side);
             return;
         }
         self.held = None;
@@ -93,16 +96,26 @@ impl FeetControl {
     pub fn place(&mut self, phase: &GaitPhase, mut foot: FootPose, side: Side) -> FootPose {
         let index = side.index();
         match phase {
-            GaitPhase::Single { swing, .. } if swing.side == side => {
-                let careful = swing.manner.is_listed();
+            GaitPhase::Single {
+                swing, elapsed_s, ..
+            } if swing.side == side => {
+                let careful = swing.manner.is_careful();
                 self.flying = careful.then_some((side, foot.z_m));
                 if careful && swing.landing == CarefulLanding::Seeking(0.0) {
-                    self.landed[index] = 0.0;
+                    let share = elapsed_s / self.config.tuning.listed.level_time;
+                    let left = 1.0 - swing::minimum_jerk(share);
+                    self.landed[index] =
+                        self.yielded[index].map_or(0.0, |height_m| height_m * left);
+                } else if !careful && (swing.manner == Manner::Placed || self.walked(side)) {
+                    self.yielded[index] = Some(self.landed[index]);
                 }
             }
             _ => {
                 if let Some((_, told_m)) = self.flying.take_if(|(flying, _)| *flying == side) {
                     self.landed[index] = told_m - foot.z_m;
+                    self.yielded[index] = None;
+                } else if self.walked(side) {
+                    self.yielded[index] = Some(self.landed[index]);
                 }
             }
         }
@@ -112,6 +125,11 @@ impl FeetControl {
         }
         foot.z_m += side.sign() * 0.5 * self.tilt_m + self.landed[index];
         foot
+    }
+
+    /// Whether a foot walked to where it is in a list.
+    const fn walked(&self, side: Side) -> bool {
+        self.yielded[side.index()].is_some()
     }
 }
 
