@@ -184,6 +184,19 @@ mod tests {
     }
 
     #[test]
+    fn a_walked_step_of_a_list_is_held_but_stays_where_it_was_told() {
+        let (mut capture, mut gait, soles) = swinging(0.3);
+        if let GaitPhase::Single { swing, .. } = &mut gait.phase {
+            swing.manner = Manner::Placed;
+        }
+        let before = landing(&gait);
+        let _ = capture.adjust(&mut gait, &soles, &Vector2::new(0.03, 0.05), 6.0, 0.01);
+        assert!(landing(&gait).distance_m(&before) < 1e-12);
+        let rate = capture.adjust(&mut gait, &soles, &Vector2::new(0.0, -0.05), 6.0, 0.01);
+        assert!(rate < 1.0, "{rate}");
+    }
+
+    #[test]
     fn a_push_to_the_standing_side_holds_the_clock_but_not_for_ever() {
         let (mut capture, mut gait, soles) = swinging(0.9);
         let error = Vector2::new(0.0, -0.05);

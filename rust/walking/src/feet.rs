@@ -155,6 +155,41 @@ mod tests {
     }
 
     #[test]
+    fn a_foot_that_walked_onto_a_bump_in_a_list_is_lifted_carefully_without_a_jump() {
+        let mut control = FeetControl::new(&config());
+        let place = FootPose::default();
+        let swings = |manner, elapsed_s| GaitPhase::Single {
+            elapsed_s,
+            duration_s: 0.45,
+            swing: Swing::new(Side::Left, manner, place, place),
+        };
+        let walked = swings(Manner::Placed, 0.4);
+        control.update(&walked, &[0.0, 1.0], &[10.0, 60.0], 70.0, 0.01);
+        let bump = FootPose {
+            z_m: 0.004,
+            ..place
+        };
+        let _ = control.place(&walked, bump, Side::Left);
+        let mut stands = 0.0;
+        for _ in 0..2 {
+            stands = control.place(&GaitPhase::Standing, place, Side::Left).z_m;
+            control.update(&GaitPhase::Standing, &[0.5, 0.5], &[35.0, 35.0], 70.0, 0.0);
+        }
+        assert!((stands - 0.004).abs() < 1e-9, "{stands}");
+        let heights: Vec<f64> = (0..12u32)
+            .map(|tick| {
+                let lifted = swings(Manner::Careful, 0.01 * f64::from(tick));
+                control.place(&lifted, place, Side::Left).z_m
+            })
+            .collect();
+        assert_eq!((heights[0], heights[11]), (stands, 0.0));
+        assert!(
+            heights.windows(2).all(|pair| pair[0] - pair[1] < 0.001),
+            "{heights:?}"
+        );
+    }
+
+    #[test]
     fn a_foot_that_finds_no_ground_goes_on_down_until_it_carries() {
         let mut control = FeetControl::new(&config());
         let place = FootPose::default();

@@ -21,7 +21,7 @@ fn walked(side: Side, x_m: f64, height_m: f64) -> Footstep {
 /// Walked steps of the same length, left foot first, the feet together at the end.
 fn ahead(length_m: f64, count: usize) -> Vec<Footstep> {
     let side = |index: usize| {
-        if index % 2 == 0 {
+        if index.is_multiple_of(2) {
             Side::Left
         } else {
             Side::Right
@@ -62,7 +62,7 @@ fn landings_s(world: &mut Ideal, command: &Command) -> Vec<f64> {
     for tick in 1..2000 {
         world.tick(command);
         if world.walker.stepping().landed > landings.len() {
-            landings.push(tick as f64 * TICK_S);
+            landings.push(f64::from(tick) * TICK_S);
         }
         if world.walker.standing() && world.walker.list_is_over() {
             return landings;
